@@ -21,6 +21,7 @@ import numpy as np
 from bench.table import Row
 from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
+from trundle.page.world.manifest import Manifest, PhysicsSettings, SceneSettings
 from trundle.ros import Core, GraphLoop
 
 _POINTS, _POINT_BYTES = 1_000_000, (16, 32)
@@ -80,11 +81,18 @@ def _poses_row() -> Row:
     return Row("50 robots at 30 Hz, page's server", share, "% of core", "a socket relay", ratio)
 
 
+def _empty_world() -> Manifest:
+    grey = (0.5, 0.5, 0.5)
+    scene = SceneSettings(ambient=grey, background=grey, sky=False, shadows=False, grid=False, fog=None)
+    physics = PhysicsSettings(gravity=(0.0, 0.0, -9.8), wind=(0.0, 0.0, 0.0), step=0.001)
+    return Manifest(generation=1, name="empty", scene=scene, physics=physics)
+
+
 def _poses_share() -> float:
     """CPU of the page's server while bodies move, in percent of a core."""
     rows = np.random.default_rng(0).normal(size=(_ROBOTS * _LINKS, 7))
     with PageServer.start(Session(title="b", kind="simulation"), at=PageAddress(port=0)) as page:
-        page.set_world({"generation": 1, "files": []}, {})
+        page.set_world(_empty_world(), {})
         receive = subscribe(page.url, "trundle/poses", 100)
         reader = threading.Thread(target=receive, args=(_POSES,))
         reader.start()

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from tests.graphs import Graph, running_graph
+from tests.manifests import empty_manifest
 from tests.page_client import ProtocolClient
 
 from trundle.base.http.page_address import PageAddress
@@ -77,7 +78,7 @@ def test_a_stalled_client_loses_clouds_and_keeps_markers_maps_and_what_is_latche
 def test_poses_after_a_loss_are_all_of_them(graph_page: PageServer) -> None:
     """Otherwise a body that moved meanwhile would stay where it was."""
     rows = np.zeros((20_000, 7))
-    graph_page.set_world({"generation": 1, "files": []}, {})
+    graph_page.set_world(empty_manifest(1), {})
     with Stalled(graph_page.url) as stalled, ProtocolClient(graph_page.url) as reader:
         for client in (stalled, reader):
             client.subscribe("trundle/poses")
@@ -102,7 +103,7 @@ def test_poses_reach_a_slow_client_in_order_with_transforms(graph: Graph, graph_
     node = graph.node("robot")
     cloud = node.advertise("/flood", "std_msgs/UInt8MultiArray")
     frames = node.advertise("/tf", "tf2_msgs/TFMessage")
-    graph_page.set_world({"generation": 1, "files": []}, {})
+    graph_page.set_world(empty_manifest(1), {})
     numbers = range(100, 120)
     with Stalled(graph_page.url) as stalled, ProtocolClient(graph_page.url) as reader:
         for client in (stalled, reader):

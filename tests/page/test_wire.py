@@ -6,6 +6,7 @@ import msgspec
 import pytest
 
 from trundle.page import MoveJoint, PageAction, Play, Request, Reset, SetSpeed, Step
+from trundle.page.requests.answers import Inserted
 from trundle.page.wire import (
     Driven,
     Respond,
@@ -32,10 +33,10 @@ def test_a_message_arrives_as_it_was_sent(message: object) -> None:
 
 
 def test_names_of_files_that_are_no_utf_8_are_sent_readable() -> None:
-    sent = Respond(1, "no \udcff", fields={"models": [{"name": "cart\udcff", "size": 1.5}]})
-    got = to_server_decoder.decode(read_frame(io.BytesIO(frame(sent))))
+    answer = encode_json(Inserted(name="cart\udcff"))
+    got = to_server_decoder.decode(read_frame(io.BytesIO(frame(Respond(1, "no \udcff", answer=answer)))))
 
-    assert got == Respond(1, "no ?", fields={"models": [{"name": "cart?", "size": 1.5}]})
+    assert got == Respond(1, "no ?", answer=b'{"name":"cart?"}')
     assert encode_json({"source": ("/\udcff/a.sdf:3", None)}) == b'{"source":["/?/a.sdf:3",null]}'
 
 

@@ -6,10 +6,27 @@ import urllib.request
 
 import numpy as np
 import pytest
+from tests.manifests import empty_manifest
 from tests.page_client import ProtocolClient, page_url
 
 from trundle.page import ClockState, Line, PageServer, Recording
+from trundle.page.world.draft_info import FileUrl
+from trundle.page.world.manifest import CameraInfo
 from trundle.ros import Messages
+
+ORIGIN = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+EYE = CameraInfo(
+    name="eye",
+    topic="/eye/image_raw",
+    body=0,
+    pose=ORIGIN,
+    horizontal_fov=1.0,
+    width=8,
+    height=8,
+    near=0.1,
+    far=10.0,
+    rate=30.0,
+)
 
 
 def _rows(count: int, seed: int = 0) -> np.ndarray:
@@ -25,7 +42,7 @@ def _poses(payload: bytes) -> tuple[int, int, np.ndarray, np.ndarray]:
 
 def test_the_first_poses_are_all_and_the_next_those_that_moved(page: PageServer) -> None:
     rows = _rows(5)
-    page.set_world({"generation": 1, "files": []}, {})
+    page.set_world(empty_manifest(1), {})
     page.put_poses(10, rows)
     with ProtocolClient(page.url) as client:
         client.subscribe("trundle/poses")
@@ -43,7 +60,7 @@ def test_the_first_poses_are_all_and_the_next_those_that_moved(page: PageServer)
 
 
 def test_a_paused_world_is_shown_to_who_comes_later(page: PageServer) -> None:
-    page.set_world({"generation": 2, "files": []}, {})
+    page.set_world(empty_manifest(2), {})
     page.put_poses(30, _rows(2))
     for _ in range(2):
         with ProtocolClient(page.url) as client:
@@ -57,7 +74,7 @@ def test_poses_wait_for_the_manifest_of_their_generation(page: PageServer) -> No
         client.subscribe("trundle/world")
         client.subscribe("trundle/poses")
         for generation in range(3, 8):
-            page.set_world({"generation": generation, "files": []}, {})
+            page.set_world(empty_manifest(generation), {})
             page.put_poses(generation, _rows(generation, generation))
         client.until(lambda: any(_poses(p)[1] == 7 for p in client.payloads("trundle/poses")))
 
@@ -70,11 +87,11 @@ def test_poses_wait_for_the_manifest_of_their_generation(page: PageServer) -> No
 
 
 def test_files_of_the_world_are_served_until_the_manifest_forgets_them(page: PageServer) -> None:
-    files = [{"id": "a", "url": "/world/a.glb"}, {"id": "b", "url": "/world/b.glb"}]
+    files = (FileUrl(id="a", url="/world/a.glb"), FileUrl(id="b", url="/world/b.glb"))
     with ProtocolClient(page.url) as client:
         client.subscribe("trundle/world")
-        page.set_world({"generation": 10, "files": files}, {"/world/a.glb": b"glTF a", "/world/b.glb": b"glTF b"})
-        page.set_world({"generation": 11, "files": files[1:]}, {})
+        page.set_world(empty_manifest(10, files=files), {"/world/a.glb": b"glTF a", "/world/b.glb": b"glTF b"})
+        page.set_world(empty_manifest(11, files=files[1:]), {})
         client.until(lambda: any(json.loads(p)["generation"] == 11 for p in client.payloads("trundle/world")))
 
     with urllib.request.urlopen(page_url(page.url, "/world/b.glb")) as answer:
@@ -87,7 +104,7 @@ def test_resources_of_the_world_s_files_are_served_by_their_type(page: PageServe
     kinds = {"/world/a.bin": "application/octet-stream", "/world/b.png": "image/png", "/world/c.jpg": "image/jpeg"}
     with ProtocolClient(page.url) as client:
         client.subscribe("trundle/world")
-        page.set_world({"generation": 15, "files": [], "resources": list(kinds)}, dict.fromkeys(kinds, b"content"))
+        page.set_world(empty_manifest(15, resources=tuple(kinds)), dict.fromkeys(kinds, b"content"))
         client.until(lambda: any(json.loads(p)["generation"] == 15 for p in client.payloads("trundle/world")))
 
     for url, kind in kinds.items():
@@ -99,13 +116,13 @@ def test_resources_of_the_world_s_files_are_served_by_their_type(page: PageServe
 def test_a_camera_is_offered_before_its_first_picture(page: PageServer) -> None:
     """A camera draws only while it is watched, and nobody can watch what is not offered."""
     with ProtocolClient(page.url) as client:
-        page.set_world({"generation": 16, "files": [], "cameras": [{"topic": "/eye/image_raw"}]}, {})
+        page.set_world(empty_manifest(16, cameras=(EYE,)), {})
         client.subscribe("/eye/image_raw")
         client.until(lambda: page.is_watched("/eye/image_raw"))
 
 
 def test_joints_lines_and_the_clock_arrive(page: PageServer) -> None:
-    page.set_world({"generation": 12, "files": []}, {})
+    page.set_world(empty_manifest(12), {})
     joints = np.arange(6.0).reshape(2, 3)
     points = np.arange(9.0, dtype=np.float32).reshape(3, 3)
     page.put_joints(40, joints)
@@ -137,7 +154,7 @@ def test_a_world_that_grows_gets_a_larger_mailbox(page: PageServer) -> None:
     with ProtocolClient(page.url) as client:
         client.subscribe("trundle/poses")
         for generation, count in ((20, 10), (21, 1000), (22, 5000)):
-            page.set_world({"generation": generation, "files": []}, {})
+            page.set_world(empty_manifest(generation), {})
             page.put_poses(generation, _rows(count))
             client.until(lambda g=generation: any(_poses(p)[1] == g for p in client.payloads("trundle/poses")))
         assert len(_poses(client.payloads("trundle/poses")[-1])[2]) == 5000

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.base.console import Console
@@ -125,7 +126,7 @@ class LogPage:
         bodies = (*log.links, *self._bones.names)
         self._bodies.update(bodies)
         self._builder = WorldBuilder()
-        manifest = world_manifest(simulation, [], self._bodies) | {"generation": 1}
+        manifest = replace(world_manifest(simulation, [], self._bodies), generation=1)
         self._builder.build(simulation.world, manifest, {name: self._bodies[name] for name in bodies})
 
     def run(self, stop: StopFlag) -> None:

@@ -3,7 +3,10 @@
 import asyncio
 from collections.abc import Callable
 
+from msgspec import UNSET
+
 from .clients.connection import Connection
+from .clients.server_messages import Response
 from .requests.request import ClientAction, PageAction, RenderView, Request
 from .requests.world import RenderModel
 from .wire import Driven, FromServer, Plotted, Respond, Watched
@@ -56,7 +59,7 @@ class Owner:
     def receive(self, answer: Respond) -> None:
         """Pass the owner's answer on to the client, if it is still there."""
         if (waiting := self._waiting.pop(answer.id, None)) is not None:
-            respond(*waiting, answer.error, **answer.fields)
+            respond(*waiting, answer.error, answer.answer)
         elif (picture := self._pictures.get(answer.id)) is not None and not picture.done():
             picture.set_result(answer)
 
@@ -91,7 +94,6 @@ class PictureError(Exception):
     """A picture cannot be drawn; the text says why."""
 
 
-def respond(client: Connection, client_id: int | str, error: str | None = None, **fields: object) -> None:
-    """Answer a request of a client; `error` is a sentence."""
-    answer: dict[str, object] = {"op": "trundle/response", "id": client_id, "ok": error is None}
-    client.send_json(answer | (fields if error is None else {"error": error}))
+def respond(client: Connection, client_id: int | str, error: str | None = None, answer: bytes = b"{}") -> None:
+    """Answer a request of a client: `error` is a sentence, `answer` JSON."""
+    client.send_response(Response(client_id, error is None, UNSET if error is None else error), answer)

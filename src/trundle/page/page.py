@@ -35,9 +35,10 @@ from .clients.protocol import (
 from .graph.ros_graph import RosGraph
 from .mailbox import Mailbox
 from .owner import MAX_IN_FLIGHT, Owner, PictureError, respond
-from .requests.request import ClientAction, Definition, PlotSeries, RenderView, SaveRvizAs
+from .requests.answers import DefinitionText, FilesExist, SavedFile
+from .requests.request import REQUEST_NAMES, ClientAction, Definition, PlotSeries, RenderView, SaveRvizAs, SocketAction
 from .requests.world import RenderModel
-from .session import RvizFile, Session
+from .session import PageSession, RvizFile, Session
 from .uploads.uploads import Uploads
 from .view_only import allows, allows_binary, allows_request
 from .wire import (
@@ -53,6 +54,7 @@ from .wire import (
     TerminalInput,
     ToServer,
     Uploaded,
+    encode_json,
 )  # fmt: skip
 from .world.camera_channel import TYPE as IMAGE
 from .world.camera_channel import CameraChannel
@@ -73,7 +75,7 @@ from .world.streams import TERMINAL
 from .world.terminal_channel import TerminalChannel
 
 _NO_GRAPH = "this page has no ROS graph"
-_action_decoder = msgspec.json.Decoder(ClientAction | Definition | PlotSeries | SaveRvizAs)
+_action_decoder = msgspec.json.Decoder(SocketAction)
 
 
 class Page:
@@ -141,9 +143,9 @@ class Page:
                 self.hub.set_condition(notice_id, text)
             case AddFile(url, content):
                 self._world.files[url] = content
-            case SetWorld(manifest):
-                self._world.set(manifest)
-                for topic in () if self._has_graph else self._world.camera_topics:
+            case SetWorld() as world:
+                self._world.set(world.manifest, world.generation, world.urls)
+                for topic in () if self._has_graph else world.camera_topics:
                     self._box(topic)
             case OpenMailbox(stream, address):
                 try:
@@ -177,17 +179,17 @@ class Page:
         session = self._session
         if self._saved_rviz is not None:
             session = msgspec.structs.replace(session, rviz=self._saved_rviz, fixed_frame=None)  # the file has one
-        fields = msgspec.to_builtins(session)
         at = self.addresses
-        more = {
-            "version": version("trundle"),
-            "foxglove": at.view_url.replace("http:", "ws:", 1) if is_view_only else at.foxglove_url,
-            "node": None if self._graph is None else self._graph.node_name,
-            "view_only": is_view_only,
-            "token": None if is_view_only else at.url.partition("?token=")[2],
-            "view_token": at.view_url.partition("?token=")[2],
-        }
-        return msgspec.json.encode(fields | more)
+        told = PageSession(
+            **msgspec.structs.asdict(session),
+            version=version("trundle"),
+            foxglove=at.view_url.replace("http:", "ws:", 1) if is_view_only else at.foxglove_url,
+            node=None if self._graph is None else self._graph.node_name,
+            view_only=is_view_only,
+            token=None if is_view_only else at.url.partition("?token=")[2],
+            view_token=at.view_url.partition("?token=")[2],
+        )
+        return msgspec.json.encode(told)
 
     def world_files(self) -> Mapping[str, bytes]:
         """Return the files of the simulated world by URL."""
@@ -274,15 +276,20 @@ class Page:
             case UseTerminal(number, text, size):
                 self._owner.send(TerminalInput(number, text, size))
             case PageRequest():
-                self._request(client, operation.id, message)
+                self._request(client, operation, message)
             case _ if self._graph is not None:
                 self._graph.operate(client, operation)
             case _:
                 client.send_status(ERROR, _NO_GRAPH)
 
-    def _request(self, client: Connection, client_id: int | str, message: bytes) -> None:
+    def _request(self, client: Connection, request: PageRequest, message: bytes) -> None:
+        client_id = request.id
         if not client.is_own:
             client.send_status(ERROR, "requests are for clients that speak trundle.v1")
+            return
+        if request.request not in REQUEST_NAMES:
+            what = f"the server does not know the request {request.request!r}"
+            respond(client, client_id, f"{what}: the page may be of another version, load it again")
             return
         try:
             action = _action_decoder.decode(message)
@@ -323,9 +330,11 @@ class Page:
     async def _define(self, client: Connection, client_id: int | str, type_name: str) -> None:
         """Answer with the definition of a type, which may have to be searched."""
         try:
-            respond(client, client_id, definition=await asyncio.to_thread(self._messages.definition, type_name))
+            text = await asyncio.to_thread(self._messages.definition, type_name)
         except MessageError as error:
             respond(client, client_id, str(error))
+        else:
+            respond(client, client_id, answer=encode_json(DefinitionText(definition=text)))
 
     async def _save_rviz(self, client: Connection, client_id: int | str, action: SaveRvizAs) -> None:
         """Answer with `file`, or `exists` where a file is there that may not be replaced."""
@@ -335,10 +344,10 @@ class Page:
             respond(client, client_id, str(error))
             return
         if exists is not None:
-            respond(client, client_id, exists=exists)
+            respond(client, client_id, answer=encode_json(FilesExist(exists=exists)))
             return
         self._saved_rviz = RvizFile(name=action.file, text=action.text, writable=True, saved=True)
-        respond(client, client_id, file=action.file)
+        respond(client, client_id, answer=encode_json(SavedFile(file=action.file)))
 
     def _act(self, client: Connection, client_id: int | str, action: ClientAction) -> None:
         """Have the bag or the owner do what a client asks for."""

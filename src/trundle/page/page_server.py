@@ -24,6 +24,7 @@ from .driving.stop import DriveStop
 from .errors import PageError
 from .link_file import write_link_file
 from .mailbox import Mailbox, Piece
+from .requests.answers import DONE, Answer
 from .requests.request import GraphAction, Request
 from .session import Session
 from .wire import (
@@ -49,6 +50,8 @@ from .wire import (
     from_server_decoder,
     read_frame,
 )  # fmt: skip
+from .world.manifest import Manifest
+from .world.profile import Profile
 from .world.streams import (
     ARRAY_HEADER,
     CONTACTS,
@@ -64,6 +67,7 @@ from .world.streams import (
     TERMINAL_HEADER,
     ClockState,
     Line,
+    SeriesHead,
     line_pieces,
 )
 
@@ -225,9 +229,9 @@ class PageServer:
         """Return the keys and sizes for terminals since the last call, oldest first."""
         return _drain(self._terminal_inputs)
 
-    def respond(self, request_id: int, error: str | None = None, **fields: object) -> None:
-        """Answer a request; `error` is a sentence that says why it was not done, `fields` are further ones."""
-        self._send(Respond(request_id, error, fields=fields))
+    def respond(self, request_id: int, error: str | None = None, answer: Answer = DONE) -> None:
+        """Answer a request; `error` is a sentence that says why it was not done."""
+        self._send(Respond(request_id, error, answer=encode_json(answer)))
 
     def respond_picture(self, request_id: int, picture: bytes) -> None:
         """Answer `RenderView` or `RenderModel` with a picture, or a GLB."""
@@ -247,18 +251,18 @@ class PageServer:
             self._stop.end()
         self._stop = None if node is None else DriveStop(node)
 
-    def set_world(self, manifest: Mapping[str, object], files: Mapping[str, bytes]) -> None:
+    def set_world(self, manifest: Manifest, files: Mapping[str, bytes]) -> None:
         """Replace the manifest of the simulated world.
 
         Args:
-            manifest: as in docs/decisions/0020; its generation goes with the poses and joints put afterwards.
+            manifest: its generation goes with the poses and joints put afterwards.
             files: URL as in the manifest → content of the files that the manifest did not name before. Files that it
                 no longer names are forgotten.
         """
         for url, content in files.items():
             self._send(AddFile(url, content))
-        self._generation = int(str(manifest["generation"]))
-        self._send(SetWorld(encode_json(manifest)))
+        self._generation = manifest.generation
+        self._send(SetWorld.of(manifest))
 
     def put_state(self, state: ClockState) -> None:
         """Show the clock's newest state."""
@@ -272,12 +276,12 @@ class PageServer:
         """Show the newest joints (joints, 3): position [rad or m], velocity, effort; rows as the manifest's `index`."""
         self._put_rows(JOINTS, time_ns, joints)
 
-    def put_series(self, first: int, head: Mapping[str, object], rows: NDArray[np.float64]) -> None:
+    def put_series(self, first: int, head: SeriesHead, rows: NDArray[np.float64]) -> None:
         """Show the newest rows of plotted values; those that a client has already are sent again.
 
         Args:
             first: number of the first row, which counts all that were put.
-            head: names of the columns, with units and faults: docs/decisions/0020.
+            head: of the columns.
             rows: (rows, 1 + series): time [s] and values, NaN where there is none.
         """
         text = msgspec.json.encode(head)
@@ -285,8 +289,8 @@ class PageServer:
             SERIES, [SERIES_HEADER.pack(first, len(text)), text, np.ascontiguousarray(rows).reshape(-1).view(np.uint8)]
         )
 
-    def put_performance(self, profile: Mapping[str, object]) -> None:
-        """Show where the wall time of the last second went, as in docs/decisions/0020."""
+    def put_performance(self, profile: Profile) -> None:
+        """Show where the wall time of the last second went."""
         self._put(PERFORMANCE, [msgspec.json.encode(profile)])
 
     def put_lines(self, time_ns: int, lines: Iterable[Line]) -> None:

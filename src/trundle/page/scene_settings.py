@@ -2,23 +2,19 @@
 
 from trundle.robots.model import World
 
+from .world.manifest import Fog, SceneSettings
 
-def scene_settings(world: World) -> dict[str, object]:
-    """Return the entry `scene` of the manifest: docs/decisions/0020."""
+
+def scene_settings(world: World) -> SceneSettings:
+    """Return what a client needs of <scene>."""
     scene, fog = world.scene, world.scene.fog
-    return {
-        "ambient": scene.ambient[:3],
-        "background": scene.background[:3],
-        "sky": scene.sky,
-        "shadows": scene.shadows,
-        "grid": scene.grid,
-        "fog": None
+    return SceneSettings(
+        ambient=scene.ambient[:3],
+        background=scene.background[:3],
+        sky=scene.sky,
+        shadows=scene.shadows,
+        grid=scene.grid,
+        fog=None
         if fog.type == "none"
-        else {
-            "type": fog.type,
-            "color": fog.colour[:3],
-            "start": fog.start_m,
-            "end": fog.end_m,
-            "density": fog.density,
-        },
-    }
+        else Fog(type=fog.type, color=fog.colour[:3], start=fog.start_m, end=fog.end_m, density=fog.density),
+    )

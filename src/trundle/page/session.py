@@ -62,3 +62,20 @@ class Session(msgspec.Struct, frozen=True, kw_only=True):
     joystick: bool = False
     """True if a joystick is to be shown: the launch starts a joy node."""
     terminals: tuple[NodeTerminal, ...] = ()
+
+
+class PageSession(Session, frozen=True, kw_only=True):
+    """Session as a client gets it; another `kind` or `version` is another page, which loads again."""
+
+    version: str
+    """Version of the server."""
+    foxglove: str
+    """Address for Foxglove and Lichtblick."""
+    node: str | None
+    """Name of the page's node on the graph; None: there is no graph, or it is not joined yet."""
+    view_only: bool
+    """True if the server does nothing for this client that changes anything."""
+    token: str | None
+    """Token of links that allow everything; None: this client only looks."""
+    view_token: str
+    """Token of links that only allow looking."""

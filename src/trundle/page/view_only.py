@@ -17,6 +17,7 @@ from .clients.protocol import (
     UnsubscribeConnectionGraph,
     UnsubscribeParameterUpdates,
 )  # fmt: skip
+from .clients.server_messages import ServiceCallFailure
 from .owner import respond
 from .requests.request import Definition, PlotSeries
 
@@ -50,7 +51,7 @@ def allows_binary(client: Connection, message: bytes) -> bool:
         return True
     if message[:1] == bytes((CLIENT_SERVICE_CALL,)) and len(message) >= SERVICE_HEADER.size:
         _, service_id, call_id, _ = SERVICE_HEADER.unpack_from(message)
-        client.send_json({"op": "serviceCallFailure", "serviceId": service_id, "callId": call_id, "message": REFUSAL})
+        client.send(ServiceCallFailure(service_id=service_id, call_id=call_id, message=REFUSAL))
     else:
         client.send_status(ERROR, REFUSAL)
     return False

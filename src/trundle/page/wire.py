@@ -7,7 +7,7 @@ only the newest counts, and they lie in mailboxes.
 import os
 import struct
 from pathlib import Path
-from typing import IO, Any, TypeAlias
+from typing import IO, Any, Self, TypeAlias
 from urllib.parse import urlsplit
 
 import msgspec
@@ -15,6 +15,7 @@ import msgspec
 from .requests.request import Request
 from .session import Session
 from .shared_memory import MemoryAddress
+from .world.manifest import Manifest
 
 _LENGTH = struct.Struct("<I")
 
@@ -83,11 +84,28 @@ class AddFile(msgspec.Struct, frozen=True, tag=True):
     content: bytes
 
 
-class SetWorld(msgspec.Struct, frozen=True, tag=True):
+class SetWorld(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     """Replaces the manifest of the simulated world; files that it does not name are forgotten."""
 
     manifest: bytes
-    """JSON."""
+    """JSON, which goes to clients as it is."""
+    generation: int
+    urls: frozenset[str]
+    """URLs of all files that the manifest names."""
+    camera_topics: tuple[str, ...]
+
+    @classmethod
+    def of(cls, manifest: Manifest) -> Self:
+        """Encode a manifest, with what the server needs of it."""
+        urls = {file.url for file in manifest.files} | set(manifest.resources)
+        if manifest.collisions is not None:
+            urls.add(manifest.collisions)
+        return cls(
+            manifest=encode_json(manifest),
+            generation=manifest.generation,
+            urls=frozenset(urls),
+            camera_topics=tuple(camera.topic for camera in manifest.cameras),
+        )
 
 
 class OpenMailbox(msgspec.Struct, frozen=True, tag=True):
@@ -105,8 +123,8 @@ class Respond(msgspec.Struct, frozen=True, tag=True):
     error: str | None = None
     picture: bytes | None = None
     """PNG that answers `RenderView`."""
-    fields: dict[str, Any] = {}
-    """Further fields of the answer."""
+    answer: bytes = b"{}"
+    """JSON."""
 
 
 class Served(msgspec.Struct, frozen=True, kw_only=True, tag=True):

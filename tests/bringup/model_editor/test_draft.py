@@ -124,10 +124,10 @@ def test_findings_stand_at_their_part(cart: Draft) -> None:
     """trundle check names a line; the part around it is the one that a person must mend."""
     cart.set(WHEEL, "inertial/inertia/izz", (99.0,))
 
-    found = {tuple(part["part"]): part["findings"] for part in draft_overview(cart)["parts"] if part["findings"]}
+    found = {part.part: part.findings for part in draft_overview(cart).parts if part.findings}
 
     assert list(found) == [WHEEL]
-    assert "inertia" in found[WHEEL][0]["text"]
+    assert "inertia" in found[WHEEL][0].text
 
 
 def test_a_joint_gets_the_axes_of_its_type(cart: Draft) -> None:

@@ -7,8 +7,8 @@ import pytest
 from tests.bringup.simulation_page.worlds import BOX, CAMERA, loaded, model
 
 import trundle
-from trundle.page.profile.profile import Profile
 from trundle.page.profile.stride_profile import StrideProfile
+from trundle.page.world.profile import Profile
 from trundle.ros import GraphLoop
 from trundle.sim.simulation import Simulation, Snapshot
 

@@ -3,10 +3,15 @@
 import queue
 from typing import Any, cast
 
+import msgspec
 import numpy as np
 
 from trundle.page import PageAction, PageServer, Request, Session
+from trundle.page.requests.answers import DONE, Answer
 from trundle.page.shared_page import SharedPage
+from trundle.page.world.manifest import Manifest
+from trundle.page.world.profile import Profile
+from trundle.page.world.streams import SeriesHead
 
 
 class FakeServer:
@@ -51,8 +56,8 @@ class FakeServer:
     def set_notice(self, notice_id: str, text: str | None) -> None:
         self.notices.append((notice_id, text))
 
-    def respond(self, request_id: int, error: str | None = None, **fields: object) -> None:
-        self.fields[request_id] = fields
+    def respond(self, request_id: int, error: str | None = None, answer: Answer = DONE) -> None:
+        self.fields[request_id] = sent(answer)
         self.answers[request_id] = error
 
     def respond_picture(self, request_id: int, png: bytes) -> None:
@@ -61,8 +66,8 @@ class FakeServer:
     def is_watched(self, stream: str) -> bool:
         return self.watched is None or stream in self.watched
 
-    def set_world(self, manifest: dict[str, Any], files: dict[str, bytes]) -> None:
-        self.worlds.append((manifest, files))
+    def set_world(self, manifest: Manifest, files: dict[str, bytes]) -> None:
+        self.worlds.append((sent(manifest), files))
 
     def put_state(self, state: Any) -> None:
         self.states.append(state)
@@ -73,11 +78,11 @@ class FakeServer:
     def put_joints(self, time_ns: int, joints: Any) -> None:
         self.joints.append((time_ns, np.array(joints)))
 
-    def put_series(self, first: int, head: dict[str, Any], rows: Any) -> None:
-        self.series.append((first, head, np.array(rows)))
+    def put_series(self, first: int, head: SeriesHead, rows: Any) -> None:
+        self.series.append((first, sent(head), np.array(rows)))
 
-    def put_performance(self, profile: dict[str, Any]) -> None:
-        self.profiles.append(profile)
+    def put_performance(self, profile: Profile) -> None:
+        self.profiles.append(sent(profile))
 
     def put_lines(self, time_ns: int, lines: Any) -> None:
         self.lines.append((time_ns, list(lines)))
@@ -93,6 +98,11 @@ class FakeServer:
 
     def close(self) -> None:
         self.is_closed = True
+
+
+def sent(message: msgspec.Struct) -> dict[str, Any]:
+    """Message as a client gets it."""
+    return msgspec.json.decode(msgspec.json.encode(message))
 
 
 def shared_page() -> tuple[SharedPage, FakeServer]:

@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.bringup.simulation_page.fake_server import sent
 
 from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.page import AddPart, BeginDraft, DraftAction, FinishDraft, LeaveDraft, SaveDraft, SetField, SetMass
+from trundle.page.requests.answers import DONE, Answer
 from trundle.page.shown_world import BareWorld
 from trundle.page.simulated_world.code_consent import CodeConsent
 from trundle.page.simulated_world.drafting import Drafting, ShownDraft
@@ -41,9 +43,9 @@ class Editor:
         self.drafting = Drafting(self._respond, self.world.packages, os.environ, folder, CodeConsent(os.environ))
         self.shown: list[ShownDraft] = []
 
-    def _respond(self, request_id: int, error: str | None = None, **fields: Any) -> None:
+    def _respond(self, request_id: int, error: str | None = None, answer: Answer = DONE) -> None:
         del request_id
-        self._answers.put((error, fields))
+        self._answers.put((error, sent(answer)))
 
     def ask(self, action: DraftAction) -> dict[str, Any]:
         """Return the answer's fields, with `error` where it was refused."""
@@ -69,11 +71,11 @@ def editor(tmp_path: Path) -> Iterator[Editor]:
 
 def test_a_model_is_edited_in_its_place_and_replaced(editor: Editor) -> None:
     assert editor.ask(BeginDraft(model="crate")) == {}
-    entry = editor.shown[-1].entry
-    assert entry is not None
-    assert entry["of"] == "crate"
-    assert entry["pose"][:3] == pytest.approx([3.0, 0.0, 0.5])
-    assert editor.shown[-1].files.keys() >= {file["url"] for file in entry["files"]}
+    draft = editor.shown[-1].info
+    assert draft is not None
+    assert draft.of == "crate"
+    assert draft.pose[:3] == pytest.approx([3.0, 0.0, 0.5])
+    assert editor.shown[-1].files.keys() >= {file.url for file in draft.files}
     with pytest.raises(UsageError, match="edited already"):
         editor.drafting.handle(1, BeginDraft(model=None), editor.simulation)
 
@@ -84,7 +86,7 @@ def test_a_model_is_edited_in_its_place_and_replaced(editor: Editor) -> None:
     crate = editor.simulation["crate"]
     assert crate.links[0].link.inertial.mass == 7.0
     assert crate.pose.position == pytest.approx((3.0, 0.0, 0.5))
-    assert editor.shown[-1].entry is None
+    assert editor.shown[-1].info is None
     assert not editor.drafting.is_open
 
 
@@ -93,9 +95,9 @@ def test_what_was_changed_while_it_ran_is_in_the_draft(editor: Editor) -> None:
 
     editor.ask(BeginDraft(model="crate"))
 
-    entry = editor.shown[-1].entry
-    assert entry is not None
-    assert next(part for part in entry["parts"] if part["tag"] == "link")["mass"] == 4.0
+    draft = editor.shown[-1].info
+    assert draft is not None
+    assert next(part for part in draft.parts if part.tag == "link").mass == 4.0
 
 
 def test_a_draft_that_cannot_be_spawned_leaves_the_model(editor: Editor) -> None:

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.bringup.simulation_page.fake_server import sent
 
 from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.gazebo.plugins import find_user_file
-from trundle.page import DeleteLight, InsertLight, InsertModel, ListModels, RestoreLight
+from trundle.page import DeleteLight, InsertAction, InsertLight, InsertModel, ListModels, RestoreLight
 from trundle.page.shown_world import BareWorld
 from trundle.page.simulated_world.code_consent import CodeConsent
 from trundle.page.simulated_world.insertion import Insertion
@@ -22,6 +23,11 @@ from trundle.sim.simulation import Simulation
 
 CRATE = '<sdf version="1.6"><model name="crate"><link name="body"/>{}</model></sdf>'
 CONFIG = "<model><name>A crate</name><sdf version='1.6'>model.sdf</sdf><description>Of  wood.</description></model>"
+
+
+def answered(insertion: Insertion, action: InsertAction) -> dict[str, Any]:
+    """Insert, and return the answer as a client gets it."""
+    return sent(insertion.handle(action))
 
 
 class Contents(BareWorld):
@@ -78,7 +84,7 @@ def _put_crate(tmp_path: Path, plugin: str = "") -> None:
 def test_models_of_the_model_path_are_listed(insertion: Insertion, tmp_path: Path) -> None:
     _put_crate(tmp_path)
 
-    models = insertion.handle(ListModels())["models"]
+    models = answered(insertion, ListModels())["models"]
 
     assert {"name": "crate", "title": "A crate", "description": "Of wood.", "uploaded": False} in models
 
@@ -92,7 +98,7 @@ def test_an_uploaded_model_comes_first_and_is_inserted(
     insertion.handle(ListModels())
     packages.add_models(tmp_path / "uploads")
 
-    first = insertion.handle(ListModels())["models"][0]
+    first = answered(insertion, ListModels())["models"][0]
     insertion.handle(InsertModel(model="crate", position=(0.0, 0.0, 0.0)))
 
     assert (first["name"], first["uploaded"]) == ("crate", True)
@@ -111,7 +117,7 @@ def test_a_model_stands_at_the_point_under_a_free_name(
 ) -> None:
     _put_crate(tmp_path)
 
-    names = [insertion.handle(InsertModel(model="crate", position=(x, 2.0, 0.5)))["name"] for x in (1.0, 3.0)]
+    names = [answered(insertion, InsertModel(model="crate", position=(x, 2.0, 0.5)))["name"] for x in (1.0, 3.0)]
 
     assert names == ["crate", "crate_0"]
     assert [simulation[name].pose.position for name in names] == [(1.0, 2.0, 0.5), (3.0, 2.0, 0.5)]
@@ -119,7 +125,7 @@ def test_a_model_stands_at_the_point_under_a_free_name(
 
 @pytest.mark.parametrize("shape", ["box", "sphere", "cylinder"])
 def test_a_simple_shape_stands_on_the_floor(insertion: Insertion, simulation: Simulation, shape: str) -> None:
-    name = insertion.handle(InsertModel(model=shape, position=(1.0, 0.0, 0.0), is_shape=True))["name"]
+    name = answered(insertion, InsertModel(model=shape, position=(1.0, 0.0, 0.0), is_shape=True))["name"]
 
     assert simulation[name].pose.position == (1.0, 0.0, 0.5)
     assert simulation[name].link("link").link.inertial.mass == 1.0
@@ -129,7 +135,7 @@ CODED = '<plugin name="p" filename="code.py"><speed>{}</speed></plugin>'
 
 
 def _insert(insertion: Insertion, consent: str | None = None, model: str = "crate") -> dict[str, Any]:
-    return insertion.handle(InsertModel(model=model, position=(0.0, 0.0, 0.0), consent=consent))
+    return answered(insertion, InsertModel(model=model, position=(0.0, 0.0, 0.0), consent=consent))
 
 
 def test_a_model_with_code_is_asked_for_first(insertion: Insertion, simulation: Simulation, tmp_path: Path) -> None:
@@ -192,7 +198,7 @@ def test_lights_come_and_go(insertion: Insertion, edits: ModelEdits, simulation:
     def heights() -> dict[str, tuple[float, float, float]]:
         return {light.name: light.world_from_light.position for light in simulation.world.lights}
 
-    name = insertion.handle(InsertLight(type="spot", position=(1.0, 2.0, 0.0)))["name"]
+    name = answered(insertion, InsertLight(type="spot", position=(1.0, 2.0, 0.0)))["name"]
     there = heights()
     edits.handle(DeleteLight(light=name))
     gone = heights()

@@ -1,8 +1,10 @@
 """The manifest of a simulated world."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
+from tests.bringup.simulation_page.fake_server import sent
 from tests.bringup.simulation_page.worlds import CAMERA, lidar, loaded, model, world
 
 import trundle
@@ -24,10 +26,10 @@ CART = """<model name="cart"><link name="base"><pose>0 0 1 0 0 0</pose>
 </plugin></model>"""
 
 
-def manifest(sim: Simulation, sensors=()) -> dict:
+def manifest(sim: Simulation, sensors=()) -> dict[str, Any]:
     bodies = BodyNumbers()
     bodies.update(sim.engine.compiled.link_names)
-    return world_manifest(sim, sensors, bodies)
+    return sent(world_manifest(sim, sensors, bodies))
 
 
 def test_a_model_is_told_with_places_in_its_file(tmp_path: Path) -> None:
@@ -48,7 +50,7 @@ def test_a_model_is_told_with_places_in_its_file(tmp_path: Path) -> None:
         assert f'name="{part["name"]}"' in text[int(line) - 1]
     (plugin,) = cart["plugins"]
     assert (plugin["name"], plugin["filename"]) == ("p", "libnone.so")
-    assert plugin["parameters"] == [("topic", "cmd"), ("noise/stddev", "0.5"), ("wheel", "a"), ("wheel", "")]
+    assert plugin["parameters"] == [["topic", "cmd"], ["noise/stddev", "0.5"], ["wheel", "a"], ["wheel", ""]]
 
 
 def test_plugins_of_one_name_are_told_apart(tmp_path: Path) -> None:
@@ -149,7 +151,7 @@ def test_lights_scene_and_frames(tmp_path: Path) -> None:
     assert found["scene"]["ambient"] == pytest.approx((0.1, 0.2, 0.3))
     assert (found["scene"]["sky"], found["scene"]["shadows"], found["scene"]["grid"]) == (True, False, False)
     fog = found["scene"]["fog"]
-    assert fog == {"type": "linear", "color": (1.0, 0.0, 0.0), "start": 2.0, "end": 9.0, "density": 0.5}
+    assert fog == {"type": "linear", "color": [1.0, 0.0, 0.0], "start": 2.0, "end": 9.0, "density": 0.5}
     assert found["frames"] == [{"frame": "m/l", "parent": "world", "body": 0}]
 
 

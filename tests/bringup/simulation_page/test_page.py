@@ -380,7 +380,7 @@ def test_an_edit_after_going_back_to_the_beginning_is_shown(tmp_path: Path) -> N
     shown.ask(Seek(0))
     assert shown.ask(SetPhysics(wind=(0.0, 4.5, 0.0))) is None
 
-    assert shown.wait_world(2)["physics"]["wind"] == (0.0, 4.5, 0.0)
+    assert shown.wait_world(2)["physics"]["wind"] == [0.0, 4.5, 0.0]
 
 
 def test_a_camera_is_drawn_only_while_it_is_watched(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from trundle.base.diagnostics import Diagnostics
 from trundle.page import SaveDraft
 from trundle.page.model_editor.draft import Draft
 from trundle.page.model_editor.reader import ModelReader
+from trundle.page.requests.answers import SavedFile
 from trundle.page.simulated_world.model_saver import save_draft
 from trundle.page.simulated_world.uploaded_files import copies, needed_uploads, with_uploads_named
 from trundle.robots.description import load
@@ -74,7 +75,7 @@ def test_a_model_is_saved_with_the_uploaded_mesh_that_it_shows(
         world_from_model=Pose(),
     )
     for folder in ("models/mine", "wheel"):
-        assert save_draft(draft, SaveDraft(folder=folder), tmp_path, packages) == {"file": folder}
+        assert save_draft(draft, SaveDraft(folder=folder), tmp_path, packages) == SavedFile(file=folder)
     shutil.rmtree(uploads)
 
     for folder, meshes in (("models/mine", "models/wheel"), ("wheel", "wheel")):

@@ -1,17 +1,16 @@
 """GLB files of worlds that change."""
 
-import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 from PIL import Image
 from tests.bringup.simulation_page.worlds import BOX, model, world
 from tests.gltf.glb import Glb
+from tests.manifests import empty_manifest
 
 from trundle.base.diagnostics import Diagnostics
 from trundle.page.simulated_world.world_builder import WorldBuilder
-from trundle.page.simulated_world.world_files import WorldFiles
+from trundle.page.simulated_world.world_files import NamedFiles, WorldFiles
 from trundle.robots.description import load
 from trundle.robots.model import World, flattened
 from trundle.robots.packages import Packages
@@ -29,26 +28,28 @@ def numbers(described: World) -> dict[str, int]:
     return {name: number for number, name in enumerate(names)}
 
 
-def update(files: WorldFiles, described: World, bodies: dict[str, int] | None = None) -> tuple[Any, dict[str, bytes]]:
+def update(
+    files: WorldFiles, described: World, bodies: dict[str, int] | None = None
+) -> tuple[NamedFiles, dict[str, bytes]]:
     return files.update(described, (bodies or numbers(described)).__getitem__, Diagnostics())
 
 
-def urls(entries: Any) -> dict[str, str]:
-    return {file["id"]: file["url"] for file in entries["files"]}
+def urls(named: NamedFiles) -> dict[str, str]:
+    return {file.id: file.url for file in named.files}
 
 
 def test_each_model_has_a_file_with_its_bodies(tmp_path: Path) -> None:
     described = read(tmp_path, model("a", BOX) + model("b", BOX))
 
-    entries, made = update(WorldFiles(), described)
+    named, made = update(WorldFiles(), described)
 
-    assert list(urls(entries)) == ["", "a", "b"]
-    glb = Glb(made[urls(entries)["b"]])
+    assert list(urls(named)) == ["", "a", "b"]
+    glb = Glb(made[urls(named)["b"]])
     assert glb.nodes()["b::l"]["extras"] == {"body": 1}
-    named = {*urls(entries).values(), entries["collisions"], *entries["resources"]}
-    assert named == set(made)
+    all_urls = {*urls(named).values(), named.collisions, *named.resources}
+    assert all_urls == set(made)
     uses = {f"world/{buffer['uri']}" for buffer in glb.tree["buffers"]}
-    assert uses <= set(entries["resources"])
+    assert uses <= set(named.resources)
 
 
 def test_a_spawned_model_adds_only_what_is_new(tmp_path: Path) -> None:
@@ -58,8 +59,8 @@ def test_a_spawned_model_adds_only_what_is_new(tmp_path: Path) -> None:
     after, made = update(files, read(tmp_path, model("a", BOX) + model("b", BOX)))
 
     assert urls(after)["a"] == urls(before)["a"]
-    assert set(made) == {urls(after)["b"], after["collisions"]} - {before["collisions"]}
-    assert after["resources"] == before["resources"]
+    assert set(made) == {urls(after)["b"], after.collisions} - {before.collisions}
+    assert after.resources == before.resources
 
 
 def test_a_deleted_model_s_files_are_not_named_and_come_again_with_it(tmp_path: Path) -> None:
@@ -68,13 +69,13 @@ def test_a_deleted_model_s_files_are_not_named_and_come_again_with_it(tmp_path: 
     first, _ = update(files, both)
     alone, made = update(files, read(tmp_path, model("a", BOX)))
     assert list(urls(alone)) == ["", "a"]
-    assert len(alone["resources"]) < len(first["resources"])
+    assert len(alone.resources) < len(first.resources)
     assert urls(first)["b"] not in made
 
     again, made = update(files, both)
 
     assert urls(again) == urls(first)
-    assert {urls(first)["b"], *set(first["resources"]) - set(alone["resources"])} <= set(made)
+    assert {urls(first)["b"], *set(first.resources) - set(alone.resources)} <= set(made)
 
 
 def test_a_changed_colour_is_a_new_file_of_that_model(tmp_path: Path) -> None:
@@ -103,9 +104,9 @@ def test_a_changed_light_is_a_new_file_of_the_lights(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("inside", "count"), [("", 1), ('<light name="torch" type="point"/>', 0)])
 def test_a_dark_world_is_lit_as_the_cameras_see_it(tmp_path: Path, inside: str, count: int) -> None:
-    entries, made = update(WorldFiles(), read(tmp_path, model("a", inside)))
+    named, made = update(WorldFiles(), read(tmp_path, model("a", inside)))
 
-    tree = Glb(made[urls(entries)[""]]).tree
+    tree = Glb(made[urls(named)[""]]).tree
 
     assert len(tree.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", [])) == count
 
@@ -118,9 +119,9 @@ def test_models_of_one_mesh_and_image_share_their_files(tmp_path: Path) -> None:
     )
     inside = MESH.format("m.obj")
 
-    entries, made = update(WorldFiles(), read(tmp_path, model("a", inside) + model("b", inside)))
+    named, made = update(WorldFiles(), read(tmp_path, model("a", inside) + model("b", inside)))
 
-    suffixes = sorted(Path(url).suffix for url in entries["resources"])
+    suffixes = sorted(Path(url).suffix for url in named.resources)
     assert suffixes == [".bin", ".png"]
     (image,) = (content for url, content in made.items() if url.endswith(".png"))
     assert image == (tmp_path / "i.png").read_bytes()
@@ -129,18 +130,18 @@ def test_models_of_one_mesh_and_image_share_their_files(tmp_path: Path) -> None:
 def test_collisions_are_a_file_of_all_models(tmp_path: Path) -> None:
     box = '<collision name="c"><geometry><box/></geometry></collision>'
 
-    entries, made = update(WorldFiles(), read(tmp_path, model("a", box) + model("b", box)))
+    named, made = update(WorldFiles(), read(tmp_path, model("a", box) + model("b", box)))
 
-    nodes = Glb(made[entries["collisions"]]).tree["nodes"]
+    nodes = Glb(made[named.collisions]).tree["nodes"]
     assert [node["extras"].get("visual") for node in nodes if "mesh" in node] == ["c", "c"]
 
 
 def test_roads_are_drawn_once(tmp_path: Path) -> None:
     road = "<road name='r'><width>2</width><point>0 0 0</point><point>5 0 0</point></road>"
 
-    entries, made = update(WorldFiles(), read(tmp_path, road + model("a") + model("b")))
+    named, made = update(WorldFiles(), read(tmp_path, road + model("a") + model("b")))
 
-    drawn = [b'"name":"r"' in made[url] for url in urls(entries).values()]
+    drawn = [b'"name":"r"' in made[url] for url in urls(named).values()]
     assert drawn == [False, True, False]
 
 
@@ -148,27 +149,26 @@ def test_the_builder_skips_worlds_that_were_replaced(tmp_path: Path) -> None:
     builder = WorldBuilder()
     for count in range(1, 6):
         described = read(tmp_path, "".join(model(f"m{i}", BOX) for i in range(count)))
-        builder.build(described, {"generation": count}, numbers(described))
+        builder.build(described, empty_manifest(count), numbers(described))
 
     seen = [builder.wait()]
-    while seen[-1].manifest["generation"] < 5:
+    while seen[-1].manifest.generation < 5:
         seen.append(builder.wait())
     builder.close()
 
     served: set[str] = set()
     for built in seen:  # each has what the ones before it did not bring
-        named = {*(file["url"] for file in built.manifest["files"]), *built.manifest["resources"]}
+        named = {*(file.url for file in built.manifest.files), *built.manifest.resources}
         served |= set(built.files)
         assert named <= served
-    assert len(seen[-1].manifest["files"]) == 6
-    assert json.dumps(seen[-1].manifest)
+    assert len(seen[-1].manifest.files) == 6
 
 
 def test_a_shape_that_cannot_be_drawn_is_reported(tmp_path: Path) -> None:
     (tmp_path / "broken.obj").write_text("nothing")
     described = read(tmp_path, model("a", MESH.format("broken.obj")))
     builder = WorldBuilder()
-    builder.build(described, {}, numbers(described))
+    builder.build(described, empty_manifest(1), numbers(described))
 
     (warning,) = builder.wait().report.warnings
     builder.close()

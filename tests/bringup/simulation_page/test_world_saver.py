@@ -6,11 +6,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.bringup.simulation_page.fake_server import sent
 from tests.bringup.simulation_page.worlds import loaded, model
 
 from trundle.base.diagnostics import UsageError
 from trundle.base.output_folder import save_files
 from trundle.page import SaveWorld
+from trundle.page.requests.answers import DONE, Answer
 from trundle.page.simulated_world.current_world import current_world
 from trundle.page.simulated_world.world_saver import WorldSaver, find_world
 from trundle.robots.packages import Packages
@@ -55,8 +57,8 @@ def _answer(simulation: Simulation, root: Path, request: SaveWorld) -> dict[str,
     answers: list[dict[str, Any]] = []
     done = threading.Event()
 
-    def respond(request_id: int, error: str | None = None, **fields: object) -> None:
-        answers.append({"id": request_id, "error": error, **fields})
+    def respond(request_id: int, error: str | None = None, answer: Answer = DONE) -> None:
+        answers.append({"id": request_id, "error": error, **sent(answer)})
         done.set()
 
     saver = WorldSaver(respond, Packages({}, start=root), root)

@@ -8,10 +8,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from tests.manifests import empty_manifest
 from tests.page_client import ProtocolClient
 
 from trundle.base.http.page_address import PageAddress
 from trundle.page import PageServer, Session
+from trundle.page.world.manifest import ModelInfo
 
 
 @pytest.fixture(scope="module")
@@ -107,9 +109,10 @@ def test_a_folder_whose_name_is_no_utf_8_is_read(tmp_path: Path) -> None:
         PageServer.start(Session(title="t", kind="graph"), at=PageAddress(port=0), source=folder / "a.sdf") as page,
         ProtocolClient(page.url) as client,
     ):
-        page.set_world({"generation": 1, "models": [{"source": str(folder / "a.sdf")}]}, {})
+        model = ModelInfo(name="a", static=True, source=str(folder / "a.sdf"))
+        page.set_world(empty_manifest(1, models=(model,)), {})
         client.subscribe("trundle/world")
         client.until(lambda: client.payloads("trundle/world"))
-        assert json.loads(client.payloads("trundle/world")[0])["models"] == [{"source": f"{tmp_path}/w?/a.sdf"}]
+        assert json.loads(client.payloads("trundle/world")[0])["models"][0]["source"] == f"{tmp_path}/w?/a.sdf"
         content, error = _fetch(client, f"file://{tmp_path}/none.stl")
         assert (content, "no such file" in error) == (b"", True)

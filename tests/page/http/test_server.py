@@ -13,6 +13,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from tests.manifests import empty_manifest
 from tests.page.built_client import needs_client
 from tests.page_client import PATIENCE_S, ProtocolClient, page_url
 from websockets.exceptions import ConnectionClosed, InvalidStatus
@@ -25,6 +26,7 @@ from trundle.page import PageServer, Session
 from trundle.page.http.client_files import CLIENT, ClientFiles
 from trundle.page.http.content_policy import response_fields
 from trundle.page.http.places import MAX_CONTROLLING
+from trundle.page.world.draft_info import FileUrl
 
 EVIL = "http://evil.example"
 
@@ -88,7 +90,8 @@ def test_a_page_gets_in_by_the_token_from_wherever_it_is(page: PageServer) -> No
     ],
 )
 def test_no_address_answers_without_the_token(page: PageServer, path: str, status: int) -> None:
-    page.set_world({"generation": 1, "files": [{"id": "m", "url": "world/model.glb"}]}, {"world/model.glb": b"glTF"})
+    manifest = empty_manifest(1, files=(FileUrl(id="m", url="world/model.glb"),))
+    page.set_world(manifest, {"world/model.glb": b"glTF"})
     with ProtocolClient(page.url) as client:
         client.subscribe("trundle/world")
         client.until(lambda: client.payloads("trundle/world"))

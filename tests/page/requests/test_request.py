@@ -68,6 +68,15 @@ def test_the_65th_request_that_waits_is_refused(page: PageServer) -> None:
         assert len(_taken(page, client, 64)) == 64
 
 
+def test_a_request_of_another_version_is_refused_with_a_sentence(page: PageServer) -> None:
+    with ProtocolClient(page.url) as client:
+        client.send("trundle/request", id=1, request="dance")
+        assert client.last("trundle/response")["error"] == (
+            "the server does not know the request 'dance': the page may be of another version, load it again"
+        )
+        assert page.requests() == []
+
+
 def test_a_definition_is_answered_by_the_server(page: PageServer) -> None:
     with ProtocolClient(page.url) as client:
         client.send("trundle/request", id=1, request="definition", type="geometry_msgs/PointStamped")

@@ -4,8 +4,11 @@ import itertools
 from collections.abc import Sequence
 from typing import Protocol
 
+from msgspec import UNSET
+
 from .outbox import Buffer
 from .protocol import ENCODING, SCHEMA_ENCODING
+from .server_messages import ChannelOffer
 
 _ids = itertools.count(1)
 
@@ -70,16 +73,16 @@ class Channel:
         self.clients: set[Client] = set()
         """Clients that subscribe to it."""
 
-    def offer(self) -> dict[str, object]:
-        """Return the fields of the `advertise` message."""
-        fields: dict[str, object] = {
-            "id": self.id,
-            "topic": self.topic,
-            "encoding": self.encoding,
-            "schemaName": self.schema_name,
-            "schema": self.schema,
-        }
-        return fields | ({"schemaEncoding": SCHEMA_ENCODING} if self.encoding == ENCODING else {})
+    def offer(self) -> ChannelOffer:
+        """Return the entry of the `advertise` message."""
+        return ChannelOffer(
+            id=self.id,
+            topic=self.topic,
+            encoding=self.encoding,
+            schema_name=self.schema_name,
+            schema=self.schema,
+            schema_encoding=SCHEMA_ENCODING if self.encoding == ENCODING else UNSET,
+        )
 
     def subscribe(self, client: Client) -> None:
         """Add a client; subclasses send it what it has missed."""

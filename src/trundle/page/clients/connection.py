@@ -4,10 +4,12 @@ from collections.abc import Hashable, Mapping, Sequence
 from typing import Protocol
 
 import msgspec
+from msgspec import UNSET
 
 from .channel import Channel
 from .outbox import BINARY, TEXT, Buffer, Outbox
 from .protocol import ERROR, Subscribe, Unsubscribe, message_header
+from .server_messages import AdvertiseChannels, Response, ServerMessage, Status, UnadvertiseChannels
 
 _STATUS = "status"
 _MAX_SUBSCRIPTIONS = 10_000
@@ -51,9 +53,14 @@ class Connection:
         header = message_header(self._numbers[channel], time_ns)
         self.outbox.send(BINARY, (header, *pieces), channel if channel.is_droppable else None)
 
-    def send_json(self, message: object) -> None:
+    def send(self, message: ServerMessage) -> None:
         """Send a text message that is never dropped."""
         self.outbox.send(TEXT, (msgspec.json.encode(message),))
+
+    def send_response(self, response: Response, answer: bytes) -> None:
+        """Send the answer to a request, whose fields come as JSON."""
+        fields = msgspec.json.decode(answer, type=dict[str, msgspec.Raw])
+        self.outbox.send(TEXT, (msgspec.json.encode(msgspec.to_builtins(response) | fields),))
 
     def send_binary(self, pieces: Sequence[Buffer], stream: Hashable = None) -> None:
         """Send a binary message; those of a stream may be dropped."""
@@ -61,10 +68,8 @@ class Connection:
 
     def send_status(self, level: int, message: str, status_id: str | None = None) -> None:
         """Send a status message; one with an id replaces the last one with that id."""
-        fields: dict[str, object] = {"op": "status", "level": level, "message": message}
-        if status_id is not None:
-            fields["id"] = status_id
-        self.outbox.send(TEXT, (msgspec.json.encode(fields),), _STATUS)
+        status = Status(level, message, UNSET if status_id is None else status_id)
+        self.outbox.send(TEXT, (msgspec.json.encode(status),), _STATUS)
 
     def send_drops(self, channel: Channel, time_ns: int) -> None:
         """Send the counts of dropped messages, if they have changed."""
@@ -74,18 +79,18 @@ class Connection:
 
     def offer(self, channels: Sequence[Channel]) -> None:
         """Advertise channels, those of `trundle.v1` only to a client that speaks it."""
-        offers = [channel.offer() for channel in channels if self.is_own or not channel.is_own]
+        offers = tuple(channel.offer() for channel in channels if self.is_own or not channel.is_own)
         if offers:
-            self.send_json({"op": "advertise", "channels": offers})
+            self.send(AdvertiseChannels(offers))
 
     def withdraw(self, channels: Sequence[Channel]) -> None:
         """Unadvertise channels; their subscriptions end."""
         gone = set(channels)
         for number in [number for number, channel in self._subscriptions.items() if channel in gone]:
             self._end_subscription(number)
-        ids = [channel.id for channel in channels if self.is_own or not channel.is_own]
+        ids = tuple(channel.id for channel in channels if self.is_own or not channel.is_own)
         if ids:
-            self.send_json({"op": "unadvertise", "channelIds": ids})
+            self.send(UnadvertiseChannels(ids))
 
     def is_waiting(self, channel: Channel) -> bool:
         """True if a message of a channel was not sent yet."""

@@ -8,7 +8,8 @@ from typing import Protocol
 from .channel import Channel
 from .connection import Connection
 from .poll_timing import PollTiming
-from .protocol import CONTROL_CAPABILITIES, ENCODING, WARNING, time_message
+from .protocol import CONTROL_CAPABILITIES, WARNING, time_message
+from .server_messages import RemoveStatus, ServerInfo
 
 _TIME_PERIOD_S = 0.05
 _DROPS_PERIOD_S = 1.0
@@ -89,16 +90,9 @@ class Hub:
         """Greet a client: the server's capabilities, channels, and the conditions that hold."""
         self.clients.add(client)
         self._has_clients.set()
-        client.send_json({
-            "op": "serverInfo",
-            "name": "trundle",
-            "capabilities": [
-                each for each in self._capabilities if not (client.is_view_only and each in CONTROL_CAPABILITIES)
-            ],
-            "supportedEncodings": [ENCODING],
-            "metadata": {},
-            "sessionId": self._session_id,
-        })  # fmt: skip
+        refused = CONTROL_CAPABILITIES if client.is_view_only else ()
+        capabilities = tuple(each for each in self._capabilities if each not in refused)
+        client.send(ServerInfo(capabilities=capabilities, session_id=self._session_id))
         client.offer(list(self._channels.values()))
         for status_id, message in self._conditions.items():
             client.send_status(WARNING, message, status_id)
@@ -117,7 +111,7 @@ class Hub:
         if message is None:
             del self._conditions[status_id]
             for client in self.clients:
-                client.send_json({"op": "removeStatus", "statusIds": [status_id]})
+                client.send(RemoveStatus((status_id,)))
             return
         self._conditions[status_id] = message
         for client in self.clients:

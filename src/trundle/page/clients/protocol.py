@@ -144,14 +144,34 @@ class Release(Operation, frozen=True, tag="trundle/release"):
     topic: Name
 
 
-class SharedSelection(msgspec.Struct, frozen=True, omit_defaults=True, forbid_unknown_fields=True):
-    """Selection of a person in the simulated world."""
+class SelectedModel(msgspec.Struct, frozen=True, tag_field="kind", tag="model", forbid_unknown_fields=True):
+    """A model of the simulated world."""
 
-    kind: Literal["model", "link", "joint", "light"]
-    model: Name = ""
-    link: Name = ""
-    joint: Name = ""
-    light: Name = ""
+    model: Name
+
+
+class SelectedLink(msgspec.Struct, frozen=True, tag_field="kind", tag="link", forbid_unknown_fields=True):
+    """A link."""
+
+    model: Name
+    link: Name
+
+
+class SelectedJoint(msgspec.Struct, frozen=True, tag_field="kind", tag="joint", forbid_unknown_fields=True):
+    """A joint."""
+
+    model: Name
+    joint: Name
+
+
+class SelectedLight(msgspec.Struct, frozen=True, tag_field="kind", tag="light", forbid_unknown_fields=True):
+    """A light."""
+
+    light: Name
+
+
+SharedSelection: TypeAlias = SelectedModel | SelectedLink | SelectedJoint | SelectedLight
+"""Selection of a person in the simulated world, as the others see it."""
 
 
 class Presence(Operation, frozen=True, tag="trundle/presence"):
@@ -170,9 +190,10 @@ class UseTerminal(Operation, frozen=True, tag="trundle/terminal"):
 
 
 class PageRequest(Operation, frozen=True, tag="trundle/request"):
-    """Request to the page's owner; `request` and its fields are read by `trundle.page.requests.request`."""
+    """Request to the page's owner; its fields are read by `trundle.page.requests.request`."""
 
     id: int | Name
+    request: Name = ""
 
 
 ClientOperation: TypeAlias = (

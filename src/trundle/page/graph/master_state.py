@@ -6,6 +6,8 @@ from typing import TypeAlias, cast
 
 from trundle.ros import Node
 
+from ..clients.server_messages import ConnectionGraphUpdate, ProvidedService, PublishedTopic, SubscribedTopic
+
 Nodes: TypeAlias = Mapping[str, tuple[str, ...]]
 """Name of a topic or service → names of nodes."""
 
@@ -40,38 +42,33 @@ async def read_state(node: Node) -> MasterState:
     )
 
 
-def graph_update(before: MasterState, after: MasterState) -> dict[str, object] | None:
-    """Return the `connectionGraphUpdate` message from one state to the next; None: nothing changed.
-
-    Beyond the Foxglove protocol a subscribed topic has its type, since without a publisher it has no channel.
-    """
-    published = _changes("publisherIds", before.publishers, after.publishers)
-    subscribed = [
-        change | {"type": after.types.get(str(change["name"]), "*")}
-        for change in _changes("subscriberIds", before.subscribers, after.subscribers)
-    ]
-    provided = [change for change in _changes("providerIds", before.services, after.services) if change["providerIds"]]
+def graph_update(before: MasterState, after: MasterState) -> ConnectionGraphUpdate | None:
+    """Return the message from one state to the next; None: nothing changed."""
+    published = _changes(before.publishers, after.publishers)
+    subscribed = _changes(before.subscribers, after.subscribers)
+    provided = {name: nodes for name, nodes in _changes(before.services, after.services).items() if nodes}
     topics = after.publishers.keys() | after.subscribers.keys()
     removed_topics = sorted((before.publishers.keys() | before.subscribers.keys()) - topics)
     removed_services = sorted(before.services.keys() - after.services.keys())
     if not (published or subscribed or provided or removed_topics or removed_services):
         return None
-    gone = set(removed_topics)
-    return {
-        "op": "connectionGraphUpdate",
-        "publishedTopics": [change for change in published if change["name"] not in gone],
-        "subscribedTopics": [change for change in subscribed if change["name"] not in gone],
-        "advertisedServices": provided,
-        "removedTopics": removed_topics,
-        "removedServices": removed_services,
-    }
+    return ConnectionGraphUpdate(
+        published_topics=tuple(PublishedTopic(name, nodes) for name, nodes in published.items() if name in topics),
+        subscribed_topics=tuple(
+            SubscribedTopic(name, nodes, after.types.get(name, "*"))
+            for name, nodes in subscribed.items()
+            if name in topics
+        ),
+        advertised_services=tuple(ProvidedService(name, nodes) for name, nodes in provided.items()),
+        removed_topics=tuple(removed_topics),
+        removed_services=tuple(removed_services),
+    )
 
 
-def _changes(field_name: str, before: Nodes, after: Nodes) -> list[dict[str, object]]:
+def _changes(before: Nodes, after: Nodes) -> Nodes:
+    """Return the names whose nodes are others, with those after."""
     names = sorted(before.keys() | after.keys())
-    return [
-        {"name": name, field_name: after.get(name, ())} for name in names if before.get(name, ()) != after.get(name, ())
-    ]
+    return {name: after.get(name, ()) for name in names if before.get(name, ()) != after.get(name, ())}
 
 
 def _nodes(rows: list[tuple[str, list[str]]]) -> dict[str, tuple[str, ...]]:

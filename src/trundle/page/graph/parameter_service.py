@@ -1,11 +1,14 @@
 """The graph's parameters: read, set, and watched by clients."""
 
+from msgspec import UNSET
+
 from trundle.robots.names import is_legal_name
 from trundle.ros import Node, RosError
 
 from ..clients.connection import Connection
 from ..clients.hub import Hub
 from ..clients.protocol import ERROR, GetParameters, Parameter, SetParameters
+from ..clients.server_messages import ParameterValues
 from .parameter_values import flatten, from_parameter, to_parameter
 
 _ALL = "/"
@@ -121,5 +124,4 @@ def _matches(name: str, wanted: set[str]) -> bool:
 
 
 def _send(client: Connection, parameters: list[Parameter], request_id: str | None) -> None:
-    message: dict[str, object] = {"op": "parameterValues", "parameters": parameters}
-    client.send_json(message if request_id is None else message | {"id": request_id})
+    client.send(ParameterValues(tuple(parameters), UNSET if request_id is None else request_id))

@@ -130,8 +130,9 @@ class RosGraph:
         await self._topics.update(self._node, state)
         await self._services.update(self._node, state)
         update = graph_update(before, state)
-        for client in self._graph_clients if update is not None else ():
-            client.send_json(update)
+        if update is not None:
+            for client in self._graph_clients:
+                client.send(update)
 
     def _say_unanswered(self) -> None:
         uri = self._address.master_uri
@@ -233,7 +234,7 @@ class RosGraph:
             case SubscribeConnectionGraph():
                 self._graph_clients.add(client)
                 if (update := graph_update(MasterState(), self._state)) is not None:
-                    client.send_json(update)
+                    client.send(update)
             case UnsubscribeConnectionGraph():
                 self._graph_clients.discard(client)
             case Drive() if client.is_own:

@@ -2,14 +2,20 @@
 
 import asyncio
 import itertools
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from trundle.ros import MessageError, Node, RosError, ServiceType, call_service_bytes, probe_service
 
 from ..clients.connection import Connection
 from ..clients.hub import Hub
-from ..clients.protocol import ENCODING, SCHEMA_ENCODING, SERVICE_HEADER, WARNING, service_header
+from ..clients.protocol import ENCODING, SERVICE_HEADER, WARNING, service_header
+from ..clients.server_messages import (
+    AdvertiseServices,
+    ServiceCallFailure,
+    ServiceOffer,
+    ServiceSchema,
+    UnadvertiseServices,
+)
 from .master_state import MasterState
 
 MAX_IN_FLIGHT = 64
@@ -26,7 +32,7 @@ class _Service:
     id: int
     name: str
     kind: ServiceType
-    offer: Mapping[str, object]
+    offer: ServiceOffer
 
 
 class ServiceTable:
@@ -45,8 +51,7 @@ class ServiceTable:
     def offer(self, client: Connection) -> None:
         """Advertise all services to a new client."""
         if self._services:
-            offers = [service.offer for service in self._services.values()]
-            client.send_json({"op": "advertiseServices", "services": offers})
+            client.send(AdvertiseServices(tuple(service.offer for service in self._services.values())))
 
     async def update(self, node: Node, state: MasterState) -> None:
         """Offer new services and withdraw those that are gone."""
@@ -65,7 +70,7 @@ class ServiceTable:
                 added.append(_Service(id=number, name=name, kind=kind, offer=_offer(node, number, name, kind)))
         self._services |= {service.name: service for service in added}
         for client in self._hub.clients if added else ():
-            client.send_json({"op": "advertiseServices", "services": [service.offer for service in added]})
+            client.send(AdvertiseServices(tuple(service.offer for service in added)))
 
     def call(self, node: Node, client: Connection, message: bytes) -> None:
         """Call a service with a client's message."""
@@ -102,9 +107,7 @@ class ServiceTable:
             client.send_binary((service_header(service.id, call_id), answer))
 
     def _fail(self, client: Connection, service_id: int, call_id: int, message: str) -> None:
-        client.send_json({
-            "op": "serviceCallFailure", "serviceId": service_id, "callId": call_id, "message": message,
-        })  # fmt: skip
+        client.send(ServiceCallFailure(service_id=service_id, call_id=call_id, message=message))
 
     async def _find_kind(self, node: Node, name: str, turns: asyncio.Semaphore) -> ServiceType | None:
         """Return a service's type; None: its provider does not answer, or its definition is not known."""
@@ -124,9 +127,9 @@ class ServiceTable:
             return None
 
     def _remove(self, names: list[str]) -> None:
-        ids = [self._services.pop(name).id for name in names]
+        ids = tuple(self._services.pop(name).id for name in names)
         for client in self._hub.clients if ids else ():
-            client.send_json({"op": "unadvertiseServices", "serviceIds": ids})
+            client.send(UnadvertiseServices(ids))
 
 
 def _schemas(node: Node, kind: ServiceType) -> tuple[str, str]:
@@ -134,16 +137,14 @@ def _schemas(node: Node, kind: ServiceType) -> tuple[str, str]:
     return node.messages.definition(kind.request), node.messages.definition(kind.response)
 
 
-def _offer(node: Node, number: int, name: str, kind: ServiceType) -> dict[str, object]:
-    """Fields of an advertised service, in the protocol's newer and older form."""
+def _offer(node: Node, number: int, name: str, kind: ServiceType) -> ServiceOffer:
     request, response = _schemas(node, kind)
-    common = {"encoding": ENCODING, "schemaEncoding": SCHEMA_ENCODING}
-    return {
-        "id": number,
-        "name": name,
-        "type": kind.type,
-        "requestSchema": request,
-        "responseSchema": response,
-        "request": common | {"schemaName": f"{kind.type}_Request", "schema": request},
-        "response": common | {"schemaName": f"{kind.type}_Response", "schema": response},
-    }
+    return ServiceOffer(
+        id=number,
+        name=name,
+        type=kind.type,
+        request=ServiceSchema(schema_name=f"{kind.type}_Request", schema=request),
+        response=ServiceSchema(schema_name=f"{kind.type}_Response", schema=response),
+        request_schema=request,
+        response_schema=response,
+    )

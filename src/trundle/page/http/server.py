@@ -21,6 +21,7 @@ from ..clients.protocol import SUBPROTOCOLS, TRUNDLE
 from ..owner import PictureError
 from ..requests.request import RenderView
 from ..requests.world import RenderModel
+from ..uploads.uploads import UploadedModels
 from ..view_only import REFUSAL
 from .client_files import MISSING, ClientFiles, content_type, is_immutable
 from .content_policy import response_fields
@@ -184,7 +185,7 @@ class HttpServer:
             names = await self._page.upload(await request.multipart())
         except (UsageError, ValueError, HttpProcessingError, web.RequestPayloadError) as error:
             return web.Response(status=400, text=f"{' '.join(str(error).split())}\n", content_type=_TEXT)
-        return web.json_response({"models": names})
+        return web.json_response(body=msgspec.json.encode(UploadedModels(models=tuple(names))))
 
     async def _root(self, request: web.Request) -> web.StreamResponse:
         path = request.match_info["path"]

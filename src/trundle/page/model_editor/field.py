@@ -1,15 +1,15 @@
 """Values of an element that a form shows: read from its children, and written there."""
 
 import math
-from typing import Any, Literal, TypeAlias
 
-from msgspec import Struct
+from msgspec import UNSET, Struct
 
 from trundle.base.diagnostics import UsageError
 from trundle.base.xmlnode import XmlElement, parse_numbers
 from trundle.page import Value
 
-Kind: TypeAlias = Literal["text", "number", "vector", "pose", "colour", "choice", "flag"]
+from ..world.draft_info import DraftField, FieldKind, ShownValue
+
 _COUNTS: dict[str, int] = {"number": 1, "pose": 6, "colour": 4}
 _ANGLE_ATTRIBUTES = ("degrees", "rotation_format")
 
@@ -20,7 +20,7 @@ class Field(Struct, frozen=True, kw_only=True):
     name: str
     """Path of the element, "inertial/mass"; an attribute ends in "@name"."""
     label: str
-    kind: Kind = "number"
+    kind: FieldKind = "number"
     unit: str = ""
     labels: tuple[str, ...] = ()
     """Names of a vector's numbers."""
@@ -42,33 +42,38 @@ class Section(Struct, frozen=True, kw_only=True):
     fields: tuple[Field, ...]
 
 
-def field_json(element: XmlElement, field: Field) -> dict[str, object]:
+def shown_field(element: XmlElement, field: Field) -> DraftField:
     """Return a field with its value as the client shows it."""
     text = read_text(element, field.name)
-    shown: dict[str, Any] = {"name": field.name, "label": field.label, "kind": field.kind, "value": text}
-    if field.kind in ("number", "vector", "pose", "colour"):
-        numbers = list(field.derived) if field.derived is not None else _numbers(text, field)
-        shown |= {"value": numbers, "default": _numbers(field.default, field)}
-        shown |= {"least": field.least, "most": field.most}
+    has_numbers = field.kind in ("number", "vector", "pose", "colour")
+    value: ShownValue = text
+    default: ShownValue = field.default
+    if has_numbers:
+        value = _numbers(text, field) if field.derived is None else field.derived
+        default = _numbers(field.default, field)
     elif field.kind == "flag":
-        shown |= {"value": None if text is None else text in ("1", "true"), "default": field.default == "true"}
-    else:
-        shown["default"] = field.default
-    if field.unit:
-        shown["unit"] = field.unit
-    if field.labels:
-        shown["labels"] = field.labels
-    if field.choices:
-        shown["choices"] = field.choices
-    return shown
+        value = None if text is None else text in ("1", "true")
+        default = field.default == "true"
+    return DraftField(
+        name=field.name,
+        label=field.label,
+        kind=field.kind,
+        value=value,
+        default=default,
+        unit=field.unit,
+        labels=field.labels,
+        choices=field.choices,
+        least=field.least if has_numbers else UNSET,
+        most=field.most if has_numbers else UNSET,
+    )
 
 
-def _numbers(text: str | None, field: Field) -> list[float] | None:
-    numbers = parse_numbers(text or "")
+def _numbers(text: str | None, field: Field) -> tuple[float, ...] | None:
+    numbers = tuple(parse_numbers(text or "") or ())
     if not numbers or not all(map(math.isfinite, numbers)):
         return None
-    if field.kind == "colour":
-        numbers = [*numbers, 1.0] if len(numbers) == 3 else numbers
+    if field.kind == "colour" and len(numbers) == 3:
+        numbers = (*numbers, 1.0)
     return numbers if len(numbers) == count_of(field) else None
 
 
@@ -119,7 +124,7 @@ def _checked(element: XmlElement, field: Field, value: Value) -> str | None:
         raise UsageError(f"{field.label} has {count_of(field)} numbers")
     if not all(each is None or field.least <= each <= field.most for each in value):
         raise UsageError(f"{field.label}: from {field.least:g} to {field.most:g}, please")
-    there = _numbers(read_text(element, field.name), field) or _numbers(field.default, field) or [0.0] * len(value)
+    there = _numbers(read_text(element, field.name), field) or _numbers(field.default, field) or (0.0,) * len(value)
     return number_text([old if new is None else new for new, old in zip(value, there, strict=True)])
 
 

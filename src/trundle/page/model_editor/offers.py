@@ -3,6 +3,7 @@
 from trundle.gazebo.plugins import BUILTIN, SENSOR_PLUGINS, plugin_documentation
 from trundle.robots.packages import Packages
 
+from ..requests.answers import DraftOffers, PluginOffer
 from .joint_fields import JOINT_TYPES
 from .sensor_fields import SENSOR_TYPES
 
@@ -10,10 +11,12 @@ _MESHES = (".dae", ".stl", ".obj", ".glb", ".gltf")
 _MAX_MESHES = 500
 
 
-def draft_offers(packages: Packages) -> dict[str, object]:
-    """Return the plugins with what they do, types of sensors and joints, and URIs of meshes."""
-    plugins = [{"filename": name, "about": _about(name)} for name in sorted({*BUILTIN, *SENSOR_PLUGINS})]
-    return {"plugins": plugins, "sensors": SENSOR_TYPES, "joints": JOINT_TYPES, "meshes": _meshes(packages)}
+def draft_offers(packages: Packages) -> DraftOffers:
+    """Return what a draft can be given."""
+    plugins = (PluginOffer(filename=name, about=_about(name)) for name in sorted({*BUILTIN, *SENSOR_PLUGINS}))
+    return DraftOffers(
+        plugins=tuple(plugins), sensors=SENSOR_TYPES, joints=JOINT_TYPES, meshes=tuple(_meshes(packages))
+    )
 
 
 def _about(filename: str) -> str:

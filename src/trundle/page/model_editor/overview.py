@@ -1,54 +1,52 @@
 """Overview of a draft for the client: its parts, their forms, and the findings beside what they concern."""
 
-from typing import Any
+from collections.abc import Sequence
 
 from trundle.base.xmlnode import XmlElement
 from trundle.page import Part
 from trundle.spatial import rpy_from_quaternion
 
+from ..world.draft_info import DraftFinding, DraftInfo, DraftPart, DraftSection
 from .draft import Draft
-from .field import field_json
+from .field import shown_field
 from .reader import CheckedModel
 
-Json = dict[str, Any]
 _MAX_FINDINGS = 100
 
 
-def draft_overview(draft: Draft) -> Json:
+def draft_overview(draft: Draft) -> DraftInfo:
     """Return the draft without its files."""
     checked = draft.checked
     parts: list[tuple[Part, XmlElement]] = [((), checked.document.model), *checked.document.parts()]
     findings = _findings_by_part(checked, parts)
     pose = draft.world_from_model
-    return {
-        "name": draft.name,
-        "of": draft.of,
-        "pose": [*pose.position, *rpy_from_quaternion(pose.quaternion)],
-        "undo": draft.undo_title,
-        "redo": draft.redo_title,
-        "parts": [_part_json(checked, part, element, findings.get(part, [])) for part, element in parts],
-    }
+    return DraftInfo(
+        name=draft.name,
+        of=draft.of,
+        pose=(*pose.position, *rpy_from_quaternion(pose.quaternion)),
+        undo=draft.undo_title,
+        redo=draft.redo_title,
+        parts=tuple(_part(checked, part, element, findings.get(part, ())) for part, element in parts),
+    )
 
 
-def _part_json(checked: CheckedModel, part: Part, element: XmlElement, findings: list[Json]) -> Json:
+def _part(checked: CheckedModel, part: Part, element: XmlElement, findings: Sequence[DraftFinding]) -> DraftPart:
     link = checked.link(part)
-    index = None if link is None else checked.model.links.index(link)
-    sections = [
-        {"title": section.title, "fields": [field_json(element, field) for field in section.fields]}
-        for section in checked.sections(part, element)
-        if section.fields
-    ]
-    return {
-        "part": part,
-        "tag": element.tag,
-        "name": element.get("name") or "",
-        "detail": _detail(element),
-        "mass": None if link is None else link.inertial.mass,
-        "link": index,
-        "line": checked.document.line(element),
-        "sections": sections,
-        "findings": findings,
-    }
+    return DraftPart(
+        part=part,
+        tag=element.tag,
+        name=element.get("name") or "",
+        detail=_detail(element),
+        mass=None if link is None else link.inertial.mass,
+        link=None if link is None else checked.model.links.index(link),
+        line=checked.document.line(element),
+        sections=tuple(
+            DraftSection(title=section.title, fields=tuple(shown_field(element, each) for each in section.fields))
+            for section in checked.sections(part, element)
+            if section.fields
+        ),
+        findings=tuple(findings),
+    )
 
 
 def _detail(element: XmlElement) -> str:
@@ -58,15 +56,15 @@ def _detail(element: XmlElement) -> str:
     return element.get("filename") or element.get("type") or ""
 
 
-def _findings_by_part(checked: CheckedModel, parts: list[tuple[Part, XmlElement]]) -> dict[Part, list[Json]]:
+def _findings_by_part(checked: CheckedModel, parts: list[tuple[Part, XmlElement]]) -> dict[Part, list[DraftFinding]]:
     """Return findings by the innermost part around their line; those without one belong to the model."""
     lines = [(checked.document.line(element), _last_line(checked, element), part) for part, element in parts]
-    found: dict[Part, list[Json]] = {}
+    found: dict[Part, list[DraftFinding]] = {}
     for finding in checked.findings[:_MAX_FINDINGS]:
         line = finding.at.line if finding.at.file == "model.sdf" else None
         around = [part for first, last, part in lines if line is not None and first <= line <= last]
         home = max(around, key=len, default=())
-        said = {"severity": finding.severity, "text": finding.what, "line": line}
+        said = DraftFinding(severity=finding.severity, text=finding.what, line=line)
         found.setdefault(home, []).append(said)
     return found
 

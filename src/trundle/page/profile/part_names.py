@@ -4,7 +4,7 @@ from enum import Enum
 
 from trundle.sim.simulation import Simulation, StridePart
 
-from .profile import Group
+from ..world.profile import Group
 
 
 class LoopPart(Enum):

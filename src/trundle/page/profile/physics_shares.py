@@ -3,7 +3,7 @@
 from trundle.sim.physics import StepTimer, StepTimes
 from trundle.sim.simulation import Simulation
 
-from .profile import ProfilePart
+from ..world.profile import ProfilePart
 
 _PERIOD = 31
 """Strides between two that are timed, which costs 1/15 of a small robot's step; a prime, as hooks have periods too."""

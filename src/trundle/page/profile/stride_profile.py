@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Self
 from trundle.sim.simulation import Simulation, StridePart
 from trundle.spatial import NS_PER_S
 
+from ..world.profile import Profile, ProfilePart
 from .part_names import LoopPart, group_and_name
 from .physics_shares import PhysicsShares
-from .profile import Profile, ProfilePart
 
 if TYPE_CHECKING:  # a simulation without a graph starts without its modules
     from trundle.ros import GraphLoop

@@ -14,6 +14,7 @@ from trundle.base.http.html_policy import policy_of_viewer
 from trundle.page import REPLAY_FILES
 
 from ..scene_settings import scene_settings
+from ..world.manifest import SceneSettings
 from .recorded_motion import RecordedMotion, animated_world
 
 _PAGE = Template("""<!doctype html>
@@ -36,6 +37,19 @@ $policy
 """)
 
 
+class ReplayAbout(msgspec.Struct, frozen=True, kw_only=True):
+    """Metadata of the recording in a replay's file."""
+
+    title: str
+    start: float
+    """Simulated time [s]."""
+    end: float
+    """Simulated time [s]."""
+    scene: SceneSettings
+    view: Mapping[str, object] | None
+    """The view at first, as in an .rviz file; None: all that moves is framed."""
+
+
 def replay_page(motion: RecordedMotion, report: Diagnostics, *, view: Mapping[str, object] | None = None) -> str:
     """Return the HTML.
 
@@ -52,8 +66,13 @@ def replay_page(motion: RecordedMotion, report: Diagnostics, *, view: Mapping[st
     except OSError:
         raise UsageError("the page's client is not built, and a replay contains a part of it: run make") from None
     world = gzip.compress(animated_world(motion, report), mtime=0)
-    about: dict[str, object] = {"title": motion.title, "start": float(motion.times[0]), "end": float(motion.times[-1])}
-    about |= {"scene": scene_settings(motion.world), "view": view}
+    about = ReplayAbout(
+        title=motion.title,
+        start=float(motion.times[0]),
+        end=float(motion.times[-1]),
+        scene=scene_settings(motion.world),
+        view=view,
+    )
     own = _inert(script)
     return _PAGE.substitute(
         policy=policy_of_viewer(own),

@@ -4,6 +4,7 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
+from .answers import CodeQuestion, DraftOffers, EditedPart, FilesExist, Inserted, SavedFile
 from .edits import Action, Name, Quaternion, Triple, check_direction
 from .world import Consent, FileName
 
@@ -30,9 +31,13 @@ class BeginDraft(Action, frozen=True, tag="begin_draft"):
 class ListOffers(Action, frozen=True, tag="draft_offers"):
     """Ask for the plugins, sensors and meshes that a draft can be given."""
 
+    answer = DraftOffers
+
 
 class SetField(Action, frozen=True, tag="draft_set"):
-    """Set one value of a part; answered with `part`, its address from now on."""
+    """Set one value of a part."""
+
+    answer = EditedPart
 
     part: Part
     field: Name
@@ -41,6 +46,8 @@ class SetField(Action, frozen=True, tag="draft_set"):
 
 class PlaceLink(Action, frozen=True, tag="draft_place"):
     """Move a link, or the model as a whole, to a pose in the world."""
+
+    answer = EditedPart
 
     part: Part
     position: Triple
@@ -54,7 +61,9 @@ class PlaceLink(Action, frozen=True, tag="draft_place"):
 
 
 class AddPart(Action, frozen=True, tag="draft_add"):
-    """Add a part; answered with `part`, its address."""
+    """Add a part."""
+
+    answer = EditedPart
 
     into: Part
     """Part that gets it; of a joint, its child."""
@@ -64,7 +73,9 @@ class AddPart(Action, frozen=True, tag="draft_add"):
 
 
 class CopyPart(Action, frozen=True, tag="draft_copy"):
-    """Add a copy of a part; answered with `part`, its address."""
+    """Add a copy of a part."""
+
+    answer = EditedPart
 
     part: Part
 
@@ -72,19 +83,27 @@ class CopyPart(Action, frozen=True, tag="draft_copy"):
 class RemovePart(Action, frozen=True, tag="draft_remove"):
     """Remove a part; a link goes with its joints."""
 
+    answer = EditedPart
+
     part: Part
 
 
 class UndoDraft(Action, frozen=True, tag="draft_undo"):
     """Take the last edit of the draft back."""
 
+    answer = EditedPart
+
 
 class RedoDraft(Action, frozen=True, tag="draft_redo"):
     """Do the edit again that was taken back last."""
 
+    answer = EditedPart
+
 
 class SaveDraft(Action, frozen=True, tag="draft_save"):
-    """Write model.sdf and model.config; answered with the folder as `file`, or `exists` where files are in the way."""
+    """Write model.sdf and model.config."""
+
+    answer = SavedFile | FilesExist
 
     folder: FileName
     """Path below the folder where the simulation was started."""
@@ -93,10 +112,12 @@ class SaveDraft(Action, frozen=True, tag="draft_save"):
 
 
 class FinishDraft(Action, frozen=True, tag="draft_finish"):
-    """Put the draft into the world, in place of the model that it is a copy of; answered with its `name` there.
+    """Put the draft into the world, in place of the model that it is a copy of.
 
-    A model whose plugins are code is answered as by `InsertModel`.
+    A person is asked about a model with code.
     """
+
+    answer = Inserted | CodeQuestion
 
     consent: Consent = None
     """Word of the answer that showed the code, if a person has agreed."""

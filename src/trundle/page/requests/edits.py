@@ -1,8 +1,11 @@
 """Requests that change a simulated world while it runs; numbers are bounded, so that none destroys the state."""
 
-from typing import Annotated, TypeAlias
+from types import UnionType
+from typing import Annotated, ClassVar, TypeAlias
 
 import msgspec
+
+from .answers import Answer, Done
 
 _Number: TypeAlias = Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)]
 _Share: TypeAlias = Annotated[float, msgspec.Meta(ge=0, le=1)]
@@ -13,6 +16,9 @@ Triple: TypeAlias = tuple[_Number, _Number, _Number]
 
 class Action(msgspec.Struct, frozen=True, tag_field="request", tag=str.lower):
     """Base of all requests."""
+
+    answer: ClassVar[type[Answer] | UnionType] = Done
+    """Types of the answers."""
 
 
 class MoveJoint(Action, frozen=True, tag="joint"):

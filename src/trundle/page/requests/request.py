@@ -4,10 +4,11 @@ They arrive as JSON; the field `request` names the class.
 """
 
 import math
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias, get_args
 
 import msgspec
 
+from .answers import DefinitionText, FilesExist, SavedFile
 from .draft import DraftAction
 from .edits import Action, EditAction
 from .world import FileName, InsertAction, ModelAction, RenderModel, SaveReplay, SaveWorld
@@ -88,6 +89,8 @@ class SaveRviz(Action, frozen=True, tag="save_rviz"):
 class SaveRvizAs(Action, frozen=True, tag="save_rviz_as"):
     """Save an .rviz file below the folder where Trundle was started, as `SaveWorld` does; the server itself does it."""
 
+    answer = SavedFile | FilesExist
+
     file: FileName
     text: Text
     replace: bool = False
@@ -109,6 +112,8 @@ class PlotSeries(Action, frozen=True, tag="plot"):
 
 class Definition(Action, frozen=True):
     """Text of a message type; the server itself answers."""
+
+    answer = DefinitionText
 
     type: Annotated[str, msgspec.Meta(max_length=200)]
 
@@ -156,7 +161,10 @@ ClientAction: TypeAlias = (
     | SaveRviz
     | Record
 )
-"""Requests that arrive over the page's socket."""
+"""Requests over the page's socket that its owner answers."""
+SocketAction: TypeAlias = ClientAction | Definition | PlotSeries | SaveRvizAs
+"""All requests over the page's socket."""
+REQUEST_NAMES = frozenset(str(each.__struct_config__.tag) for each in get_args(SocketAction))
 GraphAction: TypeAlias = MoveSlider | MoveJoystick | SaveRviz
 """Requests to nodes of the graph; all others are to what the page shows."""
 PageAction: TypeAlias = ClientAction | RenderView | RenderModel

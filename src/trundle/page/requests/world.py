@@ -4,6 +4,16 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
+from .answers import (
+    CodeQuestion,
+    FilesExist,
+    Inserted,
+    ModelList,
+    ReplayPage,
+    ReplayScene,
+    SavedWorld,
+    WorldText,
+)
 from .edits import Action, Name, Triple
 
 Consent: TypeAlias = Annotated[str, msgspec.Meta(max_length=100)] | None
@@ -11,7 +21,9 @@ FileName: TypeAlias = Annotated[str, msgspec.Meta(min_length=1, max_length=300)]
 
 
 class SaveWorld(Action, frozen=True, tag="save_world"):
-    """Write the world as SDF; answered with `file`, or `exists` where a file is in the way."""
+    """Write the world as SDF."""
+
+    answer = SavedWorld | WorldText | FilesExist
 
     file: FileName | None
     """Path below the folder where the simulation was started; None: answer with the text, `sdf`."""
@@ -20,7 +32,9 @@ class SaveWorld(Action, frozen=True, tag="save_world"):
 
 
 class SaveReplay(Action, frozen=True, tag="replay"):
-    """Make a replay of the last minutes; answered with its `html`, or `glb` in base64."""
+    """Make a replay of the last minutes."""
+
+    answer = ReplayPage | ReplayScene
 
     view: Annotated[str, msgspec.Meta(max_length=4000)] | None = None
     """JSON of the view from which a page is seen first, as an .rviz file has it."""
@@ -28,14 +42,15 @@ class SaveReplay(Action, frozen=True, tag="replay"):
 
 
 class ListModels(Action, frozen=True, tag="models"):
-    """Ask for the models that can be inserted; answered with `models`."""
+    """Ask for the models that can be inserted."""
+
+    answer = ModelList
 
 
 class InsertModel(Action, frozen=True, tag="insert"):
-    """Put a model of the model path, or a simple shape, into the world; answered with its `name` there.
+    """Put a model of the model path, or a simple shape, into the world; a person is asked about a model with code."""
 
-    A model whose plugins are code is answered with that `code`, and a word of `consent` that agrees to run it once.
-    """
+    answer = Inserted | CodeQuestion
 
     model: FileName
     """Name of its folder, or `box`, `sphere`, `cylinder` where `is_shape`."""
@@ -47,7 +62,9 @@ class InsertModel(Action, frozen=True, tag="insert"):
 
 
 class InsertLight(Action, frozen=True, tag="insert_light"):
-    """Put a light above a point; answered with its `name`."""
+    """Put a light above a point."""
+
+    answer = Inserted
 
     type: Literal["point", "directional", "spot"]
     position: Triple

@@ -4,7 +4,6 @@ import hashlib
 import secrets
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from trundle.base.atomic_write import write_atomically
 from trundle.base.diagnostics import UsageError
@@ -12,6 +11,8 @@ from trundle.base.files import read_file
 from trundle.gazebo.plugins import find_held_file, find_user_file
 from trundle.robots.model import Model, PluginTag
 from trundle.robots.packages import HELD
+
+from ..requests.answers import CodeQuestion
 
 _MAX_ASKED = 100
 """Questions that may be open; the oldest ones end."""
@@ -27,7 +28,7 @@ class CodeConsent:
         self._asked: dict[str, bytes] = {}
         """Word → digest of plugins and code."""
 
-    def question(self, model: Model, consent: str | None) -> dict[str, Any] | None:
+    def question(self, model: Model, consent: str | None) -> CodeQuestion | None:
         """Return what to ask a person before a model is added; None: it has no code, or a person has agreed.
 
         Uploaded files of code, which nothing else runs, become plugins once a person has agreed.
@@ -53,7 +54,7 @@ class CodeConsent:
         self._asked[word] = digest.digest()
         while len(self._asked) > _MAX_ASKED:
             self._asked.pop(next(iter(self._asked)), None)
-        return {"code": [str(file).removesuffix(HELD) for file in code], "consent": word}
+        return CodeQuestion(code=tuple(str(file).removesuffix(HELD) for file in code), consent=word)
 
     def _find(self, tag: PluginTag) -> Path | None:
         return find_user_file(tag, self._environment) or find_held_file(tag, self._environment)

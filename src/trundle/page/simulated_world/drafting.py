@@ -41,7 +41,9 @@ from ..model_editor.new_parts import new_model
 from ..model_editor.offers import draft_offers
 from ..model_editor.overview import draft_overview
 from ..model_editor.reader import ModelReader
+from ..requests.answers import DONE, Answer, EditedPart, Inserted
 from ..shown_world import ShownWorld
+from ..world.draft_info import DraftInfo, FileUrl
 from .code_consent import CodeConsent
 from .controls import reason_of
 from .current_world import current_world
@@ -51,7 +53,6 @@ from .model_edits import ModelEdits
 from .model_saver import save_draft
 from .world_files import WorldFiles
 
-Json = dict[str, Any]
 FIRST_BODY = 65536
 """Number of the draft's first link among the bodies that the client draws."""
 _MAX_WAITING = 20
@@ -60,12 +61,14 @@ _MAX_WAITING = 20
 class ShownDraft(Struct, frozen=True, kw_only=True):
     """Draft as the client shows it."""
 
-    entry: Json | None
-    """Entry `draft` of the manifest."""
-    resources: list[str]
+    info: DraftInfo | None
+    resources: tuple[str, ...] = ()
     """URLs of all files that it needs."""
-    files: dict[str, bytes]
+    files: dict[str, bytes] = {}
     """URL → content, of new files."""
+
+
+NO_DRAFT = ShownDraft(info=None)
 
 
 class _Finished(Struct, frozen=True, kw_only=True):
@@ -90,7 +93,7 @@ class Drafting:
         """Prepare.
 
         Args:
-            respond: answers a request by its id, with an error or fields.
+            respond: answers a request by its id, with an error or an `Answer`.
             packages: finder of models.
             environment: variables that locate plugins.
             root: folder to write below.
@@ -128,15 +131,15 @@ class Drafting:
             raise UsageError("no model is edited now")
         self._submit(request_id, lambda: self._do(request_id, action))
 
-    def _submit(self, request_id: int, work: Callable[[], Json | None]) -> None:
+    def _submit(self, request_id: int, work: Callable[[], Answer | None]) -> None:
         self._waiting += 1
         self._thread.submit(self._run, request_id, work)
 
-    def _run(self, request_id: int, work: Callable[[], Json | None]) -> None:
+    def _run(self, request_id: int, work: Callable[[], Answer | None]) -> None:
         try:
             answer = work()
             if answer is not None:
-                self._respond(request_id, **answer)
+                self._respond(request_id, answer=answer)
         except TrundleError as error:
             self._respond(request_id, reason_of(error))
         except Exception as error:  # a file that the editor does not foresee; the simulation goes on
@@ -144,7 +147,7 @@ class Drafting:
         finally:
             self._waiting -= 1
 
-    def _begin(self, action: BeginDraft, simulation: Simulation) -> Callable[[], Json]:
+    def _begin(self, action: BeginDraft, simulation: Simulation) -> Callable[[], Answer]:
         """Copy what is needed of the simulation; return what is left to do."""
         if self._is_open:
             raise UsageError("a model is edited already: finish or leave it first")
@@ -158,22 +161,22 @@ class Drafting:
         posed = next(model for model in world.models if model.name == found.name)
         self._is_open = True
 
-        def copy() -> Json:
+        def copy() -> Answer:
             text = copy_model(found, packages=self._packages, folder=self._root)
             return self._open(text, found.name, posed.world_from_model)
 
         return copy
 
-    def _open(self, text: bytes, of: str | None, place: Pose) -> Json:
+    def _open(self, text: bytes, of: str | None, place: Pose) -> Answer:
         try:
             self._draft = Draft(text, self._reader, of=of, world_from_model=place)
         except BaseException:
             self._is_open = False
             raise
         self._show()
-        return {}
+        return DONE
 
-    def _do(self, request_id: int, action: DraftAction) -> Json | None:
+    def _do(self, request_id: int, action: DraftAction) -> Answer | None:
         """Do an edit, on the draft's thread; return the answer's fields, None: it is answered later."""
         if isinstance(action, ListOffers):
             return draft_offers(self._packages)
@@ -187,13 +190,13 @@ class Drafting:
                 return self._finish(request_id, action, draft)
             case LeaveDraft():
                 self._close()
-                return {}
+                return DONE
             case _:
                 part = _edit(draft, action)
                 self._show()
-                return {"part": part}
+                return EditedPart(part=part)
 
-    def _finish(self, request_id: int, action: FinishDraft, draft: Draft) -> Json | None:
+    def _finish(self, request_id: int, action: FinishDraft, draft: Draft) -> Answer | None:
         model = draft.checked.model
         if not model.links:
             raise UsageError("the model has no links yet")
@@ -210,21 +213,20 @@ class Drafting:
         model = replace(draft.checked.model, world_from_model=draft.world_from_model)
         world = replace(draft.checked.world, models=(model,), lights=(), roads=())
         numbers = {f"{model.name}::{link.name}": FIRST_BODY + index for index, link in enumerate(model.links)}
-        entries, files = self._files.update(world, numbers.__getitem__, Diagnostics())
-        shown: Any = entries["files"]
-        resources: Any = entries["resources"]
-        entry = draft_overview(draft) | {
-            "files": [{"id": "draft", "url": each["url"]} for each in shown if each["id"]],
-            "folder": folder_name(draft.name) if os.access(self._root, os.W_OK) else None,
-        }
-        urls = [each["url"] for each in shown]
-        self._shown.put(ShownDraft(entry=entry, resources=[*urls, *resources], files=files))
+        named, files = self._files.update(world, numbers.__getitem__, Diagnostics())
+        info = replace(
+            draft_overview(draft),
+            files=tuple(FileUrl(id="draft", url=each.url) for each in named.files if each.id),
+            folder=folder_name(draft.name) if os.access(self._root, os.W_OK) else None,
+        )
+        urls = (each.url for each in named.files)
+        self._shown.put(ShownDraft(info=info, resources=(*urls, *named.resources), files=files))
 
     def _close(self) -> None:
         self._draft = None
         self._is_open = False
         self._files = WorldFiles()
-        self._shown.put(ShownDraft(entry=None, resources=[], files={}))
+        self._shown.put(NO_DRAFT)
 
     def poll(self, world: ShownWorld, edits: ModelEdits) -> list[ShownDraft]:
         """Put a finished draft into the world; return what is to be shown since the last call."""
@@ -234,7 +236,7 @@ class Drafting:
             except TrundleError as error:
                 self._respond(finished.request_id, reason_of(error))
             else:
-                self._submit(finished.request_id, lambda name=name: (self._close(), {"name": name})[1])
+                self._submit(finished.request_id, lambda name=name: (self._close(), Inserted(name=name))[1])
         return list(iter(lambda: _next(self._shown), None))
 
     def close(self) -> None:

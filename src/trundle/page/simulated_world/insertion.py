@@ -3,7 +3,6 @@
 import itertools
 from collections.abc import Collection
 from pathlib import Path
-from typing import Any
 
 from msgspec.structs import replace
 
@@ -16,11 +15,11 @@ from trundle.robots.packages import Packages
 from trundle.robots.robot import Robot
 from trundle.spatial import Pose
 
+from ..requests.answers import Answer, CodeQuestion, Inserted, ModelEntry, ModelList
 from ..shown_world import ShownWorld
 from .code_consent import CodeConsent
 from .model_edits import add_light
 
-Json = dict[str, Any]
 _SHAPES = {
     "box": ("<box><size>1 1 1</size></box>", 1 / 6, 1 / 6),
     "sphere": ("<sphere><radius>0.5</radius></sphere>", 0.1, 0.1),
@@ -40,28 +39,28 @@ class Insertion:
         self._world, self._consent = world, consent
         self._simulation, self._packages = world.simulation, world.packages
 
-    def handle(self, action: InsertAction) -> Json:
-        """Do what a person asks for; return the answer's fields.
+    def handle(self, action: InsertAction) -> Answer:
+        """Do what a person asks for.
 
         Raises:
             TrundleError: it cannot be done.
         """
         match action:
             case ListModels():
-                return {"models": list_models(self._packages)}
+                return ModelList(models=list_models(self._packages))
             case InsertModel():
                 return self._insert_model(action)
             case InsertLight():
                 return self._insert_light(action)
 
-    def _insert_model(self, action: InsertModel) -> Json:
+    def _insert_model(self, action: InsertModel) -> Inserted | CodeQuestion:
         model, robot = self._shape(action.model) if action.is_shape else self._read(action.model)
         if (question := self._consent.question(model, action.consent)) is not None:
             return question
         name = free_name(model.name, {each.name for each in self._simulation.models})
         pose = Pose(action.position) @ model.world_from_model
         self._world.spawn(replace(model, name=name, world_from_model=pose), robot)
-        return {"name": name}
+        return Inserted(name=name)
 
     def _read(self, name: str) -> tuple[Model, Robot | None]:
         """Read a model of the model path."""
@@ -80,7 +79,7 @@ class Insertion:
         loaded = load_text(text, name=f"<{kind}>", folder=here, packages=self._packages, report=Diagnostics())
         return loaded.world.models[0], None
 
-    def _insert_light(self, action: InsertLight) -> Json:
+    def _insert_light(self, action: InsertLight) -> Inserted:
         world = self._simulation.world
         x, y, z = action.position
         light = Light(
@@ -96,26 +95,26 @@ class Insertion:
         )
         lit = replace(light, **_LIGHT_ANGLES.get(action.type, {}))
         add_light(lit, self._world)
-        return {"name": light.name}
+        return Inserted(name=light.name)
 
 
-def list_models(packages: Packages) -> list[Json]:
-    """Return folder, title and description of every model that can be inserted, uploaded ones first, then by title."""
-    models = [
-        {"name": name, **_config(folder), "uploaded": folder.parent in packages.added_models}
+def list_models(packages: Packages) -> tuple[ModelEntry, ...]:
+    """Return every model that can be inserted, uploaded ones first, then by title."""
+    models = (
+        _entry(name, folder, uploaded=folder.parent in packages.added_models)
         for name, folder in packages.models().items()
-    ]
-    return sorted(models, key=lambda each: (not each["uploaded"], each["title"].lower(), each["name"]))
+    )
+    return tuple(sorted(models, key=lambda each: (not each.uploaded, each.title.lower(), each.name)))
 
 
-def _config(folder: Path) -> Json:
-    """Return what a model.config says of its model."""
+def _entry(name: str, folder: Path, *, uploaded: bool) -> ModelEntry:
+    """Return a model with what its model.config says."""
     try:
         root = read_xml(folder / "model.config", report=Diagnostics())
     except TrundleError:
-        return {"title": folder.name, "description": ""}
+        return ModelEntry(name=name, title=folder.name, description="", uploaded=uploaded)
     title, description = root.string("name"), " ".join(root.string("description").split())
-    return {"title": (title or folder.name)[:100], "description": description[:300]}
+    return ModelEntry(name=name, title=(title or folder.name)[:100], description=description[:300], uploaded=uploaded)
 
 
 def shape_sdf(kind: str) -> str:

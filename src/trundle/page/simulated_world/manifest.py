@@ -3,9 +3,9 @@
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.base.diagnostics import Source
@@ -17,17 +17,29 @@ from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose, rpy_from_quaternion
 
 from ..scene_settings import scene_settings
+from ..world.manifest import (
+    CameraInfo,
+    FrameInfo,
+    JointInfo,
+    LightInfo,
+    LinkInfo,
+    Manifest,
+    ModelInfo,
+    PhysicsSettings,
+    PluginInfo,
+    SensorInfo,
+    SixNumbers,
+)
 from .body_numbers import BodyNumbers
 from .handling import is_held
 from .sensor_series import SENSOR_VALUES
 
 _IMAGE = "sensor_msgs/Image"
-_Json = dict[str, Any]
 
 
 def world_manifest(
     simulation: Simulation, sensors: Sequence[CameraSensor | InstrumentSensor], bodies: BodyNumbers
-) -> _Json:
+) -> Manifest:
     """Return the manifest without its generation and files.
 
     Args:
@@ -38,29 +50,27 @@ def world_manifest(
     world = simulation.world
     live = {(each.model.name, each.link.name, each.sensor.name): each for each in sensors}
     indices = joint_rows(simulation)
-    return {
-        "name": world.name,
-        "scene": scene_settings(world),
-        "physics": {"gravity": world.physics.gravity, "wind": world.wind, "step": world.physics.max_step_size_s},
-        "robot": _robot(world, bodies),
-        "models": [
-            _nested(_model(model, bodies, live, indices) | {"held": is_held(simulation, model.name)})
+    lights_of_links = (
+        _light(light, f"{model.name}::{link.name}::", bodies[f"{model.name}::{link.name}"])
+        for model in world.models
+        for link in model.links
+        for light in link.lights
+    )
+    frames = zip(link_frames(world), simulation.engine.compiled.link_names, strict=True)
+    return Manifest(
+        name=world.name,
+        scene=scene_settings(world),
+        physics=PhysicsSettings(gravity=world.physics.gravity, wind=world.wind, step=world.physics.max_step_size_s),
+        robot=_robot(world, bodies),
+        models=tuple(
+            _nested(_model(model, bodies, live, indices, held=is_held(simulation, model.name)))
             for model in world.models
-        ],
-        "plugins": _plugins(world.plugins),
-        "lights": [_light(light, "", None) for light in world.lights]
-        + [
-            _light(light, f"{model.name}::{link.name}::", bodies[f"{model.name}::{link.name}"])
-            for model in world.models
-            for link in model.links
-            for light in link.lights
-        ],
-        "cameras": [_camera(sensor, bodies) for sensor in sensors if isinstance(sensor, CameraSensor)],
-        "frames": [
-            {"frame": frame.frame, "parent": frame.parent, "body": bodies[name]}
-            for frame, name in zip(link_frames(world), simulation.engine.compiled.link_names, strict=True)
-        ],
-    }
+        ),
+        plugins=_plugins(world.plugins),
+        lights=(*(_light(light, "", None) for light in world.lights), *lights_of_links),
+        cameras=tuple(_camera(sensor, bodies) for sensor in sensors if isinstance(sensor, CameraSensor)),
+        frames=tuple(FrameInfo(frame=each.frame, parent=each.parent, body=bodies[name]) for each, name in frames),
+    )
 
 
 def joint_rows(simulation: Simulation) -> dict[str, int]:
@@ -97,83 +107,98 @@ def _robot(world: World, bodies: BodyNumbers) -> int | None:
 _Live = Mapping[tuple[str, str, str], CameraSensor | InstrumentSensor]
 
 
-def _model(model: Model, bodies: BodyNumbers, live: _Live, indices: Mapping[str, int]) -> _Json:
-    return {
-        "name": model.name,
-        "static": model.static,
-        "source": _source(model.at),
-        "links": [_link(model, link, bodies, live) for link in model.links],
-        "joints": [_joint(joint, model, indices.get(f"{model.name}::{joint.name}")) for joint in model.joints],
-        "plugins": _plugins(model.plugins),
-        "models": [],
-    }
+def _model(model: Model, bodies: BodyNumbers, live: _Live, indices: Mapping[str, int], *, held: bool) -> ModelInfo:
+    return ModelInfo(
+        name=model.name,
+        static=model.static,
+        held=held,
+        source=_source(model.at),
+        links=tuple(_link(model, link, bodies, live) for link in model.links),
+        joints=tuple(_joint(joint, model, indices.get(f"{model.name}::{joint.name}")) for joint in model.joints),
+        plugins=_plugins(model.plugins),
+    )
 
 
-def _nested(flat: _Json) -> _Json:
+def _nested(flat: ModelInfo) -> ModelInfo:
     """Return a model whose links and joints named `inner::name` are in models of their own, as they were written."""
-    own: _Json = flat | {"links": [], "joints": []}
-    inner: dict[str, _Json] = {}
-    for kind in ("links", "joints"):
-        for part in flat[kind]:
-            scope, separator, name = part["name"].partition("::")
-            if not separator:
-                own[kind].append(part)
-                continue
-            empty = {"held": False, "links": [], "joints": [], "plugins": [], "models": []}
-            model = inner.setdefault(scope, {"name": scope, "static": flat["static"], "source": None} | empty)
-            ends = {end: part[end].removeprefix(f"{scope}::") for end in ("parent", "child") if end in part}
-            model[kind].append(part | {"name": name} | ends)
-    return own | {"models": [_nested(model) for model in inner.values()]}
+    links: dict[str | None, list[LinkInfo]] = {}
+    joints: dict[str | None, list[JointInfo]] = {}
+    for link in flat.links:
+        scope, name = _scoped(link.name)
+        links.setdefault(scope, []).append(replace(link, name=name))
+    for joint in flat.joints:
+        scope, name = _scoped(joint.name)
+        parent, child = (end.removeprefix(f"{scope}::") for end in (joint.parent, joint.child))
+        joints.setdefault(scope, []).append(replace(joint, name=name, parent=parent, child=child))
+    own = replace(flat, links=tuple(links.pop(None, ())), joints=tuple(joints.pop(None, ())))
+    inner = (
+        ModelInfo(
+            name=scope,
+            static=flat.static,
+            source=None,
+            links=tuple(links.get(scope, ())),
+            joints=tuple(joints.get(scope, ())),
+        )
+        for scope in dict.fromkeys((*links, *joints))
+        if scope is not None
+    )
+    return replace(own, models=tuple(map(_nested, inner)))
 
 
-def _link(model: Model, link: Link, bodies: BodyNumbers, live: _Live) -> _Json:
+def _scoped(name: str) -> tuple[str | None, str]:
+    """Return the outermost model that a name is in, and the name there."""
+    scope, separator, inner = name.partition("::")
+    return (scope, inner) if separator else (None, name)
+
+
+def _link(model: Model, link: Link, bodies: BodyNumbers, live: _Live) -> LinkInfo:
     inertial = link.inertial
     on_joints = (sensor for joint in model.joints if joint.child == link.name for sensor in joint.sensors)
-    return {
-        "name": link.name,
-        "body": bodies[f"{model.name}::{link.name}"],
-        "mass": inertial.mass,
-        "inertia": [*inertial.moments, *inertial.products],
-        "inertial_pose": _six(inertial.link_from_com),
-        "friction": _friction(link.collisions),
-        "source": _source(link.at),
-        "sensors": [
+    return LinkInfo(
+        name=link.name,
+        body=bodies[f"{model.name}::{link.name}"],
+        mass=inertial.mass,
+        inertia=(*inertial.moments, *inertial.products),
+        inertial_pose=_six(inertial.link_from_com),
+        friction=_friction(link.collisions),
+        source=_source(link.at),
+        sensors=tuple(
             _sensor(sensor, live.get((model.name, link.name, sensor.name))) for sensor in (*link.sensors, *on_joints)
-        ],
-    }
+        ),
+    )
 
 
-def _sensor(sensor: Sensor, live: CameraSensor | InstrumentSensor | None) -> _Json:
+def _sensor(sensor: Sensor, live: CameraSensor | InstrumentSensor | None) -> SensorInfo:
     if isinstance(live, CameraSensor):
         topic = camera_topic(live)
     else:
         topic = None if live is None else next(iter(live.topics), None)
-    return {
-        "name": sensor.name,
-        "type": sensor.type,
-        "rate": sensor.update_rate_hz if live is None else live.rate_hz,
-        "topic": topic,
-        "series": list(SENSOR_VALUES.get(sensor.type, ())),
-        "source": _source(sensor.at),
-        "plugins": _plugins(sensor.plugins),
-    }
+    return SensorInfo(
+        name=sensor.name,
+        type=sensor.type,
+        rate=sensor.update_rate_hz if live is None else live.rate_hz,
+        topic=topic,
+        series=tuple(SENSOR_VALUES.get(sensor.type, ())),
+        source=_source(sensor.at),
+        plugins=_plugins(sensor.plugins),
+    )
 
 
-def _plugins(tags: Iterable[PluginTag]) -> list[_Json]:
+def _plugins(tags: Iterable[PluginTag]) -> tuple[PluginInfo, ...]:
     """Return plugins under names of their own: the second `drive` is `drive (2)`."""
     counts = Counter[str]()
-    found: list[_Json] = []
+    found: list[PluginInfo] = []
     for tag in tags:
         counts[tag.name] += 1
         found.append(
-            {
-                "name": tag.name if counts[tag.name] == 1 else f"{tag.name} ({counts[tag.name]})",
-                "filename": tag.filename,
-                "source": _source(tag.at),
-                "parameters": list(_parameters(tag.node)),
-            }
+            PluginInfo(
+                name=tag.name if counts[tag.name] == 1 else f"{tag.name} ({counts[tag.name]})",
+                filename=tag.filename,
+                source=_source(tag.at),
+                parameters=tuple(_parameters(tag.node)),
+            )
         )
-    return found
+    return tuple(found)
 
 
 def _parameters(node: XmlNode, path: str = "") -> Iterator[tuple[str, str]]:
@@ -185,58 +210,59 @@ def _parameters(node: XmlNode, path: str = "") -> Iterator[tuple[str, str]]:
         yield from _parameters(child, f"{name}/")
 
 
-def _friction(collisions: Iterable[Collision]) -> list[float] | None:
+def _friction(collisions: Iterable[Collision]) -> tuple[float, float] | None:
     first = next(iter(collisions), None)
-    return None if first is None else [first.surface.mu, first.surface.mu2]
+    return None if first is None else (first.surface.mu, first.surface.mu2)
 
 
-def _joint(joint: Joint, model: Model, index: int | None) -> _Json:
+def _joint(joint: Joint, model: Model, index: int | None) -> JointInfo:
     axis = joint.axis
     child = next((link.model_from_link for link in model.links if link.name == joint.child), Pose())
-    return {
-        "name": joint.name,
-        "type": joint.type.value,
-        "parent": joint.parent,
-        "child": joint.child,
-        "lower": axis.lower if axis is not None and math.isfinite(axis.lower) else None,
-        "upper": axis.upper if axis is not None and math.isfinite(axis.upper) else None,
-        "pose": _six(joint.child_from_joint),
-        "axes": [child.inverse().transform_vector(each.direction) for each in (axis, joint.axis2) if each is not None],
-        "index": index,
-        "source": _source(joint.at),
-    }
+    axes = (each for each in (axis, joint.axis2) if each is not None)
+    return JointInfo(
+        name=joint.name,
+        type=joint.type.value,
+        parent=joint.parent,
+        child=joint.child,
+        lower=axis.lower if axis is not None and math.isfinite(axis.lower) else None,
+        upper=axis.upper if axis is not None and math.isfinite(axis.upper) else None,
+        pose=_six(joint.child_from_joint),
+        axes=tuple(child.inverse().transform_vector(each.direction) for each in axes),
+        index=index,
+        source=_source(joint.at),
+    )
 
 
-def _light(light: Light, prefix: str, body: int | None) -> _Json:
-    return {
-        "name": f"{prefix}{light.name}",
-        "type": light.type,
-        "body": body,
-        "pose": _six(light.world_from_light),
-        "direction": light.direction,
-        "diffuse": light.diffuse[:3],
-        "intensity": light.intensity,
-    }
+def _light(light: Light, prefix: str, body: int | None) -> LightInfo:
+    return LightInfo(
+        name=f"{prefix}{light.name}",
+        type=light.type,
+        body=body,
+        pose=_six(light.world_from_light),
+        direction=light.direction,
+        diffuse=light.diffuse[:3],
+        intensity=light.intensity,
+    )
 
 
-def _camera(camera: CameraSensor, bodies: BodyNumbers) -> _Json:
+def _camera(camera: CameraSensor, bodies: BodyNumbers) -> CameraInfo:
     lens = camera.intrinsics
-    return {
-        "name": camera.name,
-        "topic": camera_topic(camera),
-        "body": bodies[f"{camera.model.name}::{camera.link.name}"],
-        "pose": _six(camera.link_from_camera),
-        "horizontal_fov": lens.horizontal_fov_rad,
-        "width": lens.width_px,
-        "height": lens.height_px,
-        "near": camera.optics.near_m,
-        "far": camera.optics.far_m,
-        "rate": camera.rate_hz,
-    }
+    return CameraInfo(
+        name=camera.name,
+        topic=camera_topic(camera),
+        body=bodies[f"{camera.model.name}::{camera.link.name}"],
+        pose=_six(camera.link_from_camera),
+        horizontal_fov=lens.horizontal_fov_rad,
+        width=lens.width_px,
+        height=lens.height_px,
+        near=camera.optics.near_m,
+        far=camera.optics.far_m,
+        rate=camera.rate_hz,
+    )
 
 
-def _six(pose: Pose) -> list[float]:
-    return [*pose.position, *rpy_from_quaternion(pose.quaternion)]
+def _six(pose: Pose) -> SixNumbers:
+    return (*pose.position, *rpy_from_quaternion(pose.quaternion))
 
 
 def _source(at: Source) -> str | None:

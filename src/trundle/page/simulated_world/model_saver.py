@@ -12,11 +12,12 @@ from trundle.robots.packages import Packages
 
 from ..model_editor.draft import Draft
 from ..model_editor.model_files import model_config, target_files
+from ..requests.answers import FilesExist, SavedFile
 from .uploaded_files import copies, needed_uploads, with_uploads_named
 
 
-def save_draft(draft: Draft, request: SaveDraft, root: Path, packages: Packages) -> dict[str, object]:
-    """Write a draft; return its folder as `file`, or the files in the way as `exists`.
+def save_draft(draft: Draft, request: SaveDraft, root: Path, packages: Packages) -> SavedFile | FilesExist:
+    """Write a draft.
 
     Raises:
         UsageError: the name leads elsewhere, or the files cannot be written.
@@ -26,4 +27,4 @@ def save_draft(draft: Draft, request: SaveDraft, root: Path, packages: Packages)
     own = dict(zip(target_files(folder), (text, model_config(text, draft.name)), strict=True))
     files = {**copies(needed_uploads(text, packages), folder.parent), **own}
     exists = save_files(root, files, replace=request.replace)
-    return {"file": request.folder} if exists is None else {"exists": exists}
+    return SavedFile(file=request.folder) if exists is None else FilesExist(exists=exists)

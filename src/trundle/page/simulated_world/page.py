@@ -174,7 +174,7 @@ class SimulationPage:
             self._replays.save(request.id, request.action, lambda: self._streams.history.motion(world, title))
             return paused
         if isinstance(request.action, InsertAction):
-            self._server.respond(request.id, **self._insertion.handle(request.action))
+            self._server.respond(request.id, answer=self._insertion.handle(request.action))
             pacer.restart()
             return paused
         if isinstance(request.action, DraftAction):

@@ -3,8 +3,6 @@
 import time
 from collections.abc import Callable
 
-import msgspec
-
 from trundle.page import PERFORMANCE, PageServer
 from trundle.ros import Node
 from trundle.sim.simulation import Simulation, StridePart
@@ -53,7 +51,7 @@ class PerformanceStream:
         if profile.is_on:
             profile.lap(LoopPart.PAGE)
             if now >= self._due_ns or profile.simulated_ns >= _PERIOD_NS:
-                self._server.put_performance(msgspec.to_builtins(profile.read()))
+                self._server.put_performance(profile.read())
                 profile.stop()
         if not profile.is_on and now >= self._due_ns:
             self._due_ns = now + _PERIOD_NS

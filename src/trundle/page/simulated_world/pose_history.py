@@ -16,6 +16,7 @@ from trundle.spatial import NS_PER_S
 
 from ..replay.page_file import replay_page
 from ..replay.recorded_motion import RecordedMotion, animated_world
+from ..requests.answers import ReplayPage, ReplayScene
 from .controls import reason_of
 
 _LIMIT_BYTES = 64_000_000
@@ -87,9 +88,10 @@ class ReplaySaver:
         try:
             view = None if action.view is None else _view_decoder.decode(action.view)
             if action.format == "html":
-                self._respond(request_id, html=replay_page(motion, Diagnostics(), view=view))
+                answer = ReplayPage(html=replay_page(motion, Diagnostics(), view=view))
             else:
-                self._respond(request_id, glb=b64encode(animated_world(motion, Diagnostics())).decode())
+                answer = ReplayScene(glb=b64encode(animated_world(motion, Diagnostics())).decode())
+            self._respond(request_id, answer=answer)
         except TrundleError as error:
             self._respond(request_id, reason_of(error))
         except msgspec.MsgspecError as error:

@@ -10,6 +10,7 @@ from trundle.sim.sensors import CameraSensor, InstrumentSensor
 from trundle.sim.simulation import Simulation
 from trundle.spatial import NS_PER_S
 
+from ..world.streams import SeriesHead
 from .series import SampledState, SensorValue, Series, SeriesFinder
 
 _ROWS = 64
@@ -56,8 +57,8 @@ class SeriesSampler:
         """Send the newest rows to the page."""
         if not self._names:
             return
-        names = [name for name in self._names if name not in self._faults]
-        head = {"names": names, "units": [each.unit for each in self._series], "faults": self._faults}
+        names = tuple(name for name in self._names if name not in self._faults)
+        head = SeriesHead(names=names, units=tuple(each.unit for each in self._series), faults=self._faults)
         rows = np.array(self._rows).reshape(len(self._rows), 1 + len(names))
         self._server.put_series(self._count - len(rows), head, rows)
 

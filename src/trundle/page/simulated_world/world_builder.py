@@ -3,22 +3,21 @@
 import queue
 import threading
 from collections.abc import Callable
-from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from trundle.base.diagnostics import Diagnostics
 from trundle.robots.model import World
 
+from ..world.manifest import Manifest
 from .world_files import WorldFiles
-
-_Manifest = dict[str, Any]
 
 
 class BuiltWorld(Struct, frozen=True, kw_only=True):
     """World that the page can show."""
 
-    manifest: _Manifest
+    manifest: Manifest
     files: dict[str, bytes]
     """URL → content, of new files."""
     report: Diagnostics
@@ -27,7 +26,7 @@ class BuiltWorld(Struct, frozen=True, kw_only=True):
 
 class _Job(Struct, frozen=True, kw_only=True):
     world: World
-    manifest: _Manifest
+    manifest: Manifest
     """Without its files."""
     bodies: dict[str, int]
 
@@ -42,7 +41,7 @@ class WorldBuilder:
         self._thread = threading.Thread(target=self._run, name="trundle-page-world", daemon=True)
         self._thread.start()
 
-    def build(self, world: World, manifest: _Manifest, bodies: dict[str, int]) -> None:
+    def build(self, world: World, manifest: Manifest, bodies: dict[str, int]) -> None:
         """Ask for a world's files; returns at once.
 
         Args:
@@ -77,11 +76,12 @@ class WorldBuilder:
         while (job := newest(self._jobs.get, self._jobs.get_nowait)) is not None:
             report = Diagnostics()
             try:
-                entries, files = self._files.update(job.world, job.bodies.__getitem__, report)
+                named, files = self._files.update(job.world, job.bodies.__getitem__, report)
             except Exception as error:  # raised again by `poll`, on the owner's thread
                 self._built.put(error)
                 return
-            self._built.put(BuiltWorld(manifest=job.manifest | entries, files=files, report=report))
+            manifest = replace(job.manifest, files=named.files, collisions=named.collisions, resources=named.resources)
+            self._built.put(BuiltWorld(manifest=manifest, files=files, report=report))
 
 
 def newest(first: Callable[[], _Job | None], more: Callable[[], _Job | None]) -> _Job | None:

@@ -11,6 +11,8 @@ from trundle.sim.gltf import Document, add_scene, content_name
 from trundle.sim.render import DEFAULT_LIGHTS, Scene, report_unreadable_textures, scene_from_world
 from trundle.spatial import Pose, rows_from_poses
 
+from ..world.draft_info import FileUrl
+
 _FOLDER = "world/"
 BodyOf = Callable[[str], int]
 """From `model::link` to the number of the body."""
@@ -33,6 +35,14 @@ class _Appearance(Struct, frozen=True, kw_only=True):
     shadows: bool
 
 
+class NamedFiles(Struct, frozen=True, kw_only=True):
+    """Entries of a manifest."""
+
+    files: tuple[FileUrl, ...]
+    collisions: str
+    resources: tuple[str, ...]
+
+
 class WorldFiles:
     """Files of the world of the last `update`."""
 
@@ -40,7 +50,7 @@ class WorldFiles:
         self._models: dict[str, tuple[_Appearance, _File]] = {}
         self._served: frozenset[str] = frozenset()
 
-    def update(self, world: World, body_of: BodyOf, report: Diagnostics) -> tuple[dict[str, object], dict[str, bytes]]:
+    def update(self, world: World, body_of: BodyOf, report: Diagnostics) -> tuple[NamedFiles, dict[str, bytes]]:
         """Make the files of a world.
 
         Args:
@@ -49,7 +59,7 @@ class WorldFiles:
             report: takes warnings of shapes that cannot be drawn.
 
         Returns:
-            The manifest's entries `files`, `collisions` and `resources`, and the content of the URLs that are new.
+            What the manifest names, and the content of the URLs that are new.
         """
         made: dict[str, bytes] = {}
         models: dict[str, tuple[_Appearance, _File]] = {}
@@ -65,13 +75,14 @@ class WorldFiles:
         self._models = models
         lights = self._write_lights(world, made)
         collisions = self._write(world, body_of, made, report, collisions=True)
-        files = [{"id": "", "url": lights.url}, *({"id": name, "url": file.url} for name, (_, file) in models.items())]
+        of_models = (FileUrl(id=name, url=file.url) for name, (_, file) in models.items())
+        files = (FileUrl(id="", url=lights.url), *of_models)
         written = [lights, collisions, *(file for _, file in models.values())]
         resources = frozenset().union(*(file.resources for file in written))
         named = resources | {file.url for file in written}
         new = {url: content for url, content in made.items() if url not in self._served}
         self._served = named
-        return {"files": files, "collisions": collisions.url, "resources": sorted(resources)}, new
+        return NamedFiles(files=files, collisions=collisions.url, resources=tuple(sorted(resources))), new
 
     def _write_lights(self, world: World, made: dict[str, bytes]) -> _File:
         """Write the lights of the world itself; where no light is, those that cameras see by."""

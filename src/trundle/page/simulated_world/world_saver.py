@@ -13,6 +13,7 @@ from trundle.robots.description import save_world
 from trundle.robots.model import World
 from trundle.robots.packages import Packages
 
+from ..requests.answers import FilesExist, SavedWorld, WorldText
 from .controls import reason_of
 from .uploaded_files import copies, needed_uploads, with_uploads_named
 
@@ -22,7 +23,7 @@ _MAX_WAITING = 4
 
 
 class WorldSaver:
-    """Writes worlds on a thread of its own; `respond` is called there with the request's id, an error or fields."""
+    """Writes worlds on a thread of its own; `respond` is called there with the request's id, an error or answer."""
 
     def __init__(self, respond: Callable[..., None], packages: Packages, root: Path) -> None:
         """Prepare.
@@ -80,7 +81,7 @@ class WorldSaver:
 
     def _run(self, request_id: int, request: SaveWorld, world: World, seed: int) -> None:
         try:
-            self._respond(request_id, **self._saved(request, world, seed))
+            self._respond(request_id, answer=self._saved(request, world, seed))
         except TrundleError as error:
             self._respond(request_id, reason_of(error))
         except Exception as error:  # a world that the writer does not foresee; the simulation goes on
@@ -88,7 +89,7 @@ class WorldSaver:
         finally:
             self._waiting -= 1
 
-    def _saved(self, request: SaveWorld, world: World, seed: int) -> dict[str, object]:
+    def _saved(self, request: SaveWorld, world: World, seed: int) -> SavedWorld | WorldText | FilesExist:
         name = request.file
         file = self._root / "world.sdf" if name is None else find_world(self._root, name)
         saved = save_world(world, file=file, packages=self._packages, seed=seed)
@@ -96,12 +97,12 @@ class WorldSaver:
         uploads = needed_uploads(sdf, self._packages)
         if name is None:
             needed = (f"the uploaded model {each!r}: put its folder beside it" for each in uploads)
-            return {"sdf": sdf.decode(), "lost": (*needed, *saved.lost)[:_MAX_LOST]}
+            return WorldText(sdf=sdf.decode(), lost=(*needed, *saved.lost)[:_MAX_LOST])
         exists = save_files(self._root, {**copies(uploads, file.parent), file: sdf}, replace=request.replace)
         if exists is not None:
-            return {"exists": exists}
+            return FilesExist(exists=exists)
         self._newest = name
-        return {"file": name, "lost": saved.lost[:_MAX_LOST]}
+        return SavedWorld(file=name, lost=saved.lost[:_MAX_LOST])
 
     def close(self) -> None:
         """Stop after the world that is being saved."""

@@ -3,10 +3,10 @@
 import time
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 import numpy as np
 from msgspec import UNSET
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.page import CONTACTS, JOINTS, LINES, POSES, RANGES, ClockState, PageServer, Recording, TimelineSpan
@@ -18,10 +18,11 @@ from trundle.sim.simulation import Snapshot
 from ..actor_bones import ActorBones
 from ..ray_overlay import RayOverlay
 from ..shown_world import ShownWorld
+from ..world.manifest import Manifest
 from .body_numbers import BodyNumbers
 from .contact_rows import ContactRows
 from .controls import Recorder
-from .drafting import ShownDraft
+from .drafting import NO_DRAFT, ShownDraft
 from .lines import plugin_lines
 from .manifest import camera_topic, single_axes, world_manifest
 from .missing_meshes import missing_meshes
@@ -72,7 +73,7 @@ class WorldStreams:
         """Cameras whose pictures go to the page from here."""
         self._built: BuiltWorld | None = None
         """World that the page has."""
-        self._draft = ShownDraft(entry=None, resources=[], files={})
+        self._draft = NO_DRAFT
         self._frame_due_ns = self._slow_due_ns = 0
         self._state: ClockState | None = None
         self._missing: str | None = None
@@ -98,8 +99,11 @@ class WorldStreams:
         self._bodies.update(bodies)
         self._axes = single_axes(simulation)
         self._generation += 1
-        manifest = world_manifest(simulation, sensors, self._bodies)
-        manifest |= {"generation": self._generation, "file": self._offered_file(simulation.world)}
+        manifest = replace(
+            world_manifest(simulation, sensors, self._bodies),
+            generation=self._generation,
+            file=self._offered_file(simulation.world),
+        )
         self._builder.build(simulation.world, manifest, {name: self._bodies[name] for name in bodies})
         self._set_missing(missing_meshes(simulation.world))
         self._rays.set_sensors(sensors)
@@ -170,13 +174,14 @@ class WorldStreams:
     def show_offered_file(self) -> None:
         """Offer another file to save the world at."""
         if self._built is not None:
-            self._built.manifest["file"] = self._offered_file(self._simulation.world)
+            manifest = replace(self._built.manifest, file=self._offered_file(self._simulation.world))
+            self._built = replace(self._built, manifest=manifest)
             self._server.set_world(self._with_draft(self._built), {})
 
-    def _with_draft(self, built: BuiltWorld) -> dict[str, Any]:
+    def _with_draft(self, built: BuiltWorld) -> Manifest:
         """Return a manifest with the draft, whose files stay as long as it is there."""
-        resources = [*built.manifest["resources"], *self._draft.resources]
-        return built.manifest | {"draft": self._draft.entry, "resources": resources}
+        resources = (*built.manifest.resources, *self._draft.resources)
+        return replace(built.manifest, draft=self._draft.info, resources=resources)
 
     def _joint_rows(self, snapshot: Snapshot) -> NDArray[np.float64]:
         columns = (snapshot.joint_positions, snapshot.joint_velocities, snapshot.joint_efforts)

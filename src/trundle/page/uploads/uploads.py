@@ -7,6 +7,7 @@ import tempfile
 from collections.abc import Callable, Mapping
 from pathlib import Path, PurePosixPath
 
+import msgspec
 from aiohttp import BodyPartReader, MultipartReader
 
 from trundle.base.diagnostics import UsageError
@@ -21,6 +22,13 @@ _MAX_RUN_BYTES = 4 * MAX_BYTES
 _CHUNK_BYTES = 256 * 1024
 _PATIENCE_S = 600.0
 _ARCHIVE = ".zip"
+
+
+class UploadedModels(msgspec.Struct, frozen=True):
+    """Answer to an upload."""
+
+    models: tuple[str, ...]
+    """Names of what can be inserted now."""
 
 
 class Uploads:

@@ -1,6 +1,6 @@
 """Channels of what the owner puts here: the simulated world, its poses, joints, lines and clock."""
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 
 import msgspec
 import numpy as np
@@ -25,16 +25,18 @@ class WorldChannel(Channel):
         self.files: dict[str, bytes] = {}
         """URL → content."""
         self.generation = _NO_GENERATION
-        self.camera_topics: tuple[str, ...] = ()
         self._manifest: bytes | None = None
 
-    def set(self, manifest: bytes) -> None:
-        """Replace the manifest, and forget the files that it does not name."""
-        outline = msgspec.json.decode(manifest, type=_Outline)
-        named = {file.url for file in outline.files} | {outline.collisions, *outline.resources}
-        self.files = {url: content for url, content in self.files.items() if url in named}
-        self.generation = outline.generation
-        self.camera_topics = tuple(camera.topic for camera in outline.cameras)
+    def set(self, manifest: bytes, generation: int, urls: Set[str]) -> None:
+        """Replace the manifest, and forget the files that it does not name.
+
+        Args:
+            manifest: JSON.
+            generation: of the world.
+            urls: of the files that it names.
+        """
+        self.files = {url: content for url, content in self.files.items() if url in urls}
+        self.generation = generation
         self._manifest = manifest
         self.publish(0, (manifest,))
 
@@ -214,19 +216,3 @@ class _Clock(msgspec.Struct):
 
 
 _clock_decoder = msgspec.json.Decoder(_Clock)
-
-
-class _File(msgspec.Struct):
-    url: str
-
-
-class _Camera(msgspec.Struct):
-    topic: str
-
-
-class _Outline(msgspec.Struct):
-    generation: int
-    files: tuple[_File, ...] = ()
-    resources: tuple[str, ...] = ()
-    cameras: tuple[_Camera, ...] = ()
-    collisions: str | None = None

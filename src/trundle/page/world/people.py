@@ -5,7 +5,6 @@ import itertools
 import msgspec
 
 from ..clients.channel import Channel, Client
-from ..clients.outbox import Buffer
 from ..clients.protocol import SharedSelection
 from .streams import PEOPLE
 
@@ -19,6 +18,14 @@ class Person(msgspec.Struct):
     """From 1; that of a person who has left is given again."""
     view_only: bool
     selection: SharedSelection | None = None
+
+
+class People(msgspec.Struct):
+    """People at the page."""
+
+    you: int
+    """Number of the person that this is sent to."""
+    people: tuple[Person, ...]
 
 
 class PeopleChannel(Channel):
@@ -52,7 +59,7 @@ class PeopleChannel(Channel):
         """Send the list if it has changed and is due; nothing new comes from the owner here."""
         if self._has_changed and now_s >= self._due_s:
             self._has_changed, self._due_s = False, now_s + _PERIOD_S
-            people: Buffer = msgspec.json.encode(sorted(self._people.values(), key=lambda person: person.number))
+            people = tuple(sorted(self._people.values(), key=lambda person: person.number))
             for client, person in self._people.items():
-                client.send_message(self, time_ns, (b'{"you":%d,"people":' % person.number, people, b"}"))
+                client.send_message(self, time_ns, (msgspec.json.encode(People(person.number, people)),))
         return False

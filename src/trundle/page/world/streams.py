@@ -1,6 +1,7 @@
 """Contents of the mailboxes between a simulation and the page's server: raw arrays behind a small header."""
 
 import struct
+from collections.abc import Mapping
 from typing import Literal, TypeAlias
 
 import msgspec
@@ -64,6 +65,15 @@ class ClockState(msgspec.Struct, frozen=True, kw_only=True):
     """Given for a recorded run."""
     recording: Recording | msgspec.UnsetType | None = msgspec.UNSET
     """Given where the run can be recorded; None: it is not."""
+
+
+class SeriesHead(msgspec.Struct, frozen=True, kw_only=True):
+    """Columns of plotted values behind their time."""
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    faults: Mapping[str, str]
+    """Name → sentence that says why it has no values."""
 
 
 LineKind: TypeAlias = Literal["strip", "pairs", "points"]

@@ -1,0 +1,153 @@
+"""Messages of the Foxglove WebSocket protocol and of `trundle.v1` that the server sends as text."""
+
+import msgspec
+from msgspec import UNSET, UnsetType
+
+from .protocol import ENCODING, SCHEMA_ENCODING, Parameter
+
+
+class ServerMessage(msgspec.Struct, frozen=True, tag_field="op", rename="camel"):
+    """Base of what the server sends as text."""
+
+
+class ServerInfo(ServerMessage, frozen=True, kw_only=True, tag="serverInfo"):
+    """Greeting of a client."""
+
+    name: str = "trundle"
+    capabilities: tuple[str, ...]
+    """Operations that the client may use, in the protocol's words."""
+    supported_encodings: tuple[str, ...] = (ENCODING,)
+    metadata: dict[str, str] = {}
+    session_id: str
+    """Distinguishes this server from one before it at the same address."""
+
+
+class Status(ServerMessage, frozen=True, tag="status"):
+    """Sentence about the server; replaces the last one with its id."""
+
+    level: int
+    """`INFO`, `WARNING` or `ERROR`."""
+    message: str
+    id: str | UnsetType = UNSET
+
+
+class RemoveStatus(ServerMessage, frozen=True, tag="removeStatus"):
+    """End of status messages, by id."""
+
+    status_ids: tuple[str, ...]
+
+
+class ChannelOffer(msgspec.Struct, frozen=True, kw_only=True, rename="camel"):
+    """Channel that a client may subscribe to."""
+
+    id: int
+    topic: str
+    encoding: str
+    schema_name: str
+    """Type of its messages: `sensor_msgs/LaserScan`."""
+    schema: str
+    """Full definition of the type."""
+    schema_encoding: str | UnsetType = UNSET
+
+
+class AdvertiseChannels(ServerMessage, frozen=True, tag="advertise"):
+    """New channels."""
+
+    channels: tuple[ChannelOffer, ...]
+
+
+class UnadvertiseChannels(ServerMessage, frozen=True, tag="unadvertise"):
+    """End of channels and of their subscriptions."""
+
+    channel_ids: tuple[int, ...]
+
+
+class ServiceSchema(msgspec.Struct, frozen=True, kw_only=True, rename="camel"):
+    """Type of a service's requests or responses."""
+
+    encoding: str = ENCODING
+    schema_encoding: str = SCHEMA_ENCODING
+    schema_name: str
+    schema: str
+
+
+class ServiceOffer(msgspec.Struct, frozen=True, kw_only=True, rename="camel"):
+    """Service that a client may call, with its types in the protocol's newer and older form."""
+
+    id: int
+    name: str
+    type: str
+    request: ServiceSchema
+    response: ServiceSchema
+    request_schema: str
+    response_schema: str
+
+
+class AdvertiseServices(ServerMessage, frozen=True, tag="advertiseServices"):
+    """New services."""
+
+    services: tuple[ServiceOffer, ...]
+
+
+class UnadvertiseServices(ServerMessage, frozen=True, tag="unadvertiseServices"):
+    """End of services."""
+
+    service_ids: tuple[int, ...]
+
+
+class ServiceCallFailure(ServerMessage, frozen=True, kw_only=True, tag="serviceCallFailure"):
+    """A call that has no response."""
+
+    service_id: int
+    call_id: int
+    message: str
+
+
+class ParameterValues(ServerMessage, frozen=True, tag="parameterValues"):
+    """Parameters that were asked for, or that have changed."""
+
+    parameters: tuple[Parameter, ...]
+    id: str | UnsetType = UNSET
+    """Id of the request that it answers."""
+
+
+class PublishedTopic(msgspec.Struct, frozen=True, rename="camel"):
+    """Nodes that publish a topic now."""
+
+    name: str
+    publisher_ids: tuple[str, ...]
+
+
+class SubscribedTopic(msgspec.Struct, frozen=True, rename="camel"):
+    """Nodes that subscribe to a topic now."""
+
+    name: str
+    subscriber_ids: tuple[str, ...]
+    type: str
+    """Datatype, `*` where it is not known; an addition to the protocol: without a publisher there is no channel."""
+
+
+class ProvidedService(msgspec.Struct, frozen=True, rename="camel"):
+    """Nodes that provide a service now."""
+
+    name: str
+    provider_ids: tuple[str, ...]
+
+
+class ConnectionGraphUpdate(ServerMessage, frozen=True, kw_only=True, tag="connectionGraphUpdate"):
+    """Topics and services whose nodes have changed."""
+
+    published_topics: tuple[PublishedTopic, ...]
+    subscribed_topics: tuple[SubscribedTopic, ...]
+    advertised_services: tuple[ProvidedService, ...]
+    removed_topics: tuple[str, ...]
+    removed_services: tuple[str, ...]
+
+
+class Response(ServerMessage, frozen=True, tag="trundle/response"):
+    """Answer to a request of `trundle.v1`; where it is `ok`, the fields of its `Answer` come along."""
+
+    id: int | str
+    ok: bool
+    error: str | UnsetType = UNSET
+    """Sentence that says why it was not done."""
