@@ -73,6 +73,20 @@ def test_a_missing_module_is_told_where_it_comes_from(module: str, advice: str) 
     assert done.stderr.splitlines()[-1].endswith(advice)
 
 
+def test_a_compiled_module_of_a_package_that_is_here_is_told_as_such(tmp_path: Path) -> None:
+    """trac_ik_python wraps C++; fetching it a second time brings nothing."""
+    (tmp_path / "trac_ik_python").mkdir()
+    (tmp_path / "trac_ik_python/__init__.py").write_text("")
+    program = tmp_path / "solve.py"
+    program.write_text("from trac_ik_python.trac_ik_wrap import TRAC_IK\n")
+
+    words = [sys.executable, program]
+    done = subprocess.run(words, env=with_finder(os.environ), capture_output=True, text=True, check=False)
+
+    what = "trundle: the ROS package 'trac_ik_python' is here without 'trac_ik_python.trac_ik_wrap'; is that C++"
+    assert done.stderr.splitlines()[-1] == f"{what}, which is not built?"
+
+
 def test_a_module_of_messages_that_nobody_publishes_is_a_ros_package(tmp_path: Path) -> None:
     program = tmp_path / "sensor.py"
     program.write_text("from no_such_mouse.msg import Light\n")

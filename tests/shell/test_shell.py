@@ -16,7 +16,7 @@ COMMANDS = """
     gazebo gzserver gzclient gz roscore roslaunch rosrun rostopic rosnode rosparam rosservice rosmsg rossrv rosbag
     rospack roscd rosls rosversion rosclean roswtf rostest rviz rqt rqt_graph rqt_plot rqt_image_view rqt_console xacro
     check_urdf urdf_to_graphiz tf_echo view_frames tf_monitor catkin_create_pkg catkin_init_workspace catkin_make
-    rosdep rosinstall wstool vcs apt apt-get sudo xterm
+    rosdep rosinstall wstool vcs apt apt-get sudo xterm x-terminal-emulator
 """.split()  # noqa: SIM905 - as the list is read
 
 
@@ -126,7 +126,7 @@ def test_scripts_that_open_windows_run_where_there_is_no_display(shell, tmp_path
     """As `home_service.sh` of courses does, for every program of its own."""
     (tmp_path / "home_service.sh").write_text(
         "#!/bin/sh\nxterm -hold -e \"export POSE='-x 1' && env | grep ^POSE\" &\nwait\n"
-        "xterm -T title -e echo 'two  words'\nxterm\necho $?\n"
+        "x-terminal-emulator -T title -e echo 'two  words'\nxterm\necho $?\n"
     )
 
     done = shell("sh home_service.sh", DISPLAY="", WAYLAND_DISPLAY="")

@@ -63,6 +63,8 @@ def missing_module_advice(module: str, *, has_messages: bool = False) -> str:
     from trundle.robots.repositories import shipped_index
 
     if name not in _PYPI and shipped_index().find(name, "noetic") is not None:
+        if sys.modules.get(name) is not None:
+            return f"trundle: the ROS package {name!r} is here without {module!r}; is that C++, which is not built?"
         return f"trundle: {name!r} is a ROS package: trundle pack get {name}"
     if has_messages:
         what = f"trundle: {name!r} is a ROS package that is not here"

@@ -43,6 +43,7 @@ ORIGINALS: dict[str, tuple[str, ...]] = {
     "vcs": ("originals.vcs",),
     "view_frames": ("tf", "tree", "-o", "frames.svg"),
     "wstool": ("originals.wstool",),
+    "x-terminal-emulator": ("originals.xterm", "x-terminal-emulator"),
     "xacro": ("xacro",),
     "xterm": ("originals.xterm", "xterm"),
 }
