@@ -162,6 +162,16 @@ def test_an_unknown_material_name_is_grey(tmp_path: Path) -> None:
     assert any("no material 'Box/Lost'; grey is used" in warning for warning in report.warnings)
 
 
+def test_a_material_of_a_stand_in_is_missed_once(tmp_path: Path) -> None:
+    """Worlds that Gazebo saved name the scripts and textures of the public models."""
+    folders = "".join(f"<uri>model://cafe_table/materials/{name}/</uri>" for name in ("scripts", "textures"))
+    material, report = sdf(tmp_path, f"{folders}<name>CafeTable/Wood</name>")
+    assert material == GREY
+    assert [warning.partition("warning: ")[2] for warning in report.warnings] == [
+        "no material 'CafeTable/Wood'; grey is used"
+    ]
+
+
 def test_a_texture_that_is_not_there_is_named_at_the_scripts_line(tmp_path: Path) -> None:
     sdf(tmp_path, "<name>x</name>")
     (tmp_path / "materials/textures/wood.png").unlink()

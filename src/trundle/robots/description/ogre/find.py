@@ -5,11 +5,11 @@ from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
-from trundle.base.diagnostics import DescriptionError, Diagnostics, Source
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, UsageError
 from trundle.base.files import read_text
 from trundle.base.xmlnode import XmlNode
 from trundle.robots.model import Material
-from trundle.robots.packages import Packages
+from trundle.robots.packages import Packages, is_stand_in
 
 from .script import Block, parse_script
 from .surface import name_of, parent_of, read_surface
@@ -59,9 +59,18 @@ def _resolved(uri: XmlNode, beside: Path, packages: Packages, report: Diagnostic
     try:
         return packages.resolve(uri.text, beside=beside, at=uri.at)
     except DescriptionError as error:
-        if not uri.text.endswith(_DEFAULT):
+        if not uri.text.endswith(_DEFAULT) and not _is_of_a_stand_in(uri.text, packages):
             report.warn(error.at, f"{error.what}; it is left out")
         return None
+
+
+def _is_of_a_stand_in(uri: str, packages: Packages) -> bool:
+    """True if a model:// URI leads into a substitute, which has no scripts; the unknown material is warning enough."""
+    scheme, _, rest = uri.partition("://")
+    try:
+        return scheme == "model" and is_stand_in(packages.find_model(rest.partition("/")[0]))
+    except UsageError:
+        return False
 
 
 def _scripts(places: Iterable[Path]) -> list[Path]:
