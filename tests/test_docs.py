@@ -23,6 +23,7 @@ REASONS = Counter(
     }
 )
 """Reason → number of blocks that are not run."""
+_PARTS = ["## Context", "## Decision", "## Alternatives"]
 _FILE = re.compile(r"`((?:src|cpp|docs|tests|examples|bench|typings)/[\w./]+|[\w/]+\.(?:py|cc|h))(?::\w+)?`")
 
 
@@ -48,6 +49,15 @@ def test_the_readme_holds_for_the_tutorial_s_own_model(shared: Path, tmp_path: P
 def test_the_blocks_that_are_not_run_are_counted() -> None:
     marks = [block.mark for page in PAGES for block in read_blocks(page)]
     assert Counter(mark.partition("needs ")[2] for mark in marks if mark.startswith("not run:")) == REASONS
+
+
+@pytest.mark.parametrize("page", sorted((ROOT / "docs/decisions").glob("*.md")), ids=lambda page: page.stem[:4])
+def test_a_decision_has_its_status_context_and_alternatives(page: Path) -> None:
+    text = page.read_text()
+    headings = [line for line in text.splitlines() if line.startswith("## ")]
+
+    assert re.match(rf"# {page.name[:4]}: .+\n\nStatus: (accepted|replaced by \[)", text)
+    assert [line for line in headings if line in _PARTS] == _PARTS
 
 
 def _current(page: Path) -> bool:
