@@ -8,7 +8,7 @@ BUILT  := $(VENV)/.installed
 NODE   := $(VENV)/.node
 NPM    := $(BIN)/python web/npm.py
 CLIENT := src/trundle/page/client/index.html
-WEB    := $(shell find web -path web/node_modules -prune -o -path web/test -prune -o -type f -print)
+WEB    := $(shell find web -path web/node_modules -prune -o -path web/schema -prune -o -path web/test -prune -o -type f -print)
 
 .PHONY: demo test test-all check lint types tidy format docs film bench load fuzz dist system clean help
 
@@ -71,6 +71,7 @@ lint: $(READY)
 	$(BIN)/ruff check src tests bench fuzz examples docs cpp web
 	$(BIN)/ruff format --check src tests bench fuzz examples docs cpp web
 	$(BIN)/lint-imports
+	$(BIN)/python web/schema --check
 	$(NPM) run --silent check
 
 types: $(READY)
@@ -85,6 +86,7 @@ format: $(READY)  ## rewrite the code in house style
 	$(BIN)/ruff check --fix src tests bench fuzz examples docs cpp web
 	$(BIN)/ruff format src tests bench fuzz examples docs cpp web
 	$(NPM) run --silent format
+	$(BIN)/python web/schema
 	$(BIN)/python typings/message_types.py
 	$(BIN)/python docs/generate/sensor_topics.py
 

@@ -12,5 +12,17 @@ export default tseslint.config(
       "@typescript-eslint/no-confusing-void-expression": ["error", { ignoreArrowShorthand: true }],
     },
   },
+  { files: ["src/protocol/generated/*.ts"], rules: { "max-lines": "off" } },
+  {
+    files: ["src/**/*.ts", "src/**/*.tsx"],
+    ignores: ["src/protocol/json.ts"],
+    rules: {
+      "no-restricted-properties": ["error", { object: "JSON", property: "parse", message: "Use protocol/check.ts." }],
+      "no-restricted-syntax": [
+        "error",
+        { selector: "CallExpression[callee.property.name='json']", message: "Use text() and protocol/check.ts." },
+      ],
+    },
+  },
   { files: ["*.js"], ...tseslint.configs.disableTypeChecked },
 );

@@ -3,16 +3,14 @@
 import "./theme/tokens.css";
 import "./theme/base.css";
 
-import { cleanAddress, fetchSession } from "./app/fetch_session";
 import { beginDrawing } from "./scene/drawing_canvas";
 
 async function start(root: HTMLElement): Promise<void> {
   try {
-    const coming = Promise.all([fetchSession(location.href), import("./app/boot")]);
+    const coming = Promise.all([fetchSession(), import("./app/boot")]);
     beginDrawing();
     const [session, { boot }] = await coming;
-    history.replaceState(history.state, "", cleanAddress(location.href, session.view_only));
-    boot(root, session, location.href);
+    boot(root, session);
   } catch (error) {
     const text = error instanceof Error ? error.message : String(error);
     const alert = document.createElement("p");
@@ -20,6 +18,15 @@ async function start(root: HTMLElement): Promise<void> {
     alert.textContent = `The page cannot be shown: ${text} Load it again when its server runs.`;
     root.replaceChildren(alert);
   }
+}
+
+/** Fetch what the page is for, as JSON; throws a sentence. */
+async function fetchSession(): Promise<string> {
+  const url = new URL("session.json", location.href);
+  url.search = location.search; // which may say that the page only looks
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`The page's server refuses: ${response.status} ${await response.text()}`);
+  return response.text();
 }
 
 const root = document.getElementById("app");

@@ -2,19 +2,23 @@
 
 import { signal } from "@preact/signals";
 
+import { readPayload } from "../src/protocol/check";
 import type {
+  Answer,
   Connection,
   ConnectionState,
+  Fields,
   GraphInfo,
   ParameterValue,
   Received,
+  RequestName,
   ServiceInfo,
   Subscription,
   TopicInfo,
   TopicStatistics,
-  RequestAnswer,
-  SharedSelection,
 } from "../src/protocol/connection";
+import { channels } from "../src/protocol/generated/page_checks";
+import type { Channels, SharedSelection } from "../src/protocol/generated/page_messages";
 import type { RosMessage } from "../src/protocol/ros_types";
 
 interface Subscriber {
@@ -41,7 +45,7 @@ export class FakeConnection implements Connection {
   /** ROS time [ns]; a test sets it. */
   time = 0n;
   readonly published: { readonly topic: string; readonly type: string; readonly message: RosMessage }[] = [];
-  readonly requests: { readonly name: string; readonly fields: Readonly<Record<string, ParameterValue>> }[] = [];
+  readonly requests: { readonly name: RequestName; readonly fields: Readonly<Record<string, unknown>> }[] = [];
   readonly calls: { readonly name: string; readonly request: RosMessage }[] = [];
   readonly driven: { readonly topic: string; readonly linear: number; readonly angular: number }[] = [];
   readonly released: string[] = [];
@@ -116,6 +120,10 @@ export class FakeConnection implements Connection {
     return enter(this.#raw, topic, onPayload);
   }
 
+  subscribeJson<T extends keyof Channels>(topic: T, onMessage: (message: Channels[T]) => void): Subscription {
+    return this.subscribeRaw(topic, (payload) => onMessage(readPayload(payload, topic, channels[topic])));
+  }
+
   statistics(topic: string): TopicStatistics {
     return { rate: null, bandwidth: 0, lastAt: null, count: this.#counts.get(topic) ?? 0, dropped: 0 };
   }
@@ -148,9 +156,9 @@ export class FakeConnection implements Connection {
     return bytes === undefined ? Promise.reject(new Error(`there is no ${uri}`)) : Promise.resolve(bytes);
   }
 
-  request(name: string, fields: Readonly<Record<string, ParameterValue>> = {}): Promise<RequestAnswer> {
-    this.requests.push({ name, fields });
-    return Promise.resolve({});
+  request<N extends RequestName>(name: N, fields: Fields<N>): Promise<Answer<N>> {
+    this.requests.push({ name, fields: { ...fields } });
+    return Promise.resolve({} as Answer<N>); // as of what is only done; tests of others answer themselves
   }
 
   drive(topic: string, linear: number, angular: number): void {

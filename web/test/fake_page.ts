@@ -3,16 +3,17 @@
 import { signal } from "@preact/signals";
 import { Box3, Group, Object3D, PerspectiveCamera, Quaternion, Ray, Vector3 } from "three";
 
+import type { ClockState, Manifest, PageSession } from "../src/protocol/generated/page_messages";
 import { CommandList } from "../src/app/commands";
 import { Drive } from "../src/page/drive";
 import { ShownParts } from "../src/scene/overlays/shown_parts";
 import type { Page } from "../src/page/page";
-import { liveSession, type Session } from "../src/page/session";
+import { liveSession } from "../src/page/session";
 import { UndoHistory } from "../src/app/undo";
 import type { FrameTree } from "../src/frames/frame_tree";
 import { NoTransform } from "../src/frames/transform";
 import type { SceneView } from "../src/scene/scene_view";
-import type { JointStates, Manifest, SimulatedWorld, WorldState } from "../src/scene/simulated_world";
+import type { JointStates, SimulatedWorld } from "../src/scene/simulated_world";
 import type { PaneLayout } from "../src/scene/panes/pane_layout";
 import type { ViewController, ViewPane, Views } from "../src/scene/view_controller";
 import type { Tool, ToolBox } from "../src/page/tool";
@@ -20,7 +21,7 @@ import { GraphNames } from "../src/protocol/graph_names";
 import { FakeConnection } from "./fake_connection";
 import { FakeDisplayList } from "./fake_displays";
 
-export const SESSION: Session = {
+export const SESSION: PageSession = {
   title: "rp2w_at_home",
   kind: "simulation",
   version: "0",
@@ -45,7 +46,7 @@ export const SESSION: Session = {
 
 export class FakeWorld implements SimulatedWorld {
   readonly manifest = signal<Manifest | null>(null);
-  readonly state = signal<WorldState | null>({
+  readonly state = signal<ClockState | null>({
     time_ns: 12.48e9,
     paused: false,
     real_time_factor: 1,
@@ -250,12 +251,12 @@ export interface FakePage extends Page {
 }
 
 /** The server says that the session has changed. */
-export function changeSession({ connection, session }: FakePage, change: Partial<Session>): void {
+export function changeSession({ connection, session }: FakePage, change: Partial<PageSession>): void {
   const payload = new TextEncoder().encode(JSON.stringify({ ...session, ...change }));
   connection.receiveRaw("trundle/session", new DataView(payload.buffer));
 }
 
-export function fakePage(session: Partial<Session> = {}): FakePage {
+export function fakePage(session: Partial<PageSession> = {}): FakePage {
   const connection = new FakeConnection();
   const frames = new FakeFrames();
   const scene = new FakeScene();

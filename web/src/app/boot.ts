@@ -4,10 +4,13 @@ import "../displays/all";
 
 import { effect, signal } from "@preact/signals";
 
+import type { Manifest } from "../protocol/generated/page_messages";
 import { DisplayStore } from "../displays/display_store";
 import { feedTransforms } from "../frames/tf_topics";
 import { TransformTree } from "../frames/transform_tree";
+import { read } from "../protocol/check";
 import { connect } from "../protocol/foxglove_connection";
+import { pageSession } from "../protocol/generated/page_checks";
 import { GraphNames } from "../protocol/graph_names";
 import { SceneInput } from "../scene/pointer_input";
 import { ThreeScene } from "../scene/three_scene";
@@ -15,7 +18,6 @@ import { ViewList } from "../scene/views/view_list";
 import { BodyOverlays } from "../scene/overlays/body_overlays";
 import { ContactMarks } from "../scene/overlays/contact_marks";
 import { RangeLines } from "../scene/overlays/range_lines";
-import type { Manifest } from "../scene/simulated_world";
 import { SelectionOutline } from "../scene/world/selection_outline";
 import { WorldFeed } from "../scene/world/world_feed";
 import { ToolList } from "../tools/tool_list";
@@ -29,7 +31,7 @@ import { openSceneMenu, openSelectedMenu } from "./object_menu/object_menu";
 import type { Page } from "../page/page";
 import { followPeople } from "../page/people";
 import { labelOthers, othersOutlines } from "./people_marks";
-import { liveSession, type Session } from "../page/session";
+import { liveSession } from "../page/session";
 import { startDisplays, startView } from "./start";
 import { makeTheme } from "./theme";
 import { UndoHistory } from "./undo";
@@ -37,8 +39,11 @@ import type { Shell } from "./shell";
 import { makeEditor } from "./world/edits";
 import { allModels, type ScopedModel } from "../page/world_nodes";
 
-/** Make the page's parts for a session and draw them into an element. */
-export function boot(root: HTMLElement, first: Session, address: string): void {
+/** Make the page's parts for a session, which comes as JSON, and draw them into an element. Throws a `MessageFault`. */
+export function boot(root: HTMLElement, json: string): void {
+  const first = read(json, "the session", pageSession);
+  const address = cleanAddress(location.href, first.view_only);
+  history.replaceState(history.state, "", address);
   const frozen = signal(false);
   const connection = connect(address);
   const session = liveSession(first, connection, () => location.reload());
@@ -125,4 +130,12 @@ export function boot(root: HTMLElement, first: Session, address: string): void {
   });
   startDisplays(shell);
   startView(shell);
+}
+
+/** The page's address without its token, which a cookie holds from now on; a page that only looks goes on to say so. */
+function cleanAddress(address: string, viewOnly: boolean): string {
+  const url = new URL(address);
+  url.searchParams.delete("token");
+  if (viewOnly) url.searchParams.set("view_only", "");
+  return url.href.replace("view_only=", "view_only");
 }

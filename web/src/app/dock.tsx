@@ -10,20 +10,21 @@ import {
   type SerializedDockview,
 } from "dockview-core";
 
+import type { PageSession } from "../protocol/generated/page_messages";
 import type { Panel } from "../panels/panel";
 import { Button } from "../theme/button";
 import { Icon } from "../theme/icons";
 import { MenuButton } from "../theme/menu";
 import type { Layout } from "./layout";
 import type { Page } from "../page/page";
-import { forEachNew, type Session } from "../page/session";
+import { forEachNew } from "../page/session";
 import { recall, remember } from "../page/storage";
 
 /** Panels that are open at first, in this order. */
 const FIRST = ["plots", "topics", "log", "graph", "timeline"] as const;
 
 /** Panel in front at first. */
-const FRONT: Readonly<Record<Session["kind"], string>> = {
+const FRONT: Readonly<Record<PageSession["kind"], string>> = {
   simulation: "plots",
   graph: "topics",
   log: "timeline",

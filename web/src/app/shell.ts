@@ -3,6 +3,7 @@
 import { computed, effect, signal, type Signal } from "@preact/signals";
 
 import type { Display } from "../displays/display";
+import type { Fields, RequestName } from "../protocol/connection";
 import { ModelEditor } from "./editor/model_editor";
 import type { PaneLayout } from "../scene/panes/pane_layout";
 import { cameraTopics } from "./cameras/topics";
@@ -101,7 +102,7 @@ export class Shell {
   }
 
   /** Ask what started the page to do something; a refusal becomes a notice. */
-  request(title: string, name: string, fields: Parameters<Page["connection"]["request"]>[1] = {}): void {
+  request<N extends RequestName>(title: string, name: N, fields: Fields<N>): void {
     this.page.connection.request(name, fields).catch((error: unknown) => {
       this.notices.report(title, error instanceof Error ? error.message : String(error));
     });

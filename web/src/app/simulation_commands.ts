@@ -38,11 +38,11 @@ export function simulationCommands(shell: Shell): readonly Command[] {
     command("reset.time", "Reset time only", () => shell.request("Reset", "reset", { what: "time" })),
     command("replay", "Save a replay of the last minutes", () => void saveReplay(shell, "html")),
     command("replay.glb", "Save the last minutes as glTF", () => void saveReplay(shell, "glb")),
-    command("reload", "Load the world again", () => shell.request("Load the world again", "reload")),
+    command("reload", "Load the world again", () => shell.request("Load the world again", "reload", {})),
   ];
 }
 
 function toggle(shell: Shell): void {
   const paused = shell.page.world.state.peek()?.paused ?? true;
-  shell.request(paused ? "Play" : "Pause", paused ? "play" : "pause");
+  shell.request(paused ? "Play" : "Pause", paused ? "play" : "pause", {});
 }

@@ -1,6 +1,6 @@
 /** rviz/AccelStamped. */
 
-import type { AccelStamped } from "../protocol/messages";
+import type { AccelStamped } from "../protocol/generated/ros_messages";
 import { register } from "./registry";
 import { ScrewDisplay, type Screw } from "./screw_display";
 

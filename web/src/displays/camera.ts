@@ -5,7 +5,7 @@ import type { WebGLRenderer } from "three";
 
 import { NoTransform, type Transform } from "../frames/transform";
 import type { Received, Subscription } from "../protocol/connection";
-import type { CameraInfo } from "../protocol/messages";
+import type { CameraInfo } from "../protocol/generated/ros_messages";
 import { nanoseconds } from "../protocol/ros_types";
 import { calibratedSize, cameraPose, pictureRectangle, projection } from "./cameras/camera_projection";
 import { cameraInfoTopic } from "./cameras/depth_points";

@@ -3,7 +3,7 @@
 import { computed, effect, untracked } from "@preact/signals";
 
 import type { NoTransform, Transform } from "../frames/transform";
-import type { CameraInfo, Image } from "../protocol/messages";
+import type { CameraInfo, Image } from "../protocol/generated/ros_messages";
 import type { Received } from "../protocol/connection";
 import { nanoseconds } from "../protocol/ros_types";
 import { autoSize, cameraInfoTopic, depthPoints } from "./cameras/depth_points";

@@ -4,7 +4,7 @@ import { untracked } from "@preact/signals";
 import { Group, Quaternion, Vector3 } from "three";
 
 import { NoTransform, type Transform } from "../frames/transform";
-import type { JointState } from "../protocol/messages";
+import type { JointState } from "../protocol/generated/ros_messages";
 import { RAINBOW } from "./clouds/cloud_colors";
 import type { DisplayContext } from "./display";
 import { KeyedProperty } from "./keyed_property";

@@ -1,6 +1,6 @@
 /** rviz/FluidPressure: a point at the sensor whose colour is the pressure [Pa]. */
 
-import type { FluidPressure } from "../protocol/messages";
+import type { FluidPressure } from "../protocol/generated/ros_messages";
 import { cloudOf, type Cloud } from "./clouds/cloud";
 import { CloudDisplay } from "./clouds/cloud_display";
 import { register } from "./registry";

@@ -2,7 +2,7 @@
 
 import { Group, type Object3D } from "three";
 
-import type { GridCells } from "../protocol/messages";
+import type { GridCells } from "../protocol/generated/ros_messages";
 import { cloudOf } from "./clouds/cloud";
 import { cloudObject } from "./clouds/point_cloud_object";
 import type { DisplayContext } from "./display";

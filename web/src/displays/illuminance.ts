@@ -1,6 +1,6 @@
 /** rviz/Illuminance: a point at the sensor whose colour is the illuminance [lux]. */
 
-import type { Illuminance } from "../protocol/messages";
+import type { Illuminance } from "../protocol/generated/ros_messages";
 import { cloudOf, type Cloud } from "./clouds/cloud";
 import { CloudDisplay } from "./clouds/cloud_display";
 import { register } from "./registry";

@@ -3,7 +3,7 @@
 import { Group, Quaternion, Vector3, type Object3D } from "three";
 
 import type { Transform } from "../frames/transform";
-import type { Imu } from "../protocol/messages";
+import type { Imu } from "../protocol/generated/ros_messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
 import { BoolProperty, ColorProperty, GroupProperty, NumberProperty } from "../rviz/properties";

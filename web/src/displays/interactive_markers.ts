@@ -3,7 +3,7 @@
 import { effect, untracked } from "@preact/signals";
 
 import { NoTransform } from "../frames/transform";
-import type { InteractiveMarker } from "../protocol/messages";
+import type { InteractiveMarker } from "../protocol/generated/ros_messages";
 import { Display } from "./display";
 import { withHandles } from "./interactive/default_handles";
 import { withLocalShapes } from "./interactive/local_shapes";

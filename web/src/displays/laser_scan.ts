@@ -3,7 +3,7 @@
 import { Quaternion, Vector3 } from "three";
 
 import type { Transform } from "../frames/transform";
-import type { LaserScan } from "../protocol/messages";
+import type { LaserScan } from "../protocol/generated/ros_messages";
 import { nanoseconds } from "../protocol/ros_types";
 import { cloudOf, type Cloud } from "./clouds/cloud";
 import { CloudDisplay } from "./clouds/cloud_display";

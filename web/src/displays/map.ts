@@ -3,7 +3,7 @@
 import { effect, untracked } from "@preact/signals";
 
 import type { Received, Subscription } from "../protocol/connection";
-import type { OccupancyGrid, OccupancyGridUpdate } from "../protocol/messages";
+import type { OccupancyGrid, OccupancyGridUpdate } from "../protocol/generated/ros_messages";
 import { nanoseconds } from "../protocol/ros_types";
 import { NoTransform } from "../frames/transform";
 import { Display } from "./display";

@@ -4,7 +4,7 @@ import { effect, untracked } from "@preact/signals";
 
 import { NoTransform, type Transform } from "../frames/transform";
 import type { Received, Subscription } from "../protocol/connection";
-import type { Marker, MarkerArray } from "../protocol/messages";
+import type { Marker, MarkerArray } from "../protocol/generated/ros_messages";
 import { nanoseconds } from "../protocol/ros_types";
 import { Display, type DisplayContext } from "./display";
 import { KeyedProperty } from "./keyed_property";

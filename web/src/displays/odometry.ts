@@ -3,7 +3,7 @@
 import { Group, type Object3D } from "three";
 
 import type { Transform } from "../frames/transform";
-import type { Odometry, Pose } from "../protocol/messages";
+import type { Odometry, Pose } from "../protocol/generated/ros_messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
 import { PoseShape } from "./pose_shape";

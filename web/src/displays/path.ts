@@ -3,7 +3,7 @@
 import { computed } from "@preact/signals";
 import { Group, type Object3D } from "three";
 
-import type { Path, Pose } from "../protocol/messages";
+import type { Path, Pose } from "../protocol/generated/ros_messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
 import { ColorProperty, EnumProperty, IntProperty, NumberProperty, VectorProperty } from "../rviz/properties";

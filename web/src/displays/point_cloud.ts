@@ -1,6 +1,6 @@
 /** rviz/PointCloud: the older message, points with channels beside them. */
 
-import type { PointCloud } from "../protocol/messages";
+import type { PointCloud } from "../protocol/generated/ros_messages";
 import { cloudOf, type Cloud } from "./clouds/cloud";
 import { CloudDisplay } from "./clouds/cloud_display";
 import { register } from "./registry";

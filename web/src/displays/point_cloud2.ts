@@ -1,6 +1,6 @@
 /** rviz/PointCloud2. */
 
-import type { PointCloud2 } from "../protocol/messages";
+import type { PointCloud2 } from "../protocol/generated/ros_messages";
 import { readCloud, type Cloud } from "./clouds/cloud";
 import { CloudDisplay } from "./clouds/cloud_display";
 import { register } from "./registry";

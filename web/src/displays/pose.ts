@@ -2,7 +2,7 @@
 
 import { Group, type Object3D } from "three";
 
-import type { PoseStamped } from "../protocol/messages";
+import type { PoseStamped } from "../protocol/generated/ros_messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
 import { PoseShape } from "./pose_shape";

@@ -3,7 +3,7 @@
 import { computed } from "@preact/signals";
 import { Group, Vector3, type Object3D } from "three";
 
-import type { Pose, PoseArray } from "../protocol/messages";
+import type { Pose, PoseArray } from "../protocol/generated/ros_messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
 import { ColorProperty, EnumProperty, NumberProperty } from "../rviz/properties";

@@ -2,7 +2,7 @@
 
 import { Group, type Object3D } from "three";
 
-import type { Range } from "../protocol/messages";
+import type { Range } from "../protocol/generated/ros_messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
 import { ColorProperty, IntProperty, NumberProperty } from "../rviz/properties";

@@ -1,6 +1,6 @@
 /** rviz/RelativeHumidity: a point at the sensor whose colour is the relative humidity, 0…1. */
 
-import type { RelativeHumidity } from "../protocol/messages";
+import type { RelativeHumidity } from "../protocol/generated/ros_messages";
 import { cloudOf, type Cloud } from "./clouds/cloud";
 import { CloudDisplay } from "./clouds/cloud_display";
 import { register } from "./registry";

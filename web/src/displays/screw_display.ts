@@ -2,7 +2,7 @@
 
 import { Group, Quaternion, Vector3, type Object3D } from "three";
 
-import type { Vector3 as Xyz } from "../protocol/messages";
+import type { Vector3 as Xyz } from "../protocol/generated/ros_messages";
 import type { DisplayContext } from "./display";
 import { HistoryDisplay } from "./history_display";
 import { BoolProperty, ColorProperty, IntProperty, NumberProperty, type Rgb } from "../rviz/properties";

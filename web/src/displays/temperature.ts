@@ -1,6 +1,6 @@
 /** rviz/Temperature: a point at the sensor whose colour is the temperature [°C]. */
 
-import type { Temperature } from "../protocol/messages";
+import type { Temperature } from "../protocol/generated/ros_messages";
 import { cloudOf, type Cloud } from "./clouds/cloud";
 import { CloudDisplay } from "./clouds/cloud_display";
 import { register } from "./registry";

@@ -4,7 +4,7 @@ import { effect, untracked, type ReadonlySignal } from "@preact/signals";
 
 import { NoTransform, type Transform } from "../frames/transform";
 import type { Received, Subscription } from "../protocol/connection";
-import type { Header } from "../protocol/messages";
+import type { Header } from "../protocol/generated/ros_messages";
 import { nanoseconds } from "../protocol/ros_types";
 import { Display, type DisplayContext } from "./display";
 import { MessageFilter } from "./message_filter";

@@ -1,6 +1,6 @@
 /** rviz/TwistStamped. */
 
-import type { TwistStamped } from "../protocol/messages";
+import type { TwistStamped } from "../protocol/generated/ros_messages";
 import { register } from "./registry";
 import { ScrewDisplay, type Screw } from "./screw_display";
 

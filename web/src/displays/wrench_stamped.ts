@@ -1,6 +1,6 @@
 /** rviz/WrenchStamped. */
 
-import type { WrenchStamped } from "../protocol/messages";
+import type { WrenchStamped } from "../protocol/generated/ros_messages";
 import { register } from "./registry";
 import { ScrewDisplay, type Screw } from "./screw_display";
 

@@ -2,7 +2,7 @@
 
 import type { Connection, Received, Subscription } from "../protocol/connection";
 import { GraphNames } from "../protocol/graph_names";
-import type { TFMessage } from "../protocol/messages";
+import type { TFMessage } from "../protocol/generated/ros_messages";
 import type { TransformTree } from "./transform_tree";
 
 /** Wall clocks are set back by less [ns]; simulations begin again at 0. */

@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import { Quaternion, Vector3 } from "three";
 
-import type { TransformStamped } from "../protocol/messages";
+import type { TransformStamped } from "../protocol/generated/ros_messages";
 import { nanoseconds } from "../protocol/ros_types";
 import type { FrameInfo, FrameTree } from "./frame_tree";
 import { NoTransform, type Transform } from "./transform";

@@ -2,7 +2,7 @@
 
 import { Quaternion, Vector3, type Object3D } from "three";
 
-import type { Pose, Point, Quaternion as Xyzw } from "../protocol/messages";
+import type { Pose, Point, Quaternion as Xyzw } from "../protocol/generated/ros_messages";
 
 export const INVALID_FLOATS = "Message contained invalid floating point values (nans or infs)";
 

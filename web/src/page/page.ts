@@ -2,6 +2,7 @@
 
 import type { ReadonlySignal, Signal } from "@preact/signals";
 
+import type { PageSession, People } from "../protocol/generated/page_messages";
 import type { DisplayList } from "../displays/display_list";
 import type { UndoStack } from "../displays/undo_stack";
 import type { PartPath } from "../scene/draft";
@@ -12,8 +13,6 @@ import type { SimulatedWorld } from "../scene/simulated_world";
 import type { Views } from "../scene/view_controller";
 import type { ToolBox } from "./tool";
 import type { Drive } from "./drive";
-import type { People } from "./people";
-import type { Session } from "./session";
 
 interface SelectedSensor {
   readonly kind: "sensor";
@@ -78,7 +77,7 @@ export interface DeferredUndo {
 
 export interface Page {
   /** As it is now: what reads it in an effect or a component follows its changes. */
-  readonly session: Session;
+  readonly session: PageSession;
   readonly connection: Connection;
   readonly frames: FrameTree;
   readonly scene: SceneView;

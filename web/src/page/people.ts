@@ -2,21 +2,10 @@
 
 import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
 
-import type { Connection, SharedSelection } from "../protocol/connection";
+import type { People, Person, SharedSelection } from "../protocol/generated/page_messages";
+import type { Connection } from "../protocol/connection";
 import type { Selection } from "./page";
 import { placed } from "./selection_lookup";
-
-export interface Person {
-  readonly number: number;
-  readonly view_only: boolean;
-  readonly selection: SharedSelection | null;
-}
-
-export interface People {
-  /** Number of the person at this page. */
-  readonly you: number;
-  readonly people: readonly Person[];
-}
 
 const NOBODY: People = { you: 0, people: [] };
 const COLOURS = 6;
@@ -28,8 +17,8 @@ export function followPeople(
 ): ReadonlySignal<People> {
   const people = signal(NOBODY);
   const isThere = computed(() => people.value !== NOBODY);
-  connection.subscribeRaw("trundle/people", (payload) => {
-    people.value = JSON.parse(new TextDecoder().decode(payload)) as People;
+  connection.subscribeJson("trundle/people", (next) => {
+    people.value = next;
   });
   effect(() => {
     if (connection.state.value.kind !== "connected") people.value = NOBODY;

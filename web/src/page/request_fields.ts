@@ -2,15 +2,10 @@
 
 import { Euler, Quaternion, type Vector3 } from "three";
 
-import type { Connection } from "../protocol/connection";
-
-export type Fields = Parameters<Connection["request"]>[1];
+import type { SetPose } from "../protocol/generated/page_messages";
 
 /** A pose as requests have it: position [m] and a quaternion wxyz. */
-export function poseFields(
-  position: Vector3,
-  { x, y, z, w }: Quaternion,
-): { position: number[]; orientation: number[] } {
+export function poseFields(position: Vector3, { x, y, z, w }: Quaternion): Pick<SetPose, "position" | "orientation"> {
   return { position: position.toArray(), orientation: [w, x, y, z] };
 }
 

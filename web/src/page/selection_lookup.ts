@@ -1,7 +1,7 @@
 /** Finding what a selection names in the world. */
 
+import type { JointInfo, LinkInfo, ModelInfo, PluginInfo, SensorInfo } from "../protocol/generated/page_messages";
 import { bodiesOfPart } from "../scene/draft";
-import type { JointInfo, LinkInfo, ModelInfo, PluginInfo, SensorInfo } from "../scene/simulated_world";
 import type { Page, PluginOwner, Selection } from "./page";
 import { allModels, bodiesOf } from "./world_nodes";
 

@@ -1,57 +1,27 @@
-/** What this page is for, as `GET /session.json` says, and `trundle/session` as it changes (docs/decisions/0020). */
+/** What this page is for, as it changes. */
 
 import { effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
 
+import { readPayload, struct, text } from "../protocol/check";
 import type { Connection } from "../protocol/connection";
+import { pageSession } from "../protocol/generated/page_checks";
+import type { PageSession } from "../protocol/generated/page_messages";
 
-export interface Session {
-  readonly title: string;
-  readonly kind: "simulation" | "graph" | "log" | "bag";
-  readonly version: string;
-  readonly robot: string | null;
-  /** `saved`: at the page, by `save_rviz_as`; else it was given at the start. */
-  readonly rviz: {
-    readonly name: string;
-    readonly text: string;
-    readonly writable: boolean;
-    readonly saved: boolean;
-  } | null;
-  readonly fixed_frame: string | null;
-  /** The namespace and remappings of the launch's rviz, in which the names of the file are. */
-  readonly namespace: string;
-  readonly remappings: Readonly<Record<string, string>>;
-  /** Names of rqt programs whose panels open. */
-  readonly panels: readonly string[];
-  readonly plots: readonly string[];
-  readonly images: readonly string[];
-  readonly drive_topic: string | null;
-  readonly sliders: readonly {
-    readonly name: string;
-    readonly lower: number;
-    readonly upper: number;
-    readonly position: number;
-  }[];
-  readonly joystick: boolean;
-  /** Terminals of nodes; `ended` is a sentence on the node's end. */
-  readonly terminals: readonly { readonly name: string; readonly ended: string | null }[];
-  readonly foxglove: string;
-  /** True: the server does nothing for this page that changes anything. */
-  readonly view_only: boolean;
-  /** Token of links that allow everything; null: this page only looks. */
-  readonly token: string | null;
-  /** Token of links that only allow looking. */
-  readonly view_token: string;
-  /** The page's node on the graph. */
-  readonly node: string | null;
-}
+const TOPIC = "trundle/session";
+/** What tells a page from another one, also where the page cannot read the rest. */
+const identity = struct<{ readonly kind: string; readonly version: string }>(() => ({ kind: text, version: text }));
 
 /** The session as it is now. A page of another kind is another page: `onOther` is called. */
-export function liveSession(first: Session, connection: Connection, onOther: () => void): ReadonlySignal<Session> {
+export function liveSession(
+  first: PageSession,
+  connection: Connection,
+  onOther: () => void,
+): ReadonlySignal<PageSession> {
   const session = signal(first);
-  connection.subscribeRaw("trundle/session", (payload) => {
-    const next = JSON.parse(new TextDecoder().decode(payload)) as Session;
-    if (next.kind !== first.kind || next.version !== first.version) onOther();
-    else session.value = next;
+  connection.subscribeRaw(TOPIC, (payload) => {
+    const { kind, version } = readPayload(payload, TOPIC, identity);
+    if (kind !== first.kind || version !== first.version) onOther();
+    else session.value = readPayload(payload, TOPIC, pageSession);
   });
   return session;
 }

@@ -1,5 +1,7 @@
 /** What this browser remembers of the page. Without storage (private windows, file pages) nothing is remembered. */
 
+import { parseJson } from "../protocol/json";
+
 const PREFIX = "trundle.";
 
 export function remember(key: string, value: unknown): void {
@@ -13,7 +15,7 @@ export function remember(key: string, value: unknown): void {
 /** What was remembered, or the fallback where there is nothing of its type. */
 export function recall<T>(key: string, fallback: T, is: (value: unknown) => value is T): T {
   try {
-    const value: unknown = JSON.parse(localStorage.getItem(PREFIX + key) ?? "null");
+    const value: unknown = parseJson(localStorage.getItem(PREFIX + key) ?? "null");
     return is(value) ? value : fallback;
   } catch {
     return fallback;

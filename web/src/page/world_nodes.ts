@@ -1,6 +1,6 @@
 /** The world's tree as its panel shows it: models with links, sensors, joints and plugins, and lights. */
 
-import type { JointInfo, LinkInfo, Manifest, ModelInfo, PluginInfo } from "../scene/simulated_world";
+import type { JointInfo, LinkInfo, Manifest, ModelInfo, PluginInfo } from "../protocol/generated/page_messages";
 import { count, fixed } from "../theme/format";
 import type { IconName } from "../theme/icons";
 import type { PluginOwner, Selection } from "./page";

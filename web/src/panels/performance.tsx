@@ -3,17 +3,10 @@
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
+import type { Profile } from "../protocol/generated/page_messages";
 import { count, fixed } from "../theme/format";
 import type { Panel, PanelProps } from "./panel";
-import {
-  barOf,
-  GROUP_NAMES,
-  performanceState,
-  rowsOf,
-  sparkline,
-  type Profile,
-  type Row,
-} from "./performance/performance_state";
+import { barOf, GROUP_NAMES, performanceState, rowsOf, sparkline, type Row } from "./performance/performance_state";
 import { useShown } from "./use";
 
 function Performance({ page }: PanelProps): JSX.Element {

@@ -213,7 +213,7 @@ function Actions({ page }: PanelProps): JSX.Element | null {
             small
             icon={isPaused ? "play" : "pause"}
             disabled={world === null}
-            onClick={() => state.do(isPaused ? "play" : "pause")}
+            onClick={() => state.do(isPaused ? "play" : "pause", {})}
           >
             {isPaused ? "Play" : "Pause"}
           </Button>

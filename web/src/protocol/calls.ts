@@ -2,11 +2,14 @@
 
 import { signal } from "@preact/signals";
 
-import type { ParameterValue, ServiceInfo } from "./connection";
+import { checked } from "./check";
+import type { Answer, Fields, RequestName, ServiceInfo } from "./connection";
+import { answers } from "./generated/page_checks";
+import type { Response, ServiceCallFailure, ServiceOffer } from "./generated/page_messages";
 import { readMessage } from "./reader";
 import type { RosMessage } from "./ros_types";
 import { parseSchema, type Schema } from "./schema";
-import { callFrame, type Send, type ServerBinary, type ServerText, type Service } from "./wire";
+import { callFrame, type Send, type ServerBinary } from "./wire";
 import { writeMessage } from "./writer";
 
 /** Answers that are awaited, by a number of their own. */
@@ -38,14 +41,12 @@ class Pending<T> {
   }
 }
 
-type Answer = Extract<ServerText, { op: "trundle/response"; ok: true }>;
-
 export class Calls {
   readonly services = signal<ReadonlyMap<string, ServiceInfo>>(new Map());
-  readonly #services = new Map<number, Service>();
+  readonly #services = new Map<number, ServiceOffer>();
   readonly #calls = new Pending<DataView>();
   readonly #assets = new Pending<ArrayBuffer>();
-  readonly #requests = new Pending<Answer>();
+  readonly #requests = new Pending<Response>();
 
   constructor(private readonly send: Send) {}
 
@@ -62,7 +63,7 @@ export class Calls {
     }
   }
 
-  advertise(services: readonly Service[]): void {
+  advertise(services: readonly ServiceOffer[]): void {
     for (const service of services) this.#services.set(service.id, service);
     this.#publishServices();
   }
@@ -84,15 +85,16 @@ export class Calls {
     return this.#assets.ask((requestId) => this.send({ op: "fetchAsset", uri, requestId }));
   }
 
-  request(name: string, fields: Readonly<Record<string, ParameterValue>>): Promise<Answer> {
-    return this.#requests.ask((id) => this.send({ ...fields, op: "trundle/request", id, request: name }));
+  async request<N extends RequestName>(name: N, fields: Fields<N>): Promise<Answer<N>> {
+    const ask = (id: number): boolean => this.send({ ...fields, op: "trundle/request", id, request: name });
+    return checked(await this.#requests.ask(ask), `the answer to '${name}'`, answers[name]);
   }
 
   callAnswered(frame: Extract<ServerBinary, { op: "serviceResponse" }>): void {
     this.#calls.resolve(frame.call, frame.payload);
   }
 
-  callFailed(frame: Extract<ServerText, { op: "serviceCallFailure" }>): void {
+  callFailed(frame: ServiceCallFailure): void {
     this.#calls.reject(frame.callId, frame.message);
   }
 
@@ -101,33 +103,26 @@ export class Calls {
     else this.#assets.reject(frame.request, frame.error);
   }
 
-  requestAnswered(frame: Extract<ServerText, { op: "trundle/response" }>): void {
-    if (frame.ok) this.#requests.resolve(frame.id, frame);
-    else this.#requests.reject(frame.id, frame.error);
+  requestAnswered(response: Response): void {
+    const { id, ok, error = "the server does not say why" } = response;
+    if (ok) this.#requests.resolve(Number(id), response);
+    else this.#requests.reject(Number(id), error);
   }
 
   #publishServices(): void {
     const services = new Map<string, ServiceInfo>();
     for (const service of this.#services.values()) {
       const { name, type } = service;
-      services.set(name, { name, type, request: requestText(service), response: responseText(service) });
+      services.set(name, { name, type, request: service.request.schema, response: service.response.schema });
     }
     this.services.value = services;
   }
 }
 
-function requestText(service: Service): string {
-  return service.request?.schema ?? service.requestSchema ?? "";
+function requestSchema({ request }: ServiceOffer): Schema {
+  return parseSchema(request.schemaName, request.schema);
 }
 
-function responseText(service: Service): string {
-  return service.response?.schema ?? service.responseSchema ?? "";
-}
-
-function requestSchema(service: Service): Schema {
-  return parseSchema(service.request?.schemaName ?? `${service.type}Request`, requestText(service));
-}
-
-function responseSchema(service: Service): Schema {
-  return parseSchema(service.response?.schemaName ?? `${service.type}Response`, responseText(service));
+function responseSchema({ response }: ServiceOffer): Schema {
+  return parseSchema(response.schemaName, response.schema);
 }

@@ -2,6 +2,8 @@
 
 import type { ReadonlySignal } from "@preact/signals";
 
+import type { Channels, Requests, SharedSelection } from "./generated/page_messages";
+import type { Json } from "./json";
 import type { RosMessage } from "./ros_types";
 
 export type ConnectionState =
@@ -58,57 +60,15 @@ export interface Subscription {
 }
 
 /** A dynamic parameter value as the protocol carries it. */
-export type ParameterValue =
-  | string
-  | number
-  | boolean
-  | null
-  | readonly ParameterValue[]
-  | { readonly [key: string]: ParameterValue };
+export type ParameterValue = Json;
 
-/** What a request is answered with, by its kind. */
-export interface RequestAnswer {
-  readonly definition?: string;
-  /** File or folder that something was saved as. */
-  readonly file?: string;
-  /** Files that are in the way, separated by commas. */
-  readonly exists?: string;
-  /** Text of a world. */
-  readonly sdf?: string;
-  /** Models that can be inserted. */
-  readonly models?: readonly {
-    readonly name: string;
-    readonly title: string;
-    readonly description: string;
-    readonly uploaded: boolean;
-  }[];
-  /** A replay of the last minutes. */
-  readonly html?: string;
-  /** The same as a glTF file, in base64. */
-  readonly glb?: string;
-  /** What a saved world does not hold. */
-  readonly lost?: readonly string[];
-  /** Address of a part of the model that is edited. */
-  readonly part?: readonly string[];
-  /** Name of what was put into the world. */
-  readonly name?: string;
-  /** Programs that a model's plugins would run, if the person agrees. */
-  readonly code?: readonly string[];
-  /** Word that agrees to run that code, once. */
-  readonly consent?: string;
-  /** What a model that is edited can be given. */
-  readonly plugins?: readonly { readonly filename: string; readonly about: string }[];
-  readonly sensors?: readonly string[];
-  readonly joints?: readonly string[];
-  readonly meshes?: readonly string[];
-}
-
-/** What a person has selected in the simulated world, as the others are shown it. */
-export type SharedSelection =
-  | { readonly kind: "model"; readonly model: string }
-  | { readonly kind: "link"; readonly model: string; readonly link: string }
-  | { readonly kind: "joint"; readonly model: string; readonly joint: string }
-  | { readonly kind: "light"; readonly light: string };
+export type RequestName = keyof Requests;
+/** Fields of a request. */
+export type Fields<N extends RequestName> = Requests[N]["fields"];
+/** Answer to a request. */
+export type Answer<N extends RequestName> = Requests[N]["answer"];
+/** A request with its fields. */
+export type Request = { [N in RequestName]: { readonly request: N; readonly fields: Fields<N> } }[RequestName];
 
 export interface Connection {
   readonly state: ReadonlySignal<ConnectionState>;
@@ -135,8 +95,13 @@ export interface Connection {
     onMessage: (received: Received<M>) => void,
     options?: { readonly every?: boolean; readonly onError?: (text: string) => void },
   ): Subscription;
-  /** Payload as it came: of the server's own channels (`trundle/…`), or of a topic that is only to be measured. */
+  /**
+   * Payload as it came: of the server's own channels (`trundle/…`), or of a topic that is only to be measured.
+   * Where `onPayload` throws a `MessageFault`, a notice tells.
+   */
   subscribeRaw(topic: string, onPayload: (payload: DataView) => void): Subscription;
+  /** Messages of a channel of the server's own that are JSON; of one that cannot be read, a notice tells. */
+  subscribeJson<T extends keyof Channels>(topic: T, onMessage: (message: Channels[T]) => void): Subscription;
   statistics(topic: string): TopicStatistics;
 
   /** Text of a type's definition with all that it contains; rejects with a sentence where it is not known. */
@@ -146,8 +111,8 @@ export interface Connection {
   setParameter(name: string, value: ParameterValue | undefined): void;
   /** Bytes of a `package://`, `model://` or `file://` file. */
   fetchAsset(uri: string): Promise<ArrayBuffer>;
-  /** A request to what started the page; rejects with its sentence. */
-  request(name: string, fields?: Readonly<Record<string, ParameterValue>>): Promise<RequestAnswer>;
+  /** A request to what started the page; rejects with a sentence. */
+  request<N extends RequestName>(name: N, fields: Fields<N>): Promise<Answer<N>>;
   drive(topic: string, linear: number, angular: number): void;
   release(topic: string): void;
   /** Type into a node's terminal, and set its size (columns, rows). */

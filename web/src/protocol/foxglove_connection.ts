@@ -1,23 +1,27 @@
 /** The connection to the page's server. */
 
+import { MessageFault, read, readPayload } from "./check";
 import type {
+  Answer,
   Connection,
+  Fields,
   ParameterValue,
   Received,
-  RequestAnswer,
-  SharedSelection,
+  RequestName,
   Subscription,
   TopicStatistics,
 } from "./connection";
 import { Calls } from "./calls";
 import { Decoder, type DecodePort } from "./decoder";
+import { channels, serverMessage } from "./generated/page_checks";
+import type { Channels, SharedSelection } from "./generated/page_messages";
 import { Notices } from "./notices";
 import { Publications } from "./publications";
 import { ReconnectingSocket, type Socket } from "./reconnecting_socket";
 import type { RosMessage } from "./ros_types";
 import { Subscriptions } from "./subscriptions";
 import { SystemState } from "./system_state";
-import { readBinary, SUBPROTOCOLS, type ClientFrame, type ServerText } from "./wire";
+import { readBinary, SUBPROTOCOLS, type ClientFrame } from "./wire";
 
 export class FoxgloveConnection implements Connection {
   readonly #socket: ReconnectingSocket;
@@ -35,12 +39,10 @@ export class FoxgloveConnection implements Connection {
     this.#calls = new Calls(send);
     this.#publications = new Publications(send, (type) => this.definition(type));
     this.#system = new SystemState(send);
-    this.#subscriptions.subscribeRaw("trundle/drops", (payload) => {
-      this.#subscriptions.setServerDrops(JSON.parse(new TextDecoder().decode(payload)) as Record<string, number>);
-    });
+    this.subscribeJson("trundle/drops", (drops) => this.#subscriptions.setServerDrops(drops));
     this.#socket = new ReconnectingSocket(
       open,
-      (data) => (typeof data === "string" ? this.#receiveText(data) : this.#receiveBinary(data)),
+      (data) => this.#receive(data),
       () => this.#calls.lost(),
     );
   }
@@ -87,6 +89,10 @@ export class FoxgloveConnection implements Connection {
     return this.#subscriptions.subscribeRaw(topic, onPayload);
   }
 
+  subscribeJson<T extends keyof Channels>(topic: T, onMessage: (message: Channels[T]) => void): Subscription {
+    return this.subscribeRaw(topic, (payload) => onMessage(readPayload(payload, topic, channels[topic])));
+  }
+
   statistics(topic: string): TopicStatistics {
     return this.#subscriptions.statistics(topic);
   }
@@ -94,7 +100,7 @@ export class FoxgloveConnection implements Connection {
   async definition(type: string): Promise<string> {
     const text = this.#subscriptions.definition(type);
     if (text !== null) return text;
-    return (await this.#calls.request("definition", { type })).definition ?? "";
+    return (await this.#calls.request("definition", { type })).definition;
   }
 
   publish(topic: string, type: string, message: RosMessage): void {
@@ -115,7 +121,7 @@ export class FoxgloveConnection implements Connection {
     return this.#calls.fetchAsset(uri);
   }
 
-  request(name: string, fields: Readonly<Record<string, ParameterValue>> = {}): Promise<RequestAnswer> {
+  request<N extends RequestName>(name: N, fields: Fields<N>): Promise<Answer<N>> {
     return this.#calls.request(name, fields);
   }
 
@@ -135,8 +141,19 @@ export class FoxgloveConnection implements Connection {
     this.#socket.send({ op: "trundle/presence", selection });
   }
 
+  /** Handle a frame; a notice tells of what cannot be read. */
+  #receive(data: string | ArrayBuffer): void {
+    try {
+      if (typeof data === "string") this.#receiveText(data);
+      else this.#receiveBinary(data);
+    } catch (error) {
+      if (!(error instanceof MessageFault)) throw error;
+      this.#notices.add("error", error.message, error.message);
+    }
+  }
+
   #receiveText(data: string): void {
-    const frame = JSON.parse(data) as ServerText;
+    const frame = read(data, "a message", serverMessage);
     switch (frame.op) {
       case "serverInfo":
         this.#greeted(frame.capabilities);
@@ -176,13 +193,13 @@ export class FoxgloveConnection implements Connection {
 
   #receiveBinary(data: ArrayBuffer): void {
     const frame = readBinary(data);
-    if (frame?.op === "message") {
+    if (frame.op === "message") {
       // the server tells the time at 20 Hz, and messages in between are newer
       if (this.#time !== null && frame.time > this.#time) this.#time = frame.time;
       this.#subscriptions.receive(frame);
-    } else if (frame?.op === "time") this.#time = frame.time;
-    else if (frame?.op === "serviceResponse") this.#calls.callAnswered(frame);
-    else if (frame?.op === "asset") this.#calls.assetCame(frame);
+    } else if (frame.op === "time") this.#time = frame.time;
+    else if (frame.op === "serviceResponse") this.#calls.callAnswered(frame);
+    else this.#calls.assetCame(frame);
   }
 
   /** A server greeted, which knows nothing of the one before. */

@@ -4,9 +4,10 @@ import { signal } from "@preact/signals";
 
 import type { Received, Subscription, TopicInfo, TopicStatistics } from "./connection";
 import type { Decoded, DecodeQueue, Decoder } from "./decoder";
+import type { ChannelOffer } from "./generated/page_messages";
 import type { RosMessage } from "./ros_types";
 import { ArrivalStatistics } from "./topic_statistics";
-import type { Channel, Send, ServerBinary } from "./wire";
+import type { Send, ServerBinary } from "./wire";
 
 interface Subscriber {
   readonly onMessage: (received: Received<RosMessage>) => void;
@@ -27,7 +28,7 @@ interface Topic {
 
 export class Subscriptions {
   readonly topics = signal<ReadonlyMap<string, TopicInfo>>(new Map());
-  readonly #channels = new Map<number, Channel>();
+  readonly #channels = new Map<number, ChannelOffer>();
   readonly #topics = new Map<string, Topic>();
   readonly #bySubscription = new Map<number, Topic>();
   #nextSubscription = 0;
@@ -47,7 +48,7 @@ export class Subscriptions {
     this.#publishTopics();
   }
 
-  advertise(channels: readonly Channel[]): void {
+  advertise(channels: readonly ChannelOffer[]): void {
     for (const channel of channels) this.#channels.set(channel.id, channel);
     this.#publishTopics();
     for (const channel of channels) {
@@ -146,12 +147,12 @@ export class Subscriptions {
     } else if (topic.decoding !== null) topic.decoding.queue.every = wantsEvery(topic);
   }
 
-  #channel(name: string): Channel | undefined {
+  #channel(name: string): ChannelOffer | undefined {
     for (const channel of this.#channels.values()) if (channel.topic === name) return channel;
     return undefined;
   }
 
-  #attach(topic: Topic, channel: Channel): void {
+  #attach(topic: Topic, channel: ChannelOffer): void {
     const id = this.#nextSubscription++;
     topic.ids.push(id);
     this.#bySubscription.set(id, topic);
@@ -159,7 +160,7 @@ export class Subscriptions {
     this.send({ op: "subscribe", subscriptions: [{ id, channelId: channel.id }] });
   }
 
-  #decode(topic: Topic, channel: Channel): void {
+  #decode(topic: Topic, channel: ChannelOffer): void {
     if (channel.encoding !== "ros1") {
       const text = `messages of ${topic.name} have the encoding ${channel.encoding}, which the page does not read`;
       for (const subscriber of topic.subscribers) subscriber.onError?.(text);

@@ -3,7 +3,8 @@
 import { batch, signal } from "@preact/signals";
 
 import type { GraphInfo, ParameterValue } from "./connection";
-import type { ClientFrame, GraphUpdate, Parameter, Send } from "./wire";
+import type { ConnectionGraphUpdate, Parameter } from "./generated/page_messages";
+import type { ClientFrame, Send } from "./wire";
 
 const NO_GRAPH: GraphInfo = { types: new Map(), publishers: new Map(), subscribers: new Map(), services: new Map() };
 
@@ -35,7 +36,7 @@ export class SystemState {
   }
 
   setParameter(name: string, value: ParameterValue | undefined): void {
-    const type = Array.isArray(value) ? "float64_array" : "float64";
+    const type = Array.isArray(value) ? ("float64_array" as const) : ("float64" as const);
     const float = this.floatParameters.peek().has(name) ? { type } : {};
     this.send({
       op: "setParameters",
@@ -59,7 +60,7 @@ export class SystemState {
     });
   }
 
-  graphChanged(update: GraphUpdate): void {
+  graphChanged(update: ConnectionGraphUpdate): void {
     const { types, publishers, subscribers, services } = this.graph.peek();
     const next = {
       types: new Map(types),

@@ -1,65 +1,9 @@
 /** Frames of the Foxglove protocol (v1 of its published specification) and of `trundle.v1`. */
 
-import type { ParameterValue, RequestAnswer } from "./connection";
+import { fault } from "./check";
+import type { ClientOperation } from "./generated/page_messages";
 
 export const SUBPROTOCOLS = ["trundle.v1", "foxglove.websocket.v1"];
-
-export interface Channel {
-  readonly id: number;
-  readonly topic: string;
-  readonly encoding: string;
-  readonly schemaName: string;
-  readonly schema: string;
-}
-
-interface ServicePart {
-  readonly schemaName: string;
-  readonly schema: string;
-}
-
-export interface Service {
-  readonly id: number;
-  readonly name: string;
-  readonly type: string;
-  readonly request?: ServicePart;
-  readonly response?: ServicePart;
-  readonly requestSchema?: string;
-  readonly responseSchema?: string;
-}
-
-export interface Parameter {
-  readonly name: string;
-  /** Absent: the parameter is not set. */
-  readonly value?: ParameterValue;
-  readonly type?: "byte_array" | "float64" | "float64_array";
-}
-
-export interface GraphUpdate {
-  readonly publishedTopics: readonly { readonly name: string; readonly publisherIds: readonly string[] }[];
-  readonly subscribedTopics: readonly {
-    readonly name: string;
-    readonly subscriberIds: readonly string[];
-    readonly type?: string;
-  }[];
-  readonly advertisedServices: readonly { readonly name: string; readonly providerIds: readonly string[] }[];
-  readonly removedTopics: readonly string[];
-  readonly removedServices: readonly string[];
-}
-
-/** Text frames of the server. */
-export type ServerText =
-  | { readonly op: "serverInfo"; readonly name: string; readonly capabilities: readonly string[] }
-  | { readonly op: "status"; readonly level: number; readonly message: string; readonly id?: string }
-  | { readonly op: "removeStatus"; readonly statusIds: readonly string[] }
-  | { readonly op: "advertise"; readonly channels: readonly Channel[] }
-  | { readonly op: "unadvertise"; readonly channelIds: readonly number[] }
-  | { readonly op: "advertiseServices"; readonly services: readonly Service[] }
-  | { readonly op: "unadvertiseServices"; readonly serviceIds: readonly number[] }
-  | { readonly op: "parameterValues"; readonly parameters: readonly Parameter[] }
-  | ({ readonly op: "connectionGraphUpdate" } & GraphUpdate)
-  | { readonly op: "serviceCallFailure"; readonly callId: number; readonly message: string }
-  | ({ readonly op: "trundle/response"; readonly id: number; readonly ok: true } & RequestAnswer)
-  | { readonly op: "trundle/response"; readonly id: number; readonly ok: false; readonly error: string };
 
 /** Binary frames of the server. */
 export type ServerBinary =
@@ -69,14 +13,21 @@ export type ServerBinary =
   | { readonly op: "asset"; readonly request: number; readonly error: string | null; readonly data: ArrayBuffer };
 
 /** Text frames of the client, and binary ones. */
-export type ClientFrame = Readonly<Record<string, unknown>> | ArrayBuffer;
+export type ClientFrame = ClientOperation | ArrayBuffer;
 
 /** Sends a frame; false: there is no connection. */
 export type Send = (frame: ClientFrame) => boolean;
 
-/** Read a binary frame; null: its opcode is not known. Throws RangeError when it is cut off. */
-export function readBinary(frame: ArrayBuffer): ServerBinary | null {
-  const view = new DataView(frame);
+/** Read a binary frame. Throws a `MessageFault`. */
+export function readBinary(frame: ArrayBuffer): ServerBinary {
+  try {
+    return binaryOf(frame, new DataView(frame));
+  } catch (error) {
+    throw error instanceof RangeError ? fault("a binary message", "it is cut off") : error;
+  }
+}
+
+function binaryOf(frame: ArrayBuffer, view: DataView): ServerBinary {
   switch (view.getUint8(0)) {
     case 1:
       return {
@@ -98,7 +49,7 @@ export function readBinary(frame: ArrayBuffer): ServerBinary | null {
       return { op: "asset", request, error: view.getUint8(5) === 0 ? null : error, data: frame.slice(end) };
     }
     default:
-      return null;
+      throw fault("a binary message", `its opcode is the unknown ${view.getUint8(0)}`);
   }
 }
 

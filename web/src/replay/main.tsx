@@ -9,32 +9,23 @@ import "./replay.css";
 import { effect } from "@preact/signals";
 import { render } from "preact";
 
+import { read } from "../protocol/check";
+import { replayAbout } from "../protocol/generated/page_checks";
+import type { ReplayAbout } from "../protocol/generated/page_messages";
 import { linkedView } from "../app/views/view_link";
-import { isMapping, type Yaml } from "../rviz/properties";
 import { ORIGIN } from "../scene/views/view";
 import { SceneInput } from "../scene/pointer_input";
-import type { Manifest } from "../scene/simulated_world";
 import { ThreeScene } from "../scene/three_scene";
 import { ViewList } from "../scene/views/view_list";
 import { Bar } from "./bar";
 import { Player } from "./player";
 import { RecordedWorld, unpacked } from "./recorded_world";
 
-interface About {
-  readonly title: string;
-  /** Simulated time [s]. */
-  readonly start: number;
-  readonly end: number;
-  readonly scene: Manifest["scene"];
-  /** The view at first, as in an .rviz file. */
-  readonly view: Yaml;
-}
-
 /** From where a recording without a view is seen [rad]. */
 const FIRST_LOOK: Readonly<Record<string, number>> = { Yaw: -1.05, Pitch: 0.4 };
 
 async function start(root: HTMLElement): Promise<void> {
-  const about = JSON.parse(textOf("about")) as About;
+  const about = read(textOf("about"), "the recording", replayAbout);
   followTheme();
   const host = Object.assign(document.createElement("div"), { className: "replay-scene" });
   const bar = document.createElement("div");
@@ -57,8 +48,8 @@ async function start(root: HTMLElement): Promise<void> {
 }
 
 /** Look from where the address or the file says, else at what moves. */
-function lookFirst(views: ViewList, { view }: About, world: RecordedWorld): void {
-  const first = linkedView(location.hash) ?? (isMapping(view) ? view : null);
+function lookFirst(views: ViewList, { view }: ReplayAbout, world: RecordedWorld): void {
+  const first = linkedView(location.hash) ?? view;
   if (first !== null) {
     views.load({ Current: first });
     return;

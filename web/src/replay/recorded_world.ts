@@ -2,7 +2,7 @@
 
 import { AnimationMixer, Box3, type AnimationAction } from "three";
 
-import type { Manifest } from "../scene/simulated_world";
+import type { Manifest } from "../protocol/generated/page_messages";
 import type { ThreeScene } from "../scene/three_scene";
 import { GlbModel, SharedContents } from "../scene/world/glb_model";
 import { Sky } from "../scene/world/sky";

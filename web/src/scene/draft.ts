@@ -1,62 +1,11 @@
-/** The draft as the server describes it: a copy of a model that is edited. */
+/** Parts of the draft, a copy of a model that is edited. */
 
-import type { SixNumbers } from "./simulated_world";
+import type { DraftInfo, DraftPart } from "../protocol/generated/page_messages";
 
 /** Tags and names from the model down: ["link", "base", "sensor", "eye"]; empty: the model itself. */
 export type PartPath = readonly string[];
 /** Numbers are null where one stays as it is; null: the default. */
 export type FieldValue = string | readonly (number | null)[] | null;
-
-export interface DraftField {
-  readonly name: string;
-  readonly label: string;
-  readonly kind: "text" | "number" | "vector" | "pose" | "colour" | "choice" | "flag";
-  /** Null: the file says nothing, and the default counts. */
-  readonly value: string | readonly number[] | boolean | null;
-  readonly default: string | readonly number[] | boolean | null;
-  readonly unit?: string;
-  /** Names of a vector's numbers. */
-  readonly labels?: readonly string[];
-  readonly choices?: readonly string[];
-  readonly least?: number;
-  readonly most?: number;
-}
-
-export interface DraftFinding {
-  readonly severity: "error" | "warning";
-  readonly text: string;
-  readonly line: number | null;
-}
-
-export interface DraftPart {
-  readonly part: PartPath;
-  readonly tag: string;
-  readonly name: string;
-  /** Type, shape or file name. */
-  readonly detail: string;
-  /** Of a link [kg]. */
-  readonly mass: number | null;
-  /** Number of a link in the model; null: it is none. */
-  readonly link: number | null;
-  readonly line: number;
-  readonly sections: readonly { readonly title: string; readonly fields: readonly DraftField[] }[];
-  readonly findings: readonly DraftFinding[];
-}
-
-export interface Draft {
-  readonly name: string;
-  /** Model of the world that it takes the place of; null: it is a new one. */
-  readonly of: string | null;
-  /** Of the model in the world. */
-  readonly pose: SixNumbers;
-  readonly undo: string | null;
-  readonly redo: string | null;
-  /** Folder to save it in; null: nothing can be written. */
-  readonly folder: string | null;
-  readonly files: readonly { readonly id: string; readonly url: string }[];
-  /** The model itself, then what is in it, in the file's order. */
-  readonly parts: readonly DraftPart[];
-}
 
 /** Number of the draft's first link among the bodies of the scene. */
 const FIRST_BODY = 65536;
@@ -70,7 +19,7 @@ export function isDraftBody(body: number): boolean {
   return body >= FIRST_BODY;
 }
 
-export function findPart(draft: Draft | null | undefined, path: PartPath): DraftPart | null {
+export function findPart(draft: DraftInfo | null | undefined, path: PartPath): DraftPart | null {
   return draft?.parts.find(({ part }) => samePath(part, path)) ?? null;
 }
 
@@ -91,7 +40,7 @@ export function pathOfLink(name: string): PartPath {
 }
 
 /** Bodies of a part: of a link its own, of a joint its child's, of the model all. */
-export function bodiesOfPart(draft: Draft | null, path: PartPath): readonly number[] {
+export function bodiesOfPart(draft: DraftInfo | null, path: PartPath): readonly number[] {
   if (draft === null) return [];
   const all = draft.parts.flatMap((part) => bodyOf(part) ?? []);
   if (path.length === 0) return all;

@@ -3,11 +3,11 @@
 import type { ReadonlySignal, Signal } from "@preact/signals";
 import type { Box3, Vector3 } from "three";
 
+import type { CameraInfo } from "../protocol/generated/page_messages";
 import type { Property, Triple, YamlMapping } from "../rviz/properties";
 
 import type { Area } from "./free_area";
 import type { PaneLayout, PanePlace } from "./panes/pane_layout";
-import type { CameraInfo } from "./simulated_world";
 
 export type SixSides = "front" | "back" | "left" | "right" | "top" | "bottom";
 

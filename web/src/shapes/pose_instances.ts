@@ -2,7 +2,7 @@
 
 import { Matrix4, Vector3 } from "three";
 
-import type { Pose } from "../protocol/messages";
+import type { Pose } from "../protocol/generated/ros_messages";
 import type { Rgb } from "../rviz/properties";
 import { quaternion, vector } from "../frames/valid";
 import { Instances } from "./instances";

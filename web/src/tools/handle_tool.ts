@@ -9,7 +9,8 @@ import { EnumProperty } from "../rviz/properties";
 import type { Transform } from "../frames/transform";
 import { NOT_PICKED } from "../scene/picking";
 import { BaseTool, type ToolContext } from "./base_tool";
-import { copyOf, targetOf, type Asked, type Drawn, type HandleTarget } from "./handles/handle_target";
+import type { Request } from "../protocol/connection";
+import { copyOf, targetOf, type Drawn, type HandleTarget } from "./handles/handle_target";
 import { LatestRequest } from "./handles/latest_request";
 import { SelectionHandles, type Handle } from "./handles/selection_handles";
 import { selectionOf } from "./picked";
@@ -234,7 +235,7 @@ export abstract class HandleTool extends BaseTool {
     this.requests.send(() => this.send(target, asked));
   }
 
-  private send(target: HandleTarget, { request, fields }: Asked): Promise<boolean> {
+  private send(target: HandleTarget, { request, fields }: Request): Promise<boolean> {
     return this.editor.ask(target.title, request, fields);
   }
 

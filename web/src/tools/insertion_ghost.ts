@@ -16,6 +16,7 @@ import {
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
+import { pictureUrl } from "../protocol/picture_urls";
 import { NOT_PICKED } from "../scene/picking";
 import type { Insertable } from "../page/insertable";
 
@@ -66,7 +67,7 @@ export class InsertionGhost extends Group {
   private async load(model: string): Promise<void> {
     const group = new Group();
     try {
-      const response = await fetch(`model.glb?model=${encodeURIComponent(model)}`);
+      const response = await fetch(pictureUrl("model.glb", { model }));
       if (!response.ok) throw new Error(response.statusText);
       const { scene } = await new GLTFLoader().parseAsync(await response.arrayBuffer(), "");
       for (const turned of [...scene.children]) {

@@ -8,7 +8,7 @@ import { upright } from "../../src/displays/cameras/scene_picture";
 import type { Cloud } from "../../src/displays/clouds/cloud";
 import type { DepthCloudDisplay } from "../../src/displays/depth_cloud";
 import { displayClass } from "../../src/displays/registry";
-import type { CameraInfo, Image } from "../../src/protocol/messages";
+import type { CameraInfo, Image } from "../../src/protocol/generated/ros_messages";
 import { fakes, header, status } from "./fakes";
 
 function info(changes: Partial<CameraInfo> = {}): CameraInfo {

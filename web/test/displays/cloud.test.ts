@@ -13,7 +13,7 @@ import {
 } from "../../src/displays/clouds/cloud_colors";
 import { describePoint } from "../../src/displays/clouds/cloud_look";
 import { nearestPoint, pointsWithin } from "../../src/displays/clouds/pick_point";
-import type { PointCloud2, PointField } from "../../src/protocol/messages";
+import type { PointCloud2, PointField } from "../../src/protocol/generated/ros_messages";
 import { header } from "./fakes";
 
 const INT8 = 1,

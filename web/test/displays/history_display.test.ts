@@ -7,7 +7,7 @@ import { flatArrows } from "../../src/displays/pose_array";
 import { displayedRange } from "../../src/displays/range";
 import { displayClass } from "../../src/displays/registry";
 import type { Stamped } from "../../src/displays/topic_display";
-import type { Range } from "../../src/protocol/messages";
+import type { Range } from "../../src/protocol/generated/ros_messages";
 import { makeMessage } from "../harness/messages";
 import { fakes, header, status, type Fakes } from "./fakes";
 

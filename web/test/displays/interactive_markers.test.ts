@@ -11,7 +11,7 @@ import type {
   InteractiveMarker,
   InteractiveMarkerControl,
   InteractiveMarkerFeedback,
-} from "../../src/protocol/messages";
+} from "../../src/protocol/generated/ros_messages";
 import type { PointerTarget, TargetEvent } from "../../src/scene/scene_view";
 import { setup, type Setup } from "./support";
 

@@ -6,7 +6,7 @@ import { InteractionMode } from "../../src/displays/interactive/control_modes";
 import { withHandles } from "../../src/displays/interactive/default_handles";
 import { withLocalShapes } from "../../src/displays/interactive/local_shapes";
 import { NoTransform } from "../../src/frames/transform";
-import type { InteractiveMarker, InteractiveMarkerControl, Marker } from "../../src/protocol/messages";
+import type { InteractiveMarker, InteractiveMarkerControl, Marker } from "../../src/protocol/generated/ros_messages";
 import { FakeFrames } from "./support";
 
 const UNTURNED = { x: 0, y: 0, z: 0, w: 1 };

@@ -5,7 +5,7 @@ import type { MapDisplay } from "../../src/displays/map";
 import { cut, overlap, readMap, tilesOf, writeUpdate, type OccupancyMap } from "../../src/displays/maps/occupancy_map";
 import { palette } from "../../src/displays/maps/palette";
 import { displayClass } from "../../src/displays/registry";
-import type { OccupancyGrid } from "../../src/protocol/messages";
+import type { OccupancyGrid } from "../../src/protocol/generated/ros_messages";
 import { fakes, header, status, type Fakes } from "./fakes";
 
 function grid(width: number, height: number, data: readonly number[], resolution = 0.5): OccupancyGrid {

@@ -10,7 +10,7 @@ import { Type } from "../../src/displays/markers/marker_type";
 import { BillboardLines } from "../../src/shapes/billboard_lines";
 import { BillboardPoints } from "../../src/shapes/billboard_points";
 import { TextBillboard } from "../../src/shapes/text_billboard";
-import type { Marker, Point } from "../../src/protocol/messages";
+import type { Marker, Point } from "../../src/protocol/generated/ros_messages";
 import { setup, type Setup } from "./support";
 
 const ORIGIN = { position: { x: 0, y: 0, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };

@@ -6,7 +6,7 @@ import { NO_HISTORY } from "../../src/displays/pictures/pixels";
 import { displayClass } from "../../src/displays/registry";
 import "../../src/displays/image";
 import type { ImageDisplay } from "../../src/displays/image";
-import type { Image } from "../../src/protocol/messages";
+import type { Image } from "../../src/protocol/generated/ros_messages";
 import { FakeConnection } from "../fake_connection";
 import { fakes, header, status } from "./fakes";
 

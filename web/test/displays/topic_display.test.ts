@@ -8,7 +8,7 @@ import "../../src/displays/temperature";
 import type { CloudDisplay } from "../../src/displays/clouds/cloud_display";
 import { project } from "../../src/displays/laser_scan";
 import { displayClass } from "../../src/displays/registry";
-import type { LaserScan } from "../../src/protocol/messages";
+import type { LaserScan } from "../../src/protocol/generated/ros_messages";
 import { fakes, header, status, type Fakes } from "./fakes";
 
 function start(

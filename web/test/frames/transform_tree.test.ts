@@ -4,7 +4,7 @@ import { describe, expect, test, vi } from "vitest";
 
 import { NoTransform, type Transform } from "../../src/frames/transform";
 import { TransformTree } from "../../src/frames/transform_tree";
-import type { TransformStamped } from "../../src/protocol/messages";
+import type { TransformStamped } from "../../src/protocol/generated/ros_messages";
 
 type Triple = [number, number, number];
 /** w, x, y, z */

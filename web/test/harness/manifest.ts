@@ -1,6 +1,6 @@
 /** The world of the design's pictures. */
 
-import type { JointInfo, LinkInfo, Manifest, ModelInfo, SensorInfo } from "../../src/scene/simulated_world";
+import type { JointInfo, LinkInfo, Manifest, ModelInfo, SensorInfo } from "../../src/protocol/generated/page_messages";
 
 let body = 0;
 
@@ -128,4 +128,6 @@ export const MANIFEST: Manifest = {
     rate: 30,
   })),
   frames: [],
+  resources: [],
+  draft: null,
 };

@@ -1,6 +1,6 @@
 /** Messages that are shown alone, by name; those with a number in the name have so many points. */
 
-import type { Header, Pose } from "../../src/protocol/messages";
+import type { Header, Pose } from "../../src/protocol/generated/ros_messages";
 
 function header(frame = "map"): Header {
   return { seq: 0, stamp: { sec: 1, nsec: 0 }, frame_id: frame };

@@ -45,4 +45,13 @@ describe("a session that changes", () => {
     connection.receiveRaw("trundle/session", new DataView(payload.buffer));
     expect([reload.mock.calls.length, session.value.kind]).toEqual([1, "simulation"]);
   });
+
+  it("of a server of another version is another page, whatever else it says", () => {
+    const connection = new FakeConnection();
+    const reload = vi.fn();
+    liveSession(SESSION, connection, reload);
+    const payload = new TextEncoder().encode(JSON.stringify({ kind: SESSION.kind, version: "9", mood: "sunny" }));
+    connection.receiveRaw("trundle/session", new DataView(payload.buffer));
+    expect(reload).toHaveBeenCalledOnce();
+  });
 });

@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 
-import { barOf, rowsOf, sparkline, type Profile } from "../../src/panels/performance/performance_state";
+import type { Profile } from "../../src/protocol/generated/page_messages";
+import { barOf, rowsOf, sparkline } from "../../src/panels/performance/performance_state";
 
 const PROFILE: Profile = {
   wall_s: 2,

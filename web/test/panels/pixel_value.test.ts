@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 
 import { pixelValue } from "../../src/panels/images/pixel_value";
-import type { Image } from "../../src/protocol/messages";
+import type { Image } from "../../src/protocol/generated/ros_messages";
 
 function image(encoding: string, width: number, height: number, step: number, data: Uint8Array, isBig = 0): Image {
   return {

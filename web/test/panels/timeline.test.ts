@@ -2,13 +2,14 @@
 
 import { describe, expect, it } from "vitest";
 
+import type { Lanes } from "../../src/protocol/generated/page_messages";
 import { requestTo } from "../../src/app/dialogs/time_dialog";
 import { ContactTimes, touchingPairs } from "../../src/panels/timeline/contact_times";
 import { Intervals } from "../../src/panels/timeline/intervals";
-import { stretchesOf, TopicTimes, type BagLanes } from "../../src/panels/timeline/topic_times";
+import { stretchesOf, TopicTimes } from "../../src/panels/timeline/topic_times";
 import { FakeConnection } from "../fake_connection";
 
-const BAG: BagLanes = {
+const BAG: Lanes = {
   start_ns: 100e9,
   bucket_ns: 0.5e9,
   topics: {

@@ -26,6 +26,8 @@ test("calls a service", async () => {
         type: "a/Add",
         request: { encoding: "ros1", schemaName: "a/AddRequest", schemaEncoding: "ros1msg", schema: "int8 a\nint8 b" },
         response: { encoding: "ros1", schemaName: "a/AddResponse", schemaEncoding: "ros1msg", schema: "int8 sum" },
+        requestSchema: "int8 a\nint8 b",
+        responseSchema: "int8 sum",
       },
     ],
   });
@@ -59,7 +61,7 @@ test("makes requests", async () => {
   const done = greeted().connection.request("step", { count: 3 });
   const refused = server.connection.request("seek", { time_ns: 1 });
   expect(server.socket.ops("trundle/request")[0]).toEqual({ op: "trundle/request", id: 0, request: "step", count: 3 });
-  server.socket.text({ op: "trundle/response", id: 0, ok: true });
+  server.socket.answer(0);
   server.socket.text({ op: "trundle/response", id: 1, ok: false, error: "this run is not recorded" });
 
   await expect(done).resolves.toMatchObject({ ok: true });
@@ -68,7 +70,7 @@ test("makes requests", async () => {
 
 test("what is unanswered at a loss is refused, and what is asked without a connection", async () => {
   vi.useFakeTimers();
-  const asked = greeted().connection.request("play");
+  const asked = greeted().connection.request("play", {});
   server.socket.close();
   await expect(asked).rejects.toThrow("the connection was lost before the answer came");
   await expect(server.connection.fetchAsset("file:///a")).rejects.toThrow("the page is not connected");
@@ -82,7 +84,7 @@ test("publishes with the definition of a topic, else with that of the server", a
   server.connection.publish("/cmd", "a/C", { y: 2 });
   const asked = server.socket.ops("trundle/request");
   expect(asked).toEqual([{ op: "trundle/request", id: 0, request: "definition", type: "a/C" }]);
-  server.socket.text({ op: "trundle/response", id: 0, ok: true, definition: "int16 y" });
+  server.socket.answer(0, { definition: "int16 y" });
 
   const frames = () => server.socket.sent.filter((frame) => frame instanceof ArrayBuffer);
   await vi.waitFor(() => expect(frames()).toHaveLength(4));

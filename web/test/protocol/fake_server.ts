@@ -2,6 +2,7 @@
 
 import { DecodeService, type DecodeRequest } from "../../src/protocol/decode_service";
 import { FoxgloveConnection } from "../../src/protocol/foxglove_connection";
+import type { ServerMessage } from "../../src/protocol/generated/page_messages";
 import type { Socket } from "../../src/protocol/reconnecting_socket";
 
 export class FakeSocket implements Socket {
@@ -18,8 +19,18 @@ export class FakeSocket implements Socket {
     this.onclose?.call(null as never, new Event("close") as CloseEvent);
   }
 
-  text(frame: object): void {
-    this.#receive(JSON.stringify(frame));
+  text(frame: ServerMessage): void {
+    this.raw(JSON.stringify(frame));
+  }
+
+  /** The answer to a request. */
+  answer(id: number, fields: object = {}): void {
+    this.raw(JSON.stringify({ op: "trundle/response", id, ok: true, ...fields }));
+  }
+
+  /** Text as it comes. */
+  raw(text: string): void {
+    this.#receive(text);
   }
 
   binary(...parts: readonly (readonly number[] | Uint8Array)[]): void {
@@ -32,7 +43,8 @@ export class FakeSocket implements Socket {
   }
 
   greet(capabilities = ["parameters", "parametersSubscribe", "connectionGraph"]): void {
-    this.text({ op: "serverInfo", name: "test", capabilities });
+    const session = { supportedEncodings: ["ros1"], metadata: {}, sessionId: "1" };
+    this.text({ op: "serverInfo", name: "test", capabilities, ...session });
   }
 
   advertise(id: number, topic: string, schemaName: string, schema: string, encoding = "ros1"): void {

@@ -3,9 +3,9 @@ import "../../src/scene/conventions";
 import { OrthographicCamera, PerspectiveCamera, Quaternion, Vector3 } from "three";
 import { expect, test } from "vitest";
 
+import type { CameraInfo } from "../../src/protocol/generated/page_messages";
 import type { Transform } from "../../src/frames/transform";
 import { freeArea } from "../../src/scene/free_area";
-import type { CameraInfo } from "../../src/scene/simulated_world";
 import { toPicture } from "../../src/scene/picking";
 import { CameraMotion, SmoothPose } from "../../src/scene/views/camera_motion";
 import { Fps } from "../../src/scene/views/fps";

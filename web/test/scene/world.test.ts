@@ -3,9 +3,9 @@ import "../../src/scene/conventions";
 import { BufferGeometry, Group, Quaternion, Vector3 } from "three";
 import { expect, test } from "vitest";
 
+import type { Manifest } from "../../src/protocol/generated/page_messages";
 import type { FrameTree } from "../../src/frames/frame_tree";
 import { NoTransform, type Transform } from "../../src/frames/transform";
-import type { Manifest } from "../../src/scene/simulated_world";
 import { BodyPoses } from "../../src/scene/world/body_poses";
 import { readJoints } from "../../src/scene/world/joint_states";
 import { WorldPlacement } from "../../src/scene/world/placement";

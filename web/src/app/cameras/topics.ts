@@ -1,11 +1,10 @@
 /** Which cameras have a tile: those of the world, image topics that the launch shows, and displays of pictures. */
 
+import type { Manifest, PageSession } from "../../protocol/generated/page_messages";
 import type { Display } from "../../displays/display";
 import { isEnabled, withMembers } from "../../displays/group";
 import { PictureDisplay } from "../../displays/pictures/picture_display";
 import type { TopicInfo } from "../../protocol/connection";
-import type { Manifest } from "../../scene/simulated_world";
-import type { Session } from "../../page/session";
 
 export interface CameraTopic {
   readonly name: string;
@@ -17,7 +16,7 @@ export interface CameraTopic {
 }
 
 export function cameraTopics(
-  session: Pick<Session, "images">,
+  session: Pick<PageSession, "images">,
   manifest: Manifest | null,
   displays: readonly Display[] = [],
 ): readonly CameraTopic[] {

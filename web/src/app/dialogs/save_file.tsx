@@ -4,7 +4,7 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 
 import { sentence } from "../../panels/use";
-import type { RequestAnswer } from "../../protocol/connection";
+import type { FilesExist } from "../../protocol/generated/page_messages";
 import { Button } from "../../theme/button";
 import type { Shell } from "../shell";
 import { Dialog } from "./dialog";
@@ -18,8 +18,8 @@ export interface SaveFileProps {
   /** Ending that a name gets that has none. */
   readonly ending?: string;
   readonly note: string;
-  /** Saves, and does what follows unless something is in the way. */
-  readonly save: (name: string, replace: boolean) => Promise<RequestAnswer>;
+  /** Saves, and does what follows; returns the files that may not be replaced, null: it is saved. */
+  readonly save: (name: string, replace: boolean) => Promise<FilesExist | null>;
   readonly download?: () => Promise<void> | void;
 }
 
@@ -38,11 +38,11 @@ export function SaveFile({
   const fault = useSignal("");
   const isBusy = useSignal(false);
   const whole = (): string => `${name.value.trim()}${name.value.trim().endsWith(ending) ? "" : ending}`;
-  const run = async (work: () => Promise<RequestAnswer>): Promise<void> => {
+  const run = async (work: () => Promise<FilesExist | null>): Promise<void> => {
     isBusy.value = true;
     fault.value = "";
     try {
-      exists.value = (await work()).exists ?? null;
+      exists.value = (await work())?.exists ?? null;
       if (exists.value === null) shell.dialog.value = null;
     } catch (error) {
       fault.value = sentence(error);
@@ -102,7 +102,7 @@ export function SaveFile({
               icon="download"
               tone={offered === null ? "primary" : "line"}
               disabled={isBusy.value}
-              onClick={() => void run(async () => (await download(), {}))}
+              onClick={() => void run(async () => (await download(), null))}
             >
               Download
             </Button>

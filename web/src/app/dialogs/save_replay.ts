@@ -6,11 +6,11 @@ import type { Shell } from "../shell";
 export async function saveReplay({ page, notices }: Shell, format: "html" | "glb"): Promise<void> {
   try {
     const view = JSON.stringify(page.views.current.peek().save());
-    const { html = "", glb = "" } = await page.connection.request("replay", { view, format });
+    const answer = await page.connection.request("replay", { view, format });
     const content =
-      format === "html"
-        ? new Blob([html], { type: "text/html" })
-        : new Blob([bytesOf(glb)], { type: "model/gltf-binary" });
+      "html" in answer
+        ? new Blob([answer.html], { type: "text/html" })
+        : new Blob([bytesOf(answer.glb)], { type: "model/gltf-binary" });
     saveFile(`${page.session.title}.${format}`, content);
   } catch (error) {
     notices.report("Replay", error instanceof Error ? error.message : String(error));

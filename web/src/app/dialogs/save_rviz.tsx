@@ -18,11 +18,10 @@ export function SaveRviz({ shell }: { readonly shell: Shell }): JSX.Element {
       note="What is shown, the views and the tools, as rviz reads them."
       save={async (file, replace) => {
         const answer = await connection.request("save_rviz_as", { file, text: displays.save(), replace });
-        if (answer.file !== undefined) {
-          displays.markSaved();
-          shell.ownFile.value = { name: answer.file, writable: true };
-        }
-        return answer;
+        if ("exists" in answer) return answer;
+        displays.markSaved();
+        shell.ownFile.value = { name: answer.file, writable: true };
+        return null;
       }}
       download={() => download(shell)}
     />

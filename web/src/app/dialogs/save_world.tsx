@@ -27,13 +27,15 @@ export function SaveWorld({ shell }: { readonly shell: Shell }): JSX.Element {
       note="What was changed is saved, where everything stands now. It starts at rest, at time 0."
       save={async (file, replace) => {
         const answer = await connection.request("save_world", { file, replace });
-        if (answer.file !== undefined) report(shell, `saved as ${answer.file}`, answer.lost);
-        return answer;
+        if ("exists" in answer) return answer;
+        if ("file" in answer) report(shell, `saved as ${answer.file}`, answer.lost);
+        return null;
       }}
       download={async () => {
-        const { sdf = "", lost } = await connection.request("save_world", { file: null });
-        saveFile(downloadName(shell), new Blob([sdf], { type: "application/xml" }));
-        report(shell, "downloaded", lost);
+        const answer = await connection.request("save_world", { file: null });
+        if (!("sdf" in answer)) return;
+        saveFile(downloadName(shell), new Blob([answer.sdf], { type: "application/xml" }));
+        report(shell, "downloaded", answer.lost);
       }}
     />
   );
@@ -44,7 +46,7 @@ function downloadName({ page }: Shell): string {
   return file?.split("/").at(-1) ?? `${name ?? "world"}.sdf`;
 }
 
-function report(shell: Shell, done: string, lost: readonly string[] = []): void {
+function report(shell: Shell, done: string, lost: readonly string[]): void {
   if (lost.length === 0) shell.notices.report("World", done, "ok");
   else shell.notices.report("World", `${done}, but it does not hold: ${lost.join("; ")}`, "warn");
 }

@@ -3,18 +3,17 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 
+import type { ClockState } from "../../protocol/generated/page_messages";
 import { Button } from "../../theme/button";
 import { fixed } from "../../theme/format";
 import { NumberField } from "../../theme/number_field";
-import type { WorldState } from "../../scene/simulated_world";
+import type { Fields } from "../../protocol/connection";
 import type { Shell } from "../shell";
 import { Dialog } from "./dialog";
 
 const NS = 1e9;
 const MOST_STEPS = 1_000_000;
 const MOST_S = 9e9;
-
-type Request = (name: string, fields: Readonly<Record<string, number>>) => Promise<unknown>;
 
 export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
   const { connection, session, world } = shell.page;
@@ -23,7 +22,7 @@ export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
   const time = useSignal(Number(((state?.time_ns ?? 0) / NS).toFixed(3)));
   const fault = useSignal("");
   const close = (): void => void (shell.dialog.value = null);
-  const ask: Request = (name, fields) =>
+  const ask = <N extends "step" | "seek" | "run_to">(name: N, fields: Fields<N>): Promise<void> =>
     connection
       .request(name, fields)
       .then(close, (error: unknown) => void (fault.value = error instanceof Error ? error.message : String(error)));
@@ -81,7 +80,7 @@ export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
 /** The request that goes to a time [s]. */
 export function requestTo(
   seconds: number,
-  state: WorldState | null,
+  state: ClockState | null,
 ): ["seek" | "run_to", { readonly time_ns: number }] {
   const time_ns = Math.round(seconds * NS);
   const end = state?.timeline?.end_ns ?? state?.time_ns ?? 0;

@@ -3,6 +3,7 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 
+import type { DraftInfo, DraftPart } from "../../protocol/generated/page_messages";
 import type { Selection } from "../../page/page";
 import type { Shell } from "../shell";
 import { canEdit } from "../world/edits";
@@ -11,13 +12,13 @@ import { count, fixed } from "../../theme/format";
 import { Icon } from "../../theme/icons";
 import { StatusShape } from "../../theme/status_shape";
 import { Tree, type TreeRow } from "../../theme/tree";
-import type { Draft, DraftPart, PartPath } from "../../scene/draft";
+import type { PartPath } from "../../scene/draft";
 import { iconOf } from "./part_icons";
 import { PartDrawer } from "./part_drawer";
 
 interface TreeProps {
   readonly shell: Shell;
-  readonly draft: Draft;
+  readonly draft: DraftInfo;
 }
 
 export function DraftTree({ shell, draft }: TreeProps): JSX.Element {
@@ -82,7 +83,7 @@ export function DraftTree({ shell, draft }: TreeProps): JSX.Element {
 }
 
 /** How many findings there are, worst first. */
-function Verdict({ draft }: { readonly draft: Draft }): JSX.Element {
+function Verdict({ draft }: { readonly draft: DraftInfo }): JSX.Element {
   const findings = draft.parts.flatMap((part) => part.findings);
   const errors = findings.filter(({ severity }) => severity === "error").length;
   const warnings = findings.length - errors;
@@ -105,7 +106,7 @@ function selectionOf({ part }: DraftPart): Selection {
   return { kind: "part", part };
 }
 
-function rows(draft: Draft, shut: ReadonlySet<string>, selected: string | null): readonly TreeRow[] {
+function rows(draft: DraftInfo, shut: ReadonlySet<string>, selected: string | null): readonly TreeRow[] {
   const shown = draft.parts.filter(({ part }) => {
     for (let end = part.length - 2; end >= 0; end -= 2)
       if (shut.has(keyOf(part.slice(0, end))) !== isShutAtFirst(part.slice(0, end))) return false;

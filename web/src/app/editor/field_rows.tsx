@@ -2,12 +2,13 @@
 
 import type { JSX } from "preact";
 
+import type { DraftField } from "../../protocol/generated/page_messages";
 import { Checkbox } from "../../theme/checkbox";
 import { parseNumber, plain } from "../../theme/format";
 import { numberFault } from "../../theme/number_field";
 import { Select } from "../../theme/select";
 import { TextField } from "../../theme/text_field";
-import type { DraftField, FieldValue } from "../../scene/draft";
+import type { FieldValue } from "../../scene/draft";
 
 const DEGREE = Math.PI / 180;
 const XYZ = ["x", "y", "z"] as const;

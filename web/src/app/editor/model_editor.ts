@@ -3,13 +3,14 @@
 import { computed, signal } from "@preact/signals";
 import { Box3, Vector3 } from "three";
 
+import type { AddPart, DraftInfo } from "../../protocol/generated/page_messages";
 import type { Notices } from "../notices/notices";
 import type { Page } from "../../page/page";
 import { bodiesOf } from "../../page/world_nodes";
 import type { Transform } from "../../frames/transform";
-import type { RequestAnswer } from "../../protocol/connection";
-import type { Draft, FieldValue, PartPath } from "../../scene/draft";
-import { poseFields, type Fields } from "../../page/request_fields";
+import type { Answer, Fields, RequestName } from "../../protocol/connection";
+import type { FieldValue, PartPath } from "../../scene/draft";
+import { poseFields } from "../../page/request_fields";
 
 /** From what is there to a new model, and half of what the view shows around it [m]. */
 const BESIDE = 1.5;
@@ -23,7 +24,7 @@ export interface Question {
 }
 
 export class ModelEditor {
-  readonly draft = computed<Draft | null>(() => this.page.world.manifest.value?.draft ?? null);
+  readonly draft = computed<DraftInfo | null>(() => this.page.world.manifest.value?.draft ?? null);
   readonly question = signal<Question | null>(null);
 
   constructor(
@@ -37,8 +38,8 @@ export class ModelEditor {
         return {
           undoTitle: draft.undo,
           redoTitle: draft.redo,
-          undo: () => void this.ask("Undo", "draft_undo"),
-          redo: () => void this.ask("Redo", "draft_redo"),
+          undo: () => void this.ask("Undo", "draft_undo", {}),
+          redo: () => void this.ask("Redo", "draft_redo", {}),
         };
       }),
     );
@@ -59,17 +60,17 @@ export class ModelEditor {
   set(part: PartPath, field: string, value: FieldValue): void {
     const selection = this.page.selection.peek();
     void this.ask("Edit", "draft_set", { part, field, value }).then((answer) => {
-      if (answer?.part === undefined || field !== "@name" || selection !== this.page.selection.peek()) return;
+      if (answer === null || field !== "@name" || selection !== this.page.selection.peek()) return;
       this.select(answer.part);
     });
   }
 
-  place(part: PartPath, { position, orientation }: Transform): Promise<RequestAnswer | null> {
+  place(part: PartPath, { position, orientation }: Transform): Promise<Answer<"draft_place"> | null> {
     return this.ask("Move", "draft_place", { part, ...poseFields(position, orientation) });
   }
 
   /** Add a part to what is selected, and select it. */
-  async add(kind: string, type: string): Promise<void> {
+  async add(kind: AddPart["kind"], type: string): Promise<void> {
     const selection = this.page.selection.peek();
     await this.change("Add", "draft_add", { into: selection?.kind === "part" ? selection.part : [], kind, type });
   }
@@ -85,8 +86,11 @@ export class ModelEditor {
   /** Put the draft into the world; asks before a model's own code is run. */
   async finish(consent: string | null = null): Promise<void> {
     const answer = await this.ask("Finish", "draft_finish", { consent });
-    if (answer?.name !== undefined) this.page.selection.value = { kind: "model", model: answer.name };
-    if (answer?.code === undefined) return;
+    if (answer === null) return;
+    if ("name" in answer) {
+      this.page.selection.value = { kind: "model", model: answer.name };
+      return;
+    }
     const text = `Plugins of this model are programs, which would run on the machine that simulates: ${answer.code.join(", ")}`;
     this.question.value = {
       title: "Run the model's code?",
@@ -98,7 +102,7 @@ export class ModelEditor {
 
   leave(): void {
     const throwAway = (): void => {
-      void this.ask("Leave", "draft_leave").then((answer) => {
+      void this.ask("Leave", "draft_leave", {}).then((answer) => {
         if (answer !== null) this.page.selection.value = null;
       });
     };
@@ -112,7 +116,7 @@ export class ModelEditor {
       };
   }
 
-  async ask(title: string, request: string, fields: Fields = {}): Promise<RequestAnswer | null> {
+  async ask<N extends RequestName>(title: string, request: N, fields: Fields<N>): Promise<Answer<N> | null> {
     try {
       return await this.page.connection.request(request, fields);
     } catch (error) {
@@ -121,9 +125,13 @@ export class ModelEditor {
     }
   }
 
-  private async change(title: string, request: string, fields: Fields): Promise<void> {
+  private async change<N extends "draft_add" | "draft_copy" | "draft_remove">(
+    title: string,
+    request: N,
+    fields: Fields<N>,
+  ): Promise<void> {
     const answer = await this.ask(title, request, fields);
-    if (answer?.part !== undefined) this.select(answer.part);
+    if (answer !== null) this.select(answer.part);
   }
 
   private select(part: PartPath): void {

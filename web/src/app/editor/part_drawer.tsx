@@ -4,12 +4,12 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 
+import type { AddPart, DraftInfo, DraftOffers } from "../../protocol/generated/page_messages";
 import type { Shell } from "../shell";
-import type { RequestAnswer } from "../../protocol/connection";
 import { Button } from "../../theme/button";
 import { Icon } from "../../theme/icons";
 import { Tabs } from "../../theme/tabs";
-import { findPart, linkAround, type Draft } from "../../scene/draft";
+import { findPart, linkAround } from "../../scene/draft";
 
 const TABS = [
   { id: "link", title: "Link" },
@@ -18,16 +18,16 @@ const TABS = [
   { id: "plugin", title: "Plugin" },
 ];
 const SHAPES = ["box", "sphere", "cylinder", "capsule", "ellipsoid"];
-const SHAPE_PARTS = ["visual", "collision"];
+const SHAPE_PARTS = ["visual", "collision"] as const;
 
 interface DrawerProps {
   readonly shell: Shell;
-  readonly draft: Draft;
+  readonly draft: DraftInfo;
   readonly onClose: () => void;
 }
 
 interface Offer {
-  readonly kind: string;
+  readonly kind: AddPart["kind"];
   readonly type: string;
   readonly name: string;
   readonly detail: string;
@@ -36,9 +36,9 @@ interface Offer {
 export function PartDrawer({ shell, draft, onClose }: DrawerProps): JSX.Element {
   const tab = useSignal("link");
   const search = useSignal("");
-  const offers = useSignal<RequestAnswer>({});
+  const offers = useSignal<DraftOffers | null>(null);
   useEffect(() => {
-    void shell.editor.ask("Add", "draft_offers").then((answer) => (offers.value = answer ?? {}));
+    void shell.editor.ask("Add", "draft_offers", {}).then((answer) => (offers.value = answer));
   }, [shell]);
   const wanted = search.value.trim().toLowerCase();
   const found = offersOf(tab.value, offers.value).filter(({ name, detail }) =>
@@ -85,16 +85,16 @@ export function PartDrawer({ shell, draft, onClose }: DrawerProps): JSX.Element 
   );
 }
 
-function offersOf(tab: string, offers: RequestAnswer): readonly Offer[] {
-  const of = (kind: string, types: readonly string[]): Offer[] =>
+function offersOf(tab: string, offers: DraftOffers | null): readonly Offer[] {
+  const of = (kind: Offer["kind"], types: readonly string[]): Offer[] =>
     types.map((type) => ({ kind, type, name: type, detail: "" }));
   switch (tab) {
     case "link": {
       const onLink = SHAPE_PARTS.flatMap((kind) =>
         SHAPES.map((type) => ({ kind, type, name: `${kind}: ${type}`, detail: "on the selected link" })),
       );
-      const meshes = (offers.meshes ?? []).map((type) => ({
-        kind: "link",
+      const meshes = (offers?.meshes ?? []).map((type) => ({
+        kind: "link" as const,
         type,
         name: type.split("/").at(-1) ?? type,
         detail: type,
@@ -102,11 +102,11 @@ function offersOf(tab: string, offers: RequestAnswer): readonly Offer[] {
       return [...of("link", SHAPES), ...onLink, ...meshes];
     }
     case "joint":
-      return of("joint", offers.joints ?? []);
+      return of("joint", offers?.joints ?? []);
     case "sensor":
-      return of("sensor", offers.sensors ?? []);
+      return of("sensor", offers?.sensors ?? []);
     default:
-      return (offers.plugins ?? []).map(({ filename, about }) => ({
+      return (offers?.plugins ?? []).map(({ filename, about }) => ({
         kind: "plugin",
         type: filename,
         name: filename,
@@ -122,7 +122,7 @@ function Target({
   tab,
 }: {
   readonly shell: Shell;
-  readonly draft: Draft;
+  readonly draft: DraftInfo;
   readonly tab: string;
 }): JSX.Element | null {
   const selection = shell.page.selection.value;

@@ -2,19 +2,20 @@
 
 import type { JSX } from "preact";
 
+import type { DraftFinding, DraftInfo, DraftPart } from "../../protocol/generated/page_messages";
 import type { Shell } from "../shell";
 import { canEdit } from "../world/edits";
 import { Button } from "../../theme/button";
 import { Icon } from "../../theme/icons";
 import { StatusShape } from "../../theme/status_shape";
 import { TextField } from "../../theme/text_field";
-import { findPart, type Draft, type DraftFinding, type DraftPart, type PartPath } from "../../scene/draft";
+import { findPart, type PartPath } from "../../scene/draft";
 import { FieldRow } from "./field_rows";
 import { iconOf } from "./part_icons";
 
 interface FormProps {
   readonly shell: Shell;
-  readonly draft: Draft;
+  readonly draft: DraftInfo;
   readonly path: PartPath;
 }
 

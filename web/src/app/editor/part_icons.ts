@@ -1,7 +1,7 @@
 /** Icons of the parts of a model. */
 
+import type { DraftPart } from "../../protocol/generated/page_messages";
 import type { IconName } from "../../theme/icons";
-import type { DraftPart } from "../../scene/draft";
 
 const ICONS: Readonly<Record<string, IconName>> = {
   model: "model",

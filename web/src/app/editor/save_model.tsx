@@ -15,8 +15,9 @@ export function SaveModel({ shell }: { readonly shell: Shell }): JSX.Element {
       note="It gets model.sdf and model.config."
       save={async (folder, replace) => {
         const answer = await shell.page.connection.request("draft_save", { folder, replace });
-        if (answer.file !== undefined) shell.notices.report("Model", `saved in ${answer.file}`, "ok");
-        return answer;
+        if ("exists" in answer) return answer;
+        shell.notices.report("Model", `saved in ${answer.file}`, "ok");
+        return null;
       }}
     />
   );

@@ -3,17 +3,14 @@
 import { effect, signal } from "@preact/signals";
 import type { Vector3 } from "three";
 
-import type { RequestAnswer } from "../../protocol/connection";
+import type { Answer } from "../../protocol/connection";
+import type { ModelEntry } from "../../protocol/generated/page_messages";
 import type { Insertable } from "../../page/insertable";
 import type { Command, Selection } from "../../page/page";
 import type { Shell } from "../shell";
 import { ModelUpload } from "./model_upload";
 import { canEdit } from "../world/edits";
 import { findModel } from "../../page/selection_lookup";
-import type { Fields } from "../../page/request_fields";
-
-/** A model of the model path, as the server lists it. */
-export type ModelEntry = NonNullable<RequestAnswer["models"]>[number];
 
 /** Code that a model would run, of which a person is asked. */
 export interface AskedCode {
@@ -40,8 +37,8 @@ export class Insertion {
 
   /** Ask for the models that can be inserted, which may have changed. */
   list(): void {
-    this.shell.page.connection.request("models").then(
-      ({ models }) => (this.models.value = models ?? []),
+    this.shell.page.connection.request("models", {}).then(
+      ({ models }) => (this.models.value = models),
       (error: unknown) => this.report("Models", error),
     );
   }
@@ -60,15 +57,22 @@ export class Insertion {
 
   private async insert(thing: Insertable, point: Vector3, consent: string | null): Promise<void> {
     const position = point.toArray();
-    const [request, fields]: [string, Fields] =
-      thing.kind === "light"
-        ? ["insert_light", { type: thing.name, position }]
-        : ["insert", { model: thing.name, position, is_shape: thing.kind === "shape", consent }];
+    const { connection } = this.shell.page;
     try {
-      const { code, name, ...answer } = await this.shell.page.connection.request(request, fields);
-      if (code !== undefined)
-        this.asked.value = { title: thing.title, files: code, agree: () => this.place(thing, point, answer.consent) };
-      else if (name !== undefined) this.record(thing, name);
+      const answer: Answer<"insert" | "insert_light"> =
+        thing.kind === "light"
+          ? await connection.request("insert_light", { type: thing.name, position })
+          : await connection.request("insert", {
+              model: thing.name,
+              position,
+              is_shape: thing.kind === "shape",
+              consent,
+            });
+      if ("name" in answer) this.record(thing, answer.name);
+      else {
+        const { code, consent } = answer;
+        this.asked.value = { title: thing.title, files: code, agree: () => this.place(thing, point, consent) };
+      }
     } catch (error) {
       this.report(`Insert ${thing.title}`, error);
     }
@@ -77,7 +81,7 @@ export class Insertion {
   private record(thing: Insertable, name: string): void {
     const isLight = thing.kind === "light";
     const title = `Insert ${name}`;
-    const ask = (request: string) => (): void =>
+    const ask = (request: "restore" | "delete") => (): void =>
       isLight
         ? this.shell.request(title, `${request}_light`, { light: name })
         : this.shell.request(title, request, { model: name });

@@ -1,5 +1,8 @@
 /** Files of a model on the person's machine: chosen, or dropped onto the page. */
 
+import { read } from "../../protocol/check";
+import { uploadedModels } from "../../protocol/generated/page_checks";
+
 /** A file, and its path from the folder that was chosen. */
 export interface ModelFile {
   readonly path: string;
@@ -76,10 +79,8 @@ export async function sendModel(
     throw new Error(`it is too large: a model has at most ${MOST_BYTES / 2 ** 20} MiB`);
   const form = new FormData();
   for (const { path, file } of files) form.append(path, file);
-  const { models } = JSON.parse(await post(`models${location.search}`, form, signal, progress)) as {
-    readonly models: readonly string[];
-  };
-  return models;
+  const answer = await post(`models${location.search}`, form, signal, progress);
+  return read(answer, "the answer to the upload", uploadedModels).models;
 }
 
 /** Post a form; unlike fetch, a request of this kind says in every browser how much of it is sent. */

@@ -8,7 +8,8 @@ import { Button } from "../../theme/button";
 import { Icon, type IconName } from "../../theme/icons";
 import type { Insertable } from "../../page/insertable";
 import { InsertButton } from "./button";
-import type { ModelEntry } from "./insertion";
+import type { ModelEntry } from "../../protocol/generated/page_messages";
+import { pictureUrl } from "../../protocol/picture_urls";
 import type { Shell } from "../shell";
 
 const SIMPLE: readonly { readonly icon: IconName; readonly label: string; readonly thing: Insertable }[] = [
@@ -87,7 +88,7 @@ function Picture({ name, version }: { readonly name: string; readonly version: n
   if (failed.value) return <Icon name="model" />;
   return (
     <img
-      src={`model.png?model=${encodeURIComponent(name)}&version=${version}`}
+      src={pictureUrl("model.png", { model: name }, version)}
       alt=""
       loading="lazy"
       draggable={false}

@@ -4,7 +4,8 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
-import type { ModelInfo } from "../../scene/simulated_world";
+import type { ApplyWrench, ModelInfo } from "../../protocol/generated/page_messages";
+import type { Triple } from "../../scene/simulated_world";
 import { Button } from "../../theme/button";
 import { copyModel, deleteModel, holdModel } from "../world/model_edits";
 import type { Shell } from "../shell";
@@ -13,7 +14,7 @@ import { withNumber } from "../../page/request_fields";
 
 const LIMITS = { min: -1e6, max: 1e6 };
 const AXES = ["x", "y", "z"] as const;
-const ZERO = [0, 0, 0] as const;
+const ZERO: Triple = [0, 0, 0];
 
 /** What can be done with a model as a whole. */
 export function ModelButtons({
@@ -55,8 +56,8 @@ export function WrenchSection({
   readonly model: string;
   readonly link: string;
 }): JSX.Element {
-  const force = useSignal<readonly number[]>(ZERO);
-  const torque = useSignal<readonly number[]>(ZERO);
+  const force = useSignal<Triple>(ZERO);
+  const torque = useSignal<Triple>(ZERO);
   const duration = useSignal(1);
   const section = useRef<HTMLElement>(null);
   const wanted = shell.wrench.value;
@@ -65,7 +66,7 @@ export function WrenchSection({
     section.current?.querySelector("input")?.focus();
     shell.wrench.value = null;
   }, [wanted, model, link]);
-  const push = (by: { readonly force: readonly number[]; readonly torque: readonly number[] }, seconds: number): void =>
+  const push = (by: Pick<ApplyWrench, "force" | "torque">, seconds: number): void =>
     shell.request(`Force on ${link}`, "wrench", { model, link, ...by, duration: seconds });
   const labels = (name: string): readonly string[] => AXES.map((axis) => `${name} ${axis}`);
   return (

@@ -3,7 +3,8 @@
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 
-import type { JointInfo, JointState, ModelInfo } from "../../scene/simulated_world";
+import type { JointInfo, ModelInfo } from "../../protocol/generated/page_messages";
+import type { JointState } from "../../scene/simulated_world";
 import { Button } from "../../theme/button";
 import { fixed } from "../../theme/format";
 import { Slider } from "../../theme/slider";
@@ -13,7 +14,7 @@ import { PlotMenu } from "./plot_menu";
 import type { Shell } from "../shell";
 import { NumbersRow } from "./value_rows";
 import { canEdit, editWorld } from "../world/edits";
-import type { Fields } from "../../page/request_fields";
+import type { Fields } from "../../protocol/connection";
 
 /** Range of a velocity slider [rad/s or m/s]. */
 const FASTEST = 10;
@@ -132,7 +133,7 @@ type Target = Readonly<Partial<Record<TargetName, number>>>;
 
 /** Command a joint; `before` takes it back. */
 function driveJoint(shell: Shell, model: string, joint: string, after: Target, before: Target): void {
-  const fields = (target: Target): Fields => ({ model, joint, ...target });
+  const fields = (target: Target): Fields<"joint"> => ({ model, joint, ...target });
   void editWorld(shell, `Joint ${joint}`, "joint", fields(after), fields(before));
 }
 

@@ -1,6 +1,7 @@
 /** The value of a joint that a person looks for: a wheel's velocity, else its position. */
 
-import type { JointInfo, JointState } from "../../scene/simulated_world";
+import type { JointInfo } from "../../protocol/generated/page_messages";
+import type { JointState } from "../../scene/simulated_world";
 import { fixed } from "../../theme/format";
 
 export interface JointValue {

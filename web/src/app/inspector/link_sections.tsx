@@ -2,8 +2,9 @@
 
 import type { JSX } from "preact";
 
+import type { LinkInfo, ModelInfo } from "../../protocol/generated/page_messages";
+import type { Fields } from "../../protocol/connection";
 import type { Transform } from "../../frames/transform";
-import type { LinkInfo, ModelInfo } from "../../scene/simulated_world";
 import { count, fixed, plain } from "../../theme/format";
 import { ModelButtons, WrenchSection } from "./handling_sections";
 import { bodyValues } from "../../panels/plots/simulated_values";
@@ -15,7 +16,7 @@ import { TwistSection } from "./twist_section";
 import { KeyValue, NumbersRow } from "./value_rows";
 import { canEdit, editWorld } from "../world/edits";
 import { bodiesOf } from "../../page/world_nodes";
-import { poseFields, withNumber, type Fields } from "../../page/request_fields";
+import { poseFields, withNumber } from "../../page/request_fields";
 
 /** Lightest and heaviest link that the server takes [kg]. */
 const MASSES = { min: 1e-6, max: 1e6 };
@@ -68,7 +69,7 @@ export function ModelSections({ shell, name, model }: ModelProps): JSX.Element {
 
 /** Moves a model so that one of its links is somewhere. */
 function mover(shell: Shell, model: string, { name }: LinkInfo): (after: Transform, before: Transform) => void {
-  const fields = ({ position, orientation }: Transform): Fields => ({
+  const fields = ({ position, orientation }: Transform): Fields<"pose"> => ({
     model,
     link: name,
     ...poseFields(position, orientation),
@@ -122,7 +123,7 @@ export function LinkSections({ shell, model, link, isStatic }: LinkProps): JSX.E
 function Inertia({ shell, model, link }: Omit<LinkProps, "isStatic">): JSX.Element {
   const [ixx, iyy, izz, ixy, ixz, iyz] = link.inertia;
   const [x, y, z] = link.inertial_pose;
-  const fields = (mass: number): Fields => ({ model, link: link.name, mass });
+  const fields = (mass: number): Fields<"mass"> => ({ model, link: link.name, mass });
   const set = (mass: number): void =>
     void editWorld(shell, `Mass of ${link.name}`, "mass", fields(mass), fields(link.mass));
   return (
@@ -157,7 +158,7 @@ interface FrictionProps {
 }
 
 function Friction({ shell, model, link, friction }: FrictionProps): JSX.Element {
-  const fields = ([mu, mu2]: readonly [number, number]): Fields => ({ model, link, mu, mu2 });
+  const fields = ([mu, mu2]: readonly [number, number]): Fields<"friction"> => ({ model, link, mu, mu2 });
   const set = (index: number, value: number): void =>
     void editWorld(
       shell,

@@ -2,7 +2,7 @@
 
 import type { JSX } from "preact";
 
-import type { PluginInfo, SensorInfo } from "../../scene/simulated_world";
+import type { PluginInfo, SensorInfo } from "../../protocol/generated/page_messages";
 import { plain } from "../../theme/format";
 import type { Selection } from "../../page/page";
 import type { Shell } from "../shell";

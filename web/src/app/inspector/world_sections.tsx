@@ -2,14 +2,15 @@
 
 import type { JSX } from "preact";
 
-import type { LightInfo, Manifest } from "../../scene/simulated_world";
+import type { LightInfo, Manifest } from "../../protocol/generated/page_messages";
 import { Button } from "../../theme/button";
 import { plain } from "../../theme/format";
 import { deleteLight } from "../world/model_edits";
 import type { Shell } from "../shell";
 import { KeyValue, NumbersRow } from "./value_rows";
+import type { Fields } from "../../protocol/connection";
 import { canEdit, editWorld } from "../world/edits";
-import { withNumber, type Fields } from "../../page/request_fields";
+import { withNumber } from "../../page/request_fields";
 
 const MILLI = 1e-3;
 const AXES = ["x", "y", "z"] as const;
@@ -32,7 +33,7 @@ export function WorldSections({
       </section>
     );
   }
-  const set = (title: string, after: Fields, before: Fields): void =>
+  const set = (title: string, after: Fields<"physics">, before: Fields<"physics">): void =>
     void editWorld(shell, title, "physics", after, before);
   const labels = (name: string): readonly string[] => AXES.map((axis) => `${name} ${axis}`);
   const limits = { min: -1e6, max: 1e6 };
@@ -70,8 +71,13 @@ export function WorldSections({
 
 export function LightSections({ shell, light }: { readonly shell: Shell; readonly light: LightInfo }): JSX.Element {
   const { name, diffuse, intensity } = light;
-  const fields = (changes: Partial<LightInfo>): Fields => ({ light: name, diffuse, intensity, ...changes });
-  const set = (changes: Partial<LightInfo>): void =>
+  const fields = (changes: Partial<Pick<LightInfo, "diffuse" | "intensity">>): Fields<"light"> => ({
+    light: name,
+    diffuse,
+    intensity,
+    ...changes,
+  });
+  const set = (changes: Partial<Pick<LightInfo, "diffuse" | "intensity">>): void =>
     void editWorld(shell, `Light ${name}`, "light", fields(changes), fields({}));
   return (
     <section class="sec">

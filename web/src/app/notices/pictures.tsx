@@ -4,6 +4,7 @@ import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
+import { pictureUrl } from "../../protocol/picture_urls";
 import { fixed } from "../../theme/format";
 import type { Shell } from "../shell";
 
@@ -24,10 +25,10 @@ export function Pictures({ shell, reason }: { readonly shell: Shell; readonly re
       askIn(REFRESH.came);
       return;
     }
-    const { azimuth, elevation, distance } = view.peek();
     const share = Math.min(1, MOST_WIDE / width.peek(), MOST_HIGH / height.peek());
-    const [w, h] = [Math.round(share * width.peek()), Math.round(share * height.peek())]; // as wide and high as the window: nothing is cut off
-    shown.value = `camera.png?width=${w}&height=${h}&azimuth=${azimuth}&elevation=${elevation}&distance=${distance}&t=${performance.now()}`;
+    // as wide and high as the window: nothing is cut off
+    const size = { width: Math.round(share * width.peek()), height: Math.round(share * height.peek()) };
+    shown.value = pictureUrl("camera.png", { ...size, ...view.peek() }, performance.now());
   };
   /** One after the other: a slow machine would never finish one that the next replaces. */
   const askIn = (wait: number): void => {

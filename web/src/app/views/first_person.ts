@@ -1,6 +1,6 @@
 /** Views from the world's own things: first person from a model or link, and through a simulated camera. */
 
-import type { CameraInfo } from "../../scene/simulated_world";
+import type { CameraInfo } from "../../protocol/generated/page_messages";
 import { isFollowing, robotTarget, targetOf } from "./following";
 import type { Command, Page } from "../../page/page";
 import { allModels } from "../../page/world_nodes";

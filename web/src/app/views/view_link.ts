@@ -2,8 +2,9 @@
 
 import type { Signal } from "@preact/signals";
 
+import { parseJson } from "../../protocol/json";
 import type { PaneLayout } from "../../scene/panes/pane_layout";
-import { isMapping, type Yaml, type YamlMapping } from "../../rviz/properties";
+import { isMapping, type YamlMapping } from "../../rviz/properties";
 import type { Views } from "../../scene/view_controller";
 import { loadPanes, savedLayout, savePanes } from "../../scene/views/saved_panes";
 
@@ -30,7 +31,7 @@ export function linkTo(
 export function linkedView(hash: string): YamlMapping | null {
   if (!hash.startsWith(KEY) || hash.length > LONGEST) return null;
   try {
-    const view = JSON.parse(decodeURIComponent(hash.slice(KEY.length))) as Yaml;
+    const view = parseJson(decodeURIComponent(hash.slice(KEY.length)));
     return isMapping(view) ? view : null;
   } catch {
     return null;

@@ -3,7 +3,7 @@
 import type { SimulatedWorld } from "../../scene/simulated_world";
 import type { WorldEditor } from "../../page/world_editor";
 import { canControl } from "../../page/looking";
-import type { Fields } from "../../page/request_fields";
+import type { Fields, RequestName } from "../../protocol/connection";
 import type { Shell } from "../shell";
 
 /**
@@ -11,20 +11,23 @@ import type { Shell } from "../shell";
  *
  * `before` are the fields that take it back. Nothing can be undone that was refused.
  */
-export function editWorld(shell: Shell, ...edit: Edit): Promise<void> {
+export function editWorld<N extends RequestName>(shell: Shell, ...edit: Edit<N>): Promise<void> {
   return shell.page.undo.ask(editAndRecord(shell, ...edit));
 }
 
-type Edit = readonly [title: string, request: string, after: Fields, before: Fields];
+type Edit<N extends RequestName> = readonly [title: string, request: N, after: Fields<N>, before: Fields<N>];
 
-async function editAndRecord(shell: Shell, ...[title, request, after, before]: Edit): Promise<void> {
+async function editAndRecord<N extends RequestName>(
+  shell: Shell,
+  ...[title, request, after, before]: Edit<N>
+): Promise<void> {
   try {
     await shell.page.connection.request(request, after);
   } catch (error) {
     shell.notices.report(title, error instanceof Error ? error.message : String(error));
     return;
   }
-  const send = (fields: Fields) => (): void => shell.request(title, request, fields);
+  const send = (fields: Fields<N>) => (): void => shell.request(title, request, fields);
   shell.page.undo.record(title, send(after), send(before));
 }
 

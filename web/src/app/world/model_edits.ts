@@ -2,12 +2,13 @@
 
 import { Vector3, type Box3 } from "three";
 
+import type { ModelInfo } from "../../protocol/generated/page_messages";
 import { selectOnceThere } from "../insert/insertion";
+import type { Request } from "../../protocol/connection";
 import type { Command, Page, Selection } from "../../page/page";
 import type { Shell } from "../shell";
 import { canEdit, editWorld } from "./edits";
 import { bodiesOf } from "../../page/world_nodes";
-import type { ModelInfo } from "../../scene/simulated_world";
 import { findModel } from "../../page/selection_lookup";
 
 /** Gap between a model and its copy [m]. */
@@ -20,7 +21,7 @@ export function holdModel(shell: Shell, model: string, on: boolean): void {
 
 /** Put a model back as it came, with its joints, at rest, and its plugins as at their start. */
 export function resetModel(shell: Shell, model: string): void {
-  const reset = { request: "reset_model", fields: { model } };
+  const reset: Request = { request: "reset_model", fields: { model } };
   void change(shell, `Reset of ${model}`, reset, { request: "undo_reset", fields: { model } });
 }
 
@@ -32,9 +33,9 @@ export function copyModel(shell: Shell, model: string, at: Vector3 | null = null
   const name = freeName(page, outer.name);
   const worldFromFixed = page.scene.world.matrixWorld.clone().invert();
   const offset = copyOffset(page.world.bounds(bodiesOf(outer)).applyMatrix4(worldFromFixed), at).toArray();
-  const copy = { request: "copy", fields: { model: outer.name, name, offset } };
-  const remove = { request: "delete", fields: { model: name } };
-  const restore = { request: "restore", fields: { model: name } }; // the copy, with what became of it
+  const copy: Request = { request: "copy", fields: { model: outer.name, name, offset } };
+  const remove: Request = { request: "delete", fields: { model: name } };
+  const restore: Request = { request: "restore", fields: { model: name } }; // the copy, with what became of it
   void change(shell, `Copy of ${outer.name}`, copy, remove, restore).then((isDone) => {
     if (isDone) selectOnceThere(shell, { kind: "model", model: name });
   });
@@ -51,7 +52,7 @@ function copyOffset(bounds: Box3, at: Vector3 | null): Vector3 {
 export function deleteModel(shell: Shell, model: string): void {
   const outer = outermost(shell.page, model);
   if (outer === null) return;
-  const remove = { request: "delete", fields: { model: outer.name } };
+  const remove: Request = { request: "delete", fields: { model: outer.name } };
   void change(shell, `Delete ${outer.name}`, remove, { request: "restore", fields: { model: outer.name } });
 }
 
@@ -86,17 +87,12 @@ export function modelCommands(shell: Shell): readonly Command[] {
   ];
 }
 
-interface Asked {
-  readonly request: string;
-  readonly fields: Parameters<Page["connection"]["request"]>[1];
-}
-
 /** An edit that another kind of request takes back, and `again` redoes; true: it is done. */
 function change(shell: Shell, ...edit: Change): Promise<boolean> {
   return shell.page.undo.ask(changeAndRecord(shell, ...edit));
 }
 
-type Change = readonly [title: string, after: Asked, before: Asked, again?: Asked];
+type Change = readonly [title: string, after: Request, before: Request, again?: Request];
 
 async function changeAndRecord(shell: Shell, ...[title, after, before, again = after]: Change): Promise<boolean> {
   try {
@@ -106,7 +102,7 @@ async function changeAndRecord(shell: Shell, ...[title, after, before, again = a
     return false;
   }
   const send =
-    ({ request, fields }: Asked) =>
+    ({ request, fields }: Request) =>
     (): void =>
       shell.request(title, request, fields);
   shell.page.undo.record(title, send(again), send(before));

@@ -4,8 +4,8 @@ import { useComputed, useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
+import type { Manifest } from "../../protocol/generated/page_messages";
 import { DraftTree } from "../editor/draft_tree";
-import type { Manifest } from "../../scene/simulated_world";
 import { Icon } from "../../theme/icons";
 import { Tree, type TreeRow } from "../../theme/tree";
 import { frameSelection } from "../views/framing";

@@ -3,7 +3,7 @@
 import { Matrix4, Quaternion, Vector3 } from "three";
 
 import type { Transform } from "../../frames/transform";
-import type { CameraInfo } from "../../protocol/messages";
+import type { CameraInfo } from "../../protocol/generated/ros_messages";
 import { areFinite } from "../../frames/valid";
 
 /** rviz's planes [m]. */

@@ -1,6 +1,6 @@
 /** Points of a depth image: sensor_msgs/Image of 16UC1 [mm] or 32FC1 [m] with its camera's projection. */
 
-import type { CameraInfo, Image } from "../../protocol/messages";
+import type { CameraInfo, Image } from "../../protocol/generated/ros_messages";
 import { Cloud, FLOAT32 } from "../clouds/cloud";
 import { readNumbers, type Pixels } from "../pictures/pixels";
 import { areFinite } from "../../frames/valid";

@@ -1,6 +1,6 @@
 /** Points of a sensor_msgs/PointCloud2 as the GPU reads them: the message's own bytes, in words of 4. */
 
-import type { PointCloud2, PointField } from "../../protocol/messages";
+import type { PointCloud2, PointField } from "../../protocol/generated/ros_messages";
 
 /** Bytes of a sensor_msgs/PointField datatype: INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64. */
 const SIZES: readonly number[] = [0, 1, 1, 2, 2, 4, 4, 4, 8];

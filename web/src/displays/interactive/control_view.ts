@@ -2,7 +2,7 @@
 
 import { Group, Matrix4, Mesh, Quaternion, Vector3 } from "three";
 
-import type { InteractiveMarkerControl, Marker } from "../../protocol/messages";
+import type { InteractiveMarkerControl, Marker } from "../../protocol/generated/ros_messages";
 import type { PointerTarget, TargetEvent } from "../../scene/scene_view";
 import { poseMatrix } from "../markers/marker_scene";
 import { makeView, type MarkerView, type ViewParts } from "../markers/marker_views";

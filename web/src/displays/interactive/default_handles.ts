@@ -2,7 +2,13 @@
 
 import { Quaternion, Vector3 } from "three";
 
-import type { ColorRGBA, InteractiveMarker, InteractiveMarkerControl, Marker, Point } from "../../protocol/messages";
+import type {
+  ColorRGBA,
+  InteractiveMarker,
+  InteractiveMarkerControl,
+  Marker,
+  Point,
+} from "../../protocol/generated/ros_messages";
 import { Type } from "../markers/marker_type";
 import { InteractionMode } from "./control_modes";
 

@@ -4,7 +4,7 @@ import { Quaternion, Vector3 } from "three";
 
 import type { FrameTree } from "../../frames/frame_tree";
 import { NoTransform } from "../../frames/transform";
-import type { InteractiveMarker, Marker, Pose } from "../../protocol/messages";
+import type { InteractiveMarker, Marker, Pose } from "../../protocol/generated/ros_messages";
 import { nanoseconds } from "../../protocol/ros_types";
 
 /** The marker with all shapes relative to its pose, as those without a frame are; or the frame that is missing. */

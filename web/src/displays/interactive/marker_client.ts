@@ -6,7 +6,7 @@ import type {
   InteractiveMarkerInit,
   InteractiveMarkerPose,
   InteractiveMarkerUpdate,
-} from "../../protocol/messages";
+} from "../../protocol/generated/ros_messages";
 
 const KEEP_ALIVE = 0;
 /** Seconds without a message after which a server is silent; servers say something twice a second. */

@@ -3,7 +3,7 @@
 import { Group, Quaternion, Vector3 } from "three";
 
 import { NoTransform, type Transform } from "../../frames/transform";
-import type { InteractiveMarker, InteractiveMarkerFeedback, Pose } from "../../protocol/messages";
+import type { InteractiveMarker, InteractiveMarkerFeedback, Pose } from "../../protocol/generated/ros_messages";
 import { nanoseconds } from "../../protocol/ros_types";
 import type { Label, Selectable, TargetEvent } from "../../scene/scene_view";
 import type { DisplayContext } from "../display";

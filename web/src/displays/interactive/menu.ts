@@ -1,6 +1,6 @@
 /** Menu of an interactive marker, at the pointer. */
 
-import type { MenuEntry } from "../../protocol/messages";
+import type { MenuEntry } from "../../protocol/generated/ros_messages";
 import { MenuCommand } from "./control_modes";
 
 /** Open a menu in the document; `choose` gets the entry that is clicked. It closes by itself. */

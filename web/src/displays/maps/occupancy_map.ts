@@ -1,6 +1,6 @@
 /** Cells of a map with the updates that came since. */
 
-import type { OccupancyGrid, OccupancyGridUpdate } from "../../protocol/messages";
+import type { OccupancyGrid, OccupancyGridUpdate } from "../../protocol/generated/ros_messages";
 import { INVALID_FLOATS, isFinitePose } from "../../frames/valid";
 
 /** Most cells of a map that is shown: 16384 × 16384. */

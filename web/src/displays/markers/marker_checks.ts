@@ -1,6 +1,6 @@
 /** What is wrong with a marker, in rviz's words. */
 
-import type { Marker } from "../../protocol/messages";
+import type { Marker } from "../../protocol/generated/ros_messages";
 import type { StatusLevel } from "../../rviz/status_level";
 import { Type } from "./marker_type";
 

@@ -2,7 +2,7 @@
 
 import { Matrix4, Quaternion, Vector3 } from "three";
 
-import type { ColorRGBA, Marker } from "../../protocol/messages";
+import type { ColorRGBA, Marker } from "../../protocol/generated/ros_messages";
 import { Type } from "./marker_type";
 
 export type PartKind = "box" | "sphere" | "cylinder" | "shaft" | "head" | "list box" | "list sphere";

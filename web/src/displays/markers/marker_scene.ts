@@ -2,7 +2,7 @@
 
 import { Group, Matrix4, Quaternion, Vector3 } from "three";
 
-import type { Marker, Pose } from "../../protocol/messages";
+import type { Marker, Pose } from "../../protocol/generated/ros_messages";
 import { nanoseconds } from "../../protocol/ros_types";
 import type { Transform } from "../../frames/transform";
 import type { Selectable } from "../../scene/scene_view";

@@ -1,6 +1,6 @@
 /** Types and actions of visualization_msgs/Marker, and a marker's name. */
 
-import type { Marker } from "../../protocol/messages";
+import type { Marker } from "../../protocol/generated/ros_messages";
 
 export const Type = {
   arrow: 0,

@@ -2,7 +2,7 @@
 
 import { BufferAttribute, BufferGeometry, DoubleSide, Group, Matrix4, Mesh, type Object3D } from "three";
 
-import type { ColorRGBA, Marker, Point } from "../../protocol/messages";
+import type { ColorRGBA, Marker, Point } from "../../protocol/generated/ros_messages";
 import type { Connection } from "../../protocol/connection";
 import { meshLibrary } from "../meshes/mesh_library";
 import { BillboardLines } from "../../shapes/billboard_lines";

@@ -2,7 +2,7 @@
 
 import { Group, Matrix4, type BufferGeometry } from "three";
 
-import type { ColorRGBA, Marker } from "../../protocol/messages";
+import type { ColorRGBA, Marker } from "../../protocol/generated/ros_messages";
 import type { Selectable } from "../../scene/scene_view";
 import { Instances } from "../../shapes/instances";
 import type { ShapeMaterialOptions } from "../../shapes/shape_material";

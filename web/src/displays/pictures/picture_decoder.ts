@@ -1,6 +1,6 @@
 /** Pictures of image messages as bitmaps: raw ones by the worker, compressed ones by the browser. */
 
-import type { CompressedImage, Image } from "../../protocol/messages";
+import type { CompressedImage, Image } from "../../protocol/generated/ros_messages";
 import type { PictureAnswer, PictureRequest } from "./picture_worker";
 import type { Normalization, RangeHistory } from "./pixels";
 

@@ -3,7 +3,7 @@
 import { signal, type ReadonlySignal } from "@preact/signals";
 
 import type { Connection, Received, Subscription } from "../../protocol/connection";
-import type { CompressedImage, Header, Image } from "../../protocol/messages";
+import type { CompressedImage, Header, Image } from "../../protocol/generated/ros_messages";
 import { decodePicture, type DecodePicture } from "./picture_decoder";
 import { NO_HISTORY, type Normalization, type RangeHistory } from "./pixels";
 

@@ -5,7 +5,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 
 import { drawPicture, PictureStream } from "../../displays/pictures/picture_stream";
 import type { Connection } from "../../protocol/connection";
-import type { CompressedImage, Image } from "../../protocol/messages";
+import type { CompressedImage, Image } from "../../protocol/generated/ros_messages";
 import { Button } from "../../theme/button";
 import { Select } from "../../theme/select";
 import { exact } from "../messages/format";

@@ -1,6 +1,6 @@
 /** The value of one pixel as the message has it. */
 
-import type { Image } from "../../protocol/messages";
+import type { Image } from "../../protocol/generated/ros_messages";
 
 type Read = (view: DataView, at: number, isLittle: boolean) => number;
 

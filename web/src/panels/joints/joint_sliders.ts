@@ -3,6 +3,7 @@
 import { signal, type ReadonlySignal } from "@preact/signals";
 
 import type { Page } from "../../page/page";
+import type { Fields } from "../../protocol/connection";
 import type { JointStates } from "../../scene/simulated_world";
 import { perPage } from "../per_page";
 import { movingJoints } from "../plots/simulated_joints";
@@ -95,7 +96,7 @@ export class JointsState {
       });
   }
 
-  private send(request: "slider" | "joint", fields: Readonly<Record<string, string | number>>): void {
+  private send<N extends "slider" | "joint">(request: N, fields: Fields<N>): void {
     this.page.connection.request(request, fields).then(
       () => void (this.fault.value = ""),
       (error: unknown) => void (this.fault.value = error instanceof Error ? error.message : String(error)),

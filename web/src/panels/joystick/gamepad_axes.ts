@@ -3,7 +3,7 @@
 /** Axes −1 … 1, left and forward positive; buttons 0 and 1. */
 export interface JoyState {
   readonly axes: readonly number[];
-  readonly buttons: readonly number[];
+  readonly buttons: readonly (0 | 1)[];
 }
 
 export const AXIS_NAMES = [
@@ -42,7 +42,7 @@ const PRESSED = 0.5;
 export function joyFromGamepad(sticks: readonly number[], buttons: readonly number[]): JoyState {
   const axis = (index: number): number => clean(-(sticks[index] ?? 0));
   const value = (index: number): number => buttons[index] ?? 0;
-  const isDown = (index: number): number => Number(value(index) > PRESSED);
+  const isDown = (index: number): 0 | 1 => (value(index) > PRESSED ? 1 : 0);
   return {
     axes: [
       axis(0),

@@ -1,6 +1,7 @@
 /** Parameters as the tree of their namespaces. */
 
 import type { ParameterValue } from "../../protocol/connection";
+import { parseJson } from "../../protocol/json";
 
 export interface ParameterRow {
   /** Full name: `/move_base/rate`. */
@@ -74,7 +75,7 @@ export function parameterFromText(
     .replace(/−/g, "-");
   let value: ParameterValue;
   try {
-    value = JSON.parse(json) as ParameterValue;
+    value = parseJson(json);
   } catch {
     return { fault: `This must be ${kindOf(old)}.` };
   }

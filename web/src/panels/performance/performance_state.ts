@@ -4,10 +4,11 @@ import { signal } from "@preact/signals";
 
 import type { Page } from "../../page/page";
 import type { Subscription } from "../../protocol/connection";
+import type { Profile, ProfilePart } from "../../protocol/generated/page_messages";
 import { perPage } from "../per_page";
 
-export const GROUPS = ["physics", "cameras", "sensors", "plugins", "ros", "page", "other", "waiting"] as const;
-export type Group = (typeof GROUPS)[number];
+export type Group = ProfilePart["group"];
+export const GROUPS: readonly Group[] = ["physics", "cameras", "sensors", "plugins", "ros", "page", "other", "waiting"];
 
 export const GROUP_NAMES: Readonly<Record<Group, string>> = {
   physics: "Physics",
@@ -20,29 +21,8 @@ export const GROUP_NAMES: Readonly<Record<Group, string>> = {
   waiting: "Waiting",
 };
 
-export interface Part {
-  readonly group: Group;
-  readonly name: string;
-  /** Wall time [s]. */
-  readonly wall_s: number;
-}
-
-/** About a second of wall time. */
-export interface Profile {
-  readonly wall_s: number;
-  readonly simulated_s: number;
-  readonly steps: number;
-  readonly contacts: number;
-  readonly bodies: number;
-  /** Resting trees of bodies, which the physics skips. */
-  readonly asleep: number;
-  /** Processor time of the graph's thread, which runs beside the simulation's [s]; null: not known, or without ROS. */
-  readonly graph_s: number | null;
-  readonly parts: readonly Part[];
-}
-
 /** A row of the table. */
-export interface Row extends Part {
+export interface Row extends ProfilePart {
   /** Wall time per simulated second [ms]. */
   readonly perSecond: number;
   /** Of the wall time, 0 to 1. */
@@ -61,10 +41,7 @@ export class PerformanceState {
 
   /** Receive profiles until it is closed. */
   follow(): Subscription {
-    return this.page.connection.subscribeRaw("trundle/performance", (payload) => {
-      const text = new TextDecoder().decode(new Uint8Array(payload.buffer, payload.byteOffset, payload.byteLength));
-      this.receive(JSON.parse(text) as Profile);
-    });
+    return this.page.connection.subscribeJson("trundle/performance", (profile) => this.receive(profile));
   }
 
   receive(profile: Profile): void {

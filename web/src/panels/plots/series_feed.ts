@@ -3,19 +3,15 @@
 import { effect } from "@preact/signals";
 
 import type { Page } from "../../page/page";
+import { readPayload } from "../../protocol/check";
 import type { Subscription } from "../../protocol/connection";
+import { seriesHead } from "../../protocol/generated/page_checks";
+import type { SeriesHead } from "../../protocol/generated/page_messages";
 import { perPage } from "../per_page";
 import { sentence } from "../use";
 
 const HEADER = 12;
 const NUMBER = 8; // bytes
-
-interface Head {
-  readonly names: readonly string[];
-  readonly units: readonly string[];
-  /** Why a name has no values. */
-  readonly faults: Readonly<Record<string, string>>;
-}
 
 export interface SeriesListener {
   /** Time [s]. */
@@ -24,15 +20,15 @@ export interface SeriesListener {
   readonly onFault: (text: string) => void;
 }
 
-/** Rows of a message: times and values as the names of its head stand; null: it is cut short. */
+/** Rows of a message: times and values as the names of its head stand; null: it is cut short. Throws a `MessageFault`. */
 export function readSeries(
   payload: DataView,
-): { readonly first: number; readonly head: Head; readonly rows: readonly Float64Array[] } | null {
+): { readonly first: number; readonly head: SeriesHead; readonly rows: readonly Float64Array[] } | null {
   if (payload.byteLength < HEADER) return null;
   const start = HEADER + payload.getUint32(8, true);
   if (payload.byteLength < start) return null;
   const text = new Uint8Array(payload.buffer, payload.byteOffset + HEADER, start - HEADER);
-  const head = JSON.parse(new TextDecoder().decode(text)) as Head;
+  const head = readPayload(text, "trundle/series", seriesHead);
   const width = 1 + head.names.length;
   const count = Math.floor((payload.byteLength - start) / (NUMBER * width));
   const rows = Array.from({ length: count }, (_, row) =>

@@ -1,6 +1,6 @@
 /** Joints of the simulated world as paths: `model::joint.position`. */
 
-import type { JointInfo, Manifest, ModelInfo } from "../../scene/simulated_world";
+import type { JointInfo, Manifest, ModelInfo } from "../../protocol/generated/page_messages";
 
 const FIELDS = ["position", "velocity", "effort"] as const;
 export type JointField = (typeof FIELDS)[number];

@@ -1,6 +1,6 @@
 /** Names of the simulation's values that can be plotted: of models, links, joints and sensors. */
 
-import type { Manifest, ModelInfo } from "../../scene/simulated_world";
+import type { Manifest, ModelInfo } from "../../protocol/generated/page_messages";
 
 const XYZ = ["x", "y", "z"];
 const POSE = [...XYZ, "roll", "pitch", "yaw"].map((axis) => `pose.${axis}`);

@@ -5,7 +5,7 @@ import { computed, signal } from "@preact/signals";
 import { canControl } from "../../page/looking";
 import type { Page } from "../../page/page";
 import { bodiesOf } from "../../page/world_nodes";
-import type { Subscription } from "../../protocol/connection";
+import type { Fields, Subscription } from "../../protocol/connection";
 import { perPage } from "../per_page";
 import { sentence } from "../use";
 import { ContactTimes, touchingPairs } from "./contact_times";
@@ -94,10 +94,7 @@ export class TimelineState {
     if (!this.isAsking) void this.ask();
   }
 
-  do(request: "play" | "pause"): void;
-  do(request: "step", fields: { readonly count: number }): void;
-  do(request: "speed", fields: { readonly factor: number | null }): void;
-  do(request: string, fields: Readonly<Record<string, number | null>> = {}): void {
+  do<N extends "play" | "pause" | "step" | "speed">(request: N, fields: Fields<N>): void {
     this.page.connection.request(request, fields).then(
       () => void (this.fault.value = ""),
       (error: unknown) => void (this.fault.value = sentence(error)),

@@ -3,6 +3,7 @@
 import { signal } from "@preact/signals";
 
 import type { Connection } from "../../protocol/connection";
+import type { Lanes } from "../../protocol/generated/page_messages";
 import type { Span } from "./timeline_state";
 
 /** A topic's messages over time. */
@@ -12,16 +13,6 @@ export interface TopicStretches {
   readonly count: number | null;
   /** Beginning and end of each stretch [s]. */
   readonly bands: readonly (readonly [number, number])[];
-}
-
-/** Content of `trundle/lanes`. */
-export interface BagLanes {
-  readonly start_ns: number;
-  readonly bucket_ns: number;
-  /** First and last bucket of each stretch. */
-  readonly topics: Readonly<
-    Record<string, { readonly count: number; readonly bands: readonly (readonly [number, number])[] }>
-  >;
 }
 
 /** Most buckets of the span that is shown. */
@@ -41,8 +32,8 @@ export class TopicTimes {
   private lookedAt = -Infinity; // bucket
 
   constructor(private readonly connection: Connection) {
-    connection.subscribeRaw("trundle/lanes", (payload) => {
-      this.recorded.value = stretchesOf(JSON.parse(new TextDecoder().decode(payload)) as BagLanes);
+    connection.subscribeJson("trundle/lanes", (lanes) => {
+      this.recorded.value = stretchesOf(lanes);
     });
   }
 
@@ -105,7 +96,7 @@ export class TopicTimes {
 }
 
 /** Stretches of a bag by topic, in seconds. */
-export function stretchesOf({ start_ns, bucket_ns, topics }: BagLanes): readonly TopicStretches[] {
+export function stretchesOf({ start_ns, bucket_ns, topics }: Lanes): readonly TopicStretches[] {
   const time = (bucket: number): number => (start_ns + bucket * bucket_ns) / NS;
   const names = Object.keys(topics).sort();
   return names.map((topic) => {

@@ -3,9 +3,10 @@
 import { effect, untracked } from "@preact/signals";
 import { Group, Sphere, Vector3, type Mesh, type Object3D } from "three";
 
+import type { LinkInfo, Manifest, ModelInfo } from "../../protocol/generated/page_messages";
 import { NOT_PICKED } from "../picking";
 import type { SceneView } from "../scene_view";
-import type { LinkInfo, Manifest, ModelInfo, SimulatedWorld } from "../simulated_world";
+import type { SimulatedWorld } from "../simulated_world";
 import { drawFrustum } from "./camera_frustum";
 import { drawJoint, type JointDrawing } from "./joint_axes";
 import { drawCentre, drawInertia } from "./mass";

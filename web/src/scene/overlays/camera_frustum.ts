@@ -2,7 +2,7 @@
 
 import { Group, type Object3D } from "three";
 
-import type { CameraInfo } from "../simulated_world";
+import type { CameraInfo } from "../../protocol/generated/page_messages";
 import { place } from "./mass";
 import { COLOURS, lines } from "./overlay_shapes";
 

@@ -3,11 +3,12 @@
 import { computed, effect, untracked, type ReadonlySignal } from "@preact/signals";
 import { InstancedMesh, Matrix4, Quaternion, Vector3, type BufferGeometry } from "three";
 
+import type { Manifest } from "../../protocol/generated/page_messages";
 import { HEAD, SHAFT, SPHERE } from "../../shapes/solids";
 import type { Connection } from "../../protocol/connection";
 import { NOT_PICKED } from "../picking";
 import type { SceneView } from "../scene_view";
-import type { Manifest, SimulatedWorld } from "../simulated_world";
+import type { SimulatedWorld } from "../simulated_world";
 import { contactCount, HEADER, MOST, SIZE } from "../world/contact_rows";
 import type { NamedModel } from "./body_overlays";
 import { COLOURS, flat, inFront } from "./overlay_shapes";

@@ -2,7 +2,8 @@
 
 import { CircleGeometry, Euler, Group, Quaternion, RingGeometry, Vector3, type Object3D } from "three";
 
-import type { JointInfo, Triple } from "../simulated_world";
+import type { JointInfo } from "../../protocol/generated/page_messages";
+import type { Triple } from "../simulated_world";
 import { area, arrow, COLOURS, lines, triad } from "./overlay_shapes";
 
 const Z = new Vector3(0, 0, 1);

@@ -2,9 +2,10 @@
 
 import { BoxGeometry, EdgesGeometry, Euler, Group, Mesh, ShaderMaterial, type Object3D } from "three";
 
+import type { LinkInfo } from "../../protocol/generated/page_messages";
 import { principalAxes } from "../../shapes/eigen";
 import { BOX, SPHERE } from "../../shapes/solids";
-import type { LinkInfo, SixNumbers } from "../simulated_world";
+import type { SixNumbers } from "../simulated_world";
 import { area, COLOURS, inFront, lines } from "./overlay_shapes";
 
 /** Density of lead [kg/m³]: Gazebo draws a centre of mass as a ball of lead. */

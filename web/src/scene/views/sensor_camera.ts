@@ -2,10 +2,10 @@
 
 import { PerspectiveCamera, type OrthographicCamera } from "three";
 
+import type { CameraInfo } from "../../protocol/generated/page_messages";
 import { NumberProperty, type YamlMapping } from "../../rviz/properties";
 import type { Transform } from "../../frames/transform";
 import type { Area } from "../free_area";
-import type { CameraInfo } from "../simulated_world";
 import { FrameAligned } from "./frame_aligned";
 import type { Motion, Picture } from "./view";
 

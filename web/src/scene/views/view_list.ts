@@ -3,10 +3,10 @@
 import { computed, signal, untracked, type ReadonlySignal } from "@preact/signals";
 import type { Box3, Vector3 } from "three";
 
+import type { CameraInfo } from "../../protocol/generated/page_messages";
 import { isMapping, type Triple, type Yaml, type YamlMapping } from "../../rviz/properties";
 import type { Transform } from "../../frames/transform";
 import type { Pane } from "../panes/pane";
-import type { CameraInfo } from "../simulated_world";
 import type { ThreeScene } from "../three_scene";
 import type { PaneLayout } from "../panes/pane_layout";
 import type { SixSides, ViewController, ViewPane, Views } from "../view_controller";

@@ -7,9 +7,9 @@
 
 import { Matrix4, Quaternion, Vector3, type Group } from "three";
 
+import type { Manifest } from "../../protocol/generated/page_messages";
 import type { FrameTree } from "../../frames/frame_tree";
 import { NoTransform, type Transform } from "../../frames/transform";
-import type { Manifest } from "../simulated_world";
 import type { BodyPoses } from "./body_poses";
 
 /** Poses that are kept until tf has caught up. */

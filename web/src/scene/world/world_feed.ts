@@ -3,11 +3,12 @@
 import { batch, effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
 import { Box3, type Object3D } from "three";
 
+import type { ClockState, Manifest } from "../../protocol/generated/page_messages";
 import type { FrameTree } from "../../frames/frame_tree";
 import type { Transform } from "../../frames/transform";
 import type { Connection } from "../../protocol/connection";
 import { ShownParts } from "../overlays/shown_parts";
-import type { JointStates, Manifest, SimulatedWorld, WorldState } from "../simulated_world";
+import type { JointStates, SimulatedWorld } from "../simulated_world";
 import type { ThreeScene } from "../three_scene";
 import { BodyPoses } from "./body_poses";
 import { modelOf, type GlbModel } from "./glb_model";
@@ -20,7 +21,7 @@ import { WorldLighting } from "./world_lighting";
 
 export class WorldFeed implements SimulatedWorld {
   readonly manifest = signal<Manifest | null>(null);
-  readonly state = signal<WorldState | null>(null);
+  readonly state = signal<ClockState | null>(null);
   readonly joints: ReadonlySignal<JointStates>;
   readonly shown = new ShownParts();
   readonly hidden = signal<ReadonlySet<string>>(new Set());
@@ -92,10 +93,13 @@ export class WorldFeed implements SimulatedWorld {
       const subscription = connection.subscribeRaw(topic, act);
       this.stops.push(() => subscription.close());
     };
-    on("trundle/world", (payload) => batch(() => this.onManifest(parse(payload) as Manifest)));
-    on("trundle/state", (payload) => {
-      this.state.value = parse(payload) as WorldState;
-    });
+    const subscriptions = [
+      connection.subscribeJson("trundle/world", (manifest) => batch(() => this.onManifest(manifest))),
+      connection.subscribeJson("trundle/state", (state) => {
+        this.state.value = state;
+      }),
+    ];
+    this.stops.push(...subscriptions.map((each) => () => each.close()));
     on("trundle/poses", (payload) => this.takePoses(payload));
     on("trundle/lines", (payload) => {
       const lines = readLines(payload);
@@ -243,10 +247,6 @@ export class WorldFeed implements SimulatedWorld {
         },
       );
   }
-}
-
-function parse(payload: DataView): unknown {
-  return JSON.parse(new TextDecoder().decode(payload));
 }
 
 /** True if a link's name (`model::link`) or one of the models that it is in is hidden. */

@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import type { Group } from "three";
 
-import type { Manifest } from "../simulated_world";
+import type { Manifest } from "../../protocol/generated/page_messages";
 import { fetchBytes, GlbModel, SharedContents } from "./glb_model";
 import type { WorldLighting } from "./world_lighting";
 

@@ -11,7 +11,7 @@ import {
   type WebGLRenderer,
 } from "three";
 
-import type { Manifest } from "../simulated_world";
+import type { Manifest } from "../../protocol/generated/page_messages";
 import { FOG_KINDS, fragmentShader, type LightKind } from "./sdf_shader";
 import { CASTERS, ShadowMap } from "./shadow_map";
 

@@ -2,21 +2,17 @@
 
 import { Quaternion, Vector3 } from "three";
 
+import type { Fields, Request } from "../../protocol/connection";
+import type { JointInfo, LightInfo } from "../../protocol/generated/page_messages";
 import type { Selection } from "../../page/page";
 import { allModels, bodiesOf } from "../../page/world_nodes";
 import { partTarget } from "./part_target";
 import type { Transform } from "../../frames/transform";
-import type { JointInfo, LightInfo, SixNumbers } from "../../scene/simulated_world";
+import type { SixNumbers } from "../../scene/simulated_world";
 import { fixed } from "../../theme/format";
 import type { WorldEditor } from "../../page/world_editor";
 import { findJoint, findLink, findModel } from "../../page/selection_lookup";
-import { orientationOf, poseFields, type Fields } from "../../page/request_fields";
-
-/** A request to the server, as its name and fields. */
-export interface Asked {
-  readonly request: string;
-  readonly fields: Fields;
-}
+import { orientationOf, poseFields } from "../../page/request_fields";
 
 export interface HandleTarget {
   /** "Move of cart". */
@@ -35,10 +31,10 @@ export interface HandleTarget {
 
 export interface Drawn {
   /** While it is dragged; null: nothing is asked before its end. */
-  move(to: Transform): Asked | null;
+  move(to: Transform): Request | null;
   /** To end the drag, before what is asked for last; null: nothing. */
-  readonly release: Asked | null;
-  place(to: Transform): Asked;
+  readonly release: Request | null;
+  place(to: Transform): Request;
   /** A joint's position on its way. */
   describe?(to: Transform): string;
 }
@@ -70,7 +66,7 @@ function modelTarget(editor: WorldEditor, name: string, linkName: string | null)
   const scope = nested === undefined ? name : [name, ...nested.name.split("::").slice(1)].join("::");
   const link = linkName === null ? nested?.model.links[0] : findLink(editor, name, linkName);
   if (link === undefined || link === null) return null;
-  const fields = (to: Transform): Fields => ({
+  const fields = (to: Transform): Fields<"pose"> => ({
     model: linkName === null ? scope : name,
     link: link.name,
     ...poseFields(to.position, to.orientation),
@@ -92,7 +88,7 @@ function modelTarget(editor: WorldEditor, name: string, linkName: string | null)
 }
 
 function lightTarget(light: LightInfo): HandleTarget {
-  const place = (to: Transform): Asked => ({
+  const place = (to: Transform): Request => ({
     request: "place_light",
     fields: { light: light.name, ...poseFields(to.position, to.orientation) },
   });
@@ -135,7 +131,7 @@ function jointTarget(editor: WorldEditor, model: string, name: string): HandleTa
         const by = start === null ? 0 : turns ? turnAbout(direction, start, to) : wayAlong(direction, start, to);
         return within(joint, from + by);
       };
-      const place = (to: Transform): Asked => ({ request, fields: { model, joint: name, position: positionAt(to) } });
+      const place = (to: Transform): Request => ({ request, fields: { model, joint: name, position: positionAt(to) } });
       return {
         move: place,
         release: null,

@@ -4,7 +4,8 @@ import { Matrix4, Quaternion, Vector3, type Object3D } from "three";
 
 import type { Transform } from "../../frames/transform";
 import type { SixNumbers } from "../../scene/simulated_world";
-import type { Asked, Drawn, HandleTarget } from "./handle_target";
+import type { Request } from "../../protocol/connection";
+import type { Drawn, HandleTarget } from "./handle_target";
 import type { WorldEditor } from "../../page/world_editor";
 import { findPart, linkAround, type PartPath, bodiesOfPart } from "../../scene/draft";
 import { orientationOf, poseFields } from "../../page/request_fields";
@@ -45,7 +46,7 @@ function drag(objects: readonly Object3D[], part: PartPath, whole: Transform | n
     orientation: first?.quaternion.clone() ?? new Quaternion(),
   };
   const starts = objects.map((object) => matrixOf({ position: object.position, orientation: object.quaternion }));
-  const place = (to: Transform): Asked => ({
+  const place = (to: Transform): Request => ({
     request: "draft_place",
     fields: { part, ...poseFields(to.position, to.orientation) },
   });

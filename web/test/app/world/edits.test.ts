@@ -6,8 +6,11 @@ import { Notices } from "../../../src/app/notices/notices";
 import type { Shell } from "../../../src/app/shell";
 import { rollPitchYaw } from "../../../src/app/inspector/twist";
 import { editWorld } from "../../../src/app/world/edits";
+import type { Fields, RequestName } from "../../../src/protocol/connection";
 import { fakePage } from "../../fake_page";
 import { orientationOf, poseFields, withNumber } from "../../../src/page/request_fields";
+
+const BASE = { model: "cart", link: "base" };
 
 function fakeShell(answer: () => Promise<unknown>): { shell: Shell; sent: object[] } {
   const page = fakePage();
@@ -21,25 +24,26 @@ function fakeShell(answer: () => Promise<unknown>): { shell: Shell; sent: object
   const shell = {
     page,
     notices,
-    request: (_: string, name: string, fields: object) => void page.connection.request(name, fields as never),
+    request: <N extends RequestName>(_: string, name: N, fields: Fields<N>) =>
+      void page.connection.request(name, fields),
   };
   return { shell: shell as unknown as Shell, sent };
 }
 
 it("can be undone only after the server has done it", async () => {
   const { shell, sent } = fakeShell(() => Promise.resolve({}));
-  const edit = editWorld(shell, "Mass of base", "mass", { mass: 4 }, { mass: 2 });
+  const edit = editWorld(shell, "Mass of base", "mass", { ...BASE, mass: 4 }, { ...BASE, mass: 2 });
   expect(shell.page.undo.undoTitle.value).toBeNull();
   await edit;
   expect(shell.page.undo.undoTitle.value).toBe("Mass of base");
   shell.page.undo.undo();
   shell.page.undo.redo();
-  expect(sent).toEqual([4, 2, 4].map((mass) => ({ name: "mass", mass })));
+  expect(sent).toEqual([4, 2, 4].map((mass) => ({ name: "mass", ...BASE, mass })));
 });
 
 it("leaves nothing to undo of what was refused, and says why", async () => {
   const { shell } = fakeShell(() => Promise.reject(new Error("link 'arm' has no collision, and so no friction")));
-  await editWorld(shell, "Friction of arm", "friction", { mu: 4 }, { mu: 2 });
+  await editWorld(shell, "Friction of arm", "friction", { ...BASE, mu: 4, mu2: 1 }, { ...BASE, mu: 2, mu2: 1 });
   expect(shell.page.undo.undoTitle.value).toBeNull();
   expect(shell.notices.line.value.text).toContain("no collision");
 });
