@@ -118,7 +118,7 @@ def test_an_archive_is_uploaded_and_dragged_into_the_scene(user: WorldUser) -> N
     user.page.mouse.down()
     user.page.mouse.move(*user.at((1.0, 1.0)), steps=4)
     user.page.mouse.up()
-    user.until(lambda: user.model("wagon") is not None, what="for the wagon")
+    user.until(lambda: user.pose("wagon") is not None, what="for the wagon")
     assert user.place("wagon") == pytest.approx((1.0, 1.0, 0.0), abs=0.03)
     user.until(lambda: _redness(user) > before + 1000, what="for its mesh")
 
