@@ -1,0 +1,55 @@
+"""A person's page and its server are of different versions: a sentence says which message cannot be read."""
+
+from typing import Any
+
+import pytest
+from tests.manifests import empty_manifest
+from tests.page.built_client import needs_client
+from tests.page.panel_user import PATIENCE_MS
+
+from trundle.page import PageServer
+
+pytestmark = [needs_client, pytest.mark.slow, pytest.mark.browser]
+_RENAMED = (b'"physics":', b'"fysiks_":')
+_VERSION = "The server may be of another version: load the page again."
+
+
+@pytest.fixture
+def tab(chromium: Any) -> Any:
+    tab = chromium.new_page()
+    tab.set_default_timeout(PATIENCE_MS)
+    yield tab
+    tab.close()
+
+
+def test_a_world_of_another_version_is_a_notice_and_no_exception(page: PageServer, tab: Any) -> None:
+    page.set_world(empty_manifest(1), {})
+    errors: list[Any] = []
+    tab.on("pageerror", lambda error: errors.append(error))
+
+    def rename(socket: Any) -> None:
+        server = socket.connect_to_server()
+        server.on_message(lambda data: socket.send(data if isinstance(data, str) else data.replace(*_RENAMED)))
+
+    tab.route_web_socket("**/*", rename)
+    tab.goto(page.url)
+
+    tab.get_by_text(f"The page cannot read trundle/world: 'physics' is missing. {_VERSION}").first.wait_for()
+    assert errors == []
+
+
+def test_a_session_of_another_version_is_a_sentence_in_place_of_the_page(page: PageServer, tab: Any) -> None:
+    def without_title(route: Any) -> None:
+        answer = route.fetch()
+        fields = answer.json()
+        del fields["title"]
+        route.fulfill(response=answer, json=fields)
+
+    tab.route("**/session.json*", without_title)
+    tab.goto(page.url)
+
+    alert = tab.get_by_role("alert")
+    alert.wait_for()
+    assert alert.inner_text().startswith(
+        f"The page cannot be shown: The page cannot read the session: 'title' is missing. {_VERSION}"
+    )
