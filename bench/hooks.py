@@ -149,7 +149,7 @@ def _controlled_arm(folder: Path, loop: GraphLoop) -> tuple[Simulation, Node]:
     loop.run(core.start(), _PATIENCE_S)
     loop.run(core.wait_ready(), _PATIENCE_S)
     sim = _load("arm.urdf", urdf, folder)
-    node = Node("/gazebo", loop=loop, master_uri=core.uri, deliver=sim.post_input, rosout=False)
+    node = Node("/gazebo", loop=loop, master_uri=core.uri, deliver=sim.inputs.post_callback, rosout=False)
     for name, value in {"robot_description": urdf, **_CONTROLLERS}.items():
         loop.run(node.params.set(f"/{name}", value), _PATIENCE_S)
     load_plugins(sim, lambda _: node, {}, say=lambda _: None)

@@ -69,7 +69,7 @@ class Lockstep:
         return self._begun.is_set() and not self.over.is_set()
 
     def hold(self) -> None:
-        """Hold time again, at the zero of nodes that start anew."""
+        """Hold time again, at zero, while nodes are started again."""
         self._begun.clear()
         self.over.clear()
 

@@ -95,7 +95,7 @@ class GazeboContents:
             loop=graph.loop,
             master_uri=graph.master_uri,
             clock=self.clock,
-            deliver=lambda callback: self._post(lambda: simulation.receive_input(callback)),
+            deliver=lambda callback: self._post(lambda: simulation.inputs.call(callback)),
             host=graph.host,
         )
         node.profile = self._node.profile

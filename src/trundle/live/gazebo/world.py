@@ -83,7 +83,7 @@ class GazeboWorld:
         self._spawned: dict[str, Callable[[], None]] = {}
         """Spawned model → what spawns it again."""
         self._returning: list[Callable[[], None]] | None = None
-        """What spawns the models again when the world is loaded again; None: it is opened for the first time."""
+        """Functions that spawn the models when the world is loaded again; None: it is opened for the first time."""
         self._window = GzclientPage(page, say, reload=None if reload is None else self._reload)
         self._thread = SimulationThread(graph.loop, self._tick, self._end)
         self._contents: GazeboContents | None = None

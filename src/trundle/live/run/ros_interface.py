@@ -76,7 +76,7 @@ class RosInterface:
             loop=self._graph.loop,
             master_uri=self._graph.master_uri,
             clock=self.clock,
-            deliver=simulation.post_input,
+            deliver=simulation.inputs.post_callback,
             host=self._graph.host,
         )
         self._nodes.append(node)

@@ -77,7 +77,7 @@ class ModelEdits:
         _remember(self._models, name, saved)
 
     def _reset(self, model: ModelHandle) -> None:
-        plugins = save_plugins(self._simulation.reset_calls(model))
+        plugins = save_plugins(self._simulation.resets.of_model(model))
         kept = self._before_resets
         kept.append((saved_model(self._simulation, model), plugins))
         while len(kept) > 1 and sum(each.size for _, each in kept) > _MAX_BYTES:

@@ -1,12 +1,12 @@
 """Timed wrenches and efforts, and surface motions of links."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Protocol
 
 from msgspec import Struct, field
 
 from trundle.sim.physics import Engine
-from trundle.spatial import Wrench
+from trundle.spatial import NS_PER_S, Wrench
 
 from .step_clock import StepClock
 
@@ -43,8 +43,10 @@ class Expiries(Struct, frozen=True):
 class AppliedLoads:
     """Wrenches, efforts and surface motions of one simulation."""
 
-    def __init__(self, engine: Engine) -> None:
+    def __init__(self, engine: Engine, clock: Callable[[], tuple[int, int]]) -> None:
+        """Begin with none; `clock` returns the current step, and its length [ns]."""
         self._engine = engine
+        self._clock = clock
         self.expiries = Expiries()
         self._lasting: dict[int, Wrench] = {}
         """Link → its persistent wrench, without the part added for the coming step."""
@@ -74,13 +76,31 @@ class AppliedLoads:
             {axis: after.step_at(before.time_ns(end)) for axis, end in self.expiries.efforts.items()},
         )
 
-    def set_wrench(self, link: int, wrench: Wrench, *, until: int | None) -> None:
-        """Apply a wrench until a step, or permanently (None)."""
+    def _end(self, duration_s: float) -> int:
+        """Return the step at which a load that begins now ends, after one step at the earliest."""
+        step, step_ns = self._clock()
+        return step + max(1, round(duration_s * NS_PER_S / step_ns))
+
+    def _left_s(self, end: int | None) -> float | None:
+        """Return how much longer a load lasts that ends at a step [s]; None: for ever."""
+        step, step_ns = self._clock()
+        return None if end is None else (end - step) * step_ns / NS_PER_S
+
+    def wrench_left_s(self, link: int) -> float | None:
+        """Return how much longer the wrench of a link lasts [s]; None: until the next one."""
+        return self._left_s(self.expiries.wrenches.get(link))
+
+    def effort_left_s(self, joint: DrivenJoint, axis: int) -> float | None:
+        """Return how much longer the effort of an axis lasts [s]; None: until the next command."""
+        return self._left_s(self.expiries.efforts.get((joint, axis)))
+
+    def set_wrench(self, link: int, wrench: Wrench, *, duration_s: float | None) -> None:
+        """Apply a wrench for a duration [s], or until the next one (None)."""
         self._lasting.pop(link, None)
         self._engine.set_wrench(link, wrench)
         self.expiries.wrenches.pop(link, None)
-        if until is not None:
-            self.expiries.wrenches[link] = until
+        if duration_s is not None:
+            self.expiries.wrenches[link] = self._end(duration_s)
 
     def add_wrench(self, link: int, wrench: Wrench) -> None:
         """Add a wrench for the coming step."""
@@ -88,11 +108,11 @@ class AppliedLoads:
         self._lasting.setdefault(link, now)
         self._engine.set_wrench(link, now + wrench)
 
-    def set_effort_expiry(self, joint: DrivenJoint, axis: int, *, until: int | None) -> None:
-        """Set the step at which an effort ends; None: never."""
+    def limit_effort(self, joint: DrivenJoint, axis: int, duration_s: float | None) -> None:
+        """Let the effort of an axis end after a duration [s], or with the next command (None)."""
         self.expiries.efforts.pop((joint, axis), None)
-        if until is not None:
-            self.expiries.efforts[joint, axis] = until
+        if duration_s is not None:
+            self.expiries.efforts[joint, axis] = self._end(duration_s)
 
     def set_surface_motion(self, link: int, motion: "LinkGrip | None") -> None:
         """Set a link's surface motion; None restores ordinary contacts."""

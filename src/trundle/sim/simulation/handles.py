@@ -82,14 +82,12 @@ class LinkHandle(Handle):
             wrench: replaces the wrench applied before.
             duration_s: simulation time; None: until the next call.
         """
-        until = self._simulation.expiry_step(duration_s)
-        self._simulation.loads.set_wrench(self.index, wrench, until=until)
+        self._simulation.loads.set_wrench(self.index, wrench, duration_s=duration_s)
 
     @property
     def applied_wrench(self) -> tuple[Wrench, float | None]:
         """Wrench of `apply_wrench`, and for how much longer it lasts [s]; None: until the next call."""
-        until = self._simulation.loads.expiries.wrenches.get(self.index)
-        return self._simulation.engine.wrench(self.index), self._simulation.time_left(until)
+        return self._simulation.engine.wrench(self.index), self._simulation.loads.wrench_left_s(self.index)
 
     def add_wrench(self, wrench: Wrench, *, at: Vector3 | None = None) -> None:
         """Add a wrench until the next hook, for forces computed at every step, such as wind, buoyancy and drag.
@@ -197,7 +195,7 @@ class ModelHandle:
         for joint in self.joints:
             for axis in range(len(joint.axes)):
                 joint.command_effort(0.0, axis=axis)
-        self._simulation.finish_reset(self)
+        self._simulation.resets.finish(self)
 
     def set_twist(self, twist: Twist) -> None:
         """Set the model's twist on its free trees once, world axes."""

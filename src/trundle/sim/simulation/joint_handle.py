@@ -147,7 +147,7 @@ class JointHandle(Handle):
             axis: axis index.
         """
         driven = self._driven(axis)
-        self._simulation.loads.set_effort_expiry(self, axis, until=None)
+        self._simulation.loads.limit_effort(self, axis, None)
         self._simulation.engine.motors.command_position(driven, self._within_limits(position, driven), max_effort)
 
     def command_velocity(
@@ -157,7 +157,7 @@ class JointHandle(Handle):
         SetVelocity with fmax.
         """
         if not hardware:
-            self._simulation.loads.set_effort_expiry(self, axis, until=None)
+            self._simulation.loads.limit_effort(self, axis, None)
         self._simulation.engine.motors.command_velocity(self._driven(axis), velocity, max_effort, hardware=hardware)
 
     def command_effort(
@@ -173,26 +173,26 @@ class JointHandle(Handle):
         """
         self._simulation.engine.motors.command_effort(self._axis(axis), effort, hardware=hardware)
         if not hardware:
-            self._simulation.loads.set_effort_expiry(self, axis, until=self._simulation.expiry_step(duration_s))
+            self._simulation.loads.limit_effort(self, axis, duration_s)
 
     @property
     def commands(self) -> "tuple[TimedCommand, ...]":
         """Last direct command of each axis, and for how much longer it lasts [s]; None: until the next one."""
         simulation = self._simulation
-        ends = [simulation.loads.expiries.efforts.get((self, axis)) for axis in range(len(self.axes))]
+        left_s = [simulation.loads.effort_left_s(self, axis) for axis in range(len(self.axes))]
         commands = map(simulation.engine.motors.command_of, self.axes)
-        return tuple(zip(commands, map(simulation.time_left, ends), strict=True))
+        return tuple(zip(commands, left_s, strict=True))
 
     def repeat(self, commands: "Iterable[TimedCommand]") -> None:
         """Give every axis the command that it had."""
         for axis, (command, left_s) in enumerate(commands):
             self._simulation.engine.motors.repeat(self._axis(axis), command)
-            self._simulation.loads.set_effort_expiry(self, axis, until=self._simulation.expiry_step(left_s))
+            self._simulation.loads.limit_effort(self, axis, left_s)
 
     def drive_kinematically(self, velocity: float, *, axis: int = 0, hardware: bool = False) -> None:
         """Drive an axis at a velocity [rad/s or m/s] at once; the parent's side feels its weight only."""
         if not hardware:
-            self._simulation.loads.set_effort_expiry(self, axis, until=None)
+            self._simulation.loads.limit_effort(self, axis, None)
         engine = self._simulation.engine
         engine.motors.drive_kinematically(self._driven(axis), velocity, hardware=hardware)
         engine.reader.invalidate()

@@ -6,6 +6,7 @@ from trundle.robots.model import World
 from trundle.sim.physics import Engine
 
 from .applied_loads import AppliedLoads
+from .resets import Resets
 
 
 class Runtime(Protocol):
@@ -31,18 +32,11 @@ class Runtime(Protocol):
         """Simulation time [ns]."""
         ...
 
-    def expiry_step(self, duration_s: float | None) -> int | None:
-        """Return the step at which a load that begins now and lasts `duration_s` ends; None: never."""
-        ...
-
-    def time_left(self, until: int | None) -> float | None:
-        """Return how much longer a load lasts that ends at a step [s]; None: for ever."""
-        ...
-
     def edit(self, world: World) -> None:
         """Continue with an edited world of the same models, links and joints."""
         ...
 
-    def finish_reset(self, model: object) -> None:
-        """Call what waits for resets of one model, by its handle."""
+    @property
+    def resets(self) -> Resets:
+        """Functions that are called after resets."""
         ...

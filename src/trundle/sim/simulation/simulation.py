@@ -4,7 +4,6 @@ One thread owns it; every other thread posts a command. A stride is: run the com
 step the engine in C up to the next due time, call the due `after_step` hooks.
 """
 
-from collections import deque
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
@@ -21,9 +20,11 @@ from .applied_loads import AppliedLoads
 from .debug_line import DebugLine
 from .handles import ModelHandle, handles_of, world_joints_of
 from .hooks import AfterStep, BeforeStep
+from .inputs import Inputs
 from .joint_attachment import with_joint
 from .joint_handle import JointHandle
 from .profiler import Profiler, StridePart
+from .resets import Resets
 from .saved_state import SavedSimulation
 from .schedule import Schedule, find_actions, finish_stride, run_after, run_before
 from .snapshot import Snapshot
@@ -45,8 +46,6 @@ if TYPE_CHECKING:
 _MAX_STRIDE = 1000
 """Most steps of one stride; an unstable stride is rolled back to its beginning."""
 Command: TypeAlias = Callable[["Simulation"], None]
-Repeat: TypeAlias = Callable[[], object]
-"""Does once more what an input from outside, such as a message, did."""
 
 
 class Simulation:
@@ -76,10 +75,10 @@ class Simulation:
         self.engine = Engine(compiled or compile_world(with_actors(world, report), report, cutting=cutting))
         self.world = self.engine.compiled.world
         """World without nested models; their links and joints are the outer model's, named `inner::name`."""
-        self.loads = AppliedLoads(self.engine)
-        """Loads applied through handles."""
         self._clock = StepClock(world_step_ns(world))
         self.steps = 0
+        self.loads = AppliedLoads(self.engine, lambda: (self.steps, self.step_ns))
+        """Loads applied through handles."""
         self._before_resets = (0, 0)
         """Time [ns] and steps before the last reset or restore."""
         self.models = handles_of(self, self.world, {})
@@ -89,9 +88,8 @@ class Simulation:
         """Lines drawn by plugins, by `model::name`."""
         self.lines_are_shown = False
         """True if a page shows the lines; plugins with expensive lines draw none before."""
-        self._commands: deque[Command] = deque()
-        self.record_input: Callable[[Repeat], None] | None = None
-        """Takes what repeats each input from outside."""
+        self.inputs = Inputs[Simulation](self)
+        """Commands and callbacks that wait for the next step."""
         self.profiler: Profiler | None = None
         """Charges the wall time of strides to their parts."""
         self._schedule = Schedule[Simulation](self._clock)
@@ -106,7 +104,8 @@ class Simulation:
         for walk in self.actors.values():
             wanted = partial(walk.enabled, self.models)
             self.add_hook(walk, period_ns=walk.period_ns, enabled=wanted)
-        self._on_reset: list[tuple[Callable[[], None], ModelHandle | None]] = []
+        self.resets = Resets()
+        """Functions that are called after resets."""
 
     @property
     def time_ns(self) -> int:
@@ -322,21 +321,11 @@ class Simulation:
             self._schedule.restart(0)
         self.engine.set_time(self.time_ns / NS_PER_S)
         if poses:
-            for call, _ in self._on_reset:
-                call()
+            self.resets.finish()
 
     def on_reset(self, call: Callable[[], None], *, model: ModelHandle | None = None) -> None:
         """Call a function after each reset of poses, and after each reset of `model` alone, until that is deleted."""
-        self._on_reset.append((call, model))
-
-    def finish_reset(self, model: object) -> None:
-        """Call what waits for resets of one model, by its handle."""
-        for call in self.reset_calls(model):
-            call()
-
-    def reset_calls(self, model: object) -> list[Callable[[], None]]:
-        """Return what is called after each reset of one model, by its handle."""
-        return [call for call, of in self._on_reset if of is model]
+        self.resets.add(call, model)
 
     # -- spawning and deleting
 
@@ -366,7 +355,7 @@ class Simulation:
         gone = self[name]
         self._replace_world(without_model(self.world, name))
         gone.rebind(None, None)
-        self._on_reset = [each for each in self._on_reset if each[1] is not gone]
+        self.resets.forget(gone)
         self.lines = {key: line for key, line in self.lines.items() if not key.startswith(f"{name}::")}
 
     def rename(self, name: str, new: str) -> None:
@@ -454,34 +443,8 @@ class Simulation:
 
     def post(self, command: Command) -> None:
         """Queue a function that is called with the simulation before its next step; thread-safe."""
-        self._commands.append(command)
-
-    def post_input(self, call: Callable[[], Repeat | None]) -> None:
-        """Queue a callback that may come from outside the simulation, such as a message's; thread-safe.
-
-        Args:
-            call: returns what repeats it; None: it comes again by itself if the simulation is repeated.
-        """
-        self.post(lambda sim: sim.receive_input(call))
-
-    def receive_input(self, call: Callable[[], Repeat | None]) -> None:
-        """Call a callback of `post_input` now, between two steps."""
-        repeat = call()
-        if repeat is not None and self.record_input is not None:
-            self.record_input(repeat)
+        self.inputs.post(command)
 
     def _drain(self) -> None:
-        if not self._commands:
-            return
-        for _ in range(len(self._commands)):
-            self._commands.popleft()(self)
-        if self.profiler is not None:
+        if self.inputs.run() and self.profiler is not None:
             self.profiler.lap(StridePart.COMMANDS)
-
-    def expiry_step(self, duration_s: float | None) -> int | None:
-        """Return the step at which a load that begins now and lasts `duration_s` ends; None: never."""
-        return None if duration_s is None else self.steps + max(1, round(duration_s * NS_PER_S / self.step_ns))
-
-    def time_left(self, until: int | None) -> float | None:
-        """Return how much longer a load lasts that ends at a step [s]; None: for ever."""
-        return None if until is None else (until - self.steps) * self.step_ns / NS_PER_S

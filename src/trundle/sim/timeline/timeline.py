@@ -75,7 +75,7 @@ class Timeline:
         self._end_ns = 0
         self._due_wall_ns = 0
         self._is_seeking = False
-        simulation.record_input = self._record_input
+        simulation.inputs.record = self._record_input
         self._begin()
 
     @property
