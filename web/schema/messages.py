@@ -7,8 +7,8 @@ from msgspec import NODEFAULT, Struct
 from msgspec import inspect as types
 
 from trundle.page.bag.lanes import Lanes
-from trundle.page.clients import server_messages as server
 from trundle.page.clients.protocol import ClientOperation, SharedSelection
+from trundle.page.clients.server_messages import ServerOperation
 from trundle.page.replay.page_file import ReplayAbout
 from trundle.page.requests.request import RenderView, SocketAction
 from trundle.page.requests.world import RenderModel
@@ -35,22 +35,11 @@ CHANNELS: Mapping[str, Any] = {
 DOCUMENTS = (streams.SeriesHead, UploadedModels, ReplayAbout)
 """What else clients receive."""
 UNIONS: Mapping[str, Any] = {
-    "ServerMessage": (
-        server.ServerInfo
-        | server.Status
-        | server.RemoveStatus
-        | server.AdvertiseChannels
-        | server.UnadvertiseChannels
-        | server.AdvertiseServices
-        | server.UnadvertiseServices
-        | server.ServiceCallFailure
-        | server.ParameterValues
-        | server.ConnectionGraphUpdate
-        | server.Response
-    ),
+    "ServerOperation": ServerOperation,
     "ClientOperation": ClientOperation,
     "SharedSelection": SharedSelection,
 }
+"""Types that are one of several structs."""
 Structs: TypeAlias = dict[type[Struct], types.StructType]
 
 
@@ -84,7 +73,7 @@ def answers_to(request: type[Struct]) -> tuple[type[Struct], ...]:
 
 
 SENT = structs_in([*REQUESTS, *QUERIES, ClientOperation])
-RECEIVED = structs_in([UNIONS["ServerMessage"], *CHANNELS.values(), *DOCUMENTS])
+RECEIVED = structs_in([ServerOperation, *CHANNELS.values(), *DOCUMENTS])
 RECEIVED |= structs_in(answer for request in REQUESTS for answer in answers_to(request))
 
 

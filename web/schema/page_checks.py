@@ -6,7 +6,8 @@ from collections.abc import Iterable
 from msgspec import Struct
 from msgspec import inspect as types
 
-from messages import CHANNELS, RECEIVED, REQUESTS, UNIONS, answers_to, is_optional
+from messages import CHANNELS, RECEIVED, REQUESTS, answers_to, is_optional
+from trundle.page.clients.server_messages import ServerOperation
 
 HEAD = """/** Checks of the messages that the page receives, made by web/schema. */
 
@@ -71,8 +72,8 @@ def page_checks() -> str:
             fields.append(f"{each.encode_name}: {f'is.optional({text})' if is_optional(cls, each) else text}")
         of = f"is.Check<page.{cls.__name__}>"
         lines += [f"export const {check_name(cls)}: {of} = is.struct(() => ({{ {', '.join(fields)} }}));", ""]
-    message = check_text(types.type_info(UNIONS["ServerMessage"]))
-    lines += [f"export const serverMessage: is.Check<page.ServerMessage> = {message};", ""]
+    operation = check_text(types.type_info(ServerOperation))
+    lines += [f"export const serverOperation: is.Check<page.ServerOperation> = {operation};", ""]
     lines.append(ANSWERS)
     for request in REQUESTS:
         checks = [check_name(each) for each in answers_to(request)]

@@ -24,6 +24,7 @@ class FakeServer:
     def __init__(self) -> None:
         self.watched: set[str] | None = None
         self.pending: list[Request] = []
+        self._asked: dict[int, PageAction] = {}
         self.answers: dict[int, str | None] = {}
         self.fields: dict[int, dict[str, Any]] = {}
         self.worlds: list[tuple[dict[str, Any], dict[str, bytes]]] = []
@@ -44,6 +45,7 @@ class FakeServer:
     def ask(self, action: PageAction) -> int:
         """A person asks; return the request's id."""
         self.pending.append(Request(len(self.pending) + len(self.answers), action))
+        self._asked[self.pending[-1].id] = action
         return self.pending[-1].id
 
     def requests(self, **_: object) -> list[Request]:
@@ -57,6 +59,8 @@ class FakeServer:
         self.notices.append((notice_id, text))
 
     def respond(self, request_id: int, error: str | None = None, answer: Answer = DONE) -> None:
+        if error is None and request_id in self._asked:
+            assert isinstance(answer, self._asked[request_id].answer), "a request is answered as its class says"
         self.fields[request_id] = sent(answer)
         self.answers[request_id] = error
 

@@ -39,13 +39,13 @@ class Editor:
         self.simulation = Simulation(world, report)
         self.world = BareWorld(self.simulation)
         self.edits = ModelEdits(self.world)
-        self._answers: queue.SimpleQueue[tuple[str | None, dict[str, Any]]] = queue.SimpleQueue()
+        self._answers: queue.SimpleQueue[tuple[str | None, Answer]] = queue.SimpleQueue()
         self.drafting = Drafting(self._respond, self.world.packages, os.environ, folder, CodeConsent(os.environ))
         self.shown: list[ShownDraft] = []
 
     def _respond(self, request_id: int, error: str | None = None, answer: Answer = DONE) -> None:
         del request_id
-        self._answers.put((error, sent(answer)))
+        self._answers.put((error, answer))
 
     def ask(self, action: DraftAction) -> dict[str, Any]:
         """Return the answer's fields, with `error` where it was refused."""
@@ -54,11 +54,14 @@ class Editor:
         while time.monotonic() < end:
             self.shown += self.drafting.poll(self.world, self.edits)
             try:
-                error, fields = self._answers.get(timeout=0.01)
+                error, answer = self._answers.get(timeout=0.01)
             except queue.Empty:
                 continue
             self.shown += self.drafting.poll(self.world, self.edits)
-            return fields if error is None else {"error": error}
+            if error is not None:
+                return {"error": error}
+            assert isinstance(answer, action.answer), "a request is answered as its class says"
+            return sent(answer)
         raise AssertionError(f"no answer to {action}")
 
 

@@ -27,7 +27,9 @@ CONFIG = "<model><name>A crate</name><sdf version='1.6'>model.sdf</sdf><descript
 
 def answered(insertion: Insertion, action: InsertAction) -> dict[str, Any]:
     """Insert, and return the answer as a client gets it."""
-    return sent(insertion.handle(action))
+    answer = insertion.handle(action)
+    assert isinstance(answer, action.answer), "a request is answered as its class says"
+    return sent(answer)
 
 
 class Contents(BareWorld):

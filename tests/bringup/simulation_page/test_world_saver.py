@@ -58,6 +58,7 @@ def _answer(simulation: Simulation, root: Path, request: SaveWorld) -> dict[str,
     done = threading.Event()
 
     def respond(request_id: int, error: str | None = None, answer: Answer = DONE) -> None:
+        assert error is not None or isinstance(answer, SaveWorld.answer), "a request is answered as its class says"
         answers.append({"id": request_id, "error": error, **sent(answer)})
         done.set()
 

@@ -13,7 +13,7 @@ import type {
 } from "./connection";
 import { Calls } from "./calls";
 import { Decoder, type DecodePort } from "./decoder";
-import { channels, serverMessage } from "./generated/page_checks";
+import { channels, serverOperation } from "./generated/page_checks";
 import type { Channels, SharedSelection } from "./generated/page_messages";
 import { Notices } from "./notices";
 import { Publications } from "./publications";
@@ -153,7 +153,7 @@ export class FoxgloveConnection implements Connection {
   }
 
   #receiveText(data: string): void {
-    const frame = read(data, "a message", serverMessage);
+    const frame = read(data, "a message", serverOperation);
     switch (frame.op) {
       case "serverInfo":
         this.#greeted(frame.capabilities);

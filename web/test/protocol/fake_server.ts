@@ -2,7 +2,7 @@
 
 import { DecodeService, type DecodeRequest } from "../../src/protocol/decode_service";
 import { FoxgloveConnection } from "../../src/protocol/foxglove_connection";
-import type { ServerMessage } from "../../src/protocol/generated/page_messages";
+import type { ServerOperation } from "../../src/protocol/generated/page_messages";
 import type { Socket } from "../../src/protocol/reconnecting_socket";
 
 export class FakeSocket implements Socket {
@@ -19,7 +19,7 @@ export class FakeSocket implements Socket {
     this.onclose?.call(null as never, new Event("close") as CloseEvent);
   }
 
-  text(frame: ServerMessage): void {
+  text(frame: ServerOperation): void {
     this.raw(JSON.stringify(frame));
   }
 

@@ -9,7 +9,7 @@ from msgspec import UNSET
 from .channel import Channel
 from .outbox import BINARY, TEXT, Buffer, Outbox
 from .protocol import ERROR, Subscribe, Unsubscribe, message_header
-from .server_messages import AdvertiseChannels, Response, ServerMessage, Status, UnadvertiseChannels
+from .server_messages import AdvertiseChannels, Response, ServerOperation, Status, UnadvertiseChannels
 
 _STATUS = "status"
 _MAX_SUBSCRIPTIONS = 10_000
@@ -53,7 +53,7 @@ class Connection:
         header = message_header(self._numbers[channel], time_ns)
         self.outbox.send(BINARY, (header, *pieces), channel if channel.is_droppable else None)
 
-    def send(self, message: ServerMessage) -> None:
+    def send(self, message: ServerOperation) -> None:
         """Send a text message that is never dropped."""
         self.outbox.send(TEXT, (msgspec.json.encode(message),))
 

@@ -1,5 +1,7 @@
 """Messages of the Foxglove WebSocket protocol and of `trundle.v1` that the server sends as text."""
 
+from typing import TypeAlias
+
 import msgspec
 from msgspec import UNSET, UnsetType
 
@@ -151,3 +153,18 @@ class Response(ServerMessage, frozen=True, tag="trundle/response"):
     ok: bool
     error: str | UnsetType = UNSET
     """Sentence that says why it was not done."""
+
+
+ServerOperation: TypeAlias = (
+    ServerInfo
+    | Status
+    | RemoveStatus
+    | AdvertiseChannels
+    | UnadvertiseChannels
+    | AdvertiseServices
+    | UnadvertiseServices
+    | ServiceCallFailure
+    | ParameterValues
+    | ConnectionGraphUpdate
+    | Response
+)

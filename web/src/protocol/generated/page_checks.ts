@@ -466,7 +466,7 @@ export const savedFile: is.Check<page.SavedFile> = is.struct(() => ({ file: is.t
 
 export const definitionText: is.Check<page.DefinitionText> = is.struct(() => ({ definition: is.text }));
 
-export const serverMessage: is.Check<page.ServerMessage> = is.tagged("op", () => ({
+export const serverOperation: is.Check<page.ServerOperation> = is.tagged("op", () => ({
   serverInfo: serverInfo,
   status: status,
   removeStatus: removeStatus,

@@ -1185,7 +1185,7 @@ export interface PageRequest {
   readonly request?: string;
 }
 
-export type ServerMessage =
+export type ServerOperation =
   | ServerInfo
   | Status
   | RemoveStatus
