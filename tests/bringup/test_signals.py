@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from trundle.base.interrupts import PRESS
-from trundle.base.signals import StopFlag, stop_flag
+from trundle.base.signals import StopFlag, blind_wait, stop_flag
 
 _HAMMERED = """
 import signal
@@ -60,6 +60,15 @@ def test_the_first_press_sets_it_and_the_second_interrupts() -> None:
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="terminals that hang up are POSIX's")
+def test_the_first_press_interrupts_what_cannot_poll_the_flag() -> None:
+    with stop_flag() as stop:
+        with pytest.raises(KeyboardInterrupt), blind_wait():
+            signal.raise_signal(signal.SIGTERM)
+        assert not stop.is_set()
+        signal.raise_signal(signal.SIGTERM)
+        assert stop.is_set()
+
+
 @pytest.mark.parametrize("is_told", [True, False])
 def test_the_end_of_the_terminal_sets_it_too_but_for_nohup(is_told: bool) -> None:
     before = signal.signal(signal.SIGHUP, signal.SIG_DFL if is_told else signal.SIG_IGN)

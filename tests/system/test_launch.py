@@ -3,6 +3,7 @@
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -317,6 +318,16 @@ def test_nodes_of_another_machine_are_not_started_and_those_of_this_one_are(laun
     assert "node /there: robot.example is another machine, and nothing is started there" in done.stderr
     assert "process[here-2]: started" in done.stdout
     assert "there-1" not in done.stdout
+
+
+@pytest.mark.parametrize("words", [("launch", "a.launch"), ("launch", "a.launch", "--wait"), ("run", "model://rp2w")])
+def test_one_press_ends_the_wait_for_a_master_that_never_answers(start, tmp_path: Path, words: tuple[str, ...]) -> None:
+    (tmp_path / "a.launch").write_text('<launch><node pkg="topic_tools" type="relay" name="r" args="a b"/></launch>')
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        running = start(*words, "--headless", ROS_MASTER_URI=f"http://127.0.0.1:{silent.getsockname()[1]}")
+        with silent.accept()[0] as connection:
+            connection.recv(1)
+            assert running.interrupt() == 130
 
 
 @pytest.mark.parametrize("how", ["word", "environment"])

@@ -38,9 +38,29 @@ class StopFlag:
         return True
 
 
+_blind_waits = 0
+"""Number of blocks of the main thread, which handles signals, that wait and cannot poll a flag."""
+
+
+@contextmanager
+def blind_wait() -> Generator[None]:
+    """Let the first signal interrupt a block that cannot poll a `StopFlag`, such as a call to another program."""
+    global _blind_waits
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    _blind_waits += 1
+    try:
+        yield
+    finally:
+        _blind_waits -= 1
+
+
 @contextmanager
 def stop_flag() -> Generator[StopFlag]:
-    """Yield a flag that the first SIGINT, SIGTERM or SIGHUP sets; a SIGINT of another press interrupts."""
+    """Yield a flag that the first SIGINT, SIGTERM or SIGHUP sets; a SIGINT of another press interrupts, and any signal
+    within a `blind_wait`.
+    """
     flag = StopFlag()
     if threading.current_thread() is not threading.main_thread():  # only the main thread may set signal handlers
         yield flag
@@ -49,7 +69,8 @@ def stop_flag() -> Generator[StopFlag]:
 
     def ask_to_stop(number: int, _frame: FrameType | None) -> None:
         nonlocal was_asked
-        if PRESS.is_new() and was_asked and number == signal.SIGINT:
+        is_new = PRESS.is_new()
+        if _blind_waits or (is_new and was_asked and number == signal.SIGINT):
             raise KeyboardInterrupt
         was_asked = True
         flag.set()

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Self
 
 from trundle.base.diagnostics import UsageError
+from trundle.base.signals import blind_wait
 from trundle.ros import Core, GraphLoop, MasterProxy, MasterUnreachableError, PortTakenError, RosError, host_and_port
 
 DEFAULT_PORT = 11311
@@ -101,7 +102,8 @@ def _joined(uri: str) -> str:
 
 def _answers(uri: str) -> bool:
     try:
-        MasterProxy(uri).call("getPid")
+        with blind_wait():
+            MasterProxy(uri).call("getPid")
     except MasterUnreachableError:
         return False
     return True

@@ -9,7 +9,7 @@ from pathlib import Path
 from trundle.base.console import Console
 from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, UsageError
 from trundle.base.files import is_stream
-from trundle.base.signals import StopFlag, stop_flag
+from trundle.base.signals import StopFlag, blind_wait, stop_flag
 from trundle.page.network_warning import warn_of_network
 from trundle.robots.launch import LaunchParam, LaunchPlan, read_arguments, read_launch, resolve_params
 from trundle.robots.packages import Packages
@@ -197,7 +197,8 @@ def _wait_for_master(env: Mapping[str, str], stop: StopFlag, say: Callable[[str]
     said = False
     while True:
         try:
-            proxy.call("getPid")
+            with blind_wait():
+                proxy.call("getPid")
         except MasterUnreachableError:
             if not said:
                 say("roscore/master is not yet running, will wait for it to start")
