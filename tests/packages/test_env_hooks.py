@@ -1,5 +1,7 @@
 """Variables that packages set by catkin's environment hooks."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -74,3 +76,34 @@ def test_what_a_user_set_stays(
     printed = capsys.readouterr().out
     assert "/base: wheels\n" in printed
     assert f"/map: {package}/maps/wheels.yaml\n" in printed
+
+
+def test_a_robots_file_has_them_by_itself_and_in_a_launch(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    robot = package / "rover.urdf.xacro"
+    robot.write_text(
+        '<robot name="rover" base="$(env ROVER_BASE)" host="$(optenv ROVER_HOST no host)" map="$(optenv ROVER_MAP)"/>'
+    )
+    attributes = f'base="tracks" host="no host" map="{package}/maps/tracks.yaml" name="rover"'
+    launch = package / "b.launch"
+    launch.write_text(f'<launch><param name="robot_description" command="xacro {robot}"/></launch>')
+
+    assert main(["xacro", str(robot)]) == 0
+    assert f"<robot {attributes}/>" in capsys.readouterr().out
+    assert main(["launch", str(launch), "--dump-params"]) == 0
+    assert f"<robot {attributes}/>" in " ".join(capsys.readouterr().out.split())
+
+    robot.write_text('<robot name="rover" host="$(env ROVER_HOST)"/>')
+    assert main(["xacro", str(robot)]) == 1
+    assert "environment variable 'ROVER_HOST' is not set" in capsys.readouterr().err
+
+
+def test_a_program_has_them(package: Path) -> None:
+    program = package / "scripts/base.py"
+    program.parent.mkdir()
+    program.write_text("#!/usr/bin/env python3\nimport os\nprint(os.environ['ROVER_BASE'])\n")
+    program.chmod(0o755)
+
+    words = [sys.executable, "-m", "trundle", "exec", "rover_gazebo", "base.py"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+
+    assert done.stdout == "tracks\n", done.stderr

@@ -63,6 +63,8 @@ def main(args: argparse.Namespace) -> int:
     from trundle.ros.rospy.environment import with_finder
 
     packages = Packages(os.environ, start=Path.cwd())
+    for variables in packages.hook_variables().values():  # as `source devel/setup.bash` sets them
+        os.environ.update(variables)
     folder = packages.find_package(args.package)
     workspace = None if folder is None else packages.workspace_of(folder)
     if workspace is not None:

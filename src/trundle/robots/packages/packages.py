@@ -121,6 +121,16 @@ class Packages:
                 found[name] = variables
         return found
 
+    def variable(self, name: str) -> str | None:
+        """Return an environment variable: the user's own, else the one that a package's environment hook sets."""
+        if name in self._environment:
+            return self._environment[name]
+        return next((found[name] for found in self._hooked.values() if name in found), None)
+
+    @cached_property
+    def _hooked(self) -> dict[str, dict[str, str]]:
+        return self.hook_variables()
+
     def skipped_folders(self) -> Mapping[Path, str]:
         """Return the folders skipped by the search, with the reason."""
         self._ros.all()

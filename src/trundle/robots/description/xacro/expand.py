@@ -175,6 +175,13 @@ class _Arguments(dict[str, str]):
             raise UnknownArgumentError(Source(str(path)), what, name=unknown[0])
 
 
+def _set_commands(functions: Mapping[str, Callable[..., str]]) -> None:
+    """Set what the package calls for $(find …), $(env …) and the like, in attributes and in $(eval …)."""
+    for command, function in functions.items():
+        setattr(substitution_args, f"_eval_{command}", function)
+        substitution_args._eval_dict[command] = function
+
+
 @contextmanager
 def _patched(
     packages: Packages, report: Diagnostics, path: Path, data: bytes, cursor: Cursor, budget: ReadBudget
@@ -202,6 +209,16 @@ def _patched(
         except UnicodeDecodeError:
             raise package.XacroException(f"{name}: it is not UTF-8 text") from None
 
+    def env(name: str) -> str:
+        value = packages.variable(name)
+        if value is None:
+            raise substitution_args.SubstitutionException(f"environment variable {name!r} is not set")
+        return value
+
+    def optenv(name: str, default: str = "") -> str:
+        value = packages.variable(name)
+        return default if value is None else value
+
     def substitution_eval(text: str, _: object, symbols: object) -> object:
         return interpreter.evaluate(text, SubstitutedNames(symbols, {**PYTHON_NAMES, "range": range}))
 
@@ -211,7 +228,8 @@ def _patched(
         "process_doc", "process_include", "get_include_files", "replace_node",
     )  # fmt: skip
     kept = {name: getattr(package, name) for name in names}
-    own_find = arguments._eval_find
+    replaced = {"find": find, "env": env, "optenv": optenv}
+    own = {command: getattr(arguments, f"_eval_{command}") for command in replaced}
     package.parse = _parse_for(kept["parse"], packages, report, {str(path): data}, cursor, budget)
     package.eval_all = _eval_all_for(kept["eval_all"], cursor, budget)
     package.handle_macro_call = _call_for(kept["handle_macro_call"], report, cursor, budget)
@@ -224,7 +242,7 @@ def _patched(
     package.warning = warn
     package.open = open_readable  # shadows the builtin, with which its load_yaml would open any file
     package.print_location = lambda: None  # it prints to stderr at a warning; the cursor has the position
-    arguments._eval_find = arguments._eval_dict["find"] = find
+    _set_commands(replaced)
     arguments.eval = substitution_eval  # shadows the builtin in its module
     package.all_includes.clear()
     try:
@@ -232,7 +250,7 @@ def _patched(
     finally:
         for name, function in kept.items():
             setattr(package, name, function)
-        arguments._eval_find = arguments._eval_dict["find"] = own_find
+        _set_commands(own)
         del arguments.eval
         package.filestack = package.macrostack = None
         del package.open
