@@ -33,6 +33,14 @@ def shortage(error: BaseException | None) -> str | None:
     return None
 
 
+def too_few_files(needed: int) -> str | None:
+    """Say that this process may not open as many files as it needs, and what to do; None if it may."""
+    limit = _limit("RLIMIT_NOFILE")
+    if limit == "none" or int(limit) >= needed:
+        return None
+    return f"{needed} open files are needed, and this process may have {limit} (ulimit -n): raise the limit"
+
+
 def _is(error: BaseException | None, kind: type[Exception], *parts: str) -> bool:
     return isinstance(error, kind) and any(part in str(error) for part in parts)
 

@@ -6,10 +6,13 @@ from pathlib import Path
 from typing import Self
 
 from trundle.base.diagnostics import UsageError
+from trundle.base.shortage import too_few_files
 from trundle.base.signals import blind_wait
 from trundle.ros import Core, GraphLoop, MasterProxy, MasterUnreachableError, PortTakenError, RosError, host_and_port
 
 DEFAULT_PORT = 11311
+_FEWEST_FILES = 32
+"""Files and sockets of a master with a node or two; with fewer, one of them waits for a connection without end."""
 _LOCAL = frozenset({"localhost", "127.0.0.1", "::1", "0.0.0.0"})
 
 
@@ -43,8 +46,11 @@ class Graph:
             log_folder: makes the folder for the logs of a master that is started here, from the run_id.
 
         Raises:
-            UsageError: ROS_MASTER_URI is no address, or no master answers on the other machine that it names.
+            UsageError: ROS_MASTER_URI is no address, no master answers on the other machine that it names, or this
+                process may open too few files.
         """
+        if few := too_few_files(_FEWEST_FILES):
+            raise UsageError(few)
         named = environment.get("ROS_MASTER_URI")
         uri = named or f"http://localhost:{DEFAULT_PORT}"
         try:
