@@ -19,7 +19,7 @@ $(READY): $(BUILT) $(CLIENT)
 	@touch $@
 
 # After the client, which its backend would build otherwise.
-$(BUILT): pyproject.toml constraints.txt CMakeLists.txt $(wildcard cpp/*.cc cpp/*.h) cpp/scripts.py | $(CLIENT)
+$(BUILT): pyproject.toml constraints.txt CMakeLists.txt $(wildcard cpp/*/*.cc cpp/*/*.h) cpp/scripts.py | $(CLIENT)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
 	@touch $@
 
@@ -125,7 +125,7 @@ dist/.built: $(READY) LICENSE README.md $(shell find src examples packaging -typ
 
 # Debian's own ROS 1 and browser: what the fullest tests drive. They live in /usr, not in .venv.
 MSGS   := actionlib diagnostic geometry map move-base nav pcl rosgraph sensor shape std stereo tf2 trajectory visualization
-DEBIAN := chromium graphviz imagemagick ros-image-view ros-roscpp-msg ros-std-srvs ros-topic-tools-srvs rosbash \
+DEBIAN := chromium doctest-dev graphviz imagemagick ros-image-view ros-roscpp-msg ros-std-srvs ros-topic-tools-srvs rosbash \
           rospack-tools rviz tf-tools tf2-tools topic-tools xauth xvfb $(MSGS:%=ros-%-msgs) $(MSGS:%=python3-%-msgs) \
           $(addprefix python3-,rosbag roscpp-msg rosgraph roslaunch rosmaster rosmsg rosnode rosparam rospy rosservice \
           rostopic std-srvs tf tf2-ros)

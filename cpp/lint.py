@@ -13,8 +13,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-FOLDERS = ("cpp", "tests/render", "bench")
-DEFINES = ["-DTRUNDLE_ISA=baseline"]
+FOLDERS = ("cpp/*", "tests/render", "tests/cpp", "bench")
+OPTIONS = ["-std=gnu++20", "-DTRUNDLE_ISA=baseline", "-Wcomma"]
 
 
 def main(command: str, *options: str) -> int:
@@ -24,10 +24,10 @@ def main(command: str, *options: str) -> int:
         print(f"clang-{command} is not installed: skipped")
         return 0
     if command == "format":
-        files = [file for folder in FOLDERS for file in sorted((ROOT / folder).glob("*.[ch]*")) if _is_cpp(file)]
+        files = [file for folder in FOLDERS for file in sorted(ROOT.glob(f"{folder}/*.[ch]*")) if _is_cpp(file)]
         how = ["--dry-run", "--Werror"] if "--check" in options else ["-i"]
         return subprocess.run([tool, *how, *files], check=False).returncode
-    return _tidy(tool, _changed() if "--changed" in options else sorted((ROOT / "cpp").glob("*.cc")))
+    return _tidy(tool, _changed() if "--changed" in options else sorted((ROOT / "cpp").glob("*/*.cc")))
 
 
 def _tidy(tool: str, files: list[Path]) -> int:
@@ -37,7 +37,7 @@ def _tidy(tool: str, files: list[Path]) -> int:
         return 0
 
     def check(file: Path) -> int:
-        command = [tool, "--quiet", str(file), "--", "-std=gnu++20", *DEFINES, *includes]
+        command = [tool, "--quiet", str(file), "--", *OPTIONS, *includes]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
             print(done.stdout, done.stderr, sep="")
@@ -59,7 +59,7 @@ def _changed() -> list[Path]:
 
 
 def _includes() -> list[str] | None:
-    folders = [sysconfig.get_paths()["include"]]
+    folders = [str(ROOT / "cpp"), sysconfig.get_paths()["include"]]
     for package in ("mujoco", "nanobind"):
         found = importlib.util.find_spec(package)
         if found is None or not found.submodule_search_locations:

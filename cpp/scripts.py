@@ -1,4 +1,4 @@
-"""Name of the console script: `_trundle` where cpp/launcher.cc is the command `trundle` and starts it."""
+"""Name of the console script: `_trundle` where cpp/launcher/launcher.cc is the command `trundle` and starts it."""
 
 import sys
 

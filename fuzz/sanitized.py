@@ -81,5 +81,5 @@ def _runtime() -> Path:
 
 
 def _sources_digest() -> str:
-    files = [ROOT / "CMakeLists.txt", *sorted((ROOT / "cpp").glob("*.[ch]*"))]
+    files = [ROOT / "CMakeLists.txt", *sorted((ROOT / "cpp").glob("*/*.[ch]*"))]
     return hashlib.sha256(b"".join([_FLAGS.encode(), *(file.read_bytes() for file in files)])).hexdigest()

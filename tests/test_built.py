@@ -13,10 +13,10 @@ from trundle.base.diagnostics import TrundleError
 def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     """One that is built of the two files beside it."""
     monkeypatch.setattr(built, "_SOURCES", tmp_path / "cpp")
-    (tmp_path / "cpp").mkdir()
-    (tmp_path / "cpp/a.cc").write_text("int a;")
-    (tmp_path / "cpp/a.h").write_text("extern int a;")
-    (tmp_path / "cpp/notes.txt").write_text("not compiled")
+    (tmp_path / "cpp/render").mkdir(parents=True)
+    (tmp_path / "cpp/render/a.cc").write_text("int a;")
+    (tmp_path / "cpp/render/a.h").write_text("extern int a;")
+    (tmp_path / "cpp/render/notes.txt").write_text("not compiled")
     (tmp_path / "sources.sha256").write_text(built._digest(tmp_path / "cpp") or "")
     built._digest.cache_clear()
     made = ModuleType("trundle.sim.render._native")
@@ -26,12 +26,12 @@ def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
 
 def test_modules_of_these_sources_are_taken(module: ModuleType, tmp_path: Path) -> None:
     built.refuse_stale(module)
-    (tmp_path / "cpp/notes.txt").write_text("more notes")
+    (tmp_path / "cpp/render/notes.txt").write_text("more notes")
     built._digest.cache_clear()
     built.refuse_stale(module)
 
 
-@pytest.mark.parametrize("change", ["cpp/a.cc", "cpp/b.h", "sources.sha256"])
+@pytest.mark.parametrize("change", ["cpp/render/a.cc", "cpp/render/b.h", "sources.sha256"])
 def test_modules_of_other_sources_are_refused_with_what_to_do(module: ModuleType, tmp_path: Path, change: str) -> None:
     (tmp_path / change).write_text("int b;")
     said = r"does not match the sources in .*/cpp; build it: make \.venv/\.ready, or pip"

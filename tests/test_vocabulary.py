@@ -66,12 +66,14 @@ def test_functions_begin_with_verbs_of_the_field() -> None:
 
 
 def test_types_in_cpp_are_named_by_the_field() -> None:
-    sources = [file for file in sorted(CPP.glob("*")) if file.suffix in (".cc", ".h")]
+    sources = [file for file in sorted(CPP.glob("*/*")) if file.suffix in (".cc", ".h")]
     types = [
-        (file.name, name) for file in sources for name in re.findall(r"\b(?:struct|class) (\w+)", file.read_text())
+        (file.name, name)
+        for file in sources
+        for name in re.findall(r"\b(?:struct|class|using|typename) (\w+)", file.read_text())
     ]
 
-    assert [(where, name) for where, name in types if name in CPP_TYPES] == []
+    assert [(where, name) for where, name in types if name in CPP_TYPES or len(name) == 1] == []
 
 
 FIRST_WORDS = {

@@ -14,7 +14,7 @@ def main() -> int:
 
         before = signal.signal(signal.SIGINT, signal.SIG_DFL)
         if hasattr(signal, "pthread_sigmask"):
-            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])  # blocked by cpp/launcher.cc
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])  # blocked by cpp/launcher/launcher.cc
     except KeyboardInterrupt:
         return 130
     from trundle.app.cli import main as command

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 HERE = Path(__file__).parent
-CPP = HERE.parents[1] / "cpp"
+CPP = HERE.parents[1] / "cpp/render"
 RENDERER = (
     "bvh", "cpu_dispatch", "draw", "geometry", "kernel", "light", "mesh_lod", "ray_targets", "renderer", "transform"
 )  # fmt: skip

@@ -90,7 +90,7 @@ def test_the_sdist_holds_files_of_the_repository_alone() -> None:
         packed = {name.partition("/")[2] for name in sdist.getnames()}
 
     assert {name for name in packed - set(tracked) if not name.startswith(CLIENT)} == {"PKG-INFO"}
-    assert {"CMakeLists.txt", "cpp/kernel.cc", "examples/rp2w/model.sdf", "src/trundle/py.typed"} <= packed
+    assert {"CMakeLists.txt", "cpp/render/kernel.cc", "examples/rp2w/model.sdf", "src/trundle/py.typed"} <= packed
 
 
 def test_the_page_s_client_is_in_sdist_and_wheel() -> None:

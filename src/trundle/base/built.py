@@ -28,6 +28,6 @@ def refuse_stale(module: ModuleType) -> None:
 @cache
 def _digest(sources: Path) -> str | None:
     """Return the digest, as in CMakeLists.txt; None without sources."""
-    files = sorted(path for path in sources.glob("*") if path.suffix in (".cc", ".h"))
+    files = sorted(path for path in sources.glob("*/*") if path.suffix in (".cc", ".h"))
     digests = [hashlib.sha256(path.read_bytes()).hexdigest() for path in files]
     return hashlib.sha256("".join(digests).encode()).hexdigest() if files else None

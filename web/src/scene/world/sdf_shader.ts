@@ -1,5 +1,5 @@
 /**
- * Shader of SDF materials: Blinn–Phong as Trundle's own renderer shades (cpp/shade.h), with its lights, its shadows of
+ * Shader of SDF materials: Blinn–Phong as Trundle's own renderer shades (cpp/render/shade.h), with its lights, its shadows of
  * four texels and its fog.
  */
 

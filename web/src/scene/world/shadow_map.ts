@@ -1,4 +1,4 @@
-/** Shadow map of a directional or spot light, fitted to what casts shadows, as in cpp/light.cc. */
+/** Shadow map of a directional or spot light, fitted to what casts shadows, as in cpp/render/light.cc. */
 
 import {
   Box3,

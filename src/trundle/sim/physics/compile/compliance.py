@@ -24,7 +24,7 @@ _HARDEST = 0.999
 _DRIVEN = 0.8
 """Impedance at the heaviest link of a jointed tree.
 
-`cpp/contact_offset.cc` predicts a wheel's acceleration; its error over the softness 1 − d is an error of
+`cpp/contact/contact_offset.cc` predicts a wheel's acceleration; its error over the softness 1 − d is an error of
 the loads. With 0.99 the loads of a vehicle that begins to slide need 0.5 s to be shared, and light vehicles chatter. A
 vehicle sinks in by 15 µm and creeps down 20° at 5 µm/s, both 20 times more than with 0.99.
 """
@@ -104,7 +104,7 @@ def pair_name(a: str, b: str) -> str:
 
 
 class Yield(Struct, frozen=True):
-    """Spring of a pair of geoms as far as the model does not have it; see `cpp/contact_offset.h`."""
+    """Spring of a pair of geoms as far as the model does not have it; see `cpp/contact/contact_offset.h`."""
 
     factor: float = 1.0
     """From its stiffness in the model to kp."""

@@ -1,7 +1,7 @@
 """Joint motors: effort, velocity and position commands within limits.
 
-A motor is a velocity constraint with bounded force, as in ODE; see `cpp/velocity_motor.cc`. Commands are in
-`cpp/motor_bank.cc`, for those that come at every step.
+A motor is a velocity constraint with bounded force, as in ODE; see `cpp/contact/velocity_motor.cc`. Commands are in
+`cpp/contact/motor_bank.cc`, for those that come at every step.
 """
 
 from collections.abc import Callable, Iterable
@@ -21,7 +21,7 @@ HOLD_RATE = 3.0
 effort.
 """
 _STATE_WIDTH = 13
-"""Numbers of a `MotorState` in `cpp/motor_bank.h`."""
+"""Numbers of a `MotorState` in `cpp/contact/motor_bank.h`."""
 _SHARED = slice(4, _STATE_WIDTH)
 """Columns of the commands of an axis that a hardware interface shares with direct ones."""
 _NO_MOTORS = int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
@@ -50,7 +50,7 @@ class MotorCommands(Struct, frozen=True, eq=False):
     max_efforts: NDArray[np.float64]
     rates: NDArray[np.float64]
     states: NDArray[np.float64]
-    """(motors, 13) last commands, as in `cpp/motor_bank.h`."""
+    """(motors, 13) last commands, as in `cpp/contact/motor_bank.h`."""
 
 
 def copy_commands(source: mujoco.MjModel, target: mujoco.MjModel) -> None:

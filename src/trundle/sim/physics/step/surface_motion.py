@@ -1,6 +1,6 @@
 """Moving and slipping surfaces: belts, tracks and wheels.
 
-ODE has motion1, slip1 and slip2 for them; `cpp/surface_motion.cc` and `cpp/friction_slip.cc` act on each contact of
+ODE has motion1, slip1 and slip2 for them; `cpp/contact/surface_motion.cc` and `cpp/contact/friction_slip.cc` act on each contact of
 such a link.
 """
 

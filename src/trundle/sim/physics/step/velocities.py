@@ -1,6 +1,6 @@
 """Velocities of the time of the positions.
 
-A tree that moves by itself has those of half a step before in its `MjData`; see `cpp/midpoint.h`.
+A tree that moves by itself has those of half a step before in its `MjData`; see `cpp/contact/midpoint.h`.
 """
 
 from collections.abc import Generator

@@ -1,4 +1,4 @@
-"""Joint motors and stops on a GPU, as `cpp/velocity_motor.cc` and `cpp/joint_stop.cc` have them.
+"""Joint motors and stops on a GPU, as `cpp/contact/velocity_motor.cc` and `cpp/contact/joint_stop.cc` have them.
 
 Warp compiles these functions when they first run.
 """

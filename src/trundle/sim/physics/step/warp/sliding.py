@@ -1,4 +1,4 @@
-"""Sliding that does not lift, on a GPU, as `cpp/contact_offset.cc` has it.
+"""Sliding that does not lift, on a GPU, as `cpp/contact/contact_offset.cc` has it.
 
 While a contact slides, its friction rows miss their references, and the cone of friction lifts it by μ times that.
 Warp compiles these functions when they first run.

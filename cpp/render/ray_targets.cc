@@ -19,8 +19,8 @@ bool Renderer::make_target(const Transform& world_from_origin, size_t index, dou
     const double radius = bounds.radius;
     if (std::sqrt(distance_squared) - radius > max_range) return false;
     // With a margin for single precision's rounding of the difference of two large squares.
-    target.radius = (float)radius,
-    target.tangent_squared = (float)(distance_squared - radius * radius - 2e-6 * distance_squared);
+    target.radius = static_cast<float>(radius);
+    target.tangent_squared = static_cast<float>(distance_squared - radius * radius - 2e-6 * distance_squared);
   }
   Vec3 eye = world_from_shape.inverse_apply(world_from_origin.position);
   if (shape.kind == ShapeKind::kSphere) eye = {-centre[0], -centre[1], -centre[2]};
@@ -28,25 +28,28 @@ bool Renderer::make_target(const Transform& world_from_origin, size_t index, dou
     const Vec3 axis = world_from_origin.inverse_rotate(world_from_shape.axis(i));
     for (int row = 0; row < 3; ++row) {
       target.axes[3 * i + row] = axis[row];
-      target.axes_f32[3 * i + row] = (float)axis[row];
+      target.axes_f32[3 * i + row] = static_cast<float>(axis[row]);
     }
     if (i == bounds.axis) {
       double square = 0.0;
       for (int x = 0; x < 3; ++x) {
         const int y = (x + 1) % 3, z = (x + 2) % 3;
         const double moment = axis[y] * centre[z] - axis[z] * centre[y];
-        target.moment[x] = (float)moment, square += moment * moment;
+        target.moment[x] = static_cast<float>(moment);
+        square += moment * moment;
       }
       const double cylinder_radius = bounds.cylinder_radius + 1e-6 * std::sqrt(distance_squared);
-      target.moment_length = (float)std::sqrt(square),
-      target.cylinder_radius_squared = (float)(cylinder_radius * cylinder_radius);
+      target.moment_length = static_cast<float>(std::sqrt(square));
+      target.cylinder_radius_squared = static_cast<float>(cylinder_radius * cylinder_radius);
     }
     target.size[i] = shape.size[i];
-    target.eye[i] = eye[i], target.eye_f32[i] = (float)eye[i], target.centre[i] = (float)centre[i];
+    target.eye[i] = eye[i];
+    target.eye_f32[i] = static_cast<float>(eye[i]);
+    target.centre[i] = static_cast<float>(centre[i]);
     if (!std::isfinite(target.eye_f32[i]) || !std::isfinite(target.centre[i])) return false;
   }
   target.kind = shape.kind;
-  target.index = (int32_t)index;
+  target.index = static_cast<int32_t>(index);
   if (shape.kind == ShapeKind::kMesh) target.bvh = bvhs_[shape.mesh].view();
   return true;
 }
@@ -62,18 +65,22 @@ void Renderer::cast_rays(const Transform& world_from_origin, const double* direc
     targets_.emplace_back();
     if (!make_target(world_from_origin, i, max_range, targets_.back())) targets_.pop_back();
   }
-  candidates_.resize(targets_.size()), volumes_.resize((targets_.size() + kMaxLanes - 1) / kMaxLanes);
+  candidates_.resize(targets_.size());
+  volumes_.resize((targets_.size() + kMaxLanes - 1) / kMaxLanes);
   for (size_t i = 0; i < targets_.size(); ++i) {
     const RayTarget& target = targets_[i];
     BoundingVolumes& volumes = volumes_[i / kMaxLanes];
     const size_t at = i % kMaxLanes;
-    for (int axis = 0; axis < 3; ++axis)
-      volumes.centre[axis][at] = target.centre[axis], volumes.moment[axis][at] = target.moment[axis];
-    volumes.radius[at] = target.radius, volumes.cylinder_radius_squared[at] = target.cylinder_radius_squared;
+    for (int axis = 0; axis < 3; ++axis) {
+      volumes.centre[axis][at] = target.centre[axis];
+      volumes.moment[axis][at] = target.moment[axis];
+    }
+    volumes.radius[at] = target.radius;
+    volumes.cylinder_radius_squared[at] = target.cylinder_radius_squared;
     volumes.moment_length[at] = target.moment_length;
   }
-  best_kernel().cast_rays(targets_.data(), volumes_.data(), (int32_t)targets_.size(), candidates_.data(), directions,
-                          (int64_t)count, max_range, ranges, shapes);
+  best_kernel().cast_rays(targets_.data(), volumes_.data(), static_cast<int32_t>(targets_.size()), candidates_.data(),
+                          directions, static_cast<int64_t>(count), max_range, ranges, shapes);
 }
 
 }  // namespace trundle

@@ -13,10 +13,11 @@ constexpr double kInfiniteExtent = 1e6;  // [m]
 constexpr double kLodTolerance = 0.3;    // [px] largest displacement of a vertex
 
 bool is_finite(const Vec3& numbers) {
-  return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite((float)number); });
+  return std::all_of(numbers.begin(), numbers.end(),
+                     [](double number) { return std::isfinite(static_cast<float>(number)); });
 }
 
-bool is_index(int32_t index, size_t count) { return index >= 0 && (size_t)index < count; }
+bool is_index(int32_t index, size_t count) { return index >= 0 && static_cast<size_t>(index) < count; }
 
 void copy(const std::array<float, 3>& from, float* to) { std::copy(from.begin(), from.end(), to); }
 
@@ -34,11 +35,14 @@ double radius_about(const Triangles& mesh, const Vec3& from) {
 
 Material make_material(const MaterialSpec& spec, const std::vector<Image>& textures) {
   Material material{};
-  copy(spec.ambient, material.ambient), copy(spec.diffuse, material.diffuse);
-  copy(spec.specular, material.specular), copy(spec.emissive, material.emissive);
+  copy(spec.ambient, material.ambient);
+  copy(spec.diffuse, material.diffuse);
+  copy(spec.specular, material.specular);
+  copy(spec.emissive, material.emissive);
   material.shininess = std::isfinite(spec.shininess) ? std::clamp(spec.shininess, 0.0f, 1000.0f) : 0.0f;
   material.opacity = std::isfinite(spec.opacity) ? std::clamp(spec.opacity, 0.0f, 1.0f) : 1.0f;
-  material.repeat[0] = spec.repeat[0], material.repeat[1] = spec.repeat[1];
+  material.repeat[0] = spec.repeat[0];
+  material.repeat[1] = spec.repeat[1];
   material.texture = spec.texture < 0 ? nullptr : &textures[spec.texture].texture;
   return material;
 }
@@ -46,15 +50,17 @@ Material make_material(const MaterialSpec& spec, const std::vector<Image>& textu
 }  // namespace
 
 Renderer::Renderer(SceneSpec scene, int32_t threads)
-    : scene_(std::move(scene)), body_poses_((size_t)scene_.bodies, Transform()), shadow_maps_(scene_.lights.size()) {
-  workspaces_.resize((size_t)std::clamp(threads, 1, kMaxThreads));
+    : scene_(std::move(scene)),
+      body_poses_(static_cast<size_t>(scene_.bodies), Transform()),
+      shadow_maps_(scene_.lights.size()) {
+  workspaces_.resize(static_cast<size_t>(std::clamp(threads, 1, kMaxThreads)));
   for (const Mesh& mesh : scene_.meshes) {
     triangles_.push_back(mesh.triangles());
     for (Workspace& workspace : workspaces_) workspace.reserve(mesh);
   }
   for (Image& image : scene_.textures) image.texture.texels = image.texels.data();
   for (const ShapeSpec& shape : scene_.shapes) {
-    if (!is_index(shape.body, (size_t)scene_.bodies))
+    if (!is_index(shape.body, static_cast<size_t>(scene_.bodies)))
       throw std::invalid_argument("a shape rides on a body that does not exist");
     if (shape.kind == ShapeKind::kMesh && !is_index(shape.mesh, scene_.meshes.size()))
       throw std::invalid_argument("a shape names a mesh that does not exist");
@@ -78,7 +84,7 @@ Material Renderer::material_of(const ShapeSpec& shape) const {
 
 void Renderer::check_lights() const {
   for (const LightSpec& light : scene_.lights)
-    if (light.body != -1 && !is_index(light.body, (size_t)scene_.bodies))
+    if (light.body != -1 && !is_index(light.body, static_cast<size_t>(scene_.bodies)))
       throw std::invalid_argument("a light rides on a body that does not exist");
 }
 
@@ -90,7 +96,9 @@ void Renderer::set_material(int32_t shape, const MaterialSpec& material) {
 }
 
 void Renderer::set_lighting(std::vector<LightSpec> lights, const std::array<float, 3>& ambient, const Sky& sky) {
-  scene_.lights = std::move(lights), scene_.ambient = ambient, scene_.sky = sky;
+  scene_.lights = std::move(lights);
+  scene_.ambient = ambient;
+  scene_.sky = sky;
   check_lights();
   shadow_maps_ = std::vector<std::optional<ShadowMapImage>>(scene_.lights.size());
   shadow_maps_dirty_ = true;
@@ -121,7 +129,8 @@ void Renderer::update_shape_poses() {
 }
 
 void Renderer::set_mesh(int32_t index, Mesh mesh) {
-  if (index < 0 || (size_t)index >= scene_.meshes.size()) throw std::invalid_argument("there is no such mesh");
+  if (index < 0 || static_cast<size_t>(index) >= scene_.meshes.size())
+    throw std::invalid_argument("there is no such mesh");
   if (triangles_[index].uv_planes && mesh.uv_planes.empty() && mesh.face_count > 0)
     throw std::invalid_argument("a textured mesh needs texture coordinates");
   scene_.meshes[index] = std::move(mesh);
@@ -141,7 +150,7 @@ void Renderer::assign_face_ids() {
   int64_t id = 0;
   first_ids_.clear();
   for (const ShapeSpec& shape : scene_.shapes) {
-    first_ids_.push_back((int32_t)id);
+    first_ids_.push_back(static_cast<int32_t>(id));
     id += shape.kind == ShapeKind::kMesh ? triangles_[shape.mesh].face_count : 1;
     if (id > std::numeric_limits<int32_t>::max()) throw std::invalid_argument("more than two billion triangles");
   }
@@ -161,8 +170,10 @@ Renderer::Bounds Renderer::bounds_of(const ShapeSpec& shape) const {
   }
   for (int i = 0; i < 3; ++i) {
     bounds.low[i] = -bounds.high[i];
-    if (shape.kind == ShapeKind::kMesh)
-      bounds.low[i] = scene_.meshes[shape.mesh].low[i], bounds.high[i] = scene_.meshes[shape.mesh].high[i];
+    if (shape.kind == ShapeKind::kMesh) {
+      bounds.low[i] = scene_.meshes[shape.mesh].low[i];
+      bounds.high[i] = scene_.meshes[shape.mesh].high[i];
+    }
     bounds.centre[i] = bounds.low[i] + 0.5 * (bounds.high[i] - bounds.low[i]);
   }
   double radius = 0.0;
@@ -201,21 +212,21 @@ std::optional<Transform> Renderer::make_renderable(const Transform& world_from_c
     const Vec3 axis = world_from_camera.inverse_rotate(world_from_shape.axis(i));
     for (int row = 0; row < 3; ++row) {
       camera_from_shape.rotation[3 * row + i] = axis[row];
-      renderable.axes[3 * i + row] = (float)axis[row];
+      renderable.axes[3 * i + row] = static_cast<float>(axis[row]);
     }
   }
   camera_from_shape.position = world_from_camera.inverse_apply(world_from_shape.position);
   const Vec3 eye = world_from_shape.inverse_apply(world_from_camera.position);
   for (int i = 0; i < 3; ++i) {
-    renderable.eye[i] = (float)eye[i];
-    renderable.centre[i] = (float)camera_from_shape.position[i];
-    renderable.size[i] = (float)shape.size[i];
+    renderable.eye[i] = static_cast<float>(eye[i]);
+    renderable.centre[i] = static_cast<float>(camera_from_shape.position[i]);
+    renderable.size[i] = static_cast<float>(shape.size[i]);
     if (!std::isfinite(renderable.eye[i]) || !std::isfinite(renderable.centre[i])) return std::nullopt;
   }
   renderable.kind = shape.kind;
   renderable.material = &materials_[index];
   renderable.first_id = first_ids_[index];
-  renderable.index = (int32_t)index;
+  renderable.index = static_cast<int32_t>(index);
   renderable.lod_error = 0.0f;
   renderable.mesh = shape.kind == ShapeKind::kMesh ? &triangles_[shape.mesh] : nullptr;
   renderable.id_count = renderable.mesh ? renderable.mesh->face_count : 1;
@@ -242,26 +253,31 @@ bool Renderer::project_shape(const View& view, const Transform& world_from_camer
   if (!camera_from_shape) return false;
   const ShapeSpec& shape = scene_.shapes[index];
   if (is_infinite(shape)) {
-    renderable.left = renderable.top = 0, renderable.right = view.width, renderable.bottom = view.height;
+    renderable.left = renderable.top = 0;
+    renderable.right = view.width;
+    renderable.bottom = view.height;
     renderable.max_inverse_depth = INFINITY;
     return renderable.eye[2] > 0.0f;
   }
   const Bounds& bounds = bounds_[index];
   if (detail == Detail::kLod && renderable.mesh) {
     const Vec3 seen = camera_from_shape->apply(bounds.centre);
-    const double away = std::max(std::hypot(seen[0], seen[1], seen[2]) - bounds.radius, (double)view.near_);
+    const double away =
+        std::max(std::hypot(seen[0], seen[1], seen[2]) - bounds.radius, static_cast<double>(view.near_));
     const double tolerance = kLodTolerance * (view.orthographic ? 1.0 : away) / view.focal;
     renderable.mesh = &select_lod(shape.mesh, tolerance);
-    if (renderable.mesh != &triangles_[shape.mesh]) renderable.lod_error = (float)tolerance;
+    if (renderable.mesh != &triangles_[shape.mesh]) renderable.lod_error = static_cast<float>(tolerance);
     renderable.id_count = renderable.mesh->face_count;
   }
   const Rectangle pixels = screen_bounds(view, *camera_from_shape, bounds.low, bounds.high);
-  renderable.left = pixels.left, renderable.top = pixels.top, renderable.right = pixels.right,
+  renderable.left = pixels.left;
+  renderable.top = pixels.top;
+  renderable.right = pixels.right;
   renderable.bottom = pixels.bottom;
   // With a margin for single precision's rounding.
   const double ahead = pixels.min_depth - 1e-3 * (std::fabs(pixels.min_depth) + bounds.radius);
-  renderable.max_inverse_depth = view.orthographic    ? (float)-ahead
-                                 : ahead > view.near_ ? (float)(1.0 / ahead)
+  renderable.max_inverse_depth = view.orthographic    ? static_cast<float>(-ahead)
+                                 : ahead > view.near_ ? static_cast<float>(1.0 / ahead)
                                                       : INFINITY;
   return !pixels.empty();
 }

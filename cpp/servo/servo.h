@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "contact/step_action.h"
 #include "servo_laws.h"
-#include "step_action.h"
 
 namespace trundle {
 

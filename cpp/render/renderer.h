@@ -58,7 +58,10 @@ class Scratch {
  public:
   void reserve(size_t count) {
     const size_t lines = (count + kMaxLanes - 1) / kMaxLanes;
-    if (lines > count_) lines_.reset(new Line[lines]), count_ = lines;
+    if (lines > count_) {
+      lines_.reset(new Line[lines]);
+      count_ = lines;
+    }
   }
   Number* data() { return lines_ ? lines_[0].numbers : nullptr; }
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-#include "motor_bank.h"
+#include "contact/motor_bank.h"
 #include "toolbox_pid.h"
 
 namespace trundle {

@@ -19,21 +19,25 @@ struct RayBlock {
   alignas(64) float entry[kBlockRays];  // range to the nearest bounding sphere of a mesh
 
   RayBlock(const double* unit_directions, int64_t count, double reach) {
-    const int rays = count < kBlockRays ? (int)count : kBlockRays;
+    const int rays = count < kBlockRays ? static_cast<int>(count) : kBlockRays;
     this->count = (rays + kLanes - 1) / kLanes * kLanes;
     for (int i = 0; i < rays; ++i)
       for (int axis = 0; axis < 3; ++axis) directions[axis][i] = unit_directions[3 * i + axis];
     for (int axis = 0; axis < 3; ++axis) {
       for (int i = rays; i < this->count; ++i) directions[axis][i] = directions[axis][rays - 1];
-      for (int i = 0; i < this->count; ++i) directions_f32[axis][i] = (float)directions[axis][i];
+      for (int i = 0; i < this->count; ++i) directions_f32[axis][i] = static_cast<float>(directions[axis][i]);
     }
-    for (int i = 0; i < kBlockRays; ++i)
-      ranges[i] = reach, ranges_f32[i] = (float)reach, shapes[i] = -1, entry[i] = 3e38f;
+    for (int i = 0; i < kBlockRays; ++i) {
+      ranges[i] = reach;
+      ranges_f32[i] = static_cast<float>(reach);
+      shapes[i] = -1;
+      entry[i] = 3e38f;
+    }
   }
-  F3 direction_f32_at(int i) const {
+  Floats3 direction_f32_at(int i) const {
     return {load(directions_f32[0] + i), load(directions_f32[1] + i), load(directions_f32[2] + i)};
   }
-  D3 at(int i) const { return {load(directions[0] + i), load(directions[1] + i), load(directions[2] + i)}; }
+  Doubles3 at(int i) const { return {load(directions[0] + i), load(directions[1] + i), load(directions[2] + i)}; }
 };
 
 // Cone around the rays of a block.
@@ -48,7 +52,7 @@ struct Cone {
       axis[i] = way[0] + way[rays.count / 2] + way[rays.count - 1];
       square += axis[i] * axis[i];
     }
-    F least_of_all = splat(3e38f);
+    Floats least_of_all = splat(3e38f);
     for (int i = 0; i < rays.count; i += kLanes)
       least_of_all = min(dot(rays.direction_f32_at(i), splat(axis)), least_of_all);
     const float inverse = 1.0f / __builtin_sqrtf(square);
@@ -59,15 +63,15 @@ struct Cone {
   }
 
   // Lanes that are surely outside: bounding spheres beyond the cone's side, and bounding cylinders that no ray reaches.
-  I misses(const BoundingVolumes& volumes, int at) const {
+  Ints misses(const BoundingVolumes& volumes, int at) const {
     const auto three = [at](const auto& rows) {
-      return F3{load(rows[0] + at), load(rows[1] + at), load(rows[2] + at)};
+      return Floats3{load(rows[0] + at), load(rows[1] + at), load(rows[2] + at)};
     };
-    const F3 centre = three(volumes.centre);
-    const F radius = load(volumes.radius + at), along = dot(centre, splat(axis)), away = dot(centre, centre);
-    const F needed = along * sine + radius, across = away * 0.999999f - along * along;
-    const F moment =
-        max(abs(dot(three(volumes.moment), splat(axis))) * cosine - sine * load(volumes.moment_length + at), F{});
+    const Floats3 centre = three(volumes.centre);
+    const Floats radius = load(volumes.radius + at), along = dot(centre, splat(axis)), away = dot(centre, centre);
+    const Floats needed = along * sine + radius, across = away * 0.999999f - along * along;
+    const Floats moment =
+        max(abs(dot(three(volumes.moment), splat(axis))) * cosine - sine * load(volumes.moment_length + at), Floats{});
     return (radius >= 0.0f) & ((needed < 0.0f) | (across * (cosine * cosine) > needed * needed) |
                                (moment * moment > load(volumes.cylinder_radius_squared + at)));
   }
@@ -76,8 +80,8 @@ struct Cone {
   int32_t find(const BoundingVolumes* volumes, int32_t count, int32_t* near) const {
     int32_t found = 0;
     for (int32_t first = 0; first < count; first += kLanes) {
-      const I here = splat(first) + lane_numbers() < count;
-      const I out = directions_f32 ? misses(volumes[first / kMaxLanes], first % kMaxLanes) : I{};
+      const Ints here = splat(first) + lane_numbers() < count;
+      const Ints out = directions_f32 ? misses(volumes[first / kMaxLanes], first % kMaxLanes) : Ints{};
       for (uint32_t left = bits(here & ~out); left; left &= left - 1) near[found++] = first + __builtin_ctz(left);
     }
     return found;
@@ -86,26 +90,28 @@ struct Cone {
 
 // Rays that hit a target's bounding sphere, and where.
 struct SphereHits {
-  I reached;
-  F along, within;
+  Ints reached;
+  Floats along, within;
 
-  SphereHits(const RayTarget& target, const F3& d)
-      : along(max(d.x * target.centre[0] + d.y * target.centre[1] + d.z * target.centre[2], F{})),
+  SphereHits(const RayTarget& target, const Floats3& d)
+      : along(max(d.x * target.centre[0] + d.y * target.centre[1] + d.z * target.centre[2], Floats{})),
         within(along * along - target.tangent_squared) {
     reached = within >= 0.0f;
     along *= 0.999999f;  // minus rounding
   }
-  F entry() const { return along - sqrt(max(within, F{})); }  // range at which the sphere is entered, rounded down
+  Floats entry() const {
+    return along - sqrt(max(within, Floats{}));
+  }  // range at which the sphere is entered, rounded down
 };
 
 // Rays that may hit the target before their nearest hit so far.
-inline I may_hit(const RayTarget& target, const F3& d, F ranges_f32) {
+inline Ints may_hit(const RayTarget& target, const Floats3& d, Floats ranges_f32) {
   if (target.kind == ShapeKind::kPlane) {
-    const F down = -(d.x * target.axes_f32[6] + d.y * target.axes_f32[7] + d.z * target.axes_f32[8]);
+    const Floats down = -(d.x * target.axes_f32[6] + d.y * target.axes_f32[7] + d.z * target.axes_f32[8]);
     return (down + 1e-6f) * ranges_f32 >= target.eye_f32[2] * 0.999999f;
   }
   const SphereHits near(target, d);
-  const F moment = dot(d, splat(target.moment));
+  const Floats moment = dot(d, splat(target.moment));
   return near.reached & (near.along - target.radius <= ranges_f32) &
          (moment * moment <= target.cylinder_radius_squared);
 }
@@ -120,25 +126,29 @@ struct Candidates {
     for (int first = 0; first < rays.count; first += kLanes) {
       const uint32_t some = bits(may_hit(target, rays.direction_f32_at(first), load(rays.ranges_f32 + first)));
       // Branchless: the branch would be unpredictable.
-      at[count] = first, count += (some & ((1u << kDoubleLanes) - 1)) != 0;
-      at[count] = first + kDoubleLanes, count += some >> kDoubleLanes != 0;
+      at[count] = first;
+      count += (some & ((1u << kDoubleLanes) - 1)) != 0;
+      at[count] = first + kDoubleLanes;
+      count += some >> kDoubleLanes != 0;
     }
   }
 };
 
 template <ShapeKind kind>
 inline void cast_shape(const RayTarget& target, const Candidates& candidates, RayBlock& rays) {
-  const D3 o = splat(target.eye);
+  const Doubles3 o = splat(target.eye);
   for (int i = 0; i < candidates.count; ++i) {
     const int at = candidates.at[i];
-    const D3 d = rays.at(at);
-    const RayHit<D> hit = intersect<kind>(target.size, o, kind == ShapeKind::kSphere ? d : rotate(target.axes, d));
-    const D range = load(rays.ranges + at), shape = load(rays.shapes + at), index = splat((double)target.index);
+    const Doubles3 d = rays.at(at);
+    const RayHit<Doubles> hit =
+        intersect<kind>(target.size, o, kind == ShapeKind::kSphere ? d : rotate(target.axes, d));
+    const Doubles range = load(rays.ranges + at), shape = load(rays.shapes + at),
+                  index = splat(static_cast<double>(target.index));
     // At equal range the lower index wins, in whatever order shapes come.
-    const L nearer = hit.mask & ((hit.depth < range) | ((hit.depth == range) & (shape > index)));
+    const Longs nearer = hit.mask & ((hit.depth < range) | ((hit.depth == range) & (shape > index)));
     store(rays.ranges + at, select(nearer, hit.depth, range));
     store(rays.shapes + at, select(nearer, index, shape));
-    for (int k = at; k < at + kDoubleLanes; ++k) rays.ranges_f32[k] = (float)rays.ranges[k];
+    for (int k = at; k < at + kDoubleLanes; ++k) rays.ranges_f32[k] = static_cast<float>(rays.ranges[k]);
   }
 }
 
@@ -158,18 +168,21 @@ enum class Pass { kNearest, kRest };
 inline void cast_mesh(const RayTarget& target, Pass pass, RayBlock& rays) {
   for (int first = 0; first < rays.count; first += kPacketGroups * kLanes) {
     RayPacket packet;
-    I active = I{};
+    Ints active = Ints{};
     for (int i = 0; i < kPacketGroups; ++i) {
       const int at = first + i * kLanes;
-      packet.active[i] = I{}, packet.d[i] = rays.direction_f32_at(first), packet.inverse_range[i] = F{};
-      packet.hit[i] = splat((int32_t)-1);
+      packet.active[i] = Ints{};
+      packet.d[i] = rays.direction_f32_at(first);
+      packet.inverse_range[i] = Floats{};
+      packet.hit[i] = splat(static_cast<int32_t>(-1));
       if (at >= rays.count) continue;
       const SphereHits near(target, rays.direction_f32_at(at));
       if (!any(near.reached)) continue;
-      const F entry = near.entry(), ranges_f32 = load(rays.ranges_f32 + at);
-      const I is_first = entry <= load(rays.entry + at);
+      const Floats entry = near.entry(), ranges_f32 = load(rays.ranges_f32 + at);
+      const Ints is_first = entry <= load(rays.entry + at);
       packet.active[i] = near.reached & (entry <= ranges_f32) & (pass == Pass::kNearest ? is_first : ~is_first);
-      packet.d[i] = rays.direction_f32_at(at), packet.inverse_range[i] = ranges_f32;
+      packet.d[i] = rays.direction_f32_at(at);
+      packet.inverse_range[i] = ranges_f32;
       active |= packet.active[i];
     }
     if (!any(active)) continue;
@@ -182,15 +195,17 @@ inline void cast_mesh(const RayTarget& target, Pass pass, RayBlock& rays) {
       uint32_t left = bits(packet.hit[i] >= 0);
       if (!left) continue;
       const int at = first + i * kLanes;
-      const D3 directions[2] = {rotate(target.axes, rays.at(at)), rotate(target.axes, rays.at(at + kDoubleLanes))};
+      const Doubles3 directions[2] = {rotate(target.axes, rays.at(at)),
+                                      rotate(target.axes, rays.at(at + kDoubleLanes))};
       for (; left; left &= left - 1) {
         const int lane = __builtin_ctz(left), k = lane % kDoubleLanes;
-        const D3& d = directions[lane / kDoubleLanes];
+        const Doubles3& d = directions[lane / kDoubleLanes];
         const double range = range_to(target, packet.hit[i][lane], d.x[k], d.y[k], d.z[k]),
                      old = rays.ranges[at + lane];
         if (!(range > 0.0 && (range < old || (range == old && rays.shapes[at + lane] > target.index)))) continue;
-        rays.ranges[at + lane] = range, rays.ranges_f32[at + lane] = (float)range,
-                         rays.shapes[at + lane] = target.index;
+        rays.ranges[at + lane] = range;
+        rays.ranges_f32[at + lane] = static_cast<float>(range);
+        rays.shapes[at + lane] = target.index;
       }
     }
   }
@@ -225,7 +240,8 @@ inline void cast_rays(const RayTarget* targets, const BoundingVolumes* volumes, 
       for (int32_t k = 0; k < last; ++k) candidates[k].find(targets[near[i + k]], rays);
       for (int32_t k = 0; k < last; ++k) {
         const RayTarget& target = targets[near[i + k]];
-        cast_target(target, candidates[k], rays), has_meshes |= target.kind == ShapeKind::kMesh;
+        cast_target(target, candidates[k], rays);
+        has_meshes |= target.kind == ShapeKind::kMesh;
       }
     }
     const Pass passes[2] = {Pass::kNearest, Pass::kRest};
@@ -235,7 +251,7 @@ inline void cast_rays(const RayTarget* targets, const BoundingVolumes* volumes, 
     const int64_t last = count - first < kBlockRays ? count - first : kBlockRays;
     for (int64_t i = 0; i < last; ++i) {
       ranges[first + i] = rays.shapes[i] < 0 ? __builtin_inf() : rays.ranges[i];
-      shapes[first + i] = (int32_t)rays.shapes[i];
+      shapes[first + i] = static_cast<int32_t>(rays.shapes[i]);
     }
   }
 }

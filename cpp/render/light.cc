@@ -7,7 +7,9 @@ namespace trundle {
 
 int32_t tile_rows(int32_t rows) { return (rows + kTileHeight - 1) / kTileHeight; }
 
-size_t tile_count(const View& view) { return (size_t)view.tile_stride() * (size_t)tile_rows(view.height); }
+size_t tile_count(const View& view) {
+  return static_cast<size_t>(view.tile_stride()) * static_cast<size_t>(tile_rows(view.height));
+}
 
 namespace {
 
@@ -20,11 +22,18 @@ ShadowMapImage blank_shadow_map(const Transform& world_from_view, int32_t size, 
                                 bool orthographic) {
   ShadowMapImage map;
   map.world_from_view = world_from_view;
-  map.view = {size,         size,         size + kPadding, size * 0.5f, size * 0.5f,
-              (float)focal, (float)near_, (float)far_,     orthographic};
-  map.texel = (float)(1.0 / focal);
+  map.view = {size,
+              size,
+              size + kPadding,
+              size * 0.5f,
+              size * 0.5f,
+              static_cast<float>(focal),
+              static_cast<float>(near_),
+              static_cast<float>(far_),
+              orthographic};
+  map.texel = static_cast<float>(1.0 / focal);
   const float nothing = orthographic ? kNoDepth : 0.0f;
-  map.inverse_depth.assign((size_t)map.view.stride * (size_t)size, nothing);
+  map.inverse_depth.assign(static_cast<size_t>(map.view.stride) * static_cast<size_t>(size), nothing);
   map.tile_max_inverse_depth.assign(tile_count(map.view), nothing);
   return map;
 }
@@ -35,7 +44,8 @@ void ShadowMapImage::add_caster(const Renderable& caster) {
   const int32_t left = std::max(caster.left - 1, 0) / kTileWidth, right = (caster.right - 1) / kTileWidth;
   for (int32_t top = std::max(caster.top - 1, 0) / kTileHeight; top <= (caster.bottom - 1) / kTileHeight; ++top)
     for (int32_t tile = left; tile <= right; ++tile) {
-      float& most = tile_max_inverse_depth[(size_t)top * (size_t)view.tile_stride() + (size_t)tile];
+      float& most = tile_max_inverse_depth[static_cast<size_t>(top) * static_cast<size_t>(view.tile_stride()) +
+                                           static_cast<size_t>(tile)];
       most = std::max(most, caster.max_inverse_depth);
     }
 }
@@ -45,7 +55,7 @@ std::optional<ShadowMapImage> make_shadow_map(const LightSpec& light, const Tran
   const Vec3 along = world_from_body.rotate(light.direction);
   if (casters.empty() || light.kind == LightKind::kPoint) return std::nullopt;
   if (light.kind == LightKind::kSpot) {
-    const double half = std::min((double)light.outer_angle * 0.5, 1.4);
+    const double half = std::min(static_cast<double>(light.outer_angle) * 0.5, 1.4);
     const Transform view = Transform::look_along(along, world_from_body.apply(light.position));
     return blank_shadow_map(view, 2 * kMinMapSize, kMinMapSize / std::tan(half), 0.01, light.range, false);
   }
@@ -54,7 +64,10 @@ std::optional<ShadowMapImage> make_shadow_map(const LightSpec& light, const Tran
   for (const BoxCorners& corners : casters)
     for (const Vec3& corner : corners) {
       const Vec3 seen = view.inverse_rotate(corner);
-      for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], seen[i]), high[i] = std::max(high[i], seen[i]);
+      for (int i = 0; i < 3; ++i) {
+        low[i] = std::min(low[i], seen[i]);
+        high[i] = std::max(high[i], seen[i]);
+      }
     }
   const double extent = std::max({high[1] - low[1], high[2] - low[2], 1e-3});
   if (!std::isfinite(extent) || !std::isfinite(high[0] - low[0])) return std::nullopt;
@@ -67,8 +80,8 @@ std::optional<ShadowMapImage> make_shadow_map(const LightSpec& light, const Tran
 ShadowMap shadow_map_in_camera(const ShadowMapImage& map, const Transform& world_from_camera) {
   ShadowMap seen{map.inverse_depth.data(), map.tile_max_inverse_depth.data(), map.view, {}, {}, map.texel};
   const Transform view_from_camera = map.world_from_view.inverse() * world_from_camera;
-  for (int i = 0; i < 9; ++i) seen.rotation[i] = (float)view_from_camera.rotation[i];
-  for (int i = 0; i < 3; ++i) seen.translation[i] = (float)view_from_camera.position[i];
+  for (int i = 0; i < 9; ++i) seen.rotation[i] = static_cast<float>(view_from_camera.rotation[i]);
+  for (int i = 0; i < 3; ++i) seen.translation[i] = static_cast<float>(view_from_camera.position[i]);
   return seen;
 }
 
@@ -79,16 +92,20 @@ Light light_in_camera(const LightSpec& light, const Transform& world_from_body, 
   const Vec3 along = world_from_camera.inverse_rotate(world_from_body.rotate(light.direction));
   const Vec3 place = world_from_camera.inverse_apply(world_from_body.apply(light.position));
   for (int i = 0; i < 3; ++i) {
-    seen.to_light[i] = (float)-along[i];
-    seen.position[i] = (float)place[i];
+    seen.to_light[i] = static_cast<float>(-along[i]);
+    seen.position[i] = static_cast<float>(place[i]);
     seen.diffuse[i] = light.diffuse[i];
     seen.specular[i] = light.specular[i];
   }
-  seen.constant = light.constant, seen.linear = light.linear, seen.quadratic = light.quadratic;
-  seen.range = light.range, seen.falloff = light.falloff;
+  seen.constant = light.constant;
+  seen.linear = light.linear;
+  seen.quadratic = light.quadratic;
+  seen.range = light.range;
+  seen.falloff = light.falloff;
   const double outer = std::cos(light.outer_angle * 0.5);
-  seen.cos_outer = (float)outer;
-  seen.cos_inner = (float)std::max(std::cos(std::min(light.inner_angle, light.outer_angle) * 0.5), outer + 1e-4);
+  seen.cos_outer = static_cast<float>(outer);
+  seen.cos_inner =
+      static_cast<float>(std::max(std::cos(std::min(light.inner_angle, light.outer_angle) * 0.5), outer + 1e-4));
   seen.shadow = map;
   return seen;
 }

@@ -10,8 +10,8 @@ namespace trundle {
 
 // First tile of the given rows, and their number of tiles.
 std::pair<size_t, size_t> tile_range(const View& view, int32_t top, int32_t bottom) {
-  const auto stride = (size_t)view.tile_stride(), first = (size_t)(top / kTileHeight) * stride;
-  return {first, (size_t)tile_rows(bottom) * stride - first};
+  const auto stride = static_cast<size_t>(view.tile_stride()), first = static_cast<size_t>(top / kTileHeight) * stride;
+  return {first, static_cast<size_t>(tile_rows(bottom)) * stride - first};
 }
 
 // Rows of one image that one thread draws.
@@ -21,7 +21,8 @@ struct Renderer::Band {
 
   // The part of a shape within the band, if any.
   std::optional<Renderable> clip(Renderable renderable) const {
-    renderable.top = std::max(renderable.top, top), renderable.bottom = std::min(renderable.bottom, bottom);
+    renderable.top = std::max(renderable.top, top);
+    renderable.bottom = std::min(renderable.bottom, bottom);
     return renderable.top < renderable.bottom ? std::optional(renderable) : std::nullopt;
   }
 
@@ -38,16 +39,17 @@ constexpr int64_t kTilesForThread = 2048;  // 256 Ki pixels; for fewer, starting
 // less than what is below them. The two middle bands are one.
 template <typename Work>
 void Renderer::for_each_band(const std::vector<View>& views, const Work& work) {
-  const auto count = (int64_t)workspaces_.size();
+  const auto count = static_cast<int64_t>(workspaces_.size());
   std::vector<int64_t> starts{0};  // of each image, in tiles
-  for (const View& view : views) starts.push_back(starts.back() + (int64_t)tile_count(view));
+  for (const View& view : views) starts.push_back(starts.back() + static_cast<int64_t>(tile_count(view)));
   const auto draw_between = [&](int64_t thread, int64_t first, int64_t last) {
     for (size_t i = 0; i < views.size(); ++i) {
       const auto row = [&](int64_t band) {
         const int64_t tiles = std::max(starts.back() * band / (2 * count) - starts[i], int64_t{0});
-        return (int32_t)std::min(tiles / views[i].tile_stride() * kTileHeight, (int64_t)views[i].height);
+        return static_cast<int32_t>(
+            std::min(tiles / views[i].tile_stride() * kTileHeight, static_cast<int64_t>(views[i].height)));
       };
-      if (row(first) < row(last)) work(Band{(size_t)thread, i, row(first), row(last)});
+      if (row(first) < row(last)) work(Band{static_cast<size_t>(thread), i, row(first), row(last)});
     }
   };
   const auto draw = [&](int64_t thread) {
@@ -80,8 +82,10 @@ void Renderer::rasterize_all(const View& view, const std::vector<Renderable>& re
                              Buffers buffers) const {
   const Kernel& kernel = best_kernel();
   for (const Renderable& renderable : renderables)
-    if (const auto part = band.clip(renderable))
-      kernel.rasterize(view, *part, buffers), kernel.update_hi_z(view, *part, buffers);
+    if (const auto part = band.clip(renderable)) {
+      kernel.rasterize(view, *part, buffers);
+      kernel.update_hi_z(view, *part, buffers);
+    }
 }
 
 // Planes cast no shadow: they are floors, and nothing is below them.
@@ -130,7 +134,7 @@ void Renderer::render_shadow_maps() {
 }
 
 int32_t byte_of(double share) {
-  return (int32_t)(std::isfinite(share) ? std::clamp(share, 0.0, 1.0) * 255.0 + 0.5 : 0);
+  return static_cast<int32_t>(std::isfinite(share) ? std::clamp(share, 0.0, 1.0) * 255.0 + 0.5 : 0);
 }
 
 struct Renderer::VisibleSet {
@@ -151,7 +155,7 @@ Renderer::VisibleSet Renderer::find_visible(const CameraTarget& target, const Vi
         light_in_camera(light, *body, target.world_from_camera, shadow_maps_[i] ? &visible.maps[i] : nullptr));
   }
   for (int i = 0; i < 3; ++i) {
-    visible.sky.up[i] = (float)target.world_from_camera.rotation[6 + i];
+    visible.sky.up[i] = static_cast<float>(target.world_from_camera.rotation[6 + i]);
     visible.sky.packed_horizon |= byte_of(visible.sky.horizon[i]) << (8 * i);
   }
   // Depth and segmentation use the full meshes.
@@ -177,19 +181,29 @@ void Renderer::render(const std::vector<CameraTarget>& targets) {
   std::vector<VisibleSet> visible_sets;
   for (const CameraTarget& target : targets) {
     const int32_t stride = (target.width + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
-    const View view{target.width,        target.height,        stride,
-                    target.width * 0.5f, target.height * 0.5f, (float)target.focal,
-                    (float)target.near_, (float)target.far_,   false};
+    const View view{target.width,
+                    target.height,
+                    stride,
+                    target.width * 0.5f,
+                    target.height * 0.5f,
+                    static_cast<float>(target.focal),
+                    static_cast<float>(target.near_),
+                    static_cast<float>(target.far_),
+                    false};
     views.push_back(view);
     visible_sets.push_back(find_visible(target, view));
-    const size_t count = (size_t)stride * (size_t)target.height, tiles = tile_count(view);
+    const size_t count = static_cast<size_t>(stride) * static_cast<size_t>(target.height), tiles = tile_count(view);
     for (Workspace& workspace : workspaces_) {
-      workspace.inverse_depth.reserve(count), workspace.id.reserve(count), workspace.colour.reserve(count),
-          workspace.hi_z.reserve(tiles);
+      workspace.inverse_depth.reserve(count);
+      workspace.id.reserve(count);
+      workspace.colour.reserve(count);
+      workspace.hi_z.reserve(tiles);
       if (target.segmentation) workspace.segmentation.reserve(count);
-      if (!visible_sets.back().transparent.empty())
-        workspace.inverse_depth_through.reserve(count), workspace.id_through.reserve(count),
-            workspace.hi_z_through.reserve(tiles);
+      if (!visible_sets.back().transparent.empty()) {
+        workspace.inverse_depth_through.reserve(count);
+        workspace.id_through.reserve(count);
+        workspace.hi_z_through.reserve(tiles);
+      }
     }
   }
   for_each_band(views, [&](const Band& band) {
@@ -200,17 +214,19 @@ void Renderer::render(const std::vector<CameraTarget>& targets) {
 void Renderer::draw(const CameraTarget& target, const View& view, const VisibleSet& visible, const Band& band) {
   const Kernel& kernel = best_kernel();
   Workspace& workspace = workspaces_[band.thread];
-  Lighting lighting{{}, visible.lights.data(), (int32_t)visible.lights.size(), scene_.fog};
+  Lighting lighting{{}, visible.lights.data(), static_cast<int32_t>(visible.lights.size()), scene_.fog};
   std::copy(scene_.ambient.begin(), scene_.ambient.end(), lighting.ambient);
   const Buffers buffers{workspace.inverse_depth.data(), workspace.id.data(),
                         workspace.colour.data(),        target.segmentation ? workspace.segmentation.data() : nullptr,
                         workspace.hi_z.data(),          workspace.projected.data(),
                         workspace.large_faces.data()};
-  const auto stride = (size_t)view.stride;
-  const size_t first = (size_t)band.top * stride, area = (size_t)(band.bottom - band.top) * stride;
+  const auto stride = static_cast<size_t>(view.stride);
+  const size_t first = static_cast<size_t>(band.top) * stride,
+               area = static_cast<size_t>(band.bottom - band.top) * stride;
   std::fill_n(buffers.inverse_depth + first, area, 1.0f / view.far_);
   for (int32_t row = band.top; row < band.bottom; ++row)
-    std::fill_n(buffers.inverse_depth + (size_t)row * stride + view.width, view.stride - view.width, INFINITY);
+    std::fill_n(buffers.inverse_depth + static_cast<size_t>(row) * stride + view.width, view.stride - view.width,
+                INFINITY);
   std::fill_n(buffers.id + first, area, -1);
   if (target.segmentation) std::fill_n(buffers.segmentation + first, area, -1);
   band.clear_tiles(view, 1.0f / view.far_, buffers.hi_z);
@@ -219,12 +235,14 @@ void Renderer::draw(const CameraTarget& target, const View& view, const VisibleS
   for (const Renderable& renderable : visible.opaque)
     if (const auto part = band.clip(renderable)) kernel.shade(view, *part, lighting, buffers);
   Buffers through = buffers;  // blended over the image; visibility in buffers of its own
-  through.inverse_depth = workspace.inverse_depth_through.data(), through.id = workspace.id_through.data();
+  through.inverse_depth = workspace.inverse_depth_through.data();
+  through.id = workspace.id_through.data();
   through.hi_z = workspace.hi_z_through.data();
   for (const Renderable& renderable : visible.transparent) {
     const auto part = band.clip(renderable);
     if (!part) continue;
-    const size_t from = (size_t)part->top * stride, rows = (size_t)(part->bottom - part->top) * stride;
+    const size_t from = static_cast<size_t>(part->top) * stride,
+                 rows = static_cast<size_t>(part->bottom - part->top) * stride;
     std::copy_n(buffers.inverse_depth + from, rows, through.inverse_depth + from);
     std::fill_n(through.id + from, rows, -1);
     const auto [tile, tiles] = tile_range(view, part->top, part->bottom);
@@ -235,8 +253,8 @@ void Renderer::draw(const CameraTarget& target, const View& view, const VisibleS
   kernel.resolve(view, band.top, band.bottom, buffers, target.rgb, target.depth);
   if (!target.segmentation) return;
   for (int32_t row = band.top; row < band.bottom; ++row)
-    std::copy_n(buffers.segmentation + (size_t)row * stride, target.width,
-                target.segmentation + (size_t)row * (size_t)target.width);
+    std::copy_n(buffers.segmentation + static_cast<size_t>(row) * stride, target.width,
+                target.segmentation + static_cast<size_t>(row) * static_cast<size_t>(target.width));
 }
 
 }  // namespace trundle

@@ -7,10 +7,10 @@
 
 namespace trundle::TRUNDLE_ISA {
 
-typedef uint32_t U __attribute__((vector_size(kLanes * 4)));
+typedef uint32_t Uints __attribute__((vector_size(kLanes * 4)));
 
 // Wellons' "lowbias32" integer hash.
-inline U hash(U x) {
+inline Uints hash(Uints x) {
   x ^= x >> 16;
   x *= 0x7feb352du;
   x ^= x >> 15;
@@ -19,23 +19,24 @@ inline U hash(U x) {
 }
 
 // Taylor series on [-pi/4, pi/4], error 1e-6.
-inline void sine_cosine(F a, F& sine, F& cosine) {
-  const F z = a * a;
+inline void sine_cosine(Floats a, Floats& sine, Floats& cosine) {
+  const Floats z = a * a;
   sine = a + a * z * (-1.0f / 6 + z * (1.0f / 120 - z * (1.0f / 5040)));
   cosine = 1.0f + z * (-0.5f + z * (1.0f / 24 + z * (-1.0f / 720 + z * (1.0f / 40320))));
 }
 
 // Box-Muller transform of the counters from `first` on.
-inline void normal_pair(const uint32_t key[2], uint32_t first, F& one, F& other) {
-  const U place = (U)lane_numbers() + first;
-  const U a = hash(place ^ key[0]), b = hash(hash(place + key[1]) ^ key[0]);
-  const F chance = (to_float((I)(a >> 8)) + 1.0f) * (1.0f / (1 << 24));  // (0, 1]
-  const F length = sqrt(max(-2.0f * 0.69314718f * log2(chance), F{}));
-  const F angle = to_float((I)(b << 2) >> 8) * (0.78539816f / (1 << 23));  // [-pi/4, pi/4) within a quadrant
-  const I quarter = (I)(b >> 30);
-  F sine, cosine;
+inline void normal_pair(const uint32_t key[2], uint32_t first, Floats& one, Floats& other) {
+  const Uints place = reinterpret_cast<Uints>(lane_numbers()) + first;
+  const Uints a = hash(place ^ key[0]), b = hash(hash(place + key[1]) ^ key[0]);
+  const Floats chance = (to_float(reinterpret_cast<Ints>(a >> 8)) + 1.0f) * (1.0f / (1 << 24));  // (0, 1]
+  const Floats length = sqrt(max(-2.0f * 0.69314718f * log2(chance), Floats{}));
+  const Floats angle =
+      to_float(reinterpret_cast<Ints>(b << 2) >> 8) * (0.78539816f / (1 << 23));  // [-pi/4, pi/4) within a quadrant
+  const Ints quarter = reinterpret_cast<Ints>(b >> 30);
+  Floats sine, cosine;
   sine_cosine(angle, sine, cosine);
-  const F x = select((quarter & 1) != 0, sine, cosine), y = select((quarter & 1) != 0, cosine, sine);
+  const Floats x = select((quarter & 1) != 0, sine, cosine), y = select((quarter & 1) != 0, cosine, sine);
   one = select(((quarter + 1) & 2) != 0, -x, x) * length;
   other = select((quarter & 2) != 0, -y, y) * length;
 }
@@ -45,8 +46,8 @@ constexpr int kNoiseBlock = 2 * kMaxLanes;
 // kNoiseBlock standard normal numbers.
 inline void normal_block(const uint32_t key[2], uint32_t block, float* numbers) {
   for (int i = 0; i < kMaxLanes; i += kLanes) {
-    F one, other;
-    normal_pair(key, block * kMaxLanes + (uint32_t)i, one, other);
+    Floats one, other;
+    normal_pair(key, block * kMaxLanes + static_cast<uint32_t>(i), one, other);
     store(numbers + i, one);
     store(numbers + kMaxLanes + i, other);
   }
@@ -55,7 +56,7 @@ inline void normal_block(const uint32_t key[2], uint32_t block, float* numbers) 
 void add_depth_noise(const Noise& noise, int64_t count, float* depths) {
   alignas(64) float normal[kNoiseBlock];
   for (int64_t at = 0; at < count; at += kNoiseBlock) {
-    normal_block(noise.key, (uint32_t)(at / kNoiseBlock), normal);
+    normal_block(noise.key, static_cast<uint32_t>(at / kNoiseBlock), normal);
     const int64_t rest = count - at < kNoiseBlock ? count - at : kNoiseBlock;
     for (int64_t i = 0; i < rest; ++i) depths[at + i] += noise.mean + noise.stddev * normal[i];
   }
@@ -64,11 +65,12 @@ void add_depth_noise(const Noise& noise, int64_t count, float* depths) {
 void add_colour_noise(const Noise& noise, int64_t count, uint8_t* rgb) {
   alignas(64) float normal[kNoiseBlock];
   for (int64_t at = 0; at < count; at += kNoiseBlock) {
-    normal_block(noise.key, (uint32_t)(at / kNoiseBlock), normal);
+    normal_block(noise.key, static_cast<uint32_t>(at / kNoiseBlock), normal);
     const int64_t rest = count - at < kNoiseBlock ? count - at : kNoiseBlock;
     for (int64_t i = 0; i < 3 * rest; ++i) {
-      const float value = (float)rgb[3 * at + i] + 255.0f * (noise.mean + noise.stddev * normal[i / 3]) + 0.5f;
-      rgb[3 * at + i] = (uint8_t)(value > 0.0f ? (value < 255.0f ? value : 255.0f) : 0.0f);
+      const float value =
+          static_cast<float>(rgb[3 * at + i]) + 255.0f * (noise.mean + noise.stddev * normal[i / 3]) + 0.5f;
+      rgb[3 * at + i] = static_cast<uint8_t>(value > 0.0f ? (value < 255.0f ? value : 255.0f) : 0.0f);
     }
   }
 }

@@ -55,7 +55,10 @@ Rectangle screen_bounds(const View& view, const Transform& camera_from_box, cons
   const auto extend = [&](double x, double y, double z) {
     const double scale = view.orthographic ? view.focal : view.focal / x;
     const double u = view.centre_u - scale * y, v = view.centre_v - scale * z;
-    left = std::min(left, u), right = std::max(right, u), top = std::min(top, v), bottom = std::max(bottom, v);
+    left = std::min(left, u);
+    right = std::max(right, u);
+    top = std::min(top, v);
+    bottom = std::max(bottom, v);
   };
   const double near_ = view.near_ * (1.0 - 1e-6);  // points on the plane itself are visible
   for (int i = 0; i < 8; ++i) {
@@ -71,7 +74,8 @@ Rectangle screen_bounds(const View& view, const Transform& camera_from_box, cons
   }
   // One pixel more on each side for single precision's rounding. NaN covers the whole image.
   const auto pixel = [](double at, int32_t last, int32_t otherwise) {
-    return std::isnan(at) ? otherwise : (int32_t)std::clamp(std::floor(at), 0.0, (double)last);
+    return std::isnan(at) ? otherwise
+                          : static_cast<int32_t>(std::clamp(std::floor(at), 0.0, static_cast<double>(last)));
   };
   if (left > right) return {0, 0, 0, 0, min_depth};
   return {pixel(left - 1.0, view.width, 0), pixel(top - 1.0, view.height, 0),

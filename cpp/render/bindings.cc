@@ -72,7 +72,8 @@ NB_MODULE(_native, module) {
           [](Image* self, Array<const uint8_t, nb::shape<-1, -1, 3>> rgb) {
             if (rgb.shape(0) > 16384 || rgb.shape(1) > 16384)
               throw std::invalid_argument("a texture is 1 to 16384 pixels wide and high");
-            new (self) Image(make_image(rgb.data(), (int32_t)rgb.shape(1), (int32_t)rgb.shape(0)));
+            new (self)
+                Image(make_image(rgb.data(), static_cast<int32_t>(rgb.shape(1)), static_cast<int32_t>(rgb.shape(0))));
           },
           nb::arg("rgb"));
 
@@ -139,7 +140,7 @@ NB_MODULE(_native, module) {
       .def(
           "update",
           [](Renderer& self, Array<const double, nb::shape<-1, 7>> poses) {
-            if (poses.shape(0) != (size_t)self.bodies())
+            if (poses.shape(0) != static_cast<size_t>(self.bodies()))
               throw std::invalid_argument("there must be one pose for each body");
             self.update(poses.data());
           },
@@ -173,8 +174,9 @@ NB_MODULE(_native, module) {
               if (!(near_ > 0.0 && far_ > near_ && focal > 0.0))
                 throw std::invalid_argument("a camera needs 0 < near < far and a focal length above 0");
               const size_t first = i * height * width;
-              targets.push_back({transform_of(world_from_cameras[i], "a camera"), (int32_t)width, (int32_t)height,
-                                 focal, near_, far_, rgb.data() + 3 * first, depth ? depth->data() + first : nullptr,
+              targets.push_back({transform_of(world_from_cameras[i], "a camera"), static_cast<int32_t>(width),
+                                 static_cast<int32_t>(height), focal, near_, far_, rgb.data() + 3 * first,
+                                 depth ? depth->data() + first : nullptr,
                                  segmentation ? segmentation->data() + first : nullptr});
             }
             nb::gil_scoped_release unlocked;
@@ -196,20 +198,20 @@ NB_MODULE(_native, module) {
   });  // positional: looking up names takes a while
 
   const auto noise_of = [](uint64_t seed, float mean, float stddev) {
-    return Noise{{(uint32_t)seed, (uint32_t)(seed >> 32)}, mean, stddev};
+    return Noise{{static_cast<uint32_t>(seed), static_cast<uint32_t>(seed >> 32)}, mean, stddev};
   };
   module.def(
       "add_depth_noise",
       [noise_of](Array<float, nb::ndim<2>> depths, uint64_t seed, float mean, float stddev) {
         nb::gil_scoped_release unlocked;
-        best_kernel().add_depth_noise(noise_of(seed, mean, stddev), (int64_t)depths.size(), depths.data());
+        best_kernel().add_depth_noise(noise_of(seed, mean, stddev), static_cast<int64_t>(depths.size()), depths.data());
       },
       nb::arg("depths"), nb::kw_only(), nb::arg("seed"), nb::arg("mean"), nb::arg("stddev"));
   module.def(
       "add_colour_noise",
       [noise_of](Array<uint8_t, nb::shape<-1, -1, 3>> rgb, uint64_t seed, float mean, float stddev) {
         nb::gil_scoped_release unlocked;
-        best_kernel().add_colour_noise(noise_of(seed, mean, stddev), (int64_t)rgb.size() / 3, rgb.data());
+        best_kernel().add_colour_noise(noise_of(seed, mean, stddev), static_cast<int64_t>(rgb.size()) / 3, rgb.data());
       },
       nb::arg("rgb"), nb::kw_only(), nb::arg("seed"), nb::arg("mean"), nb::arg("stddev"));
   module.def(
@@ -217,7 +219,7 @@ NB_MODULE(_native, module) {
       [](Array<const float, nb::ndim<2>> depths, float near, float far, Array<float, nb::ndim<2>> clipped) {
         if (clipped.size() != depths.size()) throw std::invalid_argument("both must be of one height and width");
         nb::gil_scoped_release unlocked;
-        best_kernel().clip_depths((int64_t)depths.size(), near, far, depths.data(), clipped.data());
+        best_kernel().clip_depths(static_cast<int64_t>(depths.size()), near, far, depths.data(), clipped.data());
       },
       nb::arg("depths"), nb::kw_only(), nb::arg("near"), nb::arg("far"), nb::arg("clipped"));
   module.def(
@@ -229,7 +231,8 @@ NB_MODULE(_native, module) {
         if (points.size() != 4 * count || rgb.size() != 3 * count || right.size() != count || down.size() != count)
           throw std::invalid_argument("all must be of one height and width");
         nb::gil_scoped_release unlocked;
-        best_kernel().fill_cloud((int64_t)count, depth.data(), rgb.data(), right.data(), down.data(), points.data());
+        best_kernel().fill_cloud(static_cast<int64_t>(count), depth.data(), rgb.data(), right.data(), down.data(),
+                                 points.data());
       },
       nb::arg("points"), nb::kw_only(), nb::arg("depth"), nb::arg("rgb"), nb::arg("right"), nb::arg("down"));
 

@@ -23,16 +23,21 @@ struct Grid {
   std::vector<Vec3> centres;
   double error = 0.0;
 
-  Grid(const Mesh& mesh, const std::vector<bool>& used, double width) : cells((size_t)mesh.vertex_count, -1) {
+  Grid(const Mesh& mesh, const std::vector<bool>& used, double width)
+      : cells(static_cast<size_t>(mesh.vertex_count), -1) {
     std::unordered_map<int64_t, int32_t> numbers;
     std::vector<int32_t> counts;
     for (int32_t i = 0; i < mesh.vertex_count; ++i) {
       if (!used[i]) continue;
       int64_t key = 0;
       for (int axis = 0; axis < 3; ++axis)
-        key = key << 20 | (int64_t)std::clamp((mesh.positions[axis][i] - mesh.low[axis]) / width, 0.0, kFinestGrid);
-      const int32_t cell = cells[i] = numbers.try_emplace(key, (int32_t)centres.size()).first->second;
-      if (cell == (int32_t)centres.size()) centres.push_back({}), counts.push_back(0);
+        key = key << 20 |
+              static_cast<int64_t>(std::clamp((mesh.positions[axis][i] - mesh.low[axis]) / width, 0.0, kFinestGrid));
+      const int32_t cell = cells[i] = numbers.try_emplace(key, static_cast<int32_t>(centres.size())).first->second;
+      if (cell == static_cast<int32_t>(centres.size())) {
+        centres.push_back({});
+        counts.push_back(0);
+      }
       for (int axis = 0; axis < 3; ++axis) centres[cell][axis] += mesh.positions[axis][i];
       ++counts[cell];
     }
@@ -74,10 +79,12 @@ std::vector<int32_t> merge_faces(const Mesh& mesh, const Grid& grid, const std::
 Mesh build_mesh(const Mesh& mesh, const Grid& grid, const std::vector<int32_t>& faces) {
   const auto padded = [](size_t count) { return (count + kMaxLanes - 1) / kMaxLanes * kMaxLanes; };
   Mesh merged;
-  merged.low = mesh.low, merged.high = mesh.high;
-  merged.vertex_count = (int32_t)grid.centres.size(), merged.face_count = (int32_t)faces.size();
+  merged.low = mesh.low;
+  merged.high = mesh.high;
+  merged.vertex_count = static_cast<int32_t>(grid.centres.size());
+  merged.face_count = static_cast<int32_t>(faces.size());
   for (int axis = 0; axis < 3; ++axis) {
-    for (const Vec3& centre : grid.centres) merged.positions[axis].push_back((float)centre[axis]);
+    for (const Vec3& centre : grid.centres) merged.positions[axis].push_back(static_cast<float>(centre[axis]));
     for (const int32_t face : faces) merged.corners[axis].push_back(grid.cells[mesh.corners[axis][face]]);
     merged.positions[axis].resize(padded(grid.centres.size()), 0.0f);
     merged.corners[axis].resize(padded(faces.size()), 0);
@@ -85,10 +92,11 @@ Mesh build_mesh(const Mesh& mesh, const Grid& grid, const std::vector<int32_t>& 
   const auto copy = [&](const std::vector<float>& from, std::vector<float>& to, size_t width) {
     if (from.empty()) return;
     for (const int32_t face : faces)
-      to.insert(to.end(), &from[width * (size_t)face], &from[width * (size_t)face] + width);
+      to.insert(to.end(), &from[width * static_cast<size_t>(face)], &from[width * static_cast<size_t>(face)] + width);
   };
-  copy(mesh.normals, merged.normals, 4), copy(mesh.uv_planes, merged.uv_planes, 8),
-      copy(mesh.normal_planes, merged.normal_planes, 12);
+  copy(mesh.normals, merged.normals, 4);
+  copy(mesh.uv_planes, merged.uv_planes, 8);
+  copy(mesh.normal_planes, merged.normal_planes, 12);
   return merged;
 }
 
@@ -99,10 +107,10 @@ std::vector<MeshLod> make_lods(const Mesh& mesh) {
   double extent = 0.0;
   for (int axis = 0; axis < 3; ++axis) extent = std::max(extent, mesh.high[axis] - mesh.low[axis]);
   if (mesh.face_count < kMinLodFaces || !(extent > 0.0) || !std::isfinite(extent)) return levels;
-  std::vector<bool> used((size_t)mesh.vertex_count, false);
+  std::vector<bool> used(static_cast<size_t>(mesh.vertex_count), false);
   for (const auto& corners : mesh.corners)
     for (int32_t face = 0; face < mesh.face_count; ++face) used[corners[face]] = true;
-  std::vector<int32_t> faces((size_t)mesh.face_count);
+  std::vector<int32_t> faces(static_cast<size_t>(mesh.face_count));
   for (int32_t face = 0; face < mesh.face_count; ++face) faces[face] = face;
   size_t last = faces.size();
   for (int level = 0; level < kMaxLevels && last > kMinFaces; ++level) {

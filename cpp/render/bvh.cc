@@ -15,10 +15,14 @@ struct Aabb {
   std::array<float, 3> low{3e38f, 3e38f, 3e38f}, high{-3e38f, -3e38f, -3e38f};
 
   void extend(const Aabb& other) {
-    for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], other.low[i]), high[i] = std::max(high[i], other.high[i]);
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], other.low[i]);
+      high[i] = std::max(high[i], other.high[i]);
+    }
   }
   double area() const {
-    const double x = (double)high[0] - low[0], y = (double)high[1] - low[1], z = (double)high[2] - low[2];
+    const double x = static_cast<double>(high[0]) - low[0], y = static_cast<double>(high[1]) - low[1],
+                 z = static_cast<double>(high[2]) - low[2];
     return x < 0 ? 0 : x * y + y * z + z * x;
   }
   float centre(int axis) const { return 0.5f * (low[axis] + high[axis]); }
@@ -33,9 +37,11 @@ void add_face(const Triangles& mesh, int32_t face, BvhLeaf& leaf, int32_t at) {
   const auto a = corner_of(mesh, face, 0), b = corner_of(mesh, face, 1), c = corner_of(mesh, face, 2);
   for (int x = 0; x < 3; ++x) {
     const int y = (x + 1) % 3, z = (x + 2) % 3;
-    leaf.corner[x][at] = a[x], leaf.edges[0][x][at] = b[x] - a[x], leaf.edges[1][x][at] = c[x] - a[x];
-    leaf.normal[x][at] =
-        (float)(((double)b[y] - a[y]) * ((double)c[z] - a[z]) - ((double)b[z] - a[z]) * ((double)c[y] - a[y]));
+    leaf.corner[x][at] = a[x];
+    leaf.edges[0][x][at] = b[x] - a[x];
+    leaf.edges[1][x][at] = c[x] - a[x];
+    leaf.normal[x][at] = static_cast<float>((static_cast<double>(b[y]) - a[y]) * (static_cast<double>(c[z]) - a[z]) -
+                                            (static_cast<double>(b[z]) - a[z]) * (static_cast<double>(c[y]) - a[y]));
   }
 }
 
@@ -54,7 +60,7 @@ struct BinaryBuilder {
   std::vector<int32_t> order;
   std::vector<BinaryNode> nodes;
 
-  explicit BinaryBuilder(const Triangles& mesh) : mesh(mesh), boxes((size_t)mesh.face_count) {
+  explicit BinaryBuilder(const Triangles& mesh) : mesh(mesh), boxes(static_cast<size_t>(mesh.face_count)) {
     for (int32_t face = 0; face < mesh.face_count; ++face) {
       order.push_back(face);
       for (int corner = 0; corner < 3; ++corner) {
@@ -67,7 +73,7 @@ struct BinaryBuilder {
 
   // Partition by the cheapest of kBins planes per axis; returns the left side's size, 0 where a leaf is cheaper.
   int32_t split(int32_t first, int32_t count, const Aabb& centres, double whole) {
-    double best = (double)count * whole;
+    double best = static_cast<double>(count) * whole;
     int best_axis = -1, best_bin = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const float extent = centres.high[axis] - centres.low[axis];
@@ -82,28 +88,36 @@ struct BinaryBuilder {
       std::array<double, kBins> above{};
       Aabb box;
       int32_t seen = 0;
-      for (int bin = kBins - 1; bin > 0; --bin)
-        box.extend(bins[bin]), seen += counts[bin], above[bin] = seen * box.area();
-      box = Aabb(), seen = 0;
+      for (int bin = kBins - 1; bin > 0; --bin) {
+        box.extend(bins[bin]);
+        seen += counts[bin];
+        above[bin] = seen * box.area();
+      }
+      box = Aabb();
+      seen = 0;
       for (int bin = 0; bin + 1 < kBins; ++bin) {
-        box.extend(bins[bin]), seen += counts[bin];
+        box.extend(bins[bin]);
+        seen += counts[bin];
         const double cost = seen * box.area() + above[bin + 1] + 0.5 * whole;
-        if (seen > 0 && seen < count && cost < best) best = cost, best_axis = axis, best_bin = bin;
+        if (seen > 0 && seen < count && cost < best) {
+          best = cost;
+          best_axis = axis;
+          best_bin = bin;
+        }
       }
     }
     if (best_axis < 0) return 0;
     const auto begin = order.begin() + first;
-    return (int32_t)(std::stable_partition(begin, begin + count,
-                                           [&](int32_t face) {
-                                             return bin_of(boxes[face].centre(best_axis), centres, best_axis) <=
-                                                    best_bin;
-                                           }) -
-                     begin);
+    return static_cast<int32_t>(
+        std::stable_partition(
+            begin, begin + count,
+            [&](int32_t face) { return bin_of(boxes[face].centre(best_axis), centres, best_axis) <= best_bin; }) -
+        begin);
   }
 
   static int bin_of(float at, const Aabb& centres, int axis) {
     const float share = (at - centres.low[axis]) / (centres.high[axis] - centres.low[axis]);
-    return std::clamp((int)(share * kBins), 0, kBins - 1);
+    return std::clamp(static_cast<int>(share * kBins), 0, kBins - 1);
   }
 
   void divide(int32_t first, int32_t count, int depth) {
@@ -122,7 +136,7 @@ struct BinaryBuilder {
     if (left == 0 && depth >= kMaxDepth) return;
     if (left == 0) left = count / 2;
     divide(first, left, depth + 1);
-    nodes[here].first = (int32_t)nodes.size();
+    nodes[here].first = static_cast<int32_t>(nodes.size());
     nodes[here].count = 0;
     divide(first + left, count - left, depth + 1);
     nodes[here].leaves = nodes[here + 1].leaves + nodes[nodes[here].first].leaves;
@@ -142,7 +156,7 @@ struct Collapser {
     int32_t most = 1;  // leaves below one child
     while (most * kMaxLanes < binary[from].leaves) most *= kMaxLanes;
     std::vector<int32_t> children = {from};
-    while (children.size() < (size_t)kMaxLanes) {
+    while (children.size() < static_cast<size_t>(kMaxLanes)) {
       const auto fullest = std::max_element(children.begin(), children.end(), [&](int32_t a, int32_t b) {
         return (binary[a].count > 0 ? 0 : binary[a].leaves) < (binary[b].count > 0 ? 0 : binary[b].leaves);
       });
@@ -154,7 +168,7 @@ struct Collapser {
     const size_t here = nodes.size();
     nodes.emplace_back();
     for (int i = 0; i < kMaxLanes; ++i) {
-      const bool used = i < (int)children.size();
+      const bool used = i < static_cast<int>(children.size());
       for (int axis = 0; axis < 3; ++axis) {
         nodes[here].low[axis][i] = used ? binary[children[i]].box.low[axis] - margin : 3e38f;
         nodes[here].high[axis][i] = used ? binary[children[i]].box.high[axis] + margin : -3e38f;
@@ -163,13 +177,13 @@ struct Collapser {
     }
     for (size_t i = 0; i < children.size(); ++i) {
       const BinaryNode& node = binary[children[i]];
-      nodes[here].first[i] = (int32_t)(node.count > 0 ? leaves.size() : nodes.size());
+      nodes[here].first[i] = static_cast<int32_t>(node.count > 0 ? leaves.size() : nodes.size());
       if (node.count == 0) {
         collapse(children[i]);
         continue;
       }
       nodes[here].count[i] = (node.count + kLeafSize - 1) / kLeafSize;
-      leaves.resize(leaves.size() + (size_t)nodes[here].count[i]);
+      leaves.resize(leaves.size() + static_cast<size_t>(nodes[here].count[i]));
       for (int32_t k = 0; k < node.count; ++k)
         add_face(mesh, order[node.first + k], leaves[nodes[here].first[i] + k / kLeafSize], k % kLeafSize);
     }

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "midpoint.h"
+#include "contact/midpoint.h"
 
 namespace trundle {
 

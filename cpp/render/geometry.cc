@@ -21,8 +21,8 @@ void add_plane(std::vector<float>& planes, const Vec3& origin, const Vec3& a, co
   const double along_a = (da * bb - db * ab) / area, along_b = (db * aa - da * ab) / area;
   Vec3 gradient;
   for (int axis = 0; axis < 3; ++axis) gradient[axis] = along_a * a[axis] + along_b * b[axis];
-  for (const double slope : gradient) planes.push_back((float)slope);
-  planes.push_back((float)(at_origin - dot(gradient, origin)));
+  for (const double slope : gradient) planes.push_back(static_cast<float>(slope));
+  planes.push_back(static_cast<float>(at_origin - dot(gradient, origin)));
 }
 
 // Interpolants of the corners' normals; returns whether they differ from the face's.
@@ -57,12 +57,14 @@ Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& f
                const std::vector<float>& normals) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Mesh mesh;
-  mesh.vertex_count = (int32_t)(vertices.size() / 3);
+  mesh.vertex_count = static_cast<int32_t>(vertices.size() / 3);
   for (int axis = 0; axis < 3; ++axis) {
-    mesh.positions[axis].resize(padded((size_t)mesh.vertex_count), 0.0f);
-    for (int32_t i = 0; i < mesh.vertex_count; ++i) mesh.positions[axis][i] = vertices[3 * (size_t)i + axis];
+    mesh.positions[axis].resize(padded(static_cast<size_t>(mesh.vertex_count)), 0.0f);
+    for (int32_t i = 0; i < mesh.vertex_count; ++i)
+      mesh.positions[axis][i] = vertices[3 * static_cast<size_t>(i) + axis];
   }
-  mesh.low = {inf, inf, inf}, mesh.high = {-inf, -inf, -inf};
+  mesh.low = {inf, inf, inf};
+  mesh.high = {-inf, -inf, -inf};
   if (!uv.empty() && uv.size() != 2 * faces.size())
     throw std::invalid_argument("there must be one place in the texture for each corner of each face");
   if (!normals.empty() && normals.size() != 3 * faces.size())
@@ -77,13 +79,16 @@ Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& f
       for (int axis = 0; axis < 3; ++axis) p[corner][axis] = mesh.positions[axis][vertex];
     }
     Vec3 a, b;
-    for (int axis = 0; axis < 3; ++axis) a[axis] = p[1][axis] - p[0][axis], b[axis] = p[2][axis] - p[0][axis];
+    for (int axis = 0; axis < 3; ++axis) {
+      a[axis] = p[1][axis] - p[0][axis];
+      b[axis] = p[2][axis] - p[0][axis];
+    }
     const Vec3 n = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     const double length = std::sqrt(dot(n, n));
     if (!(length > 0.0) || !std::isfinite(length)) continue;
     for (int axis = 0; axis < 3; ++axis) {
       mesh.corners[axis].push_back(faces[i + axis]);
-      mesh.normals.push_back((float)(n[axis] / length));
+      mesh.normals.push_back(static_cast<float>(n[axis] / length));
       for (const auto& corner : p) {
         mesh.low[axis] = std::min(mesh.low[axis], corner[axis]);
         mesh.high[axis] = std::max(mesh.high[axis], corner[axis]);
@@ -101,7 +106,7 @@ Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& f
     if (!normals.empty()) smooth |= add_normal_planes(mesh.normal_planes, &normals[3 * i], flat, origin, a, b);
   }
   if (!smooth) mesh.normal_planes.clear();
-  mesh.face_count = (int32_t)mesh.corners[0].size();
+  mesh.face_count = static_cast<int32_t>(mesh.corners[0].size());
   for (auto& corner : mesh.corners) corner.resize(padded(corner.size()), 0);
   return mesh;
 }
@@ -114,14 +119,15 @@ Image make_image(const uint8_t* rgb, int32_t width, int32_t height) {
   // With the first column and row repeated at the end.
   const auto add_level = [&](int32_t columns, int32_t rows, const auto& word_at) {
     const int32_t level = texture.level_count++;
-    texture.start[level] = (int32_t)image.texels.size();
-    texture.width[level] = columns, texture.height[level] = rows;
+    texture.start[level] = static_cast<int32_t>(image.texels.size());
+    texture.width[level] = columns;
+    texture.height[level] = rows;
     for (int32_t row = 0; row <= rows; ++row)
       for (int32_t column = 0; column <= columns; ++column)
         image.texels.push_back(word_at(column % columns, row % rows));
   };
   add_level(width, height, [&](int32_t column, int32_t row) {
-    const uint8_t* pixel = rgb + 3 * ((size_t)(height - 1 - row) * width + column);
+    const uint8_t* pixel = rgb + 3 * (static_cast<size_t>(height - 1 - row) * width + column);
     return pixel[0] | pixel[1] << 8 | pixel[2] << 16;
   });
   while ((width > 1 || height > 1) && texture.level_count < kMaxMipLevels) {
@@ -138,7 +144,8 @@ Image make_image(const uint8_t* rgb, int32_t width, int32_t height) {
       }
       return word;
     });
-    width = std::max(width / 2, 1), height = std::max(height / 2, 1);
+    width = std::max(width / 2, 1);
+    height = std::max(height / 2, 1);
   }
   return image;
 }

@@ -22,13 +22,13 @@ struct PixelRays {
 
   PixelRays(const View& view, const Renderable& renderable)
       : view(view), renderable(renderable), step(1.0f / view.focal), z(0.0f) {}
-  void begin_row(int row) { z = (view.centre_v - ((float)row + 0.5f)) * step; }
+  void begin_row(int row) { z = (view.centre_v - (static_cast<float>(row) + 0.5f)) * step; }
   template <ShapeKind kind>
-  RayHit<F> hit_at(F u) const {
+  RayHit<Floats> hit_at(Floats u) const {
     const float* axes = renderable.axes;
-    const F y = (view.centre_u - u) * step;
-    const F3 across = {axes[2] * z + axes[1] * y, axes[5] * z + axes[4] * y, axes[8] * z + axes[7] * y};
-    const F3 ahead = {splat(axes[0]), splat(axes[3]), splat(axes[6])};
+    const Floats y = (view.centre_u - u) * step;
+    const Floats3 across = {axes[2] * z + axes[1] * y, axes[5] * z + axes[4] * y, axes[8] * z + axes[7] * y};
+    const Floats3 ahead = {splat(axes[0]), splat(axes[3]), splat(axes[6])};
     if constexpr (orthographic) return intersect<kind>(renderable.size, splat(renderable.eye) + across, ahead);
     return intersect<kind>(renderable.size, splat(renderable.eye), ahead + across);
   }
@@ -44,13 +44,13 @@ void rasterize_rays(const View& view, const Renderable& renderable, const Buffer
     const float* hi_z = buffers.hi_z + row / kTileHeight * view.tile_stride();
     for (int column = first; column < renderable.right; column += kLanes) {
       if (renderable.max_inverse_depth < hi_z[column / kTileWidth]) continue;
-      const F u = lane_indices() + ((float)column + 0.5f);
-      const RayHit<F> hit = rays.template hit_at<kind>(u);
-      const F inverse_depth = orthographic ? -hit.depth : 1.0f / hit.depth;
+      const Floats u = lane_indices() + (static_cast<float>(column) + 0.5f);
+      const RayHit<Floats> hit = rays.template hit_at<kind>(u);
+      const Floats inverse_depth = orthographic ? -hit.depth : 1.0f / hit.depth;
       const int at = row * view.stride + column;
-      const F old = load(buffers.inverse_depth + at);
-      const I mask =
-          hit.mask & (inverse_depth <= near_limit) & (u > (float)renderable.left) & (u < (float)renderable.right);
+      const Floats old = load(buffers.inverse_depth + at);
+      const Ints mask = hit.mask & (inverse_depth <= near_limit) & (u > static_cast<float>(renderable.left)) &
+                        (u < static_cast<float>(renderable.right));
       if (!any(mask & (inverse_depth >= old))) continue;
       write_pixels<with_id>(buffers, at, mask, inverse_depth, old, renderable.first_id);
     }
@@ -81,7 +81,7 @@ void update_hi_z(const View& view, const Renderable& renderable, const Buffers& 
   for (int top = renderable.top / kTileHeight; top <= (renderable.bottom - 1) / kTileHeight; ++top)
     for (int left = first; left <= last; ++left) {
       const int bottom = (top + 1) * kTileHeight < view.height ? (top + 1) * kTileHeight : view.height;
-      F farthest = splat(3e38f);
+      Floats farthest = splat(3e38f);
       for (int row = top * kTileHeight; row < bottom; ++row)
         for (int column = 0; column < kTileWidth; column += kLanes)
           farthest = min(load(buffers.inverse_depth + row * view.stride + left * kTileWidth + column), farthest);
@@ -93,20 +93,23 @@ void fill_sky(const View& view, const Sky& sky, int32_t top, int32_t bottom, con
   const float step = 1.0f / view.focal;
   float range[3];
   bool is_uniform = true;
-  for (int i = 0; i < 3; ++i) range[i] = sky.zenith[i] - sky.horizon[i], is_uniform &= range[i] == 0.0f;
+  for (int i = 0; i < 3; ++i) {
+    range[i] = sky.zenith[i] - sky.horizon[i];
+    is_uniform &= range[i] == 0.0f;
+  }
   for (int row = top; row < bottom; ++row) {
-    const float z = (view.centre_v - ((float)row + 0.5f)) * step;
+    const float z = (view.centre_v - (static_cast<float>(row) + 0.5f)) * step;
     for (int column = 0; column < view.stride; column += kLanes) {
       const int at = row * view.stride + column;
-      const I empty = load(buffers.id + at) < 0;
+      const Ints empty = load(buffers.id + at) < 0;
       if (!any(empty)) continue;
-      I word = splat(sky.packed_horizon);
+      Ints word = splat(sky.packed_horizon);
       if (!is_uniform) {
-        const F y = (view.centre_u - (lane_indices() + ((float)column + 0.5f))) * step;
-        const F up = (sky.up[0] + sky.up[1] * y + sky.up[2] * z) / sqrt(1.0f + y * y + z * z);
-        const F share = sqrt(max(up, F{}));
-        const I high = to_byte(sky.horizon[0] + share * range[0]) | to_byte(sky.horizon[1] + share * range[1]) << 8 |
-                       to_byte(sky.horizon[2] + share * range[2]) << 16;
+        const Floats y = (view.centre_u - (lane_indices() + (static_cast<float>(column) + 0.5f))) * step;
+        const Floats up = (sky.up[0] + sky.up[1] * y + sky.up[2] * z) / sqrt(1.0f + y * y + z * z);
+        const Floats share = sqrt(max(up, Floats{}));
+        const Ints high = to_byte(sky.horizon[0] + share * range[0]) | to_byte(sky.horizon[1] + share * range[1]) << 8 |
+                          to_byte(sky.horizon[2] + share * range[2]) << 16;
         word = select(up > 0.0f, high, word);
       }
       store(buffers.colour + at, word);
