@@ -10,7 +10,7 @@ NPM    := $(BIN)/python web/npm.py
 CLIENT := src/trundle/page/client/index.html
 WEB    := $(shell find web -path web/node_modules -prune -o -path web/schema -prune -o -path web/test -prune -o -type f -print)
 
-.PHONY: demo test test-all check lint types tidy format docs film bench load fuzz dist system clean help
+.PHONY: demo test test-all coverage check lint types tidy format docs film bench load fuzz dist system clean help
 
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /make \1\t/' | expand -t 18
@@ -48,6 +48,14 @@ test: $(READY)  ## the tests of every day, with what this machine has
 test-all: $(READY) dist/.built $(VENV)/.large  ## everything
 	$(NPM) run --silent test
 	$(BIN)/python -m pytest -n 2 --dist loadfile
+
+coverage: $(READY)  ## how much of the code the tests of every day run, by room; the C++ by its own tests
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt gcovr
+	rm -rf out/coverage build/kernel_tests
+	$(BIN)/python -m pytest -n 2 --dist loadfile -m "not slow" --cov --cov-report= $(TESTS)
+	CXXFLAGS=--coverage $(BIN)/python -m pytest tests/cpp
+	$(BIN)/python -m tests.coverage_tables | tee out/coverage/summary.md
+	rm -rf build/kernel_tests
 
 # Large, and not for every platform: without one its tests are skipped. As the extras of pyproject.toml say.
 LARGE = import tomllib; extras = tomllib.load(open('pyproject.toml', 'rb'))['project']['optional-dependencies']; \

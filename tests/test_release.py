@@ -67,3 +67,13 @@ def test_extras_that_messages_name_are_there() -> None:
     ]
     assert named
     assert set(named) <= set(extras)
+
+
+@pytest.mark.skipif(not (ROOT / ".github").is_dir(), reason="the sdist has no hidden files")
+def test_actions_of_ci_are_pinned_by_their_commit() -> None:
+    """A tag can be moved to other code; the version beside it is for readers and dependabot."""
+    workflows = sorted((ROOT / ".github/workflows").glob("*.yml"))
+    used = [found for file in workflows for found in re.findall(r"uses: (.+)", file.read_text())]
+
+    assert used
+    assert [each for each in used if not re.match(r"[\w./-]+@[0-9a-f]{40}  # v\d+\.\d+\.\d+", each)] == []
