@@ -2,6 +2,9 @@
 
 import re
 import shlex
+import shutil
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -77,3 +80,20 @@ def test_actions_of_ci_are_pinned_by_their_commit() -> None:
 
     assert used
     assert [each for each in used if not re.match(r"[\w./-]+@[0-9a-f]{40}  # v\d+\.\d+\.\d+", each)] == []
+
+
+@pytest.mark.skipif(not (ROOT / "changelog.d").is_dir(), reason="fragments of the changelog are not part of the sdist")
+def test_fragments_become_a_section_of_the_changelog(tmp_path: Path) -> None:
+    for name in ("pyproject.toml", "CHANGELOG.md"):
+        shutil.copy(ROOT / name, tmp_path)
+    shutil.copytree(ROOT / "changelog.d", tmp_path / "changelog.d")
+    (tmp_path / "changelog.d/+lidar.fixed.md").write_text("A lidar measures.\n")
+    command = [sys.executable, "-m", "towncrier", "build", "--yes", "--version", "9.8.7", "--date", "2030-01-02"]
+
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
+
+    text = (tmp_path / "CHANGELOG.md").read_text()
+    section = text[text.index("## [9.8.7] - 2030-01-02") : text.index("## [Unreleased]")]
+    assert "### Fixed" in section
+    assert "- A lidar measures.\n" in section
+    assert [path.name for path in (tmp_path / "changelog.d").iterdir()] == ["README.md"]
