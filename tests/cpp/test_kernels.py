@@ -14,6 +14,7 @@ HEADER = next((path for path in ("/usr/include", "/usr/local/include", "/opt/hom
                if Path(path, "doctest/doctest.h").is_file()), None)  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not (ROOT / "cpp").is_dir(), reason="the C++ sources are not here")
 @pytest.mark.skipif(bool(MISSING), reason=f"{' and '.join(MISSING)} not installed")
 @pytest.mark.skipif(HEADER is None, reason="doctest's header is not installed (`make system` does)")

@@ -3,7 +3,8 @@
 An impact at speed v penetrates 1.8 v h, whatever is hit. Beyond the middle of a small body and of the obstacle, the
 contact pushes it out on the far side. MuJoCo's speculative contacts prevent that, but cost a robot 3 % of its speed,
 ten of them 14 % and a furnished house 25 %: only worlds that need them pay, and only while a body has at least half the
-critical speed (`cpp/contact/tunnelling.cc`), which leaves room for the acceleration of a step and for two moving bodies.
+critical speed (`cpp/contact/tunnelling.cc`), which leaves room for the acceleration of a step and for two moving
+bodies.
 
 A thin shape beside a thicker one of its body, as a piece of a robot's casing, goes nowhere without it: the thicker one
 is stopped.
