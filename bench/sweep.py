@@ -19,8 +19,9 @@ import trundle
 from bench.table import Row
 from trundle.sim.physics.step.sleeping import DECISION_PERIOD, SleepPolicy
 from trundle.sim.simulation import Simulation
-from trundle.studies.sweep.trial import TrialRunner
-from trundle.studies.trials import Rows, read_plan
+from trundle.studies.sweep.plan_reader import read_plan
+from trundle.studies.sweep.row_runner import RowRunner
+from trundle.studies.sweep.rows import Rows
 
 _RUNS = 1000
 """Rows of the table whose size is measured."""
@@ -69,9 +70,9 @@ def _plan(rows: int, *, sleeps: bool, duration_s: float = _DURATION_S) -> str:
     return _PLAN.format(rows=rows, sleeps=sleeps, duration=duration_s, push_s=_PUSH_S, push_for_s=push_for_s)
 
 
-def _runner(*, sleeps: bool) -> tuple[Rows, TrialRunner]:
+def _runner(*, sleeps: bool) -> tuple[Rows, RowRunner]:
     plan = read_plan(_plan(_SIMULATED, sleeps=sleeps), file="bench.yaml", folder=Path.cwd())
-    return Rows(plan), TrialRunner(plan)
+    return Rows(plan), RowRunner(plan)
 
 
 def _pairs(numbers: range, sleeps: bool) -> list[tuple[float, float]]:

@@ -8,8 +8,10 @@ from tests.page.built_client import needs_client
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
-from trundle.studies.sweep.trial import runner_of
-from trundle.studies.trials import RowResult, Rows, load_plan
+from trundle.studies.sweep.plan_reader import load_plan
+from trundle.studies.sweep.row_result import RowResult
+from trundle.studies.sweep.row_runner import runner_of
+from trundle.studies.sweep.rows import Rows
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 pytestmark = [pytest.mark.slow, needs_client]

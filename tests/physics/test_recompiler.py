@@ -9,7 +9,7 @@ import trundle
 from trundle.base.diagnostics import Diagnostics
 from trundle.robots.model import World
 from trundle.sim.physics import CompiledWorld, Recompiler, compile_world
-from trundle.studies.trials import with_property
+from trundle.studies.sweep.property_path import with_property
 
 CHASSIS = "models/rp2w/links/chassis"
 NUMBERS = {

@@ -46,8 +46,8 @@ def trundle_sweep(request: pytest.FixtureRequest, tmp_path: "Path") -> "Callable
     """
 
     def run(plan: str) -> "SweepResult":
+        from trundle.studies.sweep.plan_reader import load_plan
         from trundle.studies.sweep.regression import plan_problems
-        from trundle.studies.trials import load_plan
 
         result, problems = plan_problems(load_plan(request.path.parent / plan), tmp_path / f"{plan}.sweep")
         if problems is not None:

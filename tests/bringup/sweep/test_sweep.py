@@ -18,8 +18,9 @@ from PIL import Image
 
 import trundle
 from trundle.base.diagnostics import TrundleError
-from trundle.studies.sweep.trial import TrialRunner
-from trundle.studies.trials import Rows, load_plan
+from trundle.studies.sweep.plan_reader import load_plan
+from trundle.studies.sweep.row_runner import RowRunner
+from trundle.studies.sweep.rows import Rows
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 TRUNDLE = Path(sys.executable).with_name("trundle")
@@ -112,17 +113,17 @@ def _kill_after(plan: Path, *, rows: int, later_s: float = 0.0) -> None:
 
 
 def test_a_row_s_number_gives_its_run_again(plan: Path) -> None:
-    rows, runner = Rows(load_plan(plan)), TrialRunner(load_plan(plan))
+    rows, runner = Rows(load_plan(plan)), RowRunner(load_plan(plan))
     in_order = [runner.run(row) for row in rows]
 
-    alone = TrialRunner(load_plan(plan)).run(rows.row(17))
+    alone = RowRunner(load_plan(plan)).run(rows.row(17))
 
     assert alone == in_order[17]
 
 
 def test_row_runs_one_again_without_a_page(plan: Path) -> None:
     done = _sweep(plan, "--row", "17", "--headless")
-    result = TrialRunner(load_plan(plan)).run(Rows(load_plan(plan)).row(17))
+    result = RowRunner(load_plan(plan)).run(Rows(load_plan(plan)).row(17))
 
     assert done.stdout.startswith("row 17: seed ")
     assert f"\n  x = {result.measures['x']}\n" in done.stdout
@@ -259,7 +260,7 @@ measure: {step: {function: box.py:step}}
 """)
     read = load_plan(plan)
 
-    steps = [TrialRunner(read).run(row).measures["step"] for row in Rows(read)]
+    steps = [RowRunner(read).run(row).measures["step"] for row in Rows(read)]
 
     assert steps == [1_000_000, 4_000_000]
 

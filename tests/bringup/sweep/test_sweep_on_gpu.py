@@ -16,8 +16,9 @@ from trundle.base.diagnostics import DescriptionError, TrundleError, UsageError
 from trundle.sim.physics import NoGpuError
 from trundle.studies.sweep.device import batches, device_choice
 from trundle.studies.sweep.device.row_check import check_worlds
-from trundle.studies.sweep.trial import TrialRunner
-from trundle.studies.trials import Rows, load_plan
+from trundle.studies.sweep.plan_reader import load_plan
+from trundle.studies.sweep.row_runner import RowRunner
+from trundle.studies.sweep.rows import Rows
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 needs_warp = pytest.mark.skipif(
@@ -219,7 +220,7 @@ def check(plan: Path) -> Callable[[str], str]:
         plan.write_text(f"world: ball.sdf\nduration: 1\n{line}\n")
         read = load_plan(plan)
         with pytest.raises(DescriptionError) as error:
-            check_worlds(read, Rows(read).row(0), TrialRunner(read))
+            check_worlds(read, Rows(read).row(0), RowRunner(read))
         return str(error.value).removeprefix(f"{plan}:")
 
     return error_of
@@ -243,7 +244,7 @@ def test_masses_and_frictions_of_a_robot_are_numbers_of_its_model(plan: Path) ->
     )
     read = load_plan(plan)
 
-    check_worlds(read, Rows(read).row(0), TrialRunner(read))
+    check_worlds(read, Rows(read).row(0), RowRunner(read))
 
 
 def test_a_world_with_a_law_that_a_gpu_lacks_is_refused(check: Callable[[str], str]) -> None:

@@ -8,8 +8,9 @@ import pytest
 import trundle
 from trundle.base.diagnostics import TrundleError
 from trundle.ros import open_bag
-from trundle.studies.sweep.trial import TrialRunner
-from trundle.studies.trials import Rows, load_plan
+from trundle.studies.sweep.plan_reader import load_plan
+from trundle.studies.sweep.row_runner import RowRunner
+from trundle.studies.sweep.rows import Rows
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 WORLD = """<sdf version="1.6"><world name="w">
@@ -42,7 +43,7 @@ def plan(tmp_path: Path) -> Path:
 
 def test_topics_are_measured_and_the_bag_holds_the_last_seconds(plan: Path) -> None:
     read = load_plan(plan)
-    rows, runner = Rows(read), TrialRunner(read)
+    rows, runner = Rows(read), RowRunner(read)
 
     falls, floats = (runner.run(row) for row in rows)
 
@@ -78,7 +79,7 @@ def test_a_message_has_the_fields_of_its_type(plan: Path) -> None:
     plan.write_text(PLAN.replace("linear_acceleration.z", "linear.z"))
     read = load_plan(plan)
 
-    result = TrialRunner(read).run(Rows(read).row(0))
+    result = RowRunner(read).run(Rows(read).row(0))
 
     assert result.status == "error"
     assert "the message has no 'linear'; it has: header, orientation, " in result.reason
@@ -94,7 +95,7 @@ def test_a_world_has_no_parameters(plan: Path) -> None:
 def test_a_bag_has_pictures_only_where_they_are_asked_for(plan: Path, bag: str, has_pictures: bool) -> None:
     plan.write_text(PLAN.replace("bag: 0.25", f"bag: {bag}"))
     read = load_plan(plan)
-    row, runner = Rows(read).row(0), TrialRunner(read)
+    row, runner = Rows(read).row(0), RowRunner(read)
 
     content = runner.bag(row, runner.run(row))
 

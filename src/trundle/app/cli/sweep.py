@@ -43,7 +43,7 @@ def main(args: argparse.Namespace) -> int:
     """Run a plan, a row of it, or write its report."""
     words: list[str] = args.words
     with quiet_imports():
-        from trundle.studies.trials import load_plan
+        from trundle.studies.sweep.plan_reader import load_plan
     if args.device != "cpu" and (args.row is not None or words[0] == _REPORT):
         print("trundle sweep: --row and report use the processors; leave out --device", file=sys.stderr)
         return 2

@@ -50,8 +50,8 @@ def main(args: argparse.Namespace) -> int:
     """Run each test in its own launch, or a plan; 0: all passed, 1: a test did not run, 2: a case failed."""
     if len(args.words) == 1 and Path(args.words[0]).suffix in (".yaml", ".yml"):
         with quiet_imports():
+            from trundle.studies.sweep.plan_reader import load_plan
             from trundle.studies.sweep.regression import run_plan_test
-            from trundle.studies.trials import load_plan
 
         return run_plan_test(load_plan(Path(args.words[0])), junit=args.junit)
     with quiet_imports():

@@ -17,7 +17,7 @@ from trundle.studies.datasets import (
     shown_pictures,
     write_contact_sheet,
 )
-from trundle.studies.trials import lock_folder
+from trundle.studies.plan_files.lock import lock_folder
 
 from .dataset_digest import dataset_digest
 from .dataset_world import picture_maker

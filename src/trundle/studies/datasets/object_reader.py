@@ -7,7 +7,7 @@ from typing import Literal
 from trundle.base.diagnostics import DescriptionError
 from trundle.robots.meshes import Texture
 from trundle.sim.render import NAMED_TEXTURES, named_texture
-from trundle.studies.trials import YamlNode
+from trundle.studies.plan_files.yaml_node import YamlNode
 
 from .plan import DistractorPlan, KeyPoint, Numbers, ObjectPlan, Paint, Placement
 from .quantity import Quantity, constant

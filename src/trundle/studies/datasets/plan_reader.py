@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from trundle.base.diagnostics import DescriptionError, UsageError
-from trundle.studies.trials import YamlNode, description_path, read_source, read_yaml
+from trundle.studies.plan_files.plan_source import description_path, read_source
+from trundle.studies.plan_files.yaml_node import YamlNode, read_yaml
 
 from .object_reader import read_distractors, read_objects, read_paint
 from .plan import CameraPlan, DatasetPlan, Format, LidarPlan, LightPlan, Numbers, Orbit

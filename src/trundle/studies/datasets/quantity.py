@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from trundle.studies.trials import Distribution, quantile
+from trundle.studies.plan_files.variation import Distribution, quantile
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

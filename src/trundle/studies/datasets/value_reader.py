@@ -4,7 +4,9 @@ import math
 from typing import NoReturn
 
 from trundle.spatial import Vector3
-from trundle.studies.trials import Distribution, YamlNode, as_number, read_variation
+from trundle.studies.plan_files.variation import Distribution
+from trundle.studies.plan_files.variation_reader import read_variation
+from trundle.studies.plan_files.yaml_node import YamlNode, as_number
 
 from .plan import Colour, Numbers
 from .quantity import Quantity, constant

@@ -5,7 +5,11 @@ from collections.abc import Iterator
 from msgspec.structs import replace
 
 from trundle.base.expressions import free_names
-from trundle.studies.trials import ARGUMENTS, Plan, Row, Rows, Variation
+from trundle.studies.plan_files.variation import Variation
+
+from .plan import Plan
+from .property_path import ARGUMENTS
+from .rows import Row, Rows
 
 _MOST = 32
 """Most values of arguments that are read beside those of the first row."""

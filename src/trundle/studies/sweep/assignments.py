@@ -7,8 +7,11 @@ from typing import TypeVar
 from msgspec import Struct
 
 from trundle.base.diagnostics import DescriptionError, Source, UnknownArgumentError, UsageError
-from trundle.studies.trials import ARGUMENTS, PARAMETERS, Formula, Plan, Row, Value, is_property, with_property
+from trundle.studies.plan_files.variation import Value
 
+from .plan import Formula, Plan
+from .property_path import ARGUMENTS, PARAMETERS, is_property, with_property
+from .rows import Row
 from .state_names import StateExpressions, named_values
 
 _T = TypeVar("_T")

@@ -6,8 +6,10 @@ from collections.abc import Callable, Mapping
 
 from trundle.base.diagnostics import UsageError
 from trundle.sim.simulation import Simulation
-from trundle.studies.trials import Measure, Plan, Row, RowResult
 
+from .plan import Measure, Plan
+from .row_result import RowResult
+from .rows import Row
 from .state_names import StateExpressions, named_values
 
 

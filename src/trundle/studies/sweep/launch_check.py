@@ -7,10 +7,10 @@ from trundle.base.diagnostics import DescriptionError, Diagnostics, UsageError, 
 from trundle.live.launch.loaded_launch import LoadedLaunch
 from trundle.robots.model import World
 from trundle.robots.names import is_legal_name
-from trundle.studies.trials import PARAMETERS
 
 from .assignments import Assignments, Property
 from .launch_inputs import launch_inputs, words_of
+from .property_path import PARAMETERS
 
 _MODELS = "models"
 

@@ -9,9 +9,10 @@ from trundle.robots.model import Model, World
 from trundle.ros import Node
 from trundle.sim.simulation import Simulation
 from trundle.spatial import NS_PER_S
-from trundle.studies.trials import Plan, Row
 
 from .assignments import Property
+from .plan import Plan
+from .rows import Row
 from .script import RunScript
 from .state_names import StateExpressions
 from .topics import TopicReader

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from trundle.robots.model import World
-from trundle.studies.trials import Plan
 
 from ..input_digest import input_digest
+from .plan import Plan
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

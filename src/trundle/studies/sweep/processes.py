@@ -6,9 +6,11 @@ from pathlib import Path
 
 from trundle.base.atomic_write import write_atomically
 from trundle.base.workers import Job, JobResult, Progress, run_job
-from trundle.studies.trials import Plan, Results, RowResult
 
-from .trial import Trial, run_row
+from .plan import Plan
+from .results import Results
+from .row_result import RowResult
+from .row_runner import RowOutcome, run_row
 
 
 def run_in_processes(
@@ -23,7 +25,7 @@ def run_in_processes(
     """Run the rows of a plan that have no result yet, and add theirs; see `run_job`."""
     job = Job(make=partial(run_row, plan), time_limit_s=plan.time_limit_s, memory_limit_bytes=plan.memory_limit_bytes)
 
-    def add_outcome(outcome: JobResult[Trial]) -> bool:
+    def add_outcome(outcome: JobResult[RowOutcome]) -> bool:
         result = _kept(outcome, results.folder)
         results.add(result)
         return result.status == "ok"
@@ -40,7 +42,7 @@ def run_in_processes(
     )
 
 
-def _kept(outcome: JobResult[Trial], folder: Path) -> RowResult:
+def _kept(outcome: JobResult[RowOutcome], folder: Path) -> RowResult:
     """Write a row's bag, if it has one, and return its result."""
     if outcome.failure is not None:
         return RowResult(outcome.row, outcome.failure, outcome.reason)

@@ -5,8 +5,8 @@ import time
 from pathlib import Path
 
 from trundle.live.launch.test_results import CaseResult, SuiteResult, write_junit
-from trundle.studies.trials import Plan
 
+from .plan import Plan
 from .sweep import SweepResult, sweep
 
 _SHOWN = 20

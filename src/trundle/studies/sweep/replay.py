@@ -2,12 +2,13 @@
 
 from trundle.base.console import say
 from trundle.base.http.page_address import PageAddress
-from trundle.studies.trials import Plan, Rows
 
-from .launch_trial import LaunchTrialRunner
+from .launch_row_runner import LaunchRowRunner
+from .plan import Plan
+from .row_runner import runner_of
+from .rows import Rows
 from .shown_launch import show_launch
 from .shown_world import show_world
-from .trial import runner_of
 
 
 def replay(plan: Plan, number: int, at: PageAddress | None) -> int:
@@ -28,7 +29,7 @@ def replay(plan: Plan, number: int, at: PageAddress | None) -> int:
     say("\n".join([f"{result.status}{f': {result.reason}' if result.reason else ''}", *measures]))
     if at is None:
         return 0 if result.status == "ok" else 1
-    if isinstance(runner, LaunchTrialRunner):
+    if isinstance(runner, LaunchRowRunner):
         show_launch(plan, row, runner, at, result)
     else:
         show_world(plan, row, runner, at, result)

@@ -11,13 +11,16 @@ from numpy.typing import NDArray
 from trundle.base.atomic_write import write_atomically
 from trundle.base.diagnostics import UsageError
 from trundle.base.http.html_policy import policy_of_document
-from trundle.studies.trials import Plan, Rows, lock_folder, numbers, rank_correlation, worst_rows
+from trundle.studies.plan_files.lock import lock_folder
 
+from .analysis import numbers, rank_correlation, worst_rows
+from .plan import Plan
 from .report_charts import breakable, correlation_bars, histogram, scatter
 from .report_pictures import end_picture
 from .report_style import STYLE
+from .row_runner import RowRunner, runner_of
+from .rows import Rows
 from .sweep import open_results, results_folder
-from .trial import TrialRunner, runner_of
 
 _WORST = 6
 _REASONS = 8
@@ -124,7 +127,7 @@ class _Report:
         for number in worst_rows(self._table, list(self._measures), _WORST):
             row, found = self._rows.row(number), self._table.slice(place[number], 1).to_pylist()[0]
             picture = None
-            if isinstance(runner, TrialRunner) and found["status"] in ("ok", "failed", "error"):
+            if isinstance(runner, RowRunner) and found["status"] in ("ok", "failed", "error"):
                 picture = end_picture(self._plan, runner, row)
             image = f'<img src="{picture}" alt="row {number} at its end">' if picture else ""
             values = {name: found[name] for name in (*row.values, *self._measures)}

@@ -13,16 +13,17 @@ from trundle.sim.render import Intrinsics, scene_from_world, update_skins
 from trundle.sim.renderers import RENDERERS
 from trundle.sim.three_quarter_view import BACKDROP, FIELD_OF_VIEW, STUDIO_LIGHT, scene_corners, three_quarter_pose
 from trundle.spatial import NS_PER_S
-from trundle.studies.trials import Plan, Row
 
-from .trial import TrialRunner
+from .plan import Plan
+from .row_runner import RowRunner
+from .rows import Row
 
 _SIZE = (480, 320)
 _SAMPLES = 2
 """Supersampling per axis, against jagged edges."""
 
 
-def end_picture(plan: Plan, runner: TrialRunner, row: Row) -> str | None:
+def end_picture(plan: Plan, runner: RowRunner, row: Row) -> str | None:
     """Run a row again and return a picture of its end as a data URI; None if there is nothing to be seen.
 
     The view holds its start, too.

@@ -11,8 +11,9 @@ from contextlib import suppress
 from trundle.base.diagnostics import UsageError
 from trundle.sim.simulation import JointHandle, LinkHandle, Simulation
 from trundle.spatial import NS_PER_S, Wrench
-from trundle.studies.trials import Event, Formula, Measure, Plan, Row
 
+from .plan import Event, Formula, Measure, Plan
+from .rows import Row
 from .state_names import StateExpressions, state_names
 from .topics import NoMessageError, TopicReader
 

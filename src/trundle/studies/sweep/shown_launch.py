@@ -6,15 +6,17 @@ from trundle.base.signals import stop_flag
 from trundle.live.launch.options import LaunchOptions
 from trundle.page import POSES
 from trundle.spatial import NS_PER_S
-from trundle.studies.trials import Plan, Row, RowResult
 
-from .launch_trial import LaunchTrialRunner, check_running
+from .launch_row_runner import LaunchRowRunner, check_running
+from .plan import Plan
+from .row_result import RowResult
+from .rows import Row
 from .shown_result import report_shown
 
 _POLL_S = 0.02
 
 
-def show_launch(plan: Plan, row: Row, runner: LaunchTrialRunner, at: PageAddress, result: RowResult) -> None:
+def show_launch(plan: Plan, row: Row, runner: LaunchRowRunner, at: PageAddress, result: RowResult) -> None:
     """Launch a row; time begins when a browser looks at it, and the page stays after its end, until Ctrl-C.
 
     Args:

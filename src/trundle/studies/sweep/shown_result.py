@@ -3,7 +3,8 @@
 from collections.abc import Callable
 
 from trundle.base.console import say
-from trundle.studies.trials import RowResult
+
+from .row_result import RowResult
 
 
 def report_shown(shown: RowResult, alone: RowResult, warn: Callable[[str], None]) -> None:

@@ -10,15 +10,17 @@ from trundle.page.simulated_world.page import SimulationPage
 from trundle.sim.physics import SimulationUnstableError
 from trundle.sim.realtime_pacer import RealtimePacer, shorten_gil_interval
 from trundle.spatial import NS_PER_S
-from trundle.studies.trials import Plan, Row, RowResult
 
+from .plan import Plan
+from .row_result import RowResult
+from .row_runner import RowRunner
+from .rows import Row
 from .shown_result import report_shown
-from .trial import TrialRunner
 
 _IDLE_S = 0.02
 
 
-def show_world(plan: Plan, row: Row, runner: TrialRunner, at: PageAddress, result: RowResult) -> None:
+def show_world(plan: Plan, row: Row, runner: RowRunner, at: PageAddress, result: RowResult) -> None:
     """Simulate a row from the moment a browser looks at it; the page stays after its end, until Ctrl-C.
 
     Args:

@@ -11,8 +11,9 @@ from trundle.base.diagnostics import UsageError
 from trundle.base.expressions import MATH_NAMES, PYTHON_NAMES, Budget, Interpreter
 from trundle.sim.simulation import JointHandle, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import NS_PER_S, Pose, Twist
-from trundle.studies.trials import Formula, Value
+from trundle.studies.plan_files.variation import Value
 
+from .plan import Formula
 from .topics import NoMessageError, SilentTopic, TopicReader
 
 _POSE = ("x", "y", "z", "roll", "pitch", "yaw")

@@ -12,15 +12,20 @@ from trundle.base.console import say
 from trundle.base.diagnostics import TrundleError
 from trundle.base.signals import stop_flag
 from trundle.base.workers import Progress, check_workers
-from trundle.studies.trials import Plan, Results, Rows, Table, load_plan, lock_folder
+from trundle.studies.plan_files.lock import lock_folder
 
 from .argument_rows import argument_rows
 from .device.device_choice import Device, gpu_of
 from .device.row_check import check_worlds
-from .launch_trial import LaunchTrialRunner
+from .launch_row_runner import LaunchRowRunner
+from .plan import Plan
 from .plan_digest import RunInputs, plan_digest
+from .plan_reader import load_plan
 from .processes import run_in_processes
-from .trial import TrialRunner, runner_of
+from .results import Results
+from .row_runner import RowRunner, runner_of
+from .rows import Rows
+from .table import Table
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +66,7 @@ def results_folder(plan: Plan, output: Path | None) -> Path:
 
 
 def open_results(
-    plan: Plan, rows: Rows, folder: Path, runner: TrialRunner | LaunchTrialRunner, *, device: Device | None = None
+    plan: Plan, rows: Rows, folder: Path, runner: RowRunner | LaunchRowRunner, *, device: Device | None = None
 ) -> Results:
     """Open the results of a plan in a folder.
 
@@ -79,7 +84,7 @@ def open_results(
     return Results(folder, Table.of_plan(plan, rows), rows=len(rows), digest=digest, text=plan.text, device=device)
 
 
-def _inputs(plan: Plan, rows: Rows, runner: TrialRunner | LaunchTrialRunner) -> Iterator[RunInputs]:
+def _inputs(plan: Plan, rows: Rows, runner: RowRunner | LaunchRowRunner) -> Iterator[RunInputs]:
     first, *others = argument_rows(plan, rows)
     yield runner.inputs(first)
     for row in others:
@@ -114,7 +119,7 @@ def sweep(
     for warning in runner.check(rows.row(0)):
         say(warning, sys.stderr)
     if gpu is not None:
-        assert isinstance(runner, TrialRunner)
+        assert isinstance(runner, RowRunner)
         check_worlds(plan, rows.row(0), runner)
     folder = results_folder(plan, output)
     with lock_folder(folder), stop_flag() as stop:

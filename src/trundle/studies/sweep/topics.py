@@ -5,7 +5,8 @@ from functools import partial
 
 from trundle.base.diagnostics import UsageError
 from trundle.ros import Node, RawMessage
-from trundle.studies.trials import Plan
+
+from .plan import Plan
 
 _NAMED = re.compile(r"""\btopics\s*\[\s*(["'])([^"']+)\1\s*\]""")
 

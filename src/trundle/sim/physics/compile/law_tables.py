@@ -1,6 +1,7 @@
 """Tables of contact laws in a compiled model, read by the C++ laws.
 
-They are custom numerics of the model, so every copy of it carries them; `cpp/contact/law_tables.h` reads them row by row.
+They are custom numerics of the model, so every copy of it carries them; `cpp/contact/law_tables.h` reads them row by
+row.
 """
 
 import math
@@ -175,7 +176,10 @@ def _write_geoms(model: mujoco.MjModel, shapes: Sequence[ShapeEntry]) -> None:
 
 
 def velocity_times(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
-    """Return (nv,) what each degree of freedom's velocity is that of, as a writable view; see `cpp/contact/midpoint.h`."""
+    """Return (nv,) the times of the velocities of the degrees of freedom, as a writable view.
+
+    See `cpp/contact/midpoint.h`.
+    """
     return data.userdata[model.nu : model.nu + model.nv]
 
 

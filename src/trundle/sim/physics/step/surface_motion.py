@@ -1,7 +1,7 @@
 """Moving and slipping surfaces: belts, tracks and wheels.
 
-ODE has motion1, slip1 and slip2 for them; `cpp/contact/surface_motion.cc` and `cpp/contact/friction_slip.cc` act on each contact of
-such a link.
+ODE has motion1, slip1 and slip2 for them; `cpp/contact/surface_motion.cc` and `cpp/contact/friction_slip.cc` act on
+each contact of such a link.
 """
 
 from typing import TypeAlias

@@ -9,9 +9,11 @@ from trundle.base.diagnostics import TrundleError
 from trundle.base.workers import Progress
 from trundle.sim.physics import GpuWorlds
 from trundle.spatial import NS_PER_S
-from trundle.studies.trials import Plan, RowResult, Rows
 
-from ..trial import TrialRunner
+from ..plan import Plan
+from ..row_result import RowResult
+from ..row_runner import RowRunner
+from ..rows import Rows
 from .device_row import DeviceRow
 from .row_check import why_not_beside
 
@@ -56,7 +58,7 @@ class _Batches:
     """Worlds like that of the plan's first row."""
 
     def __init__(self, plan: Plan, gpu: str) -> None:
-        self._rows, self._runner, self._gpu = Rows(plan), TrialRunner(plan), gpu
+        self._rows, self._runner, self._gpu = Rows(plan), RowRunner(plan), gpu
         self._until_ns = round(plan.duration_s * NS_PER_S)
         self._first = self._runner.start(self._rows.row(0)).simulation
 

@@ -6,8 +6,8 @@ from typing import Literal, TypeAlias
 from trundle.base.console import say
 from trundle.base.diagnostics import UsageError
 from trundle.sim.physics import NoGpuError, find_gpu
-from trundle.studies.trials import Plan
 
+from ..plan import Plan
 from .plan_check import check_plan
 
 Device: TypeAlias = Literal["cpu", "cuda"]

@@ -3,9 +3,10 @@
 from trundle.base.diagnostics import TrundleError
 from trundle.sim.physics import StepOutcome
 from trundle.spatial import NS_PER_S
-from trundle.studies.trials import Row, RowResult
 
-from ..trial import RowRun, TrialRunner
+from ..row_result import RowResult
+from ..row_runner import RowRun, RowRunner
+from ..rows import Row
 
 _WHY = {
     StepOutcome.UNSTABLE: "the physics became unstable {}; a smaller <max_step_size> or more plausible masses and "
@@ -17,7 +18,7 @@ _WHY = {
 class DeviceRow:
     """Run that acts between the steps, as `RowRun.advance` does."""
 
-    def __init__(self, row: Row, run: RowRun, runner: TrialRunner, *, until_ns: int) -> None:
+    def __init__(self, row: Row, run: RowRun, runner: RowRunner, *, until_ns: int) -> None:
         """Take a run at time zero.
 
         Args:

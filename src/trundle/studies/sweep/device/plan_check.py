@@ -5,7 +5,9 @@ from collections.abc import Iterator
 
 from trundle.base.diagnostics import DescriptionError
 from trundle.base.expressions import free_names
-from trundle.studies.trials import Formula, Plan, is_property
+
+from ..plan import Formula, Plan
+from ..property_path import is_property
 
 _KEYS = {
     "launch": "launch files",

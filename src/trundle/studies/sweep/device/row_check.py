@@ -8,9 +8,12 @@ from trundle.base.diagnostics import DescriptionError, Source, TrundleError
 from trundle.base.expressions import free_names
 from trundle.sim.physics import gpu_differences, gpu_limits
 from trundle.sim.simulation import Simulation
-from trundle.studies.trials import Plan, Row, Value, Variation, is_property, quantile
+from trundle.studies.plan_files.variation import Value, Variation, quantile
 
-from ..trial import TrialRunner
+from ..plan import Plan
+from ..property_path import is_property
+from ..row_runner import RowRunner
+from ..rows import Row
 
 _MOST = 32
 """Most values of a list that are tried."""
@@ -19,7 +22,7 @@ _QUANTILES = (0.01, 0.99)
 _SHOWN = 3
 
 
-def check_worlds(plan: Plan, first: Row, runner: TrialRunner) -> None:
+def check_worlds(plan: Plan, first: Row, runner: RowRunner) -> None:
     """Refuse a world that a GPU cannot step, and quantities that change more than the numbers of its model.
 
     Raises:
@@ -53,7 +56,7 @@ def _values(variation: Variation) -> Iterator[Value]:
     yield from variation.values[1 : 1 + _MOST]
 
 
-def _check_beside(plan: Plan, first: Simulation, row: Row, variation: Variation, runner: TrialRunner) -> None:
+def _check_beside(plan: Plan, first: Simulation, row: Row, variation: Variation, runner: RowRunner) -> None:
     try:
         with runner.start(row) as other:
             why = why_not_beside(first, other.simulation)

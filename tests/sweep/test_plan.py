@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 
 from trundle.base.diagnostics import DescriptionError
-from trundle.studies.trials import Rows, read_plan
+from trundle.studies.sweep.plan_reader import read_plan
+from trundle.studies.sweep.rows import Rows
 
 PLAN = """\
 world: model://rp2w

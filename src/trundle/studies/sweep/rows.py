@@ -7,7 +7,6 @@ which differ in their seed only.
 import math
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from statistics import NormalDist
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,15 +14,14 @@ from msgspec import Struct
 
 from trundle.base.diagnostics import DescriptionError, UsageError
 from trundle.base.extras import import_extra
+from trundle.studies.plan_files.variation import Value, Variation, quantile
 
-from .plan import Distribution, Plan, Value, Variation
+from .plan import Plan
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _MAX_ROWS = 100_000_000
-_LEAST = 1e-12
-"""Smallest quantile, and distance of the largest from 1: a normal distribution has no others."""
 
 
 class Row(Struct, frozen=True):
@@ -100,16 +98,6 @@ class Rows:
             return qmc.LatinHypercube(width, rng=plan.seed).random(plan.samples)
         # Sobol' points are balanced in powers of two only; the first of the next power are used.
         return qmc.Sobol(width, rng=plan.seed).random_base2(max(plan.samples - 1, 1).bit_length())[: plan.samples]
-
-
-def quantile(distribution: Distribution, q: float) -> float:
-    """Return the value below which a share `q` of a distribution lies."""
-    a, b = distribution.parameters
-    if distribution.kind == "uniform":
-        return a + (b - a) * q
-    if distribution.kind == "log_uniform":
-        return math.exp(math.log(a) + (math.log(b) - math.log(a)) * q)
-    return NormalDist(a, b).inv_cdf(min(max(q, _LEAST), 1 - _LEAST))
 
 
 def column_type(variation: Variation) -> type:

@@ -7,12 +7,12 @@ from typing import Literal, TypeVar
 
 from trundle.base.diagnostics import DescriptionError, Source
 from trundle.base.expressions import Interpreter
+from trundle.studies.plan_files.plan_source import description_path, read_source
+from trundle.studies.plan_files.variation_reader import read_variation
+from trundle.studies.plan_files.yaml_node import YamlNode, read_yaml
 
 from .plan import Design, Event, Formula, Measure, Over, Plan
-from .plan_source import description_path, read_source
 from .unused import check_used
-from .variation_reader import read_variation
-from .yaml_node import YamlNode, read_yaml
 
 _KEYS = (
     "world", "launch", "duration", "every", "time_limit", "memory_limit", "seed", "seeds", "repeat", "samples",

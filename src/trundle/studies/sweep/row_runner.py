@@ -16,12 +16,15 @@ from trundle.robots.packages import Packages
 from trundle.ros import GraphLoop, StepRecorder
 from trundle.sim.physics import Recompiler
 from trundle.spatial import NS_PER_S
-from trundle.studies.trials import PARAMETERS, Plan, Row, RowResult, Rows
 
 from .assignments import Assignments, assignments_of
 from .judge import Judge
-from .launch_trial import LaunchTrialRunner
+from .launch_row_runner import LaunchRowRunner
+from .plan import Plan
 from .plan_digest import RunInputs
+from .property_path import PARAMETERS
+from .row_result import RowResult
+from .rows import Row, Rows
 from .script import RunScript
 from .state_names import StateExpressions
 from .topics import TopicReader, topics_of
@@ -32,7 +35,7 @@ _RECORD_NS = NS_PER_S // 100
 """Resolution of the stamps in bags."""
 
 
-class Trial(Struct, frozen=True):
+class RowOutcome(Struct, frozen=True):
     """Result of a run, and the bag of its last seconds if it is kept."""
 
     result: RowResult
@@ -76,7 +79,7 @@ class RowRun:
         self.close()
 
 
-class TrialRunner:
+class RowRunner:
     """Runs rows of a plan one after the other; worlds are read once and compiled models kept."""
 
     def __init__(self, plan: Plan) -> None:
@@ -222,21 +225,21 @@ def _leave_out(_why: str) -> None:
     """Leave a bag that cannot be written out; the row's result stands."""
 
 
-def runner_of(plan: Plan) -> TrialRunner | LaunchTrialRunner:
+def runner_of(plan: Plan) -> RowRunner | LaunchRowRunner:
     """Return the runner of a plan's rows."""
-    return LaunchTrialRunner(plan) if plan.is_launch else TrialRunner(plan)
+    return LaunchRowRunner(plan) if plan.is_launch else RowRunner(plan)
 
 
-def run_row(plan: Plan) -> Callable[[int], Trial]:
+def run_row(plan: Plan) -> Callable[[int], RowOutcome]:
     """Return the function that runs a row of a plan by its number."""
     rows = Rows(plan)
     runner = runner_of(plan)
 
-    def run(number: int) -> Trial:
+    def run(number: int) -> RowOutcome:
         row = rows.row(number)
         result = runner.run(row)
         if plan.bag_s is None or result.status == "ok":
-            return Trial(result)
-        return Trial(result, runner.bag(row, result))
+            return RowOutcome(result)
+        return RowOutcome(result, runner.bag(row, result))
 
     return run

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from trundle.studies.trials import numbers, rank_correlation, worst_rows
+from trundle.studies.sweep.analysis import numbers, rank_correlation, worst_rows
 
 pa = pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 

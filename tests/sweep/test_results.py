@@ -6,7 +6,12 @@ from pathlib import Path
 import pytest
 
 from trundle.base.diagnostics import UsageError
-from trundle.studies.trials import Results, RowResult, Rows, Table, lock_folder, read_plan
+from trundle.studies.plan_files.lock import lock_folder
+from trundle.studies.sweep.plan_reader import read_plan
+from trundle.studies.sweep.results import Results
+from trundle.studies.sweep.row_result import RowResult
+from trundle.studies.sweep.rows import Rows
+from trundle.studies.sweep.table import Table
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 
@@ -27,7 +32,7 @@ def _result(row: int) -> RowResult:
 
 @pytest.fixture(autouse=True)
 def _small_groups(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
-    monkeypatch.setattr("trundle.studies.trials.results.GROUP_ROWS", 8)
+    monkeypatch.setattr("trundle.studies.sweep.results.GROUP_ROWS", 8)
 
 
 def test_the_table_does_not_depend_on_the_order_or_on_kills(tmp_path: Path) -> None:

@@ -6,33 +6,10 @@ from pathlib import Path
 from typing import Literal, TypeAlias
 
 from trundle.base.diagnostics import Source
+from trundle.studies.plan_files.variation import Variation
 
-Value: TypeAlias = bool | int | float | str | tuple["Value", ...]
 Design: TypeAlias = Literal["random", "latin_hypercube", "sobol"]
 Over: TypeAlias = Literal["end", "start", "min", "max", "mean", "time"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Distribution:
-    """Distribution of a number."""
-
-    kind: Literal["uniform", "normal", "log_uniform"]
-    parameters: tuple[float, float]
-    """Smallest and largest value, or mean and standard deviation."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Variation:
-    """Quantity that differs from row to row."""
-
-    name: str
-    """Path of a property, or a name of its own."""
-    at: Source
-    values: tuple[Value, ...] = ()
-    """Values of a grid; empty for a distribution."""
-    beside: str | None = None
-    """Variation whose values these go with, one by one; None: every combination."""
-    distribution: Distribution | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

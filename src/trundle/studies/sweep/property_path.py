@@ -12,8 +12,7 @@ from msgspec.structs import replace
 
 from trundle.base.diagnostics import UsageError, nearest
 from trundle.spatial import Pose
-
-from .plan import Value
+from trundle.studies.plan_files.variation import Value
 
 _T = TypeVar("_T")
 ARGUMENTS = "arguments"

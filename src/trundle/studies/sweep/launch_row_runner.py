@@ -16,14 +16,17 @@ from trundle.live.launch.options import LaunchOptions
 from trundle.live.launch.running_nodes import RunningNodes
 from trundle.live.launch.session import LaunchSession
 from trundle.robots.launch import LaunchParam, ParamValue
-from trundle.studies.trials import Plan, Row, RowResult, Value
+from trundle.studies.plan_files.variation import Value
 
 from .assignments import Assignments, assignments_of
 from .judge import Judge
 from .launch_check import check_launch
 from .launch_inputs import launch_inputs
 from .launch_setup import LaunchSetup
+from .plan import Plan
 from .plan_digest import RunInputs
+from .row_result import RowResult
+from .rows import Row
 from .state_names import StateExpressions
 from .topics import topics_of
 
@@ -32,7 +35,7 @@ _PAUSED_S = 30.0
 """Wall time for which a world may stay paused while nothing is at work, as at the start of controllers."""
 
 
-class LaunchTrialRunner:
+class LaunchRowRunner:
     """Runs rows of a plan of a launch file one after the other."""
 
     def __init__(self, plan: Plan) -> None:

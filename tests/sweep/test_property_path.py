@@ -5,7 +5,7 @@ import pytest
 import trundle
 from trundle.base.diagnostics import UsageError
 from trundle.robots.model import World
-from trundle.studies.trials import with_property
+from trundle.studies.sweep.property_path import with_property
 
 
 @pytest.fixture(scope="module")

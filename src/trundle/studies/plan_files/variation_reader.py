@@ -5,7 +5,7 @@ from typing import Literal
 
 from trundle.base.diagnostics import Source
 
-from .plan import Distribution, Value, Variation
+from .variation import Distribution, Value, Variation
 from .yaml_node import YamlNode, as_number
 
 _KINDS: dict[str, Literal["uniform", "normal", "log_uniform"]] = {

@@ -4,8 +4,9 @@ from collections.abc import Iterator
 
 from trundle.base.diagnostics import DescriptionError, nearest
 from trundle.base.expressions import MATH_NAMES, PYTHON_NAMES, free_names
+from trundle.studies.plan_files.variation import Variation
 
-from .plan import Plan, Variation
+from .plan import Plan
 from .property_path import TIME_STEP, is_property
 
 

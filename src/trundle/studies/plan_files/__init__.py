@@ -1,0 +1,1 @@
+"""Files of plans: their source, their YAML with lines, quantities that vary, and a folder of results' lock."""
