@@ -50,6 +50,11 @@ def test_free_joints_come_in_file_order_and_dependent_ones_follow() -> None:
     assert (len(messages[0].velocity), len(messages[0].effort)) == (0, 0)
 
 
+def test_a_robot_within_another_element_is_found() -> None:
+    (first, *_) = publish({}, robot=f"<urdf>{ROBOT}</urdf>").sent("/joint_states")
+    assert list(first.name) == ["wheel", "lift", "finger", "tip"]
+
+
 def test_parameters_of_the_namespace_count_where_the_node_has_none() -> None:
     node = publish({"/rate": 5, "/publish_default_velocities": True})
     assert len(node.sent("/joint_states")) == 6

@@ -232,7 +232,8 @@ class JointStatePublisher:
 
     def _robot(self, options: RosParameters) -> XmlNode:
         name = f"{self._node.name}/robot_description"
-        robot = parse_xml(options.text("robot_description"), name=name)
+        root = parse_xml(options.text("robot_description"), name=name)
+        robot = root.find("robot") or root  # the original looks for a <robot> anywhere: its own tests have it in <urdf>
         if robot.tag != "robot":
             raise DescriptionError(robot.at, f"a URDF starts with <robot>, not <{robot.tag}>")
         return robot
