@@ -214,6 +214,22 @@ def test_all_missing_packages_are_named_at_once(capsys: pytest.CaptureFixture[st
     assert set(last.partition(" fetches them")[0].split()[3:]) == published
 
 
+def test_a_list_of_repositories_is_named_where_no_index_has_a_package(
+    workspace: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As dependencies.rosinstall of a repository, whose packages were never released."""
+    lists = workspace / "src/my_robot/repos/my_robot.repos"
+    lists.parent.mkdir()
+    lists.write_text("repositories: {}\n")
+    launch = workspace / "a.launch"
+    launch.write_text('<launch><include file="$(find no_such_control)/a.launch"/></launch>')
+
+    assert main(["launch", str(launch)]) == 1
+
+    what = f"no index has no_such_control; lists of repositories here: {lists}: vcs import in trundle shell fetches"
+    assert f"{what} what one names\n" in capsys.readouterr().err
+
+
 def test_files_of_a_package_whose_nodes_have_stand_ins_are_fetched(
     workspace: Path, index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -16,6 +16,11 @@ if TYPE_CHECKING:
     from trundle.robots.checkouts import Fetcher, FetchPlan, FetchResult
 
 
+_LISTS = tuple(f"{depth}*.{ending}" for ending in ("repos", "rosinstall") for depth in ("", "*/", "*/*/"))
+"""Places of lists that READMEs name, in a repository or beside it."""
+_MAX_LISTS = 5
+
+
 def add_fetch_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of commands that fetch."""
     add = parser.add_argument
@@ -100,6 +105,12 @@ def offer(names: Sequence[str]) -> bool:
     fetcher = make_fetcher(argparse.Namespace(**defaults()))
     plan = fetcher.plan(names, for_files=True)
     published = [name for needed in plan.checkouts.values() for name in needed]
+    if plan.unknown and (lists := _repository_lists()):
+        print(
+            f"no index has {' '.join(plan.unknown)}; lists of repositories here: {' '.join(map(str, lists))}: "
+            "vcs import in trundle shell fetches what one names",
+            file=sys.stderr,
+        )
     if not published:
         print("--lenient leaves out what needs missing packages", file=sys.stderr)
         return False
@@ -116,6 +127,15 @@ def offer(names: Sequence[str]) -> bool:
     result = fetcher.fetch(published, for_files=True)
     _print_result(result)
     return bool(result.folders)
+
+
+def _repository_lists() -> list[Path]:
+    """Return the .repos and .rosinstall files of the packages' folders and the workspace around the working folder."""
+    from trundle.robots.packages import Packages
+
+    folders = Packages(os.environ, start=Path.cwd()).package_folders()
+    found = (file for folder in folders for pattern in _LISTS for file in sorted(folder.glob(pattern)))
+    return list(dict.fromkeys(found))[:_MAX_LISTS]
 
 
 def print_plan(plan: "FetchPlan", folder: Path) -> None:
