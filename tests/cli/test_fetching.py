@@ -139,6 +139,16 @@ def test_all_that_a_launch_needs_is_fetched(index: Path, tmp_path: Path, capsys:
     assert "palm" in capsys.readouterr().out
 
 
+@pytest.mark.usefixtures("workspace")
+def test_what_is_missing_is_found_with_the_variables_of_hooks(index: Path, workspace: Path, tmp_path: Path) -> None:
+    package = workspace / "src/my_robot"
+    (package / "env-hooks").mkdir()
+    (package / "env-hooks/my.sh").write_text("export MY_LAUNCH=arm.launch\n")
+    (package / "my.launch").write_text('<launch><include file="$(find arm_bringup)/$(env MY_LAUNCH)"/></launch>')
+    assert main(["pack", "get", "-y", "--index", str(index), "--missing", "my_robot", "my.launch"]) == 0
+    assert fetched(tmp_path) == ["me/arm", "me/arm_msgs"]
+
+
 def test_a_launch_offers_to_fetch_on_a_terminal(
     workspace: Path, server: GitServer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -51,12 +51,15 @@ def missing_packages(words: Sequence[str], environment: Mapping[str, str]) -> li
     Raises:
         TrundleError: the launch cannot be read, for another reason.
     """
+    packages = Packages(environment, start=Path.cwd())
     try:
-        request = read_request(words, Packages(environment, start=Path.cwd()))
+        request = read_request(words, packages)
     except TrundleError as error:
         if not error.missing_packages:
             raise
         return list(error.missing_packages)
+    for variables in packages.around(_start(request)).hook_variables().values():
+        environment = {**environment, **variables}
     return [name for error in _errors(request, environment) for name in error.missing_packages]
 
 
@@ -75,7 +78,7 @@ def with_all_missing(
 
 def _errors(request: LaunchRequest, environment: Mapping[str, str]) -> list[DescriptionError]:
     """Return an error for each missing package, with the first place that needs it."""
-    start = request.files[0] if request.files else Path.cwd()
+    start = _start(request)
     packages = _NotingPackages(environment, start=start)
     report = Diagnostics()
     places: dict[str, Source] = {}
@@ -124,6 +127,10 @@ def _note_those_of_robots(
             for name in _URI.findall(resolved.value) if isinstance(resolved.value, str) else ():
                 packages.find_folder(name)
                 places.setdefault(name, param.at)
+
+
+def _start(request: LaunchRequest) -> Path:
+    return request.files[0] if request.files else Path.cwd()
 
 
 def _run_nothing(_: Sequence[str], /, *, env: Mapping[str, str]) -> str:
