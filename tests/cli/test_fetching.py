@@ -7,7 +7,10 @@ import socket
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
+from threading import Thread
 
 import pytest
 from tests.git_server import GitServer, git_server, manifest
@@ -126,6 +129,36 @@ def test_nothing_is_fetched_unasked(index: Path, tmp_path: Path, capsys: pytest.
     assert main(["pack", "get", "hand", "--index", str(index)]) == 1
     assert capsys.readouterr().err == "trundle pack: error: nothing is fetched without an answer; -y is one\n"
     assert fetched(tmp_path) == []
+
+
+@pytest.fixture
+def web(index: Path, tmp_path: Path) -> Iterator[str]:
+    """Address of a web server with an index of the published form, and one that names a file of the machine."""
+    folder = tmp_path / "web"
+    (folder / "noetic").mkdir(parents=True)
+    shutil.copy(index, folder / "noetic/distribution.yaml")
+    for name, file in (("index-v4", "noetic/distribution.yaml"), ("hostile", f"file://{index}")):
+        (folder / f"{name}.yaml").write_text(f"distributions: {{noetic: {{distribution: ['{file}']}}}}\n")
+    handler = partial(SimpleHTTPRequestHandler, directory=str(folder))
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as served:
+        thread = Thread(target=served.serve_forever)
+        thread.start()
+        yield f"http://127.0.0.1:{served.server_port}"
+        served.shutdown()
+        thread.join()
+
+
+@pytest.mark.usefixtures("workspace")
+def test_an_index_is_read_from_the_web(web: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """One from there names no files of this machine."""
+    assert main(["pack", "get", "-y", "arm_bringup", "--index", f"{web}/index-v4.yaml"]) == 0
+    assert fetched(tmp_path) == ["me/arm", "me/arm_msgs"]
+    capsys.readouterr()
+
+    for name, what in (("hostile", "an index is fetched from http:// or https://"), ("gone", "not fetched: ")):
+        assert main(["pack", "get", "-y", "hand", "--index", f"{web}/{name}.yaml"]) == 1
+        assert what in capsys.readouterr().err
+    assert fetched(tmp_path) == ["me/arm", "me/arm_msgs"]
 
 
 @pytest.mark.usefixtures("workspace")
