@@ -50,8 +50,6 @@ from .wire import (
     from_server_decoder,
     read_frame,
 )  # fmt: skip
-from .world.manifest import Manifest
-from .world.profile import Profile
 from .world.streams import (
     ARRAY_HEADER,
     CONTACTS,
@@ -73,6 +71,9 @@ from .world.streams import (
 
 if TYPE_CHECKING:
     from trundle.ros import Node
+
+    from .world.manifest import Manifest
+    from .world.profile import Profile
 
 _STOP_TIMEOUT_S = 1.5
 _MAX_REQUESTS = 1000
@@ -251,7 +252,7 @@ class PageServer:
             self._stop.end()
         self._stop = None if node is None else DriveStop(node)
 
-    def set_world(self, manifest: Manifest, files: Mapping[str, bytes]) -> None:
+    def set_world(self, manifest: "Manifest", files: Mapping[str, bytes]) -> None:
         """Replace the manifest of the simulated world.
 
         Args:
@@ -289,7 +290,7 @@ class PageServer:
             SERIES, [SERIES_HEADER.pack(first, len(text)), text, np.ascontiguousarray(rows).reshape(-1).view(np.uint8)]
         )
 
-    def put_performance(self, profile: Profile) -> None:
+    def put_performance(self, profile: "Profile") -> None:
         """Show where the wall time of the last second went."""
         self._put(PERFORMANCE, [msgspec.json.encode(profile)])
 

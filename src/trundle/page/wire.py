@@ -7,7 +7,7 @@ only the newest counts, and they lie in mailboxes.
 import os
 import struct
 from pathlib import Path
-from typing import IO, Any, Self, TypeAlias
+from typing import IO, TYPE_CHECKING, Any, Self, TypeAlias
 from urllib.parse import urlsplit
 
 import msgspec
@@ -15,7 +15,9 @@ import msgspec
 from .requests.request import Request
 from .session import Session
 from .shared_memory import MemoryAddress
-from .world.manifest import Manifest
+
+if TYPE_CHECKING:
+    from .world.manifest import Manifest
 
 _LENGTH = struct.Struct("<I")
 
@@ -95,7 +97,7 @@ class SetWorld(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     camera_topics: tuple[str, ...]
 
     @classmethod
-    def of(cls, manifest: Manifest) -> Self:
+    def of(cls, manifest: "Manifest") -> Self:
         """Encode a manifest, with what the server needs of it."""
         urls = {file.url for file in manifest.files} | set(manifest.resources)
         if manifest.collisions is not None:
