@@ -47,8 +47,8 @@ def _definitions(kinds: tuple[type[ast.AST], ...]) -> Iterator[tuple[str, str]]:
     for file in _sources():
         for node in _nodes(file):
             if isinstance(node, kinds):
-                name: str = node.name  # type: ignore[attr-defined]
-                yield f"{file.relative_to(SOURCE)}:{node.lineno}", name.lstrip("_")  # type: ignore[attr-defined]
+                name: str = node.name
+                yield f"{file.relative_to(SOURCE)}:{node.lineno}", name.lstrip("_")
 
 
 def test_modules_are_named_by_the_field() -> None:

@@ -168,7 +168,7 @@ def test_a_receiver_does_not_hear_what_is_too_weak(described: Any) -> None:
     sim = described(bot(own) + sent)
     (receiver,) = mount_sensors(sim)
 
-    assert receiver.measure(sim.snapshot()).signals == ()  # type: ignore[union-attr]
+    assert receiver.measure(sim.snapshot()).signals == ()
 
 
 def test_an_rfid_sensor_tells_the_tags_within_five_metres(hear: Any) -> None:
@@ -242,7 +242,7 @@ def test_a_force_torque_sensor_has_noise_on_each_axis(described: Any) -> None:
     (felt,) = mount_sensors(sim)
     sim.run(0.01)
 
-    wrenches = [felt.measure(sim.snapshot()).wrench for _ in range(400)]  # type: ignore[union-attr]
+    wrenches = [felt.measure(sim.snapshot()).wrench for _ in range(400)]
     spread = np.std([[*w.force, *w.torque] for w in wrenches], axis=0)
     assert spread[[0, 5]] == pytest.approx([2.0, 0.5], rel=0.15)
     assert spread[[1, 2, 3, 4]] == pytest.approx([0, 0, 0, 0], abs=1e-9)
@@ -371,4 +371,4 @@ def test_a_sensor_s_speed_is_that_of_its_own_point(described: Any) -> None:
     sim["bot"].set_twist(Twist(angular=(0.0, -2.0, 0.0)))
     (mounted,) = mount_sensors(sim)
 
-    assert mounted.measure(sim.snapshot()).velocity == pytest.approx(1.0)  # type: ignore[union-attr]
+    assert mounted.measure(sim.snapshot()).velocity == pytest.approx(1.0)

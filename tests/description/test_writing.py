@@ -196,7 +196,7 @@ def test_poses_are_kept_in_a_urdf() -> None:
         assert com(after, again).as_list() == pytest.approx(com(before, link).as_list(), abs=1e-9)
         assert again.inertial.moments == pytest.approx(link.inertial.moments)
     assert axis(after, after.joint("axle")) == pytest.approx(axis(before, before.joint("axle")), abs=1e-9)
-    assert after.joint("axle").axis.damping == 0.5  # type: ignore[union-attr]
+    assert after.joint("axle").axis.damping == 0.5
     assert loaded.robot is not None
     assert [joint.type for joint in loaded.robot.joints] == ["continuous", "fixed"]
     assert after.link("base").collisions[0].surface.mu == 0.2

@@ -4,11 +4,11 @@ import subprocess
 import sys
 from pathlib import Path
 
-import collada  # type: ignore[import-untyped]
+import collada
 import numpy as np
 import pytest
 import trimesh
-from collada import geometry, scene, source  # type: ignore[import-untyped]
+from collada import geometry, scene, source
 from numpy.typing import NDArray
 
 from trundle.robots import meshes

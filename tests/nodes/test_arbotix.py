@@ -35,7 +35,7 @@ def drive(params: dict[str, Any], *, seconds: float, **clock: Any) -> FakeNode:
         if topic == "cmd_vel":
             node.hear("/cmd_vel", {"linear": {"x": 0.5}, "angular": {"z": 0.5}}, "geometry_msgs/Twist")
 
-    node.subscribe = subscribe_and_command  # type: ignore[method-assign]
+    node.subscribe = subscribe_and_command
     assert run_to_end(driver.run()) is None
     return node
 
@@ -187,7 +187,7 @@ def test_a_servo_moves_by_its_speed_limit_in_whole_ticks() -> None:
         subscribe(topic, type_name, callback, **options)
         node.hear("/arm/command", {"data": 1.0}, "std_msgs/Float64")
 
-    node.subscribe = subscribe_and_command  # type: ignore[method-assign]
+    node.subscribe = subscribe_and_command
     assert run_to_end(driver.run()) is None
     positions = [message.position[0] for message in node.sent("/joint_states")]
     steps = [b - a for a, b in itertools.pairwise(positions) if b != a]

@@ -44,7 +44,7 @@ def cube(x: float, half: float = 0.25) -> list[tuple[Corner, Corner, Corner, Cor
     for axis, sign in itertools.product(range(3), (-1.0, 1.0)):
         ring = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)][:: int(sign)]
         corners = [list(np.insert(np.array(two), axis, sign) * half + [x, 0.0, half]) for two in ring]
-        quads.append(tuple((float(p[0]), float(p[1]), float(p[2])) for p in corners))  # type: ignore[arg-type]
+        quads.append(tuple((float(p[0]), float(p[1]), float(p[2])) for p in corners))
     return quads
 
 

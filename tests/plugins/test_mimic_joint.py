@@ -76,7 +76,7 @@ def _count_strides(sim: Simulation) -> list[int]:
         strides.append(count)
         return step(count, each)
 
-    sim.engine.step = counted  # type: ignore[method-assign]
+    sim.engine.step = counted
     return strides
 
 

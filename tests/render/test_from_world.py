@@ -39,7 +39,7 @@ RED = Material(diffuse=(1.0, 0.0, 0.0, 1.0))
 
 def visual(name: str = "v", geometry: Geometry | None = None, **rest: object) -> Visual:
     made = Visual(name=name, geometry=geometry or Sphere(0.1), at=AT, material=RED)
-    return replace(made, **rest)  # type: ignore[arg-type]
+    return replace(made, **rest)
 
 
 def world(*visuals: Visual, lights: tuple[Light, ...] = ()) -> World:

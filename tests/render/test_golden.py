@@ -48,8 +48,8 @@ def test_pictures_of_one_call_are_those_of_a_call_each(name: str, threads: int) 
     singly = [alone.render([view], depth=True, segmentation=True)[0] for view in golden_scenes.SEVERAL]
     for picture, expected in zip(pictures, singly, strict=True):
         assert (picture.rgb == expected.rgb).all()
-        assert np.array_equal(picture.depth, expected.depth)  # type: ignore[arg-type]
-        assert np.array_equal(picture.segmentation, expected.segmentation)  # type: ignore[arg-type]
+        assert np.array_equal(picture.depth, expected.depth)
+        assert np.array_equal(picture.segmentation, expected.segmentation)
     assert len({picture.rgb.tobytes() for picture in pictures}) == len(pictures)
 
 

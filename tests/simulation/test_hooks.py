@@ -194,7 +194,7 @@ def test_hooks_are_due_after_a_restore_as_they_were_after_the_save() -> None:
 
 def test_an_object_that_can_neither_act_nor_look_is_no_hook() -> None:
     with pytest.raises(AssertionError, match="neither before_step nor after_step"):
-        empty_world().add_hook(object())  # type: ignore[arg-type]
+        empty_world().add_hook(object())
 
 
 def test_a_hook_nobody_wants_is_not_called_and_does_not_cut_the_stride() -> None:
@@ -207,7 +207,7 @@ def test_a_hook_nobody_wants_is_not_called_and_does_not_cut_the_stride() -> None
         strides.append(count)
         return step(count, each)
 
-    sim.engine.step = counted  # type: ignore[method-assign]
+    sim.engine.step = counted
     sim.run(0.1)
     assert (track.calls, strides) == ([], [100])
     listening[0] = True

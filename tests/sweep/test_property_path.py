@@ -70,5 +70,5 @@ def test_short_names_and_components(world: World) -> None:
 )
 def test_a_wrong_path_lists_what_is_there(world: World, path: str, value: object, said: str) -> None:
     with pytest.raises(UsageError) as caught:
-        with_property(world, path, value)  # type: ignore[arg-type]
+        with_property(world, path, value)
     assert said in str(caught.value)

@@ -72,7 +72,7 @@ def _scene(texture: Path, **changes: object) -> Scene:
         "lights": (_SUN, _LAMP, _SPOT),
         "ambient": (0.3, 0.3, 0.35, 1),
     }
-    return Scene(**(fields | changes))  # type: ignore[arg-type]
+    return Scene(**(fields | changes))
 
 
 _POSES = np.array(

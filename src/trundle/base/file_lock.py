@@ -15,7 +15,7 @@ except ModuleNotFoundError:
     def _lock(file: int) -> None:
         import msvcrt
 
-        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)  # pyright: ignore[reportAttributeAccessIssue]
+        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType]
 else:
 
     def _lock(file: int) -> None:

@@ -79,7 +79,7 @@ def save_files(root: Path, files: Mapping[Path, str | bytes | Path], *, replace:
         _check(root, file)
     wanted = {file: content for file, content in files.items() if not _is_copy(file, content)}
     in_way = [] if replace else [file for file in wanted if os.path.exists(file)]
-    for file, content in {} if in_way else wanted.items():
+    for file, content in () if in_way else wanted.items():
         try:
             file.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(file, content, replace=replace)

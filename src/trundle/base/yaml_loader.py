@@ -72,7 +72,7 @@ class BoundedLoader(yaml.SafeLoader):
     def construct_document(self, node: yaml.Node) -> object:
         """Construct the values."""
         try:
-            return super().construct_document(node)
+            return super().construct_document(node)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
         except RecursionError:
             raise yaml.YAMLError("nested too deeply") from None
         except KeyError as error:  # `!!bool maybe`
@@ -93,7 +93,7 @@ def load_yaml(
     try:
         return opened.get_single_data()
     finally:
-        opened.dispose()
+        opened.dispose()  # pyright: ignore[reportUnknownMemberType]
 
 
 def one_line(error: yaml.YAMLError) -> str:

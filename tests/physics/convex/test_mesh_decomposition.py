@@ -116,7 +116,7 @@ def test_a_mesh_that_ends_its_process_stops_no_other(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(jobs, "SHORT_S", 0.0)
     monkeypatch.setattr(jobs, "_WORKER_S", 0.01)
     _, good = split_mesh(*gate(), fixed=False).concave[0]
-    bad = ConcavePart(_Deadly(), good.faces, Detail.HULL)  # type: ignore[arg-type]
+    bad = ConcavePart(_Deadly(), good.faces, Detail.HULL)
     answers = {id(part): found for part, found in jobs.decompose_parts([bad, good, bad])}
     assert answers[id(bad)] is None
     assert answers[id(good)] is not None

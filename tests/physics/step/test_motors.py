@@ -43,13 +43,13 @@ def _command(motors: object, random_: random.Random) -> None:
     effort = random_.choice((0.0, 0.7, 4.0, math.inf))
     match random_.randrange(5):
         case 0 | 1:
-            motors.command_effort(axis, value, hardware=hardware)  # type: ignore[attr-defined]
+            motors.command_effort(axis, value, hardware=hardware)
         case 2:
-            motors.command_velocity(axis, value, effort, hardware=hardware)  # type: ignore[attr-defined]
+            motors.command_velocity(axis, value, effort, hardware=hardware)
         case 3:
-            motors.command_position(axis, value, effort)  # type: ignore[attr-defined]
+            motors.command_position(axis, value, effort)
         case _:
-            motors.drive_kinematically(axis, value, hardware=hardware)  # type: ignore[attr-defined]
+            motors.drive_kinematically(axis, value, hardware=hardware)
 
 
 @pytest.mark.parametrize("seed", range(6))

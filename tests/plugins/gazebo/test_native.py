@@ -218,8 +218,8 @@ def wheels(names: tuple[tuple[str, float, float], ...]) -> str:
 
 def command(sim: Simulation, speed: float, turning: float) -> None:
     """Do what the topic's callback does."""
-    hooks = sim._schedule.enabled(sim.steps)  # type: ignore[attr-defined]
-    (plugin,) = (hook.before.__self__ for hook in hooks if hook.before is not None)  # type: ignore[attr-defined]
+    hooks = sim._schedule.enabled(sim.steps)
+    (plugin,) = (hook.before.__self__ for hook in hooks if hook.before is not None)
     plugin._command.speed, plugin._command.yaw_rate = speed, turning
 
 

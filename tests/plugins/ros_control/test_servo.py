@@ -156,7 +156,7 @@ class _Rig:
         def hardware(number: int, interface: str) -> Any:
             of_speed = interface == "VelocityJointInterface"
             own = gains(of_speed=of_speed) if interface != INTERFACES[0] and random_.random() < 0.5 else None
-            return joint(self.sim["m"].joint(f"j{number}"), interface, own, lag_s=0.005)  # type: ignore[operator]
+            return joint(self.sim["m"].joint(f"j{number}"), interface, own, lag_s=0.005)
 
         interface = random_.choice(INTERFACES)
         self.joints = [hardware(number, interface) for number in range(3)]
@@ -284,7 +284,7 @@ def test_a_goal_that_settles_ends_the_stride(tmp_path: Path) -> None:
         strides.append(made)
         return made
 
-    rig.sim.engine.step = counted  # type: ignore[method-assign]
+    rig.sim.engine.step = counted
     rig.sim.step(400)
     (time_ns, _, _), *_ = rig.events
 

@@ -34,8 +34,8 @@ def migrator(tmp_path: Path) -> Any:
     def make(text: str = "", *, is_forced: bool = False) -> Migrator:
         path = tmp_path / "rules.bmr"
         path.write_text(text)
-        make.said = []  # type: ignore[attr-defined]
-        return Migrator([RuleFile(path)], Messages(), warn=make.said.append, is_forced=is_forced)  # type: ignore[attr-defined]
+        make.said = []
+        return Migrator([RuleFile(path)], Messages(), warn=make.said.append, is_forced=is_forced)
 
     return make
 

@@ -26,4 +26,4 @@ def test_loggers_that_a_node_does_not_use_leave_it_alone() -> None:
 
 def test_a_level_that_is_none_is_refused() -> None:
     with pytest.raises(ValueError, match="no level 'loud'; levels: debug, info"):
-        Loggers.for_rospy().set("rosout", "loud")  # type: ignore[arg-type]
+        Loggers.for_rospy().set("rosout", "loud")

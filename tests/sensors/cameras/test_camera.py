@@ -45,7 +45,7 @@ class CountingRenderer:
 
 def camera(name: str = "eye", **rest: object) -> Sensor:
     made = Sensor(name=name, type="camera", at=AT, cameras=(OPTICS,), update_rate_hz=30.0)
-    return replace(made, **rest)  # type: ignore[arg-type]
+    return replace(made, **rest)
 
 
 def world(*sensors_: Sensor) -> World:
@@ -89,7 +89,7 @@ def test_a_camera_nobody_looks_at_costs_nothing() -> None:
         strides.append(count)
         return step(count, each)
 
-    sim.engine.step = counted  # type: ignore[method-assign]
+    sim.engine.step = counted
     sim.run(1.0)
     assert (eye.reading_count, renderer.updates, renderer.views) == (0, [], [])
     assert strides == [1000]

@@ -24,7 +24,7 @@ WIDTH, HEIGHT, FOV = 64, 48, 1.2
 
 
 def optics(**rest: object) -> CameraOptics:
-    return replace(CameraOptics(width_px=WIDTH, height_px=HEIGHT, horizontal_fov_rad=FOV), **rest)  # type: ignore[arg-type]
+    return replace(CameraOptics(width_px=WIDTH, height_px=HEIGHT, horizontal_fov_rad=FOV), **rest)
 
 
 def pinhole(made: CameraOptics) -> Intrinsics:

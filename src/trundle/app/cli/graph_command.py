@@ -9,7 +9,7 @@ import threading
 from argparse import Namespace
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from trundle.base.diagnostics import TrundleError
 from trundle.base.interrupts import ending_signals, interrupt, interrupt_main_thread
@@ -25,7 +25,7 @@ class IntermixedParser(argparse.ArgumentParser):
 
     _is_inside = False
 
-    def parse_known_args(self, args=None, namespace=None):  # type: ignore[override]
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
         if self._is_inside:
             return super().parse_known_args(args, namespace)
         self._is_inside = True

@@ -1,5 +1,8 @@
 """Videos: frames of a simulation or a turntable, and their files."""
 
+# PyAV's types are partial.
+# pyright: reportUnknownMemberType=false
+
 import math
 from collections.abc import Callable, Iterator
 from pathlib import Path

@@ -103,7 +103,7 @@ def dictionary(caller: Caller, values: Sequence[object], named: Mapping[str, obj
     pairs: Iterable[Any] = ()
     if values:
         (given,) = _only(values, {}, "dict", 1)
-        pairs = dict.items(given) if isinstance(given, dict) else caller.budget.collect(given)  # type: ignore[reportUnknownArgumentType]
+        pairs = dict.items(given) if isinstance(given, dict) else caller.budget.collect(given)
     for pair in (*pairs, *named.items()):
         key, value = caller.budget.collect(pair)
         found[caller.budget.spend_lookup(key, len(found))] = value

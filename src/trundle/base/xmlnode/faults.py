@@ -77,7 +77,7 @@ def place_fault(error: etree.XMLSyntaxError, *, before: bytes) -> tuple[int, str
 
 def _words(error: etree.XMLSyntaxError, lines: int) -> str:
     said = " ".join(_POSITION.sub("", error.msg or "no element found").split())
-    code: int = error.code  # pyright: ignore[reportAttributeAccessIssue]  # lxml-stubs leaves it out
+    code = int(error.code)  # pyright: ignore  # lxml-stubs leaves it out
     for pattern, sentence in _SENTENCES.get(code, ()):
         if found := re.search(pattern, said):
             groups = [int(text) + lines if text.isdigit() and "line" in pattern else text for text in found.groups()]

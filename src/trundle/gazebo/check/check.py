@@ -59,7 +59,9 @@ class CheckResult:
     def as_json(self) -> dict[str, object]:
         """Resolved description and every finding."""
         findings = [finding.as_json() for finding in self.report.findings]
-        understood = {"kind": None, "models": []} if self.findings is None else self.findings.as_json()
+        understood: dict[str, object] = {"kind": None, "models": []}
+        if self.findings is not None:
+            understood = self.findings.as_json()
         return {**understood, "diagnostics": findings}
 
     def text(self) -> str:

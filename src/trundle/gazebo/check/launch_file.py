@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast
 
 from trundle.base.diagnostics import Diagnostics, Source
 from trundle.base.drawing.tree import TreeNode
@@ -92,8 +93,8 @@ def _plain(value: object) -> object:
         case float() if not math.isfinite(value):
             return str(value)
         case list():
-            return [_plain(each) for each in value]
+            return [_plain(each) for each in cast("list[object]", value)]
         case dict():
-            return {str(key): _plain(each) for key, each in value.items()}
+            return {str(key): _plain(each) for key, each in cast("dict[object, object]", value).items()}
         case _:
             return value

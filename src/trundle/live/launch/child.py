@@ -100,7 +100,7 @@ class _Child:
                 info = {"name": name, "alive": name not in self._codes, "spawn_count": self._starts[name]}
                 return 1, "process info", info | ({"exit_code": self._codes[name]} if name in self._codes else {})
             case "process_info", [_]:
-                return -1, "no process by that name", {}
+                return -1, "no process by that name", dict[str, object]()
             case "launch", [str(xml)]:
                 return await asyncio.to_thread(self._launch, xml)
             case "shutdown", []:

@@ -2,7 +2,7 @@
 
 import contextlib
 import struct
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from os import SEEK_END
 from pathlib import Path
@@ -125,7 +125,8 @@ class Ros1Writer:
 
 def _lz4(data: bytes) -> bytes:
     """Compress for roslz4, which supports neither linked blocks nor a content size in the frame header."""
-    return bytes(lz4.frame.compress(data, block_linked=False, content_checksum=True, store_size=False))
+    compress = cast("Callable[..., bytes]", lz4.frame.compress)  # pyright: ignore[reportUnknownMemberType]
+    return compress(data, block_linked=False, content_checksum=True, store_size=False)
 
 
 _PADDING_AT = 13 + 4 + 69

@@ -186,7 +186,7 @@ def _decompressed(compression: str, data: bytes, most: int) -> bytes:
         if compression == "bz2":
             return bz2.BZ2Decompressor().decompress(data, most)
         if compression == "lz4":
-            return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data, most))
+            return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data, most))  # pyright: ignore[reportUnknownMemberType, reportUnknownArgumentType]
     except (OSError, RuntimeError):
         pass
     raise TruncatedError

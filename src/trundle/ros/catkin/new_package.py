@@ -43,7 +43,7 @@ def create_package(parent: Path, package: NewPackage) -> Iterator[str]:
     for name in texts:
         if os.path.lexists(folder / name):
             raise UsageError(f"File exists: {folder / name}")
-    folders = []
+    folders: list[str] = []
     if not package.is_metapackage and "roscpp" in package.dependencies:
         folders.append(f"include/{package.name}")
     if not package.is_metapackage and not {"roscpp", "rospy"}.isdisjoint(package.dependencies):

@@ -1,7 +1,7 @@
 """Messages with rospy's attributes, for user-written expressions: `m.header.stamp.to_sec() > 5`, `t.secs`."""
 
 import functools
-from typing import Any
+from typing import Any, cast
 
 from .messages import Message, Messages
 from .printing import MessagePrinter
@@ -68,5 +68,5 @@ class MessageView:
 
 def _view(value: Any, messages: Messages | None) -> Any:
     if isinstance(value, list):
-        return [_view(item, messages) for item in value]
+        return [_view(item, messages) for item in cast("list[Any]", value)]
     return MessageView(value, messages) if hasattr(value, "__msgtype__") else value

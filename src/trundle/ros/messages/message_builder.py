@@ -151,7 +151,9 @@ def _numbers(kind: str, given: Any, path: str) -> Any:
     if isinstance(given, str):
         raise MessageError(f"field {path!r} is a list of {kind}, got {given!r}")
     if isinstance(given, bytes | bytearray | memoryview):
-        return np.frombuffer(given, np.uint8).view(dtype) if dtype.itemsize == 1 else _refuse(kind, given, path)
+        if dtype.itemsize != 1:
+            return _refuse(kind, cast("bytes", given), path)
+        return np.frombuffer(cast("bytes", given), np.uint8).view(dtype)
     if isinstance(given, np.ndarray):
         return np.ascontiguousarray(given, dtype).reshape(-1)
     if not isinstance(given, Sequence):

@@ -1,5 +1,8 @@
 """Fast path for well-formed values; anything else raises, and the message builder finds the fault."""
 
+# Values are of any type.
+# pyright: reportUnknownMemberType=false, reportUnknownArgumentType=false, reportUnknownVariableType=false
+
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 

@@ -101,7 +101,7 @@ class RuleMessage(metaclass=MessageClass):
     def __eq__(self, other: object) -> bool:
         return type(self) is type(other) and all(getattr(self, n) == getattr(other, n) for n in type(self).kinds)
 
-    __hash__ = None  # type: ignore[assignment] - mutable, as genpy's
+    __hash__ = None  # pyright: ignore[reportAssignmentType]  # mutable, as genpy's
 
     def __repr__(self) -> str:
         made = type(self)
@@ -289,7 +289,7 @@ def _field(value: Any, kind: str, classes: MessageClasses, path: str) -> Any:
             return value
         if not isinstance(value, Sequence) or isinstance(value, str):
             raise MessageError(f"field {path!r} is a list of {base}, got {value!r}")
-        return [_field(item, base, classes, f"{path}[{i}]") for i, item in enumerate(value)]
+        return [_field(item, base, classes, f"{path}[{i}]") for i, item in enumerate(cast("Sequence[Any]", value))]
     if base in _TIMES and hasattr(value, "nsecs"):
         return {"secs": value.secs, "nsecs": value.nsecs}
     return value if base in BUILTIN else _fields(value, classes.message_class(base), path)

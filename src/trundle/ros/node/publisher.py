@@ -331,7 +331,7 @@ class Publisher:
     def _framed(self, message: Any) -> Pieces | None:
         """Serialize a message with its length prefix."""
         if isinstance(message, _BYTES):
-            return LENGTH.pack(len(message)), bytes(message)
+            return LENGTH.pack(len(message)), bytes(message)  # pyright: ignore[reportUnknownArgumentType]
         assert self._codec is not None
         try:
             return self._codec.frame(message)
@@ -342,9 +342,9 @@ class Publisher:
     def _checked(self, message: Message | dict[str, Any] | bytes) -> Any:
         """Message to send: bytes, or an object of the topic's type."""
         if isinstance(message, _BYTES):
-            return message
+            return message  # pyright: ignore[reportUnknownVariableType]
         if isinstance(message, Mapping):
-            return self._checked(self._node.new(self.type, dict(message)))
+            return self._checked(self._node.new(self.type, dict(message)))  # pyright: ignore[reportUnknownArgumentType]
         given = self._node.messages.type_of(message)
         if given != self.type:
             raise MessageError(f"{self.topic} carries {self.type}, got a {given}")

@@ -4,7 +4,7 @@ import asyncio
 import contextlib
 import inspect
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 from ..errors import MessageError, ServiceError, WireError
 from ..messages.raw_message import Message, ServiceType
@@ -109,7 +109,7 @@ class Service:
         try:
             response = await self._handle(self._node.messages.deserialize(data, self.kind.request))
             if isinstance(response, dict) or response is None:
-                response = self._node.new(self.kind.response, response)
+                response = self._node.new(self.kind.response, cast("dict[str, Any] | None", response))
             return b"\x01" + frame(self._node.messages.serialize(response))
         except (ServiceError, MessageError) as error:
             return b"\x00" + frame(f"service cannot process request: {error}".encode())

@@ -114,7 +114,7 @@ class Slave:
                 raise BadArgumentError("ERROR: param [publishers] must be a list of strings")
             if not _URL.match(uri):
                 raise BadArgumentError(f"ERROR: param [publishers] does not contain valid URLs [{uri}]")
-        self._endpoints.publishers_changed(name, uris)
+        self._endpoints.publishers_changed(name, cast("list[str]", uris))
         return 1, "", 0
 
     def _param_update(self, _: str, key: Any, value: Any) -> Answer:
@@ -130,7 +130,7 @@ class Slave:
             raise BadArgumentError("ERROR: parameter [protocols] must be specified and non-empty")
         if self._endpoints.publisher(name) is None:
             return -1, f"Not a publisher of [{name}]", []
-        wanted = [p[0] for p in protocols if isinstance(p, list) and p]
+        wanted = [p[0] for p in protocols if isinstance(p, list) and p]  # pyright: ignore[reportUnknownVariableType]
         if "TCPROS" not in wanted:
             return 0, "no supported protocol implementations", []
         host = self._address.advertise

@@ -29,7 +29,7 @@ class Schedule(Generic[WorldT]):
         name: str | None,
     ) -> None:
         """Register a hook from now [ns] on; see `Simulation.add_hook`."""
-        scheduled = ScheduledHook(hook, period_ns, self._clock, now_ns=now_ns, enabled=enabled, name=name)
+        scheduled = ScheduledHook[WorldT](hook, period_ns, self._clock, now_ns=now_ns, enabled=enabled, name=name)
         if scheduled.before is not None or scheduled.after is not None:
             self._hooks.append(scheduled)
 

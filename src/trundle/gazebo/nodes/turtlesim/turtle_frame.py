@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable
+from typing import cast
 
 from PIL import Image, ImageDraw
 
@@ -33,8 +34,7 @@ class TurtleFrame:
         """Colour of the path below a point [m]."""
         column, row = _pixel(x, y)
         inside = (min(max(round(column), 0), SIZE_PX - 1), min(max(round(row), 0), SIZE_PX - 1))
-        red, green, blue = self._paths.getpixel(inside)  # type: ignore[misc]  # an RGB picture gives three
-        return int(red), int(green), int(blue)
+        return cast("Colour", self._paths.getpixel(inside))  # an RGB picture gives three
 
     def with_turtles(self, turtles: Iterable[Turtle]) -> bytes:
         """Pixels as rgb8, row by row from the top."""

@@ -89,7 +89,7 @@ class Message:
     def __ne__(self, other: object) -> bool:
         return not self == other
 
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None  # pyright: ignore[reportAssignmentType]
 
 
 def _equal(ours: Any, theirs: Any) -> bool:
