@@ -6,7 +6,8 @@ from itertools import islice
 from pathlib import Path
 
 from trundle.studies.datasets import load_dataset_plan
-from trundle.studies.trials import Rows, load_plan
+from trundle.studies.sweep.plan_reader import load_plan
+from trundle.studies.sweep.rows import Rows
 
 from .seeds import seed
 from .target import Execute, Open, Target, write_file

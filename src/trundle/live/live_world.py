@@ -63,7 +63,7 @@ class LiveWorld:
         self._robots: dict[ModelHandle, Robot] = {}
         self._plugins: dict[ModelHandle, list[Plugin]] = {}
         self._known = list(simulation.models)
-        self._seen_changes = 0
+        self._seen_changes: int = 0
         """`_interface_changes` when the timeline began."""
         self._starts_sensors = self._loads_plugins = self._is_timeline_due = False
         simulation.on_change(self._follow_models)
