@@ -42,7 +42,7 @@ class KeysToCmdVel(Plugin):
         self._keys = {key: what for what, keys in _KEYS.items() for key in keys}
         controls = parameters.section("key_controls")
         if any(what in controls for what in _KEYS):
-            self._keys = {}
+            self._keys = dict[int, str]()
             for what in _KEYS:
                 self._keys.update(dict.fromkeys(_read_keys(controls, what), what))
         parameters.report_unread()

@@ -46,7 +46,7 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
             ranges = ranges + random.normal(0.0, noise, len(ranges))
             seen &= (ranges > near) & (ranges < far)
         points = np.zeros(len(ranges), dtype=_POINT)
-        points["ring"] = np.tile(np.arange(rows), columns)
+        points["ring"] = np.tile(np.arange(rows, dtype=np.uint16), columns)
         places = np.where(seen[:, None], directions * np.where(seen, ranges, 0.0)[:, None], np.nan)
         points["x"], points["y"], points["z"] = places.T
         points["intensity"] = np.where(seen, intensities, np.nan)
