@@ -11,8 +11,7 @@ import pytest
 from fuzz.campaign import Campaign
 from fuzz.catalog import TARGETS, load_target
 from fuzz.mutate import Pool, mutate
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from trundle.base.diagnostics import TrundleError
 

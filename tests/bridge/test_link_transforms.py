@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from trundle.base.diagnostics import Source
 from trundle.robots.model import Joint, JointAxis, JointType, Link, Model, Sensor, World

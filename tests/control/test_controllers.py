@@ -1,8 +1,7 @@
 """Laws of ros_control's controllers, against analytic solutions."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from trundle.sim.control import JointSegment, JointState, ToolboxPid
 

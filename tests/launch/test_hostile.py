@@ -4,8 +4,7 @@ import contextlib
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from trundle.base.diagnostics import DescriptionError, Diagnostics
 from trundle.robots.launch import LaunchPlan, read_launch, read_launch_text

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
+from hypothesis import example, given, strategies as st
 
 from trundle.base.diagnostics import Diagnostics, TrundleError
 from trundle.robots.description import load, load_text

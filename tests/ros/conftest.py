@@ -3,8 +3,7 @@
 from collections.abc import Iterator
 
 import pytest
-from tests.graphs import PATIENCE_S as PATIENCE_S
-from tests.graphs import Graph, running_graph
+from tests.graphs import PATIENCE_S as PATIENCE_S, Graph, running_graph
 
 from trundle.ros import GraphLoop, Messages
 

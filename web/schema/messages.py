@@ -3,8 +3,7 @@
 from collections.abc import Iterable, Mapping
 from typing import Any, TypeAlias, get_args
 
-from msgspec import NODEFAULT, Struct
-from msgspec import inspect as types
+from msgspec import NODEFAULT, Struct, inspect as types
 
 from trundle.page.bag.lanes import Lanes
 from trundle.page.clients.protocol import ClientOperation, SharedSelection

@@ -3,8 +3,7 @@
 import json
 from collections.abc import Iterable
 
-from msgspec import Struct
-from msgspec import inspect as types
+from msgspec import Struct, inspect as types
 
 from messages import CHANNELS, RECEIVED, REQUESTS, answers_to, is_optional
 from trundle.page.clients.server_messages import ServerOperation

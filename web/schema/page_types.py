@@ -7,8 +7,7 @@ import re
 import textwrap
 from itertools import pairwise
 
-from msgspec import Struct
-from msgspec import inspect as types
+from msgspec import Struct, inspect as types
 
 from messages import CHANNELS, RECEIVED, REQUESTS, SENT, UNIONS, answers_to, is_optional
 

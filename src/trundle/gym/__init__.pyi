@@ -1,20 +1,17 @@
-from .actions import EffortAction as EffortAction
-from .actions import PositionAction as PositionAction
-from .actions import VelocityAction as VelocityAction
-from .environments import make as make
-from .environments import make_vec as make_vec
+from .actions import EffortAction as EffortAction, PositionAction as PositionAction, VelocityAction as VelocityAction
+from .environments import make as make, make_vec as make_vec
 from .evaluation import score as score
-from .observations import Computed as Computed
-from .observations import JointPositions as JointPositions
-from .observations import JointVelocities as JointVelocities
-from .observations import LinkPose as LinkPose
-from .observations import LinkPosition as LinkPosition
-from .observations import LinkTwist as LinkTwist
+from .observations import (
+    Computed as Computed,
+    JointPositions as JointPositions,
+    JointVelocities as JointVelocities,
+    LinkPose as LinkPose,
+    LinkPosition as LinkPosition,
+    LinkTwist as LinkTwist,
+)
 from .policy import MlpPolicy as MlpPolicy
-from .ppo import Iteration as Iteration
-from .ppo import train as train
-from .sensor_observations import CameraPicture as CameraPicture
-from .sensor_observations import LidarRanges as LidarRanges
+from .ppo import Iteration as Iteration, train as train
+from .sensor_observations import CameraPicture as CameraPicture, LidarRanges as LidarRanges
 from .single_env import SimulationEnv as SimulationEnv
 from .states import WorldStates as WorldStates
 from .twist_action import TwistAction as TwistAction

@@ -3,83 +3,89 @@ from .http.client_files import REPLAY_FILES as REPLAY_FILES
 from .link_file import read_link_files as read_link_files
 from .page_server import PageServer as PageServer
 from .playback import Playback as Playback
-from .requests.draft import AddPart as AddPart
-from .requests.draft import BeginDraft as BeginDraft
-from .requests.draft import CopyPart as CopyPart
-from .requests.draft import DraftAction as DraftAction
-from .requests.draft import FinishDraft as FinishDraft
-from .requests.draft import LeaveDraft as LeaveDraft
-from .requests.draft import ListOffers as ListOffers
-from .requests.draft import Part as Part
-from .requests.draft import PlaceLink as PlaceLink
-from .requests.draft import RedoDraft as RedoDraft
-from .requests.draft import RemovePart as RemovePart
-from .requests.draft import SaveDraft as SaveDraft
-from .requests.draft import SetField as SetField
-from .requests.draft import UndoDraft as UndoDraft
-from .requests.draft import Value as Value
-from .requests.edits import ApplyWrench as ApplyWrench
-from .requests.edits import Carry as Carry
-from .requests.edits import EditAction as EditAction
-from .requests.edits import HoldModel as HoldModel
-from .requests.edits import LetGo as LetGo
-from .requests.edits import MoveJoint as MoveJoint
-from .requests.edits import PlaceJoint as PlaceJoint
-from .requests.edits import PlaceLight as PlaceLight
-from .requests.edits import Pull as Pull
-from .requests.edits import SetFriction as SetFriction
-from .requests.edits import SetLight as SetLight
-from .requests.edits import SetMass as SetMass
-from .requests.edits import SetPhysics as SetPhysics
-from .requests.edits import SetPose as SetPose
-from .requests.edits import SetTwist as SetTwist
-from .requests.request import MAX_STEPS as MAX_STEPS
-from .requests.request import MoveJoystick as MoveJoystick
-from .requests.request import MoveSlider as MoveSlider
-from .requests.request import PageAction as PageAction
-from .requests.request import Pause as Pause
-from .requests.request import Play as Play
-from .requests.request import Record as Record
-from .requests.request import Reload as Reload
-from .requests.request import RenderView as RenderView
-from .requests.request import Request as Request
-from .requests.request import Reset as Reset
-from .requests.request import RunTo as RunTo
-from .requests.request import SaveRviz as SaveRviz
-from .requests.request import Seek as Seek
-from .requests.request import SetSpeed as SetSpeed
-from .requests.request import Step as Step
-from .requests.world import CopyModel as CopyModel
-from .requests.world import DeleteLight as DeleteLight
-from .requests.world import DeleteModel as DeleteModel
-from .requests.world import InsertAction as InsertAction
-from .requests.world import InsertLight as InsertLight
-from .requests.world import InsertModel as InsertModel
-from .requests.world import ListModels as ListModels
-from .requests.world import ModelAction as ModelAction
-from .requests.world import RenderModel as RenderModel
-from .requests.world import ResetModel as ResetModel
-from .requests.world import RestoreLight as RestoreLight
-from .requests.world import RestoreModel as RestoreModel
-from .requests.world import SaveReplay as SaveReplay
-from .requests.world import SaveWorld as SaveWorld
-from .requests.world import UndoReset as UndoReset
-from .session import JointSlider as JointSlider
-from .session import NodeTerminal as NodeTerminal
-from .session import RvizFile as RvizFile
-from .session import Session as Session
-from .wire import BagFile as BagFile
-from .wire import GraphAddress as GraphAddress
-from .world.streams import CONTACTS as CONTACTS
-from .world.streams import JOINTS as JOINTS
-from .world.streams import LINES as LINES
-from .world.streams import PERFORMANCE as PERFORMANCE
-from .world.streams import POSES as POSES
-from .world.streams import RANGES as RANGES
-from .world.streams import SERIES as SERIES
-from .world.streams import STATE as STATE
-from .world.streams import TERMINAL as TERMINAL
-from .world.streams import ClockState as ClockState
-from .world.streams import Line as Line
-from .world.streams import Recording as Recording
-from .world.streams import TimelineSpan as TimelineSpan
+from .requests.draft import (
+    AddPart as AddPart,
+    BeginDraft as BeginDraft,
+    CopyPart as CopyPart,
+    DraftAction as DraftAction,
+    FinishDraft as FinishDraft,
+    LeaveDraft as LeaveDraft,
+    ListOffers as ListOffers,
+    Part as Part,
+    PlaceLink as PlaceLink,
+    RedoDraft as RedoDraft,
+    RemovePart as RemovePart,
+    SaveDraft as SaveDraft,
+    SetField as SetField,
+    UndoDraft as UndoDraft,
+    Value as Value,
+)
+from .requests.edits import (
+    ApplyWrench as ApplyWrench,
+    Carry as Carry,
+    EditAction as EditAction,
+    HoldModel as HoldModel,
+    LetGo as LetGo,
+    MoveJoint as MoveJoint,
+    PlaceJoint as PlaceJoint,
+    PlaceLight as PlaceLight,
+    Pull as Pull,
+    SetFriction as SetFriction,
+    SetLight as SetLight,
+    SetMass as SetMass,
+    SetPhysics as SetPhysics,
+    SetPose as SetPose,
+    SetTwist as SetTwist,
+)
+from .requests.request import (
+    MAX_STEPS as MAX_STEPS,
+    MoveJoystick as MoveJoystick,
+    MoveSlider as MoveSlider,
+    PageAction as PageAction,
+    Pause as Pause,
+    Play as Play,
+    Record as Record,
+    Reload as Reload,
+    RenderView as RenderView,
+    Request as Request,
+    Reset as Reset,
+    RunTo as RunTo,
+    SaveRviz as SaveRviz,
+    Seek as Seek,
+    SetSpeed as SetSpeed,
+    Step as Step,
+)
+from .requests.world import (
+    CopyModel as CopyModel,
+    DeleteLight as DeleteLight,
+    DeleteModel as DeleteModel,
+    InsertAction as InsertAction,
+    InsertLight as InsertLight,
+    InsertModel as InsertModel,
+    ListModels as ListModels,
+    ModelAction as ModelAction,
+    RenderModel as RenderModel,
+    ResetModel as ResetModel,
+    RestoreLight as RestoreLight,
+    RestoreModel as RestoreModel,
+    SaveReplay as SaveReplay,
+    SaveWorld as SaveWorld,
+    UndoReset as UndoReset,
+)
+from .session import JointSlider as JointSlider, NodeTerminal as NodeTerminal, RvizFile as RvizFile, Session as Session
+from .wire import BagFile as BagFile, GraphAddress as GraphAddress
+from .world.streams import (
+    CONTACTS as CONTACTS,
+    JOINTS as JOINTS,
+    LINES as LINES,
+    PERFORMANCE as PERFORMANCE,
+    POSES as POSES,
+    RANGES as RANGES,
+    SERIES as SERIES,
+    STATE as STATE,
+    TERMINAL as TERMINAL,
+    ClockState as ClockState,
+    Line as Line,
+    Recording as Recording,
+    TimelineSpan as TimelineSpan,
+)

@@ -56,8 +56,7 @@ from .wire import (
     Uploaded,
     encode_json,
 )  # fmt: skip
-from .world.camera_channel import TYPE as IMAGE
-from .world.camera_channel import CameraChannel
+from .world.camera_channel import TYPE as IMAGE, CameraChannel
 from .world.channels import (
     BoxChannel,
     PosesChannel,

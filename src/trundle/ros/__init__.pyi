@@ -1,111 +1,110 @@
-from .bags import BagConnection as BagConnection
-from .bags import BagError as BagError
-from .bags import BagMessage as BagMessage
-from .bags import BagReader as BagReader
-from .bags import BagSummary as BagSummary
-from .bags import BagWriter as BagWriter
-from .bags import Player as Player
-from .bags import PlayerOptions as PlayerOptions
-from .bags import Recorder as Recorder
-from .bags import RecorderOptions as RecorderOptions
-from .bags import StepRecorder as StepRecorder
-from .bags import UnindexedBagError as UnindexedBagError
-from .bags import byte_text as byte_text
-from .bags import create_bag as create_bag
-from .bags import median_rates as median_rates
-from .bags import open_bag as open_bag
-from .bags import recover_messages as recover_messages
-from .bags import replaced_bag as replaced_bag
-from .clients.action_server import ActionOutcome as ActionOutcome
-from .clients.action_server import ActionServer as ActionServer
-from .clients.reconfigure_client import find_reconfigurable as find_reconfigurable
-from .clients.reconfigure_client import read_options as read_options
-from .clients.reconfigure_client import set_options as set_options
-from .clients.reconfigure_server import Option as Option
-from .clients.reconfigure_server import Options as Options
-from .clients.reconfigure_server import OptionValue as OptionValue
-from .clients.reconfigure_server import ReconfigureServer as ReconfigureServer
+from .bags import (
+    BagConnection as BagConnection,
+    BagError as BagError,
+    BagMessage as BagMessage,
+    BagReader as BagReader,
+    BagSummary as BagSummary,
+    BagWriter as BagWriter,
+    Player as Player,
+    PlayerOptions as PlayerOptions,
+    Recorder as Recorder,
+    RecorderOptions as RecorderOptions,
+    StepRecorder as StepRecorder,
+    UnindexedBagError as UnindexedBagError,
+    byte_text as byte_text,
+    create_bag as create_bag,
+    median_rates as median_rates,
+    open_bag as open_bag,
+    recover_messages as recover_messages,
+    replaced_bag as replaced_bag,
+)
+from .clients.action_server import ActionOutcome as ActionOutcome, ActionServer as ActionServer
+from .clients.reconfigure_client import (
+    find_reconfigurable as find_reconfigurable,
+    read_options as read_options,
+    set_options as set_options,
+)
+from .clients.reconfigure_server import (
+    Option as Option,
+    Options as Options,
+    OptionValue as OptionValue,
+    ReconfigureServer as ReconfigureServer,
+)
 from .clients.tf_buffer import TransformBuffer as TransformBuffer
-from .clients.tf_nodes import StaticTransformBroadcaster as StaticTransformBroadcaster
-from .clients.tf_nodes import TransformBroadcaster as TransformBroadcaster
-from .clients.tf_nodes import TransformListener as TransformListener
-from .clients.topic_meters import BandwidthMeter as BandwidthMeter
-from .clients.topic_meters import DelayMeter as DelayMeter
-from .clients.topic_meters import RateMeter as RateMeter
-from .clients.topic_series import TopicSeries as TopicSeries
-from .clients.topic_series import recent_curves as recent_curves
-from .clients.topic_series import spread_fields as spread_fields
-from .clients.topic_series import subscribe_series as subscribe_series
+from .clients.tf_nodes import (
+    StaticTransformBroadcaster as StaticTransformBroadcaster,
+    TransformBroadcaster as TransformBroadcaster,
+    TransformListener as TransformListener,
+)
+from .clients.topic_meters import BandwidthMeter as BandwidthMeter, DelayMeter as DelayMeter, RateMeter as RateMeter
+from .clients.topic_series import (
+    TopicSeries as TopicSeries,
+    recent_curves as recent_curves,
+    spread_fields as spread_fields,
+    subscribe_series as subscribe_series,
+)
 from .clients.transform_history import Transform as Transform
 from .clients.transform_tree import check_frame_name as check_frame_name
 from .core.core import Core as Core
-from .core.logs import PYTHON_LOG_BACKUPS as PYTHON_LOG_BACKUPS
-from .core.logs import PYTHON_LOG_BYTES as PYTHON_LOG_BYTES
-from .core.logs import python_log_line as python_log_line
-from .distro import DISTROS as DISTROS
-from .distro import NOETIC as NOETIC
-from .distro import Distro as Distro
-from .errors import ConnectivityError as ConnectivityError
-from .errors import ExtrapolationError as ExtrapolationError
-from .errors import FrameNameError as FrameNameError
-from .errors import MasterError as MasterError
-from .errors import MasterUnreachableError as MasterUnreachableError
-from .errors import MessageError as MessageError
-from .errors import ParameterError as ParameterError
-from .errors import PortTakenError as PortTakenError
-from .errors import RosError as RosError
-from .errors import ServiceError as ServiceError
-from .errors import TransformError as TransformError
-from .log import LEVELS as LEVELS
-from .log import coloured as coloured
+from .core.logs import (
+    PYTHON_LOG_BACKUPS as PYTHON_LOG_BACKUPS,
+    PYTHON_LOG_BYTES as PYTHON_LOG_BYTES,
+    python_log_line as python_log_line,
+)
+from .distro import DISTROS as DISTROS, NOETIC as NOETIC, Distro as Distro
+from .errors import (
+    ConnectivityError as ConnectivityError,
+    ExtrapolationError as ExtrapolationError,
+    FrameNameError as FrameNameError,
+    MasterError as MasterError,
+    MasterUnreachableError as MasterUnreachableError,
+    MessageError as MessageError,
+    ParameterError as ParameterError,
+    PortTakenError as PortTakenError,
+    RosError as RosError,
+    ServiceError as ServiceError,
+    TransformError as TransformError,
+)
+from .log import LEVELS as LEVELS, coloured as coloured
 from .log_file import LogFile as LogFile
 from .master.master import Master as Master
-from .master.parameters import ParameterTree as ParameterTree
-from .master.parameters import set_leaves as set_leaves
-from .messages.field_paths import TopicField as TopicField
-from .messages.field_paths import field_type as field_type
-from .messages.field_paths import split_topic as split_topic
-from .messages.field_paths import value_at as value_at
+from .master.parameters import ParameterTree as ParameterTree, set_leaves as set_leaves
+from .messages.field_paths import (
+    TopicField as TopicField,
+    field_type as field_type,
+    split_topic as split_topic,
+    value_at as value_at,
+)
 from .messages.genpy_view import MessageView as MessageView
 from .messages.messages import Messages as Messages
-from .messages.printing import MessagePrinter as MessagePrinter
-from .messages.printing import field_value as field_value
-from .messages.raw_message import Message as Message
-from .messages.raw_message import RawMessage as RawMessage
-from .messages.raw_message import ServiceType as ServiceType
-from .migration import GeneratedRule as GeneratedRule
-from .migration import MessageClass as MessageClass
-from .migration import MessageClasses as MessageClasses
-from .migration import MigrationError as MigrationError
-from .migration import MigrationStep as MigrationStep
-from .migration import Migrator as Migrator
-from .migration import PlaceholderRule as PlaceholderRule
-from .migration import Rule as Rule
-from .migration import RuleFile as RuleFile
-from .migration import missing_rules as missing_rules
+from .messages.printing import MessagePrinter as MessagePrinter, field_value as field_value
+from .messages.raw_message import Message as Message, RawMessage as RawMessage, ServiceType as ServiceType
+from .migration import (
+    GeneratedRule as GeneratedRule,
+    MessageClass as MessageClass,
+    MessageClasses as MessageClasses,
+    MigrationError as MigrationError,
+    MigrationStep as MigrationStep,
+    Migrator as Migrator,
+    PlaceholderRule as PlaceholderRule,
+    Rule as Rule,
+    RuleFile as RuleFile,
+    missing_rules as missing_rules,
+)
 from .node.callback_dispatch import Deliver as Deliver
-from .node.clock import Clock as Clock
-from .node.clock import SimClock as SimClock
-from .node.clock import WallClock as WallClock
-from .node.clock import to_nsec as to_nsec
+from .node.clock import Clock as Clock, SimClock as SimClock, WallClock as WallClock, to_nsec as to_nsec
 from .node.endpoint_recorder import Endpoint as Endpoint
 from .node.loggers import Loggers as Loggers
 from .node.loop import GraphLoop as GraphLoop
 from .node.node import Node as Node
-from .node.pending_work import PendingWork as PendingWork
-from .node.pending_work import WorkItem as WorkItem
+from .node.pending_work import PendingWork as PendingWork, WorkItem as WorkItem
 from .node.publisher import Publisher as Publisher
 from .node.publisher_probe import probe_publisher as probe_publisher
 from .node.service import Service as Service
-from .node.service_client import call_service_bytes as call_service_bytes
-from .node.service_client import probe_service as probe_service
+from .node.service_client import call_service_bytes as call_service_bytes, probe_service as probe_service
 from .node.subscription import Subscription as Subscription
 from .node.use_sim_time import follow_time as follow_time
-from .transport.network import master_uri_from_env as master_uri_from_env
-from .transport.network import server_address as server_address
-from .xmlrpc.http import host_and_port as host_and_port
-from .xmlrpc.http import uri_host as uri_host
-from .xmlrpc.proxy import MasterProxy as MasterProxy
-from .xmlrpc.proxy import blocking_call as blocking_call
-from .xmlrpc.rpc_server import RpcServer as RpcServer
-from .xmlrpc.rpc_server import UnknownMethodError as UnknownMethodError
+from .transport.network import master_uri_from_env as master_uri_from_env, server_address as server_address
+from .xmlrpc.http import host_and_port as host_and_port, uri_host as uri_host
+from .xmlrpc.proxy import MasterProxy as MasterProxy, blocking_call as blocking_call
+from .xmlrpc.rpc_server import RpcServer as RpcServer, UnknownMethodError as UnknownMethodError

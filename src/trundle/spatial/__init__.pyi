@@ -1,35 +1,41 @@
-from .arrays import compose_rows as compose_rows
-from .arrays import conjugate_rows as conjugate_rows
-from .arrays import finite_rows as finite_rows
-from .arrays import invert_rows as invert_rows
-from .arrays import matrix_from_quaternion as matrix_from_quaternion
-from .arrays import multiply_rows as multiply_rows
-from .arrays import pose_from_row as pose_from_row
-from .arrays import quaternion_from_matrix as quaternion_from_matrix
-from .arrays import quaternions_from_matrices as quaternions_from_matrices
-from .arrays import rotate_rows as rotate_rows
-from .arrays import rotate_vectors as rotate_vectors
-from .arrays import rows_from_poses as rows_from_poses
-from .arrays import transform_points as transform_points
+from .arrays import (
+    compose_rows as compose_rows,
+    conjugate_rows as conjugate_rows,
+    finite_rows as finite_rows,
+    invert_rows as invert_rows,
+    matrix_from_quaternion as matrix_from_quaternion,
+    multiply_rows as multiply_rows,
+    pose_from_row as pose_from_row,
+    quaternion_from_matrix as quaternion_from_matrix,
+    quaternions_from_matrices as quaternions_from_matrices,
+    rotate_rows as rotate_rows,
+    rotate_vectors as rotate_vectors,
+    rows_from_poses as rows_from_poses,
+    transform_points as transform_points,
+)
 from .pose import Pose as Pose
-from .quaternions import IDENTITY_QUATERNION as IDENTITY_QUATERNION
-from .quaternions import Quaternion as Quaternion
-from .quaternions import conjugate as conjugate
-from .quaternions import quaternion_from_axis_angle as quaternion_from_axis_angle
-from .quaternions import quaternion_from_rpy as quaternion_from_rpy
-from .quaternions import quaternion_product as quaternion_product
-from .quaternions import rotate as rotate
-from .quaternions import rotation_from_z as rotation_from_z
-from .quaternions import rpy_from_quaternion as rpy_from_quaternion
-from .quaternions import slerp as slerp
+from .quaternions import (
+    IDENTITY_QUATERNION as IDENTITY_QUATERNION,
+    Quaternion as Quaternion,
+    conjugate as conjugate,
+    quaternion_from_axis_angle as quaternion_from_axis_angle,
+    quaternion_from_rpy as quaternion_from_rpy,
+    quaternion_product as quaternion_product,
+    rotate as rotate,
+    rotation_from_z as rotation_from_z,
+    rpy_from_quaternion as rpy_from_quaternion,
+    slerp as slerp,
+)
 from .twist import Twist as Twist
 from .units import NS_PER_S as NS_PER_S
-from .vectors import ZERO as ZERO
-from .vectors import Vector3 as Vector3
-from .vectors import add as add
-from .vectors import cross as cross
-from .vectors import dot as dot
-from .vectors import multiply as multiply
-from .vectors import normalized as normalized
-from .vectors import subtract as subtract
+from .vectors import (
+    ZERO as ZERO,
+    Vector3 as Vector3,
+    add as add,
+    cross as cross,
+    dot as dot,
+    multiply as multiply,
+    normalized as normalized,
+    subtract as subtract,
+)
 from .wrench import Wrench as Wrench

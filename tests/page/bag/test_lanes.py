@@ -4,9 +4,15 @@ import json
 from pathlib import Path
 
 import pytest
-from tests.page.bag.test_source import START, TEXT, S, connection, text
-from tests.page.bag.test_source import bag as bag  # both formats
-from tests.page.bag.test_source import client as client
+from tests.page.bag.test_source import (
+    START,
+    TEXT,
+    S,
+    bag as bag,  # both formats
+    client as client,
+    connection,
+    text,
+)
 from tests.page_client import ProtocolClient
 
 from trundle.page.bag.lanes import Lane, read_lanes

@@ -1,14 +1,6 @@
-from .job import Job as Job
-from .job import JobError as JobError
-from .job import RespawnPolicy as RespawnPolicy
-from .job import StopTimeouts as StopTimeouts
-from .process import ProcessCommand as ProcessCommand
-from .process import ProcessJob as ProcessJob
+from .job import Job as Job, JobError as JobError, RespawnPolicy as RespawnPolicy, StopTimeouts as StopTimeouts
+from .process import ProcessCommand as ProcessCommand, ProcessJob as ProcessJob
 from .process_tree import ProcessTree as ProcessTree
-from .supervisor import Event as Event
-from .supervisor import EventKind as EventKind
-from .supervisor import Supervisor as Supervisor
+from .supervisor import Event as Event, EventKind as EventKind, Supervisor as Supervisor
 from .task import TaskJob as TaskJob
-from .terminal import HAS_PSEUDO_TERMINALS as HAS_PSEUDO_TERMINALS
-from .terminal import MAX_SIZE as MAX_SIZE
-from .terminal import Terminal as Terminal
+from .terminal import HAS_PSEUDO_TERMINALS as HAS_PSEUDO_TERMINALS, MAX_SIZE as MAX_SIZE, Terminal as Terminal

@@ -1,24 +1,32 @@
-from .catalog import BUILTIN_NODES as BUILTIN_NODES
-from .catalog import CLIENTS as CLIENTS
-from .catalog import KEYBOARDS as KEYBOARDS
-from .catalog import ROSCPP as ROSCPP
-from .catalog import WINDOWS as WINDOWS
-from .catalog import WORLDS as WORLDS
-from .find import BuiltinReplacement as BuiltinReplacement
-from .find import Executable as Executable
-from .find import MissingNode as MissingNode
-from .find import find_node as find_node
-from .find import program_names as program_names
-from .find import same_named_programs as same_named_programs
-from .host import BuiltinNode as BuiltinNode
-from .host import Display as Display
-from .host import NodeHost as NodeHost
-from .host import Simulator as Simulator
-from .host import Slider as Slider
+from .catalog import (
+    BUILTIN_NODES as BUILTIN_NODES,
+    CLIENTS as CLIENTS,
+    KEYBOARDS as KEYBOARDS,
+    ROSCPP as ROSCPP,
+    WINDOWS as WINDOWS,
+    WORLDS as WORLDS,
+)
+from .find import (
+    BuiltinReplacement as BuiltinReplacement,
+    Executable as Executable,
+    MissingNode as MissingNode,
+    find_node as find_node,
+    program_names as program_names,
+    same_named_programs as same_named_programs,
+)
+from .host import (
+    BuiltinNode as BuiltinNode,
+    Display as Display,
+    NodeHost as NodeHost,
+    Simulator as Simulator,
+    Slider as Slider,
+)
 from .node_names import default_name as default_name
-from .python_interpreter import lacks_rospy as lacks_rospy
-from .python_interpreter import missing_ros_module as missing_ros_module
-from .python_interpreter import missing_rospy_advice as missing_rospy_advice
-from .python_interpreter import script_fault as script_fault
-from .python_interpreter import start_words as start_words
+from .python_interpreter import (
+    lacks_rospy as lacks_rospy,
+    missing_ros_module as missing_ros_module,
+    missing_rospy_advice as missing_rospy_advice,
+    script_fault as script_fault,
+    start_words as start_words,
+)
 from .run import run_builtin_node as run_builtin_node

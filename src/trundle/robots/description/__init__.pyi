@@ -3,19 +3,14 @@ from .builder.link import Link as Link
 from .builder.model import Model as Model
 from .builder.world import World as World
 from .loaded import LoadedDescription as LoadedDescription
-from .read import load as load
-from .read import load_text as load_text
-from .read import load_urdf as load_urdf
-from .saving.model_document import copy_model as copy_model
-from .saving.model_document import move_uris as move_uris
-from .saving.save import SavedWorld as SavedWorld
-from .saving.save import save_world as save_world
-from .sdf import GAZEBO_MATERIALS as GAZEBO_MATERIALS
-from .sdf import enclosed_volume as enclosed_volume
-from .sdf import read_extra_joint as read_extra_joint
-from .sdf import uniform_inertial as uniform_inertial
-from .writing import UriOf as UriOf
-from .writing import write_sdf as write_sdf
-from .writing import write_urdf as write_urdf
-from .writing import written_uri as written_uri
+from .read import load as load, load_text as load_text, load_urdf as load_urdf
+from .saving.model_document import copy_model as copy_model, move_uris as move_uris
+from .saving.save import SavedWorld as SavedWorld, save_world as save_world
+from .sdf import (
+    GAZEBO_MATERIALS as GAZEBO_MATERIALS,
+    enclosed_volume as enclosed_volume,
+    read_extra_joint as read_extra_joint,
+    uniform_inertial as uniform_inertial,
+)
+from .writing import UriOf as UriOf, write_sdf as write_sdf, write_urdf as write_urdf, written_uri as written_uri
 from .xacro.expand import expand_xacro as expand_xacro

@@ -1,17 +1,15 @@
-from .commands import CommandRunner as CommandRunner
-from .commands import XacroExpander as XacroExpander
-from .commands import resolve_params as resolve_params
+from .commands import CommandRunner as CommandRunner, XacroExpander as XacroExpander, resolve_params as resolve_params
 from .packages import PackageFinder as PackageFinder
-from .plan import LaunchArgument as LaunchArgument
-from .plan import LaunchNode as LaunchNode
-from .plan import LaunchParam as LaunchParam
-from .plan import LaunchPlan as LaunchPlan
-from .plan import LaunchTest as LaunchTest
-from .plan import ParamCommand as ParamCommand
-from .plan import ParamStep as ParamStep
-from .plan import ParamType as ParamType
-from .plan import ParamValue as ParamValue
-from .reader import read_arguments as read_arguments
-from .reader import read_launch as read_launch
-from .reader import read_launch_text as read_launch_text
+from .plan import (
+    LaunchArgument as LaunchArgument,
+    LaunchNode as LaunchNode,
+    LaunchParam as LaunchParam,
+    LaunchPlan as LaunchPlan,
+    LaunchTest as LaunchTest,
+    ParamCommand as ParamCommand,
+    ParamStep as ParamStep,
+    ParamType as ParamType,
+    ParamValue as ParamValue,
+)
+from .reader import read_arguments as read_arguments, read_launch as read_launch, read_launch_text as read_launch_text
 from .values import convert_value as convert_value

@@ -9,8 +9,7 @@ from typing import Any
 import yaml
 
 from trundle.base.expressions import MATH_NAMES, Interpreter
-from trundle.base.yaml_loader import BoundedLoader, one_line
-from trundle.base.yaml_loader import load_yaml as load_plain_yaml
+from trundle.base.yaml_loader import BoundedLoader, load_yaml as load_plain_yaml, one_line
 
 from .plan import ParamType, ParamValue
 

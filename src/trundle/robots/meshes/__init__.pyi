@@ -1,29 +1,19 @@
-from .cache import cache_folder as cache_folder
-from .cache import load_parts as load_parts
-from .cache import save_parts as save_parts
+from .cache import cache_folder as cache_folder, load_parts as load_parts, save_parts as save_parts
 from .heightmap_image import read_heights as read_heights
-from .load import check_vertices as check_vertices
-from .load import load_mesh as load_mesh
-from .mesh import Mesh as Mesh
-from .mesh import MeshError as MeshError
-from .mesh import MeshPart as MeshPart
-from .mesh import Texture as Texture
+from .load import check_vertices as check_vertices, load_mesh as load_mesh
+from .mesh import Mesh as Mesh, MeshError as MeshError, MeshPart as MeshPart, Texture as Texture
 from .raw import RawPart as RawPart
 from .references import referenced_files as referenced_files
 from .road_strip import strip_mesh as strip_mesh
 from .rows import unique_rows as unique_rows
-from .skeleton import Motion as Motion
-from .skeleton import Skin as Skin
-from .skeleton import match_bones as match_bones
-from .skeleton import root_of as root_of
-from .skins import load_motion as load_motion
-from .skins import load_skin as load_skin
-from .solid_meshes import cone_mesh as cone_mesh
-from .solid_meshes import prism_mesh as prism_mesh
-from .solid_meshes import terrain_mesh as terrain_mesh
-from .texture import ignored_decoder_warnings as ignored_decoder_warnings
-from .texture import image_file as image_file
-from .texture import mean_colour as mean_colour
-from .texture import png_of as png_of
-from .texture import why_undecoded as why_undecoded
+from .skeleton import Motion as Motion, Skin as Skin, match_bones as match_bones, root_of as root_of
+from .skins import load_motion as load_motion, load_skin as load_skin
+from .solid_meshes import cone_mesh as cone_mesh, prism_mesh as prism_mesh, terrain_mesh as terrain_mesh
+from .texture import (
+    ignored_decoder_warnings as ignored_decoder_warnings,
+    image_file as image_file,
+    mean_colour as mean_colour,
+    png_of as png_of,
+    why_undecoded as why_undecoded,
+)
 from .triangulation import triangulate as triangulate

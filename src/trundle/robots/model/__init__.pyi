@@ -1,73 +1,78 @@
-from .actor import Actor as Actor
-from .actor import Animation as Animation
-from .actor import AnimationState as AnimationState
-from .actor import Skin as Skin
-from .actor import Trajectory as Trajectory
-from .actor import Waypoint as Waypoint
-from .camera import CameraOptics as CameraOptics
-from .camera import Distortion as Distortion
-from .camera import Lens as Lens
-from .camera import PixelIntrinsics as PixelIntrinsics
-from .camera import Projection as Projection
-from .environment import Atmosphere as Atmosphere
-from .environment import Fog as Fog
-from .environment import PhysicsSettings as PhysicsSettings
-from .environment import SceneSettings as SceneSettings
-from .environment import SphericalCoordinates as SphericalCoordinates
+from .actor import (
+    Actor as Actor,
+    Animation as Animation,
+    AnimationState as AnimationState,
+    Skin as Skin,
+    Trajectory as Trajectory,
+    Waypoint as Waypoint,
+)
+from .camera import (
+    CameraOptics as CameraOptics,
+    Distortion as Distortion,
+    Lens as Lens,
+    PixelIntrinsics as PixelIntrinsics,
+    Projection as Projection,
+)
+from .environment import (
+    Atmosphere as Atmosphere,
+    Fog as Fog,
+    PhysicsSettings as PhysicsSettings,
+    SceneSettings as SceneSettings,
+    SphericalCoordinates as SphericalCoordinates,
+)
 from .flatten import flattened as flattened
-from .geometry import Box as Box
-from .geometry import Capsule as Capsule
-from .geometry import Cone as Cone
-from .geometry import Cylinder as Cylinder
-from .geometry import Ellipsoid as Ellipsoid
-from .geometry import Empty as Empty
-from .geometry import Geometry as Geometry
-from .geometry import Heightmap as Heightmap
-from .geometry import MeshFile as MeshFile
-from .geometry import Plane as Plane
-from .geometry import Polyline as Polyline
-from .geometry import Solid as Solid
-from .geometry import Sphere as Sphere
-from .geometry import TerrainLayer as TerrainLayer
+from .geometry import (
+    Box as Box,
+    Capsule as Capsule,
+    Cone as Cone,
+    Cylinder as Cylinder,
+    Ellipsoid as Ellipsoid,
+    Empty as Empty,
+    Geometry as Geometry,
+    Heightmap as Heightmap,
+    MeshFile as MeshFile,
+    Plane as Plane,
+    Polyline as Polyline,
+    Solid as Solid,
+    Sphere as Sphere,
+    TerrainLayer as TerrainLayer,
+)
 from .inertial import Inertial as Inertial
-from .instrument import AirPressure as AirPressure
-from .instrument import AirSpeed as AirSpeed
-from .instrument import Altimeter as Altimeter
-from .instrument import Instrument as Instrument
-from .instrument import LogicalCamera as LogicalCamera
-from .instrument import Magnetometer as Magnetometer
-from .instrument import Sonar as Sonar
-from .instrument import Transceiver as Transceiver
-from .joint import UNLIMITED as UNLIMITED
-from .joint import Joint as Joint
-from .joint import JointAxis as JointAxis
-from .joint import JointType as JointType
-from .joint import Mimic as Mimic
-from .kinematics import model_from_joint as model_from_joint
-from .kinematics import model_from_links as model_from_links
-from .light import Light as Light
-from .light import LightType as LightType
-from .link import Collision as Collision
-from .link import Link as Link
-from .link import Visual as Visual
-from .material import GREY as GREY
-from .material import Material as Material
-from .material import Rgba as Rgba
-from .measuring import ForceTorque as ForceTorque
-from .measuring import GpsNoise as GpsNoise
-from .measuring import ImuNoise as ImuNoise
-from .measuring import OrientationReference as OrientationReference
-from .measuring import RangeScan as RangeScan
-from .measuring import ScanAxis as ScanAxis
-from .model import Frame as Frame
-from .model import Model as Model
+from .instrument import (
+    AirPressure as AirPressure,
+    AirSpeed as AirSpeed,
+    Altimeter as Altimeter,
+    Instrument as Instrument,
+    LogicalCamera as LogicalCamera,
+    Magnetometer as Magnetometer,
+    Sonar as Sonar,
+    Transceiver as Transceiver,
+)
+from .joint import (
+    UNLIMITED as UNLIMITED,
+    Joint as Joint,
+    JointAxis as JointAxis,
+    JointType as JointType,
+    Mimic as Mimic,
+)
+from .kinematics import model_from_joint as model_from_joint, model_from_links as model_from_links
+from .light import Light as Light, LightType as LightType
+from .link import Collision as Collision, Link as Link, Visual as Visual
+from .material import GREY as GREY, Material as Material, Rgba as Rgba
+from .measuring import (
+    ForceTorque as ForceTorque,
+    GpsNoise as GpsNoise,
+    ImuNoise as ImuNoise,
+    OrientationReference as OrientationReference,
+    RangeScan as RangeScan,
+    ScanAxis as ScanAxis,
+)
+from .model import Frame as Frame, Model as Model
 from .noise import Noise as Noise
 from .plugin import PluginTag as PluginTag
 from .road import Road as Road
-from .sensor import MEASURING as MEASURING
-from .sensor import Sensor as Sensor
+from .sensor import MEASURING as MEASURING, Sensor as Sensor
 from .surface import Surface as Surface
-from .texture_colours import TEXTURE_COLOURS as TEXTURE_COLOURS
-from .texture_colours import with_plain_colour as with_plain_colour
+from .texture_colours import TEXTURE_COLOURS as TEXTURE_COLOURS, with_plain_colour as with_plain_colour
 from .visibility import EVERY_BIT as EVERY_BIT
 from .world import World as World

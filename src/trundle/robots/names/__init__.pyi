@@ -1,11 +1,10 @@
-from .arguments import Arguments as Arguments
-from .arguments import parse_arguments as parse_arguments
-from .make import anonymous_name as anonymous_name
-from .make import ros_name as ros_name
-from .make import ros_names as ros_names
-from .resolve import canonical_name as canonical_name
-from .resolve import is_legal_base_name as is_legal_base_name
-from .resolve import is_legal_name as is_legal_name
-from .resolve import join_names as join_names
-from .resolve import parent_namespace as parent_namespace
-from .resolve import resolve_name as resolve_name
+from .arguments import Arguments as Arguments, parse_arguments as parse_arguments
+from .make import anonymous_name as anonymous_name, ros_name as ros_name, ros_names as ros_names
+from .resolve import (
+    canonical_name as canonical_name,
+    is_legal_base_name as is_legal_base_name,
+    is_legal_name as is_legal_name,
+    join_names as join_names,
+    parent_namespace as parent_namespace,
+    resolve_name as resolve_name,
+)

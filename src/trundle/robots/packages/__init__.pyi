@@ -1,26 +1,20 @@
-from .cmake import CMakeProgram as CMakeProgram
-from .cmake import cmake_libraries as cmake_libraries
-from .cmake import cmake_message_folders as cmake_message_folders
-from .cmake import cmake_programs as cmake_programs
-from .cmake import cmake_requirements as cmake_requirements
+from .cmake import (
+    CMakeProgram as CMakeProgram,
+    cmake_libraries as cmake_libraries,
+    cmake_message_folders as cmake_message_folders,
+    cmake_programs as cmake_programs,
+    cmake_requirements as cmake_requirements,
+)
 from .compiled_program import compiled_fault as compiled_fault
 from .configured_files import write_configured_files as write_configured_files
-from .container import package_in_container as package_in_container
-from .container import source_in_container as source_in_container
+from .container import package_in_container as package_in_container, source_in_container as source_in_container
 from .crawl import MANIFESTS as MANIFESTS
-from .dependencies import build_dependencies as build_dependencies
-from .dependencies import run_dependencies as run_dependencies
+from .dependencies import build_dependencies as build_dependencies, run_dependencies as run_dependencies
 from .gazebo_paths import is_stand_in as is_stand_in
-from .model_config import model_file as model_file
-from .model_config import refuse_template as refuse_template
-from .packages import ALLOW_OUTSIDE as ALLOW_OUTSIDE
-from .packages import HELD as HELD
-from .packages import LENIENT as LENIENT
-from .packages import Packages as Packages
-from .ros2 import refuse_ros2 as refuse_ros2
-from .ros2 import refuse_ros2_language as refuse_ros2_language
+from .model_config import model_file as model_file, refuse_template as refuse_template
+from .packages import ALLOW_OUTSIDE as ALLOW_OUTSIDE, HELD as HELD, LENIENT as LENIENT, Packages as Packages
+from .ros2 import refuse_ros2 as refuse_ros2, refuse_ros2_language as refuse_ros2_language
 from .ros_packages import fetched_folder as fetched_folder
 from .rule_exports import exported_rules as exported_rules
-from .stock import STOCK as STOCK
-from .stock import STOCK_WITH_FILES as STOCK_WITH_FILES
+from .stock import STOCK as STOCK, STOCK_WITH_FILES as STOCK_WITH_FILES
 from .workspace import program_folders as program_folders

@@ -1,16 +1,17 @@
 from .address import https_address as https_address
-from .distribution import Listed as Listed
-from .distribution import read_distribution as read_distribution
-from .distribution import read_repository_list as read_repository_list
-from .distribution import write_rosinstall as write_rosinstall
-from .entry import ROSDISTROS as ROSDISTROS
-from .entry import Entry as Entry
-from .entry import nearest_distros as nearest_distros
-from .index import Checkout as Checkout
-from .index import Index as Index
-from .index import repository_hint as repository_hint
-from .index import shipped_index as shipped_index
+from .distribution import (
+    Listed as Listed,
+    read_distribution as read_distribution,
+    read_repository_list as read_repository_list,
+    write_rosinstall as write_rosinstall,
+)
+from .entry import ROSDISTROS as ROSDISTROS, Entry as Entry, nearest_distros as nearest_distros
+from .index import (
+    Checkout as Checkout,
+    Index as Index,
+    repository_hint as repository_hint,
+    shipped_index as shipped_index,
+)
 from .index_file import read_index as read_index
 from .python_names import python_library as python_library
-from .table import read_table as read_table
-from .table import write_table as write_table
+from .table import read_table as read_table, write_table as write_table

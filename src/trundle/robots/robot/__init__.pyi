@@ -1,16 +1,17 @@
-from .kinematics import parent_from_child as parent_from_child
-from .kinematics import root_from_links as root_from_links
+from .kinematics import parent_from_child as parent_from_child, root_from_links as root_from_links
 from .read import read_robot as read_robot
-from .robot import JointLimit as JointLimit
-from .robot import Robot as Robot
-from .robot import RobotBox as RobotBox
-from .robot import RobotCylinder as RobotCylinder
-from .robot import RobotGeometry as RobotGeometry
-from .robot import RobotInertial as RobotInertial
-from .robot import RobotJoint as RobotJoint
-from .robot import RobotJointType as RobotJointType
-from .robot import RobotLink as RobotLink
-from .robot import RobotMesh as RobotMesh
-from .robot import RobotMimic as RobotMimic
-from .robot import RobotShape as RobotShape
-from .robot import RobotSphere as RobotSphere
+from .robot import (
+    JointLimit as JointLimit,
+    Robot as Robot,
+    RobotBox as RobotBox,
+    RobotCylinder as RobotCylinder,
+    RobotGeometry as RobotGeometry,
+    RobotInertial as RobotInertial,
+    RobotJoint as RobotJoint,
+    RobotJointType as RobotJointType,
+    RobotLink as RobotLink,
+    RobotMesh as RobotMesh,
+    RobotMimic as RobotMimic,
+    RobotShape as RobotShape,
+    RobotSphere as RobotSphere,
+)

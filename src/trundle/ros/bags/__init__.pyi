@@ -1,19 +1,19 @@
-from .bag import BagConnection as BagConnection
-from .bag import BagError as BagError
-from .bag import BagMessage as BagMessage
-from .bag import BagReader as BagReader
-from .bag import BagWriter as BagWriter
-from .bag import Chunk as Chunk
-from .bag import UnindexedBagError as UnindexedBagError
-from .files import create_bag as create_bag
-from .files import open_bag as open_bag
-from .files import recover_messages as recover_messages
-from .files import replaced_bag as replaced_bag
-from .play import Player as Player
-from .play import PlayerOptions as PlayerOptions
-from .record import Recorder as Recorder
-from .record import RecorderOptions as RecorderOptions
+from .bag import (
+    BagConnection as BagConnection,
+    BagError as BagError,
+    BagMessage as BagMessage,
+    BagReader as BagReader,
+    BagWriter as BagWriter,
+    Chunk as Chunk,
+    UnindexedBagError as UnindexedBagError,
+)
+from .files import (
+    create_bag as create_bag,
+    open_bag as open_bag,
+    recover_messages as recover_messages,
+    replaced_bag as replaced_bag,
+)
+from .play import Player as Player, PlayerOptions as PlayerOptions
+from .record import Recorder as Recorder, RecorderOptions as RecorderOptions
 from .step_recorder import StepRecorder as StepRecorder
-from .summary import BagSummary as BagSummary
-from .summary import byte_text as byte_text
-from .summary import median_rates as median_rates
+from .summary import BagSummary as BagSummary, byte_text as byte_text, median_rates as median_rates

@@ -1,11 +1,9 @@
 from .apt import debian_packages as debian_packages
-from .build_report import CppTarget as CppTarget
-from .build_report import PackageBuild as PackageBuild
-from .build_report import report_package as report_package
+from .build_report import CppTarget as CppTarget, PackageBuild as PackageBuild, report_package as report_package
 from .devel_space import write_devel_space as write_devel_space
-from .new_package import NewPackage as NewPackage
-from .new_package import create_package as create_package
-from .new_package import package_warnings as package_warnings
-from .workspace import Workspace as Workspace
-from .workspace import init_workspace as init_workspace
-from .workspace import open_workspace as open_workspace
+from .new_package import (
+    NewPackage as NewPackage,
+    create_package as create_package,
+    package_warnings as package_warnings,
+)
+from .workspace import Workspace as Workspace, init_workspace as init_workspace, open_workspace as open_workspace

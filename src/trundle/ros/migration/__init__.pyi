@@ -1,11 +1,5 @@
-from .classes import MessageClass as MessageClass
-from .classes import MessageClasses as MessageClasses
-from .generated import GeneratedRule as GeneratedRule
-from .generated import PlaceholderRule as PlaceholderRule
-from .migrator import MigrationStep as MigrationStep
-from .migrator import Migrator as Migrator
-from .migrator import missing_rules as missing_rules
-from .rule import MessageUpdateRule as MessageUpdateRule
-from .rule import MigrationError as MigrationError
-from .rule import Rule as Rule
+from .classes import MessageClass as MessageClass, MessageClasses as MessageClasses
+from .generated import GeneratedRule as GeneratedRule, PlaceholderRule as PlaceholderRule
+from .migrator import MigrationStep as MigrationStep, Migrator as Migrator, missing_rules as missing_rules
+from .rule import MessageUpdateRule as MessageUpdateRule, MigrationError as MigrationError, Rule as Rule
 from .rule_files import RuleFile as RuleFile

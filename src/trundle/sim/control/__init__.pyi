@@ -1,20 +1,17 @@
-from ._servo import DiffDriveLaw as DiffDriveLaw
-from ._servo import GripperLaw as GripperLaw
-from ._servo import MimicAction as MimicAction
-from ._servo import PidLoop as PidLoop
-from ._servo import Servo as Servo
-from ._servo import ServoJoint as ServoJoint
-from ._servo import ServoLaw as ServoLaw
-from ._servo import ToolboxPid as ToolboxPid
-from ._servo import TrajectoryLaw as TrajectoryLaw
-from .drive import DifferentialDrive as DifferentialDrive
-from .drive import WheelOdometry as WheelOdometry
-from .drive import step_towards as step_towards
-from .four_wheel import FourWheelSteering as FourWheelSteering
-from .four_wheel import Wheels as Wheels
-from .four_wheel import axle_angle as axle_angle
+from ._servo import (
+    DiffDriveLaw as DiffDriveLaw,
+    GripperLaw as GripperLaw,
+    MimicAction as MimicAction,
+    PidLoop as PidLoop,
+    Servo as Servo,
+    ServoJoint as ServoJoint,
+    ServoLaw as ServoLaw,
+    ToolboxPid as ToolboxPid,
+    TrajectoryLaw as TrajectoryLaw,
+)
+from .drive import DifferentialDrive as DifferentialDrive, WheelOdometry as WheelOdometry, step_towards as step_towards
+from .four_wheel import FourWheelSteering as FourWheelSteering, Wheels as Wheels, axle_angle as axle_angle
 from .mecanum import MecanumDrive as MecanumDrive
 from .pid import Pid as Pid
 from .speed_limit import SpeedLimit as SpeedLimit
-from .spline import JointSegment as JointSegment
-from .spline import JointState as JointState
+from .spline import JointSegment as JointSegment, JointState as JointState

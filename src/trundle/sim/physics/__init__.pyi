@@ -5,30 +5,27 @@ from .compile.recompiler import Recompiler as Recompiler
 from .compile.wheels import report_wheels as report_wheels
 from .convex.background import BackgroundCutting as BackgroundCutting
 from .egl_renderer import EglRenderer as EglRenderer
-from .step.batch import Batch as Batch
-from .step.batch import WorldRow as WorldRow
-from .step.contact import Contact as Contact
-from .step.contact import Contacts as Contacts
+from .step.batch import Batch as Batch, WorldRow as WorldRow
+from .step.contact import Contact as Contact, Contacts as Contacts
 from .step.contact_recorder import ContactRecorder as ContactRecorder
-from .step.dynamics import Coordinates as Coordinates
-from .step.dynamics import JointState as JointState
-from .step.engine import Engine as Engine
-from .step.engine import EngineState as EngineState
-from .step.engine import SimulationUnstableError as SimulationUnstableError
+from .step.dynamics import Coordinates as Coordinates, JointState as JointState
+from .step.engine import (
+    Engine as Engine,
+    EngineState as EngineState,
+    SimulationUnstableError as SimulationUnstableError,
+)
 from .step.engine_snapshot import EngineSnapshot as EngineSnapshot
 from .step.instability import Divergence as Divergence
-from .step.motors import MotorAxis as MotorAxis
-from .step.motors import MotorCommand as MotorCommand
-from .step.step_timer import StepTimer as StepTimer
-from .step.step_timer import StepTimes as StepTimes
-from .step.stepper import EachStep as EachStep
-from .step.stepper import StepAction as StepAction
-from .step.surface_motion import LinkGrip as LinkGrip
-from .step.surface_motion import SurfaceMotion as SurfaceMotion
-from .step.surface_motion import TrackMotion as TrackMotion
-from .step.surface_motion import WheelGrip as WheelGrip
-from .step.warp.device import NoGpuError as NoGpuError
-from .step.warp.device import find_gpu as find_gpu
+from .step.motors import MotorAxis as MotorAxis, MotorCommand as MotorCommand
+from .step.step_timer import StepTimer as StepTimer, StepTimes as StepTimes
+from .step.stepper import EachStep as EachStep, StepAction as StepAction
+from .step.surface_motion import (
+    LinkGrip as LinkGrip,
+    SurfaceMotion as SurfaceMotion,
+    TrackMotion as TrackMotion,
+    WheelGrip as WheelGrip,
+)
+from .step.warp.device import NoGpuError as NoGpuError, find_gpu as find_gpu
 from .step.warp.gpu_states import StepOutcome as StepOutcome
 from .step.warp.gpu_worlds import GpuWorlds as GpuWorlds
 from .step.warp.limits import gpu_limits as gpu_limits

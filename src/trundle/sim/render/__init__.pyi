@@ -1,26 +1,29 @@
-from .actor_skins import skinned_actors as skinned_actors
-from .actor_skins import unsupported_reason as unsupported_reason
-from .actor_skins import update_skins as update_skins
-from .bounds import corners_of as corners_of
-from .bounds import outline_of as outline_of
+from .actor_skins import (
+    skinned_actors as skinned_actors,
+    unsupported_reason as unsupported_reason,
+    update_skins as update_skins,
+)
+from .bounds import corners_of as corners_of, outline_of as outline_of
 from .from_world import scene_from_world as scene_from_world
-from .named_textures import NAMED_TEXTURES as NAMED_TEXTURES
-from .named_textures import named_texture as named_texture
+from .named_textures import NAMED_TEXTURES as NAMED_TEXTURES, named_texture as named_texture
 from .native import NativeRenderer as NativeRenderer
-from .pixels import add_colour_noise as add_colour_noise
-from .pixels import add_depth_noise as add_depth_noise
-from .pixels import clip_depths as clip_depths
-from .pixels import coloured_points as coloured_points
-from .renderer import Intrinsics as Intrinsics
-from .renderer import Picture as Picture
-from .renderer import Renderer as Renderer
-from .renderer import size_of as size_of
-from .scene import DEFAULT_LIGHTS as DEFAULT_LIGHTS
-from .scene import Scene as Scene
-from .scene import SceneLight as SceneLight
-from .scene import SceneSkin as SceneSkin
-from .scene import Shape as Shape
-from .scene import ShapeGeometry as ShapeGeometry
-from .textures import LARGEST_TEXTURE_PX as LARGEST_TEXTURE_PX
-from .textures import load_texture as load_texture
-from .textures import report_unreadable_textures as report_unreadable_textures
+from .pixels import (
+    add_colour_noise as add_colour_noise,
+    add_depth_noise as add_depth_noise,
+    clip_depths as clip_depths,
+    coloured_points as coloured_points,
+)
+from .renderer import Intrinsics as Intrinsics, Picture as Picture, Renderer as Renderer, size_of as size_of
+from .scene import (
+    DEFAULT_LIGHTS as DEFAULT_LIGHTS,
+    Scene as Scene,
+    SceneLight as SceneLight,
+    SceneSkin as SceneSkin,
+    Shape as Shape,
+    ShapeGeometry as ShapeGeometry,
+)
+from .textures import (
+    LARGEST_TEXTURE_PX as LARGEST_TEXTURE_PX,
+    load_texture as load_texture,
+    report_unreadable_textures as report_unreadable_textures,
+)

@@ -1,4 +1,3 @@
 from .saved_objects import SavedObjects as SavedObjects
 from .saved_plugins import save_plugins as save_plugins
-from .timeline import DEFAULT_LIMIT_BYTES as DEFAULT_LIMIT_BYTES
-from .timeline import Timeline as Timeline
+from .timeline import DEFAULT_LIMIT_BYTES as DEFAULT_LIMIT_BYTES, Timeline as Timeline

@@ -9,8 +9,7 @@ from typing import Any
 
 import msgspec
 
-from trundle.ros import Message, MessageError, Node, RawMessage
-from trundle.ros import Subscription as RosSubscription
+from trundle.ros import Message, MessageError, Node, RawMessage, Subscription as RosSubscription
 
 from .cbor import cbor_values, dump_cbor
 from .json_values import JsonEncoder

@@ -1,10 +1,8 @@
-from .add_two_ints import AddTwoIntsClient as AddTwoIntsClient
-from .add_two_ints import AddTwoIntsServer as AddTwoIntsServer
-from .add_two_ints import CppAddTwoIntsClient as CppAddTwoIntsClient
-from .add_two_ints import CppAddTwoIntsServer as CppAddTwoIntsServer
-from .chatter import CppListener as CppListener
-from .chatter import CppTalker as CppTalker
-from .chatter import Listener as Listener
-from .chatter import Talker as Talker
-from .turtle_tf import TurtleBroadcaster as TurtleBroadcaster
-from .turtle_tf import TurtleFollower as TurtleFollower
+from .add_two_ints import (
+    AddTwoIntsClient as AddTwoIntsClient,
+    AddTwoIntsServer as AddTwoIntsServer,
+    CppAddTwoIntsClient as CppAddTwoIntsClient,
+    CppAddTwoIntsServer as CppAddTwoIntsServer,
+)
+from .chatter import CppListener as CppListener, CppTalker as CppTalker, Listener as Listener, Talker as Talker
+from .turtle_tf import TurtleBroadcaster as TurtleBroadcaster, TurtleFollower as TurtleFollower

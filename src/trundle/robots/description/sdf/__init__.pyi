@@ -1,7 +1,5 @@
-from .auto_inertia import enclosed_volume as enclosed_volume
-from .auto_inertia import uniform_inertial as uniform_inertial
-from .context import DEEPEST as DEEPEST
-from .context import Context as Context
+from .auto_inertia import enclosed_volume as enclosed_volume, uniform_inertial as uniform_inertial
+from .context import DEEPEST as DEEPEST, Context as Context
 from .extra_joint import read_extra_joint as read_extra_joint
 from .gazebo_materials import GAZEBO_MATERIALS as GAZEBO_MATERIALS
 from .required import name_missing_attributes as name_missing_attributes

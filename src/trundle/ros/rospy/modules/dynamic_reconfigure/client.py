@@ -5,8 +5,7 @@ import sys
 import threading
 
 import rospy
-from dynamic_reconfigure.msg import Config as ConfigMsg
-from dynamic_reconfigure.msg import ConfigDescription as ConfigDescrMsg
+from dynamic_reconfigure.msg import Config as ConfigMsg, ConfigDescription as ConfigDescrMsg
 from dynamic_reconfigure.srv import Reconfigure as ReconfigureSrv
 
 from . import DynamicReconfigureCallbackException, DynamicReconfigureParameterException

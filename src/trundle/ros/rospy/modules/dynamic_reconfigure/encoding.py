@@ -4,15 +4,15 @@ import copy
 
 from dynamic_reconfigure.msg import (
     BoolParameter,
+    Config as ConfigMsg,
+    ConfigDescription as ConfigDescrMsg,
     DoubleParameter,
+    Group as GroupMsg,
     GroupState,
     IntParameter,
     ParamDescription,
     StrParameter,
 )
-from dynamic_reconfigure.msg import Config as ConfigMsg
-from dynamic_reconfigure.msg import ConfigDescription as ConfigDescrMsg
-from dynamic_reconfigure.msg import Group as GroupMsg
 
 
 class Config(dict):

@@ -4,8 +4,7 @@ import copy
 import threading
 
 import rospy
-from dynamic_reconfigure.msg import Config as ConfigMsg
-from dynamic_reconfigure.msg import ConfigDescription as ConfigDescrMsg
+from dynamic_reconfigure.msg import Config as ConfigMsg, ConfigDescription as ConfigDescrMsg
 from dynamic_reconfigure.srv import Reconfigure as ReconfigureSrv
 
 from . import DynamicReconfigureCallbackException

@@ -5,13 +5,13 @@ from collections.abc import Iterable
 from typing import Any, ClassVar
 
 from .check import check_type as check_type
-from .errors import DeserializationError as DeserializationError
-from .errors import MessageException as MessageException
-from .errors import SerializationError as SerializationError
-from .fill import fill_message_args as fill_message_args
-from .fill import get_printable_message_args as get_printable_message_args
-from .lookup import get_message_class as get_message_class
-from .lookup import get_service_class as get_service_class
+from .errors import (
+    DeserializationError as DeserializationError,
+    MessageException as MessageException,
+    SerializationError as SerializationError,
+)
+from .fill import fill_message_args as fill_message_args, get_printable_message_args as get_printable_message_args
+from .lookup import get_message_class as get_message_class, get_service_class as get_service_class
 from .text import strify_message as strify_message
 
 struct_I = struct.Struct("<I")

@@ -4,8 +4,7 @@ import sys
 from collections.abc import Sequence
 
 from . import names as names
-from .masterapi import Master, MasterError, MasterException, MasterFailure
-from .masterapi import is_online as is_master_online
+from .masterapi import Master, MasterError, MasterException, MasterFailure, is_online as is_master_online
 from .rosenv import (
     ROS_HOSTNAME,
     ROS_IP,

@@ -1,12 +1,14 @@
 """Launching from programs, by `trundle launch` and `trundle exec`."""
 
-from . import config as config
-from . import core as core
-from . import parent as parent
-from . import rlutil as rlutil
-from . import scriptapi as scriptapi
-from . import substitution_args as substitution_args
-from . import xmlloader as xmlloader
+from . import (
+    config as config,
+    core as core,
+    parent as parent,
+    rlutil as rlutil,
+    scriptapi as scriptapi,
+    substitution_args as substitution_args,
+    xmlloader as xmlloader,
+)
 from .core import DEFAULT_MASTER_PORT, Master, Node, Process, RLException
 from .parent import ROSLaunchParent as ROSLaunchParent
 from .scriptapi import ROSLaunch

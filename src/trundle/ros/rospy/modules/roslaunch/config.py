@@ -6,8 +6,7 @@ from typing import Any
 from rosgraph.network import create_local_xmlrpc_uri
 from trundle.ros import NOETIC
 
-from .contents import ROSLaunchConfig as ROSLaunchConfig
-from .contents import namespaces_of as namespaces_of
+from .contents import ROSLaunchConfig as ROSLaunchConfig, namespaces_of as namespaces_of
 from .core import Param, RLException
 from .node import Node
 from .xmlloader import XmlLoader, XmlParseException

@@ -12,11 +12,8 @@ import rosgraph
 from rosgraph.names import canonicalize_name
 from rosgraph.network import parse_http_host_and_port
 
-from .machine import Machine as Machine
-from .machine import is_machine_local as is_machine_local
-from .machine import local_machine as local_machine
-from .node import Node as Node
-from .node import Test as Test
+from .machine import Machine as Machine, is_machine_local as is_machine_local, local_machine as local_machine
+from .node import Node as Node, Test as Test
 
 DEFAULT_MASTER_PORT = 11311
 _STOP_S = (15.0, 2.0)

@@ -4,17 +4,19 @@ from pathlib import Path
 from typing import Any
 
 import genmsg.msgs
-from genmsg.msgs import BUILTIN_TYPES as BUILTIN_TYPES
-from genmsg.msgs import DURATION as DURATION
-from genmsg.msgs import HEADER as HEADER
-from genmsg.msgs import PRIMITIVE_TYPES as PRIMITIVE_TYPES
-from genmsg.msgs import TIME as TIME
-from genmsg.msgs import Constant as Constant
-from genmsg.msgs import Field as Field
-from genmsg.msgs import is_builtin as is_builtin
-from genmsg.msgs import is_header_type as is_header_type
-from genmsg.msgs import is_valid_msg_type as is_valid_msg_type
-from genmsg.msgs import resolve_type as resolve_type
+from genmsg.msgs import (
+    BUILTIN_TYPES as BUILTIN_TYPES,
+    DURATION as DURATION,
+    HEADER as HEADER,
+    PRIMITIVE_TYPES as PRIMITIVE_TYPES,
+    TIME as TIME,
+    Constant as Constant,
+    Field as Field,
+    is_builtin as is_builtin,
+    is_header_type as is_header_type,
+    is_valid_msg_type as is_valid_msg_type,
+    resolve_type as resolve_type,
+)
 from trundle.base.files import read_text
 from trundle.ros.errors import MessageError
 from trundle.ros.rospy.message_classes import parsed

@@ -4,50 +4,20 @@ import re
 
 from rosgraph.names import (
     PRIV_NAME as PRIV_NAME,
-)
-from rosgraph.names import (
     REMAP as REMAP,
-)
-from rosgraph.names import (
     SEP as SEP,
-)
-from rosgraph.names import (
     anonymous_name as anonymous_name,
-)
-from rosgraph.names import (
     canonicalize_name as canonicalize_name,
-)
-from rosgraph.names import (
     get_ros_namespace as get_ros_namespace,
-)
-from rosgraph.names import (
     is_global as is_global,
-)
-from rosgraph.names import (
     is_legal_base_name as is_legal_base_name,
-)
-from rosgraph.names import (
     is_legal_name as is_legal_name,
-)
-from rosgraph.names import (
     is_private as is_private,
-)
-from rosgraph.names import (
     load_mappings as load_mappings,
-)
-from rosgraph.names import (
     make_caller_id as make_caller_id,
-)
-from rosgraph.names import (
     make_global_ns as make_global_ns,
-)
-from rosgraph.names import (
     namespace as namespace,
-)
-from rosgraph.names import (
     ns_join as ns_join,
-)
-from rosgraph.names import (
     resolve_name as resolve_name,
 )
 

@@ -15,8 +15,7 @@ from . import core, graph
 from .exceptions import ROSException, ROSSerializationException
 from .msg import args_kwds_to_message
 from .names import resolve_name, resolve_name_without_node_name
-from .publication import Publication
-from .publication import SubscribeListener as SubscribeListener
+from .publication import Publication, SubscribeListener as SubscribeListener
 from .subscription import Subscription
 
 DEFAULT_BUFF_SIZE = 65536

@@ -6,11 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 import rosgraph
-from genpy.message import get_message_class
-from genpy.message import strify_message as strify_message
+from genpy.message import get_message_class, strify_message as strify_message
 
-from .statistics import ROSTopicBandwidth as ROSTopicBandwidth
-from .statistics import ROSTopicHz as ROSTopicHz
+from .statistics import ROSTopicBandwidth as ROSTopicBandwidth, ROSTopicHz as ROSTopicHz
 
 NAME = "rostopic"
 

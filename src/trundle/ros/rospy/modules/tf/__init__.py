@@ -1,7 +1,6 @@
 """tf, the older API of transforms, over tf2."""
 
-from tf2_ros import ConnectivityException, ExtrapolationException, LookupException
-from tf2_ros import TransformException as Exception
+from tf2_ros import ConnectivityException, ExtrapolationException, LookupException, TransformException as Exception
 
 from . import transformations
 from .broadcaster import TransformBroadcaster
