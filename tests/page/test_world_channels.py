@@ -34,7 +34,7 @@ def _rows(count: int, seed: int = 0) -> np.ndarray:
 
 
 def _poses(payload: bytes) -> tuple[int, int, np.ndarray, np.ndarray]:
-    """Time, generation, bodies and poses, as docs/decisions/0020 lays them out."""
+    """Time, generation, bodies and poses, as docs/protocol.md lays them out."""
     time_ns, generation, count = struct.unpack_from("<QII", payload)
     bodies = np.frombuffer(payload, "<u4", count, 16)
     return time_ns, generation, bodies, np.frombuffer(payload, "<f4", 7 * count, 16 + 4 * count).reshape(count, 7)

@@ -1,7 +1,7 @@
 """Messages of the Foxglove WebSocket protocol and of `trundle.v1`: what clients send, and headers of what they get.
 
 Fields and opcodes are those of the published specification, foxglove/ws-protocol docs/spec.md;
-docs/decisions/0020 says what `trundle.v1` adds.
+docs/protocol.md says what `trundle.v1` adds.
 """
 
 import struct

@@ -1,4 +1,4 @@
-"""Manifest of a simulated world for the page: docs/decisions/0020."""
+"""Manifest of a simulated world for the page: docs/protocol.md."""
 
 import math
 from collections import Counter
