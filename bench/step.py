@@ -14,8 +14,8 @@ import mujoco
 
 import trundle
 from bench.table import Row
-from trundle.live.run.run import run as launch_run
 from trundle.live.run.run_options import RunOptions
+from trundle.live.run.run_world import run as launch_run
 
 ROBOT = Path(__file__).parents[1] / "examples/rp2w"
 PUBLISHED = ROBOT.parents[2] / "shared/seeds/rp2w"

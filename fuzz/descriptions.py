@@ -7,7 +7,7 @@ from pathlib import Path
 
 import trundle
 from trundle.base.diagnostics import Diagnostics
-from trundle.gazebo.check.check import check
+from trundle.gazebo.check.check_file import check
 from trundle.robots.packages import Packages, run_dependencies
 from trundle.sim.render import Intrinsics, NativeRenderer, scene_from_world
 from trundle.spatial import Pose

@@ -5,7 +5,7 @@ from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
 
-from trundle.gazebo.check.check import check
+from trundle.gazebo.check.check_file import check
 from trundle.gazebo.nodes.map_server.occupancy_grid import read_map
 
 from .seeds import picture, seed

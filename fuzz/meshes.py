@@ -12,7 +12,7 @@ import trimesh
 from PIL import Image
 from trimesh.visual import TextureVisuals
 
-from trundle.gazebo.check.check import check
+from trundle.gazebo.check.check_file import check
 from trundle.robots.meshes import Mesh, load_mesh, load_motion, load_skin
 from trundle.sim.render import Intrinsics, NativeRenderer, Scene, Shape
 from trundle.spatial import Pose

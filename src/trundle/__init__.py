@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
     from trundle.live.loaded_simulation import LoadedSimulation
     from trundle.robots.description import Model, World
-    from trundle.studies.dataset.dataset import DatasetResult
-    from trundle.studies.sweep.sweep import SweepResult
+    from trundle.studies.dataset.make_dataset import DatasetResult
+    from trundle.studies.sweep.run_sweep import SweepResult
 
 __version__ = "0.1.0"
 __all__ = ["Model", "World", "__version__", "dataset", "load", "sweep"]
@@ -72,7 +72,7 @@ def sweep(
     """
     from pathlib import Path
 
-    from trundle.studies.sweep.sweep import sweep_plan
+    from trundle.studies.sweep.run_sweep import sweep_plan
 
     folder = None if output is None else Path(output)
     return sweep_plan(plan, output=folder, workers=workers, address=address, device=device)
@@ -101,7 +101,7 @@ def dataset(
     """
     from pathlib import Path
 
-    from trundle.studies.dataset.dataset import make_planned
+    from trundle.studies.dataset.make_dataset import make_planned
 
     return make_planned(plan, output=None if output is None else Path(output), workers=workers, address=address)
 

@@ -7,7 +7,7 @@ import pytest
 
 from trundle.base.diagnostics import DescriptionError, Diagnostics
 from trundle.base.xmlnode import parse_xml
-from trundle.gazebo.check.check import check
+from trundle.gazebo.check.check_file import check
 from trundle.robots.description import expand_xacro
 from trundle.robots.launch import read_launch_text
 from trundle.robots.meshes import MeshError, load_mesh

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.gazebo.check.check import check
+from trundle.gazebo.check.check_file import check
 
 BOX = '<collision name="c"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision>'
 

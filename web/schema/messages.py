@@ -12,7 +12,7 @@ from trundle.page.replay.page_file import ReplayAbout
 from trundle.page.requests.request import RenderView, SocketAction
 from trundle.page.requests.world import RenderModel
 from trundle.page.session import PageSession
-from trundle.page.uploads.uploads import UploadedModels
+from trundle.page.uploads.upload_folder import UploadedModels
 from trundle.page.world import streams
 from trundle.page.world.manifest import Manifest
 from trundle.page.world.people import People

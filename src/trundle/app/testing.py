@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from trundle.live.loaded_simulation import LoadedSimulation
-    from trundle.studies.sweep.sweep import SweepResult
+    from trundle.studies.sweep.run_sweep import SweepResult
 
 
 @pytest.fixture

@@ -19,10 +19,10 @@ from trundle.base.http.page_address import AllowedNames, PageAddress
 from trundle.ros import GraphLoop
 
 from .clients.assets import Assets
+from .dispatcher import Page
 from .http.client_files import ClientFiles
 from .http.listening import AddressError, listen
 from .http.server import HttpServer
-from .page import Page
 from .wire import FromServer, Refused, Served, Start, frame, read_frame, start_decoder, to_server_decoder
 
 _STOP_S = 0.5

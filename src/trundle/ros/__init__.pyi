@@ -45,12 +45,12 @@ from .clients.topic_series import (
 )
 from .clients.transform_history import Transform as Transform
 from .clients.transform_tree import check_frame_name as check_frame_name
-from .core.core import Core as Core
 from .core.logs import (
     PYTHON_LOG_BACKUPS as PYTHON_LOG_BACKUPS,
     PYTHON_LOG_BYTES as PYTHON_LOG_BYTES,
     python_log_line as python_log_line,
 )
+from .core.roscore import Core as Core
 from .distro import DISTROS as DISTROS, NOETIC as NOETIC, Distro as Distro
 from .errors import (
     ConnectivityError as ConnectivityError,
@@ -67,7 +67,7 @@ from .errors import (
 )
 from .log import LEVELS as LEVELS, coloured as coloured
 from .log_file import LogFile as LogFile
-from .master.master import Master as Master
+from .master.master_api import Master as Master
 from .master.parameters import ParameterTree as ParameterTree, set_leaves as set_leaves
 from .messages.field_paths import (
     TopicField as TopicField,
@@ -76,7 +76,7 @@ from .messages.field_paths import (
     value_at as value_at,
 )
 from .messages.genpy_view import MessageView as MessageView
-from .messages.messages import Messages as Messages
+from .messages.message_library import Messages as Messages
 from .messages.printing import MessagePrinter as MessagePrinter, field_value as field_value
 from .messages.raw_message import Message as Message, RawMessage as RawMessage, ServiceType as ServiceType
 from .migration import (
@@ -94,9 +94,9 @@ from .migration import (
 from .node.callback_dispatch import Deliver as Deliver
 from .node.clock import Clock as Clock, SimClock as SimClock, WallClock as WallClock, to_nsec as to_nsec
 from .node.endpoint_recorder import Endpoint as Endpoint
+from .node.graph_node import Node as Node
 from .node.loggers import Loggers as Loggers
 from .node.loop import GraphLoop as GraphLoop
-from .node.node import Node as Node
 from .node.pending_work import PendingWork as PendingWork, WorkItem as WorkItem
 from .node.publisher import Publisher as Publisher
 from .node.publisher_probe import probe_publisher as probe_publisher

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from trundle.base.diagnostics import Diagnostics
-from trundle.gazebo.check.check import CheckResult, check
+from trundle.gazebo.check.check_file import CheckResult, check
 from trundle.robots.launch import read_launch
 from trundle.robots.packages import ALLOW_OUTSIDE, Packages
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from trundle.gazebo.check.check import CheckResult, check
+from trundle.gazebo.check.check_file import CheckResult, check
 
 HERE = '<node pkg="robot_state_publisher" type="robot_state_publisher" name="there"/>'
 MISSING = "node /n: no package 'no_such', and no stand-in for no_such/x; the launch"

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from trundle.app.cli.main import main
-from trundle.gazebo.check.check import check
+from trundle.gazebo.check.check_file import check
 
 WORLD = """<sdf version="1.6"><world name="w">
 <plugin name="weather" filename="libweather.so"/>

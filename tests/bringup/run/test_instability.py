@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from trundle.app.cli.main import main
-from trundle.live.run.run import run
 from trundle.live.run.run_options import OnInstability, RunOptions
+from trundle.live.run.run_world import run
 from trundle.sim.physics import SimulationUnstableError
 
 QUIET = ["--headless", "--no-ros", "--speed", "max", "--duration", "3"]

@@ -10,7 +10,7 @@ from trundle.ros import open_bag
 from trundle.studies.sweep.plan_reader import load_plan
 from trundle.studies.sweep.row_runner import runner_of
 from trundle.studies.sweep.rows import Rows
-from trundle.studies.sweep.sweep import open_results
+from trundle.studies.sweep.run_sweep import open_results
 
 pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
 LAUNCH = """<launch><arg name="height" default="1"/>

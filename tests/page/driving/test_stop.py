@@ -9,7 +9,7 @@ from tests.graphs import Graph, running_graph, until
 
 from trundle.page.clients.connection import Connection
 from trundle.page.clients.protocol import Advertise, ClientChannel, Drive
-from trundle.page.driving.driving import Driving
+from trundle.page.driving.dead_man_switch import Driving
 from trundle.page.driving.stop import DriveStop
 from trundle.page.graph.client_publishers import ClientPublishers
 from trundle.ros import Node

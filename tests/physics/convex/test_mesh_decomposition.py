@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from trundle.gazebo.check.check import check
+from trundle.gazebo.check.check_file import check
 from trundle.sim.physics.convex import decomposition, jobs, mesh_decomposition, pieces
 from trundle.sim.physics.convex.mesh_decomposition import WorldDecomposition, convex_pieces, load_pieces, save_pieces
 from trundle.sim.physics.convex.native_output import native_output_hidden

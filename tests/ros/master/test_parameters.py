@@ -4,7 +4,7 @@ import pytest
 
 from trundle.ros import ParameterError, ParameterTree, set_leaves
 from trundle.ros.master.parameters import MAX_BYTES, MAX_DEPTH, updates
-from trundle.ros.xmlrpc.xmlrpc import encode_response
+from trundle.ros.xmlrpc.xmlrpc_text import encode_response
 
 
 def _tree(**values: object) -> ParameterTree:

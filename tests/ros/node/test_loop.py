@@ -20,8 +20,8 @@ import pytest
 from tests.ros.conftest import PATIENCE_S
 
 from trundle.base.diagnostics import UsageError
+from trundle.ros.node.graph_node import Node
 from trundle.ros.node.loop import GraphLoop
-from trundle.ros.node.node import Node
 from trundle.ros.transport.closing_loop import close_server
 
 

@@ -12,7 +12,7 @@ from tests.ros.conftest import PATIENCE_S
 from trundle.ros import blocking_call
 from trundle.ros.errors import WireError
 from trundle.ros.xmlrpc.http import browser_refusal, host_and_port, parse_head
-from trundle.ros.xmlrpc.xmlrpc import encode_call
+from trundle.ros.xmlrpc.xmlrpc_text import encode_call
 
 _ELECTRON = "Mozilla/5.0 (X11; Linux x86_64) AppleWebKit/537.36 foxglove/1.87 Chrome/120.0 Electron/28.1 Safari/537.36"
 _FIREFOX = "Mozilla/5.0 (X11; Linux x86_64; rv:140.0) Gecko/20100101 Firefox/140.0"

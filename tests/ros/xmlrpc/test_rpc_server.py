@@ -6,7 +6,7 @@ from tests.ros.conftest import PATIENCE_S
 
 from trundle.ros.xmlrpc.http import request
 from trundle.ros.xmlrpc.rpc_server import RpcServer
-from trundle.ros.xmlrpc.xmlrpc import encode_call
+from trundle.ros.xmlrpc.xmlrpc_text import encode_call
 
 
 def test_a_small_call_is_answered_while_a_large_one_is_decoded() -> None:

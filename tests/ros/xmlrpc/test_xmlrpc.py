@@ -6,7 +6,7 @@ from datetime import datetime
 import pytest
 
 from trundle.ros.errors import WireError
-from trundle.ros.xmlrpc.xmlrpc import (
+from trundle.ros.xmlrpc.xmlrpc_text import (
     FaultError,
     decode_call,
     decode_response,

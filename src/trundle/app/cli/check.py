@@ -43,7 +43,7 @@ def main(args: argparse.Namespace) -> int:
 
 def _check(args: argparse.Namespace) -> int:
     with quiet_imports():
-        from trundle.gazebo.check.check import check
+        from trundle.gazebo.check.check_file import check
 
     outcome = check(args.file, dict(os.environ), start=Path.cwd(), collisions=args.collisions)
     warned = any(finding.severity == "warning" for finding in outcome.report.findings)

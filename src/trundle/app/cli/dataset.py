@@ -38,7 +38,7 @@ def main(args: argparse.Namespace) -> int:
         path = args.plan.with_suffix(f".{args.show:06}.png")
         print(f"{show_picture(plan, args.show, path)}\n{path}")
         return 0
-    from trundle.studies.dataset.dataset import make_dataset
+    from trundle.studies.dataset.make_dataset import make_dataset
 
     result = make_dataset(plan, output=args.output, workers=args.workers)
     print(f"{result.summary()}; {result.folder}")

@@ -22,7 +22,7 @@ def main(args: argparse.Namespace) -> int:
     """Print the checks; 1 if something does not work."""
     with quiet_imports():
         from trundle.app.doctor.check import table
-        from trundle.app.doctor.doctor import examine
+        from trundle.app.doctor.examination import examine
 
     checks = examine(os.environ, Path.cwd())
     print(json.dumps({"checks": [check.as_json() for check in checks]}) if args.json else table(checks))

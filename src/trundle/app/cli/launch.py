@@ -110,8 +110,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Launch until the duration is over, a required node dies, or Ctrl-C."""
     with quiet_imports():
-        from trundle.live.launch.launch import launch
         from trundle.live.launch.options import LaunchOptions
+        from trundle.live.launch.run_launch import launch
 
     options = read_options(
         LaunchOptions,

@@ -58,8 +58,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Simulate until the duration is over or Ctrl-C."""
     with quiet_imports():
-        from trundle.live.run.run import run
         from trundle.live.run.run_options import RunOptions
+        from trundle.live.run.run_world import run
 
     options = read_options(RunOptions, args, allowed=page_access(args))
     try:

@@ -62,7 +62,7 @@ def main(args: argparse.Namespace) -> int:
 
         at = PageAddress(port=args.port, allowed=page_access(args), view_only=args.view_only)
         return replay(plan, args.row, None if args.headless else at)
-    from trundle.studies.sweep.sweep import sweep
+    from trundle.studies.sweep.run_sweep import sweep
 
     result = sweep(plan, output=args.output, workers=args.workers, address=args.address, device=args.device)
     print(f"{result.summary()}; {result.folder}")

@@ -1,4 +1,4 @@
-from .scaffold import (
+from .scaffold_files import (
     ROBOTS as ROBOTS,
     Scaffold as Scaffold,
     next_steps as next_steps,

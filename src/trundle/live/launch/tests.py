@@ -13,10 +13,10 @@ from trundle.base.supervisor import Job, JobError, StopTimeouts
 from trundle.robots.launch import LaunchTest
 from trundle.ros import GraphLoop, MasterProxy, MasterUnreachableError, master_uri_from_env
 
-from .launch import read_files
 from .loaded_launch import LoadedLaunch
 from .logs import ros_home
 from .options import LaunchOptions
+from .run_launch import read_files
 from .session import LaunchSession
 from .test_options import LaunchTestOptions
 from .test_results import CaseResult, SuiteResult, read_result, write_junit

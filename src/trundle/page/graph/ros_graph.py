@@ -38,7 +38,7 @@ from ..clients.protocol import (
     UnsubscribeConnectionGraph,
     UnsubscribeParameterUpdates,
 )  # fmt: skip
-from ..driving.driving import Driving
+from ..driving.dead_man_switch import Driving
 from ..owner import Owner
 from ..wire import GraphAddress
 from .client_publishers import ClientPublishers

@@ -21,7 +21,7 @@ from ..clients.protocol import SUBPROTOCOLS, TRUNDLE
 from ..owner import PictureError
 from ..requests.request import RenderView
 from ..requests.world import RenderModel
-from ..uploads.uploads import UploadedModels
+from ..uploads.upload_folder import UploadedModels
 from ..view_only import REFUSAL
 from .client_files import MISSING, ClientFiles, content_type, is_immutable
 from .content_policy import response_fields

@@ -55,6 +55,7 @@ from .joint import (
     JointType as JointType,
     Mimic as Mimic,
 )
+from .kinematic_model import Frame as Frame, Model as Model
 from .kinematics import model_from_joint as model_from_joint, model_from_links as model_from_links
 from .light import Light as Light, LightType as LightType
 from .link import Collision as Collision, Link as Link, Visual as Visual
@@ -67,7 +68,6 @@ from .measuring import (
     RangeScan as RangeScan,
     ScanAxis as ScanAxis,
 )
-from .model import Frame as Frame, Model as Model
 from .noise import Noise as Noise
 from .plugin import PluginTag as PluginTag
 from .road import Road as Road

@@ -5,8 +5,8 @@ from msgspec.structs import replace
 from trundle.spatial import Pose
 
 from .joint import Joint, JointAxis
+from .kinematic_model import Model
 from .link import Link
-from .model import Model
 from .world import World
 
 WORLD = "world"

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from trundle.spatial import Pose, Vector3, multiply, quaternion_from_axis_angle
 
 from .joint import Joint, JointType
-from .model import Model
+from .kinematic_model import Model
 
 
 def model_from_joint(model: Model, joint: Joint) -> Pose:

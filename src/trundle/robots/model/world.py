@@ -12,8 +12,8 @@ from .environment import Atmosphere, PhysicsSettings, SceneSettings, SphericalCo
 if TYPE_CHECKING:
     from .actor import Actor
     from .joint import Joint
+    from .kinematic_model import Frame, Model
     from .light import Light
-    from .model import Frame, Model
     from .plugin import PluginTag
     from .road import Road
 

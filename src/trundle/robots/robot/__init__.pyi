@@ -1,6 +1,6 @@
 from .kinematics import parent_from_child as parent_from_child, root_from_links as root_from_links
 from .read import read_robot as read_robot
-from .robot import (
+from .urdf_tree import (
     JointLimit as JointLimit,
     Robot as Robot,
     RobotBox as RobotBox,

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from trundle.spatial import ZERO, Pose, multiply, normalized, quaternion_from_axis_angle
 
-from .robot import Robot, RobotJoint
+from .urdf_tree import Robot, RobotJoint
 
 
 def parent_from_child(joint: RobotJoint, position: float) -> Pose:

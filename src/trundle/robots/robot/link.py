@@ -6,7 +6,16 @@ from trundle.base.diagnostics import Diagnostics
 from trundle.base.xmlnode import MAX_LENGTH, MAX_MASS, XmlNode
 
 from .materials import Materials, RobotMaterial
-from .robot import RobotBox, RobotCylinder, RobotGeometry, RobotInertial, RobotLink, RobotMesh, RobotShape, RobotSphere
+from .urdf_tree import (
+    RobotBox,
+    RobotCylinder,
+    RobotGeometry,
+    RobotInertial,
+    RobotLink,
+    RobotMesh,
+    RobotShape,
+    RobotSphere,
+)
 from .values import read_number, read_origin, read_vector
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from trundle.base.diagnostics import DescriptionError, Diagnostics
 from trundle.base.xmlnode import XmlNode, parse_numbers
 
-from .robot import Rgba
+from .urdf_tree import Rgba
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from trundle.spatial import Vector3
 
 from .link import read_link
 from .materials import Materials
-from .robot import JointLimit, Robot, RobotJoint, RobotJointType, RobotLink, RobotMimic
+from .urdf_tree import JointLimit, Robot, RobotJoint, RobotJointType, RobotLink, RobotMimic
 from .values import read_optional, read_origin, read_vector
 
 _TYPES: tuple[str, ...] = get_args(RobotJointType)

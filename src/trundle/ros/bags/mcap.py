@@ -15,7 +15,7 @@ from mcap.records import Channel, Message, Schema
 from mcap.stream_reader import StreamReader
 from mcap.writer import CompressionType, Writer
 
-from ..messages.messages import Messages
+from ..messages.message_library import Messages
 from .bag import BagConnection, BagError, BagMessage, Chunk, ConnectionFilter, UnindexedBagError
 
 _MAGIC = b"\x89MCAP0\r\n"

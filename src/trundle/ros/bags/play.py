@@ -9,7 +9,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 
 from ..messages.raw_message import RawMessage
-from ..node.node import Node
+from ..node.graph_node import Node
 from ..node.publisher import Publisher
 from .bag import BagConnection, BagMessage, BagReader
 

@@ -13,10 +13,10 @@ from pathlib import Path
 from ..errors import RosError
 from ..messages.raw_message import RawMessage
 from ..node.clock import Clock, WallClock
-from ..node.node import Node
+from ..node.graph_node import Node
 from ..node.subscription import Subscription
 from ..xmlrpc.rpc_client import call_value
-from ..xmlrpc.xmlrpc import FaultError
+from ..xmlrpc.xmlrpc_text import FaultError
 from .bag import BagConnection, BagMessage, BagWriter, recording_failure
 from .files import create_bag, lock_bag
 

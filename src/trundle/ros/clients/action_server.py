@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from ..messages.raw_message import Message
 from ..node.clock import to_nsec
-from ..node.node import Node
+from ..node.graph_node import Node
 
 if TYPE_CHECKING:
     from ..message_types import actionlib_msgs

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..errors import ServiceError
 from ..messages.raw_message import Message
-from ..node.node import Node
+from ..node.graph_node import Node
 from .reconfigure_server import Option, Options, OptionValue, config_message, config_values
 
 if TYPE_CHECKING:

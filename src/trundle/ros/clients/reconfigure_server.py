@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..errors import MasterUnreachableError
 from ..node.callback_dispatch import run_on_callback_thread
-from ..node.node import Node
+from ..node.graph_node import Node
 
 if TYPE_CHECKING:
     from ..message_types import dynamic_reconfigure

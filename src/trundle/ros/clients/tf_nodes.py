@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..messages.raw_message import Message
 from ..node.clock import SimClock, to_nsec
-from ..node.node import Node
+from ..node.graph_node import Node
 from .tf_buffer import TransformBuffer
 from .transform_history import Transform
 

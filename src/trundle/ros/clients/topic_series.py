@@ -10,10 +10,10 @@ from trundle.base.diagnostics import UsageError
 from trundle.base.drawing import Curve
 
 from ..messages.field_paths import TopicField, field_type, value_at
-from ..messages.messages import Messages
+from ..messages.message_library import Messages
 from ..messages.raw_message import RawMessage
 from ..node.clock import Clock
-from ..node.node import Node
+from ..node.graph_node import Node
 
 _NUMBERS = ("int", "uint", "float", "bool", "byte", "char", "time", "duration")
 _POINTS = 100_000

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 from ..errors import RosError
 from ..xmlrpc.rpc_client import call
-from ..xmlrpc.xmlrpc import FaultError
+from ..xmlrpc.xmlrpc_text import FaultError
 
 _log = logging.getLogger(__name__)
 Pending: TypeAlias = Callable[[str], AbstractContextManager[None]]

@@ -7,7 +7,7 @@ from typing import Any
 
 from trundle.base.diagnostics import UsageError
 
-from .messages import Messages
+from .message_library import Messages
 from .printing import field_value
 
 _PART = re.compile(r"(?P<name>\w+)(?:\[(?P<index>[^\]]*)\])?")

@@ -3,7 +3,7 @@
 import functools
 from typing import Any, cast
 
-from .messages import Message, Messages
+from .message_library import Message, Messages
 from .printing import MessagePrinter
 from .type_definitions import ros_name
 

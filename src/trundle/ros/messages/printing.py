@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from .messages import Message, Messages
+from .message_library import Message, Messages
 
 _NUMBERS = {"float32", "float64"} | {f"{u}int{n}" for u in ("", "u") for n in (8, 16, 32, 64)} | {"byte", "char"}
 _BYTES = ("uint8[", "char[")

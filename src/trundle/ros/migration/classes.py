@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, BinaryIO, cast
 
 from ..errors import MessageError
-from ..messages.messages import Messages
+from ..messages.message_library import Messages
 from .times import Duration, Time
 
 _TIMES = {"time": Time, "duration": Duration}

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import takewhile
 from typing import Any
 
-from ..messages.messages import Messages
+from ..messages.message_library import Messages
 from .chains import Chains
 from .classes import Key, MessageClass, MessageClasses, RuleMessage, from_bytes, to_bytes
 from .generated import GeneratedRule, PlaceholderRule

@@ -21,7 +21,7 @@ from .local_graph import LocalGraph
 from .pending_work import PendingWork
 
 if TYPE_CHECKING:
-    from ..messages.messages import Messages
+    from ..messages.message_library import Messages
 
 _T = TypeVar("_T")
 _log = logging.getLogger(__name__)
@@ -261,7 +261,7 @@ class GraphLoop:
 
 
 def _new_messages() -> "Messages":
-    from ..messages.messages import Messages  # lazy: rospy has a store of its own
+    from ..messages.message_library import Messages  # lazy: rospy has a store of its own
 
     return Messages()
 

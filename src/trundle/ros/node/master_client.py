@@ -6,7 +6,7 @@ from trundle.base.shortage import shortage
 
 from ..errors import MasterError, MasterUnreachableError, WireError
 from ..xmlrpc.rpc_client import call_value
-from ..xmlrpc.xmlrpc import FaultError
+from ..xmlrpc.xmlrpc_text import FaultError
 from .pending_work import PendingWork
 
 

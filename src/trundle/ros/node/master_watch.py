@@ -5,7 +5,7 @@ from typing import Protocol
 
 from ..errors import MasterError, RosError
 from ..xmlrpc.rpc_client import call_value
-from ..xmlrpc.xmlrpc import FaultError
+from ..xmlrpc.xmlrpc_text import FaultError
 from .node_context import NodeContext
 
 _PERIOD_S = 5.0

@@ -10,7 +10,7 @@ from .master_client import MasterClient
 from .node_log import NodeLog
 
 if TYPE_CHECKING:
-    from ..messages.messages import Messages
+    from ..messages.message_library import Messages
 
 
 class NodeContext(Protocol):

@@ -7,7 +7,7 @@ from ..transport.framing import LENGTH
 from ..transport.headers import MAX_HEADER_BYTES, decode_header, encode_header
 from ..xmlrpc.http import checked_address
 from ..xmlrpc.rpc_client import call
-from ..xmlrpc.xmlrpc import FaultError
+from ..xmlrpc.xmlrpc_text import FaultError
 from .node_context import NodeContext
 
 _TIMEOUT_S = 5.0

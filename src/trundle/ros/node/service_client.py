@@ -16,7 +16,7 @@ from ..xmlrpc.http import host_and_port
 from .node_context import NodeContext
 
 if TYPE_CHECKING:
-    from ..messages.messages import Messages
+    from ..messages.message_library import Messages
 
 _POLL_S = 0.05
 """Poll interval of the master for a missing service."""

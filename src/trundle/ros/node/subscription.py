@@ -16,7 +16,7 @@ from ..transport.tcpros import FrameProtocol
 from ..transport.unix_sockets import UNIXROS, connect_unix, unix_address
 from ..xmlrpc.http import checked_address
 from ..xmlrpc.rpc_client import call
-from ..xmlrpc.xmlrpc import FaultError
+from ..xmlrpc.xmlrpc_text import FaultError
 from .local_graph import LocalNode, LocalPublisher
 from .node_context import NodeContext
 from .subscriber_link import SubscriberLink

@@ -1,7 +1,7 @@
 """Clock selection by /use_sim_time."""
 
 from .clock import Clock, SimClock, WallClock, to_nsec
-from .node import Node
+from .graph_node import Node
 
 
 async def follow_time(node: Node) -> Clock:

@@ -9,7 +9,7 @@ from trundle.base.waiting import PERIOD_S, WaitNotice
 from ..errors import MasterError, MasterUnreachableError, WireError
 from ..transport.network import master_uri_from_env
 from .http import MAX_BODY_BYTES, host_and_port, parse_head, request
-from .xmlrpc import FaultError, decode_response, encode_call
+from .xmlrpc_text import FaultError, decode_response, encode_call
 
 
 class MasterProxy:

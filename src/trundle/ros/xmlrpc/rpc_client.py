@@ -6,7 +6,7 @@ from typing import Any
 
 from ..errors import MasterError, WireError
 from .http import MAX_BODY_BYTES, MAX_HEAD_BYTES, host_and_port, parse_head, request
-from .xmlrpc import decode_response, encode_call
+from .xmlrpc_text import decode_response, encode_call
 
 
 async def call(uri: str, method: str, *arguments: object, timeout_s: float | None = None) -> Any:

@@ -13,7 +13,7 @@ from trundle.base.shortage import shortage
 from ..errors import PortTakenError, RosError, WireError
 from ..transport.closing_loop import close_server
 from .http import MAX_HEAD_BYTES, Head, answer, browser_refusal, parse_head
-from .xmlrpc import decode_call, encode_fault, encode_response
+from .xmlrpc_text import decode_call, encode_fault, encode_response
 
 _log = logging.getLogger(__name__)
 _IDLE_S = 120.0

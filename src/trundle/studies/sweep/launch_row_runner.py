@@ -10,9 +10,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from trundle.base.diagnostics import TrundleError, UsageError
-from trundle.live.launch.launch import read_files
 from trundle.live.launch.loaded_launch import LoadedLaunch
 from trundle.live.launch.options import LaunchOptions
+from trundle.live.launch.run_launch import read_files
 from trundle.live.launch.running_nodes import RunningNodes
 from trundle.live.launch.session import LaunchSession
 from trundle.robots.launch import LaunchParam, ParamValue

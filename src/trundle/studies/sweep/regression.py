@@ -7,7 +7,7 @@ from pathlib import Path
 from trundle.live.launch.test_results import CaseResult, SuiteResult, write_junit
 
 from .plan import Plan
-from .sweep import SweepResult, sweep
+from .run_sweep import SweepResult, sweep
 
 _SHOWN = 20
 """Most runs that a message lists."""

@@ -20,7 +20,7 @@ from .report_pictures import end_picture
 from .report_style import STYLE
 from .row_runner import RowRunner, runner_of
 from .rows import Rows
-from .sweep import open_results, results_folder
+from .run_sweep import open_results, results_folder
 
 _WORST = 6
 _REASONS = 8

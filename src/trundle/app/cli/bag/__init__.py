@@ -1,5 +1,5 @@
 """Record, play, describe and edit bags, as rosbag does."""
 
-from .bag import EXAMPLES, configure, main
+from .command import EXAMPLES, configure, main
 
 __all__ = ["EXAMPLES", "configure", "main"]

@@ -1,5 +1,5 @@
 """List, describe and call services, as rosservice does."""
 
-from .service import EXAMPLES, configure, main
+from .command import EXAMPLES, configure, main
 
 __all__ = ["EXAMPLES", "configure", "main"]

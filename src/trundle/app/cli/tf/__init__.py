@@ -1,5 +1,5 @@
 """Print, draw and measure transforms, as tf's tools do."""
 
-from .tf import EXAMPLES, configure, main
+from .command import EXAMPLES, configure, main
 
 __all__ = ["EXAMPLES", "configure", "main"]

@@ -1,5 +1,5 @@
 """List, print, measure and publish topics, as rostopic does."""
 
-from .topic import EXAMPLES, configure, main
+from .command import EXAMPLES, configure, main
 
 __all__ = ["EXAMPLES", "configure", "main"]

@@ -4,7 +4,7 @@ from typing import Any
 
 from trundle.ros.errors import WireError
 from trundle.ros.xmlrpc.proxy import blocking_call
-from trundle.ros.xmlrpc.xmlrpc import FaultError
+from trundle.ros.xmlrpc.xmlrpc_text import FaultError
 
 from .binary import unwrap_bytes, wrap_bytes
 

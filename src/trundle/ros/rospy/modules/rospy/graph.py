@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 from trundle.ros.log import LEVELS
 from trundle.ros.messages.raw_message import ServiceType
 from trundle.ros.node.clock import WallClock
+from trundle.ros.node.graph_node import Node
 from trundle.ros.node.loop import GraphLoop
-from trundle.ros.node.node import Node
 from trundle.ros.node.node_log import NodeLog
 
 from . import core
 from .exceptions import ROSException
 
 if TYPE_CHECKING:
-    from trundle.ros.messages.messages import Messages
+    from trundle.ros.messages.message_library import Messages
 
 _T = TypeVar("_T")
 _STOP_S = 4.0

@@ -7,8 +7,8 @@ from queue import SimpleQueue
 from typing import Any
 
 from trundle.ros import _message_codec
+from trundle.ros.node.graph_node import Node
 from trundle.ros.node.local_graph import LocalSubscriber
-from trundle.ros.node.node import Node
 from trundle.ros.node.publisher import Publisher as GraphPublisher
 from trundle.ros.rospy.message_methods import codec, is_plain
 from trundle.ros.transport.framing import Pieces

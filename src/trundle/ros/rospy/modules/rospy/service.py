@@ -10,7 +10,7 @@ import genpy
 import rosgraph.names
 from trundle.ros.errors import ServiceError
 from trundle.ros.messages.raw_message import ServiceType
-from trundle.ros.node.node import Node
+from trundle.ros.node.graph_node import Node
 from trundle.ros.node.service import Service as GraphService
 from trundle.ros.transport.tcpros import FrameProtocol
 

@@ -15,9 +15,9 @@ from queue import SimpleQueue
 from typing import Any, Protocol
 
 from trundle.ros import _message_codec
+from trundle.ros.node.graph_node import Node
 from trundle.ros.node.local_graph import LocalPublisher
 from trundle.ros.node.loop import SLICE_NS
-from trundle.ros.node.node import Node
 from trundle.ros.node.publisher import Publisher as GraphPublisher
 from trundle.ros.node.subscription import Subscription as GraphSubscription
 from trundle.ros.rospy.message_methods import codec, has_only_bytes, is_plain

@@ -13,7 +13,7 @@ from ..errors import ParameterError
 from ..transport.network import LOOPBACK, server_address
 from ..xmlrpc.rpc_methods import Answer, BadArgumentError, Method, answer_call, name_argument
 from ..xmlrpc.rpc_server import RpcServer
-from ..xmlrpc.xmlrpc import encode_response
+from ..xmlrpc.xmlrpc_text import encode_response
 from .parameters import MAX_BYTES, ParameterTree, encoded_bytes, updates
 from .registry import RegistrationTable, Registry
 from .slave_calls import Pending, SlaveCalls

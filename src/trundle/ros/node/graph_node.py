@@ -33,7 +33,7 @@ from .subscription import Callback, Subscription
 
 if TYPE_CHECKING:
     from ..message_types import Time
-    from ..messages.messages import Messages
+    from ..messages.message_library import Messages
 
 _FAREWELL_S = 1.0
 """Timeout of unregistering at another program's master: a program must end within two seconds of Ctrl-C."""

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..distro import NOETIC, Distro
-from ..master.master import Master
+from ..master.master_api import Master
 from ..master.parameters import ParameterTree
+from ..node.graph_node import Node
 from ..node.loop import GraphLoop
-from ..node.node import Node
 from ..node.publisher import Publisher
 from .logs import CoreLogs
 

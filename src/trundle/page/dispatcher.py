@@ -39,7 +39,7 @@ from .requests.answers import DefinitionText, FilesExist, SavedFile
 from .requests.request import REQUEST_NAMES, ClientAction, Definition, PlotSeries, RenderView, SaveRvizAs, SocketAction
 from .requests.world import RenderModel
 from .session import PageSession, RvizFile, Session
-from .uploads.uploads import Uploads
+from .uploads.upload_folder import Uploads
 from .view_only import allows, allows_binary, allows_request
 from .wire import (
     AddFile,
