@@ -62,6 +62,7 @@ class RunningWorld:
                 renderer=options.renderer,
                 has_sensors=options.sensors,
             )
+            live.on_parts = self._show.findings
             return loaded, live
 
     @property
