@@ -10,9 +10,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tests.manifests import empty_manifest
 
 _WEB = Path(__file__).resolve().parents[2] / "web"
 _SHOWN = """new Promise((done) => {
@@ -69,8 +71,7 @@ class WorldPage:
 
     def show_manifest(self, **changes: object) -> None:
         """Send a manifest; `changes` replace its fields."""
-        manifest = {"generation": 1, "name": "w", "collisions": None, "robot": None}
-        manifest |= {key: [] for key in ("models", "lights", "cameras", "frames")}
+        manifest = msgspec.to_builtins(empty_manifest(1, name="w"))
         self.page.evaluate(f"show({json.dumps(manifest | changes)})")
 
     def show(self, **changes: object) -> None:
