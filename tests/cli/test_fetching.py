@@ -289,7 +289,7 @@ def test_files_of_a_package_whose_nodes_have_stand_ins_are_fetched(
 
     assert main(["pack", "get", "-y", "--index", str(index), "--missing", str(launch)]) == 0
 
-    assert fetched(tmp_path) == ["me/usb_cam"], "its image_view has a stand-in, and nobody asked for its files"
+    assert fetched(tmp_path) == ["me/usb_cam"], "image_view has a stand-in, and its files were not asked for"
     capsys.readouterr()
     assert main(["launch", str(launch), "--dump-params"]) == 0
     assert "/usb_cam/video_device: /dev/video9" in capsys.readouterr().out

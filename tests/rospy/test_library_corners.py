@@ -312,7 +312,7 @@ def test_submodules_of_roslib_need_no_import_of_their_own(tmp_path: Path) -> Non
 
 
 def test_rates_and_bandwidths_of_topics_are_measured(tmp_path: Path) -> None:
-    """Programs give rostopic's meters to subscribers; after a reset of time the first message starts anew."""
+    """Programs give rostopic's meters to subscribers; a reset of time resets the meter."""
     code = """
 import rospy
 from rostopic import ROSTopicBandwidth, ROSTopicHz

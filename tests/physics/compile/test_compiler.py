@@ -159,7 +159,7 @@ def test_moments_that_belong_to_no_body_are_used_unless_they_are_far_off(
 
 
 def test_moments_of_flat_plates_add_up_however_they_are_rounded() -> None:
-    """Of 3.5e-5 and 5e-6 the sum is the largest double below 4e-5."""
+    """The sum of 3.5e-5 and 5e-6 is the largest double below 4e-5."""
     report = Diagnostics()
     plates = [(float(f"{a}e-6"), float(f"{b}e-6"), float(f"{a + b}e-6")) for a in range(1, 12) for b in range(30, 50)]
     links = [
