@@ -13,7 +13,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-FOLDERS = ("cpp/*", "tests/render", "tests/cpp", "bench")
+FOLDERS = ("cpp/*", "tests/sim/render", "tests/cpp", "bench")
 OPTIONS = ["-std=gnu++20", "-DTRUNDLE_ISA=baseline", "-Wcomma"]
 
 

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 from PIL import Image
-from tests.bringup.simulation_page.worlds import BOX, CAMERA, model, world
 from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
+from tests.page.simulated_world.worlds import BOX, CAMERA, model, world
 from tests.system.browser import running_page
 
 pytestmark = [pytest.mark.slow, needs_client]

@@ -181,7 +181,7 @@ def test_one_in_the_middle_of_a_call_to_the_master(graph: Any) -> None:
 
 
 def test_a_recorder(graph: Any, tmp_path: Path) -> None:
-    """Its publishers go on; tests/cli/bag/test_bag.py tests the bag written until then."""
+    """Its publishers go on; tests/app/cli/bag/test_bag.py tests the bag written until then."""
     node = graph.node("n")
     publisher = node.advertise("/a", STRING, queue_size=None)
     with _killed(graph, "-m", "trundle", "bag", "record", "-q", "-O", str(tmp_path / "x.bag"), "/a"):

@@ -1,0 +1,94 @@
+"""A state log on a page."""
+
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+import pytest
+from tests.page.simulated_world.fake_server import FakeServer
+
+import trundle
+from trundle.app.play import LogPage, PlayOptions, play
+from trundle.base.diagnostics import DescriptionError
+from trundle.live.state_logs import start_state_log
+from trundle.page import PageServer, Pause, RenderView, Seek, SetSpeed
+from trundle.sim.simulation import Simulation, read_state_log
+
+PENDULUM = """<sdf version="1.6"><world name="w"><model name="m"><link name="arm"><pose>0 0 1 0 0 0</pose>
+<inertial><pose>0.5 0 0 0 0 0</pose></inertial></link>
+<joint name="hinge" type="revolute"><parent>world</parent><child>arm</child><axis><xyz>0 1 0</xyz></axis></joint>
+</model></world></sdf>"""
+
+
+@pytest.fixture
+def recorded(tmp_path: Path) -> tuple[Simulation, Path]:
+    """Two seconds of a pendulum."""
+    (tmp_path / "w.sdf").write_text(PENDULUM)
+    sim = trundle.load(str(tmp_path / "w.sdf"))
+    recorder = start_state_log(tmp_path / "run.log", sim, sim.world, sim.report)
+    sim.add_hook(recorder, period_ns=recorder.period_ns)
+    sim.run(2.0)
+    recorder.close()
+    return sim, tmp_path / "run.log"
+
+
+def shown(recorded: tuple[Simulation, Path], **options: Any) -> tuple[LogPage, FakeServer]:
+    server = FakeServer()
+    return LogPage(cast(PageServer, server), read_state_log(recorded[1]), recorded[0], PlayOptions(**options)), server
+
+
+def test_a_log_is_played_with_its_poses_and_joints(recorded: tuple[Simulation, Path]) -> None:
+    page, server = shown(recorded, speed=2.0)
+    log = read_state_log(recorded[1])
+
+    page.update(0.5)
+
+    time_ns, poses = server.poses[-1]
+    assert time_ns == 1_000_000_000
+    assert poses == pytest.approx(log.poses[50])
+    _, joints = server.joints[-1]
+    velocity = (log.positions[50, 0] - log.positions[49, 0]) / 0.02
+    assert joints[0, :2] == pytest.approx([log.positions[50, 0], velocity])
+    assert np.isnan(joints[0, 2])
+    state = server.states[-1]
+    assert (state.timeline.start_ns, state.timeline.end_ns, state.speed) == (0, 2_000_000_000, 2.0)
+
+
+def test_the_world_of_a_log_comes_with_its_files(recorded: tuple[Simulation, Path]) -> None:
+    page, server = shown(recorded)
+    while not server.worlds:
+        page.update(0.01)
+
+    manifest, files = server.worlds[0]
+    assert [file["id"] for file in manifest["files"]] == ["", "m"]
+    assert {file["url"] for file in manifest["files"]} <= set(files)
+
+
+def test_a_person_seeks_and_what_a_log_cannot_do_is_refused(recorded: tuple[Simulation, Path]) -> None:
+    page, server = shown(recorded)
+    pause, seek = server.ask(Pause()), server.ask(Seek(1_500_000_000))
+    fast = server.ask(SetSpeed(None))
+
+    page.update(1.0)
+
+    assert server.poses[-1][0] == 1_500_000_000
+    assert [server.answers[number] for number in (pause, seek, fast)] == [None, None, None]
+
+
+def test_pictures_are_drawn_of_the_time_that_is_shown(recorded: tuple[Simulation, Path]) -> None:
+    page, server = shown(recorded)
+    number = server.ask(RenderView(width=64, height=48))
+
+    page.update(0.1)
+
+    assert server.pictures.get(timeout=60)[0] == number
+
+
+def test_an_empty_log_is_refused(recorded: tuple[Simulation, Path]) -> None:
+    _, file = recorded
+    with file.open("rb") as log:
+        header = log.readline()
+    file.write_bytes(header)
+
+    with pytest.raises(DescriptionError, match="nothing was recorded"):
+        play(file, PlayOptions())

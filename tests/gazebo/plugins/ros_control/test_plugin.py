@@ -1,0 +1,174 @@
+"""Robots behind ros_control: transmissions, a controller_manager, its spawner and its controllers."""
+
+import asyncio
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from tests.gazebo.plugins.ros_control.controlled import MANAGER, Robot, driven, standing
+from tests.gazebo_server import PATIENCE_S, Gazebo, until
+
+from trundle.gazebo.nodes import NodeHost
+from trundle.gazebo.nodes.controller_manager import ControllerManagerTool, Spawner
+from trundle.ros import Node
+
+_LIMIT = '<limit lower="-2" upper="2" effort="100" velocity="3"/>'
+ROBOT = standing(
+    driven("lift", "prismatic", "EffortJointInterface", axis="0 0 1", limit=_LIMIT),
+    driven("turn", "revolute", "PositionJointInterface", limit=_LIMIT),
+    driven("spin", "continuous", "VelocityJointInterface"),
+)
+CONTROLLERS: dict[str, Any] = {
+    "states": {"type": "joint_state_controller/JointStateController", "publish_rate": 100},
+    "turn": {"type": "position_controllers/JointPositionController", "joint": "turn"},
+    "spin": {"type": "velocity_controllers/JointVelocityController", "joint": "spin"},
+    "lift": {
+        "type": "effort_controllers/JointPositionController",
+        "joint": "lift",
+        "pid": {"p": 400.0, "i": 200.0, "i_clamp": 50.0, "d": 40.0},
+    },
+    "push": {"type": "effort_controllers/JointEffortController", "joint": "lift"},
+    "odd": {"type": "no/Such"},
+    "imu": {"type": "imu_sensor_controller/ImuSensorController", "publish_rate": 50},
+    "wrist": {"type": "force_torque_sensor_controller/ForceTorqueSensorController", "publish_rate": 50},
+    "all": {"type": "position_controllers/JointGroupPositionController", "joints": ["turn"]},
+}
+
+
+@pytest.fixture
+def robot(gazebo: Gazebo) -> Iterator[Robot]:
+    running = Robot(gazebo, ROBOT, CONTROLLERS)
+    yield running
+    running.close()
+
+
+def test_commands_move_joints_through_their_interfaces(robot: Robot) -> None:
+    robot.spawn("states", "turn", "spin", "lift")
+    robot.command("turn", 1.25)
+    robot.command("spin", -2.0)
+    robot.command("lift", 0.5)
+
+    until(lambda: robot.joint("turn").position[0] == pytest.approx(1.25, abs=2e-3))
+    until(lambda: robot.joint("spin").rate[0] == pytest.approx(-2.0, abs=1e-2))
+    until(
+        lambda: robot.joint("lift").position[0] == pytest.approx(0.5, abs=1e-2)
+    )  # the integral term carries the weight
+    robot.command("turn", 9.0)
+    until(lambda: robot.joint("turn").position[0] == pytest.approx(2.0, abs=5e-3))  # its stop
+
+
+def test_joint_states_are_published_in_the_order_of_names(robot: Robot) -> None:
+    robot.spawn("states")
+    heard = robot.gazebo.hear("/r/joint_states", "sensor_msgs/JointState")
+    until(lambda: len(heard) > 3)
+
+    assert list(heard[0].name) == ["lift", "spin", "turn"]
+    stamps = [message.header.stamp.sec + message.header.stamp.nanosec * 1e-9 for message in heard[:3]]
+    assert stamps[1] - stamps[0] == pytest.approx(0.01, abs=1e-9)
+
+
+def test_an_effort_falls_back_when_its_controller_stops(robot: Robot) -> None:
+    """An effort equal to the weight holds 1 kg; without it, the mass falls."""
+    robot.spawn("push")
+    robot.command("push", 9.8 + 1.0)
+    until(lambda: robot.joint("lift").position[0] > 0.05)
+    assert robot.ask("switch_controller", "SwitchController", stop_controllers=["push"], strictness=2).ok
+    until(lambda: robot.joint("lift").position[0] == pytest.approx(-2.0, abs=1e-2))
+
+
+def test_the_manager_lists_refuses_and_unloads(robot: Robot) -> None:
+    robot.spawn("--stopped", "turn")
+    robot.spawn("all")
+    (first, second) = robot.list()
+    assert (first.name, first.state, first.type) == ("turn", "initialized", CONTROLLERS["turn"]["type"])
+    claim = second.claimed_resources[0]
+    assert (claim.hardware_interface, list(claim.resources)) == ("hardware_interface::PositionJointInterface", ["turn"])
+
+    def switch(start: list[str], stop: list[str], strictness: int = 2) -> bool:
+        fields = {"start_controllers": start, "stop_controllers": stop, "strictness": strictness}
+        return robot.ask("switch_controller", "SwitchController", **fields).ok
+
+    assert not switch(["turn"], [])  # both would command one joint
+    assert not switch(["nobody"], [])
+    assert switch(["nobody"], [], 1)
+    assert not robot.ask("unload_controller", "UnloadController", name="all").ok  # it runs
+    assert switch(["turn"], ["all"])
+    assert robot.ask("unload_controller", "UnloadController", name="all").ok
+    assert [(c.name, c.state) for c in robot.list()] == [("turn", "running")]
+    for name in ("turn", "nobody", "odd"):
+        assert not robot.ask("load_controller", "LoadController", name=name).ok
+    types = robot.ask("list_controller_types", "ListControllerTypes").types
+    assert "diff_drive_controller/DiffDriveController" in types
+
+
+def test_a_spawner_that_is_killed_takes_its_controllers_away(robot: Robot) -> None:
+    robot.spawn("turn")
+    assert robot.stop_spawner(0) == 0
+    until(lambda: robot.list() == [])
+
+
+def test_the_command_line_tool(robot: Robot, capsys: pytest.CaptureFixture[str]) -> None:
+    def tool(words: str) -> int:
+        gazebo = robot.gazebo
+        node = Node("/r/tool", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
+
+        async def run() -> int:
+            try:
+                return await ControllerManagerTool(node, words.split(), NodeHost()).run()
+            finally:
+                await node.shutdown()
+
+        return gazebo.loop.run(run(), timeout_s=PATIENCE_S)
+
+    assert tool("spawn spin") == 0
+    assert tool("list") == 0
+    out = capsys.readouterr().out
+    assert "Spawned 'spin' successfully\n'spin' - 'velocity_controllers/JointVelocityController' ( running )" in out
+    assert tool("kill spin") == 0
+    assert tool("start spin") == 1
+    assert tool("fly spin") == 1
+    assert "invalid choice: 'fly'" in capsys.readouterr().err
+
+
+def test_a_reset_holds_joints_where_they_came(robot: Robot) -> None:
+    robot.spawn("turn")
+    robot.command("turn", 1.0)
+    until(lambda: robot.joint("turn").position[0] == pytest.approx(1.0, abs=1e-2))
+    robot.gazebo.call("reset_simulation")
+    time_s = robot.gazebo.time_s
+    robot.gazebo.until_s(time_s + 0.3)
+    assert robot.joint("turn").position[0] == pytest.approx(0.0, abs=1e-2)
+
+
+def test_without_a_description_it_waits_and_says_so(gazebo: Gazebo, capfd: pytest.CaptureFixture[str]) -> None:
+    spawned = gazebo.call(
+        "spawn_urdf_model", "gazebo_msgs/SpawnModel", model_name="r", model_xml=ROBOT, robot_namespace="/r"
+    )
+    assert spawned.success
+    said: list[str] = []
+    until(lambda: said.append(capfd.readouterr().err) or "waiting for model URDF" in "".join(said))
+    gazebo.loop.run(gazebo.client.params.set("/robot_description", ROBOT))
+    wait = gazebo.client.wait_for_service(f"{MANAGER}/list_controllers", PATIENCE_S)
+    gazebo.loop.run(wait, timeout_s=PATIENCE_S)
+
+
+def test_a_spawner_without_a_manager_gives_up(gazebo: Gazebo, capfd: pytest.CaptureFixture[str]) -> None:
+    node = Node("/spawner", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
+
+    async def run() -> int:
+        return await asyncio.create_task(Spawner(node, ["--timeout", "0.2", "a"], NodeHost()).run())
+
+    assert gazebo.loop.run(run(), timeout_s=PATIENCE_S) == 1
+    assert "Controller Spawner: " in capfd.readouterr().err
+    gazebo.loop.run(node.shutdown())
+
+
+@pytest.mark.parametrize(("name", "interface"), [("imu", "ImuSensor"), ("wrist", "ForceTorqueSensor")])
+def test_a_controller_of_sensors_does_not_load_as_the_hardware_has_none(
+    robot: Robot, name: str, interface: str
+) -> None:
+    robot.list()
+    log = robot.gazebo.hear("/rosout_agg", "rosgraph_msgs/Log")
+    assert not robot.ask("load_controller", "LoadController", name=name).ok
+    wanted = f"/r/{name} requires a hardware interface of type 'hardware_interface::{interface}Interface'"
+    until(lambda: any(wanted in str(line.msg) for line in log))

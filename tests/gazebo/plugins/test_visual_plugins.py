@@ -1,0 +1,56 @@
+"""Plugins of visuals are started like those of models."""
+
+from pathlib import Path
+
+from tests.gazebo.plugins.stage import BODY, Wires, load
+
+SEEN = "<geometry><sphere><radius>0.1</radius></sphere></geometry>"
+MARK = """from trundle.gazebo.plugins import VisualPlugin
+
+class Mark(VisualPlugin):
+    @classmethod
+    def load(cls, sim, model, link, visual, node, tag):
+        mark = cls()
+        mark.says = f"{model.name} {link.name} {visual.name} {tag.node.string('says')}"
+        return mark
+
+    def before_step(self, sim):
+        sim.lines[self.says] = None
+"""
+
+
+def visual(name: str, filename: str) -> str:
+    tag = f'<plugin name="p" filename="{filename}"><says>{name}</says></plugin>'
+    return f'<visual name="{name}">{SEEN}{tag}</visual>'
+
+
+def test_a_user_s_visual_plugin_runs_for_each_visual_that_names_it(tmp_path: Path) -> None:
+    (tmp_path / "mark.py").write_text(MARK)
+    body = f'<link name="l">{BODY.format(1)}{visual("a", "libmark.so")}{visual("b", "libmark.so")}</link>'
+    sim = load(tmp_path, body, wires=Wires())
+    sim.step()
+
+    assert list(sim.lines) == ["m l a a", "m l b b"]
+    sim.delete("m")
+    sim.lines.clear()
+    sim.step()
+    assert sim.lines == {}
+
+
+def test_one_that_is_not_there_is_named_and_one_for_looks_alone_is_noted(tmp_path: Path) -> None:
+    known = visual("b", "libBlinkVisualPlugin.so")
+    model = visual("c", "libWindPlugin.so")
+    sim = load(tmp_path, f'<link name="l">{BODY.format(1)}{visual("a", "libx.so")}{known}{model}</link>')
+
+    assert [(found.severity, found.what) for found in sim.report.findings] == [
+        (
+            "warning",
+            f"plugin 'p': no libx.so; Trundle runs Python plugins: looked for x.py in {tmp_path}; "
+            "the run goes on without it",
+        ),
+        ("info", "plugin 'p': libBlinkVisualPlugin.so alters only how Gazebo draws a visual; it is not run"),
+        (
+            "warning",
+            "plugin 'p' (libWindPlugin.so) is a world's; it belongs into a <world>; the run goes on without it",
+        ),
+    ]
