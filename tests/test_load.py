@@ -35,6 +35,20 @@ def test_importing_it_loads_nothing_heavy() -> None:
     assert done.stdout.strip() == ""
 
 
+def test_xacro_loads_no_parser_of_descriptions(tmp_path: Path) -> None:
+    """ROS' own xacro needs nothing but minidom and PyYAML."""
+    others = {"dataclasses", "lxml", "msgspec", "tempfile", "trundle.robots.packages.configured_files"}
+    file = tmp_path / "robot.xacro"
+    file.write_text('<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro"><a b="${1 + 1} $(optenv R x)"/></robot>')
+    code = "import sys; from trundle.app.cli import main; main(); "
+    code += f"print(*sorted({others} & set(sys.modules)), file=sys.stderr)"
+
+    done = subprocess.run([sys.executable, "-c", code, "xacro", file], capture_output=True, text=True, check=True)
+
+    assert '<a b="2 x"/>' in done.stdout
+    assert done.stderr.strip() == ""
+
+
 def test_the_way_in_loads_nothing_before_it_minds_the_interrupt() -> None:
     """Ctrl-C while modules load would print Python's traceback."""
     code = (

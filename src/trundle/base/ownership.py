@@ -2,7 +2,6 @@
 
 import contextlib
 import os
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -54,6 +53,8 @@ def runtime_folders(environment: Mapping[str, str]) -> list[Path]:
 
     They are below XDG_RUNTIME_DIR, and below the folder of temporary files; one that is missing is made.
     """
+    import tempfile  # which takes random and bz2 with it
+
     user = str(os.geteuid()) if hasattr(os, "geteuid") else "user"
     folders = [Path(tempfile.gettempdir()) / f"trundle-{user}"]
     if os.path.isabs(root := environment.get("XDG_RUNTIME_DIR", "")):

@@ -2,14 +2,15 @@
 
 import argparse
 from collections.abc import Callable
-from dataclasses import fields
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
     from trundle.base.http.page_address import AllowedNames
 
-_Options = TypeVar("_Options")
+_Options = TypeVar("_Options", bound="DataclassInstance")
 
 
 def field_option(parser: argparse.ArgumentParser) -> Callable[..., argparse.Action]:
@@ -25,7 +26,9 @@ def read_options(kind: type[_Options], args: argparse.Namespace, **more: object)
         args: those that have the name of a field are its value.
         more: further fields.
     """
-    names = {each.name for each in fields(kind)}  # type: ignore[arg-type]
+    from dataclasses import fields  # which takes inspect with it
+
+    names = {field.name for field in fields(kind)}
     given: dict[str, Any] = {name: value for name, value in vars(args).items() if name in names}
     return kind(**given | more)
 

@@ -32,7 +32,6 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _expand(args: argparse.Namespace) -> int:
-    from trundle.base.atomic_write import write_atomically
     from trundle.base.diagnostics import Diagnostics, UsageError
     from trundle.base.files import is_stream, read_stream
     from trundle.robots.description import expand_xacro
@@ -54,5 +53,7 @@ def _expand(args: argparse.Namespace) -> int:
     if args.output is None:
         print(text, end="")
     else:
+        from trundle.base.atomic_write import write_atomically
+
         write_atomically(args.output, text)
     return 0

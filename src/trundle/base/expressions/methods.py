@@ -1,7 +1,6 @@
 """Methods and attributes available to expressions, by object type."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from .budget import bound_length
@@ -14,16 +13,18 @@ _Guarded = Callable[[Caller, Any, Sequence[Any], Mapping[str, Any]], Any]
 """Calls a method of the object in the second argument."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
 class Method(Callee):
     """Bound method."""
 
-    name: str
-    owner: object
-    guard: _Guarded
+    __slots__ = ("_guard", "_owner", "name")
+
+    def __init__(self, name: str, owner: object, guard: _Guarded) -> None:
+        self.name = name
+        self._owner = owner
+        self._guard = guard
 
     def call(self, caller: Caller, values: Sequence[object], named: Mapping[str, object], /) -> object:
-        return self.guard(caller, self.owner, values, named)
+        return self._guard(caller, self._owner, values, named)
 
     def __repr__(self) -> str:
         return f"<method {self.name}>"

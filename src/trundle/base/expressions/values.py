@@ -1,7 +1,6 @@
 """Callable values of expressions."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, Protocol
 
 from .budget import Budget
@@ -38,15 +37,17 @@ class Callee:
         raise NotImplementedError
 
 
-@dataclass(frozen=True, slots=True, eq=False)
 class Function(Callee):
     """Function that the program offers to the expressions of a file."""
 
-    name: str
-    body: Guarded
+    __slots__ = ("_body", "name")
+
+    def __init__(self, name: str, body: Guarded) -> None:
+        self.name = name
+        self._body = body
 
     def call(self, caller: Caller, values: Sequence[object], named: Mapping[str, object], /) -> Any:
-        return self.body(caller, values, named)
+        return self._body(caller, values, named)
 
     def __repr__(self) -> str:
         return f"<function {self.name}>"

@@ -1,19 +1,19 @@
 """Command-line arguments of ROS 1 executables: `a:=b`, `__name:=n`, `_param:=value`."""
 
 import re
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
+from typing import NamedTuple
 
 _REMAP = re.compile(r"(?P<from>(?:[~/A-Za-z]|__?)[A-Za-z0-9_/]*):=(?P<to>.*)", re.DOTALL)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Arguments:
+class Arguments(NamedTuple):
     """Parsed command line: ROS arguments, and the rest for the program."""
 
-    remappings: dict[str, str] = field(default_factory=dict[str, str])
+    remappings: Mapping[str, str] = MappingProxyType({})
     """Names as written, unresolved."""
-    params: dict[str, str] = field(default_factory=dict[str, str])
+    params: Mapping[str, str] = MappingProxyType({})
     """Private parameters; values are YAML text."""
     name: str | None = None
     namespace: str | None = None

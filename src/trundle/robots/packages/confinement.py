@@ -16,11 +16,15 @@ class WideFolders:
 
     def __contains__(self, folder: object) -> bool:
         assert isinstance(folder, Path)
+        return self.narrow(folder) is None
+
+    def narrow(self, folder: Path) -> str | None:
+        """Return a folder's path without links; None if it is wide."""
         try:
             real = os.path.realpath(folder)
         except OSError:  # a link that is gone meanwhile, as below /proc
-            return True
-        return real in self._folders or os.path.dirname(real) == real
+            return None
+        return None if real in self._folders or os.path.dirname(real) == real else real
 
 
 class Confinement:
@@ -28,7 +32,7 @@ class Confinement:
 
     def __init__(self, folders: Iterable[Path], *, wide: WideFolders, beside: Iterable[Path] = ()) -> None:
         """Allow folders with all their content, and the visible files directly in those of `beside`."""
-        self._folders = {os.path.realpath(folder) for folder in folders if folder not in wide}
+        self._folders = {real for folder in folders if (real := wide.narrow(folder)) is not None}
         self._beside = {os.path.realpath(folder) for folder in beside}
 
     def allows(self, path: Path) -> bool:

@@ -33,12 +33,12 @@ def hook_variables(
     """Return the variables that a package's hooks set, and that an environment lacks.
 
     Args:
-        package: its name; of turtlebot_gazebo, variables that begin with TURTLEBOT_ are read.
+        package: package's name; variables that begin with its `hook_prefix` are read.
         folder: the package's.
         find: returns the folder of a package that a hook asks rospack for.
         environment: of the user; its variables win.
     """
-    prefix = f"{re.split('[_-]', package)[0].upper()}_"
+    prefix = hook_prefix(package)
     found: dict[str, str] = {}
     for text in _hooks(folder / _FOLDER):
         for match in _ASSIGNED.finditer(text):
@@ -49,6 +49,11 @@ def hook_variables(
             if plain is not None:
                 found[name] = plain
     return found
+
+
+def hook_prefix(package: str) -> str:
+    """Return the beginning of the variables of a package's hooks: TURTLEBOT_ for turtlebot_gazebo."""
+    return f"{re.split('[_-]', package)[0].upper()}_"
 
 
 def _hooks(folder: Path) -> Iterator[str]:

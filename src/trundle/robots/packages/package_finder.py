@@ -9,12 +9,11 @@ from urllib.parse import unquote
 
 from trundle.assets import ASSETS
 from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, UsageError, did_you_mean
-from trundle.base.files import is_stream
+from trundle.base.files import is_stream, read_text
 from trundle.robots.repositories import repository_hint
 
-from .configured_files import write_configured_files
 from .confinement import Confinement
-from .env_hooks import hook_variables
+from .env_hooks import hook_prefix, hook_variables
 from .gazebo_paths import GazeboPaths, is_stand_in
 from .package_cache import PackageCache
 from .ros_packages import RosPackages
@@ -35,6 +34,8 @@ _LONGEST = 200
 _FUEL_MODEL = re.compile(r"/models/([^/]+)(?:/(?:\d+|tip)(?:/files(/.*[^/]))?)?/?$")
 """Path of a model on Fuel, or of a file of one of its versions."""
 _MAX_NAMED = 3
+_MAY_CONFIGURE = re.compile(r"\b(configure_file|include|add_subdirectory)\s*\(", re.IGNORECASE)
+"""Commands of CMake that configure files, or read others that may."""
 
 
 class Packages:
@@ -77,7 +78,7 @@ class Packages:
         """
         found = self.find_package(name)
         if found is not None and found not in self._cache.configured and not found.is_relative_to(ASSETS):
-            self._cache.configured[found] = write_configured_files(found, replace=False)
+            self._cache.configured[found] = _write_configured_files(found)
         found = found or DESCRIPTIONS.get(name)
         return found or (_OWN_PACKAGES / name if name in STOCK else None)
 
@@ -125,11 +126,12 @@ class Packages:
         """Return an environment variable: the user's own, else the one that a package's environment hook sets."""
         if name in self._environment:
             return self._environment[name]
-        return next((found[name] for found in self._hooked.values() if name in found), None)
-
-    @cached_property
-    def _hooked(self) -> dict[str, dict[str, str]]:
-        return self.hook_variables()
+        for package, folder in self.ros_packages().items():
+            if name.startswith(hook_prefix(package)):
+                variables = hook_variables(package, folder, self.find_package, self._environment)
+                if name in variables:
+                    return variables[name]
+        return None
 
     def skipped_folders(self) -> Mapping[Path, str]:
         """Return the folders skipped by the search, with the reason."""
@@ -329,3 +331,16 @@ class Packages:
 
 def _shown(name: str) -> str:
     return name if len(name) <= _LONGEST else f"{name[:_LONGEST]}…"
+
+
+def _write_configured_files(package: Path) -> list[Path]:
+    """Write the missing files that a package's CMakeLists.txt configures, and return them."""
+    try:
+        text = read_text(package / "CMakeLists.txt")
+    except OSError:
+        return []
+    if not _MAY_CONFIGURE.search(text):
+        return []
+    from .configured_files import write_configured_files  # and a reader of CMake's language, for few packages
+
+    return write_configured_files(package, replace=False)

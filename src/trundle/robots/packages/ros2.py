@@ -2,9 +2,12 @@
 
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from trundle.base.diagnostics import DescriptionError, Source
-from trundle.base.xmlnode import XmlNode
+
+if TYPE_CHECKING:
+    from trundle.base.xmlnode import XmlNode
 
 _IN_OTHER_LANGUAGES = {".py": "in Python", ".yaml": "in YAML", ".yml": "in YAML"}
 _NAME = re.compile(r"(.*[._])?launch\.\w+")
@@ -24,7 +27,7 @@ def refuse_ros2_language(file: Path, *, is_launch: bool) -> None:
         raise DescriptionError(Source(str(file)), f"a launch file {language} is one of ROS 2; {_READ_HERE}")
 
 
-def refuse_ros2(node: XmlNode) -> None:
+def refuse_ros2(node: "XmlNode") -> None:
     """Refuse ROS 2 syntax.
 
     Raises:
@@ -36,7 +39,7 @@ def refuse_ros2(node: XmlNode) -> None:
         refuse_ros2(child)
 
 
-def _shown_by(node: XmlNode) -> str | None:
+def _shown_by(node: "XmlNode") -> str | None:
     if node.tag == "node" and node.attribute("exec") is not None and node.attribute("type") is None:
         return "<node exec>"
     for name in node.attributes():

@@ -76,7 +76,7 @@ def test_expressions_of_published_files_have_their_values(tmp_path: Path, expres
         ("dict(a=1).a", "'dict' object has no attribute 'a'; its key is written ['a']"),
         ("xacro.fatal('out', 'of', 3)", "out of 3"),
         ("python.clear()", "name 'clear' is not defined"),
-        ("xacro.load_yaml.body", "'Function' object has no attribute 'body' that an expression may use"),
+        ("xacro.load_yaml.call", "'Function' object has no attribute 'call' that an expression may use"),
         ("xacro.__class__", "Use of invalid name(s): __class__"),
         ("xacro.tokenize('a' * 40, sep='x]|(a+)+$|[y')", None),
     ],

@@ -25,7 +25,6 @@ from trundle.robots.packages import Packages, refuse_ros2_language
 
 from ..xacro_places import Cursor, parse_with_lines, place_of
 from .dom import replace_node
-from .error import description_error
 from .missing_packages import MissingPackageError, skip_missing_packages
 from .symbols import SubstitutedNames, install_symbols, new_interpreter
 
@@ -147,6 +146,8 @@ def expand_xacro(
         except RecursionError:
             raise DescriptionError(cursor.at, "infinite recursion of elements, macros or properties") from None
         except Exception as error:  # xacro evaluates the file's own Python, which may raise anything
+            from .error import description_error
+
             raise description_error(error, cursor.at, path, map(str, xacro.all_includes)) from None
 
 
