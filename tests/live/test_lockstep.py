@@ -69,7 +69,7 @@ def test_what_the_process_does_is_waited_for_and_named(
 ) -> None:
     monkeypatch.setattr(lockstep, "_ANSWER_S", 0.0)
     monkeypatch.setattr(lockstep, "_ANSWER_PASSES", 0)
-    monkeypatch.setattr("trundle.ros.node.loop._LOOK_S", 0.1)
+    monkeypatch.setattr("trundle.ros.node.loop._CHECK_S", 0.1)
     monkeypatch.setattr("trundle.ros.node.pending_work.PERIOD_S", 0.1)
     said: list[str] = []
     with GraphLoop() as loop:

@@ -65,7 +65,7 @@ from .errors import (
     ServiceError as ServiceError,
     TransformError as TransformError,
 )
-from .log import LEVELS as LEVELS, coloured as coloured
+from .log import LEVELS as LEVELS, colored as colored
 from .log_file import LogFile as LogFile
 from .master.master_api import Master as Master
 from .master.parameters import ParameterTree as ParameterTree, set_leaves as set_leaves

@@ -11,7 +11,7 @@ Level = Literal["debug", "info", "warn", "error", "fatal"]
 LEVELS: dict[str, int] = {"debug": 1, "info": 2, "warn": 4, "error": 8, "fatal": 16}
 """Level numbers of rosgraph_msgs/Log."""
 
-_COLOURS = {"debug": "\033[32m", "warn": "\033[33m", "error": "\033[31m", "fatal": "\033[31m"}
+_COLORS = {"debug": "\033[32m", "warn": "\033[33m", "error": "\033[31m", "fatal": "\033[31m"}
 _WIDTHS = {"info": "[INFO]", "debug": "[DEBUG]", "warn": "[WARN]", "error": "[ERROR]", "fatal": "[FATAL]"}
 _lock = threading.Lock()
 
@@ -23,17 +23,17 @@ def print_log(level: Level, text: str, *, wall_ns: int, sim_ns: int | None, quie
     stream = sys.stderr if quiet is None or LEVELS[level] > LEVELS["info"] else quiet
     # The reader may have closed the stream; logging never raises.
     with _lock, contextlib.suppress(OSError, ValueError):
-        print(coloured(line, level, stream), file=stream, flush=True)
+        print(colored(line, level, stream), file=stream, flush=True)
 
 
-def coloured(line: str, level: str, stream: TextIO) -> str:
-    """Colour a line by its level if the stream is a terminal, unless NO_COLOR (https://no-color.org) is set."""
-    colour = _COLOURS.get(level)
-    return f"{colour}{line}\033[0m" if colour and stream.isatty() and not os.environ.get("NO_COLOR") else line
+def colored(line: str, level: str, stream: TextIO) -> str:
+    """Color a line by its level if the stream is a terminal, unless NO_COLOR (https://no-color.org) is set."""
+    color = _COLORS.get(level)
+    return f"{color}{line}\033[0m" if color and stream.isatty() and not os.environ.get("NO_COLOR") else line
 
 
 def caller(depth: int) -> tuple[str, str, int]:
-    """File, function and line `depth` frames above this function's caller, for rosgraph_msgs/Log."""
+    """Return file, function and line `depth` frames above this function's caller, for rosgraph_msgs/Log."""
     frame = inspect.currentframe()
     for _ in range(depth + 1):
         frame = frame.f_back if frame is not None else None

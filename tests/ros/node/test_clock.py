@@ -28,7 +28,7 @@ def test_sleepers_wake_when_their_time_has_come(graph: Any) -> None:
     graph.until(lambda: len(woken) == 3)
 
 
-def test_a_sleep_before_the_first_tick_starts_there(graph: Any) -> None:
+def test_a_sleep_before_the_first_tick_starts_with_it(graph: Any) -> None:
     clock = SimClock(graph.loop)
     done = graph.loop.spawn(clock.sleep(1.0))
     graph.loop.flush_deliveries()
@@ -41,19 +41,19 @@ def test_a_sleep_before_the_first_tick_starts_there(graph: Any) -> None:
     done.result(PATIENCE_S)
 
 
-def test_time_going_back_wakes_everyone_and_is_told(graph: Any) -> None:
+def test_a_jump_back_wakes_all_sleepers_and_calls_the_listeners(graph: Any) -> None:
     clock = SimClock(graph.loop)
     clock.set(100)
-    told: list[int] = []
-    clock.on_jump(lambda: told.append(clock.now_ns()))
+    jumps: list[int] = []
+    clock.on_jump(lambda: jumps.append(clock.now_ns()))
     done = graph.loop.spawn(clock.sleep_until(10**12))
     graph.loop.flush_deliveries()
     clock.set(3)
     done.result(PATIENCE_S)
-    assert (told, clock.jumps) == ([3], 1)
+    assert (jumps, clock.jumps) == ([3], 1)
 
 
-def test_a_time_that_has_passed_is_not_waited_for(graph: Any) -> None:
+def test_sleeping_until_a_past_time_returns_at_once(graph: Any) -> None:
     clock = SimClock(graph.loop)
     clock.set(100)
     graph.loop.run(clock.sleep_until(100))

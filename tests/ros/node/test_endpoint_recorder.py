@@ -3,23 +3,23 @@
 from trundle.ros.node.endpoint_recorder import EndpointRecorder
 
 
-class End:
+class FakeEndpoint:
     """An endpoint."""
 
     def unregister(self) -> None:
         """Nothing to do."""
 
 
-def test_an_outer_record_has_the_endpoints_of_an_inner_one() -> None:
+def test_an_outer_record_includes_the_endpoints_of_an_inner_one() -> None:
     recorder = EndpointRecorder()
-    before, within, after = End(), End(), End()
+    before, within, after = FakeEndpoint(), FakeEndpoint(), FakeEndpoint()
 
     with recorder.record() as outer:
         recorder.add(before)
         with recorder.record() as inner:
             recorder.add(within)
         recorder.add(after)
-    recorder.add(End())
+    recorder.add(FakeEndpoint())
 
     assert inner == [within]
     assert outer == [before, within, after]

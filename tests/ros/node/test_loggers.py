@@ -5,7 +5,7 @@ import pytest
 from trundle.ros import Loggers
 
 
-def test_a_logger_has_the_level_of_the_nearest_above_it() -> None:
+def test_a_logger_inherits_the_level_of_its_nearest_ancestor() -> None:
     loggers = Loggers.for_roscpp("topic_tools")
     assert loggers.level == "info"
     loggers.set("ros", "debug")
@@ -16,7 +16,7 @@ def test_a_logger_has_the_level_of_the_nearest_above_it() -> None:
     assert loggers.level == "error"
 
 
-def test_loggers_that_a_node_does_not_use_leave_it_alone() -> None:
+def test_levels_of_other_loggers_do_not_change_the_nodes_level() -> None:
     loggers = Loggers.for_rospy()
     loggers.set("rospy", "fatal")
     loggers.set("mine.own", "debug")
@@ -24,6 +24,6 @@ def test_loggers_that_a_node_does_not_use_leave_it_alone() -> None:
     assert (loggers.level, levels["rospy.topics"], levels["mine.own"]) == ("info", "fatal", "debug")
 
 
-def test_a_level_that_is_none_is_refused() -> None:
+def test_an_unknown_level_is_refused() -> None:
     with pytest.raises(ValueError, match="no level 'loud'; levels: debug, info"):
         Loggers.for_rospy().set("rosout", "loud")

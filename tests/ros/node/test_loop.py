@@ -1,4 +1,4 @@
-"""The loop that nodes share leaves nothing open."""
+"""The loop that nodes share: batches, waits, and a shutdown that leaves nothing open."""
 
 import asyncio
 import ctypes
@@ -26,38 +26,38 @@ from trundle.ros.transport.closing_loop import close_server
 
 
 @pytest.mark.parametrize("passes", range(5))
-def test_a_server_that_closes_loses_nobody_at_its_door(passes: int) -> None:
-    """asyncio makes a transport of an accepted connection one pass later, and forgets it if the server is closed."""
+def test_closing_a_server_closes_connections_it_just_accepted(passes: int) -> None:
+    """asyncio creates an accepted connection's transport one pass later, and leaks it if the server is closed."""
 
-    async def knock() -> None:
+    async def close_after_accepting() -> None:
         server = await asyncio.start_server(lambda _, writer: writer.close(), "127.0.0.1", 0)
-        with socket.create_connection(server.sockets[0].getsockname()) as visitor:
+        with socket.create_connection(server.sockets[0].getsockname()) as client:
             for _ in range(passes):
                 await asyncio.sleep(0)
             await close_server(server)
-            visitor.setblocking(False)
+            client.setblocking(False)
             for _ in range(5):
                 await asyncio.sleep(0)
 
     with warnings.catch_warnings(record=True) as leaks:
         warnings.simplefilter("always")
-        asyncio.run(knock())
+        asyncio.run(close_after_accepting())
         gc.collect()
     assert [str(leak.message) for leak in leaks] == []
 
 
-def test_what_a_thread_gathers_comes_when_it_is_released_and_in_order() -> None:
-    came: list[int] = []
+def test_batched_calls_run_in_order_when_the_batch_ends() -> None:
+    called: list[int] = []
     with GraphLoop() as loop:
         loop.begin_batch()
         for number in range(3):
-            loop.call_soon(lambda number=number: came.append(number))
-        assert came == []
+            loop.call_soon(lambda number=number: called.append(number))
+        assert called == []
         assert loop.wait_idle()
-        assert came == [0, 1, 2]
+        assert called == [0, 1, 2]
 
 
-def test_it_does_not_rest_while_something_is_under_way() -> None:
+def test_the_loop_is_not_idle_while_work_is_pending() -> None:
     with GraphLoop() as loop:
         due_s = time.monotonic() + 0.05
         with loop.work.pending():
@@ -65,24 +65,24 @@ def test_it_does_not_rest_while_something_is_under_way() -> None:
         assert loop.wait_idle()
 
 
-def test_a_node_that_has_gone_is_forgotten(graph: Any) -> None:
-    """Scripts that make a node for each call start and end thousands."""
+def test_a_shut_down_node_is_freed(graph: Any) -> None:
+    """Scripts that create a node per call start and shut down thousands."""
     node = graph.node("passing")
     node.advertise("/a", "std_msgs/String")
     node.subscribe("/b", "std_msgs/String", print)
     graph.ready(node)
     graph.loop.run(node.shutdown(), PATIENCE_S)
-    gone = weakref.ref(node)
+    reference = weakref.ref(node)
     del node
 
-    def is_forgotten() -> bool:
+    def is_freed() -> bool:
         gc.collect()
-        return gone() is None
+        return reference() is None
 
-    graph.until(is_forgotten)
+    graph.until(is_freed)
 
 
-def test_what_is_begun_while_the_loop_ends_is_ended_too(caplog: pytest.LogCaptureFixture) -> None:
+def test_tasks_created_while_the_loop_stops_are_cancelled_too(caplog: pytest.LogCaptureFixture) -> None:
     """Each cancelled task starts another one, as a peer's last call does."""
     ended: list[int] = []
 
@@ -105,8 +105,8 @@ def test_what_is_begun_while_the_loop_ends_is_ended_too(caplog: pytest.LogCaptur
     assert "pending" not in caplog.text
 
 
-def test_nodes_that_begin_while_the_loop_ends_leave_nothing(graph: Any, caplog: pytest.LogCaptureFixture) -> None:
-    """Nodes that a thread keeps making are neither started nor awaited."""
+def test_nodes_created_while_the_loop_stops_leave_no_task(graph: Any, caplog: pytest.LogCaptureFixture) -> None:
+    """Nodes that a thread keeps creating are neither started nor awaited."""
     loop, over = GraphLoop(messages=graph.loop.messages), threading.Event()
     loop.start()
 
@@ -130,14 +130,16 @@ def test_nodes_that_begin_while_the_loop_ends_leave_nothing(graph: Any, caplog: 
     assert "cannot go on" not in caplog.text
 
 
-def test_what_an_ended_loop_is_given_is_cancelled() -> None:
+def test_a_coroutine_spawned_on_a_stopped_loop_is_cancelled() -> None:
     with GraphLoop() as loop:
         pass
     assert loop.spawn(asyncio.sleep(0)).cancelled()
 
 
 @pytest.mark.parametrize(("error", "is_logged"), [(UsageError("no such file"), False), (KeyError("a"), True)])
-def test_only_a_fault_of_the_program_is_logged_with_its_traceback(error: Exception, is_logged: bool, caplog) -> None:
+def test_only_program_errors_are_logged_with_a_traceback(
+    error: Exception, is_logged: bool, caplog: pytest.LogCaptureFixture
+) -> None:
     async def fail() -> None:
         raise error
 
@@ -170,19 +172,19 @@ def _slice_ns(thread: int) -> int:
     return runtime_ns
 
 
-def test_its_thread_asks_for_short_slices_and_whatever_that_starts_does_not() -> None:
+def test_only_the_loops_thread_has_a_short_time_slice() -> None:
     """A message is read at once on a busy machine; computing threads are not interrupted every 0.1 ms."""
     if os.getpriority(os.PRIO_PROCESS, 0) != 0:
         pytest.skip("these tests run at a priority of their user's, which the loop leaves alone")
-    usual = _slice_ns(threading.get_native_id())
+    default_ns = _slice_ns(threading.get_native_id())
 
     async def slices() -> tuple[int, int]:
-        own = _slice_ns(threading.get_native_id())
-        return own, await asyncio.to_thread(lambda: _slice_ns(threading.get_native_id()))
+        loop_ns = _slice_ns(threading.get_native_id())
+        return loop_ns, await asyncio.to_thread(lambda: _slice_ns(threading.get_native_id()))
 
     with GraphLoop() as loop:
-        assert loop.run(slices()) == (100_000, usual)
-    assert _slice_ns(threading.get_native_id()) == usual != 100_000
+        assert loop.run(slices()) == (100_000, default_ns)
+    assert _slice_ns(threading.get_native_id()) == default_ns != 100_000
 
 
 _WAITS = """
@@ -203,36 +205,36 @@ with GraphLoop() as loop:
 
 
 @pytest.mark.skipif(not hasattr(signal, "pthread_kill"), reason="Windows sends no signal to a thread")
-def test_an_interrupt_that_another_thread_takes_ends_the_wait() -> None:
+def test_an_interrupt_delivered_to_another_thread_ends_the_wait() -> None:
     """Linux may give a process' signal to any of its threads; it wakes only that one."""
     done = subprocess.run([sys.executable, "-c", _WAITS], capture_output=True, text=True, timeout=PATIENCE_S)
 
     assert done.stdout == "interrupted\n"
 
 
-def test_a_wait_that_takes_several_turns_returns_and_times_out() -> None:
+def test_a_wait_longer_than_the_poll_interval_returns_or_times_out() -> None:
     with GraphLoop() as loop:
         assert loop.run(asyncio.sleep(1.2, "slept"), None) == "slept"
         with pytest.raises(TimeoutError):
             loop.run(asyncio.sleep(60.0), 0.7)
-        with pytest.raises(TimeoutError, match="own"):
+        with pytest.raises(TimeoutError, match="loop_ns"):
             loop.run(_late_error(), None)
 
 
 async def _late_error() -> None:
     await asyncio.sleep(0.6)
-    raise TimeoutError("own")
+    raise TimeoutError("loop_ns")
 
 
-def test_a_shutdown_that_is_broken_off_lets_the_loop_end(graph: Any) -> None:
+def test_a_cancelled_shutdown_lets_the_loop_stop(graph: Any) -> None:
     node = graph.node("n")
     graph.ready(node)
 
-    async def break_off() -> None:
-        leaving = asyncio.ensure_future(node.shutdown())
+    async def cancel_shutdown() -> None:
+        shutdown = asyncio.ensure_future(node.shutdown())
         await asyncio.sleep(0)
-        leaving.cancel()
-        await asyncio.gather(leaving, return_exceptions=True)
+        shutdown.cancel()
+        await asyncio.gather(shutdown, return_exceptions=True)
 
-    graph.loop.run(break_off(), PATIENCE_S)
+    graph.loop.run(cancel_shutdown(), PATIENCE_S)
     assert node.closed.is_set()

@@ -11,7 +11,7 @@ STRING = "std_msgs/String"
 
 
 @pytest.fixture(autouse=True)
-def _asks_often(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
+def _frequent_look_ups(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
     monkeypatch.setattr("trundle.ros.node.master_watch._PERIOD_S", 0.1)
 
 
@@ -36,14 +36,14 @@ def test_nodes_go_on_without_their_master_and_register_again(capfd: pytest.Captu
             listening.run(listener.params.watch("/rate", lambda _, value: changes.append(value)), PATIENCE_S)
             until(lambda: publisher.has_subscribers)
             mastering.run(core.stop(), PATIENCE_S)
-        said = ""
+        output = ""
 
-        def has_said(text: str) -> bool:
-            nonlocal said
-            said += capfd.readouterr().err
-            return text in said
+        def is_logged(text: str) -> bool:
+            nonlocal output
+            output += capfd.readouterr().err
+            return text in output
 
-        until(lambda: has_said("/talker goes on without it") and has_said("/listener goes on without it"))
+        until(lambda: is_logged("/talker goes on without it") and is_logged("/listener goes on without it"))
         publisher.publish({"data": "without"})
         until(lambda: got == ["without"])
         with GraphLoop() as mastering:
@@ -57,27 +57,27 @@ def test_nodes_go_on_without_their_master_and_register_again(capfd: pytest.Captu
                 ]
 
             until(lambda: state() == [{"/a": ["/talker"]}, {"/a": ["/listener"]}, {"/ask": ["/talker"]}])
-            until(lambda: has_said("/talker registers again"))
+            until(lambda: is_logged("/talker registers again"))
             until(lambda: master.call("hasParam", "/talker/gain"))
             publisher.publish({"data": "again"})
             until(lambda: got == ["without", "again"])
 
-            def is_told() -> bool:
+            def is_notified() -> bool:
                 master.call("setParam", "/rate", len(changes))
                 return bool(changes)
 
-            until(is_told)
+            until(is_notified)
             late = Node("late", loop=mastering, master_uri=uri, rosout=False)
             late.advertise("/a", STRING, latch=True).publish({"data": "late"})
             until(lambda: got[-1] == "late")
-            assert not has_said("/late goes on without it")
-            assert said.count("goes on without it") == 2
+            assert not is_logged("/late goes on without it")
+            assert output.count("goes on without it") == 2
             talking.stop()
             listening.stop()
             mastering.run(core.stop(), PATIENCE_S)
 
 
-def test_who_waits_for_a_registration_goes_on_when_the_node_shuts_down() -> None:
+def test_waiting_for_registration_ends_when_the_node_shuts_down() -> None:
     with GraphLoop() as loop:
         node = Node("alone", loop=loop, master_uri="http://127.0.0.1:1/", rosout=False)
         node.advertise("/a", STRING)

@@ -20,8 +20,9 @@ from trundle.ros import (
     RawMessage,
     ServiceError,
     SimClock,
+    Subscription,
     WallClock,
-    coloured,
+    colored,
     follow_time,
     probe_service,
 )
@@ -68,7 +69,7 @@ def test_fields_may_be_any_mapping(graph: Any) -> None:
     graph.until(lambda: got == ["x"])
 
 
-def test_in_one_process_the_very_object_arrives(graph: Any) -> None:
+def test_a_subscriber_in_the_same_process_receives_the_published_object(graph: Any) -> None:
     talker, listener = graph.node("talker"), graph.node("listener")
     got: list[Any] = []
     publisher = talker.advertise("chatter", STRING)
@@ -82,7 +83,7 @@ def test_in_one_process_the_very_object_arrives(graph: Any) -> None:
     assert link[1:6] == ["/listener", "o", "INTRAPROCESS", "/chatter", True]
 
 
-def test_a_newcomer_gets_the_latched_message(graph: Any, pair: tuple[Any, Any]) -> None:
+def test_a_new_subscriber_gets_the_latched_message(graph: Any, pair: tuple[Any, Any]) -> None:
     talker, listener = pair
     talker.advertise("map", STRING, latch=True).publish({"data": "the map"})
     graph.ready(talker)
@@ -103,7 +104,7 @@ def test_header_sequence_numbers_are_filled_in(graph: Any, pair: tuple[Any, Any]
     assert got == [1, 2, 3]
 
 
-def test_any_type_is_taken_as_bytes_with_its_definition(graph: Any, pair: tuple[Any, Any]) -> None:
+def test_a_raw_subscription_receives_bytes_and_definition(graph: Any, pair: tuple[Any, Any]) -> None:
     talker, listener = pair
     got: list[RawMessage] = []
     publisher = talker.advertise("chatter", STRING, latch=True)
@@ -115,7 +116,7 @@ def test_any_type_is_taken_as_bytes_with_its_definition(graph: Any, pair: tuple[
     assert got[0].definition == "string data\n"
 
 
-def test_bytes_are_published_as_they_are(graph: Any, pair: tuple[Any, Any]) -> None:
+def test_bytes_are_published_unchanged(graph: Any, pair: tuple[Any, Any]) -> None:
     talker, listener = pair
     got: list[str] = []
     talker.advertise("chatter", STRING, latch=True).publish(b"\x02\x00\x00\x00hi")
@@ -123,7 +124,7 @@ def test_bytes_are_published_as_they_are(graph: Any, pair: tuple[Any, Any]) -> N
     graph.until(lambda: got == ["hi"])
 
 
-def test_long_messages_come_whole_and_in_order(graph: Any, pair: tuple[Any, Any]) -> None:
+def test_long_messages_arrive_complete_and_in_order(graph: Any, pair: tuple[Any, Any]) -> None:
     """Longer than the kernel buffers, so that they are sent in many parts; a field follows the array."""
     talker, listener = pair
     kind, count = "sensor_msgs/PointCloud2", 12
@@ -139,12 +140,12 @@ def test_long_messages_come_whole_and_in_order(graph: Any, pair: tuple[Any, Any]
     assert all(np.array_equal(m.data, np.arange(1_000_003 + i, dtype=np.uint8)) for i, m in enumerate(got))
 
 
-def test_another_type_is_refused_and_said(graph: Any, pair: tuple[Any, Any], capfd: Any) -> None:
+def test_a_type_mismatch_is_refused_and_logged(graph: Any, pair: tuple[Any, Any], capfd: Any) -> None:
     talker, listener = pair
     publisher = talker.advertise("chatter", STRING)
     listener.subscribe("chatter", "std_msgs/Int32", print)
-    said: list[str] = []
-    graph.until(lambda: said.append(capfd.readouterr().err) or "no messages on /chatter" in "".join(said))
+    output: list[str] = []
+    graph.until(lambda: output.append(capfd.readouterr().err) or "no messages on /chatter" in "".join(output))
     assert not publisher.has_subscribers
 
 
@@ -165,7 +166,7 @@ def test_callbacks_may_be_coroutines_and_keep_their_order(graph: Any) -> None:
     assert got == ["0", "1", "2", "3", "4"]
 
 
-def test_a_failing_callback_is_said_and_the_next_message_comes(graph: Any, capfd: Any) -> None:
+def test_a_failing_callback_is_logged_and_the_next_message_delivered(graph: Any, capfd: Any) -> None:
     talker, listener = graph.node("talker"), graph.node("listener")
     got: list[str] = []
 
@@ -180,11 +181,11 @@ def test_a_failing_callback_is_said_and_the_next_message_comes(graph: Any, capfd
     publisher.publish({"data": "bad"})
     publisher.publish({"data": "good"})
     graph.until(lambda: len(got) == 2)
-    assert "[ERROR]" in (said := capfd.readouterr().err)
-    assert "the callback of /chatter failed: cannot take this" in said
+    assert "[ERROR]" in (output := capfd.readouterr().err)
+    assert "the callback of /chatter failed: cannot take this" in output
 
 
-def test_another_thread_can_run_the_callbacks_and_the_oldest_messages_go(graph: Any) -> None:
+def test_a_full_queue_for_another_thread_drops_the_oldest_messages(graph: Any) -> None:
     inbox: queue.Queue[Any] = queue.Queue()
     talker, listener = graph.node("talker"), graph.node("listener", deliver=inbox.put)
     got: list[tuple[str, str]] = []
@@ -203,7 +204,7 @@ def test_another_thread_can_run_the_callbacks_and_the_oldest_messages_go(graph: 
     assert subscription.dropped == 3
 
 
-def test_a_service_is_called_and_its_no_is_heard(graph: Any, pair: tuple[Any, Any]) -> None:
+def test_a_service_call_returns_the_response_or_raises_its_error(graph: Any, pair: tuple[Any, Any]) -> None:
     provider, client = pair
 
     async def handler(request: Any) -> dict[str, Any]:
@@ -259,8 +260,8 @@ def test_names_are_remapped(graph: Any) -> None:
     assert node.resolve("~out") == "/ns/result"
 
 
-def test_a_remapped_parameter_is_searched_by_its_other_name(graph: Any) -> None:
-    """As by roscpp and rospy: robot_state_publisher with robot_description:=arm_description takes the arm."""
+def test_search_finds_a_parameter_by_its_remapped_name(graph: Any) -> None:
+    """As in roscpp and rospy: robot_state_publisher with robot_description:=arm_description reads the arm."""
     node = graph.node("n", namespace="/arm", remappings={"robot_description": "arm_description"})
     graph.ready(node)
     run = graph.loop.run
@@ -269,55 +270,55 @@ def test_a_remapped_parameter_is_searched_by_its_other_name(graph: Any) -> None:
     assert run(node.params.search("robot_description")) == "/arm_description"
 
 
-def test_what_a_node_says_is_on_stderr_and_gathered(graph: Any, far: Any, capfd: Any) -> None:
-    node, reader = graph.node("sayer"), far.node("reader")
+def test_log_messages_reach_stderr_and_rosout_agg(graph: Any, far: Any, capfd: Any) -> None:
+    node, reader = graph.node("warner"), far.node("reader")
     got: list[Any] = []
     reader.subscribe("/rosout_agg", "rosgraph_msgs/Log", got.append)
     graph.ready(node)
 
-    def said() -> bool:
+    def is_aggregated() -> bool:
         node.log.warn("careful")
-        return any(m.name == "/sayer" for m in got)
+        return any(m.name == "/warner" for m in got)
 
-    graph.until(said)
-    log = next(m for m in got if m.name == "/sayer")
+    graph.until(is_aggregated)
+    log = next(m for m in got if m.name == "/warner")
     assert (log.level, log.msg, log.file, log.topics) == (4, "careful", "test_node.py", ["/rosout"])
     assert "[WARN] [" in capfd.readouterr().err
     graph.loop.run(node.call_service("~set_logger_level", "roscpp/SetLoggerLevel", {"level": "error"}))
-    node.log.warn("unheard")
-    assert "unheard" not in capfd.readouterr().err
+    node.log.warn("filtered")
+    assert "filtered" not in capfd.readouterr().err
     loggers = graph.loop.run(node.call_service("~get_loggers", "roscpp/GetLoggers")).loggers
     levels = {logger.name: logger.level for logger in loggers}
     assert (levels["rosout"], levels["rospy.topics"]) == ("error", "info")
 
 
-def test_only_a_terminal_that_wants_them_gets_colours(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_only_a_terminal_without_no_color_gets_colors(monkeypatch: pytest.MonkeyPatch) -> None:
     class Terminal(io.StringIO):
         def isatty(self) -> bool:
             return True
 
     monkeypatch.delenv("NO_COLOR", raising=False)
-    assert coloured("hot", "error", Terminal()) == "\033[31mhot\033[0m"
-    assert coloured("hot", "info", Terminal()) == "hot"
-    assert coloured("hot", "error", io.StringIO()) == "hot"
+    assert colored("hot", "error", Terminal()) == "\033[31mhot\033[0m"
+    assert colored("hot", "info", Terminal()) == "hot"
+    assert colored("hot", "error", io.StringIO()) == "hot"
     monkeypatch.setenv("NO_COLOR", "1")
-    assert coloured("hot", "error", Terminal()) == "hot"
+    assert colored("hot", "error", Terminal()) == "hot"
 
 
-def test_unregistering_is_told_to_the_master(graph: Any) -> None:
+def test_unregistered_endpoints_leave_the_master(graph: Any) -> None:
     node, other = graph.node("n"), graph.node("other")
     publisher = node.advertise("a", STRING)
     subscription = other.subscribe("a", STRING, print)
     service = node.advertise_service("s", "std_srvs/Empty", lambda _: {})
     graph.until(lambda: publisher.has_subscribers)
-    for thing in (publisher, subscription, service):
-        thing.unregister()
+    for endpoint in (publisher, subscription, service):
+        endpoint.unregister()
     graph.ready(node, other)
     state = MasterProxy(graph.core.uri).call("getSystemState")
     assert not [name for table in state for name, _ in table if name in ("/a", "/s")]
 
 
-def test_shutting_down_leaves_nothing_at_the_master(graph: Any) -> None:
+def test_shutdown_leaves_no_registration_at_the_master(graph: Any) -> None:
     node = graph.node("n")
     node.advertise("a", STRING)
     node.subscribe("b", STRING, print)
@@ -328,15 +329,15 @@ def test_shutting_down_leaves_nothing_at_the_master(graph: Any) -> None:
     assert node.is_shut_down
 
 
-def test_what_was_unregistered_just_before_the_end_is_not_left_at_the_master(graph: Any) -> None:
+def test_endpoints_unregistered_just_before_shutdown_leave_the_master(graph: Any) -> None:
     node = graph.node("n")
-    ends = [node.advertise("a", STRING), node.subscribe("b", STRING, print)]
-    ends.append(node.advertise_service("s", "std_srvs/Empty", lambda _: {}))
+    endpoints = [node.advertise("a", STRING), node.subscribe("b", STRING, print)]
+    endpoints.append(node.advertise_service("s", "std_srvs/Empty", lambda _: {}))
     graph.ready(node)
 
     async def end() -> None:
-        for each in ends:
-            each.unregister()
+        for endpoint in endpoints:
+            endpoint.unregister()
         await node.shutdown()
 
     graph.loop.run(end())
@@ -344,7 +345,7 @@ def test_what_was_unregistered_just_before_the_end_is_not_left_at_the_master(gra
     assert not [name for table in state for name, nodes in table if "/n" in nodes]
 
 
-def test_a_second_node_of_a_name_ends_the_first(graph: Any, far: Any) -> None:
+def test_a_second_node_of_the_same_name_shuts_down_the_first(graph: Any, far: Any) -> None:
     first = graph.node("twin")
     first.advertise("a", STRING)
     graph.ready(first)
@@ -371,7 +372,7 @@ def test_publishing_without_subscribers_does_nothing(graph: Any) -> None:
     assert publisher.published == 0
 
 
-def test_ros_time_is_the_walls_unless_the_graph_says_otherwise(graph: Any, far: Any) -> None:
+def test_ros_time_is_wall_time_unless_use_sim_time_is_set(graph: Any, far: Any) -> None:
     node = far.node("n")
     assert isinstance(far.loop.run(follow_time(node)), WallClock)
     far.loop.run(node.params.set("/use_sim_time", True))
@@ -384,53 +385,53 @@ def test_ros_time_is_the_walls_unless_the_graph_says_otherwise(graph: Any, far: 
     assert node.stamp().nanosec == 7
 
 
-def test_a_node_waits_for_a_master_that_comes_later(graph: Any, capfd: Any) -> None:
+def test_a_node_registers_at_a_master_that_starts_later(graph: Any, capfd: Any) -> None:
     from trundle.ros import Core, Node
 
     port = graph.core.port
     graph.loop.run(graph.core.stop())
     node = Node("early", loop=graph.loop, master_uri=f"http://127.0.0.1:{port}")
     node.advertise("a", STRING)
-    said: list[str] = []
-    graph.until(lambda: said.append(capfd.readouterr().err) or "keeps trying" in "".join(said))
+    output: list[str] = []
+    graph.until(lambda: output.append(capfd.readouterr().err) or "keeps trying" in "".join(output))
     graph.core = Core(graph.loop, port=port)
     graph.loop.run(graph.core.start())
     graph.ready(node)
     assert MasterProxy(graph.core.uri).call("lookupNode", "/early") == node.uri
 
 
-def test_a_node_is_told_when_a_parameter_changes(graph: Any) -> None:
+def test_changes_of_a_watched_parameter_call_back(graph: Any) -> None:
     watcher, other = graph.node("watcher", namespace="/r"), graph.node("other")
     graph.ready(watcher, other)
-    told: list[tuple[str, Any]] = []
+    changes: list[tuple[str, Any]] = []
     graph.loop.run(other.params.set("/r/gains", {"p": 1.0}))
-    now = graph.loop.run(watcher.params.watch("gains", lambda name, value: told.append((name, value))))
+    now = graph.loop.run(watcher.params.watch("gains", lambda name, value: changes.append((name, value))))
     assert now == {"p": 1.0}
     graph.loop.run(other.params.set("/r/gains/p", 2.0))
-    graph.until(lambda: told == [("/r/gains/p", 2.0)])
+    graph.until(lambda: changes == [("/r/gains/p", 2.0)])
     graph.loop.run(other.params.set("/r/unwatched", 3))
     graph.loop.run(other.params.delete("/r/gains"))
-    graph.until(lambda: len(told) == 2)
-    assert told[1] == ("/r/gains", {})
+    graph.until(lambda: len(changes) == 2)
+    assert changes[1] == ("/r/gains", {})
     graph.loop.run(watcher.shutdown())
     graph.loop.run(other.params.set("/r/gains", {"p": 5.0}))
-    assert len(told) == 2
+    assert len(changes) == 2
 
 
-def test_a_parameter_can_be_watched_before_anything_else(graph: Any) -> None:
+def test_a_parameter_can_be_watched_before_the_node_listens(graph: Any) -> None:
     """The master needs the node's address, which is not known at once."""
     for i in range(10):
         assert graph.loop.run(graph.node(f"n{i}").params.watch("unset", lambda *_: None)) == {}
 
 
-def test_a_node_finds_the_parameters_it_was_made_with(graph: Any) -> None:
-    """Even when it asks before anything else: they were there first."""
+def test_private_parameters_are_set_before_the_first_read(graph: Any) -> None:
+    """Even if the read is the node's first call."""
     nodes = [graph.node(f"n{i}", params={"rate": i, "mode": "fast"}) for i in range(10)]
     assert [graph.loop.run(node.params.get("~rate", None)) for node in nodes] == list(range(10))
     assert graph.loop.run(graph.node("other", params={"x": 1}).params.has("~x"))
 
 
-def test_nodes_of_one_machine_take_the_shorter_way(graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nodes_of_one_machine_connect_over_unix_sockets(graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     if not sys.platform.startswith("linux"):
         pytest.skip("sockets without files exist on Linux only")
     talker = graph.node("talker")
@@ -450,7 +451,7 @@ def test_nodes_of_one_machine_take_the_shorter_way(graph: Any, far: Any, monkeyp
     assert kinds == {"/near": "UNIXROS", "/stranger": "TCPROS", "/plain": "TCPROS"}
 
 
-def test_a_message_of_another_thread_keeps_its_place(graph: Any, far: Any) -> None:
+def test_messages_published_from_another_thread_keep_their_order(graph: Any, far: Any) -> None:
     """A message is sent at once if none waits, else in turn; new and slow subscribers make messages wait."""
     publisher = graph.node("talker").advertise("/a", "std_msgs/UInt8MultiArray", queue_size=None)
     got: list[int] = []
@@ -458,18 +459,20 @@ def test_a_message_of_another_thread_keeps_its_place(graph: Any, far: Any) -> No
         "/a", "std_msgs/UInt8MultiArray", lambda m: got.append(int.from_bytes(bytes(m.data[:4]))), queue_size=None
     )
     graph.until(lambda: publisher.subscribers == 1)
+    near: Subscription | None = None
     for i in range(600):
         if i == 200:
             near = graph.node("near").subscribe("/a", "std_msgs/UInt8MultiArray", lambda _: None)
             graph.until(lambda: publisher.subscribers == 2)
         if i == 400:
+            assert near is not None
             near.unregister()
         publisher.publish({"data": i.to_bytes(4) + bytes(200_000 if i % 3 else 5)})
     graph.until(lambda: len(got) >= 600)
     assert got == list(range(600))
 
 
-def test_an_answer_longer_than_the_kernel_holds_comes_whole(graph: Any, far: Any) -> None:
+def test_a_response_longer_than_the_kernel_buffers_arrives_complete(graph: Any, far: Any) -> None:
     text = "x" * 20_000_000
     provider = graph.node("talker")
     provider.advertise_service("/long", "std_srvs/Trigger", lambda _: {"message": text})

@@ -6,7 +6,7 @@ from tests.graphs import Graph
 from trundle.ros import MessageError, RosError, ServiceError, call_service_bytes, probe_publisher
 
 
-def test_a_publisher_says_what_it_publishes(graph: Graph) -> None:
+def test_a_probe_returns_the_type_and_definition_of_a_topic(graph: Graph) -> None:
     talker, asker = graph.node("talker"), graph.node("asker")
     talker.advertise("/strange", "no_msgs/Thing", raw_type=("0" * 32, "uint8 a\n"))
     graph.ready(talker, asker)
@@ -20,12 +20,12 @@ def test_a_publisher_says_what_it_publishes(graph: Graph) -> None:
 
 
 @pytest.mark.parametrize("pair", [("/nobody", "/strange"), ("/asker", "/nothing")])
-def test_a_publisher_that_is_none_is_an_error(graph: Graph, pair: tuple[str, str]) -> None:
+def test_probing_an_unknown_node_or_topic_raises(graph: Graph, pair: tuple[str, str]) -> None:
     asker = graph.node("asker")
     asker.advertise("/chat", "std_msgs/String")
     graph.ready(asker)
 
-    with pytest.raises(RosError, match=f"{pair[0]} does not say what {pair[1]} is"):
+    with pytest.raises(RosError, match=f"{pair[0]} does not describe {pair[1]}:"):
         graph.loop.run(probe_publisher(asker, *pair))
 
 

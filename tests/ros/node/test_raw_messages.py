@@ -6,7 +6,7 @@ from trundle.ros import RawMessage
 
 
 def test_a_long_message_of_another_process_is_not_copied(far: Graph, graph: Graph) -> None:
-    """It stays in the buffer that it was received into, which nobody writes any more."""
+    """It stays in its receive buffer, which is never written again."""
     talker, listener = far.node("talker"), graph.node("listener")
     received: list[RawMessage] = []
     listener.subscribe("/cloud", "*", received.append)

@@ -8,7 +8,7 @@ import sys
 from typing import Any
 
 from trundle.base.diagnostics import UsageError
-from trundle.ros import LEVELS, coloured
+from trundle.ros import LEVELS, colored
 
 from .graph_command import ros_errors, running_node
 
@@ -77,7 +77,7 @@ def _as_line(message: Any, *, verbose: bool) -> str:
     line = f"[{_name(message.level).upper():>5}] [{stamp}] [{message.name}]: {message.msg}"
     if verbose:
         line += f" ({message.file}:{message.line} {message.function})"
-    return coloured(line, _name(message.level), sys.stdout)
+    return colored(line, _name(message.level), sys.stdout)
 
 
 def _as_json(message: Any) -> str:

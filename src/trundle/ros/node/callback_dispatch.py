@@ -8,7 +8,7 @@ from .loop import GraphLoop
 
 _Result = TypeVar("_Result")
 Callback: TypeAlias = Callable[[], Callable[[], object] | None]
-"""Calls back for a message or request; returns what does so again, if the message or request came from outside."""
+"""Runs the callback of a message or request; returns a function that repeats it if that came from outside."""
 Deliver: TypeAlias = Callable[[Callback], None]
 """Schedules a callback outside the loop."""
 
@@ -17,8 +17,8 @@ async def run_on_callback_thread(deliver: Deliver | None, loop: GraphLoop, work:
     """Call `work` on the callback thread and return or raise its result; without `deliver`, call it directly.
 
     Args:
-        deliver: see `Node`.
-        loop: loop of the caller.
+        deliver: callback scheduler, as of `Node`.
+        loop: loop that awaits the result.
         work: called once, possibly in another thread.
     """
     if deliver is None:
@@ -33,7 +33,7 @@ async def run_on_callback_thread(deliver: Deliver | None, loop: GraphLoop, work:
         else:
             future.set_exception(error)
 
-    def do() -> Callable[[], object]:
+    def call() -> Callable[[], object]:
         try:
             result, error = work(), None
         except Exception as failure:  # re-raised in the awaiting coroutine
@@ -41,5 +41,5 @@ async def run_on_callback_thread(deliver: Deliver | None, loop: GraphLoop, work:
         loop.call_soon(lambda: settle(result, error))
         return work
 
-    deliver(do)
+    deliver(call)
     return await future

@@ -56,7 +56,7 @@ class SimClock:
         self._sleepers: list[tuple[int, int, asyncio.Future[None]]] = []
         self._order = itertools.count()
         self._listeners: list[Callable[[], None]] = []
-        self._wakes = False
+        self._is_wake_scheduled = False
         self.jumps = 0
         """Number of jumps back in time."""
 
@@ -71,8 +71,8 @@ class SimClock:
         if back:
             self.jumps += 1
             self._loop.call_soon(self._jump)
-        elif self._sleepers and not self._wakes and self._sleepers[0][0] <= ns:
-            self._wakes = True
+        elif self._sleepers and not self._is_wake_scheduled and self._sleepers[0][0] <= ns:
+            self._is_wake_scheduled = True
             self._loop.call_soon(self._wake)
 
     def on_jump(self, callback: Callable[[], None]) -> None:
@@ -97,7 +97,7 @@ class SimClock:
         await self.sleep_until(self._now_ns + round(seconds * NS))
 
     def _wake(self) -> None:
-        self._wakes = False
+        self._is_wake_scheduled = False
         while self._sleepers and self._sleepers[0][0] <= self._now_ns:
             _, _, future = heapq.heappop(self._sleepers)
             if not future.done():

@@ -17,21 +17,21 @@ class EndpointRecorder(threading.local):
     """Thread-local list of endpoints."""
 
     def __init__(self) -> None:
-        self._ends: list[Endpoint] | None = None
+        self._endpoints: list[Endpoint] | None = None
 
-    def add(self, end: Endpoint) -> None:
+    def add(self, endpoint: Endpoint) -> None:
         """Record an endpoint that this thread created or requested again, if recording."""
-        if self._ends is not None:
-            self._ends.append(end)
+        if self._endpoints is not None:
+            self._endpoints.append(endpoint)
 
     @contextmanager
     def record(self) -> Generator[list[Endpoint]]:
         """Record the endpoints this thread creates in the context; an outer context records them, too."""
-        outer, self._ends = self._ends, list[Endpoint]()
-        ends = self._ends
+        outer, self._endpoints = self._endpoints, list[Endpoint]()
+        endpoints = self._endpoints
         try:
-            yield ends
+            yield endpoints
         finally:
-            self._ends = outer
+            self._endpoints = outer
             if outer is not None:
-                outer += ends
+                outer += endpoints

@@ -18,9 +18,9 @@ from .service import Service
 from .subscription import Subscription
 
 _CALLS = {
-    f"{prefix}{method}": f"{prefix} {what}"
+    f"{prefix}{method}": f"{prefix} {noun}"
     for prefix in ("register", "unregister")
-    for method, what in (("Publisher", "publication"), ("Subscriber", "subscription"), ("Service", "service"))
+    for method, noun in (("Publisher", "publication"), ("Subscriber", "subscription"), ("Service", "service"))
 }
 
 
@@ -38,7 +38,7 @@ class NodeEndpoints:
         """Pairs (method, name) of unregistrations queued or in progress."""
         self._recorder = EndpointRecorder()
         self.changes = 0
-        """Number of endpoints that were added or removed so far."""
+        """Number of endpoints added or removed so far."""
 
     # -- adding and removing: thread-safe
 
@@ -49,12 +49,12 @@ class NodeEndpoints:
             MessageError: the topic is already published with another type.
         """
         with self._lock:
-            there = self._publishers.get(topic)
-            if there is not None:
-                if there.type != type_name:
-                    raise MessageError(f"{self._node.name} publishes {topic} as {there.type}, not as {type_name}")
-                self._recorder.add(there)
-                return there
+            existing = self._publishers.get(topic)
+            if existing is not None:
+                if existing.type != type_name:
+                    raise MessageError(f"{self._node.name} publishes {topic} as {existing.type}, not as {type_name}")
+                self._recorder.add(existing)
+                return existing
             publisher = self._publishers[topic] = make()
             self.changes += 1
         self._recorder.add(publisher)
@@ -80,11 +80,11 @@ class NodeEndpoints:
         self._registrations.add(lambda: self._register_service(service.name))
 
     def register_again(self) -> None:
-        """Register everything, at a master that knows nothing of it."""
+        """Register everything again, at a restarted master."""
         for publisher in self.publishers:
             self._register_publisher(publisher)
         for topic, type_name in self.subscribed_topics():
-            self._registrations.add(partial(self._register_subscriber, topic, type_name, is_known=True))
+            self._registrations.add(partial(self._register_subscriber, topic, type_name, keep_publishers=True))
         for name in list(self._services):
             self._registrations.add(partial(self._register_service, name))
 
@@ -165,16 +165,16 @@ class NodeEndpoints:
     # -- on the loop
 
     def publishers_changed(self, topic: str, uris: list[str]) -> None:
-        """Handle publisherUpdate: connect to the given publishers."""
+        """Handle publisherUpdate: connect to these publishers."""
         for subscription in self._subscriptions.get(topic, []):
             subscription.follow(uris)
 
     def unregister_all(self) -> list[Awaitable[None]]:
         """Master calls that unregister everything."""
-        ended = {("unregisterService", name) for name in self._services} | self._unregistering
-        ended |= {("unregisterSubscriber", topic) for topic in self._subscriptions}
-        ended |= {("unregisterPublisher", topic) for topic in self._publishers}
-        return [self._unregister(method, name) for method, name in ended]
+        calls = {("unregisterService", name) for name in self._services} | self._unregistering
+        calls |= {("unregisterSubscriber", topic) for topic in self._subscriptions}
+        calls |= {("unregisterPublisher", topic) for topic in self._publishers}
+        return [self._unregister(method, name) for method, name in calls]
 
     def close(self) -> None:
         """Close all connections."""
@@ -213,9 +213,9 @@ class NodeEndpoints:
         await self._notify_master("registerService", name, self._node.service_uri, self._node.uri)
         self._node.loop.local.notify_service_change()
 
-    async def _register_subscriber(self, topic: str, type_name: str, *, is_known: bool = False) -> None:
-        """Register the subscriptions of a topic; known publishers may have yet to register again."""
-        found = await self._call_master("registerSubscriber", topic, type_name, self._node.uri)
-        uris = [str(uri) for uri in found]
+    async def _register_subscriber(self, topic: str, type_name: str, *, keep_publishers: bool = False) -> None:
+        """Register the subscriptions of a topic; `keep_publishers`: connected ones may have yet to register again."""
+        publishers = await self._call_master("registerSubscriber", topic, type_name, self._node.uri)
+        uris = [str(uri) for uri in publishers]
         for subscription in self._subscriptions.get(topic, []):
-            (subscription.follow_too if is_known else subscription.follow)(uris)
+            (subscription.add_publishers if keep_publishers else subscription.follow)(uris)

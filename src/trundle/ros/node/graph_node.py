@@ -1,7 +1,7 @@
 """A node of the graph.
 
-Parts: `endpoints`, `params`, `log` and `master`. Registration returns at once and is thread-safe; what needs an answer
-is a coroutine on the loop.
+Parts: `endpoints`, `params`, `log` and `master`. Registration returns at once and is thread-safe; methods that await an
+answer are coroutines on the loop.
 """
 
 import asyncio
@@ -35,11 +35,11 @@ if TYPE_CHECKING:
     from ..message_types import Time
     from ..messages.message_library import Messages
 
-_FAREWELL_S = 1.0
-"""Timeout of unregistering at another program's master: a program must end within two seconds of Ctrl-C."""
-_LOCAL_FAREWELL_S = 10.0
-"""Timeout of unregistering at a master of this process, which answers no call when it is out of open files."""
-_LINK_S = 0.01
+_UNREGISTER_S = 1.0
+"""Timeout of unregistering at another process' master: a program must end within two seconds of Ctrl-C."""
+_LOCAL_UNREGISTER_S = 10.0
+"""Timeout of unregistering at a master of this process, which cannot answer when it is out of file descriptors."""
+_CONNECT_POLL_S = 0.01
 
 
 class Node:
@@ -65,7 +65,7 @@ class Node:
 
         Args:
             name: base name such as 'driver', or a global name.
-            loop: runs the node.
+            loop: loop that runs the node.
             master_uri: ROS_MASTER_URI by default.
             namespace: namespace of relative names.
             remappings: name → name, as on a command line.
@@ -75,8 +75,8 @@ class Node:
                 thread; must not block. By default, callbacks run on the loop.
             rosout: True: publish /rosout and advertise the logger services.
             host: address to bind; loopback by default.
-            ports: of the slave API and of TCPROS; 0: any free one.
-            log: takes the node's messages; stderr and /rosout by default.
+            ports: ports of the slave API and of TCPROS; 0: any free port.
+            log: log of the node; stderr and /rosout by default.
         """
         self.name = canonical_name("/" + join_names(namespace, name).lstrip("/"))
         self.loop = loop
@@ -101,11 +101,11 @@ class Node:
         self._slave = Slave(
             self, self.endpoints, self.params, self._address, on_shutdown=self.request_shutdown, ports=ports
         )
-        self._wants_rosout = rosout
+        self._publishes_rosout = rosout
         self._listening = asyncio.Event()
         self._on_shutdown: list[Callable[[str], None]] = []
         self._is_down = False
-        self._has_begun = False
+        self._is_started = False
         self._master_watch: asyncio.Task[None] | None = None
         self.loop.call_soon(self._begin)
 
@@ -206,7 +206,7 @@ class Node:
         Args:
             topic: resolved and remapped.
             type_name: such as 'geometry_msgs/Twist', or '*' for messages of any type as `RawMessage`.
-            callback: function or coroutine function of the message; what it raises is logged.
+            callback: function or coroutine function of the message; its exceptions are logged.
             queue_size: messages queued for slow callbacks; None: unlimited.
             tcp_nodelay: True: request TCP_NODELAY from publishers.
             on_loop: True: run the callback on the loop, even if the node has `deliver`.
@@ -287,16 +287,16 @@ class Node:
         """Wait until everything added so far is registered at the master.
 
         Raises:
-            RosError: the node could not start, as without descriptors.
-            OSError: the system refused a socket of it.
+            RosError: the node could not start, such as for lack of file descriptors.
+            OSError: the system refused it a socket.
         """
         await self._registrations.wait_done()
 
     async def wait_connected(self) -> None:
-        """Wait until every subscription is connected to its publishers, or has found them unreachable."""
+        """Wait until every subscription is connected to its publishers, or warned that they are unreachable."""
         await self.wait_registered()
         while not all(subscription.is_settled for subscription in self.endpoints.subscriptions):
-            await asyncio.sleep(_LINK_S)
+            await asyncio.sleep(_CONNECT_POLL_S)
 
     def on_shutdown(self, callback: Callable[[str], None]) -> None:
         """Register a function to be called on the loop, with the reason, on a shutdown request."""
@@ -309,12 +309,12 @@ class Node:
             return
         self._is_down = True
         try:
-            await self._leave()
+            await self._disconnect()
         finally:
             self.closed.set()
 
-    async def _leave(self) -> None:
-        if self._has_begun:
+    async def _disconnect(self) -> None:
+        if self._is_started:
             await self._listening.wait()  # a partly created server would stay open
         if self._master_watch is not None:
             self._master_watch.cancel()
@@ -322,9 +322,9 @@ class Node:
         if self.uri:
             is_local = self.master_uri in self.loop.local.masters
             with contextlib.suppress(TimeoutError):
-                async with asyncio.timeout(_LOCAL_FAREWELL_S if is_local else _FAREWELL_S):
-                    farewells = [*self.endpoints.unregister_all(), *self.params.unwatch_all()]
-                    await asyncio.gather(*farewells, return_exceptions=True)
+                async with asyncio.timeout(_LOCAL_UNREGISTER_S if is_local else _UNREGISTER_S):
+                    calls = [*self.endpoints.unregister_all(), *self.params.unwatch_all()]
+                    await asyncio.gather(*calls, return_exceptions=True)
         self.loop.local.members.discard(self)
         self.loop.local.nodes.pop(self.uri, None)
         self.endpoints.close()
@@ -344,7 +344,7 @@ class Node:
     def _begin(self) -> None:
         if self._is_down or self.loop.is_ending:
             return
-        self._has_begun = True
+        self._is_started = True
         self.loop.local.members.add(self)
         self._registrations.start(self._start)
 
@@ -361,7 +361,7 @@ class Node:
         if self.master_uri not in self.loop.local.masters:
             self._master_watch = asyncio.create_task(watch_master(self, self))
         await self.params.set_private(self._registrations)
-        if self._wants_rosout:
+        if self._publishes_rosout:
             self._start_rosout()
 
     def _start_rosout(self) -> None:

@@ -37,7 +37,7 @@ class LocalPublisher(Protocol):
 
     @property
     def is_outside(self) -> bool:
-        """True if its node is part of no simulation: what it sent does not come again when time is repeated."""
+        """True if its node is outside the simulation: its messages do not recur when simulated time is repeated."""
         ...
 
     @property
@@ -58,7 +58,7 @@ class LocalSubscriber(Protocol):
     """A subscription in this process."""
 
     is_raw: bool
-    """True if it takes serialized messages."""
+    """True if it receives serialized messages."""
     needs_every_message: bool
     """True if no message may be skipped; else the newest suffices."""
 
@@ -105,9 +105,9 @@ class LocalGraph:
         """Number of services that nodes of this process have registered so far."""
         self._service_change: set[asyncio.Future[None]] = set()
 
-    async def wait_service_change(self, seen: int, timeout_s: float) -> bool:
-        """Wait until `service_changes` is not `seen` any more; False after the timeout."""
-        if self.service_changes != seen:
+    async def wait_service_change(self, previous: int, timeout_s: float) -> bool:
+        """Wait until `service_changes` differs from `previous`; False after the timeout."""
+        if self.service_changes != previous:
             return True
         future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._service_change.add(future)
@@ -116,7 +116,7 @@ class LocalGraph:
         return future.done()
 
     def notify_service_change(self) -> None:
-        """Wake those waiting for a service: a node of this process has registered one."""
+        """Count a service that a node of this process registered, and wake the callers that wait for one."""
         self.service_changes += 1
         for future in self._service_change:
             if not future.done():

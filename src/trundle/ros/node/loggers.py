@@ -12,12 +12,12 @@ _ROSCPP = ("ros.roscpp", "ros.roscpp.roscpp_internal", "ros.roscpp.roscpp_intern
 class Loggers:
     """Levels by logger name; a logger without a level inherits its nearest ancestor's.
 
-    The node's own messages use one of them.
+    The node logs to the default one.
     """
 
-    def __init__(self, own: str, others: Iterable[str]) -> None:
-        self._own = own
-        self._names = sorted({own, *others})
+    def __init__(self, default: str, others: Iterable[str]) -> None:
+        self._default = default
+        self._names = sorted({default, *others})
         self._levels: dict[str, Level] = {}
 
     @classmethod
@@ -34,22 +34,22 @@ class Loggers:
 
     @property
     def level(self) -> Level:
-        """Level of the node's own logger."""
-        return self._level(self._own)
+        """Level of the default logger."""
+        return self._level(self._default)
 
     def levels(self) -> list[tuple[str, Level]]:
         """Pairs (name, level) of every logger."""
         return [(name, self._level(name)) for name in self._names]
 
     def set(self, name: str, level: str) -> None:
-        """Set the level of a logger; '' means the node's own.
+        """Set the level of a logger; '' means the default one.
 
         Raises:
             ValueError: the level is unknown.
         """
         if level not in LEVELS:
             raise ValueError(f"no level {level!r}; levels: {', '.join(LEVELS)}")
-        name = name or self._own
+        name = name or self._default
         self._names = sorted({*self._names, name})
         self._levels[name] = cast(Level, level)
 

@@ -25,20 +25,20 @@ if TYPE_CHECKING:
 
 _T = TypeVar("_T")
 _log = logging.getLogger(__name__)
-_CALM_PASSES = 5
-"""Passes without a delivery after which deliveries count as flushed; the steps of a coroutine callback that awaits
-nothing outside the process.
+_IDLE_PASSES = 5
+"""Passes without a delivery after which deliveries count as flushed: a coroutine callback that awaits nothing outside
+the process takes fewer.
 """
-_SPINS = 200
-"""Passes after which `idle` sleeps between passes with work in progress."""
-_NAP_S = 0.001
+_SPIN_PASSES = 200
+"""Passes after which `idle` sleeps between passes while work is in progress."""
+_POLL_S = 0.001
 SLICE_NS = 100_000
 """Linux' shortest time slice: the loop then preempts a busy thread instead of waiting for its 3 ms slice."""
-_LOOK_S = 1.0
-"""Time between two looks for work that takes long."""
+_CHECK_S = 1.0
+"""Interval of checks for work that takes long."""
 _WAIT_S = 0.5
-"""Longest single wait: a signal that the system hands to another thread than the main one does not end its wait, and
-Python calls the handler only in the main thread.
+"""Longest single wait: a signal delivered to another thread does not end the main thread's wait, and Python runs signal
+handlers only in the main thread.
 """
 
 
@@ -56,7 +56,7 @@ class GraphLoop:
         self.work = PendingWork()
         self._batch_thread: int | None = None
         """Thread whose calls are batched until `end_batch`."""
-        self.own_threads: set[int | None] = set()
+        self.loop_threads: set[int | None] = set()
         """IDs of the loop's and the batching thread, for which sending directly has no advantage."""
         self._batch: list[Callable[[], object]] = []
         self.publish_timer: Callable[[], contextlib.AbstractContextManager[object]] | None = None
@@ -65,8 +65,8 @@ class GraphLoop:
         """Count of calls, for `idle`."""
         self._deliveries = 0
         """Count of delivered batches, for `flush_deliveries`."""
-        self._unsettled = False
-        """True if the loop was given work since the last flush."""
+        self._has_new_calls = False
+        """True if a function was scheduled since the last flush."""
         self.selector = FastSelector()
         """Selector with sockets that bypass asyncio; used on the loop."""
         self._loop = ClosingLoop(self.selector)
@@ -82,10 +82,10 @@ class GraphLoop:
     def start(self) -> None:
         """Start the thread."""
         self._thread.start()
-        self.own_threads.add(self._thread.ident)
+        self.loop_threads.add(self._thread.ident)
 
     def stop(self) -> None:
-        """Shut the nodes down, cancel remaining tasks, and join the thread; says every few seconds that it waits."""
+        """Shut the nodes down, cancel remaining tasks, and join the thread; logs every few seconds that it waits."""
         if not self._thread.is_alive():
             return
         notice = WaitNotice("the nodes of this process to shut down")
@@ -117,7 +117,7 @@ class GraphLoop:
     def run(self, coroutine: Coroutine[object, object, _T], timeout_s: float | None = None) -> _T:
         """Run a coroutine on the loop and wait for its result, from another thread.
 
-        Every few seconds the loop prints the work in progress that is waited for.
+        While it waits, the loop logs the work in progress every few seconds.
 
         Raises:
             TimeoutError: timeout; the coroutine is cancelled.
@@ -160,7 +160,7 @@ class GraphLoop:
 
     def call_soon(self, function: Callable[[], object]) -> None:
         """Call a function on the loop; thread-safe, ignored once the loop has ended."""
-        self._unsettled = True
+        self._has_new_calls = True
         if self.is_this_thread:
             self._calls += 1
             self._loop.call_soon(function)
@@ -168,9 +168,9 @@ class GraphLoop:
         if threading.get_ident() == self._batch_thread:
             self._batch.append(function)
             return
-        self._call_soon_from_elsewhere(function)
+        self._call_soon_threadsafe(function)
 
-    def _call_soon_from_elsewhere(self, function: Callable[[], object]) -> None:
+    def _call_soon_threadsafe(self, function: Callable[[], object]) -> None:
         try:
             self._loop.call_soon_threadsafe(function)
         except RuntimeError:  # the loop is closed
@@ -190,66 +190,66 @@ class GraphLoop:
 
         Callbacks of nodes with `deliver` are then scheduled, not yet called. For runs at maximum speed, between steps.
         """
-        if self._unsettled:
-            self.run(self._quiet())
-            self._unsettled = False
+        if self._has_new_calls:
+            self.run(self._wait_delivered())
+            self._has_new_calls = False
 
     def begin_batch(self) -> None:
         """Batch this thread's calls to the loop until `end_batch`, which submits them in order."""
         self._batch_thread = threading.get_ident()
-        self.own_threads.add(self._batch_thread)
+        self.loop_threads.add(self._batch_thread)
 
     def end_batch(self) -> None:
         """Submit the batched calls."""
         if self._batch and threading.get_ident() == self._batch_thread:
-            gathered, self._batch = self._batch, []
-            self._call_soon_from_elsewhere(lambda: [self.call_soon(function) for function in gathered])
+            batch, self._batch = self._batch, []
+            self._call_soon_threadsafe(lambda: [self.call_soon(function) for function in batch])
 
     def wait_idle(self, *, unless: Callable[[], bool] = lambda: False) -> bool:
-        """Wait until no work is in progress; False if `unless`, asked on the loop, came true first."""
+        """Wait until no work is in progress; False if `unless`, called on the loop, returned True first."""
         self.end_batch()
-        if self._unsettled or self.work.is_busy:
+        if self._has_new_calls or self.work.is_busy:
             if not self.run(self.idle(unless=unless)):
                 return False
-            self._unsettled = False
+            self._has_new_calls = False
         return True
 
-    async def idle(self, *, unless: Callable[[], bool] = lambda: False, passes: int = _CALM_PASSES) -> bool:
+    async def idle(self, *, unless: Callable[[], bool] = lambda: False, passes: int = _IDLE_PASSES) -> bool:
         """`wait_idle` on the loop: idle for `passes` passes, however long each takes."""
-        calm, seen, spins = 0, self._calls, 0
-        while calm < passes:
-            spins += 1
-            await asyncio.sleep(0 if calm or spins < _SPINS else _NAP_S)
+        idle_passes, calls, busy_passes = 0, self._calls, 0
+        while idle_passes < passes:
+            busy_passes += 1
+            await asyncio.sleep(0 if idle_passes or busy_passes < _SPIN_PASSES else _POLL_S)
             if unless():
                 return False
-            calm = 0 if self.work.is_busy or self._calls != seen else calm + 1
-            seen = self._calls
+            idle_passes = 0 if self.work.is_busy or self._calls != calls else idle_passes + 1
+            calls = self._calls
         return True
 
-    async def _quiet(self) -> None:
-        calm, seen = 0, self._deliveries
-        while calm < _CALM_PASSES:
+    async def _wait_delivered(self) -> None:
+        idle_passes, deliveries = 0, self._deliveries
+        while idle_passes < _IDLE_PASSES:
             await asyncio.sleep(0)
-            calm = calm + 1 if self._deliveries == seen else 0
-            seen = self._deliveries
+            idle_passes = idle_passes + 1 if self._deliveries == deliveries else 0
+            deliveries = self._deliveries
 
     async def _shutdown_nodes(self) -> None:
         """Shut down all nodes."""
         self.is_ending = True
-        farewells = [asyncio.create_task(node.shutdown()) for node in list(self.local.members)]
-        if farewells:
-            await asyncio.wait(farewells)
+        shutdowns = [asyncio.create_task(node.shutdown()) for node in list(self.local.members)]
+        if shutdowns:
+            await asyncio.wait(shutdowns)
 
-    def _say_waits(self) -> None:
-        """Say every few seconds which work takes long."""
+    def _log_waits(self) -> None:
+        """Log every few seconds which work takes long."""
         if (line := self.work.notice()) is not None:
             print_log("info", line, wall_ns=time.time_ns(), sim_ns=None)
-        self._loop.call_later(_LOOK_S, self._say_waits)
+        self._loop.call_later(_CHECK_S, self._log_waits)
 
     def _run(self) -> None:
         _message_codec.request_time_slice(SLICE_NS)
         asyncio.set_event_loop(self._loop)
-        self._loop.call_later(_LOOK_S, self._say_waits)
+        self._loop.call_later(_CHECK_S, self._log_waits)
         try:
             self._loop.run_forever()
         finally:
@@ -261,13 +261,13 @@ class GraphLoop:
 
 
 def _new_messages() -> "Messages":
-    from ..messages.message_library import Messages  # lazy: rospy has a store of its own
+    from ..messages.message_library import Messages  # lazy: rospy passes its own
 
     return Messages()
 
 
 def _copy(task: "asyncio.Task[_T]", future: "Future[_T]") -> None:
-    """Copy a task's outcome to a future."""
+    """Copy a task's result or exception to a future."""
     if task.cancelled():
         future.cancel()
         return
@@ -290,7 +290,7 @@ def _wait_result(future: Future[_T], timeout_s: float | None, poll: Callable[[],
         try:
             return future.result(max(0.0, min(left_s, _WAIT_S)))
         except TimeoutError:
-            if future.done():  # meanwhile, or the error is its own
+            if future.done():  # completed meanwhile, or the coroutine raised TimeoutError
                 return future.result()
             if left_s <= _WAIT_S:
                 raise

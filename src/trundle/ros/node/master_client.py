@@ -29,9 +29,9 @@ class MasterClient:
             return await self.poll(method, *arguments)
 
     async def poll(self, method: str, *arguments: object) -> Any:
-        """`call` for a question that is asked again and again: no work in progress, which a run in lockstep waits for.
+        """`call` for polling: not tracked as work in progress, which a run in lockstep waits for.
 
-        A pass of the loop takes longer than the time between two questions on a slow machine.
+        On a slow machine a pass of the loop takes longer than the poll interval, so that work would always be pending.
         """
         try:
             return await call_value(self._uri, method, self._caller, *arguments)

@@ -9,7 +9,7 @@ from ..xmlrpc.xmlrpc_text import FaultError
 from .node_context import NodeContext
 
 _PERIOD_S = 5.0
-"""Time between two questions."""
+"""Interval of the look-ups."""
 
 
 class Registered(Protocol):
@@ -20,32 +20,32 @@ class Registered(Protocol):
         ...
 
     def register_again(self) -> None:
-        """Register everything that is there."""
+        """Register everything again."""
         ...
 
 
 async def watch_master(node: NodeContext, registered: Registered) -> None:
-    """Ask the master from time to time if it knows the node, and register it again if not.
+    """Look up the node at the master periodically, and register it again if it is missing.
 
-    Nodes of ROS 1 are connected to each other and go on without a master; one that was killed and started again knows
-    none of them. Calls are no work of the graph, which may be idle meanwhile.
+    ROS 1 nodes stay connected to each other without a master; a restarted master has none of their registrations. The
+    look-ups are not tracked as work in progress, so that the graph may be idle meanwhile.
     """
-    is_gone = False
+    is_unreachable = False
     while True:
         await asyncio.sleep(_PERIOD_S)
         await registered.wait_registered()
         try:
             await call_value(node.master_uri, "lookupNode", node.name, node.name)
         except MasterError:
-            if is_gone:
+            if is_unreachable:
                 node.log.warn(f"the master at {node.master_uri} is back; {node.name} registers again")
             registered.register_again()
         except FaultError:
-            pass  # not a master that could tell
+            pass  # a master without lookupNode
         except (OSError, RosError) as error:
-            if not is_gone:
+            if not is_unreachable:
                 reason = str(error) or "no answer in time"
                 node.log.warn(f"no ROS master answers at {node.master_uri} ({reason}); {node.name} goes on without it")
-            is_gone = True
+            is_unreachable = True
             continue
-        is_gone = False
+        is_unreachable = False

@@ -60,10 +60,10 @@ class NodeLog:
         """Log a failure that ends the node."""
         self._write("fatal", text)
 
-    def exception(self, what: str, error: Exception) -> None:
+    def exception(self, text: str, error: Exception) -> None:
         """Log an exception with its traceback."""
-        where = "".join(traceback.format_exception(error)).rstrip()
-        self._write("error", f"{what}: {error}\n{where}")
+        trace = "".join(traceback.format_exception(error)).rstrip()
+        self._write("error", f"{text}: {error}\n{trace}")
 
     def publish_on(self, rosout: LogTopic, topics: Callable[[], list[str]]) -> None:
         """Publish later messages on /rosout; `topics` returns the node's published topics."""

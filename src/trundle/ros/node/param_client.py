@@ -90,7 +90,7 @@ class ParamClient:
         return await self._node.master.call("subscribeParam", self._node.uri, full)
 
     def register_again(self, registrations: RegistrationQueue) -> None:
-        """Set the private parameters and subscribe to the watched ones, at a master that knows nothing of them."""
+        """Set the private parameters and subscribe to the watched ones again, at a restarted master."""
         for name, value in self._private.items():
             registrations.add(partial(self.set, f"~{name}", value))
         for name in self._watched:

@@ -7,52 +7,52 @@ from contextlib import contextmanager
 from trundle.base.waiting import PERIOD_S, waiting_line
 
 _MAX_SHOWN = 3
-"""Most kinds of work that one notice names."""
+"""Maximum number of items in one notice."""
 
 
 class WorkItem:
     """One piece of work in progress."""
 
-    __slots__ = ("is_answer", "start_s", "what")
+    __slots__ = ("description", "is_answer", "start_s")
 
-    def __init__(self, what: str, *, is_answer: bool) -> None:
-        self.what = what
-        """Noun of what is waited for; empty: other work says so."""
+    def __init__(self, description: str, *, is_answer: bool) -> None:
+        self.description = description
+        """Noun phrase for the notice, such as "the answer of /spawn"; empty: in no notice."""
         self.is_answer = is_answer
-        """True if it is another's answer, which may need time to pass."""
+        """True for the answer of a service or another program, which may itself wait for time to pass."""
         self.start_s = time.monotonic()
 
 
 class PendingWork:
-    """Tracks work that finishes without time passing: master calls, service calls, connecting; thread-safe."""
+    """Tracks work that ends without time passing: master calls, service calls, connecting; thread-safe."""
 
     def __init__(self) -> None:
-        self._under_way: set[WorkItem] = set()
+        self._items: set[WorkItem] = set()
         self.changes = 0
         """Number of starts and ends so far."""
         self._noticed_s = 0.0
 
-    def start(self, what: str = "", *, is_answer: bool = False) -> WorkItem:
+    def start(self, description: str = "", *, is_answer: bool = False) -> WorkItem:
         """Begin work; returns it for `finish`.
 
         Args:
-            what: noun of what is waited for, such as "the ROS master's answer to registerService".
+            description: noun phrase for the notice, such as "the ROS master's answer to registerService".
             is_answer: True for the answer of a service or another program, which may itself wait for time to pass.
         """
-        work = WorkItem(what, is_answer=is_answer)
+        work = WorkItem(description, is_answer=is_answer)
         self.changes += 1
-        self._under_way.add(work)
+        self._items.add(work)
         return work
 
     def finish(self, work: WorkItem) -> None:
         """End work."""
         self.changes += 1
-        self._under_way.discard(work)
+        self._items.discard(work)
 
     @contextmanager
-    def pending(self, what: str = "", *, is_answer: bool = False) -> Generator[None]:
+    def pending(self, description: str = "", *, is_answer: bool = False) -> Generator[None]:
         """Track the work in the context."""
-        work = self.start(what, is_answer=is_answer)
+        work = self.start(description, is_answer=is_answer)
         try:
             yield
         finally:
@@ -61,27 +61,27 @@ class PendingWork:
     @property
     def is_busy(self) -> bool:
         """True if any work is in progress."""
-        return bool(self._under_way)
+        return bool(self._items)
 
     @property
     def awaits_only_answers(self) -> bool:
-        """True if all work in progress is others' answers, and there is some."""
-        work = list(self._under_way)
-        return bool(work) and all(each.is_answer for each in work)
+        """True if work is in progress and all of it is answers."""
+        items = list(self._items)
+        return bool(items) and all(item.is_answer for item in items)
 
     def abandon_answers(self) -> list[str]:
-        """Count the answers awaited now no more; return their names."""
-        answers = [each for each in list(self._under_way) if each.is_answer]
-        self._under_way.difference_update(answers)
-        return list(dict.fromkeys(each.what for each in answers))
+        """Stop tracking the pending answers; return their descriptions."""
+        answers = [item for item in list(self._items) if item.is_answer]
+        self._items.difference_update(answers)
+        return list(dict.fromkeys(item.description for item in answers))
 
     def notice(self) -> str | None:
         """Return a line on the work that takes more than a few seconds, every few seconds; else None."""
         now_s = time.monotonic()
-        old = sorted((each for each in list(self._under_way) if each.what), key=lambda each: each.start_s)
-        names = list(dict.fromkeys(each.what for each in old if now_s - each.start_s >= PERIOD_S))
+        items = sorted((item for item in list(self._items) if item.description), key=lambda item: item.start_s)
+        names = list(dict.fromkeys(item.description for item in items if now_s - item.start_s >= PERIOD_S))
         if not names or now_s < self._noticed_s + PERIOD_S:
             return None
         self._noticed_s = now_s
         more = f" and {len(names) - _MAX_SHOWN} more" if len(names) > _MAX_SHOWN else ""
-        return waiting_line("; ".join(names[:_MAX_SHOWN]) + more, now_s - old[0].start_s)
+        return waiting_line("; ".join(names[:_MAX_SHOWN]) + more, now_s - items[0].start_s)

@@ -55,17 +55,17 @@ class Publisher:
         """Send queues that the publishing thread writes to: other processes, if there are no local subscribers."""
         self._refused: set[str] = set()
         """Names of subscribers already warned about; they retry."""
-        self._wanted = 0
+        self._subscriber_count = 0
         """Number of links; read by any thread."""
         self._outbox: deque[Any] = deque(maxlen=queue_size)
         self._lost = 0
-        """Messages dropped from the outbox before the loop took them."""
-        self._flushes = False
-        self._turn = threading.Lock()
+        """Messages dropped from the outbox before the loop sent them."""
+        self._is_flush_scheduled = False
+        self._send_lock = threading.Lock()
         """Held while another thread than the loop's sends, and while a new subscriber gets latched messages."""
         self._latched: Any = None
         self.latched_for_others: tuple[bytes, ...] = ()
-        """Latched messages of other original callers, which new subscribers get before the last message."""
+        """Latched messages of a bag's other publishers, which new subscribers get before the last message."""
         self._class: type[Message] | None = None
         """Class of the messages so far."""
         self._codec: Codec | None = None
@@ -79,17 +79,17 @@ class Publisher:
     @property
     def subscribers(self) -> int:
         """Number of connected subscribers."""
-        return self._wanted
+        return self._subscriber_count
 
     @property
     def has_subscribers(self) -> bool:
         """True if there are subscribers."""
-        return self._wanted > 0
+        return self._subscriber_count > 0
 
     @property
     def needs_every_message(self) -> bool:
         """True if a subscriber needs every message; else periodic messages may be skipped."""
-        return self._wanted > 0 and self._subscriber_links.need_every_message
+        return self._subscriber_count > 0 and self._subscriber_links.need_every_message
 
     def publish(self, message: TypedMessage | Mapping[str, object] | bytes | memoryview) -> None:
         """Publish a message; thread-safe, never blocks. The message must not be changed afterwards.
@@ -102,7 +102,7 @@ class Publisher:
         Raises:
             MessageError: a dictionary that does not fit, or a message of another type.
         """
-        if self._wanted == 0 and not self.latch:
+        if self._subscriber_count == 0 and not self.latch:
             return
         if (timer := self._loop.publish_timer) is None:
             self._publish(message)
@@ -125,11 +125,11 @@ class Publisher:
             return
         self._lost += len(self._outbox) == self._queue_size
         self._outbox.append(message)
-        if not self._flushes:
+        if not self._is_flush_scheduled:
             self._flush_soon()
 
     def checkpoint(self) -> Callable[[], None]:
-        """Return a function that numbers the messages as from now on."""
+        """Return a function that restores the present sequence number."""
         return partial(setattr, self, "_sequence", self._sequence)
 
     def unregister(self) -> None:
@@ -159,7 +159,7 @@ class Publisher:
         return self._node.deliver is None
 
     def accept(self, link: FrameProtocol, header: dict[str, str]) -> None:
-        """Accept a subscriber's connection, or refuse it with the original's reason."""
+        """Accept a subscriber's connection, or refuse it with ROS' reason."""
         peer = header.get("callerid", "unknown")
         if (reason := self._mismatch(header, peer)) is not None:
             if peer not in self._refused and len(self._refused) < _MAX_WARNINGS:
@@ -170,13 +170,13 @@ class Publisher:
         if header.get("tcp_nodelay", "0").strip() == "1":
             link.set_nodelay()
         link.send_header(self.header_fields())
-        with self._turn:
+        with self._send_lock:
             self._subscriber_links.remote[link] = peer
             self._update_subscribers()
             for message in self._latched_messages():
                 if (framed := self._framed(message)) is not None:
                     link.out.send([framed], self._queue_size)
-        self._count()
+        self._count_subscribers()
 
     def header_fields(self) -> dict[str, str]:
         """Fields of the connection header that subscribers get."""
@@ -191,36 +191,36 @@ class Publisher:
 
     def resume(self) -> None:
         """Continue after all subscribers were congested."""
-        if self._outbox and not self._flushes:
+        if self._outbox and not self._is_flush_scheduled:
             self._flush()
 
     def release(self, link: FrameProtocol) -> None:
         """Remove a closed connection."""
         self._subscriber_links.remote.pop(link, None)
-        self._count()
+        self._count_subscribers()
         self.resume()
 
     def attach(self, subscriber: LocalSubscriber, name: str) -> None:
         """Connect a subscription of this process."""
         if subscriber in self._subscriber_links.local:
             return
-        with self._turn:
+        with self._send_lock:
             self._subscriber_links.local[subscriber] = name
             self._update_subscribers()
-            held = self._latched_messages()
-        self._count()
-        for message in held:
+            latched = self._latched_messages()
+        self._count_subscribers()
+        for message in latched:
             self._deliver(message, subscriber, None)
 
     def detach(self, subscriber: LocalSubscriber) -> None:
         """Disconnect a subscription of this process."""
         self._subscriber_links.local.pop(subscriber, None)
-        self._count()
+        self._count_subscribers()
 
     def close(self) -> None:
         """Close all connections."""
         self._subscriber_links.close()
-        self._count()
+        self._count_subscribers()
 
     def connections(self) -> list[list[int | str | bool]]:
         """Links, as in getBusInfo."""
@@ -240,14 +240,14 @@ class Publisher:
         return () if self._latched is None else (*self.latched_for_others, self._latched)
 
     def _mismatch(self, header: dict[str, str], peer: str) -> str | None:
-        """Reason why a subscriber's type does not match, in the original's words."""
-        wanted, theirs = header.get("md5sum", ""), header.get("type", self.type)
-        if check_md5(wanted, self.md5sum):
+        """Reason why a subscriber's type does not match, in ROS' words."""
+        md5sum, type_name = header.get("md5sum", ""), header.get("type", self.type)
+        if check_md5(md5sum, self.md5sum):
             return None
-        if theirs != self.type:
-            return f"topic types do not match: [{theirs}] vs. [{self.type}]"
+        if type_name != self.type:
+            return f"topic types do not match: [{type_name}] vs. [{self.type}]"
         return (
-            f"Client [{peer}] wants topic [{self.topic}] to have datatype/md5sum [{theirs}/{wanted}], but "
+            f"Client [{peer}] wants topic [{self.topic}] to have datatype/md5sum [{type_name}/{md5sum}], but "
             f"our version has [{self.type}/{self.md5sum}] Dropping connection."
         )
 
@@ -255,10 +255,10 @@ class Publisher:
         local, remote = self._subscriber_links.local, self._subscriber_links.remote
         self._direct = () if local else tuple(link.out for link in remote)
 
-    def _count(self) -> None:
+    def _count_subscribers(self) -> None:
         self._update_subscribers()
-        before, self._wanted = self._wanted, len(self._subscriber_links)
-        if self._wanted > before and self._on_connect is not None:
+        previous, self._subscriber_count = self._subscriber_count, len(self._subscriber_links)
+        if self._subscriber_count > previous and self._on_connect is not None:
             self._on_connect(self)
 
     def _send_at_once(self, message: Any) -> bool:
@@ -267,10 +267,10 @@ class Publisher:
         Waking the loop takes longer than sending.
         """
         outs = self._direct
-        if threading.get_ident() in self._loop.own_threads or not self._turn.acquire(False):
+        if threading.get_ident() in self._loop.loop_threads or not self._send_lock.acquire(False):
             return False
         try:
-            if not outs or outs is not self._direct or self._flushes or self._outbox:
+            if not outs or outs is not self._direct or self._is_flush_scheduled or self._outbox:
                 return False
             for out in outs:
                 if out.is_congested:
@@ -287,13 +287,13 @@ class Publisher:
                     out.send([framed], self._queue_size)
             return True
         finally:
-            self._turn.release()
+            self._send_lock.release()
 
     def _flush(self) -> None:
         frames: list[Pieces] = []
         count = size = 0
         outbox, links = self._outbox, self._subscriber_links
-        self._flushes = True  # prevents direct sending meanwhile
+        self._is_flush_scheduled = True  # prevents direct sending meanwhile
         try:
             while outbox and count < _BATCH_MESSAGES and size < _BATCH_BYTES and not links.is_congested:
                 message = outbox.popleft()
@@ -312,12 +312,12 @@ class Publisher:
                     link.out.send(frames, self._queue_size)
         finally:
             # In this order: a message added in between is seen here or by its own publish().
-            self._flushes = False
-            if outbox and not self._flushes and not links.is_congested:
+            self._is_flush_scheduled = False
+            if outbox and not self._is_flush_scheduled and not links.is_congested:
                 self._flush_soon()
 
     def _flush_soon(self) -> None:
-        self._flushes = True
+        self._is_flush_scheduled = True
         self._loop.deliver_soon(self._flush)
 
     def _deliver(self, message: Any, subscriber: LocalSubscriber, framed: Pieces | None) -> None:
@@ -345,10 +345,10 @@ class Publisher:
             return message  # pyright: ignore[reportUnknownVariableType]
         if isinstance(message, Mapping):
             return self._checked(self._node.new(self.type, dict(message)))  # pyright: ignore[reportUnknownArgumentType]
-        given = self._node.messages.type_of(message)
-        if given != self.type:
-            raise MessageError(f"{self.topic} carries {self.type}, got a {given}")
+        message_type = self._node.messages.type_of(message)
+        if message_type != self.type:
+            raise MessageError(f"{self.topic} carries {self.type}, got a {message_type}")
         self._class, self._has_header = type(message), hasattr(message, "header")
-        self._codec = self._node.messages.codec(given)
+        self._codec = self._node.messages.codec(message_type)
         self._frame = self._codec.exact_frame
         return message

@@ -28,7 +28,7 @@ async def probe_publisher(node: NodeContext, publisher: str, topic: str) -> dict
                 case answer:
                     raise WireError(f"it does not offer TCPROS: {str(answer)[:100]}")
     except (OSError, RosError, FaultError, asyncio.IncompleteReadError) as error:
-        raise RosError(f"{publisher} does not say what {topic} is: {error or type(error).__name__}") from None
+        raise RosError(f"{publisher} does not describe {topic}: {error or type(error).__name__}") from None
 
 
 async def _exchange_headers(caller: str, topic: str, host: str, port: int) -> dict[str, str]:

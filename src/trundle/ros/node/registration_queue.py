@@ -31,14 +31,14 @@ class RegistrationQueue:
 
     def add(self, registration: Registration) -> None:
         """Append a call; thread-safe, does not block."""
-        token = self._loop.work.start()
-        self._loop.call_soon(lambda: self._add(registration, token))
+        work = self._loop.work.start()
+        self._loop.call_soon(lambda: self._add(registration, work))
 
     def start(self, first: Registration) -> None:
         """Start the queue with `first`; call on the loop."""
-        token = self._loop.work.start()
-        self._worker = asyncio.get_running_loop().create_task(self._run(first, token))
-        self._worker.add_done_callback(lambda _: self._loop.work.finish(token))
+        work = self._loop.work.start()
+        self._worker = asyncio.get_running_loop().create_task(self._run(first, work))
+        self._worker.add_done_callback(lambda _: self._loop.work.finish(work))
         self._worker.add_done_callback(self._worker_ended)
 
     async def wait_done(self) -> None:
@@ -46,7 +46,7 @@ class RegistrationQueue:
 
         Raises:
             RosError: the node could not start.
-            OSError: the system refused a socket of it.
+            OSError: the system refused it a socket.
         """
         await self._is_started.wait()
         await asyncio.sleep(0)  # lets calls added by other threads enter the queue
@@ -74,7 +74,7 @@ class RegistrationQueue:
             await asyncio.gather(self._worker, return_exceptions=True)
 
     async def retry(self, registration: Registration) -> None:
-        """Execute a call, retrying until a master answers; a master that is not there holds no time."""
+        """Execute a call, retrying until a master answers; the wait for a missing master is no work in progress."""
         while True:
             try:
                 await registration()
@@ -91,17 +91,17 @@ class RegistrationQueue:
             self._waits_for_master = False
             return
 
-    def _add(self, registration: Registration, token: WorkItem) -> None:
+    def _add(self, registration: Registration, work: WorkItem) -> None:
         if self._has_ended or (self._worker is not None and self._worker.done()):  # the worker has ended
-            self._loop.work.finish(token)
+            self._loop.work.finish(work)
         else:
-            self._queue.put_nowait((registration, token))
+            self._queue.put_nowait((registration, work))
 
-    async def _run(self, first: Registration, token: WorkItem) -> None:
-        self._current = token
+    async def _run(self, first: Registration, work: WorkItem) -> None:
+        self._current = work
         await first()
         self._is_started.set()
-        self._loop.work.finish(token)
+        self._loop.work.finish(work)
         while True:
             registration, self._current = await self._queue.get()
             try:

@@ -47,11 +47,11 @@ class Service:
     # on the loop
 
     def accept(self, link: FrameProtocol, header: dict[str, str]) -> None:
-        """Accept a client's connection, or refuse it with the original's reason."""
-        wanted = header.get("md5sum", "")
-        if not check_md5(wanted, self.kind.md5sum):
+        """Accept a client's connection, or refuse it with ROS' reason."""
+        md5sum = header.get("md5sum", "")
+        if not check_md5(md5sum, self.kind.md5sum):
             peer = header.get("callerid", "unknown")
-            link.refuse(f"request from [{peer}]: md5sums do not match: [{wanted}] vs. [{self.kind.md5sum}]")
+            link.refuse(f"request from [{peer}]: md5sums do not match: [{md5sum}] vs. [{self.kind.md5sum}]")
             return
         link.set_nodelay()
         link.send_header(
@@ -65,7 +65,7 @@ class Service:
             }
         )
         if header.get("probe") == "1":
-            link.close("only asked")
+            link.close("the probe is answered")
             return
         requests: asyncio.Queue[bytes | memoryview | None] = asyncio.Queue(_MAX_WAITING)
         self._links[link] = requests

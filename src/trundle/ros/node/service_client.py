@@ -79,11 +79,11 @@ async def wait_for_service(node: NodeContext, name: str, timeout_s: float | None
     try:
         async with asyncio.timeout(timeout_s):
             while True:
-                seen = node.loop.local.service_changes  # before the look-up: one registered meanwhile wakes, too
+                changes = node.loop.local.service_changes  # before the look-up: a later registration wakes
                 with contextlib.suppress(MasterError, MasterUnreachableError):
                     await look_up("lookupService", name)
                     return
-                is_new = await node.loop.local.wait_service_change(seen, _POLL_S)
+                is_new = await node.loop.local.wait_service_change(changes, _POLL_S)
                 look_up = node.master.call if is_new else node.master.poll
                 notice.poll()
     except TimeoutError:
@@ -133,11 +133,11 @@ async def _exchange_bytes(caller: str, uri: str, name: str, kind: ServiceType, b
             if "error" in answer:
                 raise ServiceError(f"{name} refuses: {answer['error']}")
             writer.write(frame(body))
-            well = await reader.readexactly(1) == b"\x01"
+            has_succeeded = await reader.readexactly(1) == b"\x01"
             data = await _read_frame(reader, MAX_MESSAGE_BYTES)
     except (OSError, WireError, asyncio.IncompleteReadError) as error:
         raise ServiceError(f"{name} at {uri} cannot be called: {error or type(error).__name__}") from None
-    if not well:
+    if not has_succeeded:
         raise ServiceError(f"service [{name}] responded with an error: {data.decode('utf-8', 'replace')}")
     return data
 

@@ -22,7 +22,7 @@ from .service import Service
 _BACKLOG = 512
 """Accept queue: all subscribers of a big launch connect at once, and a rejected one retries after a second."""
 _URL = re.compile(r"\w[\w+.-]*://.")
-_MAX_NEWCOMERS = 512
+_MAX_PENDING_PEERS = 512
 """Limit of connections without a header; beyond it the oldest is closed."""
 
 
@@ -39,7 +39,7 @@ class Slave:
         on_shutdown: Callable[[str], None],
         ports: tuple[int, int] = (0, 0),
     ) -> None:
-        """`on_shutdown` is called with the reason of a shutdown request; `ports` are of slave API and TCPROS."""
+        """`on_shutdown` is called with a shutdown request's reason; `ports`: those of the slave API and of TCPROS."""
         self._ports = ports
         self._node = node
         self._endpoints = endpoints
@@ -63,9 +63,9 @@ class Slave:
         server = await loop.create_server(self._inbound, self._address.bind, self._ports[1], backlog=_BACKLOG)
         self._servers.append(server)
         self.tcp_port = server.sockets[0].getsockname()[1]
-        if (found := listen_unix()) is not None:
-            listening, name = found
-            self._servers.append(await loop.create_server(self._inbound, sock=listening, backlog=_BACKLOG))
+        if (listener := listen_unix()) is not None:
+            unix_socket, name = listener
+            self._servers.append(await loop.create_server(self._inbound, sock=unix_socket, backlog=_BACKLOG))
             self._unix_socket = [name]
 
     @property
@@ -130,14 +130,14 @@ class Slave:
             raise BadArgumentError("ERROR: parameter [protocols] must be specified and non-empty")
         if self._endpoints.publisher(name) is None:
             return -1, f"Not a publisher of [{name}]", []
-        wanted = [p[0] for p in protocols if isinstance(p, list) and p]  # pyright: ignore[reportUnknownVariableType]
-        if "TCPROS" not in wanted:
+        requested = [p[0] for p in protocols if isinstance(p, list) and p]  # pyright: ignore[reportUnknownVariableType]
+        if "TCPROS" not in requested:
             return 0, "no supported protocol implementations", []
         host = self._address.advertise
         return (
             1,
             f"ready on {host}:{self.tcp_port}",
-            ["TCPROS", host, self.tcp_port, *(self._unix_socket if UNIXROS in wanted else [])],
+            ["TCPROS", host, self.tcp_port, *(self._unix_socket if UNIXROS in requested else [])],
         )
 
 
@@ -153,19 +153,19 @@ class _Inbound(FrameProtocol):
         node: NodeContext,
         endpoints: NodeEndpoints,
         links: "set[_Inbound]",
-        newcomers: "dict[_Inbound, None]",
+        pending_peers: "dict[_Inbound, None]",
     ) -> None:
         super().__init__()
         self._node = node
         self._endpoints = endpoints
         self._links = links
-        self._pending_peers = newcomers
+        self._pending_peers = pending_peers
         self._target: Publisher | Service | None = None
 
     def connected(self) -> None:
         self._links.add(self)
         self._pending_peers[self] = None
-        if len(self._pending_peers) > _MAX_NEWCOMERS:
+        if len(self._pending_peers) > _MAX_PENDING_PEERS:
             next(iter(self._pending_peers)).close("too many connections without a header")
         assert self.transport is not None
         if self.out.is_local and not is_of_this_user(self.transport.get_extra_info("socket")):
@@ -179,18 +179,18 @@ class _Inbound(FrameProtocol):
         if name is None:
             self.refuse("Missing required 'topic' or 'service' field")
             return
-        for needed in ("md5sum", "callerid"):
-            if needed not in header:
-                self.refuse(f"Missing required '{needed}' field")
+        for field in ("md5sum", "callerid"):
+            if field not in header:
+                self.refuse(f"Missing required '{field}' field")
                 return
         if "topic" in header:
             self._target = self._endpoints.publisher(name)
-            what = "publisher of"
+            role = "publisher of"
         else:
             self._target = self._endpoints.service(name)
-            what = "provider of "
+            role = "provider of "
         if self._target is None:
-            self.refuse(f"[{self._node.name}] is not a {what} [{name}]")
+            self.refuse(f"[{self._node.name}] is not a {role} [{name}]")
             return
         self._target.accept(self, header)
 

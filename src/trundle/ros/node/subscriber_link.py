@@ -30,15 +30,15 @@ class MessageReceiver(Protocol):
 
     @property
     def is_raw(self) -> bool:
-        """True if it takes serialized messages."""
+        """True if it receives serialized messages."""
         ...
 
     def receive_batch(self, messages: Sequence[Any], header: Mapping[str, str], /) -> None:
-        """Receive messages of another process, serialized if it takes these, with their publisher's header."""
+        """Receive messages of another process, serialized if it is raw, with their publisher's header."""
         ...
 
     def copy(self, view: memoryview, /) -> Any:
-        """Copy a serialized message that will be overwritten; `receive_data` takes the copy."""
+        """Copy a serialized message that will be overwritten, for `receive_data`."""
         ...
 
     def receive_data(self, data: bytes | memoryview, header: Mapping[str, str]) -> None:

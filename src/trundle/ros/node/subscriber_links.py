@@ -17,7 +17,7 @@ class SubscriberLinks:
 
     @property
     def is_congested(self) -> bool:
-        """True if no subscriber can take a message now."""
+        """True if no subscriber can accept a message now."""
         return bool(self.remote) and not self.local and all(link.out.is_congested for link in self.remote)
 
     @property

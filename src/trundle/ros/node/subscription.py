@@ -45,7 +45,7 @@ class Subscription:
         self.topic = topic
         self.type = type_name
         self.is_raw = type_name == ANY_TYPE
-        """True if the callback takes serialized messages."""
+        """True if the callback receives serialized messages."""
         self.needs_every_message = queue_size != 1
         """True if no message may be skipped; else the newest suffices."""
         self.received = 0
@@ -67,7 +67,7 @@ class Subscription:
         self._tasks: dict[str, asyncio.Task[None]] = {}
         """Publisher's URI → task that maintains its link."""
         self._links: dict[str, FrameProtocol | LocalPublisher] = {}
-        self._complained: set[str] = set()
+        self._unreachable: set[str] = set()
 
     @property
     def publishers(self) -> int:
@@ -77,7 +77,7 @@ class Subscription:
     @property
     def is_settled(self) -> bool:
         """True if each registered publisher is connected, or found unreachable."""
-        return all(uri in self._links or uri in self._complained for uri in list(self._tasks))
+        return all(uri in self._links or uri in self._unreachable for uri in list(self._tasks))
 
     def unregister(self) -> None:
         """Stop subscribing; thread-safe."""
@@ -94,9 +94,9 @@ class Subscription:
         """Connect to exactly these publishers."""
         for uri in [uri for uri in self._tasks if uri not in uris]:
             self._tasks.pop(uri).cancel()
-        self.follow_too(uris)
+        self.add_publishers(uris)
 
-    def follow_too(self, uris: list[str]) -> None:
+    def add_publishers(self, uris: list[str]) -> None:
         """Connect to these publishers as well."""
         for uri in uris:
             if uri not in self._tasks:
@@ -118,7 +118,7 @@ class Subscription:
             except Exception as error:
                 self._log_failed_callback(error)
             return
-        # `deliver` was called once per queued message; one that takes a dropped message's place needs no new call.
+        # `deliver` was called once per queued message; a message that replaces a dropped one needs no new call.
         replaced = self._queue_size is not None and len(self._queue) >= self._queue_size and self._drop_oldest()
         self._queue.append((message, from_outside))
         if self._is_async:
@@ -136,7 +136,7 @@ class Subscription:
                 self.receive(message, from_outside=True)
 
     def copy(self, view: memoryview) -> Any:
-        """Copy a serialized message that will be overwritten; `receive_data` takes the copy."""
+        """Copy a serialized message that will be overwritten, for `receive_data`."""
         return bytes(view)
 
     def receive_bytes(self, data: bytes, publisher: LocalPublisher) -> None:
@@ -203,7 +203,7 @@ class Subscription:
                     await self._connect(uri)
                 attempt, was_connected = 0, True
             except (OSError, RosError, FaultError) as error:
-                has_ended = was_connected and isinstance(error, ConnectionRefusedError)  # without telling the master
+                has_ended = was_connected and isinstance(error, ConnectionRefusedError)  # without unregistering
                 if not has_ended:
                     self._warn_unreachable(uri, str(error) or type(error).__name__, attempt)
             await asyncio.sleep(_RETRY_S[min(attempt, len(_RETRY_S) - 1)])
@@ -245,12 +245,12 @@ class Subscription:
         if link.header is None or "error" in link.header:
             raise WireError(reason)
 
-    async def _open(self, host: str, port: int, nearby: str | None) -> SubscriberLink:
+    async def _open(self, host: str, port: int, socket_name: str | None) -> SubscriberLink:
         loop = asyncio.get_running_loop()
         link = SubscriberLink(self, self._request(), self._node.loop.selector, self._codec)
-        if nearby is not None:
+        if socket_name is not None:
             with contextlib.suppress(OSError):  # the socket is gone or not accessible
-                await loop.create_unix_connection(lambda: link, sock=await connect_unix(loop, nearby))
+                await loop.create_unix_connection(lambda: link, sock=await connect_unix(loop, socket_name))
                 return link
         await loop.create_connection(lambda: link, host, port)
         return link
@@ -269,8 +269,8 @@ class Subscription:
 
     def _warn_unreachable(self, uri: str, reason: str, attempt: int) -> None:
         """Warn once about an unreachable publisher, after the usual failures while it starts or ends."""
-        if attempt >= 2 and uri not in self._complained:
-            self._complained.add(uri)
+        if attempt >= 2 and uri not in self._unreachable:
+            self._unreachable.add(uri)
             self._node.log.warn(f"no messages on {self.topic} from {uri}: {reason}")
 
     # callbacks
@@ -287,13 +287,13 @@ class Subscription:
     def _drop_oldest(self) -> bool:
         try:
             self._queue.popleft()
-        except IndexError:  # taken by another thread
+        except IndexError:  # emptied by another thread
             return False
         self.dropped += 1
         return True
 
     def _call_next(self) -> Callable[[], None] | None:
-        """Call back for the next message, on the callback thread; return what repeats it if it is from outside."""
+        """Run the callback for the next message; return its repetition if the message is from outside."""
         try:
             message, from_outside = self._queue.popleft()
         except IndexError:  # dropped meanwhile

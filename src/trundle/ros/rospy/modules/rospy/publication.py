@@ -122,7 +122,7 @@ class Publication:
         with self._turn:
             if self.is_latch:
                 self.latch = message
-            elif not publisher._wanted:
+            elif not publisher._subscriber_count:
                 return
             self.sender.is_active = False  # what others publish now comes after this message
             self.sender.sequence += 1
@@ -218,7 +218,7 @@ class FramePublisher(GraphPublisher):
     @property
     def sends_directly(self) -> bool:
         """True if a message that is published now may be written to the sockets of all subscribers."""
-        return bool(self._direct) and not (self.latch or self._flushes or self._outbox)
+        return bool(self._direct) and not (self.latch or self._is_flush_scheduled or self._outbox)
 
     def publish_frame(self, pieces: Pieces) -> None:
         """Send a serialized message, where there are subscribers or messages are latched; thread-safe."""
