@@ -26,7 +26,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .messages.typed_message import TypedMessage
+from .messages.raw_message import TypedMessage
 
 class Time(TypedMessage, Protocol):
     """time or duration."""

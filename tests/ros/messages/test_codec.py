@@ -37,15 +37,15 @@ def _length(size: int) -> bytes:
     ("kind", "field", "dtype", "pieces"),
     [
         ("sensor_msgs/Image", "data", "u1", 2),
-        ("sensor_msgs/PointCloud2", "data", "u1", 3),  # is_dense comes behind
+        ("sensor_msgs/PointCloud2", "data", "u1", 3),  # is_dense follows
         ("nav_msgs/OccupancyGrid", "data", "i1", 2),
         ("nav_msgs/OccupancyGrid", "data", "u1", 2),
         ("sensor_msgs/LaserScan", "intensities", "<f4", 2),
-        ("sensor_msgs/LaserScan", "ranges", "<f4", 3),  # intensities come behind
+        ("sensor_msgs/LaserScan", "ranges", "<f4", 3),  # intensities follow
         ("std_msgs/Float64MultiArray", "data", "<f8", 2),
     ],
 )
-def test_pieces_are_the_bytes_and_the_array_itself(
+def test_a_frame_holds_a_long_array_without_a_copy(
     messages: Messages, kind: str, field: str, dtype: str, pieces: int
 ) -> None:
     array = (np.arange(LONG) % 100).astype(dtype)
@@ -62,17 +62,17 @@ def test_pieces_are_the_bytes_and_the_array_itself(
     assert getattr(message, field) is array
 
 
-def test_one_long_array_of_two_stays_where_it_is(messages: Messages) -> None:
+def test_one_of_two_long_arrays_is_not_copied(messages: Messages) -> None:
     scan = _message(messages, "sensor_msgs/LaserScan", "ranges", np.ones(LONG, "f4"))
     scan.intensities = np.ones(LONG, "f4")
 
     framed = messages.codec("sensor_msgs/LaserScan").frame(scan)
 
-    assert len(framed) == 3  # which bounds how many go to the kernel at once
+    assert len(framed) == 3  # limits the buffers per system call
     assert b"".join(framed)[4:] == messages.serialize(scan)
 
 
-def test_a_long_array_of_a_message_within_stays_where_it_is(messages: Messages) -> None:
+def test_a_long_array_of_a_nested_message_is_not_copied(messages: Messages) -> None:
     image = messages.new("stereo_msgs/DisparityImage")
     image.image.data = np.ones(LONG, "u1")
 
@@ -93,7 +93,7 @@ def test_a_long_array_of_a_message_within_stays_where_it_is(messages: Messages) 
     ],
     ids=["another byte order", "gaps", "another size", "another type", "a list"],
 )
-def test_an_array_that_lies_otherwise_is_written_all_the_same(messages: Messages, array: Any) -> None:
+def test_an_array_of_another_layout_or_type_is_converted(messages: Messages, array: Any) -> None:
     kind = "sensor_msgs/LaserScan"
 
     written = messages.serialize(_message(messages, kind, "intensities", array))
@@ -101,7 +101,7 @@ def test_an_array_that_lies_otherwise_is_written_all_the_same(messages: Messages
     assert messages.deserialize(written, kind).intensities.tolist() == list(array)
 
 
-def test_a_picture_with_rows_is_written_as_one_without(messages: Messages) -> None:
+def test_an_image_array_with_rows_is_written_like_a_flat_one(messages: Messages) -> None:
     flat, rows = (
         messages.serialize(_message(messages, "sensor_msgs/Image", "data", pixels))
         for pixels in (np.arange(60, dtype="u1"), np.arange(60, dtype="u1").reshape(4, 5, 3))
@@ -121,7 +121,7 @@ def test_a_frame_begins_with_its_length(messages: Messages, size: int, pieces: i
     assert b"".join(framed) == _length(len(written)) + written
 
 
-# what fields take
+# field values
 
 
 @pytest.mark.parametrize(
@@ -144,12 +144,12 @@ def test_a_frame_begins_with_its_length(messages: Messages, size: int, pieces: i
         ("std_msgs/String", np.str_("a"), b"\1\0\0\0a"),
     ],
 )
-def test_a_field_takes_what_can_be_meant(messages: Messages, kind: str, value: Any, data: bytes) -> None:
+def test_a_field_accepts_convertible_values(messages: Messages, kind: str, value: Any, data: bytes) -> None:
     assert messages.serialize(_message(messages, kind, "data", value)) == data
 
 
 @pytest.mark.parametrize(
-    ("kind", "value", "why"),
+    ("kind", "value", "reason"),
     [
         ("std_msgs/UInt8", 256, "field 'data' is a uint8 \\(0 to 255\\), got 256"),
         ("std_msgs/UInt8", -1, "got -1"),
@@ -170,19 +170,19 @@ def test_a_field_takes_what_can_be_meant(messages: Messages, kind: str, value: A
         ("std_msgs/Float64MultiArray", None, "field 'data' is a list of float64"),
     ],
 )
-def test_what_a_field_cannot_hold_is_named(messages: Messages, kind: str, value: Any, why: str) -> None:
+def test_an_invalid_value_is_reported_with_its_field(messages: Messages, kind: str, value: Any, reason: str) -> None:
     message = _message(messages, kind, "data", value)
-    with pytest.raises(MessageError, match=why):
+    with pytest.raises(MessageError, match=reason):
         messages.serialize(message)
 
 
-def test_an_array_of_another_length_is_named(messages: Messages) -> None:
+def test_an_array_of_wrong_length_is_reported(messages: Messages) -> None:
     message = _message(messages, "sensor_msgs/CameraInfo", "K", np.zeros(8))
     with pytest.raises(MessageError, match="field 'K' has exactly 9 elements, got 8"):
         messages.serialize(message)
 
 
-def test_a_matrix_is_an_array(messages: Messages) -> None:
+def test_a_matrix_is_accepted_as_an_array(messages: Messages) -> None:
     message = _message(messages, "sensor_msgs/CameraInfo", "K", np.eye(3))
     assert messages.deserialize(messages.serialize(message), "sensor_msgs/CameraInfo").K.tolist() == [
         1,
@@ -193,12 +193,12 @@ def test_a_matrix_is_an_array(messages: Messages) -> None:
 
 
 @pytest.mark.parametrize("names", [("a", "b"), {"a": 1, "b": 2}.keys(), np.array(["a", "b"])])
-def test_a_list_may_be_anything_with_a_length(messages: Messages, names: Any) -> None:
+def test_a_list_field_accepts_any_sized_iterable(messages: Messages, names: Any) -> None:
     message = _message(messages, "sensor_msgs/JointState", "name", names)
     assert messages.deserialize(messages.serialize(message), "sensor_msgs/JointState").name == ["a", "b"]
 
 
-class _Restless:
+class _ShrinkingTransform:
     """Transform that removes others from its list while it is written."""
 
     def __init__(self, transforms: list[Any], keeps: int, real: Any) -> None:
@@ -211,30 +211,36 @@ class _Restless:
 
 
 @pytest.mark.parametrize("keeps", [0, 1])
-def test_a_message_that_changes_while_it_is_written_does_no_harm(messages: Messages, keeps: int) -> None:
+def test_a_message_that_changes_during_serialization_is_written_safely(messages: Messages, keeps: int) -> None:
     transforms: list[Any] = []
-    transforms += [_Restless(transforms, keeps, messages.new("geometry_msgs/TransformStamped")), object(), object()]
+    transforms += [
+        _ShrinkingTransform(transforms, keeps, messages.new("geometry_msgs/TransformStamped")),
+        object(),
+        object(),
+    ]
     message = _message(messages, "tf2_msgs/TFMessage", "transforms", transforms)
     if keeps:
         with pytest.raises(MessageError, match="a geometry_msgs/TransformStamped is needed"):
             messages.serialize(message)
     else:
-        assert messages.serialize(message) == _length(0)  # what is left of it
+        assert messages.serialize(message) == _length(0)  # the list is empty by then
 
 
-# bytes from anywhere
+# hostile bytes
 
 
-def test_arrays_are_views_of_what_they_were_read_from(messages: Messages) -> None:
+def test_arrays_are_views_of_the_buffer_they_were_read_from(messages: Messages) -> None:
     data = messages.serialize(_message(messages, "sensor_msgs/Image", "data", np.arange(60, dtype="u1")))
     writable = bytearray(data)
 
-    pixels, own = (messages.deserialize(memoryview(given), "sensor_msgs/Image").data for given in (data, writable))
+    pixels, writable_pixels = (
+        messages.deserialize(memoryview(buffer), "sensor_msgs/Image").data for buffer in (data, writable)
+    )
 
     assert not pixels.flags.writeable
     assert np.shares_memory(pixels, np.frombuffer(data, "u1"))
-    assert own.flags.writeable
-    assert np.shares_memory(own, np.frombuffer(writable, "u1"))
+    assert writable_pixels.flags.writeable
+    assert np.shares_memory(writable_pixels, np.frombuffer(writable, "u1"))
 
 
 def test_a_mapped_file_is_read(messages: Messages, tmp_path: Path) -> None:
@@ -247,7 +253,7 @@ def test_a_mapped_file_is_read(messages: Messages, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("kind", "data", "why"),
+    ("kind", "data", "reason"),
     [
         ("std_msgs/UInt32", bytes(5), "5 bytes are not a std_msgs/UInt32: it ends after 4"),
         ("std_msgs/UInt32", bytes(3), "3 bytes are not a std_msgs/UInt32: they end within 'data'"),
@@ -261,13 +267,13 @@ def test_a_mapped_file_is_read(messages: Messages, tmp_path: Path) -> None:
         ("std_msgs/UInt8", memoryview(bytes(8))[::2], "not C-contiguous"),
     ],
 )
-def test_bytes_that_are_no_message_are_refused(messages: Messages, kind: str, data: bytes, why: str) -> None:
-    with pytest.raises(MessageError, match=why):
+def test_invalid_bytes_are_refused(messages: Messages, kind: str, data: bytes, reason: str) -> None:
+    with pytest.raises(MessageError, match=reason):
         messages.deserialize(data, kind)
 
 
-def test_a_long_list_of_nothing_is_refused() -> None:
-    """Only the length is sent, so that nothing else bounds the memory."""
+def test_a_long_list_of_empty_messages_is_refused() -> None:
+    """Such a list consists of its length alone, so that the size of the data does not limit the memory."""
     messages = Messages()
     messages.add("x_msgs/Nothings", "std_msgs/Empty[] all")
     messages.add("x_msgs/Many", "std_msgs/Empty[1000] all")
@@ -283,7 +289,7 @@ def test_a_long_list_of_nothing_is_refused() -> None:
         messages.codec("x_msgs/TooMany")
 
 
-def test_messages_without_bytes_are_counted_over_the_whole_message() -> None:
+def test_empty_messages_are_counted_over_the_whole_message() -> None:
     messages = Messages()
     messages.add("x_msgs/Byte", "uint8 value\nstd_msgs/Empty[1000] nothings")
     messages.add("x_msgs/Bytes", "x_msgs/Byte[] all")
@@ -300,7 +306,7 @@ def test_a_type_that_contains_itself_is_refused() -> None:
         messages.codec("x_msgs/Self")
 
 
-def test_a_field_named_like_a_word_of_python_is_written() -> None:
+def test_a_field_named_like_a_python_keyword_is_written() -> None:
     messages = Messages()
     messages.add("x_msgs/Word", "uint8 from\nuint8 None")
     data = messages.serialize(messages.new("x_msgs/Word", {"from": 1, "None": 2}))
@@ -308,20 +314,20 @@ def test_a_field_named_like_a_word_of_python_is_written() -> None:
     assert messages.deserialize(data, "x_msgs/Word").from_ == 1
 
 
-def test_nothing_is_left_behind_by_what_is_refused(messages: Messages) -> None:
+def test_refused_messages_leak_no_memory(messages: Messages) -> None:
     scan = messages.new("nav_msgs/Path", {"poses": [{"header": {"frame_id": "a long name of a frame"}}] * 4})
     data = messages.serialize(scan)
-    wrong = [
+    invalid = [
         _message(messages, "sensor_msgs/JointState", "name", ["x" * 50, 3]),
         messages.new("sensor_msgs/JointState"),
     ]
-    wrong[1].position = ["x"]
+    invalid[1].position = ["x"]
 
-    def all_refused() -> None:
+    def refuse_all() -> None:
         for size in range(len(data)):
             with pytest.raises(MessageError):
                 messages.deserialize(data[:size], "nav_msgs/Path")
-        for message in wrong:
+        for message in invalid:
             with pytest.raises(MessageError):
                 messages.serialize(message)
 
@@ -329,8 +335,8 @@ def test_nothing_is_left_behind_by_what_is_refused(messages: Messages) -> None:
         gc.collect()
         return sys.getallocatedblocks()
 
-    all_refused()
+    refuse_all()
     before = blocks()
     for _ in range(5):
-        all_refused()
+        refuse_all()
     assert blocks() - before < len(data)

@@ -1,4 +1,4 @@
-"""Constants of message types: values and sums as genmsg has them (sums by genmsg 0.6)."""
+"""Constants of message types: values and md5 sums as in genmsg 0.6."""
 
 import math
 
@@ -16,19 +16,19 @@ from trundle.ros import MessageError, Messages
         ('string A="a" "b"\nint8 b', '"a" "b"', "cb383abc87eff5e5bcff53bed1ec20a6"),
     ],
 )
-def test_a_text_is_all_that_stands_behind_the_sign(line: str, value: str, md5: str) -> None:
+def test_a_string_constant_is_the_rest_of_its_line(line: str, value: str, md5: str) -> None:
     messages = Messages()
     messages.add("p/T", line)
     assert vars(type(messages.new("p/T")))["A"] == value
     assert messages.md5("p/T") == md5
 
 
-def test_numbers_and_truths() -> None:
+def test_number_and_bool_constants() -> None:
     messages = Messages()
     messages.add("p/T", "uint32 M=4294967295\nfloat32 G=5.\nfloat64 H=inf\nfloat64 N=nan\nbool T=True # yes\nint8 b")
-    made = vars(type(messages.new("p/T")))
-    assert [made[name] for name in "MGHT"] == [4294967295, 5.0, math.inf, True]
-    assert math.isnan(made["N"])
+    attributes = vars(type(messages.new("p/T")))
+    assert [attributes[name] for name in "MGHT"] == [4294967295, 5.0, math.inf, True]
+    assert math.isnan(attributes["N"])
 
 
 @pytest.mark.parametrize(
@@ -42,6 +42,6 @@ def test_numbers_and_truths() -> None:
         ("uint8 A=" + "9" * 5000, "is not a constant of type uint8"),
     ],
 )
-def test_what_is_no_constant_is_said(line: str, sentence: str) -> None:
+def test_an_invalid_constant_is_reported(line: str, sentence: str) -> None:
     with pytest.raises(MessageError, match=sentence):
         Messages().add("p/T", f"{line}\nint8 b")

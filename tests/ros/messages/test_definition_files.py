@@ -38,12 +38,12 @@ def package(tmp_path: Path) -> Path:
     return folder
 
 
-def test_each_name_is_found_once_and_only_in_the_package(package: Path) -> None:
-    found = [str(path.relative_to(package)) for path in definition_files(package, "msg")]
-    assert found == ["msg/hand/Finger.msg", "messages/common/Grip.msg", "msg/State.msg"]
+def test_each_type_has_one_file_inside_the_package(package: Path) -> None:
+    paths = [str(path.relative_to(package)) for path in definition_files(package, "msg")]
+    assert paths == ["msg/hand/Finger.msg", "messages/common/Grip.msg", "msg/State.msg"]
 
 
-def test_commands_know_messages_in_sub_folders(
+def test_srv_show_reads_messages_in_sub_folders(
     package: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(package.parent))
@@ -53,7 +53,7 @@ def test_commands_know_messages_in_sub_folders(
     assert capsys.readouterr().out == "---\narm_msgs/Grip grip\n  arm_msgs/Finger finger\n    float64 angle\n\n"
 
 
-def test_programs_import_messages_of_sub_folders(package: Path) -> None:
+def test_programs_import_messages_in_sub_folders(package: Path) -> None:
     code = "from arm_msgs.msg import Grip, State; from arm_msgs.srv import Open; print(State([Grip().finger]))"
     env = {name: value for name, value in os.environ.items() if not name.startswith("ROS")} | with_finder({})
     env["ROS_PACKAGE_PATH"] = str(package.parent)

@@ -1,4 +1,4 @@
-"""Types of messages in annotations, against the definitions and against messages that are made of them."""
+"""Annotations of messages, against the definitions and against message objects."""
 
 import ast
 import importlib.util
@@ -34,23 +34,23 @@ def _classes() -> Iterator[tuple[str, ast.ClassDef]]:
                     yield f"{package.name}/{message.name}", message
 
 
-def test_the_file_is_what_the_definitions_say(script: ModuleType) -> None:
+def test_the_stub_matches_the_definitions(script: ModuleType) -> None:
     assert script.stub() == STUB.read_text(), "run make format"
 
 
-def test_a_message_has_what_its_type_says() -> None:
+def test_message_fields_have_their_annotated_types() -> None:
     messages = Messages()
-    seen = 0
+    count = 0
     for name, message in _classes():
         service = name.removesuffix("Request")
         if service != name:
             messages.service(service)
-        made = messages.new(name)
+        instance = messages.new(name)
         for field in message.body:
             if not isinstance(field, ast.AnnAssign) or not isinstance(field.target, ast.Name):
                 continue
-            value, kind = getattr(made, field.target.id), ast.unparse(field.annotation)
-            seen += 1
+            value, kind = getattr(instance, field.target.id), ast.unparse(field.annotation)
+            count += 1
             if kind in PYTHON:
                 assert isinstance(value, PYTHON[kind]), f"{name}.{field.target.id}"
             elif kind.startswith("NDArray"):
@@ -59,4 +59,4 @@ def test_a_message_has_what_its_type_says() -> None:
                 assert isinstance(value, list)
             else:
                 assert hasattr(value, "__msgtype__")
-    assert seen > 200
+    assert count > 200

@@ -1,4 +1,4 @@
-"""Messages: sums, texts, bytes and values; compared with genpy's own where Debian's ROS is installed."""
+"""Messages: md5 sums, definitions, bytes and values; compared with genpy where Debian's ROS is installed."""
 
 import json
 import os
@@ -14,7 +14,7 @@ import pytest
 from trundle.ros import MessageError, Messages
 
 REAL = Path("/usr/lib/python3/dist-packages/genpy")
-SHOWN = [
+TYPES = [
     "sensor_msgs/Image",
     "tf2_msgs/TFMessage",
     "sensor_msgs/JointState",
@@ -88,23 +88,23 @@ def _real_python(tmp_path: Path, code: str, *arguments: str) -> Any:
 
 
 @pytest.mark.real_ros
-def test_every_md5_sum_is_the_original_one(messages: Messages, tmp_path: Path) -> None:
+def test_every_md5_sum_matches_genpy(messages: Messages, tmp_path: Path) -> None:
     wrong: list[str] = []
-    lacking: list[str] = []
+    missing: list[str] = []
     for key, md5sum in _real_python(tmp_path, SUMS).items():
         kind, _, name = key.partition(" ")
         try:
-            ours = messages.md5(name) if kind == "msg" else messages.service(name).md5sum
+            md5 = messages.md5(name) if kind == "msg" else messages.service(name).md5sum
         except MessageError:
-            lacking.append(name)
+            missing.append(name)
             continue
-        if ours != md5sum:
+        if md5 != md5sum:
             wrong.append(name)
     assert wrong == []
-    assert [name for name in lacking if "LookupTransform" not in name] == []
+    assert [name for name in missing if "LookupTransform" not in name] == []
 
 
-def test_threads_may_ask_for_the_same_sum_at_once() -> None:
+def test_threads_may_compute_the_same_md5_sum_at_once() -> None:
     interval = sys.getswitchinterval()
     sys.setswitchinterval(1e-6)
     try:
@@ -135,29 +135,29 @@ def _filled(messages: Messages, kind: str, depth: int = 1) -> Any:
 
 
 @pytest.mark.real_ros
-def test_bytes_are_those_of_the_original_serialiser(messages: Messages, tmp_path: Path) -> None:
-    real = _real_python(tmp_path, FILLED, *SHOWN)
+def test_serialized_bytes_match_genpy(messages: Messages, tmp_path: Path) -> None:
+    real = _real_python(tmp_path, FILLED, *TYPES)
     assert "std_msgs/Duration" in real
     for kind, data in real.items():
         assert bytes(messages.serialize(messages.new(kind, _filled(messages, kind)))).hex() == data, kind
 
 
-@pytest.mark.parametrize("kind", SHOWN)
-def test_a_message_survives_its_bytes(messages: Messages, kind: str) -> None:
+@pytest.mark.parametrize("kind", TYPES)
+def test_a_message_survives_serialization(messages: Messages, kind: str) -> None:
     message = messages.new(kind, _filled(messages, kind))
     data = bytes(messages.serialize(message))
     assert bytes(messages.serialize(messages.deserialize(data, kind))) == data
 
 
 @pytest.mark.parametrize("kind", ["sensor_msgs/Image", "tf2_msgs/TFMessage", "rosgraph_msgs/Log"])
-def test_bytes_cut_short_are_refused_wherever_they_are_cut(messages: Messages, kind: str) -> None:
+def test_truncated_bytes_of_any_length_are_refused(messages: Messages, kind: str) -> None:
     data = bytes(messages.serialize(messages.new(kind, _filled(messages, kind))))
     for size in range(len(data)):
         with pytest.raises(MessageError, match=kind):
             messages.deserialize(data[:size], kind)
 
 
-def test_a_definition_lists_what_it_depends_on_as_genmsg_does(messages: Messages) -> None:
+def test_a_full_definition_lists_its_dependencies_like_genmsg(messages: Messages) -> None:
     line = "=" * 80
     assert messages.definition("tf2_msgs/TFMessage").startswith(
         f"geometry_msgs/TransformStamped[] transforms\n\n{line}\nMSG: geometry_msgs/TransformStamped\n"
@@ -175,7 +175,7 @@ def test_a_definition_lists_what_it_depends_on_as_genmsg_does(messages: Messages
     ]
 
 
-def test_fields_left_out_are_zero_and_now_and_auto_are_filled_in(messages: Messages) -> None:
+def test_omitted_fields_are_zero_and_now_and_auto_are_stamped(messages: Messages) -> None:
     message = messages.new("nav_msgs/Odometry", {"header": "auto", "pose": {"pose": {"position": [1, 2, 3]}}}, now_ns=5)
     assert (message.header.stamp.sec, message.header.stamp.nanosec) == (0, 5)
     assert message.pose.pose.position.z == 3.0
@@ -184,7 +184,7 @@ def test_fields_left_out_are_zero_and_now_and_auto_are_filled_in(messages: Messa
 
 
 @pytest.mark.parametrize(
-    ("kind", "fields", "complaint"),
+    ("kind", "fields", "reason"),
     [
         ("geometry_msgs/Twist", {"lineer": {}}, "no field 'lineer'; fields here: 'linear', 'angular'"),
         ("geometry_msgs/Twist", {"linear": {"q": 1}}, "field 'linear': geometry_msgs/Vector3 has no field 'q'"),
@@ -206,14 +206,14 @@ def test_fields_left_out_are_zero_and_now_and_auto_are_filled_in(messages: Messa
         ("nope_msgs/X", {}, "no messages of a package 'nope_msgs' are known"),
     ],
 )
-def test_what_does_not_fit_is_named_with_what_exists(
-    messages: Messages, kind: str, fields: object, complaint: str
+def test_an_invalid_field_is_reported_with_the_valid_ones(
+    messages: Messages, kind: str, fields: object, reason: str
 ) -> None:
-    with pytest.raises(MessageError, match=complaint):
+    with pytest.raises(MessageError, match=reason):
         messages.new(kind, fields)
 
 
-def test_lists_in_array_fields_are_sent_as_well(messages: Messages) -> None:
+def test_lists_in_array_fields_are_serialized(messages: Messages) -> None:
     message = messages.new("sensor_msgs/JointState")
     message.position = [1, 2.5]
     assert messages.deserialize(messages.serialize(message), "sensor_msgs/JointState").position.tolist() == [1.0, 2.5]
@@ -222,13 +222,13 @@ def test_lists_in_array_fields_are_sent_as_well(messages: Messages) -> None:
         messages.serialize(message)
 
 
-def test_pictures_are_taken_as_numpy_arrays_or_bytes(messages: Messages) -> None:
-    picture = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
-    for data in (picture, picture.tobytes()):
+def test_image_data_may_be_a_numpy_array_or_bytes(messages: Messages) -> None:
+    image = np.arange(12, dtype=np.uint8).reshape(2, 2, 3)
+    for data in (image, image.tobytes()):
         assert messages.new("sensor_msgs/Image", {"data": data}).data.tolist() == list(range(12))
 
 
-def test_a_users_types_are_read_from_the_folder_of_a_package(tmp_path: Path) -> None:
+def test_types_are_read_from_a_package_folder(tmp_path: Path) -> None:
     for name, text in {
         "msg/Part.msg": "float32 SIZE=1.50  # a comment\nstring NAME=a # b \nHeader header\nOther[2] others\n",
         "msg/Other.msg": "uint8 value\n",
@@ -246,7 +246,7 @@ def test_a_users_types_are_read_from_the_folder_of_a_package(tmp_path: Path) -> 
     assert messages.definition("my_msgs/Part").startswith("float32 SIZE=1.50  # a comment\n")
 
 
-def test_a_type_can_be_learnt_from_the_text_a_publisher_sends(messages: Messages) -> None:
+def test_a_type_is_added_from_the_definition_a_publisher_sends(messages: Messages) -> None:
     line = "=" * 80
     fresh = Messages()
     fresh.add_definition("new_msgs/A", f"B b\n\n{line}\nMSG: new_msgs/B\nint32 x\n")
@@ -254,15 +254,15 @@ def test_a_type_can_be_learnt_from_the_text_a_publisher_sends(messages: Messages
     assert not messages.has("new_msgs/A")
 
 
-def test_importing_the_room_is_light() -> None:
+def test_importing_trundle_ros_loads_no_heavy_module() -> None:
     heavy = "{'asyncio', 'numpy', 'yaml'}"
     code = f"import sys, trundle.ros, trundle.ros.xmlrpc.proxy; print(sorted({heavy} & set(sys.modules)))"
     environment = {**os.environ, "PYTHONWARNINGS": "error"}
-    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment)
-    assert found.stdout.strip() == "[]"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment)
+    assert done.stdout.strip() == "[]"
 
 
-def test_messages_made_without_fields_share_nothing() -> None:
+def test_default_messages_share_no_values() -> None:
     messages = Messages()
     for kind in ("sensor_msgs/CameraInfo", "std_msgs/Empty", "tf2_msgs/TFMessage", "nav_msgs/Odometry"):
         assert bytes(messages.serialize(messages.new(kind))) == bytes(messages.serialize(messages.new(kind, {})))
@@ -274,13 +274,13 @@ def test_messages_made_without_fields_share_nothing() -> None:
     assert lists[0].transforms is not lists[1].transforms
 
 
-def test_a_definition_that_never_ends_is_refused() -> None:
+def test_a_recursive_definition_is_refused() -> None:
     messages = Messages(bare=True)
     with pytest.raises(MessageError, match="Knot cannot be read: line 1: geometry_msgs/Knot contains itself"):
         messages.add_definition("geometry_msgs/Knot", "geometry_msgs/Knot inside\n")
 
 
-def test_a_definition_that_branches_and_branches_is_written_once() -> None:
+def test_a_full_definition_holds_each_type_once() -> None:
     between = "=" * 80 + "\nMSG: a/"
     deep = "".join(f"{between}T{i}\nT{i + 1}[] x\nT{i + 1}[] y\n\n" for i in range(90))
     messages = Messages(bare=True)

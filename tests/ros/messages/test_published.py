@@ -15,13 +15,13 @@ _PACKAGES = sorted(path.stem for path in definition_search._PUBLISHED.glob("*.tx
 
 @pytest.fixture(scope="module")
 def messages(tmp_path_factory: pytest.TempPathFactory) -> Messages:
-    made = Messages()
-    made._definitions._on_path = {}
-    return made
+    messages = Messages()
+    messages._definitions._on_path = {}
+    return messages
 
 
 @pytest.mark.parametrize("package", _PACKAGES)
-def test_every_definition_and_what_it_needs_is_there(messages: Messages, package: str) -> None:
+def test_every_published_definition_has_its_dependencies(messages: Messages, package: str) -> None:
     for kind, name, _ in definition_search.published_definitions(package):
         assert name.startswith(f"{package}/")
         if kind == "srv":
@@ -42,24 +42,24 @@ def test_every_definition_and_what_it_needs_is_there(messages: Messages, package
         ("velodyne_msgs/VelodyneScan", "50804fc9533a0e579e6322c04ae70566"),
     ],
 )
-def test_md5_sums_are_those_of_the_originals(messages: Messages, type_name: str, md5sum: str) -> None:
+def test_md5_sums_match_the_released_packages(messages: Messages, type_name: str, md5sum: str) -> None:
     assert messages.md5(type_name) == md5sum
 
 
 def test_a_package_on_the_path_is_preferred(tmp_path: Path) -> None:
-    """It may be of another release."""
+    """The package on the path may be of another release."""
     (tmp_path / "robotnik_msgs/msg").mkdir(parents=True)
     (tmp_path / "robotnik_msgs/package.xml").write_text("<package><name>robotnik_msgs</name></package>")
     (tmp_path / "robotnik_msgs/msg/State.msg").write_text("int8 mine\n")
-    made = Messages()
-    made._definitions._on_path = {"robotnik_msgs": tmp_path / "robotnik_msgs"}
+    messages = Messages()
+    messages._definitions._on_path = {"robotnik_msgs": tmp_path / "robotnik_msgs"}
 
-    assert made.fields("robotnik_msgs/State") == {"mine": "int8"}
+    assert messages.fields("robotnik_msgs/State") == {"mine": "int8"}
     code = "import robotnik_msgs.msg as m; print(m.State(mine=1), [n for n in dir(m) if n[0].isupper()])"
     assert _printed(code, ROS_PACKAGE_PATH=str(tmp_path)) == "mine: 1 ['State']"
 
 
-def test_programs_import_them() -> None:
+def test_programs_import_published_messages() -> None:
     code = "from moveit_msgs.msg import MoveGroupAction; from mavros_msgs.srv import SetMode; print(SetMode._type)"
     assert _printed(code) == "mavros_msgs/SetMode"
 

@@ -50,8 +50,8 @@ SENTENCES = {
     "Deep": "Deep.msg:1: a p/Deep takes 80012800128 bytes when it is empty, more than",
     "Objects": "Objects.msg:1: a p/Objects takes 57600000128 bytes",
     "Nameless": "Nameless.msg:1: not a field: 'int32'; fields are written TYPE NAME, like float64 x or int32[3] x",
-    "Twice": "Twice.msg:3: the name 'a' is taken by line 1",
-    "Both": "Both.msg:2: the name 'A' is taken by line 1",
+    "Twice": "Twice.msg:3: duplicate name 'a'; line 1 defines it first",
+    "Both": "Both.msg:2: duplicate name 'A'; line 1 defines it first",
     "Unknown": "Unknown.msg:3: no message type 'nope/Thing'; no messages of a package 'nope' are known",
     "Range": "Range.msg:2: 300 is not in the range of uint8, 0 to 255",
     "Value": "Value.msg:1: 'x' is not a constant of type int32",
@@ -71,7 +71,7 @@ SENTENCES = {
 
 @pytest.fixture
 def messages(tmp_path: Path) -> Messages:
-    """Know a package of such files."""
+    """Store with a package of these files."""
     for folder in ("msg/Folder.msg", "srv", "action"):
         (tmp_path / folder).mkdir(parents=True)
     for name, text in FILES.items():
@@ -87,19 +87,19 @@ def messages(tmp_path: Path) -> Messages:
 
 
 @pytest.mark.parametrize(("name", "sentence"), SENTENCES.items(), ids=SENTENCES)
-def test_what_is_no_type_is_one_sentence_with_its_place(
+def test_an_invalid_definition_is_reported_with_file_and_line(
     messages: Messages, tmp_path: Path, name: str, sentence: str
 ) -> None:
-    for ask in (messages.md5, messages.fields, messages.codec, messages.new):
+    for call in (messages.md5, messages.fields, messages.codec, messages.new):
         with pytest.raises(MessageError) as refused:
-            ask(f"p/{name}")
+            call(f"p/{name}")
         assert str(refused.value).startswith(f"{tmp_path}/msg/{sentence}")
         assert "\n" not in str(refused.value)
         assert len(str(refused.value)) < 1000
     assert not messages.has(f"p/{name}")
 
 
-def test_the_other_types_of_the_package_are_not_touched(messages: Messages) -> None:
+def test_valid_types_of_the_package_stay_usable(messages: Messages) -> None:
     assert list(messages.fields("p/Good")) == ["class", "self", "None", "x", "header", "d", "g"]
     message = messages.new("p/Good", {"class": 1, "None": 2, "x": [1, 2, 3]})
     assert messages.deserialize(messages.serialize(message), "p/Good").class_ == 1
@@ -113,19 +113,21 @@ def test_the_other_types_of_the_package_are_not_touched(messages: Messages) -> N
         ("Folder", "srv/Folder.srv:1: cannot be read: it is a folder, not a file"),
     ],
 )
-def test_services_name_the_line_of_their_file(messages: Messages, tmp_path: Path, name: str, sentence: str) -> None:
+def test_an_invalid_service_is_reported_with_file_and_line(
+    messages: Messages, tmp_path: Path, name: str, sentence: str
+) -> None:
     with pytest.raises(MessageError) as refused:
         messages.service(f"p/{name}")
     assert str(refused.value) == f"{tmp_path}/{sentence}"
 
 
-def test_actions_name_the_line_of_their_file(messages: Messages, tmp_path: Path) -> None:
+def test_an_invalid_action_is_reported_with_file_and_line(messages: Messages, tmp_path: Path) -> None:
     with pytest.raises(MessageError) as refused:
         messages.md5("p/GoAction")
     assert str(refused.value).startswith(f"{tmp_path}/action/Go.action:6: not a field: 'int32[x] d'")
 
 
-def test_a_chain_that_never_seems_to_end_is_refused(messages: Messages, tmp_path: Path) -> None:
+def test_too_deeply_nested_messages_are_refused(messages: Messages, tmp_path: Path) -> None:
     for i in range(2000):
         (tmp_path / f"msg/D{i}.msg").write_text(f"D{i + 1} d\n")
     with pytest.raises(MessageError, match=r"/msg/D100\.msg:1: more than 100 nested messages"):
@@ -133,7 +135,7 @@ def test_a_chain_that_never_seems_to_end_is_refused(messages: Messages, tmp_path
     assert not messages.has("p/D1")
 
 
-def test_what_a_peer_sends_is_refused_as_well() -> None:
+def test_invalid_definitions_of_peers_are_refused() -> None:
     messages = Messages()
     for text in ("Own a", "uint8[-1] a", "a/B[900000000] b\n" + "=" * 80 + "\nMSG: a/B\nfloat64 x", "x" * 3_000_000):
         with pytest.raises(MessageError, match="the definition of a/Own cannot be read: line 1: "):
@@ -143,9 +145,9 @@ def test_what_a_peer_sends_is_refused_as_well() -> None:
             messages.add(name, "int32 x")
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux bounds a program's memory so")
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux enforces RLIMIT_AS")
 def test_memory_is_bounded(messages: Messages, tmp_path: Path) -> None:
-    """Within 2 GB of addresses, of which the libraries take most."""
+    """The limit of 2 GB of addresses is mostly used by the libraries."""
     (tmp_path / "package.xml").write_text("<package><name>p</name></package>")
     for name in ("Deep", "Objects", "Endless"):
         done = subprocess.run(

@@ -17,13 +17,13 @@ ENCODING_ERRORS = (AttributeError, BufferError, OverflowError, TypeError, ValueE
 class Codec:
     """Serializer and deserializer of one message type."""
 
-    def __init__(self, store: "Typestore", key: str, *, mend: "Callable[[Any], Any]") -> None:
+    def __init__(self, store: "Typestore", key: str, *, convert: "Callable[[Any], Any]") -> None:
         """Compile the type.
 
         Args:
-            store: holds the type.
-            key: its name in rosbags' form.
-            mend: converts a message to one that can be serialized, or raises a MessageError that names the field.
+            store: type store that holds the type.
+            key: type's name in rosbags' form, such as 'std_msgs/msg/String'.
+            convert: converts a message to one that can be serialized, or raises a MessageError that names the field.
 
         Raises:
             MessageError: the type has no layout.
@@ -36,7 +36,7 @@ class Codec:
         """`frame` without the conversion: raises one of `ENCODING_ERRORS` instead."""
         self.receive = self._native.receive
         """Receives messages into a stream's buffer; see `FrameDecoder.receive`."""
-        self._mend = mend
+        self._convert = convert
 
     def write(self, message: object) -> bytes:
         """Serialize a message.
@@ -47,7 +47,7 @@ class Codec:
         try:
             return self._native.write(message)
         except ENCODING_ERRORS:
-            return self._mended(message, self._native.write)
+            return self._converted(message, self._native.write)
 
     def frame(self, message: object) -> Pieces:
         """Serialize a message with its length prefix: one `bytes`, plus the buffers of long arrays.
@@ -60,7 +60,7 @@ class Codec:
         try:
             return self._native.frame(message)
         except ENCODING_ERRORS:
-            return self._mended(message, self._native.frame)
+            return self._converted(message, self._native.frame)
 
     def read(self, data: bytes | bytearray | memoryview) -> Any:
         """Deserialize a message; its arrays are views of the data, read-only if the data is.
@@ -73,9 +73,9 @@ class Codec:
         except (BufferError, ValueError) as error:
             raise MessageError(f"{len(data)} bytes are not a {self.type}: {error}") from None
 
-    def _mended(self, message: Any, write: "Callable[[Any], Any]") -> Any:
-        """Serialize a message after conversion, as of lists to numpy arrays."""
+    def _converted(self, message: Any, write: "Callable[[Any], Any]") -> Any:
+        """Serialize a message after conversion, such as of lists to numpy arrays."""
         try:
-            return write(self._mend(message))
+            return write(self._convert(message))
         except ENCODING_ERRORS as error:
             raise MessageError(f"cannot serialize a {self.type}: {error}") from None

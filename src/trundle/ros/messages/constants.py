@@ -11,11 +11,11 @@ _LINE = re.compile(
     r"^[ \t]*(?P<type>[A-Za-z0-9_]+)[ \t]+(?P<name>[A-Za-z][A-Za-z0-9_]*)[ \t]*=(?P<value>.*)$", re.MULTILINE
 )
 _BITS = {f"{sign}int{bits}": bits for sign in ("", "u") for bits in (8, 16, 32, 64)} | {"byte": 8, "char": 8}
-_TRUTHS = {"true": True, "1": True, "false": False, "0": False}
+_BOOLS = {"true": True, "1": True, "false": False, "0": False}
 
 
 class _Float(float):
-    """A float whose `repr` is a Python expression also if infinite: rosbags puts it into code."""
+    """A float whose `repr` is a Python expression even if infinite: rosbags generates code from it."""
 
     def __repr__(self) -> str:
         return f"float({float.__repr__(self)!r})"
@@ -30,7 +30,7 @@ def read_constant(line: str, number: int) -> Constant | None:
     """Parse a line of a message definition; None if it is not a constant.
 
     Args:
-        line: without its newline.
+        line: line without its newline.
         number: line number, for errors.
 
     Raises:
@@ -56,7 +56,7 @@ def _value(kind: str, text: str) -> bool | int | float | str:
         if kind == "string":
             return text
         if kind == "bool":
-            return _TRUTHS[text.lower()]
+            return _BOOLS[text.lower()]
         if kind in ("float32", "float64"):
             return _Float(text)
         low, high = _range(kind)

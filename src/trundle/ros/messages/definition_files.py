@@ -10,45 +10,45 @@ _MAX_FOLDERS = 200
 
 
 def definition_files(folder: Path, kind: str) -> list[Path]:
-    """Return a package's definitions, one for each name, sorted by it.
+    """Return a package's definition files, one per name, sorted by name.
 
-    They are in the folder of their kind, below it, or where CMakeLists.txt says by DIRECTORY; as genmsg does, folders
-    are no part of a name.
+    Searches the folder `kind`, its sub-folders, and the DIRECTORY folders of CMakeLists.txt; as in genmsg, folders are
+    not part of a type's name.
 
     Args:
-        folder: the package's.
+        folder: folder of the package.
         kind: msg, srv or action.
     """
-    found: dict[str, Path] = {}
-    for each in [*_folders(folder / kind), *_named(folder, kind)]:
-        for name in _entries(each):
+    paths: dict[str, Path] = {}
+    for directory in [*_sub_folders(folder / kind), *_cmake_folders(folder, kind)]:
+        for name in _entries(directory):
             if name.endswith(f".{kind}"):
-                found.setdefault(name, each / name)
-    return [found[name] for name in sorted(found)]
+                paths.setdefault(name, directory / name)
+    return [paths[name] for name in sorted(paths)]
 
 
-def _folders(top: Path) -> list[Path]:
-    """Return a folder and those below it, nearest first."""
+def _sub_folders(top: Path) -> list[Path]:
+    """Return a folder and its sub-folders, breadth first."""
     all_folders, level = [top], [top]
     for _ in range(_MAX_DEPTH):
-        level = [each / name for each in level for name in _entries(each) if "." not in name]
-        level = [each for each in level if os.path.isdir(each) and not os.path.islink(each)]
+        paths = [folder / name for folder in level for name in _entries(folder) if "." not in name]
+        level = [path for path in paths if os.path.isdir(path) and not os.path.islink(path)]
         all_folders += level[: _MAX_FOLDERS - len(all_folders)]
     return all_folders
 
 
-def _named(folder: Path, kind: str) -> list[Path]:
-    """Return the folders in the package that its CMakeLists.txt names."""
+def _cmake_folders(folder: Path, kind: str) -> list[Path]:
+    """Return the folders inside the package that its CMakeLists.txt lists."""
     try:
         if "DIRECTORY" not in read_text(folder / "CMakeLists.txt"):
             return []
     except OSError:
         return []
-    from trundle.robots.packages import cmake_message_folders  # lazy: for few packages
+    from trundle.robots.packages import cmake_message_folders  # lazy: few packages need it
 
     root = os.path.realpath(folder)
-    named = (Path(os.path.realpath(each)) for each in cmake_message_folders(folder).get(kind, []))
-    return [each for each in named if each.is_relative_to(root)]
+    paths = (Path(os.path.realpath(path)) for path in cmake_message_folders(folder).get(kind, []))
+    return [path for path in paths if path.is_relative_to(root)]
 
 
 def _entries(folder: Path) -> list[str]:

@@ -11,13 +11,13 @@ MAX_ELEMENTS = 1_000_000_000
 """Maximum array length: one byte per element of the largest message."""
 _MAX_FIELDS = 5_000
 _FIELD = re.compile(
-    r"(?P<type>[A-Za-z]\w*(?:/[A-Za-z]\w*){0,2})(?:<=(?P<longest>\d{1,9}))?"
+    r"(?P<type>[A-Za-z]\w*(?:/[A-Za-z]\w*){0,2})(?:<=(?P<max_length>\d{1,9}))?"
     r"(?P<list>\[(?P<bound><=)?(?P<count>-?\d*)\])?[ \t]+(?P<name>[A-Za-z]\w*)",
     re.ASCII,
 )
 _NUMBERS = (*(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)), "float32", "float64")
 _BASE = frozenset({"bool", "byte", "char", "string", *_NUMBERS})
-_SHORT = {
+_ALIASES = {
     "time": "builtin_interfaces/msg/Time",
     "duration": "builtin_interfaces/msg/Duration",
     "Header": "std_msgs/msg/Header",
@@ -29,7 +29,7 @@ def read_type(text: str, key: str) -> tuple[list[Constant], list[tuple[str, Any]
 
     Args:
         text: content of a .msg file.
-        key: the type's name in rosbags' form.
+        key: type's name in rosbags' form.
 
     Raises:
         DefinitionError: the text is invalid; the error names the line.
@@ -41,16 +41,16 @@ def read_type(text: str, key: str) -> tuple[list[Constant], list[tuple[str, Any]
     names: dict[str, int] = {}
     for number, line in enumerate(text.split("\n"), 1):
         constant = read_constant(line, number)
-        bare = line.partition("#")[0].strip()
+        declaration = line.partition("#")[0].strip()
         if constant is not None:
             constants.append(constant)
-        elif bare:
-            fields.append(_read_field(bare, key.rpartition("/")[0], number))
+        elif declaration:
+            fields.append(_read_field(declaration, key.rpartition("/")[0], number))
         else:
             continue
         name = constant[0] if constant is not None else fields[-1][0]
         if names.setdefault(name, number) != number:
-            raise DefinitionError(number, f"the name {name[:80]!r} is taken by line {names[name]}")
+            raise DefinitionError(number, f"duplicate name {name[:80]!r}; line {names[name]} defines it first")
         if len(names) > _MAX_FIELDS:
             raise DefinitionError(number, f"more than {_MAX_FIELDS} fields and constants")
     return constants, fields
@@ -76,11 +76,11 @@ def _read_field(line: str, package: str, number: int) -> tuple[str, Any]:
     kind = field["type"]
     inner: Any
     if kind in _BASE:
-        inner = (Nodetype.BASE, (kind, int(field["longest"] or 0)))
+        inner = (Nodetype.BASE, (kind, int(field["max_length"] or 0)))
     else:
         owner, slash, name = kind.rpartition("/")
         owner = package if not slash else owner if owner.endswith("/msg") else f"{owner}/msg"
-        inner = (Nodetype.NAME, _SHORT.get(kind, f"{owner}/{name}"))
+        inner = (Nodetype.NAME, _ALIASES.get(kind, f"{owner}/{name}"))
     if field["list"] is None:
         return field["name"], inner
     count = field["count"]

@@ -1,7 +1,7 @@
 """Sources of message definitions: shipped with Trundle, added folders, packages on the package path, published ones.
 
-Those of the standard packages are shipped, and come first. Published ones of other packages come last: a package on the
-path may be another release.
+Shipped definitions, of the standard packages, come first. Published ones of other packages come last, since a package
+on the path may be of another release.
 """
 
 import os
@@ -18,13 +18,13 @@ from .definition_files import definition_files
 
 _SHIPPED = ASSETS / "messages/definitions"
 _PUBLISHED = ASSETS / "messages/published"
-"""Folder of a file for each package; its definitions begin with `MSG: `, `SRV: ` or `ACTION: ` and their name."""
-_PART = "=" * 80 + "\n"
+"""Folder with a file per package; each definition in it begins with `MSG: `, `SRV: ` or `ACTION: ` and its name."""
+_DIVIDER = "=" * 80 + "\n"
 MAX_CHARACTERS = 1_000_000
 """Maximum length of a definition, also from peers; the longest of a desktop installation is below 100,000."""
 _SEPARATOR = re.compile(r"^\s*---[^\n]*$", re.MULTILINE)
 DEBIAN_SHARE = "/usr/share"
-"""Debian's rospkg searches here last, whatever ROS_PACKAGE_PATH is."""
+"""Debian's rospkg searches this folder last, regardless of ROS_PACKAGE_PATH."""
 
 
 class Origin(NamedTuple):
@@ -38,11 +38,11 @@ class Definitions:
     """Definitions by type name ('geometry_msgs/Twist'); a package is read when one of its types is first used."""
 
     def __init__(self, folders: dict[str, Path], on_path: Mapping[str, Path] | None = None) -> None:
-        """Start without types.
+        """Create without types.
 
         Args:
-            folders: of packages, with `msg/`, `srv/` and `action/`.
-            on_path: of packages on the package path; None: search it.
+            folders: package → folder with `msg/`, `srv/` and `action/`.
+            on_path: package → folder, of the package path; None: search it.
         """
         self.messages: dict[str, str] = {}
         self.services: dict[str, str] = {}
@@ -58,7 +58,7 @@ class Definitions:
 
     @classmethod
     def shipped(cls) -> "Definitions":
-        """Definitions shipped with Trundle: those that rosbags lacks."""
+        """Definitions shipped with Trundle, which rosbags lacks."""
         folders = {path.name: path for path in sorted(_SHIPPED.iterdir()) if path.is_dir()}
         return cls(folders)
 
@@ -78,14 +78,14 @@ class Definitions:
             self._read(package, folder)
 
     def load_from_path(self, package: str) -> None:
-        """Read a package on the package path, once; known definitions are kept."""
+        """Read a package on the package path, once; earlier definitions are kept."""
         if package not in self._looked_up:
             self._looked_up.add(package)
             if (folder := self.on_path.get(package)) is not None:
                 self._read(package, folder)
 
     def load_published(self, package: str) -> None:
-        """Read a published package; definitions of one on the package path are kept."""
+        """Read a published package, unless the package is on the package path; earlier definitions are kept."""
         if package in self._published or package in self.on_path:
             return
         self._published.add(package)
@@ -101,10 +101,12 @@ class Definitions:
                         self._add(self.messages, part, part_text, origin)
 
     def service_text(self, type_name: str) -> str:
-        """Definition of a known service type: the installed one with its comments, if otherwise equal."""
-        known = self.services[type_name]
-        text = self.installed(type_name, "srv")
-        return text if text is not None and _without_comments(text) == _without_comments(known) else known
+        """Definition of a registered service type: the installed one, with comments, if otherwise equal."""
+        text = self.services[type_name]
+        installed = self.installed(type_name, "srv")
+        if installed is not None and _without_comments(installed) == _without_comments(text):
+            return installed
+        return text
 
     def installed(self, type_name: str, kind: str = "msg") -> str | None:
         """Definition in the installed ROS, with its comments; `rosbag check` searches the same folders."""
@@ -128,8 +130,8 @@ class Definitions:
     def add_part(self, name: str, text: str, line: int, *, of: str) -> None:
         """Add the request or response of a service."""
         self.messages[name] = text
-        if (whole := self.origins.get(of)) is not None:
-            self.origins[name] = Origin(whole.path, line)
+        if (origin := self.origins.get(of)) is not None:
+            self.origins[name] = Origin(origin.path, line)
 
     def _read(self, package: str, folder: Path) -> None:
         for name, path, text in self._files(package, folder, "msg"):
@@ -147,8 +149,8 @@ class Definitions:
             try:
                 yield name, path, read_text(path, max_bytes=MAX_CHARACTERS)
             except OSError as error:
-                asked = f"{name}Action.msg" if kind == "action" else f"{name}.{kind}"
-                self.unreadable.setdefault(asked, f"{path}:1: cannot be read: {error.strerror}")
+                file_name = f"{name}Action.msg" if kind == "action" else f"{name}.{kind}"
+                self.unreadable.setdefault(file_name, f"{path}:1: cannot be read: {error.strerror}")
 
     def _add(self, texts: dict[str, str], name: str, text: str, origin: Origin) -> None:
         if name not in texts:
@@ -157,11 +159,11 @@ class Definitions:
 
 
 def published_definitions(package: str) -> Iterator[tuple[str, str, str]]:
-    """Yield kind (msg, srv or action), name and text of a published package's definitions; none if it is not known."""
+    """Yield kind (msg, srv or action), name and text of a published package's definitions; none if it is unknown."""
     path = _PUBLISHED / f"{package}.txt"
     if not path.is_file():
         return
-    for part in path.read_text(encoding="utf-8").split(_PART):
+    for part in path.read_text(encoding="utf-8").split(_DIVIDER):
         head, _, text = part.partition("\n")
         kind, _, name = head.partition(": ")
         yield kind.lower(), name, text
@@ -197,7 +199,7 @@ def split_action(name: str, text: str) -> dict[str, tuple[int, str]]:
         "Result": result,
         "Feedback": feedback,
     }
-    return {f"{package}/{base}{part}": placed for part, placed in texts.items()}
+    return {f"{package}/{base}{part}": definition for part, definition in texts.items()}
 
 
 def _without_comments(text: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""Field paths behind a topic's name: /odom/pose/pose, /tf/transforms[0]/child_frame_id."""
+"""Field paths after a topic's name: /odom/pose/pose, /tf/transforms[0]/child_frame_id."""
 
 import re
 from collections.abc import Mapping

@@ -19,12 +19,12 @@ refuse_stale(_message_codec)
 
 _Fields: TypeAlias = list[tuple[str, str, int, int]]
 """Attribute, type, element count, and index of the layout for a nested message."""
-_DEEPEST = 100
+_MAX_DEPTH = 100
 """Limit of nested messages, far above real types."""
 
 
 def compile_type(store: "Typestore", key: str) -> _message_codec.MessageCodec:
-    """Compile a type to the program that reads and writes its messages.
+    """Compile a type to a codec that reads and writes its messages.
 
     Raises:
         MessageError: the type has no finite layout.
@@ -41,7 +41,7 @@ def _add_layout(store: "Typestore", key: str, layouts: dict[str, tuple[type, _Fi
     """Append the layout of a type after those of its fields' types; returns its index."""
     if key in layouts:
         return list(layouts).index(key)
-    if depth > _DEEPEST:
+    if depth > _MAX_DEPTH:
         raise MessageError(f"{ros_name(key)} contains itself, or nests too many messages")
     fields: _Fields = []
     for name, (kind, detail) in cast("Sequence[tuple[str, Any]]", store.fielddefs[key][1]):

@@ -21,7 +21,7 @@ _DTYPES = {"bool": "bool", "byte": "int8", "char": "uint8"}
 
 _Make: TypeAlias = Callable[[Any], Any]
 _Fields: TypeAlias = list[tuple[str, _Make, Callable[[], Any]]]
-"""Name, maker from a given value, and maker of ROS's default."""
+"""Name, maker from a value, and maker of ROS's default."""
 _MISSING = object()
 _NUMBERS = (int, np.float64, np.float32)
 """Real number types besides float that the fast path accepts."""
@@ -41,13 +41,13 @@ class MessageFastPath:
         self._makers: dict[str, _Make] = {}
         self._defaults: dict[str, Callable[[], Any]] = {}
 
-    def make(self, key: str, given: Any) -> Any:
+    def make(self, key: str, value: Any) -> Any:
         """Make a message of type `key` ('geometry_msgs/msg/Twist') from a dictionary, a list or another message.
 
         Raises:
             NotFastPathError: a value is not in the common form.
         """
-        return (self._makers.get(key) or self._compile(key))(given)
+        return (self._makers.get(key) or self._compile(key))(value)
 
     def empty(self, key: str) -> object:
         """Make a message whose fields all have ROS's default."""
@@ -67,7 +67,7 @@ class MessageFastPath:
             dtype = dtype_of(inner[1][0])
             return lambda: np.zeros(length, dtype)
         if not length:
-            return _no_items
+            return list
         make = self.default(inner)
         return lambda: [make() for _ in range(length)]
 
@@ -78,37 +78,37 @@ class MessageFastPath:
         return self._defaults[key]
 
     def _compile(self, key: str) -> _Make:
-        """Compile a type; its parts are stored when all are complete, as other threads may use them."""
-        begun: dict[str, _Make] = {}
-        make = self._maker_of(key, begun)
-        self._makers.update(begun)
+        """Compile a type; its makers are stored once all are complete, since other threads may use them."""
+        makers: dict[str, _Make] = {}
+        make = self._maker_of(key, makers)
+        self._makers.update(makers)
         return make
 
-    def _maker_of(self, key: str, begun: dict[str, _Make]) -> _Make:
-        if key in begun:
-            return begun[key]
+    def _maker_of(self, key: str, makers: dict[str, _Make]) -> _Make:
+        if key in makers:
+            return makers[key]
         cls = self._store.types[key]
         if key in (TIME, DURATION):
-            begun[key] = _time_maker(cls)
-            return begun[key]
+            makers[key] = _time_maker(cls)
+            return makers[key]
         fields: _Fields = []
-        begun[key] = _message_maker(cls, fields)  # before its fields, for lists of the same type
+        makers[key] = _message_maker(cls, fields)  # before its fields, for lists of the same type
         for name, desc in fields_of(self._store, key):
-            fields.append((name, self._maker(desc, begun), self.default(desc)))
-        return begun[key]
+            fields.append((name, self._maker(desc, makers), self.default(desc)))
+        return makers[key]
 
-    def _maker(self, desc: Any, begun: dict[str, _Make]) -> _Make:
+    def _maker(self, desc: Any, makers: dict[str, _Make]) -> _Make:
         kind, detail = desc
         if kind == Nodetype.BASE:
             return _scalar_maker(detail[0])
         if kind == Nodetype.NAME:
-            return self._maker_of(detail, begun)
+            return self._maker_of(detail, makers)
         inner, count = detail
         if kind == Nodetype.SEQUENCE:
             count = None
         if _is_number(inner):
             return _array_maker(dtype_of(inner[1][0]), count)
-        return _list_maker(self._maker(inner, begun), count)
+        return _list_maker(self._maker(inner, makers), count)
 
 
 def dtype_of(kind: str) -> "np.dtype[Any]":
@@ -116,10 +116,10 @@ def dtype_of(kind: str) -> "np.dtype[Any]":
     return np.dtype(_DTYPES.get(kind, kind))
 
 
-def number_array(given: Sequence[object], dtype: "np.dtype[Any]") -> "NDArray[np.generic] | None":
+def number_array(values: Sequence[object], dtype: "np.dtype[Any]") -> "NDArray[np.generic] | None":
     """Convert a list of plain numbers; None if the elements must be checked one by one."""
     try:
-        array = np.array(given)
+        array = np.array(values)
     except (ValueError, OverflowError):
         return None
     if array.ndim != 1 or array.dtype.kind not in _CONVERTED.get(dtype.kind, "iu"):
@@ -133,66 +133,62 @@ def number_array(given: Sequence[object], dtype: "np.dtype[Any]") -> "NDArray[np
     return array.astype(dtype)
 
 
-def _no_items() -> list[Any]:
-    return []
-
-
 def _is_number(desc: Any) -> bool:
     return desc[0] == Nodetype.BASE and desc[1][0] != "string"
 
 
 def _message_maker(cls: Any, fields: _Fields) -> _Make:
-    def make(given: Any) -> Any:
-        kind = type(given)
+    def make(value: Any) -> Any:
+        kind = type(value)
         if kind is dict:
-            left, values = len(given), []
-            for name, make_one, default in fields:
-                value = given.get(name, _MISSING)
-                if value is _MISSING:
-                    values.append(default())
+            unused, arguments = len(value), []
+            for name, make_field, default in fields:
+                field = value.get(name, _MISSING)
+                if field is _MISSING:
+                    arguments.append(default())
                 else:
-                    left -= 1
-                    values.append(make_one(value))
-            if left:
+                    unused -= 1
+                    arguments.append(make_field(field))
+            if unused:
                 raise NotFastPathError
-            return cls(*values)
-        if (kind is list or kind is tuple) and len(given) == len(fields):
-            return cls(*[make_one(value) for (_, make_one, _), value in zip(fields, given, strict=True)])
+            return cls(*arguments)
+        if (kind is list or kind is tuple) and len(value) == len(fields):
+            return cls(*[make_field(field) for (_, make_field, _), field in zip(fields, value, strict=True)])
         if kind is cls:
-            return cls(*[make_one(getattr(given, name, _MISSING)) for name, make_one, _ in fields])
+            return cls(*[make_field(getattr(value, name, _MISSING)) for name, make_field, _ in fields])
         raise NotFastPathError
 
     return make
 
 
 def _time_maker(cls: Any) -> _Make:
-    def make(given: Any) -> Any:
-        if type(given) is int:
-            return cls(*divmod(given, 10**9))
-        if type(given) is cls:
-            return cls(int(given.sec), int(given.nanosec))
+    def make(value: Any) -> Any:
+        if type(value) is int:
+            return cls(*divmod(value, 10**9))
+        if type(value) is cls:
+            return cls(int(value.sec), int(value.nanosec))
         raise NotFastPathError
 
     return make
 
 
 def _list_maker(make: _Make, count: int | None) -> _Make:
-    def make_all(given: Any) -> Any:
-        if (type(given) is list or type(given) is tuple) and (count is None or len(given) == count):
-            return [make(item) for item in given]
+    def make_all(value: Any) -> Any:
+        if (type(value) is list or type(value) is tuple) and (count is None or len(value) == count):
+            return [make(item) for item in value]
         raise NotFastPathError
 
     return make_all
 
 
 def _array_maker(dtype: "np.dtype[Any]", count: int | None) -> _Make:
-    def make(given: Any) -> Any:
-        if type(given) is list or type(given) is tuple:
-            array = number_array(given, dtype) if given else np.zeros(0, dtype)
-        elif type(given) is np.ndarray:
-            array = np.ascontiguousarray(given, dtype).reshape(-1)
-        elif type(given) is bytes and dtype.itemsize == 1:
-            array = np.frombuffer(given, dtype)
+    def make(value: Any) -> Any:
+        if type(value) is list or type(value) is tuple:
+            array = number_array(value, dtype) if value else np.zeros(0, dtype)
+        elif type(value) is np.ndarray:
+            array = np.ascontiguousarray(value, dtype).reshape(-1)
+        elif type(value) is bytes and dtype.itemsize == 1:
+            array = np.frombuffer(value, dtype)
         else:
             raise NotFastPathError
         if array is None or (count is not None and len(array) != count):
@@ -212,32 +208,32 @@ def _scalar_maker(kind: str) -> _Make:
     limits = np.iinfo(dtype_of(kind))
     low, high = int(limits.min), int(limits.max)
 
-    def make(given: Any) -> Any:
-        if type(given) is int and low <= given <= high:
-            return given
+    def make(value: Any) -> Any:
+        if type(value) is int and low <= value <= high:
+            return value
         raise NotFastPathError
 
     return make
 
 
-def _make_text(given: Any) -> str:
-    if type(given) is str:
-        return given
+def _make_text(value: Any) -> str:
+    if type(value) is str:
+        return value
     raise NotFastPathError
 
 
-def _make_bool(given: Any) -> bool:
-    if type(given) is bool:
-        return given
+def _make_bool(value: Any) -> bool:
+    if type(value) is bool:
+        return value
     raise NotFastPathError
 
 
-def _make_float(given: Any) -> float:
-    if type(given) is float:
-        return given
-    if type(given) in _NUMBERS:
+def _make_float(value: Any) -> float:
+    if type(value) is float:
+        return value
+    if type(value) in _NUMBERS:
         try:
-            return float(given)
+            return float(value)
         except OverflowError:
             raise NotFastPathError from None
     raise NotFastPathError

@@ -14,10 +14,9 @@ from trundle.base.diagnostics import did_you_mean
 from ..errors import MessageError
 from .codec import Codec
 from .definition_search import Definitions, split_service
-from .raw_message import Message, ServiceType
+from .raw_message import Message, ServiceType, TypedMessage
 from .type_definitions import BUILTIN, TypeDefinitions, ros_name
 from .type_registry import TypeRegistry, UnknownTypeError
-from .typed_message import TypedMessage
 
 if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
@@ -33,7 +32,7 @@ class Messages:
         """Create a store.
 
         Args:
-            bare: True: start empty, as for reading a bag with the definitions in it.
+            bare: True: start empty, such as for a bag, which contains the definitions of its types.
         """
         self._is_bare = bare
         self._definitions = Definitions({}, {}) if bare else Definitions.shipped()
@@ -63,7 +62,7 @@ class Messages:
         return ros_name(message.__msgtype__)
 
     def type_names(self) -> list[str]:
-        """All message types: rosbags', shipped, and on the package path; without halves of services."""
+        """All message types: rosbags', shipped, published, and on the package path; no requests and responses."""
         with self._lock:
             self._definitions.load_all()
             return self._names()
@@ -108,12 +107,12 @@ class Messages:
 
     def add_definition(self, type_name: str, definition: str) -> None:
         """Add a type and its dependencies from the full definition in a connection header."""
-        own, *others = definition.split("\n" + "=" * 80 + "\n")
-        for other in others:
-            head, _, text = other.partition("\n")
+        text, *dependencies = definition.split("\n" + "=" * 80 + "\n")
+        for dependency in dependencies:
+            head, _, body = dependency.partition("\n")
             if head.startswith("MSG: ") and not self.has(head[5:].strip()):
-                self._definitions.messages.setdefault(head[5:].strip(), text)
-        self.add(type_name, own)
+                self._definitions.messages.setdefault(head[5:].strip(), body)
+        self.add(type_name, text)
 
     # -- md5 sums and definitions
 
@@ -154,8 +153,8 @@ class Messages:
 
     def stamp(self, ns: int) -> "Time":
         """Make a `time` value."""
-        made: Any = self._store.types["builtin_interfaces/msg/Time"]
-        return made(sec=ns // 10**9, nanosec=ns % 10**9)
+        time_class: Any = self._store.types["builtin_interfaces/msg/Time"]
+        return time_class(sec=ns // 10**9, nanosec=ns % 10**9)
 
     def serialize(self, message: TypedMessage) -> bytes:
         """Serialize a message.
@@ -181,7 +180,9 @@ class Messages:
 
     def _make_codec(self, type_name: str) -> Codec:
         key = self._key(type_name)
-        self._codecs[type_name] = Codec(self._store, key, mend=lambda given: self._builder.message(key, given, 0))
+        self._codecs[type_name] = Codec(
+            self._store, key, convert=lambda message: self._builder.message(key, message, 0)
+        )
         return self._codecs[type_name]
 
     @property
@@ -223,7 +224,7 @@ class Messages:
         definitions = self._definitions
         for load in (definitions.load_package, definitions.load_from_path, definitions.load_published):
             if load == definitions.load_from_path:
-                _ = self._definitions.on_path  # a search that takes long: other threads have the lock meanwhile
+                _ = self._definitions.on_path  # a long search, without the lock
             with self._lock:
                 load(package)
                 if key not in self._store.types and ros_name(key) in self._definitions.messages:
@@ -234,21 +235,21 @@ class Messages:
             if key in self._store.types:
                 return key
         if key not in self._store.types:
-            if why := self._definitions.unreadable.get(f"{ros_name(key)}.msg"):
-                raise MessageError(why)
+            if reason := self._definitions.unreadable.get(f"{ros_name(key)}.msg"):
+                raise MessageError(reason)
             if not slash:
                 raise UnknownTypeError(
                     f"{type_name!r} is not a message type; types are written package/Name, like std_msgs/String"
                 )
-            known = [other for other in self._names() if other.startswith(f"{package}/")]
-            near = did_you_mean(ros_name(key), known or self._names())
-            raise UnknownTypeError(f"no message type {ros_name(key)!r}{near}{_suggestion('messages', package, known)}")
+            names = [other for other in self._names() if other.startswith(f"{package}/")]
+            hint = did_you_mean(ros_name(key), names or self._names())
+            raise UnknownTypeError(f"no message type {ros_name(key)!r}{hint}{_suggestion('messages', package, names)}")
         return key
 
     def _names(self) -> list[str]:
         names = {ros_name(key) for key in self._store.types if key not in BUILTIN} | self._definitions.messages.keys()
-        halves = {half for kind in self._services.values() for half in (kind.request, kind.response)}
-        return sorted(names - halves)
+        of_services = {name for kind in self._services.values() for name in (kind.request, kind.response)}
+        return sorted(names - of_services)
 
     def _read_service(self, type_name: str) -> ServiceType:
         package = type_name.partition("/")[0]
@@ -258,21 +259,21 @@ class Messages:
                 load(package)
         text = self._definitions.services.get(type_name)
         if text is None:
-            if why := self._definitions.unreadable.get(f"{type_name}.srv"):
-                raise MessageError(why)
-            known = sorted(name for name in self._definitions.services if name.startswith(f"{package}/"))
-            near = did_you_mean(type_name, known or list(self._definitions.services))
-            raise MessageError(f"no service type {type_name!r}{near}{_suggestion('services', package, known)}")
+            if reason := self._definitions.unreadable.get(f"{type_name}.srv"):
+                raise MessageError(reason)
+            names = sorted(name for name in self._definitions.services if name.startswith(f"{package}/"))
+            hint = did_you_mean(type_name, names or list(self._definitions.services))
+            raise MessageError(f"no service type {type_name!r}{hint}{_suggestion('services', package, names)}")
         request, response = f"{type_name}Request", f"{type_name}Response"
-        for name, (line, half) in zip((request, response), split_service(text), strict=True):
-            self._definitions.add_part(name, half, line, of=type_name)
+        for name, (line, part) in zip((request, response), split_service(text), strict=True):
+            self._definitions.add_part(name, part, line, of=type_name)
             self._registry.add(name)
         md5sum = self._type_definitions.service_md5(self._key(request), self._key(response))
         self._services[type_name] = ServiceType(type=type_name, md5sum=md5sum, request=request, response=response)
         return self._services[type_name]
 
 
-def _suggestion(what: str, package: str, known: list[str]) -> str:
-    if not known:
-        return f"; no {what} of a package {package!r} are known"
-    return f"; {what} of {package}: {', '.join(name.partition('/')[2] for name in known[:40])}"
+def _suggestion(kind: str, package: str, names: list[str]) -> str:
+    if not names:
+        return f"; no {kind} of a package {package!r} are known"
+    return f"; {kind} of {package}: {', '.join(name.partition('/')[2] for name in names[:40])}"

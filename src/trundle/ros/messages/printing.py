@@ -24,7 +24,7 @@ class MessagePrinter:
 
     def text(self, value: Any, type_text: str, indent: str = "") -> str:
         """Format a value of a ROS type ('float64[36]', 'geometry_msgs/Pose', …); nested messages start a new line."""
-        value, type_text = self._shown(value, type_text)
+        value, type_text = self._displayed(value, type_text)
         base, bracket, _ = type_text.partition("[")
         if bracket:
             return self._list(value, base, indent)
@@ -54,7 +54,7 @@ class MessagePrinter:
             yield name, str(value)
         else:
             for field, kind in self.messages.fields(base).items():
-                if kind.startswith(_BYTES):  # bytes are strings to the original, not plotted
+                if kind.startswith(_BYTES):  # strings to rostopic, which does not plot them
                     continue
                 if not (self.hide_arrays and "[" in kind) and not (self.hide_strings and "string" in kind):
                     yield from self.columns(field_value(value, field), kind, f"{name}.{field}")
@@ -63,10 +63,10 @@ class MessagePrinter:
         for field, kind in self.messages.fields(type_name).items():
             yield f"{field}: {self.text(field_value(message, field), kind, '  ' + indent)}"
 
-    def _shown(self, value: Any, kind: str) -> tuple[Any, str]:
+    def _displayed(self, value: Any, kind: str) -> tuple[Any, str]:
         """Value and type to print; a hidden value is replaced by a description."""
         if self.hide_arrays and "[" in kind:
-            # The original strips only trailing brackets, so a fixed length loses its closing one.
+            # rostopic strips only trailing brackets, so a fixed length loses its closing one.
             return f"<array type: {kind.rstrip('[]')}, length: {len(value)}>", "string"
         if self.hide_strings and kind == "string":
             return f"<string length: {len(value)}>", "string"
@@ -88,7 +88,7 @@ class MessagePrinter:
         if base in _NUMBERS:
             return str(items) if self.width is None else f"[{', '.join(map(self._number, items))}]"
         printer = self
-        if self.hide_strings:  # the original does not look into lists
+        if self.hide_strings:  # rostopic shows strings in lists
             printer = MessagePrinter(messages=self.messages, width=self.width, offset_ns=self.offset_ns)
         return "\n" + "\n".join(f"{indent}- {printer.text(item, base, indent + '  ')}" for item in items)
 

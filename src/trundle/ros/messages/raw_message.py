@@ -1,12 +1,18 @@
-"""Messages as objects and as bytes, and service types, without the store of types, which takes longer to import."""
+"""Messages as objects and bytes, and service types; without the type store, which takes longer to import."""
 
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, Protocol, TypeAlias
 
 Message: TypeAlias = Any
 """A message object: a dataclass made by rosbags, with the fields of its ROS type. Number arrays are numpy arrays,
 `time` and `duration` have `sec` and `nanosec`, a field that is a Python keyword gets a trailing `_`."""
 
 ANY_TYPE = "*"
+
+
+class TypedMessage(Protocol):
+    """Attribute of every message object: its type in rosbags' form."""
+
+    __msgtype__: str
 
 
 class RawMessage(NamedTuple):

@@ -28,8 +28,8 @@ class TypeDefinitions:
 
     def __init__(self, store: "Typestore", installed: Definitions | None) -> None:
         """Create; `installed` supplies definitions of an installed ROS, if given."""
-        self.own: dict[str, str] = {}
-        """Definitions not from rosbags, which keeps no comments."""
+        self.registered: dict[str, str] = {}
+        """Definitions as written, of types not from rosbags, which drops comments."""
         self._store = store
         self._installed = installed
         self._md5s: dict[str, str] = {}
@@ -41,13 +41,13 @@ class TypeDefinitions:
 
     def constants(self, key: str) -> dict[str, tuple[str, str]]:
         """Constants in order: name → (type, value as written)."""
-        written = constant_texts(self.own.get(key, ""))
+        written = constant_texts(self.registered.get(key, ""))
         return {
             name: (kind, written.get(name, _constant(value))) for name, kind, value in self._store.fielddefs[key][0]
         }
 
     def text(self, key: str) -> str:
-        """Return the definition of a type without dependencies: the installed one if equal but for comments.
+        """Return the definition of a type without dependencies: the installed one if equal except for comments.
 
         `rosbag check` compares definitions including comments, not md5 sums.
         """
@@ -56,8 +56,8 @@ class TypeDefinitions:
                 constants, fields = read_type(text, key)
                 if (constants, fields) == (self._store.fielddefs[key][0], fields_of(self._store, key)):
                     return text
-        if key in self.own:
-            return self.own[key]
+        if key in self.registered:
+            return self.registered[key]
         lines = [f"{kind} {name}={text}\n" for name, (kind, text) in self.constants(key).items()]
         return "".join([*lines, *(f"{kind} {name}\n" for name, kind in self.fields(key).items())])
 
@@ -90,29 +90,29 @@ class TypeDefinitions:
 
     def _nested_types(self, key: str) -> list[str]:
         """All types that a type contains, each once, in depth-first order."""
-        found: dict[str, None] = {}
-        waiting = [*self.field_types(key)]
-        while waiting:
-            name = waiting.pop(0)
-            if name not in found:
-                found[name] = None
-                waiting = [*self.field_types(name), *waiting]
-        return list(found)
+        types: dict[str, None] = {}
+        pending = [*self.field_types(key)]
+        while pending:
+            name = pending.pop(0)
+            if name not in types:
+                types[name] = None
+                pending = [*self.field_types(name), *pending]
+        return list(types)
 
-    def _md5(self, key: str, within: tuple[str, ...]) -> str:
-        """Md5 sum of a type met within others; several threads may ask at once."""
-        if key in within:
+    def _md5(self, key: str, containers: tuple[str, ...]) -> str:
+        """md5 sum of a type nested in `containers`; thread-safe."""
+        if key in containers:
             raise MessageError(f"the definition of {ros_name(key)} is invalid: it contains itself")
         if key not in self._md5s:
-            self._md5s[key] = _md5sum(self._canonical(key, (*within, key)))
+            self._md5s[key] = _md5sum(self._canonical(key, (*containers, key)))
         return self._md5s[key]
 
-    def _canonical(self, key: str, within: tuple[str, ...]) -> str:
+    def _canonical(self, key: str, containers: tuple[str, ...]) -> str:
         """Canonical text for the md5 sum: constants, then fields, with types replaced by their md5 sums."""
         lines = [f"{kind} {name}={text}" for name, (kind, text) in self.constants(key).items()]
         for name, desc in fields_of(self._store, key):
             reference = referenced_type(desc)
-            lines.append(f"{_type_text(desc) if reference is None else self._md5(reference, within)} {name}")
+            lines.append(f"{_type_text(desc) if reference is None else self._md5(reference, containers)} {name}")
         return "\n".join(lines)
 
 

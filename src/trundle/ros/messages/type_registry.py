@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from rosbags.typesys.store import Typestore
 
 _NAME = re.compile(r"[A-Za-z]\w*/[A-Za-z]\w*", re.ASCII)
-_DEEPEST = 100
+_MAX_DEPTH = 100
 """Limit of nested messages, far above real types."""
 
 
@@ -54,7 +54,7 @@ class TypeRegistry:
         except MessageError:
             if self._depth == 1:
                 for key in self._added:
-                    del self._store.types[key], self._store.fielddefs[key], self._texts.own[key]
+                    del self._store.types[key], self._store.fielddefs[key], self._texts.registered[key]
             raise
         finally:
             self._depth -= 1
@@ -68,21 +68,21 @@ class TypeRegistry:
         package, _, name = type_name.partition("/")
         key = f"{package}/msg/{name}"
         try:
-            if self._depth > _DEEPEST:
-                raise DefinitionError(1, f"more than {_DEEPEST} nested messages")
+            if self._depth > _MAX_DEPTH:
+                raise DefinitionError(1, f"more than {_MAX_DEPTH} nested messages")
             constants, fields = read_type(text, key)
             self._store.register({key: (cast("Any", constants), fields)})
         except DefinitionError as error:
             raise MessageError(self._at(type_name, error.line) + str(error)) from None
         except TypesysError as error:
             raise MessageError(self._at(type_name, 1) + str(error)) from None
-        self._texts.own[key] = text
+        self._texts.registered[key] = text
         self._added.append(key)
         for field, desc in fields:
-            depends = referenced_type(desc)
-            if depends is not None:
+            dependency = referenced_type(desc)
+            if dependency is not None:
                 try:
-                    self._find(depends)
+                    self._find(dependency)
                 except UnknownTypeError as error:
                     raise MessageError(self._at(type_name, field_line(text, field)) + str(error)) from None
 

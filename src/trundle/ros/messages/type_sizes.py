@@ -16,8 +16,8 @@ _SMALL = {"bool": 1, "byte": 1, "char": 1, "int8": 1, "uint8": 1, "int16": 2, "u
 class FieldError(Exception):
     """A field makes its type recursive or too large."""
 
-    def __init__(self, key: str, field: str, what: str) -> None:
-        super().__init__(what)
+    def __init__(self, key: str, field: str, reason: str) -> None:
+        super().__init__(reason)
         self.key = key
         self.field = field
 
@@ -45,16 +45,16 @@ class TypeSizes:
     def _size(self, key: str) -> int:
         if key in self._in_progress:
             chain = [*self._in_progress]
-            loop = " > ".join(ros_name(other) for other in (*chain[chain.index(key) :], key))
-            raise FieldError(key, self._in_progress[key], f"{ros_name(key)} contains itself: {loop}")
+            cycle = " > ".join(ros_name(other) for other in (*chain[chain.index(key) :], key))
+            raise FieldError(key, self._in_progress[key], f"{ros_name(key)} contains itself: {cycle}")
         if key not in self._sizes:
             size = _OBJECT_BYTES
             for name, desc in fields_of(self._store, key):
                 self._in_progress[key] = name
                 size += self._field_size(desc)
                 if size > MAX_MESSAGE_BYTES:
-                    most = f"more than the {MAX_MESSAGE_BYTES} of a connection"
-                    raise FieldError(key, name, f"a {ros_name(key)} takes {size} bytes when it is empty, {most}")
+                    limit = f"more than the {MAX_MESSAGE_BYTES} of a connection"
+                    raise FieldError(key, name, f"a {ros_name(key)} takes {size} bytes when it is empty, {limit}")
             self._in_progress.pop(key, None)
             self._sizes[key] = size
         return self._sizes[key]

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING
 from trundle.robots.names import canonical_name, join_names, resolve_name
 
 from ..distro import NOETIC
-from ..messages.raw_message import ANY_TYPE, Message
-from ..messages.typed_message import TypedMessage
+from ..messages.raw_message import ANY_TYPE, Message, TypedMessage
 from ..transport.network import master_uri_from_env, server_address
 from .callback_dispatch import Deliver
 from .clock import Clock, WallClock

@@ -8,8 +8,7 @@ from typing import Any
 
 from ..errors import MessageError
 from ..messages.codec import ENCODING_ERRORS, Codec
-from ..messages.raw_message import Message
-from ..messages.typed_message import TypedMessage
+from ..messages.raw_message import Message, TypedMessage
 from ..transport.framing import LENGTH, Pieces
 from ..transport.headers import check_md5
 from ..transport.send_queue import SendQueue

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 from trundle.base.waiting import WaitNotice
 
 from ..errors import MasterError, MasterUnreachableError, MessageError, RosError, ServiceError, WireError
-from ..messages.raw_message import Message, ServiceType
-from ..messages.typed_message import TypedMessage
+from ..messages.raw_message import Message, ServiceType, TypedMessage
 from ..transport.headers import MAX_HEADER_BYTES, MAX_MESSAGE_BYTES, decode_header, encode_header, frame
 from ..xmlrpc.http import host_and_port
 from .node_context import NodeContext
