@@ -26,8 +26,8 @@ _unspecified: Any = object()
 
 def myargv(argv: Sequence[str] | None = None) -> list[str]:
     """Arguments without remappings."""
-    given = sys.argv if argv is None else argv
-    return [argument for argument in given if not rosgraph.names.is_legal_remap(argument)]
+    arguments = sys.argv if argv is None else argv
+    return [argument for argument in arguments if not rosgraph.names.is_legal_remap(argument)]
 
 
 def load_command_line_node_params(argv: Sequence[str]) -> dict[str, Any]:
@@ -36,7 +36,7 @@ def load_command_line_node_params(argv: Sequence[str]) -> dict[str, Any]:
     Raises:
         ROSInitException: a value is not YAML.
     """
-    found: dict[str, Any] = {}
+    params: dict[str, Any] = {}
     for argument in argv:
         if not (argument.startswith("_") and argument[1:2] != "_" and rosgraph.names.is_legal_remap(argument)):
             continue
@@ -45,10 +45,10 @@ def load_command_line_node_params(argv: Sequence[str]) -> dict[str, Any]:
             import yaml
 
             try:
-                found[name[1:]] = yaml.safe_load(value)
+                params[name[1:]] = yaml.safe_load(value)
             except yaml.YAMLError as error:
                 raise ROSInitException(f"invalid command-line parameters: {error}") from None
-    return found
+    return params
 
 
 def on_shutdown(h: Callable[[], object]) -> None:
@@ -92,14 +92,14 @@ def init_node(
         anonymous: append process ID and time to the name.
         log_level: level from which messages are shown and published, such as rospy.DEBUG.
         disable_rostime: do not use simulated time.
-        disable_rosout: do not publish /rosout.
+        disable_rosout: do not publish log messages on /rosout.
         disable_signals: leave SIGINT and SIGTERM alone; needed outside of the main thread.
         xmlrpc_port: port of the slave API; 0: any.
         tcpros_port: port of topics and services; 0: any.
 
     Raises:
         ROSInitException: interrupted, or the time cannot be initialized.
-        ROSException: it was called before with other arguments.
+        ROSException: the node was already initialized with other arguments.
         ValueError: an invalid name.
     """
     global _init_node_args
@@ -111,14 +111,13 @@ def init_node(
         raise ValueError("name must not be empty")
     if rosgraph.names.SEP in name:
         raise ValueError("namespaces are not allowed in node names")
-    given = (name, argv, anonymous, log_level, disable_rostime, disable_signals)
+    node_args = (name, argv, anonymous, log_level, disable_rostime, disable_signals)
     if _init_node_args:
-        if _init_node_args != given:
-            what = "rospy.init_node() has already been called with different arguments: "
-            raise ROSException(f"{what}{_init_node_args}")
+        if _init_node_args != node_args:
+            raise ROSException(f"rospy.init_node() has already been called with different arguments: {_init_node_args}")
         return
     disable_signals = disable_signals or _is_interactive()
-    _init_node_args = given
+    _init_node_args = node_args
     if not disable_signals:
         core.register_signals()
     if not disable_rosout:
@@ -129,8 +128,8 @@ def init_node(
     if anonymous:
         name = f"{name}_{os.getpid()}_{int(time.time() * 1000)}"
     if not rosgraph.names.is_legal_base_name(name):
-        what = f"'{name}' is not a legal ROS base name. This may cause problems with other ROS tools."
-        warnings.warn(what, stacklevel=2)
+        text = f"'{name}' is not a legal ROS base name. This may cause problems with other ROS tools."
+        warnings.warn(text, stacklevel=2)
     full_name = rosgraph.names.resolve_name(name, core.get_caller_id())
     core.configure_logging(full_name)
     names.initialize_mappings(full_name)
@@ -158,8 +157,8 @@ def init_node(
 def _start(name: str, argv: Sequence[str], ports: tuple[int, int]) -> None:
     """Start the node, and set its private parameters."""
     subscription.open_statistics = _open_statistics
-    made = graph.start(name, rosgraph.get_master_uri() or "", ports)
-    core.set_node_uri(made.uri)
+    node = graph.start(name, rosgraph.get_master_uri() or "", ports)
+    core.set_node_uri(node.uri)
     core.add_shutdown_hook(graph.stop)
     _refuse_shutdown()
     for param, value in load_command_line_node_params(argv).items():
@@ -263,7 +262,7 @@ def get_param(param_name: str, default: Any = _unspecified) -> Any:
 
 
 def get_param_cached(param_name: str, default: Any = _unspecified) -> Any:
-    """Value of a parameter; later calls return what the master has sent since.
+    """Value of a parameter; later calls return the latest value that the master has sent.
 
     Raises:
         KeyError: it is not set, and there is no default.
@@ -291,8 +290,8 @@ def get_param_names() -> list[str]:
 def set_param(param_name: str, param_value: Any) -> None:
     """Set a parameter, or a namespace from a dictionary."""
     if not rosgraph.names.is_legal_name(param_name):
-        what = f"'{param_name}' is not a legal ROS graph resource name. This may cause problems with other ROS tools"
-        warnings.warn(what, stacklevel=2)
+        text = f"'{param_name}' is not a legal ROS graph resource name. This may cause problems with other ROS tools"
+        warnings.warn(text, stacklevel=2)
     get_master()[param_name] = param_value
 
 

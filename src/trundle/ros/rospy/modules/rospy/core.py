@@ -109,7 +109,7 @@ def get_node_uri() -> str | None:
 
 
 def set_node_uri(uri: str | None) -> None:
-    """Set what `get_node_uri` returns."""
+    """Set this node's URI; see `get_node_uri`."""
     global _uri
     _uri = uri
 
@@ -117,8 +117,8 @@ def set_node_uri(uri: str | None) -> None:
 def configure_logging(node_name: str, level: int = logging.INFO) -> None:
     """Log to the node's file, which `__log:=` overrides."""
     global _log_filename
-    given = get_mappings().get("__log")
-    name = os.path.abspath(given) if given else f"{node_name.replace('/', '_').removeprefix('_')}.log"
+    log_file = get_mappings().get("__log")
+    name = os.path.abspath(log_file) if log_file else f"{node_name.replace('/', '_').removeprefix('_')}.log"
     _log_filename = roslogging.configure_logging("rospy", level, filename=name)
 
 
@@ -128,7 +128,7 @@ def is_initialized() -> bool:
 
 
 def set_initialized(initialized: bool) -> None:
-    """Set what `is_initialized` returns."""
+    """Set whether the node is initialized."""
     global _client_ready
     _client_ready = initialized
 
@@ -173,7 +173,7 @@ def _add_shutdown_thread(thread: threading.Thread) -> None:  # pyright: ignore[r
     """Register a thread to be joined at shutdown."""
     if not _shutdown_flag:
         with _shutdown_lock:
-            _shutdown_threads[:] = [*(each for each in _shutdown_threads if each.is_alive()), thread]
+            _shutdown_threads[:] = [*(started for started in _shutdown_threads if started.is_alive()), thread]
 
 
 def signal_shutdown(reason: str) -> None:

@@ -2,7 +2,7 @@
 
 
 class ROSException(Exception):
-    """Base class of what programs see."""
+    """Base class of exceptions for programs."""
 
 
 class ROSSerializationException(ROSException):

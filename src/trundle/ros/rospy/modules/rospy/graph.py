@@ -1,4 +1,4 @@
-"""Node of this process: that of `trundle.ros`, which carries bytes; messages are made by their classes."""
+"""This process's node: a node of `trundle.ros` that carries bytes; message classes serialize them."""
 
 import logging
 import os
@@ -54,7 +54,7 @@ class ByteMessages:
 
 
 class _Log(NodeLog):
-    """Log of what happens within the node, for its file."""
+    """Log of the node's internals, in its file."""
 
     def _write(self, level: str, text: str) -> None:
         logging.getLogger("rospy.internal").log(_LEVELS.get(level, logging.CRITICAL), "%s", text)
@@ -104,14 +104,14 @@ def start(name: str, master_uri: str, ports: tuple[int, int]) -> Node:
     Args:
         name: global name.
         master_uri: URI of the master.
-        ports: of the slave API and of TCPROS.
+        ports: ports of the slave API and of TCPROS; 0: any.
     """
     global loop, node
     loop = GraphLoop(messages=cast("Messages", ByteMessages()))
     loop.start()
     clock = WallClock()
     with _lock:
-        made = Node(
+        started = Node(
             name,
             loop=loop,
             master_uri=master_uri,
@@ -120,13 +120,13 @@ def start(name: str, master_uri: str, ports: tuple[int, int]) -> Node:
             ports=ports,
             log=_Log(name, lambda: clock),
         )
-        made.on_shutdown(_shutdown_requested)
-        node = made
+        started.on_shutdown(_shutdown_requested)
+        node = started
         starters, _starters[:] = _starters[:], []
         for starter in starters:
-            starter(made)
+            starter(started)
     wait_registered()
-    return made
+    return started
 
 
 def when_started(starter: Callable[[Node], object]) -> None:
@@ -147,7 +147,7 @@ def forget_starter(starter: Callable[[Node], object]) -> None:
 
 
 def wait_registered() -> None:
-    """Wait until what was created is known to the master, or shutdown."""
+    """Wait until the master knows all endpoints of the node, or shutdown."""
     assert node is not None
     run(node.wait_registered)
 

@@ -12,32 +12,32 @@ from . import rostime
 
 _last_times: dict[tuple[str, int], Any] = {}
 _last_texts: dict[tuple[str, int], str] = {}
-_said: set[tuple[str, int]] = set()
+_logged_once: set[tuple[str, int]] = set()
 
 
-def _where() -> tuple[str, int]:
+def _calling_line() -> tuple[str, int]:
     """File and line of the log call."""
     frame = sys._getframe(3)
     return frame.f_code.co_filename, frame.f_lineno
 
 
-def _is_due(where: tuple[str, int], period: Any) -> bool:
-    """True if the period [s] has passed since the last message from there."""
+def _is_due(line: tuple[str, int], period: Any) -> bool:
+    """True if the period [s] has passed since the last message from that line."""
     now: Any = rostime.get_rostime()
-    last = _last_times.get(where)
+    last = _last_times.get(line)
     if last is not None and last > now:  # simulated time jumped back
         _last_times.clear()
     elif last is not None and now - last <= genpy.Duration(period):
         return False
-    _last_times[where] = now
+    _last_times[line] = now
     return True
 
 
-def _is_new(where: tuple[str, int], text: Any) -> bool:
-    """True if the last message from there was another."""
-    if _last_texts.get(where) == text:
+def _is_new(line: tuple[str, int], text: Any) -> bool:
+    """True if the last message from that line differed."""
+    if _last_texts.get(line) == text:
         return False
-    _last_texts[where] = text
+    _last_texts[line] = text
     return True
 
 
@@ -58,45 +58,45 @@ def _plain(level: int) -> Callable[..., None]:
 def _throttled(level: int) -> Callable[..., None]:
     def log(period: float, msg: Any, *args: Any, **kwargs: Any) -> None:
         """Log a message, at most once per period [s] from this line."""
-        if _due_here(period):
+        if _is_due_here(period):
             _write(level, msg, args, kwargs)
 
     return log
 
 
-def _due_here(period: float) -> bool:
-    return _is_due(_where(), period)
+def _is_due_here(period: float) -> bool:
+    return _is_due(_calling_line(), period)
 
 
 def _identical(level: int) -> Callable[..., None]:
     def log(period: float, msg: Any, *args: Any, **kwargs: Any) -> None:
         """Log a message, at most once per period [s] from this line unless its text changes."""
-        if _new_or_due_here(period, msg):
+        if _is_new_or_due_here(period, msg):
             _write(level, msg, args, kwargs)
 
     return log
 
 
-def _new_or_due_here(period: float, msg: Any) -> bool:
-    where = _where()
-    due = _is_due(where, period)
-    return _is_new(where, msg) or due
+def _is_new_or_due_here(period: float, msg: Any) -> bool:
+    line = _calling_line()
+    is_due = _is_due(line, period)
+    return _is_new(line, msg) or is_due
 
 
 def _once(level: int) -> Callable[..., None]:
     def log(msg: Any, *args: Any, **kwargs: Any) -> None:
         """Log a message the first time this line runs."""
-        if _first_here():
+        if _is_first_here():
             _write(level, msg, args, kwargs)
 
     return log
 
 
-def _first_here() -> bool:
-    where = _where()
-    if where in _said:
+def _is_first_here() -> bool:
+    line = _calling_line()
+    if line in _logged_once:
         return False
-    _said.add(where)
+    _logged_once.add(line)
     return True
 
 

@@ -1,4 +1,4 @@
-"""Messages as rospy's functions take and send them."""
+"""Messages from arguments, and their framing for the wire."""
 
 from collections.abc import Mapping, Sequence
 from io import BytesIO
@@ -41,13 +41,13 @@ class AnyMsg(genpy.Message):
         buff.write(self._buff)
 
     def deserialize(self, str_: bytes) -> Any:
-        """Take the bytes."""
+        """Store the bytes."""
         self._buff = str_
         return self
 
 
 def args_kwds_to_message(data_class: Any, args: Sequence[Any], kwds: Mapping[str, Any]) -> Any:
-    """Message given to a call: itself, or its fields in order or by name.
+    """Message of a call's arguments: the message itself, or its fields in order or by name.
 
     Raises:
         TypeError: fields in order and by name, or a message of another type.
@@ -57,20 +57,20 @@ def args_kwds_to_message(data_class: Any, args: Sequence[Any], kwds: Mapping[str
     if kwds:
         return data_class(**kwds)
     if len(args) == 1:
-        (given,) = args
-        if getattr(given, "_md5sum", None) == data_class._md5sum or isinstance(given, AnyMsg):
-            return given
-        if isinstance(given, genpy.Message):
-            wanted = data_class._slot_types[:1]
-            if not wanted:
-                raise TypeError(f"expected [] but got [{given._type}]")
-            if given._type != wanted[0]:
-                raise TypeError(f"expected [{wanted[0]}] but got [{given._type}]")
+        (value,) = args
+        if getattr(value, "_md5sum", None) == data_class._md5sum or isinstance(value, AnyMsg):
+            return value
+        if isinstance(value, genpy.Message):
+            expected = data_class._slot_types[:1]
+            if not expected:
+                raise TypeError(f"expected [] but got [{value._type}]")
+            if value._type != expected[0]:
+                raise TypeError(f"expected [{expected[0]}] but got [{value._type}]")
     return data_class(*args)
 
 
 def serialize_message(b: Any, seq: int, msg: Any) -> None:
-    """Write a message with its length before it; sets the header's `seq`.
+    """Write a message after its length; sets the header's `seq`.
 
     Raises:
         ROSSerializationException: a field's value does not fit.
@@ -86,7 +86,7 @@ def deserialize_messages(
     b: Any, msg_queue: list[Any], data_class: Any, queue_size: int | None = None, max_msgs: int | None = None,
     start: int = 0,
 ) -> None:  # fmt: skip
-    """Take whole messages, each with its length before it, from a buffer; the rest stays.
+    """Read whole messages, each after its length, from a buffer; the rest stays.
 
     Raises:
         genpy.DeserializationError: bytes that are not a message of the class.
@@ -96,25 +96,25 @@ def deserialize_messages(
     except AttributeError as error:
         raise genpy.DeserializationError(f"cannot deserialize: {error}") from None
     data = b.getvalue()[:end]
-    at, found = start, []
-    while len(data) - at >= 4 and (max_msgs is None or len(found) < max_msgs):
-        size = int.from_bytes(data[at : at + 4], "little")
-        if len(data) - at - 4 < size:
+    offset, contents = start, []
+    while len(data) - offset >= 4 and (max_msgs is None or len(contents) < max_msgs):
+        size = int.from_bytes(data[offset : offset + 4], "little")
+        if len(data) - offset - 4 < size:
             break
-        found.append(data[at + 4 : at + 4 + size])
-        at += 4 + size
+        contents.append(data[offset + 4 : offset + 4 + size])
+        offset += 4 + size
     if queue_size is not None:
-        found = found[-queue_size:]
-    msg_queue.extend(data_class().deserialize(content) for content in found)
+        contents = contents[-queue_size:]
+    msg_queue.extend(data_class().deserialize(content) for content in contents)
     if queue_size is not None:
         del msg_queue[:-queue_size]
     b.seek(start)
     b.truncate(start)
-    b.write(data[at:])
+    b.write(data[offset:])
 
 
 def framed(seq: int, msg: Any) -> tuple[bytes | memoryview, ...]:
-    """Pieces of a message with its length before it; sets the header's `seq`.
+    """Pieces of a message after its length; sets the header's `seq`.
 
     Raises:
         genpy.SerializationError: a field's value does not fit.

@@ -25,10 +25,10 @@ class MasterProxy:
             raise AttributeError(key)
 
         def call(*args: Any) -> Any:
-            given = list(args)
-            if key in _FIRST_IS_NAME and given:
-                given[0] = names.resolve_name(given[0])
-            return getattr(self.target, key)(core.get_caller_id(), *given)
+            arguments = list(args)
+            if key in _FIRST_IS_NAME and arguments:
+                arguments[0] = names.resolve_name(arguments[0])
+            return getattr(self.target, key)(core.get_caller_id(), *arguments)
 
         return call
 

@@ -47,10 +47,10 @@ def initialize_mappings(node_name: str) -> None:
     """Resolve the remappings for a node."""
     global _resolved_mappings
     _resolved_mappings = {
-        here if here.startswith("__") else rosgraph.names.resolve_name(here, node_name): (
-            there if here.startswith("__") else rosgraph.names.resolve_name(there, node_name)
+        old if old.startswith("__") else rosgraph.names.resolve_name(old, node_name): (
+            new if old.startswith("__") else rosgraph.names.resolve_name(new, node_name)
         )
-        for here, there in _mappings.items()
+        for old, new in _mappings.items()
     }
 
 
@@ -64,14 +64,14 @@ def resolve_name_without_node_name(name: str) -> str:
         raise ValueError("~name topics cannot be created before init_node() has been called")
     node = ns_join(get_namespace(), "node")
     resolved = rosgraph.names.resolve_name(name, node)
-    for here, there in _mappings.items():
-        if not here.startswith("__") and rosgraph.names.resolve_name(here, node) == resolved:
-            if is_private(there):
+    for old, new in _mappings.items():
+        if not old.startswith("__") and rosgraph.names.resolve_name(old, node) == resolved:
+            if is_private(new):
                 raise ROSInitException(
                     f"due to the way this node is written, {name} cannot be remapped to a ~name. \n"
                     "The declaration of topics/services must be moved after the call to init_node()"
                 )
-            return rosgraph.names.resolve_name(there, node)
+            return rosgraph.names.resolve_name(new, node)
     return resolved
 
 
@@ -139,7 +139,7 @@ def _set_caller_id(caller_id: str) -> None:  # pyright: ignore[reportUnusedFunct
 
 
 def valid_name(param_name: str, resolve: bool = True) -> Check:
-    """Check that a parameter is a name, resolved by the caller's unless `resolve` is false."""
+    """Check that a parameter is a name, resolved in the caller's namespace unless `resolve` is false."""
 
     def check(value: Any, caller_id: str) -> str:
         name = checked_text(param_name, value)

@@ -8,7 +8,7 @@ import numpy
 
 @cache
 def numpy_msg(msg_type: Any) -> Any:
-    """Class of a message type with numpy arrays; always the same one for a type."""
+    """Class of a message type with numpy arrays; one class per type."""
 
     def serialize(self: Any, buff: Any) -> Any:
         return self.serialize_numpy(buff, numpy)
@@ -17,6 +17,6 @@ def numpy_msg(msg_type: Any) -> Any:
         return self.deserialize_numpy(str, numpy)
 
     methods = {"serialize": serialize, "deserialize": deserialize, "_numpy_module": numpy, "__slots__": []}
-    made: Any = type(f"Numpy_{msg_type._type.replace('/', '__')}", (msg_type,), methods)
-    made.__slots__ = msg_type.__slots__
-    return made
+    numpy_type: Any = type(f"Numpy_{msg_type._type.replace('/', '__')}", (msg_type,), methods)
+    numpy_type.__slots__ = msg_type.__slots__
+    return numpy_type

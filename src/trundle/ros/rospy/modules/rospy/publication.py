@@ -1,4 +1,4 @@
-"""Topic of this node: its publisher on the graph, shared by all `rospy.Publisher` of the topic."""
+"""Published topic: its publisher on the graph, shared by all `rospy.Publisher` of the topic."""
 
 import threading
 import time
@@ -35,7 +35,7 @@ class SubscribeListener:
         """
 
     def peer_unsubscribe(self, topic_name: str, num_peers: int) -> None:
-        """Called when a subscriber has gone; `num_peers` are left."""
+        """Called when a subscriber has disconnected; `num_peers` are left."""
 
 
 class Publication:
@@ -52,8 +52,8 @@ class Publication:
         self.subscriber_listeners: list[SubscribeListener] = []
         self.ref_count = 0
         self.closed = False
-        own_codec = codec(data_class) if is_plain(data_class) else None
-        self.sender = _message_codec.DirectSender(data_class, own_codec, data_class._has_header)
+        plain_codec = codec(data_class) if is_plain(data_class) else None
+        self.sender = _message_codec.DirectSender(data_class, plain_codec, data_class._has_header)
         """Sends short messages while nothing waits, and numbers all messages."""
         self._turn = threading.RLock()
         """Held while a message is numbered and sent."""
@@ -62,13 +62,13 @@ class Publication:
 
     def start(self, node: Node) -> None:
         """Advertise."""
-        made = FramePublisher(node, self)
+        publisher = FramePublisher(node, self)
 
-        def make() -> GraphPublisher:
-            return made
+        def create() -> GraphPublisher:
+            return publisher
 
-        node.endpoints.add_publisher(self.resolved_name, self.type, make)
-        self._publisher = made
+        node.endpoints.add_publisher(self.resolved_name, self.type, create)
+        self._publisher = publisher
 
     def configure(
         self,
@@ -124,7 +124,7 @@ class Publication:
                 self.latch = message
             elif not publisher._subscriber_count:
                 return
-            self.sender.is_active = False  # what others publish now comes after this message
+            self.sender.is_active = False  # other threads' messages come after this one
             self.sender.sequence += 1
             publisher.publish_frame(framed(self.sender.sequence, message))
             self.sender.is_active = publisher.sends_directly
@@ -149,12 +149,12 @@ class Publication:
                 self.sender.sequence += 1
                 send(framed(self.sender.sequence, message))
 
-        self._call(lambda each: each.peer_subscribe(self.resolved_name, self.publish, publish))
+        self._call(lambda listener: listener.peer_subscribe(self.resolved_name, self.publish, publish))
 
     def disconnected(self) -> None:
-        """Call the listeners about a subscriber that has gone; on the loop."""
+        """Call the listeners about a subscriber that has disconnected; on the loop."""
         left = self.get_num_connections()
-        self._call(lambda each: each.peer_unsubscribe(self.resolved_name, left))
+        self._call(lambda listener: listener.peer_unsubscribe(self.resolved_name, left))
 
     def close(self) -> None:
         """Stop publishing."""
@@ -200,7 +200,7 @@ class FramePublisher(GraphPublisher):
         self._frame = self._framed
 
     def configure(self) -> None:
-        """Take over changed options."""
+        """Apply changed options."""
         from collections import deque
 
         self.latch = self._publication.is_latch
@@ -225,7 +225,7 @@ class FramePublisher(GraphPublisher):
         self._send(pieces)
 
     def send_rest(self) -> None:
-        """Queue what was not sent of the last message; thread-safe."""
+        """Queue the unsent rest of the last message; thread-safe."""
         for out in self._direct:
             out.send_rest()
 
@@ -238,9 +238,9 @@ class FramePublisher(GraphPublisher):
             self._publication.connected(lambda pieces: link.out.send([pieces], None))
 
     def release(self, link: FrameProtocol) -> None:
-        was_there = link in self._subscriber_links.remote
+        was_remote = link in self._subscriber_links.remote
         super().release(link)
-        if was_there:
+        if was_remote:
             self._publication.disconnected()
 
     def attach(self, subscriber: LocalSubscriber, name: str) -> None:

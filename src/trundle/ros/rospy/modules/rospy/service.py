@@ -30,10 +30,10 @@ class ServiceException(Exception):
 
 
 def convert_return_to_response(response: Any, response_class: Any) -> Any:
-    """Response made of what a handler returned: itself, fields by name or in order, or the only field.
+    """Response of a handler's result: the response itself, its fields by name or in order, or its only field.
 
     Raises:
-        ServiceException: nothing was returned, or it does not fit.
+        ServiceException: the result is None, or does not fit.
     """
     if getattr(response, "_type", None) == response_class._type:
         return response
@@ -48,8 +48,8 @@ def convert_return_to_response(response: Any, response_class: Any) -> Any:
     try:
         return response_class(*(response if is_several else (response,)))
     except TypeError as error:
-        what = "wrong number of values" if is_several else "invalid value"
-        raise ServiceException(f"handler returned {what}: {error}") from None
+        fault = "wrong number of values" if is_several else "invalid value"
+        raise ServiceException(f"handler returned {fault}: {error}") from None
 
 
 class _Service:
@@ -75,8 +75,8 @@ class ServiceImpl(_Service):
         if not name or not isinstance(name, str):
             raise ValueError("service name is not a non-empty string")
         if not rosgraph.names.is_legal_name(name):
-            what = f"'{name}' is not a legal ROS graph resource name. This may cause problems with other ROS tools"
-            warnings.warn(what, stacklevel=3)
+            text = f"'{name}' is not a legal ROS graph resource name. This may cause problems with other ROS tools"
+            warnings.warn(text, stacklevel=3)
         super().__init__(name, service_class)
         self.handler = handler
         self.buff_size = buff_size
@@ -86,7 +86,7 @@ class ServiceImpl(_Service):
         self._provider: GraphService | None = None
 
     def error_handler(self, e: Exception, exc_type: Any, exc_value: Any, tb: Any) -> None:
-        """Log what a handler raised."""
+        """Log a handler's exception."""
         core.logerr(f"Error processing request: {e}\n{traceback.format_exception(exc_type, exc_value, tb)}")
 
     def start(self, node: Node) -> None:

@@ -17,7 +17,7 @@ _POLL_S = 0.5
 
 
 class ServiceConnection:
-    """TCPROS connection that carries a request at a time; blocking."""
+    """TCPROS connection that carries one request at a time; blocking."""
 
     def __init__(self, address: tuple[str, int], header: Mapping[str, str]) -> None:
         """Connect and exchange headers.
@@ -42,7 +42,7 @@ class ServiceConnection:
             raise TransportInitError(f"remote error reported: {self.header['error']}")
 
     def exchange(self, request: tuple[bytes | memoryview, ...]) -> tuple[bool, bytes]:
-        """Send a request with its length before it; returns success and the response or the error's text.
+        """Send a request after its length; returns success and the response or the error's text.
 
         Raises:
             TransportTerminated: the connection broke, or this node was shut down.

@@ -14,7 +14,7 @@ from .exceptions import ROSException, ROSInterruptException
 
 _POLL_S = 0.1
 _CONTACT_S = 10.0
-_SAID_EVERY_S = 10
+_WARNING_PERIOD_S = 10
 
 
 def wait_for_service(service: str, timeout: Any = None) -> None:
@@ -41,8 +41,7 @@ def wait_for_service(service: str, timeout: Any = None) -> None:
             uri = _contact(name, _CONTACT_S if end is None else max(0.01, end - time.time()))
         except OSError:
             has_failed = True
-            what = f"wait_for_service({name}): failed to contact, will keep trying"
-            core.logwarn_throttle(_SAID_EVERY_S, what)
+            core.logwarn_throttle(_WARNING_PERIOD_S, f"wait_for_service({name}): failed to contact, will keep trying")
         else:
             if uri is not None:
                 if has_failed:

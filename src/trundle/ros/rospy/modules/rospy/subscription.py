@@ -1,4 +1,4 @@
-"""Topic that this node subscribes to: its subscription on the graph, shared by all `rospy.Subscriber` of the topic.
+"""Subscribed topic: its subscription on the graph, shared by all `rospy.Subscriber` of the topic.
 
 A thread of the topic deserializes the messages and calls the callbacks, so that slow callbacks of one topic do not
 delay those of others, and messages that are dropped cost nothing.
@@ -30,7 +30,7 @@ _NO_STATISTICS = ("/clock", "/statistics")
 _FRAME = 4
 """Bytes of a message's length on the wire."""
 _MAX_WAITING_BYTES = 256 * 1024 * 1024
-"""Messages that wait for slow callbacks here; more wait with their publishers, as all do with the original."""
+"""Limit of messages queued here for slow callbacks; others wait at their publishers, as the original's do."""
 _Callback = tuple[Callable[..., object], Any]
 
 
@@ -81,7 +81,7 @@ class Subscription:
         self.closed = False
         self._lock = threading.RLock()
         self._waiting: deque[tuple[_Data, Mapping[str, str]] | None] = deque()
-        """Messages for the topic's thread, with their connection headers; None ends it."""
+        """Messages for the topic's thread, with their connection headers; None ends the thread."""
         self._is_idle = False
         """True while the topic's thread waits for `_wake`."""
         self._wake: SimpleQueue[None] = SimpleQueue()
@@ -156,8 +156,8 @@ class Subscription:
         if self.closed:
             return
         with self._lock:
-            for number, (there, arguments) in enumerate(self.callbacks):
-                if there == callback and arguments is callback_args:
+            for number, (registered, arguments) in enumerate(self.callbacks):
+                if registered == callback and arguments is callback_args:
                     self.callbacks = [*self.callbacks[:number], *self.callbacks[number + 1 :]]
                     return
         raise KeyError("no matching cb")
@@ -186,14 +186,14 @@ class Subscription:
         """Wait for the next entry; in the topic's thread."""
         while not self._waiting:
             self._is_idle = True
-            if self._waiting:  # put before the thread was seen to be idle
+            if self._waiting:  # queued before the loop saw the thread idle
                 self._is_idle = False
             else:
                 self._wake.get()
         return self._waiting.popleft()
 
     def _release(self) -> None:
-        """Have publishers go on once half has been read; on the loop or the topic's thread."""
+        """Resume publishers once half has been read; on the loop or the topic's thread."""
         if self._is_held and self._received_bytes - self._read_bytes <= _MAX_WAITING_BYTES // 2:
             self._is_held = False
             assert self._subscription is not None
@@ -248,13 +248,13 @@ class Subscription:
             statistics.shutdown()
 
     def _latch(self, publisher: str, message: Any) -> list[_Callback]:
-        """Keep a message for later callbacks; return those that are there now."""
+        """Keep a message for callbacks added later; return the current ones."""
         with self._lock:
             self._latched[publisher] = message
             return self.callbacks
 
     def _open_statistics(self) -> Statistics | None:
-        """Statistics of the topic, where the node wants them when it subscribes."""
+        """Statistics of the topic, if enabled when it is subscribed to."""
         if open_statistics is None or self.resolved_name in _NO_STATISTICS:
             return None
         try:
@@ -277,15 +277,15 @@ class Subscription:
             else:
                 callback(message, arguments)
         except Exception:
-            what = f"bad callback: {callback}\n{traceback.format_exc()}"
+            text = f"bad callback: {callback}\n{traceback.format_exc()}"
             if core.is_shutdown():
-                logging.getLogger("rospy.topics").warning("during shutdown, %s", what)
+                logging.getLogger("rospy.topics").warning("during shutdown, %s", text)
             else:
-                core.logerr(what)
+                core.logerr(text)
 
 
 class ByteSubscription(GraphSubscription):
-    """Subscription that passes on bytes; publishers get its real type."""
+    """Subscription that passes on bytes; its requests carry the real message type."""
 
     def __init__(self, node: Node, subscription: Subscription) -> None:
         super().__init__(
@@ -308,13 +308,13 @@ class ByteSubscription(GraphSubscription):
         return self._subscription.md5sum
 
     def pause(self) -> None:
-        """Have publishers of other processes wait; on the loop."""
+        """Pause publishers of other processes; on the loop."""
         for link in self._links.values():
             if isinstance(link, FrameProtocol):
                 link.pause()
 
     def resume(self) -> None:
-        """Have them go on; thread-safe."""
+        """Resume them; thread-safe."""
         self._node.loop.call_soon(self._resume)
 
     def _resume(self) -> None:
@@ -331,7 +331,7 @@ class ByteSubscription(GraphSubscription):
         self._subscription.receive(messages, header)
 
     def copy(self, view: memoryview) -> Any:
-        """Deserialize a message whose long arrays are bytes: as fast as a copy, which it makes needless."""
+        """Deserialize a message whose long arrays are bytes: as fast as a copy, and in its place."""
         if self._read is not None:
             try:
                 return _ReadMessage(self._read(view), len(view))

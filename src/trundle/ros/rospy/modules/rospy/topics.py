@@ -31,7 +31,7 @@ class _TopicManager:
         self.lock = threading.RLock()
 
     def acquire(self, topics: dict[str, _Shared], kind: type[_Shared], name: str, data_class: Any) -> _Shared:
-        """Return a topic, created if missing; to be released as often."""
+        """Return a topic, created if missing; each call needs a `release`."""
         with self.lock:
             if (shared := topics.get(name)) is None:
                 shared = topics[name] = kind(name, data_class)
@@ -56,11 +56,11 @@ class _TopicManager:
 
     def get_publications(self) -> list[list[str]]:
         """Pairs (topic, type)."""
-        return [[name, each.type] for name, each in list(self.pubs.items())]
+        return [[name, publication.type] for name, publication in list(self.pubs.items())]
 
     def get_subscriptions(self) -> list[list[str]]:
         """Pairs (topic, type)."""
-        return [[name, each.type] for name, each in list(self.subs.items())]
+        return [[name, subscription.type] for name, subscription in list(self.subs.items())]
 
     def has_publication(self, resolved_name: str) -> bool:
         """True if the topic is published."""
@@ -92,8 +92,8 @@ class Topic:
         if not issubclass(data_class, genpy.Message):
             raise ValueError(f"data_class [{type(data_class).__name__}] is not a message data class")
         if not rosgraph.names.is_legal_name(name):
-            what = f"'{name}' is not a legal ROS graph resource name. This may cause problems with other ROS tools"
-            warnings.warn(what, stacklevel=3)
+            text = f"'{name}' is not a legal ROS graph resource name. This may cause problems with other ROS tools"
+            warnings.warn(text, stacklevel=3)
         resolve = resolve_name if core.is_initialized() else resolve_name_without_node_name
         self.resolved_name: Any = resolve(name)
         self.name = self.resolved_name
@@ -155,7 +155,7 @@ class Publisher(Topic):
             graph.when_started(shared.start)
 
     def publish(self, *args: Any, **kwds: Any) -> None:
-        """Publish a message, given itself or by its fields.
+        """Publish a message, or the message of the given fields.
 
         Raises:
             ROSException: before `init_node`, or after `unregister`.

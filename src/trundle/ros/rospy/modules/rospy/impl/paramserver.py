@@ -1,4 +1,4 @@
-"""Parameters of which the master sends changes."""
+"""Cache of parameters whose changes the master sends."""
 
 import contextlib
 import threading
@@ -87,11 +87,11 @@ def update(key: str, value: Any) -> None:
 def _with_part(tree: Any, path: str, value: Any) -> Any:
     """Copy of a parameter tree with a part replaced."""
     result = dict(tree) if isinstance(tree, dict) else {}
-    at: dict[str, Any] = result
+    folder: dict[str, Any] = result
     *folders, last = [part for part in path.split("/") if part]
     for part in folders:
-        there = at.get(part)
-        at[part] = dict(there) if isinstance(there, dict) else {}
-        at = at[part]
-    at[last] = value
+        namespace = folder.get(part)
+        folder[part] = dict(namespace) if isinstance(namespace, dict) else {}
+        folder = folder[part]
+    folder[last] = value
     return result

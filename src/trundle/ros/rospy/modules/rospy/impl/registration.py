@@ -1,4 +1,4 @@
-"""Kinds of registrations, where programs import them from."""
+"""Kinds of registrations, at the path that programs import them from."""
 
 
 class Registration:

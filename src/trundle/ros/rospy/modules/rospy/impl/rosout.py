@@ -57,7 +57,7 @@ def _message(text: str, record: logging.LogRecord) -> Any:
 
 
 def load_rosout_handlers(level: int | None) -> None:
-    """Publish what the logger `rosout` takes, from a level on."""
+    """Publish the records of the logger `rosout`, from a level on."""
     logger = logging.getLogger("rosout")
     logger.addHandler(RosOutHandler())
     if level is not None:

@@ -34,9 +34,9 @@ class SubscriberStatisticsLogger:
         """Count a message.
 
         Args:
-            message: as received.
+            message: received message.
             publisher: name of the node that sent it.
-            size: serialized, with its length [bytes].
+            size: serialized size, with the length field [bytes].
         """
         try:
             if (connection := self.connections.get(publisher)) is None:

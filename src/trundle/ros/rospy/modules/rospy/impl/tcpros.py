@@ -1,3 +1,3 @@
-"""Size of buffers, where programs import it from."""
+"""Size of buffers, at the path that programs import it from."""
 
 from ..topics import DEFAULT_BUFF_SIZE as DEFAULT_BUFF_SIZE

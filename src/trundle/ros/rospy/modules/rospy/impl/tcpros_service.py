@@ -1,4 +1,4 @@
-"""Services and waiting for them, where programs import them from."""
+"""Services and waiting for them, at the path that programs import them from."""
 
 from ..service import (
     Service as Service,
