@@ -23,7 +23,7 @@ CHASSIS, WHEEL = ("link", "chassis"), ("link", "wheel")
 
 def _draft(text: bytes, folder: Path) -> Draft:
     reader = ModelReader(Packages({}, start=folder), os.environ, folder)
-    return Draft(text, reader, of=None, world_from_model=Pose((2.0, 0.0, 0.0)))
+    return Draft(text, reader, original=None, world_from_model=Pose((2.0, 0.0, 0.0)))
 
 
 @pytest.fixture

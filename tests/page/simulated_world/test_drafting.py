@@ -160,5 +160,5 @@ def test_no_file_is_replaced_unasked(editor: Editor, tmp_path: Path) -> None:
 
 
 def test_no_edit_without_a_draft(editor: Editor) -> None:
-    with pytest.raises(UsageError, match="no model is edited"):
+    with pytest.raises(UsageError, match="no model is being edited"):
         editor.drafting.handle(1, LeaveDraft(), editor.simulation)

@@ -177,7 +177,7 @@ def test_friction_lights_gravity_wind_and_time_step(sim: Simulation) -> None:
     [
         (SetTwist("cat", (0, 0, 0), (0, 0, 0)), "'cat'"),
         (SetMass("cart", "wheel", 1.0), "'base', 'arm'"),
-        (SetFriction("cart", "arm", 1.0, 1.0), "link 'arm' has no collision, and so no friction"),
+        (SetFriction("cart", "arm", 1.0, 1.0), "link 'arm' has no collisions and so no friction"),
         (SetLight("moon", (1, 1, 1), 1.0), "no light 'moon'; there are: 'sun'"),
         (MoveJoint("cart", "hinge", position=1.0), "'lift'"),
     ],

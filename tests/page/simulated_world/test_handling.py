@@ -128,14 +128,14 @@ def test_a_person_who_fell_silent_lets_go(sim: Simulation) -> None:
 
     for second in (0.0, 0.9, 1.8):
         wall_s[0] = second
-        controls.let_lapsed_go()
+        controls.let_go_after_timeout()
         ask(Pull("cart", "base", (0, 0, 0), (second, 0, 6)))
         timeline.advance(sim.time_ns + 100_000_000)
     wall_s[0] = 2.7
-    controls.let_lapsed_go()
+    controls.let_go_after_timeout()
     assert handled_models(sim) == ["cart"]
     wall_s[0] = 2.9
-    controls.let_lapsed_go()
+    controls.let_go_after_timeout()
     assert handled_models(sim) == []
 
 
@@ -155,7 +155,7 @@ def test_a_timeline_repeats_a_pull(sim: Simulation) -> None:
     wall_s[0] = 100.0
     timeline.seek(700_000_000)
     assert handled_models(sim) == ["cart"]
-    controls.let_lapsed_go()
+    controls.let_go_after_timeout()
     timeline.advance(end_ns)
     assert sim.snapshot().poses.tobytes() == first
     assert handled_models(sim) == []
@@ -199,7 +199,7 @@ def test_what_is_tied_to_another_model_is_not_moved_alone(sim: Simulation) -> No
     """Its joint would hold it where it is, as in Gazebo."""
     tie = Joint(name="tie", type=JointType.FIXED, parent="wall::l", child="cart::base", at=Source("test"))
     sim.attach(tie)
-    with pytest.raises(UsageError, match="'cart' goes with 'wall::l': joint 'tie' ties them"):
+    with pytest.raises(UsageError, match="'cart' is fixed to 'wall::l' by joint 'tie'"):
         edit(SetPose("cart", "base", (0, 0, 4), _UPRIGHT), sim)
     edit(SetPose("wall", "l", (7, 0, 0), _UPRIGHT), sim)
     assert sim["cart"].pose.position == pytest.approx((-2, 0, 5))

@@ -78,7 +78,7 @@ def test_what_cannot_be_shown_is_a_sentence(packages: Packages, monkeypatch: pyt
     with pytest.raises(UsageError, match="no model 'nothing' on the model path"):
         cached_picture("nothing", packages)
     monkeypatch.setattr(model_pictures, "_MAX_GLB_BYTES", 100)
-    with pytest.raises(UsageError, match="'crate' is too large to be shown before it is inserted"):
+    with pytest.raises(UsageError, match="'crate' is too large for a preview"):
         model_glb("crate", packages)
     with pytest.raises(UsageError, match=r"no model '\.\./crate' on the model path"):
         model_glb("../crate", packages)

@@ -283,8 +283,8 @@ def test_a_warning_stands_until_a_person_goes_on(cart: Shown) -> None:
 
 
 def test_what_this_simulation_does_not_do_is_refused(cart: Shown) -> None:
-    assert (cart.ask(Reload()) or "").startswith("this world is loaded once")
-    assert cart.ask(Record(True)) == "this simulation does not do that"
+    assert (cart.ask(Reload()) or "").startswith("this world cannot be reloaded")
+    assert cart.ask(Record(True)) == "this simulation does not support this request"
     assert cart.server.states[-1].recording is UNSET
 
 

@@ -34,5 +34,5 @@ def test_few_wait_and_each_is_answered(monkeypatch: pytest.MonkeyPatch) -> None:
     is_made.set()
     saver._thread.shutdown(wait=True)
 
-    assert answers[1] == "there is no replay: ZeroDivisionError: a world that is not foreseen"
+    assert answers[1] == "the replay cannot be made: ZeroDivisionError: a world that is not foreseen"
     assert answers[2] is not None

@@ -97,8 +97,8 @@ def test_what_is_not_there_is_said_with_what_is(
     run(simulation, sampler, 1)
 
     faults = server.series[-1][1]["faults"]
-    assert faults["arm::hinge.speed"] == "arm::hinge.speed is not there; there are: position, velocity, effort"
-    assert faults["nobody.pose.x"] == "no model, link, joint or sensor has the name of nobody.pose.x"
+    assert faults["arm::hinge.speed"] == "no value arm::hinge.speed; there are: position, velocity, effort"
+    assert faults["nobody.pose.x"] == "no model, link, joint or sensor for nobody.pose.x"
     assert list(columns(server)) == ["time", "arm::hinge.effort"]
 
 

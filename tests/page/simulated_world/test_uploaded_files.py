@@ -11,7 +11,7 @@ from trundle.page.model_editor.draft import Draft
 from trundle.page.model_editor.reader import ModelReader
 from trundle.page.requests.answers import SavedFile
 from trundle.page.simulated_world.model_saver import save_draft
-from trundle.page.simulated_world.uploaded_files import copies, needed_uploads, with_uploads_named
+from trundle.page.simulated_world.uploaded_files import copies, needed_uploads, with_upload_uris
 from trundle.robots.description import load
 from trundle.robots.model import MeshFile
 from trundle.robots.packages import Packages
@@ -49,7 +49,7 @@ def test_a_longer_name_is_another(packages: Packages) -> None:
 def test_a_file_s_path_is_named_as_model_finds_it(packages: Packages, uploads: Path) -> None:
     text = f"<uri>file://{uploads}/wheel/wheel.obj</uri>".encode()
 
-    assert with_uploads_named(text, packages) == b"<uri>model://wheel/wheel.obj</uri>"
+    assert with_upload_uris(text, packages) == b"<uri>model://wheel/wheel.obj</uri>"
 
 
 def test_copies_are_in_folders_of_the_models_names(packages: Packages, uploads: Path, tmp_path: Path) -> None:
@@ -71,7 +71,7 @@ def test_a_model_is_saved_with_the_uploaded_mesh_that_it_shows(
     draft = Draft(
         f'<sdf version="1.7">{model}</sdf>'.encode(),
         ModelReader(packages, {}, tmp_path),
-        of=None,
+        original=None,
         world_from_model=Pose(),
     )
     for folder in ("models/mine", "wheel"):

@@ -36,19 +36,19 @@ class _Edit(NamedTuple):
 class Draft:
     """One model under change; an edit after which it cannot be read is refused."""
 
-    def __init__(self, text: bytes, reader: ModelReader, *, of: str | None, world_from_model: Pose) -> None:
+    def __init__(self, text: bytes, reader: ModelReader, *, original: str | None, world_from_model: Pose) -> None:
         """Read a model.
 
         Args:
             text: document with one <model>.
             reader: reads it.
-            of: name of the model in the world that it is a copy of; None: a new one.
+            original: name of the copied model in the world; None: a new model.
             world_from_model: its place.
 
         Raises:
             DescriptionError: it cannot be read.
         """
-        self.of = of
+        self.original = original
         self.world_from_model = world_from_model
         self._reader = reader
         self._done: list[_Edit] = []

@@ -22,7 +22,7 @@ def draft_overview(draft: Draft) -> DraftInfo:
     pose = draft.world_from_model
     return DraftInfo(
         name=draft.name,
-        of=draft.of,
+        of=draft.original,
         pose=(*pose.position, *rpy_from_quaternion(pose.quaternion)),
         undo=draft.undo_title,
         redo=draft.redo_title,

@@ -1,4 +1,4 @@
-"""Numbers of bodies that stay while models come and go, unlike the indices of links."""
+"""Body numbers that stay the same while models are added and removed, unlike link indices."""
 
 from collections.abc import Sequence
 from itertools import count
@@ -11,22 +11,22 @@ _ORIGIN = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
 
 
 class BodyNumbers:
-    """Number of each link by its name, and the poses in the order of the numbers."""
+    """Number of each link by its name, and the poses by number."""
 
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {}
         self._reserved: frozenset[int] = frozenset()
-        """Numbers of links that the last change deleted; a page may still draw them."""
+        """Numbers of links that the last update removed; a page may still draw them."""
         self._rows = np.zeros((0, 7))
         self._order = np.zeros(0, dtype=np.intp)
 
     def update(self, links: Sequence[str]) -> None:
         """Set the links, `model::link`, in the order of their indices."""
         before = frozenset(self._numbers.values())
-        kept = {name: self._numbers[name] for name in links if name in self._numbers}
-        taken = frozenset(kept.values()) | before | self._reserved
-        free = (number for number in count() if number not in taken)
-        self._numbers = {name: kept[name] if name in kept else next(free) for name in links}
+        current = {name: self._numbers[name] for name in links if name in self._numbers}
+        used = frozenset(current.values()) | before | self._reserved
+        free = (number for number in count() if number not in used)
+        self._numbers = {name: current[name] if name in current else next(free) for name in links}
         self._reserved = before - frozenset(self._numbers.values())
         self._order = np.array([self._numbers[name] for name in links], dtype=np.intp)
         added = max(self._numbers.values(), default=-1) + 1 - len(self._rows)
@@ -38,6 +38,6 @@ class BodyNumbers:
         return self._numbers[link]
 
     def rows(self, poses: _Array) -> _Array:
-        """Return a pose for each number from (links, 7) in the order of the indices; deleted links keep their last."""
+        """Return poses by body number from poses (links, 7) by link index; deleted links keep their last pose."""
         self._rows[self._order] = poses
         return self._rows

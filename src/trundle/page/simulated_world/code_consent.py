@@ -1,4 +1,4 @@
-"""Agreement of a person to run the code of a model: once, and for what the page has shown."""
+"""A user's consent to run a model's code, valid once and only for the code that the page listed."""
 
 import hashlib
 import secrets
@@ -14,28 +14,28 @@ from trundle.robots.packages import HELD
 
 from ..requests.answers import CodeQuestion
 
-_MAX_ASKED = 100
-"""Questions that may be open; the oldest ones end."""
+_MAX_QUESTIONS = 100
+"""Limit of open questions; the oldest expire."""
 _MAX_BYTES = 16 * 1024 * 1024
 
 
 class CodeConsent:
-    """Questions that the page was asked, each with a word that agrees to it once."""
+    """Open questions, each with a token that gives consent once."""
 
     def __init__(self, environment: Mapping[str, str]) -> None:
-        """Prepare; `environment` has the variables that locate plugins."""
+        """Create it; `environment` has the variables that locate plugins."""
         self._environment = environment
-        self._asked: dict[str, bytes] = {}
-        """Word → digest of plugins and code."""
+        self._digests: dict[str, bytes] = {}
+        """Token → digest of plugins and code."""
 
     def question(self, model: Model, consent: str | None) -> CodeQuestion | None:
-        """Return what to ask a person before a model is added; None: it has no code, or a person has agreed.
+        """Return the question to ask before a model is added; None: it has no code, or the user has consented.
 
-        Uploaded files of code, which nothing else runs, become plugins once a person has agreed.
+        Consent also releases the model's uploaded files of code, so that they load as plugins.
 
         Args:
-            model: the model.
-            consent: word of an earlier answer of this function.
+            model: model to add.
+            consent: token of an earlier question.
 
         Raises:
             UsageError: a file of code cannot be read.
@@ -47,14 +47,14 @@ class CodeConsent:
         digest = hashlib.sha256()
         for part in (*(tag.node.xml().encode("utf-8", "surrogateescape") for tag in tags), *_parts(code)):
             digest.update(hashlib.sha256(part).digest())
-        if consent is not None and self._asked.pop(consent, None) == digest.digest():
+        if consent is not None and self._digests.pop(consent, None) == digest.digest():
             _release(code)
             return None
-        word = secrets.token_urlsafe(16)
-        self._asked[word] = digest.digest()
-        while len(self._asked) > _MAX_ASKED:
-            self._asked.pop(next(iter(self._asked)), None)
-        return CodeQuestion(code=tuple(str(file).removesuffix(HELD) for file in code), consent=word)
+        token = secrets.token_urlsafe(16)
+        self._digests[token] = digest.digest()
+        while len(self._digests) > _MAX_QUESTIONS:
+            self._digests.pop(next(iter(self._digests)), None)
+        return CodeQuestion(code=tuple(str(file).removesuffix(HELD) for file in code), consent=token)
 
     def _find(self, tag: PluginTag) -> Path | None:
         return find_user_file(tag, self._environment) or find_held_file(tag, self._environment)
@@ -78,7 +78,7 @@ def _read(file: Path) -> bytes:
 
 
 def _release(code: Mapping[Path, bytes]) -> None:
-    """Write what was agreed to in place of the held files; these may be other ones by now."""
+    """Write the contents that the user consented to; the held files may have changed since."""
     for file, content in code.items():
         if file.name.endswith(HELD):
             write_atomically(file.with_name(file.name.removesuffix(HELD)), content)

@@ -8,19 +8,14 @@ from trundle.sim.simulation import Simulation
 from .body_numbers import BodyNumbers
 
 MAX_CONTACTS = 2000
-"""Most contacts that are sent, those of the greatest forces."""
+"""Limit of contacts in a message; those with the greatest forces are sent."""
 
 
 class ContactRows:
     """Reads the contacts of one world."""
 
     def __init__(self, simulation: Simulation, bodies: BodyNumbers) -> None:
-        """Prepare.
-
-        Args:
-            simulation: the running one.
-            bodies: numbers of its links.
-        """
+        """Map the geoms of a simulation to the body numbers of their links."""
         self._simulation = simulation
         links = (name.rpartition("::")[0] for name in simulation.engine.compiled.geom_collisions)
         self._bodies = np.array([bodies[link] if link else -1 for link in links], dtype=np.float64)

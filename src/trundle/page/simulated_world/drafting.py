@@ -1,4 +1,4 @@
-"""The draft: a copy of a model that a person at the page edits, checked and drawn on a thread of its own."""
+"""The draft: a copy of a model that the user edits, checked and drawn on its own thread."""
 
 import os
 import queue
@@ -59,28 +59,29 @@ _MAX_WAITING = 20
 
 
 class ShownDraft(Struct, frozen=True, kw_only=True):
-    """Draft as the client shows it."""
+    """Draft as the client draws it."""
 
     info: DraftInfo | None
     resources: tuple[str, ...] = ()
     """URLs of all files that it needs."""
     files: dict[str, bytes] = {}
-    """URL → content, of new files."""
+    """URL → content of new files."""
 
 
 NO_DRAFT = ShownDraft(info=None)
 
 
 class _Finished(Struct, frozen=True, kw_only=True):
-    """Draft that is to be put into the world."""
+    """Draft to be inserted into the world."""
 
     request_id: int
     model: Model
-    of: str | None
+    original: str | None
+    """Model that it replaces."""
 
 
 class Drafting:
-    """Edits one draft; used on the simulation's thread, but for `respond`, which is called on the draft's own, too."""
+    """Edits one draft; belongs to the simulation's thread, but calls `respond` on the draft's thread, too."""
 
     def __init__(
         self,
@@ -90,14 +91,14 @@ class Drafting:
         root: Path,
         consent: CodeConsent,
     ) -> None:
-        """Prepare.
+        """Create it, without a draft.
 
         Args:
             respond: answers a request by its id, with an error or an `Answer`.
-            packages: finder of models.
+            packages: finds models.
             environment: variables that locate plugins.
-            root: folder to write below.
-            consent: asks before code is run.
+            root: folder that drafts are saved below.
+            consent: asks the user before code is run.
         """
         self._respond, self._consent = respond, consent
         self._packages = packages
@@ -113,22 +114,22 @@ class Drafting:
 
     @property
     def is_open(self) -> bool:
-        """True while a model is edited."""
+        """True while a model is being edited."""
         return self._is_open
 
     def handle(self, request_id: int, action: DraftAction, simulation: Simulation) -> None:
-        """Do what a person asks for, later; the request is answered then.
+        """Queue a request for the draft's thread, which answers it.
 
         Raises:
-            TrundleError: it cannot be done.
+            TrundleError: the request cannot be executed.
         """
         if self._waiting >= _MAX_WAITING:
-            raise UsageError(f"{_MAX_WAITING} edits wait already")
+            raise UsageError(f"{_MAX_WAITING} edits are waiting already")
         if isinstance(action, BeginDraft):
             self._submit(request_id, self._begin(action, simulation))
             return
         if not self._is_open and not isinstance(action, ListOffers):
-            raise UsageError("no model is edited now")
+            raise UsageError("no model is being edited")
         self._submit(request_id, lambda: self._do(request_id, action))
 
     def _submit(self, request_id: int, work: Callable[[], Answer | None]) -> None:
@@ -142,34 +143,34 @@ class Drafting:
                 self._respond(request_id, answer=answer)
         except TrundleError as error:
             self._respond(request_id, reason_of(error))
-        except Exception as error:  # a file that the editor does not foresee; the simulation goes on
+        except Exception as error:  # a fault of the editor must not end the simulation
             self._respond(request_id, f"this cannot be edited: {type(error).__name__}: {error}")
         finally:
             self._waiting -= 1
 
     def _begin(self, action: BeginDraft, simulation: Simulation) -> Callable[[], Answer]:
-        """Copy what is needed of the simulation; return what is left to do."""
+        """Copy the model from the simulation; return the rest of the work, for the draft's thread."""
         if self._is_open:
-            raise UsageError("a model is edited already: finish or leave it first")
+            raise UsageError("a model is being edited already: finish or leave it first")
         if action.model is None:
             name = free_name("model", {model.name for model in simulation.models})
-            text, place = new_model(name), Pose(action.position)
+            text, world_from_model = new_model(name), Pose(action.position)
             self._is_open = True
-            return lambda: self._open(text, None, place)
-        found = find_model(simulation, action.model).model
+            return lambda: self._open(text, None, world_from_model)
+        original = find_model(simulation, action.model).model
         world = current_world(simulation)
-        posed = next(model for model in world.models if model.name == found.name)
+        posed = next(model for model in world.models if model.name == original.name)
         self._is_open = True
 
         def copy() -> Answer:
-            text = copy_model(found, packages=self._packages, folder=self._root)
-            return self._open(text, found.name, posed.world_from_model)
+            text = copy_model(original, packages=self._packages, folder=self._root)
+            return self._open(text, original.name, posed.world_from_model)
 
         return copy
 
-    def _open(self, text: bytes, of: str | None, place: Pose) -> Answer:
+    def _open(self, text: bytes, original: str | None, world_from_model: Pose) -> Answer:
         try:
-            self._draft = Draft(text, self._reader, of=of, world_from_model=place)
+            self._draft = Draft(text, self._reader, original=original, world_from_model=world_from_model)
         except BaseException:
             self._is_open = False
             raise
@@ -177,12 +178,12 @@ class Drafting:
         return DONE
 
     def _do(self, request_id: int, action: DraftAction) -> Answer | None:
-        """Do an edit, on the draft's thread; return the answer's fields, None: it is answered later."""
+        """Execute a request on the draft's thread; return its answer, None: it is answered later."""
         if isinstance(action, ListOffers):
             return draft_offers(self._packages)
         draft = self._draft
         if draft is None:
-            raise UsageError("no model is edited now")
+            raise UsageError("no model is being edited")
         match action:
             case SaveDraft():
                 return save_draft(draft, action, self._root, self._packages)
@@ -203,11 +204,11 @@ class Drafting:
         if (question := self._consent.question(model, action.consent)) is not None:
             return question
         model = replace(model, world_from_model=draft.world_from_model)
-        self._finished.put(_Finished(request_id=request_id, model=model, of=draft.of))
+        self._finished.put(_Finished(request_id=request_id, model=model, original=draft.original))
         return None
 
     def _show(self) -> None:
-        """Draw the draft, on its thread."""
+        """Write the draft's files for the client, on the draft's thread."""
         draft = self._draft
         assert draft is not None
         model = replace(draft.checked.model, world_from_model=draft.world_from_model)
@@ -216,10 +217,10 @@ class Drafting:
         named, files = self._files.update(world, numbers.__getitem__, Diagnostics())
         info = replace(
             draft_overview(draft),
-            files=tuple(FileUrl(id="draft", url=each.url) for each in named.files if each.id),
+            files=tuple(FileUrl(id="draft", url=file.url) for file in named.files if file.id),
             folder=folder_name(draft.name) if os.access(self._root, os.W_OK) else None,
         )
-        urls = (each.url for each in named.files)
+        urls = (file.url for file in named.files)
         self._shown.put(ShownDraft(info=info, resources=(*urls, *named.resources), files=files))
 
     def _close(self) -> None:
@@ -229,7 +230,7 @@ class Drafting:
         self._shown.put(NO_DRAFT)
 
     def poll(self, world: ShownWorld, edits: ModelEdits) -> list[ShownDraft]:
-        """Put a finished draft into the world; return what is to be shown since the last call."""
+        """Insert finished drafts into the world; return the drafts to show since the last call."""
         while (finished := _next(self._finished)) is not None:
             try:
                 name = _spawn(finished, world, edits)
@@ -240,22 +241,22 @@ class Drafting:
         return list(iter(lambda: _next(self._shown), None))
 
     def close(self) -> None:
-        """Stop after the edit that is being done."""
+        """Stop after the current edit."""
         self._thread.shutdown(wait=False, cancel_futures=True)
 
 
 def _spawn(finished: _Finished, world: ShownWorld, edits: ModelEdits) -> str:
-    """Put a model into the world, in place of the one that it is a copy of; return its name."""
-    present, of = {model.name for model in world.simulation.models}, finished.of
-    name = free_name(finished.model.name, present - {of})
-    if of is None or of not in present:
+    """Insert a model into the world, replacing its original; return its name."""
+    present, original = {model.name for model in world.simulation.models}, finished.original
+    name = free_name(finished.model.name, present - {original})
+    if original is None or original not in present:
         world.spawn(replace(finished.model, name=name))
         return name
-    edits.handle(DeleteModel(of))
+    edits.handle(DeleteModel(original))
     try:
         world.spawn(replace(finished.model, name=name))
     except TrundleError:
-        edits.handle(RestoreModel(of))
+        edits.handle(RestoreModel(original))
         raise
     return name
 
@@ -277,7 +278,7 @@ def _edit(draft: Draft, action: DraftAction) -> Part:
         case RedoDraft():
             draft.redo()
         case _:
-            raise UsageError("this is no edit of a model")
+            raise UsageError("this request does not edit a model")
     return ()
 
 

@@ -1,4 +1,4 @@
-"""Edits of a simulated world that the page asks for, as commands that a timeline can repeat."""
+"""Edits of a simulated world from the page, as commands that a timeline can repeat."""
 
 import math
 
@@ -26,17 +26,17 @@ from trundle.robots.model import Light, Link, Model, World
 from trundle.sim.simulation import JointHandle, LinkHandle, ModelHandle, Simulation
 from trundle.spatial import Pose, Quaternion, Twist, Vector3, Wrench
 
-from .handling import carry, hold, let_go, pull, put
+from .handling import carry, hold, let_go, move_model, pull
 
 _JOINT_EFFORT = 10.0
-"""Effort limit of a joint without one of its own that the page moves [N·m or N]."""
+"""Effort limit with which the page moves a joint that has none [N·m or N]."""
 
 
 def edit(action: EditAction, simulation: Simulation) -> None:
-    """Do what a person asks for.
+    """Execute an edit.
 
     Raises:
-        UsageError: there is no such model, link, joint or light, or it cannot be done.
+        UsageError: there is no such model, link, joint or light, or the edit is not possible.
     """
     match action:
         case MoveJoint():
@@ -46,7 +46,7 @@ def edit(action: EditAction, simulation: Simulation) -> None:
         case Carry():
             carry(simulation, find_model(simulation, action.model), _model_pose(action, simulation))
         case SetPose():
-            put(simulation, find_model(simulation, action.model), _model_pose(action, simulation))
+            move_model(simulation, find_model(simulation, action.model), _model_pose(action, simulation))
         case Pull(model, link, point, target):
             pulled = _find_link(simulation, model, link)
             pull(simulation, find_model(simulation, model), pulled, point=point, target=target)
@@ -71,13 +71,13 @@ def edit(action: EditAction, simulation: Simulation) -> None:
 
 
 def find_model(simulation: Simulation, name: str) -> ModelHandle:
-    """Return a model, or the outermost one around a nested model, `outer::inner`."""
+    """Return a model; of a nested model, `outer::inner`, the outermost one."""
     outer = max((m.name for m in simulation.models if f"{name}::".startswith(f"{m.name}::")), key=len, default=name)
     return simulation[outer]
 
 
 def _inner_name(model: ModelHandle, scope: str, name: str) -> str:
-    """Return the name in the outermost model of a part of a model nested in it."""
+    """Return the name, relative to the outermost model, of a part in a nested model."""
     return f"{scope}::{name}".removeprefix(f"{model.name}::")
 
 
@@ -104,13 +104,13 @@ def _move_joint(move: MoveJoint, simulation: Simulation) -> None:
 
 
 def _model_pose(move: SetPose, simulation: Simulation) -> Pose:
-    """Return where a model is when one of its links has a pose, with its joints as they are."""
+    """Return the model's pose at which its link has the requested one, with unchanged joints."""
     link = _find_link(simulation, move.model, move.link)
     return _pose(move.position, move.orientation) @ link.pose.inverse() @ find_model(simulation, move.model).pose
 
 
 def _pose(position: Vector3, orientation: Quaternion) -> Pose:
-    """Return the pose of a position and a quaternion of any length."""
+    """Return the pose from a position and a quaternion of any length."""
     length = math.hypot(*orientation)
     qw, qx, qy, qz = (part / length for part in orientation)
     return Pose(position, (qw, qx, qy, qz))
@@ -127,24 +127,25 @@ def _set_mass(change: SetMass, simulation: Simulation) -> None:
         moments=(scale * ixx, scale * iyy, scale * izz),
         products=(scale * ixy, scale * ixz, scale * iyz),
     )
-    _put_link(simulation, change.model, replace(link.link, inertial=after))
+    _replace_link(simulation, change.model, replace(link.link, inertial=after))
 
 
 def _set_friction(change: SetFriction, simulation: Simulation) -> None:
     link = _find_link(simulation, change.model, change.link)
     if not link.link.collisions:
-        raise UsageError(f"link {link.name!r} has no collision, and so no friction")
+        raise UsageError(f"link {link.name!r} has no collisions and so no friction")
     collisions = tuple(
-        replace(each, surface=replace(each.surface, mu=change.mu, mu2=change.mu2)) for each in link.link.collisions
+        replace(collision, surface=replace(collision.surface, mu=change.mu, mu2=change.mu2))
+        for collision in link.link.collisions
     )
-    _put_link(simulation, change.model, replace(link.link, collisions=collisions))
+    _replace_link(simulation, change.model, replace(link.link, collisions=collisions))
 
 
-def _put_link(simulation: Simulation, scope: str, link: Link) -> None:
+def _replace_link(simulation: Simulation, scope: str, link: Link) -> None:
     name = find_model(simulation, scope).name
 
     def edited(model: Model) -> Model:
-        links = tuple(link if each.name == link.name else each for each in model.links)
+        links = tuple(link if old.name == link.name else old for old in model.links)
         return replace(model, links=links) if model.name == name else model
 
     world = simulation.world
@@ -163,9 +164,11 @@ def _with_light_at(world: World, change: PlaceLight) -> World:
     names = [light.name for light in world.lights]
     if change.light not in names:
         raise UsageError(f"the world has no light {change.light!r}; it has: {', '.join(map(repr, names)) or 'none'}")
-    there = _pose(change.position, change.orientation)
-    lights = [replace(each, world_from_light=there) if each.name == change.light else each for each in world.lights]
-    return replace(world, lights=tuple(lights))
+    pose = _pose(change.position, change.orientation)
+    lights = tuple(
+        replace(light, world_from_light=pose) if light.name == change.light else light for light in world.lights
+    )
+    return replace(world, lights=lights)
 
 
 def _with_light(world: World, change: SetLight) -> World:

@@ -1,4 +1,4 @@
-"""Models that a person at the page carries, pulls or holds in the air."""
+"""Models that a user of the page carries, pulls or holds in the air."""
 
 import math
 
@@ -10,22 +10,22 @@ from trundle.sim.simulation import LinkHandle, ModelHandle, Simulation
 from trundle.spatial import NS_PER_S, Pose, Twist, Vector3, Wrench, cross
 
 _STIFFNESS = 40.0
-"""Stiffness of the spring that pulls, by the model's mass [1/s²]: its weight stretches it by a quarter of a metre."""
-_STRETCH = 5.0
-"""Longest stretch of the spring that pulls [m]; its force grows no further."""
+"""Stiffness of the pulling spring per mass of the model [1/s²]: its weight stretches it by a quarter of a metre."""
+_MAX_STRETCH = 5.0
+"""Stretch of the pulling spring at which its force stops growing [m]."""
 _MAX_RATE = 0.5
-"""Largest natural frequency of spring and link times the time step, far from where the spring would be unstable."""
+"""Limit of the natural frequency of spring and link times the time step; the spring is unstable above 2."""
 
 
 class CarriedModel:
-    """Hook that keeps a model where a person carries it, at rest."""
+    """Hook that keeps a carried model at its pose, at rest."""
 
     def __init__(self, model: ModelHandle, pose: Pose) -> None:
         self.model = model
         self.pose = pose
 
     def before_step(self, simulation: Simulation) -> None:
-        """Put the model back."""
+        """Restore the model's pose."""
         if self.model in simulation.models:
             self.model.set_pose(self.pose)
             self.model.set_twist(Twist())
@@ -35,12 +35,12 @@ class PulledLink:
     """Hook that pulls a point of a link by a damped spring, as MuJoCo's viewer does."""
 
     def __init__(self, model: ModelHandle, link: LinkHandle, point: Vector3, step_s: float) -> None:
-        """Measure how heavy the point is.
+        """Choose stiffness and damping by the effective mass of the point.
 
         Args:
-            model: with the link.
-            link: which is pulled.
-            point: in the link's frame [m].
+            model: the link's model.
+            link: pulled link.
+            point: pulled point in the link's frame [m].
             step_s: time step [s].
 
         Raises:
@@ -49,28 +49,28 @@ class PulledLink:
         self.model, self.link, self.point = model, link, point
         self.target = link.pose.transform_point(point)
         """In the world [m]."""
-        mass = _mass_at(model, link, point)
-        total = sum(each.link.inertial.mass for each in model.links)
+        mass = _effective_mass(model, link, point)
+        total = sum(part.link.inertial.mass for part in model.links)
         self._stiffness = min(_STIFFNESS * total, mass * (_MAX_RATE / step_s) ** 2)
         self._damping = 2.0 * math.sqrt(self._stiffness * mass)
 
     def before_step(self, simulation: Simulation) -> None:
-        """Apply the force of the coming step."""
+        """Apply the spring's force for the coming step."""
         if self.model not in simulation.models:
             return
         link = self.link
         at, origin = link.pose.transform_point(self.point), link.pose.position
         (vx, vy, vz), spin = link.twist.linear, link.twist.angular
         wx, wy, wz = cross(spin, (at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]))
-        way = [target - now for target, now in zip(self.target, at, strict=True)]
-        share = min(1.0, _STRETCH / max(math.hypot(*way), 1e-9)) * self._stiffness
+        stretch = [target - now for target, now in zip(self.target, at, strict=True)]
+        stiffness = min(1.0, _MAX_STRETCH / max(math.hypot(*stretch), 1e-9)) * self._stiffness
         velocity = (vx + wx, vy + wy, vz + wz)
-        fx, fy, fz = (share * d - self._damping * v for d, v in zip(way, velocity, strict=True))
+        fx, fy, fz = (stiffness * d - self._damping * v for d, v in zip(stretch, velocity, strict=True))
         link.add_wrench(Wrench((fx, fy, fz)), at=at)
 
 
-def _mass_at(model: ModelHandle, link: LinkHandle, point: Vector3) -> float:
-    """Return the mass of a point of a link, averaged over all directions, with the model that hangs on it [kg]."""
+def _effective_mass(model: ModelHandle, link: LinkHandle, point: Vector3) -> float:
+    """Return the effective mass of the model at a point of a link, averaged over all directions [kg]."""
     jacobian = model.jacobian(link, point)[:3]
     mobility = float(np.trace(jacobian @ np.linalg.solve(model.mass_matrix(), jacobian.T))) if jacobian.size else 0.0
     if mobility < 1e-9:
@@ -84,11 +84,11 @@ def handled_models(simulation: Simulation) -> list[str]:
 
 
 def carry(simulation: Simulation, model: ModelHandle, pose: Pose) -> None:
-    """Put a model at a pose, at rest, and keep it there until it is let go; one that cannot move is only put."""
+    """Move a model to a pose and keep it there, at rest, until it is let go; a fixed model is only moved."""
     hook = next((h for h in simulation.hooks if isinstance(h, CarriedModel) and h.model is model), None)
     if hook is not None:
         hook.pose = pose
-    put(simulation, model, pose)
+    move_model(simulation, model, pose)
     if not any(simulation.engine.writer.is_free(link.index) for link in model.links):
         return
     model.set_twist(Twist())
@@ -97,7 +97,7 @@ def carry(simulation: Simulation, model: ModelHandle, pose: Pose) -> None:
 
 
 def pull(simulation: Simulation, model: ModelHandle, link: LinkHandle, *, point: Vector3, target: Vector3) -> None:
-    """Pull a point of a link [m, link frame] to a place in the world [m] until its model is let go."""
+    """Pull a point of a link [m, link frame] to a target [m, world frame] until its model is let go."""
     hook = next((h for h in simulation.hooks if isinstance(h, PulledLink) and (h.link, h.point) == (link, point)), None)
     if hook is None:
         let_go(simulation, model.name)
@@ -107,7 +107,7 @@ def pull(simulation: Simulation, model: ModelHandle, link: LinkHandle, *, point:
 
 
 def let_go(simulation: Simulation, name: str) -> None:
-    """Let a model go that is carried or pulled; of another nothing changes."""
+    """Stop carrying or pulling a model."""
     for hook in simulation.hooks:
         if isinstance(hook, CarriedModel | PulledLink) and hook.model.name == name:
             simulation.remove_hook(hook)
@@ -115,11 +115,11 @@ def let_go(simulation: Simulation, name: str) -> None:
 
 def is_held(simulation: Simulation, name: str) -> bool:
     """Tell if a model is held in the air."""
-    return any(joint.name == _hold(name) for joint in simulation.joints)
+    return any(joint.name == _hold_joint(name) for joint in simulation.joints)
 
 
 def hold(simulation: Simulation, model: ModelHandle, *, on: bool) -> None:
-    """Fix a model's base to the world where it is, or free it again.
+    """Fix a model's base to the world at its current pose, or free it again.
 
     Raises:
         UsageError: the model cannot move anyway.
@@ -127,29 +127,31 @@ def hold(simulation: Simulation, model: ModelHandle, *, on: bool) -> None:
     if is_held(simulation, model.name) == on:
         return
     if not on:
-        simulation.detach(_hold(model.name))
+        simulation.detach(_hold_joint(model.name))
         return
     if not simulation.engine.writer.is_free(model.base.index):
         raise UsageError(f"model {model.name!r} is fixed already")
     child = f"{model.name}::{model.base.name}"
     model.set_twist(Twist())
     simulation.attach(
-        Joint(name=_hold(model.name), type=JointType.FIXED, parent="world", child=child, at=model.model.at)
+        Joint(name=_hold_joint(model.name), type=JointType.FIXED, parent="world", child=child, at=model.model.at)
     )
 
 
-def put(simulation: Simulation, model: ModelHandle, pose: Pose) -> None:
-    """Move a model as a whole, with what fixes it to the world.
+def move_model(simulation: Simulation, model: ModelHandle, pose: Pose) -> None:
+    """Move a model as a whole, with the joints that fix it to the world.
 
     Raises:
-        UsageError: it is fixed to another model, and goes where that goes, as in Gazebo.
+        UsageError: the model is fixed to another one and moves with it, as in Gazebo.
     """
     joints = (joint for joint in simulation.world.joints if joint.child.startswith(f"{model.name}::"))
-    tie = next((joint for joint in joints if joint.parent != "world"), None)
-    if tie is not None and not any(simulation.engine.writer.is_free(link.index) for link in model.links):
-        raise UsageError(f"model {model.name!r} goes with {tie.parent!r}: joint {tie.name!r} ties them; move that one")
+    fixing = next((joint for joint in joints if joint.parent != "world"), None)
+    if fixing is not None and not any(simulation.engine.writer.is_free(link.index) for link in model.links):
+        raise UsageError(
+            f"model {model.name!r} is fixed to {fixing.parent!r} by joint {fixing.name!r}: move that model"
+        )
     model.set_pose(pose)
 
 
-def _hold(model: str) -> str:
+def _hold_joint(model: str) -> str:
     return f"hold of {model}"

@@ -1,4 +1,4 @@
-"""Models, simple shapes and lights that a person at the page puts into the running world."""
+"""Models, simple shapes and lights that a user of the page inserts into the running world."""
 
 import itertools
 from collections.abc import Collection
@@ -32,18 +32,18 @@ _LIGHT_ANGLES = {"spot": {"inner_angle_rad": 0.6, "outer_angle_rad": 1.0, "fallo
 
 
 class Insertion:
-    """Inserts into one world."""
+    """Executes requests to insert into one world."""
 
     def __init__(self, world: ShownWorld, consent: CodeConsent) -> None:
-        """Prepare; `consent` asks before code is run."""
+        """Create it; `consent` asks the user before code is run."""
         self._world, self._consent = world, consent
         self._simulation, self._packages = world.simulation, world.packages
 
     def handle(self, action: InsertAction) -> Answer:
-        """Do what a person asks for.
+        """Execute a request.
 
         Raises:
-            TrundleError: it cannot be done.
+            TrundleError: the request cannot be executed.
         """
         match action:
             case ListModels():
@@ -57,26 +57,27 @@ class Insertion:
         model, robot = self._shape(action.model) if action.is_shape else self._read(action.model)
         if (question := self._consent.question(model, action.consent)) is not None:
             return question
-        name = free_name(model.name, {each.name for each in self._simulation.models})
+        name = free_name(model.name, {other.name for other in self._simulation.models})
         pose = Pose(action.position) @ model.world_from_model
         self._world.spawn(replace(model, name=name, world_from_model=pose), robot)
         return Inserted(name=name)
 
     def _read(self, name: str) -> tuple[Model, Robot | None]:
-        """Read a model of the model path."""
+        """Read a model from the model path."""
         if name not in self._packages.models():
             raise UsageError(f"no model {name!r} on the model path")
         loaded = load(f"model://{name}", self._simulation.report, packages=self._packages)
         models = flattened(loaded.world).models
         if len(models) != 1:
-            raise UsageError(f"model {name!r}: its file has {len(models)} models; one can be inserted")
+            raise UsageError(f"model {name!r}: its file has {len(models)} models; only a file with one can be inserted")
         return models[0], loaded.robot
 
     def _shape(self, kind: str) -> tuple[Model, None]:
         if kind not in _SHAPES:
             raise UsageError(f"no shape {kind!r}; there are: {', '.join(_SHAPES)}")
-        text, here = shape_sdf(kind), Path.cwd()
-        loaded = load_text(text, name=f"<{kind}>", folder=here, packages=self._packages, report=Diagnostics())
+        loaded = load_text(
+            shape_sdf(kind), name=f"<{kind}>", folder=Path.cwd(), packages=self._packages, report=Diagnostics()
+        )
         return loaded.world.models[0], None
 
     def _insert_light(self, action: InsertLight) -> Inserted:
@@ -104,11 +105,11 @@ def list_models(packages: Packages) -> tuple[ModelEntry, ...]:
         _entry(name, folder, uploaded=folder.parent in packages.added_models)
         for name, folder in packages.models().items()
     )
-    return tuple(sorted(models, key=lambda each: (not each.uploaded, each.title.lower(), each.name)))
+    return tuple(sorted(models, key=lambda entry: (not entry.uploaded, entry.title.lower(), entry.name)))
 
 
 def _entry(name: str, folder: Path, *, uploaded: bool) -> ModelEntry:
-    """Return a model with what its model.config says."""
+    """Return a model's entry, with title and description from its model.config."""
     try:
         root = read_xml(folder / "model.config", report=Diagnostics())
     except TrundleError:
@@ -118,7 +119,7 @@ def _entry(name: str, folder: Path, *, uploaded: bool) -> ModelEntry:
 
 
 def shape_sdf(kind: str) -> str:
-    """Return a simple shape of 1 kg as SDF."""
+    """Return the SDF of a simple shape of 1 kg."""
     geometry, across, along = _SHAPES[kind]
     inertia = f"<ixx>{across}</ixx><iyy>{across}</iyy><izz>{along}</izz>"
     shape = f"<geometry>{geometry}</geometry>"
@@ -134,4 +135,4 @@ def shape_sdf(kind: str) -> str:
 def free_name(name: str, taken: Collection[str]) -> str:
     """Return a name that is not taken: `name`, `name_0`, …"""
     numbered = (f"{name}_{number}" for number in itertools.count())
-    return name if name not in taken else next(each for each in numbered if each not in taken)
+    return next(candidate for candidate in itertools.chain((name,), numbered) if candidate not in taken)

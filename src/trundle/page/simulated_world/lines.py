@@ -1,4 +1,4 @@
-"""Lines of the page: those that plugins draw, and the rays of lidars and cones of sonars with <visualize>."""
+"""Lines that plugins draw, for the page."""
 
 from itertools import islice
 
@@ -8,19 +8,19 @@ from trundle.page import Line
 from trundle.sim.simulation import DebugLine, Simulation
 
 MAX_LINE_POINTS = 20_000
-"""Most points of all lines that plugins draw."""
+"""Limit of points in all lines together."""
 _MAX_LINES = 200
 
 
 def plugin_lines(simulation: Simulation) -> list[Line]:
-    """Return the lines that plugins draw; of too many points, the newest of the first lines."""
+    """Return the lines that plugins draw; beyond the limit, the first lines with their newest points."""
     lines: list[Line] = []
-    left = MAX_LINE_POINTS
+    remaining = MAX_LINE_POINTS
     for name, line in islice(simulation.lines.items(), _MAX_LINES):
-        points = np.array(line.points[-left:], dtype=np.float32).reshape(-1, 3)
+        points = np.array(line.points[-remaining:], dtype=np.float32).reshape(-1, 3)
         lines.append(Line(id=name, rgba=_rgba(line), points=points))
-        left -= len(points)
-        if left <= 0:
+        remaining -= len(points)
+        if remaining <= 0:
             break
     return lines
 

@@ -43,12 +43,12 @@ def world_manifest(
     """Return the manifest without its generation and files.
 
     Args:
-        simulation: with its world.
-        sensors: those that measure.
-        bodies: numbers of the links.
+        simulation: running simulation.
+        sensors: running sensors.
+        bodies: body numbers of the links.
     """
     world = simulation.world
-    live = {(each.model.name, each.link.name, each.sensor.name): each for each in sensors}
+    live = {(sensor.model.name, sensor.link.name, sensor.sensor.name): sensor for sensor in sensors}
     indices = joint_rows(simulation)
     lights_of_links = (
         _light(light, f"{model.name}::{link.name}::", bodies[f"{model.name}::{link.name}"])
@@ -69,7 +69,7 @@ def world_manifest(
         plugins=_plugins(world.plugins),
         lights=(*(_light(light, "", None) for light in world.lights), *lights_of_links),
         cameras=tuple(_camera(sensor, bodies) for sensor in sensors if isinstance(sensor, CameraSensor)),
-        frames=tuple(FrameInfo(frame=each.frame, parent=each.parent, body=bodies[name]) for each, name in frames),
+        frames=tuple(FrameInfo(frame=link.frame, parent=link.parent, body=bodies[name]) for link, name in frames),
     )
 
 
@@ -82,20 +82,20 @@ def joint_rows(simulation: Simulation) -> dict[str, int]:
 
 def single_axes(simulation: Simulation) -> NDArray[np.intp]:
     """Return the index in a snapshot of each joint with a single axis."""
-    axes = enumerate(simulation.engine.compiled.joint_axes)
-    return np.array([joint for joint, each in axes if len(each) == 1], dtype=np.intp)
+    joints = enumerate(simulation.engine.compiled.joint_axes)
+    return np.array([index for index, axes in joints if len(axes) == 1], dtype=np.intp)
 
 
 def camera_topic(camera: CameraSensor) -> str:
-    """Return the topic of a camera's picture; without ROS, the one that it would have."""
+    """Return the topic of a camera's pictures; without ROS, the topic that the camera would publish."""
     published = (topic for topic, message in camera.topics.items() if message == _IMAGE)
     part = camera.optics.name
-    own = sensor_topic(camera.model, camera.link.name, camera.sensor, "image_raw", main="image_raw", part=part)
-    return next(published, own)
+    default = sensor_topic(camera.model, camera.link.name, camera.sensor, "image_raw", main="image_raw", part=part)
+    return next(published, default)
 
 
 def find_robot(world: World) -> Model | None:
-    """Return the model with most joints that is not static, the first of equals; None if all are static."""
+    """Return the first of the non-static models with the most joints; None if all are static."""
     return max((m for m in world.models if not m.static and m.links), key=lambda m: len(m.joints), default=None)
 
 
@@ -120,7 +120,7 @@ def _model(model: Model, bodies: BodyNumbers, live: _Live, indices: Mapping[str,
 
 
 def _nested(flat: ModelInfo) -> ModelInfo:
-    """Return a model whose links and joints named `inner::name` are in models of their own, as they were written."""
+    """Return a model whose links and joints named `inner::name` are moved into nested models, as in the file."""
     links: dict[str | None, list[LinkInfo]] = {}
     joints: dict[str | None, list[JointInfo]] = {}
     for link in flat.links:
@@ -130,7 +130,7 @@ def _nested(flat: ModelInfo) -> ModelInfo:
         scope, name = _scoped(joint.name)
         parent, child = (end.removeprefix(f"{scope}::") for end in (joint.parent, joint.child))
         joints.setdefault(scope, []).append(replace(joint, name=name, parent=parent, child=child))
-    own = replace(flat, links=tuple(links.pop(None, ())), joints=tuple(joints.pop(None, ())))
+    outer = replace(flat, links=tuple(links.pop(None, ())), joints=tuple(joints.pop(None, ())))
     inner = (
         ModelInfo(
             name=scope,
@@ -142,11 +142,11 @@ def _nested(flat: ModelInfo) -> ModelInfo:
         for scope in dict.fromkeys((*links, *joints))
         if scope is not None
     )
-    return replace(own, models=tuple(map(_nested, inner)))
+    return replace(outer, models=tuple(map(_nested, inner)))
 
 
 def _scoped(name: str) -> tuple[str | None, str]:
-    """Return the outermost model that a name is in, and the name there."""
+    """Return the outermost model in a name, and the rest of the name."""
     scope, separator, inner = name.partition("::")
     return (scope, inner) if separator else (None, name)
 
@@ -185,12 +185,12 @@ def _sensor(sensor: Sensor, live: CameraSensor | InstrumentSensor | None) -> Sen
 
 
 def _plugins(tags: Iterable[PluginTag]) -> tuple[PluginInfo, ...]:
-    """Return plugins under names of their own: the second `drive` is `drive (2)`."""
+    """Return plugins under unique names: the second `drive` is `drive (2)`."""
     counts = Counter[str]()
-    found: list[PluginInfo] = []
+    plugins: list[PluginInfo] = []
     for tag in tags:
         counts[tag.name] += 1
-        found.append(
+        plugins.append(
             PluginInfo(
                 name=tag.name if counts[tag.name] == 1 else f"{tag.name} ({counts[tag.name]})",
                 filename=tag.filename,
@@ -198,11 +198,11 @@ def _plugins(tags: Iterable[PluginTag]) -> tuple[PluginInfo, ...]:
                 parameters=tuple(_parameters(tag.node)),
             )
         )
-    return tuple(found)
+    return tuple(plugins)
 
 
 def _parameters(node: XmlNode, path: str = "") -> Iterator[tuple[str, str]]:
-    """Yield path (`noise/stddev`) and text of each element below a plugin's that has text or no children."""
+    """Yield path (`noise/stddev`) and text of each element in a plugin that has text or no children."""
     for child in node.children:
         name = f"{path}{child.tag}"
         if child.text or not child.children:
@@ -218,7 +218,7 @@ def _friction(collisions: Iterable[Collision]) -> tuple[float, float] | None:
 def _joint(joint: Joint, model: Model, index: int | None) -> JointInfo:
     axis = joint.axis
     child = next((link.model_from_link for link in model.links if link.name == joint.child), Pose())
-    axes = (each for each in (axis, joint.axis2) if each is not None)
+    axes = (used for used in (axis, joint.axis2) if used is not None)
     return JointInfo(
         name=joint.name,
         type=joint.type.value,
@@ -227,7 +227,7 @@ def _joint(joint: Joint, model: Model, index: int | None) -> JointInfo:
         lower=axis.lower if axis is not None and math.isfinite(axis.lower) else None,
         upper=axis.upper if axis is not None and math.isfinite(axis.upper) else None,
         pose=_six(joint.child_from_joint),
-        axes=tuple(child.inverse().transform_vector(each.direction) for each in axes),
+        axes=tuple(child.inverse().transform_vector(used.direction) for used in axes),
         index=index,
         source=_source(joint.at),
     )

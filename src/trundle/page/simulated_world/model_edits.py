@@ -1,4 +1,4 @@
-"""Copies, deletions and resets of whole models, with their sensors and plugins; all can be undone."""
+"""Copying, deleting and resetting whole models, with their sensors and plugins; all can be undone."""
 
 from collections import deque
 from typing import TypeVar
@@ -26,10 +26,10 @@ from .edits import find_model
 from .saved_model import SavedModel, saved_model
 
 _Value = TypeVar("_Value")
-_MAX_KEPT = 200
-"""Deleted models, deleted lights and states before resets that are kept: as many as edits that can be undone."""
+_MAX_UNDO = 200
+"""Limit of deleted models, of deleted lights, and of states before resets: the length of the page's undo history."""
 _MAX_BYTES = 64 * 1024 * 1024
-"""Memory of what plugins remembered before resets."""
+"""Limit of memory for plugins' states before resets."""
 
 
 class ModelEdits:
@@ -39,14 +39,14 @@ class ModelEdits:
         self._world, self._simulation = world, world.simulation
         self._models: dict[str, tuple[SavedModel, Robot | None]] = {}
         self._lights: dict[str, Light] = {}
-        self._before_resets: deque[tuple[SavedModel, SavedObjects]] = deque(maxlen=_MAX_KEPT)
-        """Models, and the state of their plugins."""
+        self._before_resets: deque[tuple[SavedModel, SavedObjects]] = deque(maxlen=_MAX_UNDO)
+        """States of models and of their plugins."""
 
     def handle(self, action: ModelAction) -> None:
-        """Do what a person asks for.
+        """Execute a request.
 
         Raises:
-            TrundleError: it cannot be done.
+            TrundleError: the request cannot be executed.
         """
         match action:
             case CopyModel(name, new, offset):
@@ -78,14 +78,14 @@ class ModelEdits:
 
     def _reset(self, model: ModelHandle) -> None:
         plugins = save_plugins(self._simulation.resets.of_model(model))
-        kept = self._before_resets
-        kept.append((saved_model(self._simulation, model), plugins))
-        while len(kept) > 1 and sum(each.size for _, each in kept) > _MAX_BYTES:
-            kept.popleft()
+        states = self._before_resets
+        states.append((saved_model(self._simulation, model), plugins))
+        while len(states) > 1 and sum(objects.size for _, objects in states) > _MAX_BYTES:
+            states.popleft()
         self._world.do(lambda sim: sim[model.name].reset())
 
     def _undo_reset(self, model: ModelHandle) -> None:
-        before = next((each for each in reversed(self._before_resets) if each[0].model.name == model.name), None)
+        before = next((state for state in reversed(self._before_resets) if state[0].model.name == model.name), None)
         if before is None:
             raise UsageError(f"the page has not reset model {model.name!r}, or too long ago")
         saved, plugins = before
@@ -105,7 +105,7 @@ class ModelEdits:
             raise UsageError(f"the world has no light {name!r}; it has: {', '.join(map(repr, lights)) or 'none'}")
 
         def delete(sim: Simulation) -> None:
-            sim.edit(replace(sim.world, lights=tuple(each for each in sim.world.lights if each.name != name)))
+            sim.edit(replace(sim.world, lights=tuple(light for light in sim.world.lights if light.name != name)))
 
         self._world.do(delete)
         _remember(self._lights, name, lights[name])
@@ -117,19 +117,19 @@ class ModelEdits:
 
 
 def add_light(light: Light, world: ShownWorld) -> None:
-    """Add a light to the world itself.
+    """Add a light to the world.
 
     Raises:
-        UsageError: its name is taken.
+        UsageError: there is a light of that name already.
     """
-    if any(each.name == light.name for each in world.simulation.world.lights):
+    if any(other.name == light.name for other in world.simulation.world.lights):
         raise UsageError(f"there is a light {light.name!r} already")
     world.do(lambda sim: sim.edit(replace(sim.world, lights=(*sim.world.lights, light))))
 
 
-def _remember(kept: dict[str, _Value], name: str, value: _Value) -> None:
-    """Keep a value as the newest one, and drop the oldest beyond the limit."""
-    kept.pop(name, None)
-    kept[name] = value
-    if len(kept) > _MAX_KEPT:
-        del kept[next(iter(kept))]
+def _remember(values: dict[str, _Value], name: str, value: _Value) -> None:
+    """Store a value as the newest, and drop the oldest beyond the limit."""
+    values.pop(name, None)
+    values[name] = value
+    if len(values) > _MAX_UNDO:
+        del values[next(iter(values))]

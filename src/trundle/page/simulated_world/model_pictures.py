@@ -1,4 +1,4 @@
-"""Pictures and shapes of the models that can be inserted, the pictures kept in the user's cache folder."""
+"""Pictures, cached in the user's cache folder, and shapes of the models that can be inserted."""
 
 import hashlib
 import io
@@ -30,23 +30,23 @@ SIZE_PX = 96
 _FOV_RAD = 0.6
 _AZIMUTH_RAD, _ELEVATION_RAD = 0.7, 0.45
 _LARGEST_M = 50.0
-"""Shapes farther out than this, such as ground planes, do not count for the view."""
+"""Larger shapes, such as ground planes, are ignored when the camera is placed."""
 _BACKGROUND = (0.5, 0.53, 0.56, 1.0)
 _MAX_FILES = 1000
 _MAX_GLB_BYTES = 32_000_000
 _VERSION = 1
-"""Version in every key; raised when the picture of the same model changes."""
+"""Part of every cache key; raise it when pictures of unchanged models change."""
 
 
 class ModelPictures:
-    """Draws on a thread of its own; `respond` is called there with a request's id, and the PNG, the GLB or an error."""
+    """Draws on its own thread; `respond` is called there with a request's id, and the PNG, the GLB or an error."""
 
     def __init__(self, respond: Callable[[int, bytes | str], None], packages: Packages) -> None:
         self._respond, self._packages = respond, packages
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="trundle-page-models")
 
     def draw(self, request_id: int, request: RenderModel) -> None:
-        """Ask for a picture or a shape; returns at once."""
+        """Queue a request for a picture or a shape; return at once."""
         self._thread.submit(
             self._run, request_id, request.model, cached_picture if request.kind == "picture" else model_glb
         )
@@ -56,11 +56,11 @@ class ModelPictures:
             self._respond(request_id, draw(model, self._packages))
         except TrundleError as error:
             self._respond(request_id, reason_of(error))
-        except Exception as error:  # a file of any kind lies on the model path; the simulation goes on
+        except Exception as error:  # a fault of a reader must not end the simulation
             self._respond(request_id, f"{model} cannot be drawn: {type(error).__name__}: {error}")
 
     def close(self) -> None:
-        """Stop after the picture in the making."""
+        """Stop after the current picture."""
         self._thread.shutdown(wait=False, cancel_futures=True)
 
 
@@ -68,7 +68,7 @@ def cached_picture(model: str, packages: Packages) -> bytes:
     """Return a model's picture as PNG, from the cache if its files have not changed.
 
     Raises:
-        TrundleError: there is no such model, or nothing of it can be drawn.
+        TrundleError: there is no such model, or it has nothing to draw.
     """
     folder = packages.models().get(model)
     if folder is None:
@@ -84,22 +84,22 @@ def cached_picture(model: str, packages: Packages) -> bytes:
         if is_owned_by_user(cache):
             write_atomically(file, png)
             _trim(cache)
-    except (OSError, UsageError):  # a cache that cannot be written costs time and nothing else
+    except (OSError, UsageError):  # without a cache, only time is lost
         return png
     return png
 
 
 def _key(folder: Path) -> str:
-    """Return a name for the state of a model's files: where they are, how large and how old."""
+    """Return the cache key of a model's files: a hash of their paths, sizes and times of change."""
     state = [f"{_VERSION} {folder.resolve()}"]
-    for each in sorted(folder.glob("*"))[:_MAX_FILES]:
-        about = each.stat()
-        state.append(f"{each.name} {about.st_size} {about.st_mtime_ns}")
+    for file in sorted(folder.glob("*"))[:_MAX_FILES]:
+        status = file.stat()
+        state.append(f"{file.name} {status.st_size} {status.st_mtime_ns}")
     return hashlib.sha256("\n".join(state).encode()).hexdigest()[:32]
 
 
 def _trim(cache: Path) -> None:
-    """Remove the pictures that were used longest ago beyond the limit."""
+    """Remove the least recently used pictures beyond the limit."""
     files = sorted(cache.glob("*.png"), key=lambda file: file.stat().st_mtime)
     for file in files[: max(0, len(files) - _MAX_FILES)]:
         file.unlink(missing_ok=True)
@@ -109,7 +109,7 @@ def model_glb(model: str, packages: Packages) -> bytes:
     """Return a model's visuals as GLB, in the world's frame.
 
     Raises:
-        TrundleError: it cannot be read, or is too large to be shown before it is inserted.
+        TrundleError: the model cannot be read, or is too large for a preview.
     """
     if model not in packages.models():
         raise UsageError(f"no model {model!r} on the model path")
@@ -118,21 +118,21 @@ def model_glb(model: str, packages: Packages) -> bytes:
     scene = replace(scene_from_world(world, Diagnostics()), lights=())
     glb = document.glb(add_scene(document, scene, rows_from_poses(poses), range(len(poses))))
     if len(glb) > _MAX_GLB_BYTES:
-        raise UsageError(f"model {model!r} is too large to be shown before it is inserted")
+        raise UsageError(f"model {model!r} is too large for a preview")
     return glb
 
 
 def _read(model: str, packages: Packages) -> tuple[World, list[Pose]]:
-    """Return a world with a model alone, and the poses of its links in the world."""
+    """Return a world that has only this model, and the poses of its links in the world."""
     world = flattened(load(f"model://{model}", Diagnostics(), packages=packages).world)
-    return world, [each.world_from_model @ link.model_from_link for each in world.models for link in each.links]
+    return world, [part.world_from_model @ link.model_from_link for part in world.models for link in part.links]
 
 
 def draw_model(model: str, packages: Packages) -> bytes:
     """Return a model's picture as PNG.
 
     Raises:
-        TrundleError: it cannot be read, or has nothing to see.
+        TrundleError: the model cannot be read, or has nothing to draw.
     """
     world, poses = _read(model, packages)
     scene = scene_from_world(world, Diagnostics())
@@ -142,7 +142,7 @@ def draw_model(model: str, packages: Packages) -> bytes:
         if max((max(map(abs, point)) for point in points), default=0.0) < _LARGEST_M:
             corners += map(world_from_shape.transform_point, points)
     if not scene.shapes:
-        raise UsageError(f"model {model!r} has nothing to see")
+        raise UsageError(f"model {model!r} has nothing to draw")
     points = np.array(corners or [(-1.0, -1.0, 0.0), (1.0, 1.0, 0.0)])
     low, high = points.min(axis=0), points.max(axis=0)
     radius = max(float(np.linalg.norm(high - low)) / 2, 1e-3)
@@ -163,7 +163,7 @@ def draw_model(model: str, packages: Packages) -> bytes:
 
 
 def _eye(target: list[float], distance: float) -> Pose:
-    """Pose of the camera in the world; it looks along its x at the target."""
+    """Return the camera's pose in the world; its x axis points at the target."""
     level, x, y, z = distance * math.cos(_ELEVATION_RAD), *target
     position = (
         x + level * math.cos(_AZIMUTH_RAD),

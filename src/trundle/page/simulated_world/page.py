@@ -1,4 +1,4 @@
-"""Page of a running simulation: its life, and the requests of those who look at it."""
+"""Page of a running simulation: its start and end, and the requests of its users."""
 
 import time
 from collections.abc import Callable
@@ -23,6 +23,7 @@ from trundle.page import (
     SaveWorld,
     Step,
 )
+from trundle.robots.model import World
 from trundle.ros import Node
 from trundle.ros.bridge import WORLD_FRAME
 from trundle.sim.realtime_pacer import RealtimePacer
@@ -35,12 +36,12 @@ from .controls import Recorder, SimulationControls, reason_of
 from .current_world import current_world
 from .drafting import Drafting
 from .insertion import Insertion
+from .manifest import find_robot
 from .model_edits import ModelEdits
 from .model_pictures import ModelPictures
 from .performance import PerformanceStream
 from .pictures import WorldPictures
 from .pose_history import ReplaySaver
-from .titles import page_names
 from .world_saver import WorldSaver
 from .world_streams import WorldStreams
 
@@ -48,7 +49,7 @@ _WARNING = "simulation"
 
 
 class SimulationPage:
-    """Page of one simulation; belongs to the simulation's thread, and never waits for a browser."""
+    """Page of one simulation; belongs to the simulation's thread and never waits for a browser."""
 
     def __init__(
         self,
@@ -59,20 +60,20 @@ class SimulationPage:
         recorder: Recorder | None = None,
         wall_ns: Callable[[], int] = time.monotonic_ns,
     ) -> None:
-        """Serve the page, and show a world there.
+        """Serve the page and show a world on it.
 
         Args:
-            page: which windows of the graph may share.
-            world: the running one.
-            node: publishes the stop of a robot that is driven when the page's server dies.
-            recorder: records the run; None: it cannot be recorded.
+            page: page that other windows of the graph may share.
+            world: running world.
+            node: stops a driven robot if the page's server dies.
+            recorder: records the run; None: the run cannot be recorded.
             wall_ns: the wall clock [ns].
 
         Raises:
             UsageError: the port is taken.
         """
         self.on_reload: Callable[[], None] | None = None
-        """Loads the world again, and calls `show`; None: it cannot be."""
+        """Reloads the world and calls `show`; None: the world cannot be reloaded."""
         self._page = page
         self._wall_ns = wall_ns
         self._warning: str | None = None
@@ -81,27 +82,27 @@ class SimulationPage:
             page.change(fixed_frame=WORLD_FRAME)
         self._set_titles(world.simulation)
         self._server = page.acquire(node, shows_world=True, source=source if source.exists() else None)
-        here = Path.cwd()
+        root = Path.cwd()
         packages, environment = world.packages, world.environment
         self._replays = ReplaySaver(self._server.respond)
-        self._saver = WorldSaver(self._server.respond, packages, here)
+        self._saver = WorldSaver(self._server.respond, packages, root)
         self._model_pictures = ModelPictures(self._respond_picture, packages)
         self._streams = WorldStreams(
             self._server, has_graph=page.has_graph, offered_file=self._saver.offered_file, wall_ns=wall_ns
         )
         self._consent = CodeConsent(environment)
-        self._drafting = Drafting(self._server.respond, packages, environment, here, self._consent)
+        self._drafting = Drafting(self._server.respond, packages, environment, root, self._consent)
         self._pictures = WorldPictures(self._server.respond_picture)
         self._performance = PerformanceStream(self._server)
         self._set_world(world, node, recorder)
 
     @property
-    def is_seen(self) -> bool:
+    def is_watched(self) -> bool:
         """True while a browser draws the world."""
         return self._server.is_watched(POSES)
 
     def show(self, world: ShownWorld, *, node: Node | None, recorder: Recorder | None) -> None:
-        """Show another world in place of the one before; arguments are those of the constructor."""
+        """Replace the shown world; arguments as in the constructor."""
         self._set_titles(world.simulation)
         self._server.set_node(node)
         self._set_world(world, node, recorder)
@@ -120,24 +121,24 @@ class SimulationPage:
         self._page.change(kind="simulation", title=title, robot=robot)
 
     def warn(self, text: str | None) -> None:
-        """Show a sentence until a person plays, steps, resets or reloads; None: end it."""
+        """Show a warning until a user plays, steps, resets or reloads; None: remove it."""
         if text != self._warning:
             self._warning = text
             self._server.set_notice(_WARNING, text)
 
     def end_recording(self) -> None:
-        """End the recording that a person at the page has begun."""
+        """End the recording that a user of the page started."""
         if self._controls.recorder is not None:
             self._controls.recorder.set(False)
 
     def update(self, pacer: RealtimePacer, *, paused: bool, at_once: bool = False) -> None:
-        """Send the page what is due: poses and lines at 30 Hz, joints and the clock at 10 Hz, if they are watched."""
+        """Send the watched streams that are due: poses and lines at 30 Hz, joints and the clock at 10 Hz."""
         self._streams.update(pacer, paused=paused, at_once=at_once)
         self._page.show_findings(self._simulation.report)
         self._performance.end_page(paused=paused)
 
     def handle_requests(self, pacer: RealtimePacer, *, paused: bool) -> bool:
-        """Handle the requests since the last call; return True if the simulation is paused now."""
+        """Handle the requests since the last call; return True if the simulation is paused afterwards."""
         self._performance.begin_page()
         requests = self._page.requests(of_world=True)
         if self._server.uploads is not None:
@@ -158,13 +159,13 @@ class SimulationPage:
         self._show_draft()
         if self._saver.poll_newest():
             self._streams.show_offered_file()
-        self._controls.let_lapsed_go()
+        self._controls.let_go_after_timeout()
         if self._controls.step(pacer) or requests:
             self.update(pacer, paused=paused, at_once=True)
         return paused
 
     def _handle(self, request: Request, pacer: RealtimePacer, *, paused: bool) -> bool:
-        """Handle one request; return True if the simulation is paused now."""
+        """Handle one request; return True if the simulation is paused afterwards."""
         if isinstance(request.action, SaveWorld):
             world = current_world(self._simulation)
             self._saver.save(request.id, request.action, world, self._simulation.seed)
@@ -181,7 +182,7 @@ class SimulationPage:
             self._drafting.handle(request.id, request.action, self._simulation)
             return paused or isinstance(request.action, BeginDraft)
         if isinstance(request.action, Play | Step | RunTo) and self._drafting.is_open:
-            raise UsageError("time stands still while a model is edited: finish or leave it first")
+            raise UsageError("the simulation is paused while a model is edited: finish or leave it first")
         if isinstance(request.action, ModelAction):
             self._model_edits.handle(request.action)
             pacer.restart()
@@ -199,14 +200,14 @@ class SimulationPage:
             self._streams.show_draft(draft)
 
     def _respond_picture(self, request_id: int, drawn: bytes | str) -> None:
-        """Answer with a picture, or with the reason why there is none."""
+        """Answer with a picture or an error."""
         if isinstance(drawn, str):
             self._server.respond(request_id, drawn)
         else:
             self._server.respond_picture(request_id, drawn)
 
     def _draw(self, request_id: int, view: RenderView) -> None:
-        """Draw a picture around the robot, or the origin."""
+        """Draw a picture centred on the robot, or on the origin."""
         simulation = self._simulation
         states = {name: simulation.animation_state(name) for name in simulation.actors}
         self._pictures.draw(request_id, view, simulation.world, simulation.snapshot().poses, states)
@@ -227,3 +228,13 @@ class SimulationPage:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def page_names(world: World) -> tuple[str, str | None]:
+    """Return the page's title and the robot's name; a world called `default` has its file's or its robot's name."""
+    robot = find_robot(world)
+    name = None if robot is None else robot.name
+    file = Path(world.at.file)
+    if world.name != "default":
+        return world.name, name
+    return file.stem if file.suffix == ".world" else name or world.name, name

@@ -1,4 +1,4 @@
-"""Profile of a simulation for its page, measured while someone looks."""
+"""Profile of a simulation for its page, measured while it is watched."""
 
 import time
 from collections.abc import Callable
@@ -11,18 +11,20 @@ from ..profile.part_names import LoopPart
 from ..profile.stride_profile import StrideProfile
 
 _PERIOD_NS = 1_000_000_000
-"""Interval between the beginnings of two profiles, in wall time; each is at most so long, and of at most so much
-simulation time [ns]: measuring a world without sensors takes a sixth of its time, which flat out is much."""
+"""Interval between the starts of two profiles in wall time, and limit of each profile in wall and simulation time [ns].
+
+The limit of simulation time matters at full speed: measuring a world without sensors costs a sixth of its time.
+"""
 
 
 class PerformanceStream:
     """Sends profiles to the page; belongs to the simulation's thread."""
 
     def __init__(self, server: PageServer, *, wall_ns: Callable[[], int] = time.perf_counter_ns) -> None:
-        """Prepare; `show` sets the simulation.
+        """Create it; `show` sets the simulation.
 
         Args:
-            server: the page's.
+            server: page's server.
             wall_ns: the wall clock [ns].
         """
         self._server = server
@@ -30,19 +32,19 @@ class PerformanceStream:
         self._profile: StrideProfile | None = None
 
     def show(self, simulation: Simulation, node: Node | None) -> None:
-        """Measure another simulation; `node` is one of its ROS graph, None: without."""
+        """Measure another simulation; `node` belongs to its ROS graph, None: without ROS."""
         self.close()
         self._profile = StrideProfile(simulation, None if node is None else node.loop, wall_ns=self._wall_ns)
         self._after_strides = StridePart.SCHEDULE if node is None else LoopPart.DELIVERY
         self._due_ns = 0
 
     def begin_page(self) -> None:
-        """Charge what follows the strides; what comes next is the page's."""
+        """Count the time since the strides; the page's own time starts here."""
         if self._profile is not None and self._profile.is_on:
             self._profile.lap(self._after_strides)
 
     def end_page(self, *, paused: bool) -> None:
-        """Charge the page, and send a profile if it is complete."""
+        """Count the page's own time, and send a profile if it is complete."""
         profile, now = self._profile, self._wall_ns()
         if profile is None or paused or not self._server.is_watched(PERFORMANCE):
             self.close()

@@ -1,4 +1,4 @@
-"""Pictures of the running world for browsers without WebGL, drawn in a thread of their own."""
+"""Pictures of the running world for browsers without WebGL, drawn on their own thread."""
 
 import io
 import math
@@ -34,7 +34,7 @@ class _Job(NamedTuple):
 
 
 class WorldPictures:
-    """Draws what `RenderView` asks for; `respond` is called on the drawing thread with a request's id and the PNG."""
+    """Draws requested views; `respond` is called on the drawing thread with a request's id and the PNG."""
 
     def __init__(self, respond: Callable[[int, bytes], None]) -> None:
         self._respond = respond
@@ -49,14 +49,14 @@ class WorldPictures:
         poses: NDArray[np.float64],
         states: Mapping[str, AnimationState],
     ) -> None:
-        """Ask for a picture; returns at once.
+        """Queue a request for a picture; return at once.
 
         Args:
-            request_id: of the request.
+            request_id: request to answer.
             view: size and direction.
-            world: flat; the one before is drawn from its compiled scene.
+            world: flat world; its scene is reused while the world is the same object.
             poses: (links, 7) in the world.
-            states: of the actors' animations, by name.
+            states: animation state of each actor by name.
         """
         if self._thread is None:
             self._thread = threading.Thread(target=self._run, name="trundle-page-pictures", daemon=True)
@@ -64,7 +64,7 @@ class WorldPictures:
         self._jobs.put(_Job(request_id, view, world, poses, states, _target(world, poses)))
 
     def close(self) -> None:
-        """Stop after the picture in the making."""
+        """Stop after the current picture."""
         self._jobs.put(None)
 
     def _run(self) -> None:
@@ -86,12 +86,12 @@ class WorldPictures:
 
 
 def _target(world: World, poses: NDArray[np.float64]) -> Vector3:
-    """Return the middle of the robot's links, or the origin [m]."""
+    """Return the centre of the robot's links, or the origin [m]."""
     robot, row = find_robot(world), 0
     for model in world.models:
         if model is robot:
-            places = poses[row : row + len(model.links), :3]
-            x, y, z = ((places.min(axis=0) + places.max(axis=0)) / 2).tolist()
+            positions = poses[row : row + len(model.links), :3]
+            x, y, z = ((positions.min(axis=0) + positions.max(axis=0)) / 2).tolist()
             return (x, y, z)
         row += len(model.links)
     return (0.0, 0.0, 0.0)
@@ -109,7 +109,7 @@ def _lens(view: RenderView) -> Intrinsics:
 
 
 def _eye(view: RenderView, target: Vector3) -> Pose:
-    """Pose of the camera in the world; it looks along its x at the target."""
+    """Return the camera's pose in the world; its x axis points at the target."""
     level = view.distance * math.cos(view.elevation)
     x, y, z = target
     position = (

@@ -1,4 +1,4 @@
-"""Poses of the last minutes, of which the page makes a replay."""
+"""Poses of the last minutes, and replays made from them."""
 
 from base64 import b64encode
 from collections import deque
@@ -25,18 +25,18 @@ _view_decoder = msgspec.json.Decoder(dict[str, object])
 
 
 class PoseHistory:
-    """Poses over time of one world; the oldest are dropped."""
+    """Poses of one world over time; the oldest are dropped."""
 
     def __init__(self, limit_bytes: int = _LIMIT_BYTES) -> None:
         self._limit_bytes = limit_bytes
         self._rows: deque[tuple[int, NDArray[np.float32]]] = deque()
 
     def clear(self) -> None:
-        """Forget everything, as the world has changed."""
+        """Remove all poses, after the world has changed."""
         self._rows.clear()
 
     def add(self, time_ns: int, poses: NDArray[np.float64], *, paused: bool) -> None:
-        """Keep the poses (bodies, 7) of a time; going on from an earlier one forgets what came after it."""
+        """Store the poses (bodies, 7) at a time; when an earlier time runs on, the poses after it are removed."""
         last_ns = self._rows[-1][0] if self._rows else -1
         if time_ns == last_ns or (paused and time_ns < last_ns):
             return
@@ -47,10 +47,10 @@ class PoseHistory:
             self._rows.popleft()
 
     def motion(self, world: World, title: str) -> RecordedMotion:
-        """Return what is kept.
+        """Return the stored poses as a motion.
 
         Raises:
-            UsageError: nothing has moved in time yet.
+            UsageError: fewer than two poses are stored.
         """
         if len(self._rows) < 2:
             raise UsageError("there is nothing to replay yet: let time run first")
@@ -60,7 +60,7 @@ class PoseHistory:
 
 
 class ReplaySaver:
-    """Makes replays on a thread of its own, so that the simulation goes on; `respond` is called there."""
+    """Makes replays on its own thread while the simulation continues; `respond` is called there."""
 
     def __init__(self, respond: Callable[..., None]) -> None:
         self._respond = respond
@@ -68,21 +68,21 @@ class ReplaySaver:
         self._waiting = 0
 
     def save(self, request_id: int, action: SaveReplay, motion: Callable[[], RecordedMotion]) -> None:
-        """Answer a request with a replay; returns at once.
+        """Queue a request for a replay; return at once.
 
         Args:
-            request_id: of the request.
-            action: the request.
-            motion: copies the poses, many megabytes.
+            request_id: request to answer.
+            action: format and view of the replay.
+            motion: copies the stored poses, many megabytes.
 
         Raises:
-            UsageError: too many wait, or nothing has moved yet.
+            UsageError: too many requests wait, or there are no poses yet.
         """
         if self._waiting >= _MAX_WAITING:
             raise UsageError(f"{_MAX_WAITING} replays are being made already")
-        moved = motion()
+        copied = motion()
         self._waiting += 1
-        self._thread.submit(self._run, request_id, action, moved)
+        self._thread.submit(self._run, request_id, action, copied)
 
     def _run(self, request_id: int, action: SaveReplay, motion: RecordedMotion) -> None:
         try:
@@ -96,11 +96,11 @@ class ReplaySaver:
             self._respond(request_id, reason_of(error))
         except msgspec.MsgspecError as error:
             self._respond(request_id, f"the view cannot be read: {error}")
-        except Exception as error:  # a world or a view that is not foreseen; the simulation goes on
-            self._respond(request_id, f"there is no replay: {type(error).__name__}: {error}")
+        except Exception as error:  # a fault of a writer must not end the simulation
+            self._respond(request_id, f"the replay cannot be made: {type(error).__name__}: {error}")
         finally:
             self._waiting -= 1
 
     def close(self) -> None:
-        """Stop after the replay in the making."""
+        """Stop after the current replay."""
         self._thread.shutdown(wait=False, cancel_futures=True)

@@ -1,4 +1,4 @@
-"""Models with their state, to be copied, or put back after they were deleted or reset."""
+"""Models with their state, to be copied, or restored after they were deleted or reset."""
 
 import numpy as np
 from msgspec import Struct
@@ -22,44 +22,44 @@ class SavedModel(Struct, frozen=True, kw_only=True, eq=False):
     """Positions of the joints' axes [rad or m]."""
     velocities: NDArray[np.float64]
     wrenches: tuple[tuple[Wrench, float | None], ...]
-    """Applied to each link, and for how much longer [s]; None: until another is."""
+    """Wrench on each link, and its remaining duration [s]; None: until it is replaced."""
     commands: tuple[tuple[TimedCommand, ...], ...]
     """Commands of each joint's axes."""
     is_held: bool
-    """True if its base is fixed where it is, until it is freed."""
+    """True if the model is held: its base is fixed to the world."""
 
     def copy(self, name: str, offset: Vector3) -> "SavedModel":
-        """Return it under another name and at another place."""
-        away = Pose(offset)
-        model = replace(self.model, name=name, world_from_model=away @ self.model.world_from_model)
-        return replace(self, model=model, links=tuple((away @ pose, twist) for pose, twist in self.links))
+        """Return a copy under another name, translated by an offset [m]."""
+        translation = Pose(offset)
+        model = replace(self.model, name=name, world_from_model=translation @ self.model.world_from_model)
+        return replace(self, model=model, links=tuple((translation @ pose, twist) for pose, twist in self.links))
 
     def fits(self, model: ModelHandle) -> bool:
         """Tell if a model has the links and joints of this state."""
-        links, joints = self.model.links, self.model.joints
-        return [each.name for each in model.links] == [each.name for each in links] and [
-            (each.name, each.joint.type) for each in model.joints
-        ] == [(each.name, each.type) for each in joints]
+        links = [link.name for link in model.links]
+        joints = [(joint.name, joint.joint.type) for joint in model.joints]
+        saved = self.model
+        return links == [link.name for link in saved.links] and joints == [(j.name, j.type) for j in saved.joints]
 
     def apply(self, simulation: Simulation) -> None:
-        """Give the model of its name its state."""
-        there = simulation[self.model.name]
-        there.joint_positions = self.positions
-        for link, (pose, twist) in zip(there.links, self.links, strict=True):
+        """Set the state of the simulated model of the same name."""
+        model = simulation[self.model.name]
+        model.joint_positions = self.positions
+        for link, (pose, twist) in zip(model.links, self.links, strict=True):
             if simulation.engine.writer.is_free(link.index):
                 link.set_pose(pose)
                 link.set_twist(twist)
-        there.joint_velocities = self.velocities
+        model.joint_velocities = self.velocities
         if self.is_held:
-            hold(simulation, there, on=True)
-        for link, (wrench, left_s) in zip(there.links, self.wrenches, strict=True):
-            link.apply_wrench(wrench, duration_s=left_s)
-        for joint, commands in zip(there.joints, self.commands, strict=True):
+            hold(simulation, model, on=True)
+        for link, (wrench, remaining_s) in zip(model.links, self.wrenches, strict=True):
+            link.apply_wrench(wrench, duration_s=remaining_s)
+        for joint, commands in zip(model.joints, self.commands, strict=True):
             joint.repeat(commands)
 
 
 def saved_model(simulation: Simulation, model: ModelHandle) -> SavedModel:
-    """Return a model with its state."""
+    """Return a model's description and state."""
     return SavedModel(
         model=model.model,
         links=tuple((link.pose, link.twist) for link in model.links),

@@ -1,4 +1,4 @@
-"""Values of sensors' readings that can be plotted, by the sensor's SDF type."""
+"""Values in sensor readings that can be plotted, by the sensor's SDF type."""
 
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -9,13 +9,13 @@ import numpy as np
 from trundle.spatial import rpy_from_quaternion
 
 ReadingValue: TypeAlias = tuple[str, Callable[[Any], float]]
-"""Unit, and the value in a reading; NaN: there is none."""
+"""Unit, and the function that returns the value of a reading; NaN: the reading has none."""
 
 
 def _axes(
     name: str, unit: str, part: Callable[[Any, int], float], *, names: tuple[str, str, str] = ("x", "y", "z")
 ) -> dict[str, ReadingValue]:
-    return {f"{name}.{each}": (unit, partial(_part, part, axis)) for axis, each in enumerate(names)}
+    return {f"{name}.{axis_name}": (unit, partial(_part, part, axis)) for axis, axis_name in enumerate(names)}
 
 
 def _part(part: Callable[[Any, int], float], axis: int, reading: Any) -> float:
@@ -23,7 +23,7 @@ def _part(part: Callable[[Any, int], float], axis: int, reading: Any) -> float:
 
 
 def _vector(name: str, unit: str) -> dict[str, ReadingValue]:
-    """Return the parts of a vector, at a path of attributes."""
+    """Return the components of the vector at a path of attributes."""
 
     def part(reading: Any, axis: int) -> float:
         for attribute in name.split("."):
@@ -43,7 +43,7 @@ def _nearest(reading: Any) -> float:
 
 
 def _contact_force(reading: Any, axis: int) -> float:
-    """Sum over the last step of the reading."""
+    """Return a component of the summed force in the reading's last step."""
     last = max((record.time_ns for record in reading.contacts), default=0)
     return sum(record.wrench.force[axis] for record in reading.contacts if record.time_ns == last)
 

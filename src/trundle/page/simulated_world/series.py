@@ -1,7 +1,7 @@
-"""Values of a simulation by name, as plots ask for them: `rp2w::chassis.pose.x`, `rp2w::wheel.velocity`.
+"""Values of a simulation by the names in plots: `rp2w::chassis.pose.x`, `rp2w::wheel.velocity`.
 
 A link, or a model by its first link, has `pose`, `twist` and `contact`; a joint has `position`, `velocity` and
-`effort`, a sensor what its readings have.
+`effort`; a sensor has the values in its readings.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -23,7 +23,7 @@ _AXES = "xyz"
 
 
 class SampledState:
-    """State of a simulation now; contacts are computed where something asks for them."""
+    """State of a simulation at one time; contacts are computed on first use."""
 
     def __init__(self, simulation: Simulation, snapshot: Snapshot) -> None:
         self._simulation = simulation
@@ -31,7 +31,7 @@ class SampledState:
 
     @cached_property
     def contact_forces(self) -> dict[str, NDArray[np.float64]]:
-        """Sum (4,) of the forces [N] on each link in contact, world axes, and the number of its contacts."""
+        """(4,) for each link in contact: sum of the forces on it [N, world axes], and the number of its contacts."""
         contacts = self._simulation.contacts()
         sums: dict[str, NDArray[np.float64]] = {}
         for bodies, force in zip(contacts.bodies, contacts.forces, strict=True):
@@ -65,23 +65,23 @@ class SeriesFinder:
         self._models = {
             model.name: f"{model.name}::{model.links[0].name}" for model in simulation.world.models if model.links
         }
-        self._sensors = {f"{each.model.name}::{each.parent_name}::{each.name}": each for each in sensors}
+        self._sensors = {f"{sensor.model.name}::{sensor.parent_name}::{sensor.name}": sensor for sensor in sensors}
 
     def find(self, name: str, listen: "Callable[[InstrumentSensor], SensorValue]") -> Series:
-        """Return the value of a name; `listen` has a sensor measure while it is plotted.
+        """Return a value by its name; `listen` keeps a sensor measuring while its value is plotted.
 
         Raises:
-            UsageError: there is none; the message lists what there is.
+            UsageError: there is no such value.
         """
-        offered: list[str] = []
-        for owner, field in _cuts(name):
+        present: list[str] = []
+        for owner, field in _splits(name):
             values = self._values(owner, listen)
             if field in values:
                 return values[field]
-            offered += values
-        if offered:
-            raise UsageError(f"{name} is not there; there are: {', '.join(offered)}")
-        raise UsageError(f"no model, link, joint or sensor has the name of {name}")
+            present += values
+        if present:
+            raise UsageError(f"no value {name}; there are: {', '.join(present)}")
+        raise UsageError(f"no model, link, joint or sensor for {name}")
 
     def _values(self, owner: str, listen: "Callable[[InstrumentSensor], SensorValue]") -> dict[str, Series]:
         values: dict[str, Series] = {}
@@ -102,15 +102,15 @@ class SensorValue:
 
     def __init__(self) -> None:
         self.reading: object = None
-        self.is_wanted = False
+        self.is_plotted = False
 
-    def keep(self, reading: object) -> None:
-        """Keep a reading."""
+    def store(self, reading: object) -> None:
+        """Store a reading."""
         self.reading = reading
 
     def enabled(self) -> bool:
         """True while it is plotted."""
-        return self.is_wanted
+        return self.is_plotted
 
 
 class _SensorSeries:
@@ -129,8 +129,8 @@ class _SensorSeries:
         return float("nan") if reading is None else float(self._get(reading))
 
 
-def _cuts(name: str) -> Iterator[tuple[str, str]]:
-    """Yield a name's parts before and after each dot; names may have dots themselves."""
+def _splits(name: str) -> Iterator[tuple[str, str]]:
+    """Yield the parts of a name before and after each dot; names of models and links may contain dots."""
     for at, letter in enumerate(name):
         if letter == ".":
             yield name[:at], name[at + 1 :]

@@ -1,4 +1,4 @@
-"""Samples of the values that the page plots, a row at each stride."""
+"""Samples of plotted values, a row for each stride."""
 
 from collections.abc import Sequence
 
@@ -14,11 +14,11 @@ from ..world.streams import SeriesHead
 from .series import SampledState, SensorValue, Series, SeriesFinder
 
 _ROWS = 64
-"""Rows of a message: about a second of strides, so that a page that is late misses none."""
+"""Rows of a message: about a second of strides, so that a slow page misses none."""
 
 
 class SeriesSampler:
-    """Samples while something is plotted; belongs to the simulation's thread."""
+    """Samples the plotted values; belongs to the simulation's thread."""
 
     def __init__(self, server: PageServer) -> None:
         self._server = server
@@ -38,7 +38,7 @@ class SeriesSampler:
         self._find(self._names)
 
     def sample(self, *, paused: bool) -> None:
-        """Sample the state if something is plotted; while paused only where time has gone on."""
+        """Sample the plotted values; while paused, only if time has advanced."""
         names = self._server.plotted
         if names != self._names:
             self._find(names)
@@ -46,10 +46,10 @@ class SeriesSampler:
         if not names or time_ns == self._time_ns or (paused and time_ns < self._time_ns):
             return
         if time_ns < self._time_ns:
-            self._find(names)  # time was set back, and with it who listens to sensors
+            self._find(names)  # going back in time restores the sensors' earlier listeners
         self._time_ns = time_ns
         now = SampledState(self._simulation, self._simulation.snapshot())
-        row = [time_ns / NS_PER_S, *(each.read(now) for each in self._series)]
+        row = [time_ns / NS_PER_S, *(series.read(now) for series in self._series)]
         self._rows = [*self._rows[1 - _ROWS :], row]
         self._count += 1
 
@@ -58,14 +58,14 @@ class SeriesSampler:
         if not self._names:
             return
         names = tuple(name for name in self._names if name not in self._faults)
-        head = SeriesHead(names=names, units=tuple(each.unit for each in self._series), faults=self._faults)
+        head = SeriesHead(names=names, units=tuple(series.unit for series in self._series), faults=self._faults)
         rows = np.array(self._rows).reshape(len(self._rows), 1 + len(names))
         self._server.put_series(self._count - len(rows), head, rows)
 
     def _find(self, names: tuple[str, ...]) -> None:
         self._names, self._series, self._faults, self._rows = names, [], {}, []
         for value in self._values.values():
-            value.is_wanted = False
+            value.is_plotted = False
         for name in names:
             try:
                 self._series.append(self._finder.find(name, self._listen))
@@ -74,6 +74,6 @@ class SeriesSampler:
 
     def _listen(self, sensor: InstrumentSensor) -> SensorValue:
         value = self._values.setdefault(sensor, SensorValue())
-        value.is_wanted = True
-        sensor.listen(value.keep, enabled=value.enabled)
+        value.is_plotted = True
+        sensor.listen(value.store, enabled=value.enabled)
         return value

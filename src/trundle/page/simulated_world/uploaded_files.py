@@ -1,4 +1,4 @@
-"""Uploaded models that a saved file needs: their folders are copied beside it, where `model://` finds them."""
+"""Uploaded models that a saved file needs: their folders are copied next to it, where `model://` finds them."""
 
 import re
 from collections.abc import Mapping
@@ -11,30 +11,30 @@ _TEXTS = frozenset({".dae", ".material", ".sdf", ".urdf", ".world", ".xacro", ".
 _MAX_TEXT_BYTES = 64 * 1024 * 1024
 
 
-def with_uploads_named(sdf: bytes, packages: Packages) -> bytes:
-    """Return a document with the files of uploaded models as model:// URIs."""
+def with_upload_uris(sdf: bytes, packages: Packages) -> bytes:
+    """Return a document in which the files of uploaded models have model:// URIs."""
     for folder in packages.added_models:
         sdf = sdf.replace(f"file://{folder.resolve()}/".encode(), b"model://")
     return sdf
 
 
 def needed_uploads(sdf: bytes, packages: Packages) -> dict[str, Path]:
-    """Return the folders, by name, of the uploaded models that a document names, and of those that these name."""
-    left = {each.name: each for folder in packages.added_models for each in folder.iterdir()}
+    """Return the folders, by name, of the uploaded models that a document refers to, directly or through others."""
+    unused = {model.name: model for folder in packages.added_models for model in folder.iterdir()}
     needed: dict[str, Path] = {}
     waiting = [sdf]
     while waiting:
         text = waiting.pop()
-        for name in [name for name in left if _is_named(name, text)]:
-            needed[name] = left.pop(name)
+        for name in [name for name in unused if _is_named(name, text)]:
+            needed[name] = unused.pop(name)
             waiting += _texts(needed[name])
     return dict(sorted(needed.items()))
 
 
-def copies(uploads: Mapping[str, Path], beside: Path) -> dict[Path, Path]:
-    """Return the files of models by their places in folders of the models' names."""
+def copies(uploads: Mapping[str, Path], target: Path) -> dict[Path, Path]:
+    """Return target → source of the files of models, each model in a folder of its name below `target`."""
     return {
-        beside / name / file.relative_to(folder): file for name, folder in uploads.items() for file in _files(folder)
+        target / name / file.relative_to(folder): file for name, folder in uploads.items() for file in _files(folder)
     }
 
 

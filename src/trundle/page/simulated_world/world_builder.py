@@ -1,4 +1,4 @@
-"""Thread that makes the page's files of a world, so that the simulation goes on meanwhile."""
+"""Thread that writes the page's files of a world while the simulation continues."""
 
 import queue
 import threading
@@ -15,13 +15,13 @@ from .world_files import WorldFiles
 
 
 class BuiltWorld(Struct, frozen=True, kw_only=True):
-    """World that the page can show."""
+    """World with its files, ready for the page."""
 
     manifest: Manifest
     files: dict[str, bytes]
-    """URL → content, of new files."""
+    """URL → content of new files."""
     report: Diagnostics
-    """Shapes that are not drawn."""
+    """Warnings about shapes that cannot be drawn."""
 
 
 class _Job(Struct, frozen=True, kw_only=True):
@@ -32,7 +32,7 @@ class _Job(Struct, frozen=True, kw_only=True):
 
 
 class WorldBuilder:
-    """Builds the newest world that was asked for; worlds that came and went meanwhile are skipped."""
+    """Builds the newest requested world; requests that newer ones replace before their turn are skipped."""
 
     def __init__(self) -> None:
         self._files = WorldFiles()
@@ -42,17 +42,17 @@ class WorldBuilder:
         self._thread.start()
 
     def build(self, world: World, manifest: Manifest, bodies: dict[str, int]) -> None:
-        """Ask for a world's files; returns at once.
+        """Queue a request for a world's files; return at once.
 
         Args:
-            world: flat.
-            manifest: of the world, without its files.
+            world: flat world.
+            manifest: world's manifest without its files.
             bodies: number of each link, `model::link`.
         """
         self._jobs.put(_Job(world=world, manifest=manifest, bodies=bodies))
 
     def poll(self) -> BuiltWorld | None:
-        """Return the next world that is ready."""
+        """Return the next built world; None if none is ready."""
         try:
             built = self._built.get_nowait()
         except queue.Empty:
@@ -62,14 +62,14 @@ class WorldBuilder:
         return built
 
     def wait(self) -> BuiltWorld:
-        """Return the next world, once it is ready."""
+        """Wait for the next built world."""
         built = self._built.get()
         if isinstance(built, Exception):
             raise built
         return built
 
     def close(self) -> None:
-        """Stop after the world in the making."""
+        """Stop after the current world."""
         self._jobs.put(None)
 
     def _run(self) -> None:
@@ -85,7 +85,7 @@ class WorldBuilder:
 
 
 def newest(first: Callable[[], _Job | None], more: Callable[[], _Job | None]) -> _Job | None:
-    """Return the last job that waits, after waiting for the first; None ends the thread at once."""
+    """Wait for a job and return the newest in the queue; None ends the thread at once."""
     job = first()
     while job is not None:
         try:

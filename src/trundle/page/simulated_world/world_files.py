@@ -1,4 +1,4 @@
-"""GLB files of a simulated world: one per model, made again only when it looks different."""
+"""GLB files of a simulated world: one per model, written again only when its appearance changes."""
 
 from collections.abc import Callable
 
@@ -15,22 +15,22 @@ from ..world.draft_info import FileUrl
 
 _FOLDER = "world/"
 BodyOf = Callable[[str], int]
-"""From `model::link` to the number of the body."""
+"""Returns the body number of `model::link`."""
 
 
 class _File(Struct, frozen=True, kw_only=True):
-    """A GLB, without its bytes once they are served."""
+    """A GLB file, without its content."""
 
     url: str
     resources: frozenset[str]
-    """URLs of the meshes and images that it names."""
+    """URLs of the meshes and images that it refers to."""
 
 
 class _Appearance(Struct, frozen=True, kw_only=True):
-    """All that a file depends on."""
+    """Everything that a model's file depends on."""
 
     links: tuple[tuple[str, int, tuple[Visual, ...], tuple[Light, ...]], ...]
-    """Name, body, visuals and lights."""
+    """Name, body number, visuals and lights of each link."""
     roads: tuple[Road, ...]
     shadows: bool
 
@@ -44,24 +44,24 @@ class NamedFiles(Struct, frozen=True, kw_only=True):
 
 
 class WorldFiles:
-    """Files of the world of the last `update`."""
+    """Files of the world of the latest `update`."""
 
     def __init__(self) -> None:
         self._models: dict[str, tuple[_Appearance, _File]] = {}
         self._served: frozenset[str] = frozenset()
 
     def update(self, world: World, body_of: BodyOf, report: Diagnostics) -> tuple[NamedFiles, dict[str, bytes]]:
-        """Make the files of a world.
+        """Write the files of a world that changed.
 
         Args:
-            world: flat.
-            body_of: numbers of the links.
-            report: takes warnings of shapes that cannot be drawn.
+            world: flat world.
+            body_of: body numbers of the links.
+            report: receives warnings about shapes that cannot be drawn.
 
         Returns:
-            What the manifest names, and the content of the URLs that are new.
+            Entries for the manifest, and URL → content of new files.
         """
-        made: dict[str, bytes] = {}
+        contents: dict[str, bytes] = {}
         models: dict[str, tuple[_Appearance, _File]] = {}
         roads = _owner_of_roads(world)
         for model in world.models:
@@ -71,41 +71,47 @@ class WorldFiles:
                 models[model.name] = before
                 continue
             alone = replace(world, models=(model,), lights=(), roads=looks.roads)
-            models[model.name] = (looks, self._write(alone, body_of, made, report))
+            models[model.name] = (looks, self._write(alone, body_of, contents, report))
         self._models = models
-        lights = self._write_lights(world, made)
-        collisions = self._write(world, body_of, made, report, collisions=True)
+        lights = self._write_lights(world, contents)
+        collisions = self._write(world, body_of, contents, report, collisions=True)
         of_models = (FileUrl(id=name, url=file.url) for name, (_, file) in models.items())
         files = (FileUrl(id="", url=lights.url), *of_models)
         written = [lights, collisions, *(file for _, file in models.values())]
         resources = frozenset().union(*(file.resources for file in written))
         named = resources | {file.url for file in written}
-        new = {url: content for url, content in made.items() if url not in self._served}
+        new = {url: content for url, content in contents.items() if url not in self._served}
         self._served = named
         return NamedFiles(files=files, collisions=collisions.url, resources=tuple(sorted(resources))), new
 
-    def _write_lights(self, world: World, made: dict[str, bytes]) -> _File:
-        """Write the lights of the world itself; where no light is, those that cameras see by."""
+    def _write_lights(self, world: World, contents: dict[str, bytes]) -> _File:
+        """Write the lights of the world itself; without any light, the default lights of cameras."""
         alone = scene_from_world(replace(world, models=(), roads=()), Diagnostics())
         is_dark = not alone.lights and not any(link.lights for model in world.models for link in model.links)
-        return self._serve(replace(alone, lights=DEFAULT_LIGHTS) if is_dark else alone, [], [], made)
+        return self._serve(replace(alone, lights=DEFAULT_LIGHTS) if is_dark else alone, [], [], contents)
 
     def _write(
-        self, world: World, body_of: BodyOf, made: dict[str, bytes], report: Diagnostics, *, collisions: bool = False
+        self,
+        world: World,
+        body_of: BodyOf,
+        contents: dict[str, bytes],
+        report: Diagnostics,
+        *,
+        collisions: bool = False,
     ) -> _File:
         scene = scene_from_world(world, report, collisions=collisions)
         if collisions:
             scene = replace(scene, lights=())
         report_unreadable_textures(scene, report)
         poses = [model.world_from_model @ link.model_from_link for model in world.models for link in model.links]
-        return self._serve(scene, poses, [body_of(name) for name in (*scene.bodies, *scene.bones)], made)
+        return self._serve(scene, poses, [body_of(name) for name in (*scene.bodies, *scene.bones)], contents)
 
-    def _serve(self, scene: Scene, poses: list[Pose], bodies: list[int], made: dict[str, bytes]) -> _File:
+    def _serve(self, scene: Scene, poses: list[Pose], bodies: list[int], contents: dict[str, bytes]) -> _File:
         document = Document(embed=False)
         root = add_scene(document, scene, rows_from_poses(poses), bodies)
         glb = document.glb(root)
         url = f"{_FOLDER}{content_name(glb)}.glb"
-        made |= {url: glb, **{_FOLDER + name: content for name, content in document.files.items()}}
+        contents |= {url: glb, **{_FOLDER + name: content for name, content in document.files.items()}}
         return _File(url=url, resources=frozenset(_FOLDER + name for name in document.files))
 
 

@@ -1,4 +1,4 @@
-"""Saving of the running world as SDF, below the folder where the simulation was started."""
+"""Saving the running world as SDF, below the folder where the simulation was started."""
 
 import os
 import re
@@ -15,7 +15,7 @@ from trundle.robots.packages import Packages
 
 from ..requests.answers import FilesExist, SavedWorld, WorldText
 from .controls import reason_of
-from .uploaded_files import copies, needed_uploads, with_uploads_named
+from .uploaded_files import copies, needed_uploads, with_upload_uris
 
 _SUFFIXES = (".sdf", ".world")
 _MAX_LOST = 20
@@ -23,15 +23,15 @@ _MAX_WAITING = 4
 
 
 class WorldSaver:
-    """Writes worlds on a thread of its own; `respond` is called there with the request's id, an error or answer."""
+    """Writes worlds on its own thread; `respond` is called there with the request's id, an error or answer."""
 
     def __init__(self, respond: Callable[..., None], packages: Packages, root: Path) -> None:
-        """Prepare.
+        """Create it.
 
         Args:
             respond: answers a request.
-            packages: resolve URIs.
-            root: folder to write below.
+            packages: resolves URIs.
+            root: folder that worlds are saved below.
         """
         self._respond = respond
         self._packages = packages
@@ -39,13 +39,13 @@ class WorldSaver:
         self._thread = ThreadPoolExecutor(1, thread_name_prefix="trundle-page-save")
         self._waiting = 0
         self._newest: str | None = None
-        """Path from the root of the file that was saved last."""
+        """Path of the file saved last, relative to the root."""
         self._announced: str | None = None
 
     def offered_file(self, world: World) -> str | None:
-        """Return the path to offer, from the root; None: not writable.
+        """Return the path to offer for saving, relative to the root; None: the root is not writable.
 
-        The file that was saved last, the world's own, or one named after it.
+        It is the file saved last, the world's source file, or a name from the world's.
         """
         if not os.access(self._root, os.W_OK):
             return None
@@ -57,22 +57,22 @@ class WorldSaver:
         return f"{re.sub(r'[^A-Za-z0-9_-]+', '_', world.name).strip('_') or 'world'}.sdf"
 
     def poll_newest(self) -> bool:
-        """Tell if another file is the newest since the last call."""
-        is_other = self._newest != self._announced
+        """Tell if the file saved last has changed since the last call."""
+        is_new = self._newest != self._announced
         self._announced = self._newest
-        return is_other
+        return is_new
 
     def save(self, request_id: int, request: SaveWorld, world: World, seed: int) -> None:
-        """Write a world; returns at once.
+        """Queue a request to save a world; return at once.
 
         Args:
-            request_id: of the request.
-            request: where to write it.
-            world: flat, as it is now.
-            seed: of the simulation.
+            request_id: request to answer.
+            request: file to write.
+            world: flat world in its current state.
+            seed: simulation's seed.
 
         Raises:
-            UsageError: too many wait.
+            UsageError: too many requests wait.
         """
         if self._waiting >= _MAX_WAITING:
             raise UsageError(f"{_MAX_WAITING} worlds are being saved already")
@@ -84,7 +84,7 @@ class WorldSaver:
             self._respond(request_id, answer=self._saved(request, world, seed))
         except TrundleError as error:
             self._respond(request_id, reason_of(error))
-        except Exception as error:  # a world that the writer does not foresee; the simulation goes on
+        except Exception as error:  # a fault of the writer must not end the simulation
             self._respond(request_id, f"the world cannot be saved: {type(error).__name__}: {error}")
         finally:
             self._waiting -= 1
@@ -93,10 +93,10 @@ class WorldSaver:
         name = request.file
         file = self._root / "world.sdf" if name is None else find_world(self._root, name)
         saved = save_world(world, file=file, packages=self._packages, seed=seed)
-        sdf = with_uploads_named(saved.sdf, self._packages)
+        sdf = with_upload_uris(saved.sdf, self._packages)
         uploads = needed_uploads(sdf, self._packages)
         if name is None:
-            needed = (f"the uploaded model {each!r}: put its folder beside it" for each in uploads)
+            needed = (f"the uploaded model {model!r}: put its folder next to the file" for model in uploads)
             return WorldText(sdf=sdf.decode(), lost=(*needed, *saved.lost)[:_MAX_LOST])
         exists = save_files(self._root, {**copies(uploads, file.parent), file: sdf}, replace=request.replace)
         if exists is not None:
@@ -105,10 +105,10 @@ class WorldSaver:
         return SavedWorld(file=name, lost=saved.lost[:_MAX_LOST])
 
     def close(self) -> None:
-        """Stop after the world that is being saved."""
+        """Stop after the current world."""
         self._thread.shutdown(wait=False, cancel_futures=True)
 
 
 def find_world(root: Path, name: str) -> Path:
-    """Return the file of a world's name from the page; raises UsageError."""
+    """Return the path of a world's file; raises UsageError."""
     return find_target(root, name, example="worlds/mine.sdf", suffixes=_SUFFIXES)

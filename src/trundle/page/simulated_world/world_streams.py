@@ -1,4 +1,4 @@
-"""Streams of a simulated world to its page: the world itself, poses, lines, joints, the clock and camera pictures."""
+"""Streams of a simulated world to its page: the manifest, poses, lines, joints, the clock and camera pictures."""
 
 import time
 from collections.abc import Callable
@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.page import CONTACTS, JOINTS, LINES, POSES, RANGES, ClockState, PageServer, Recording, TimelineSpan
-from trundle.robots.model import World
+from trundle.robots.model import MeshFile, World
 from trundle.sim.realtime_pacer import RealtimePacer
 from trundle.sim.sensors import CameraReading, CameraSensor
 from trundle.sim.simulation import Snapshot
@@ -25,13 +25,13 @@ from .controls import Recorder
 from .drafting import NO_DRAFT, ShownDraft
 from .lines import plugin_lines
 from .manifest import camera_topic, single_axes, world_manifest
-from .missing_meshes import missing_meshes
 from .pose_history import PoseHistory
 from .series_sampler import SeriesSampler
 from .world_builder import BuiltWorld, WorldBuilder
 
 _MESHES = "meshes"
-"""Notice of the page."""
+"""Key of the page's notice about missing meshes."""
+_MAX_MISSING_NAMES = 12
 _FRAME_NS = 33_000_000
 """Period of poses and lines, in wall time [ns]."""
 _SLOW_NS = 3 * _FRAME_NS
@@ -39,7 +39,7 @@ _SLOW_NS = 3 * _FRAME_NS
 
 
 class WorldStreams:
-    """Sends the page what is watched; belongs to the simulation's thread."""
+    """Sends the watched streams to the page; belongs to the simulation's thread."""
 
     def __init__(
         self,
@@ -49,12 +49,12 @@ class WorldStreams:
         offered_file: Callable[[World], str | None],
         wall_ns: Callable[[], int] = time.monotonic_ns,
     ) -> None:
-        """Prepare; `show` sets the simulation.
+        """Create it; `show` sets the simulation.
 
         Args:
-            server: the page's.
-            has_graph: True if the page's server gets pictures from the ROS graph.
-            offered_file: returns the path to save a world at; None: it cannot be written.
+            server: page's server.
+            has_graph: True if the page's server receives camera pictures from the ROS graph.
+            offered_file: returns the path to offer for saving a world; None: the folder is not writable.
             wall_ns: the wall clock [ns].
         """
         self._server = server
@@ -70,25 +70,25 @@ class WorldStreams:
         self._builder = WorldBuilder()
         self._generation = server.generation
         self._cameras: set[CameraSensor] = set()
-        """Cameras whose pictures go to the page from here."""
+        """Cameras whose pictures are sent from here, not through the graph."""
         self._built: BuiltWorld | None = None
-        """World that the page has."""
+        """World that the page shows."""
         self._draft = NO_DRAFT
         self._frame_due_ns = self._slow_due_ns = 0
         self._state: ClockState | None = None
         self._missing: str | None = None
         self._shown_world: World | None = None
-        """World of the manifest."""
+        """World of the latest manifest."""
 
     def show(self, world: ShownWorld, recorder: Recorder | None) -> None:
-        """Show a world; arguments are those of `SimulationPage`."""
+        """Show a world; arguments as in `SimulationPage`."""
         self._world = world
         self._simulation = world.simulation
         self._recorder = recorder
         self._show_world()
 
     def _show_world(self) -> None:
-        """Show the world again after models came, went or changed; its files are made meanwhile."""
+        """Show the world after models were added, removed or changed; a thread writes its files."""
         simulation = self._simulation
         self._shown_world = simulation.world
         present = {model.name for model in simulation.models}
@@ -105,7 +105,7 @@ class WorldStreams:
             file=self._offered_file(simulation.world),
         )
         self._builder.build(simulation.world, manifest, {name: self._bodies[name] for name in bodies})
-        self._set_missing(missing_meshes(simulation.world))
+        self._set_missing(_missing_meshes(simulation.world))
         self._rays.set_sensors(sensors)
         self._ranges.set_sensors(sensors)
         self._contacts = ContactRows(simulation, self._bodies)
@@ -130,7 +130,7 @@ class WorldStreams:
         self._server.put_image(topic, reading.time_ns, reading.rgb)
 
     def update(self, pacer: RealtimePacer, *, paused: bool, at_once: bool = False) -> None:
-        """Send the page what is due: poses, lines and contacts at 30 Hz, joints and clock at 10 Hz, if watched."""
+        """Send the watched streams that are due: poses, lines and contacts at 30 Hz, joints and clock at 10 Hz."""
         self._series.sample(paused=paused)
         now = self._wall_ns()
         if now < self._frame_due_ns and not at_once:
@@ -166,20 +166,20 @@ class WorldStreams:
             self._server.set_world(self._with_draft(built), built.files)
 
     def show_draft(self, draft: ShownDraft) -> None:
-        """Show a model that is edited, beside the world."""
+        """Show the model that is being edited, next to the world."""
         self._draft = draft
         if self._built is not None:
             self._server.set_world(self._with_draft(self._built), draft.files)
 
     def show_offered_file(self) -> None:
-        """Offer another file to save the world at."""
+        """Update the path to offer for saving the world."""
         if self._built is not None:
             manifest = replace(self._built.manifest, file=self._offered_file(self._simulation.world))
             self._built = replace(self._built, manifest=manifest)
             self._server.set_world(self._with_draft(self._built), {})
 
     def _with_draft(self, built: BuiltWorld) -> Manifest:
-        """Return a manifest with the draft, whose files stay as long as it is there."""
+        """Return a manifest with the draft and its files."""
         resources = (*built.manifest.resources, *self._draft.resources)
         return replace(built.manifest, draft=self._draft.info, resources=resources)
 
@@ -203,5 +203,17 @@ class WorldStreams:
             self._server.put_state(state)
 
     def close(self) -> None:
-        """End the thread that makes files."""
+        """End the thread that writes files."""
         self._builder.close()
+
+
+def _missing_meshes(world: World) -> str | None:
+    """Return the number and names of missing meshes of visuals as text; None if all were found."""
+    geometries = (visual.geometry for model in world.models for link in model.links for visual in link.visuals)
+    meshes = (geometry for geometry in geometries if isinstance(geometry, MeshFile))
+    missing = sorted({mesh.uri for mesh in meshes if mesh.path is None})
+    if not missing:
+        return None
+    count = "1 mesh is missing" if len(missing) == 1 else f"{len(missing)} meshes are missing"
+    more = f" and {len(missing) - _MAX_MISSING_NAMES} more" if len(missing) > _MAX_MISSING_NAMES else ""
+    return f"{count}: {', '.join(missing[:_MAX_MISSING_NAMES])}{more}"

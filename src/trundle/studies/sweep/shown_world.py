@@ -48,7 +48,7 @@ def show_world(plan: Plan, row: Row, runner: RowRunner, at: PageAddress, result:
             pacer, paused, is_seen = RealtimePacer(1.0), False, False
             shorten_gil_interval()
             while not stop.is_set():
-                is_seen = is_seen or page.is_seen
+                is_seen = is_seen or page.is_watched
                 is_over = run.script.is_over or simulation.time_ns >= end_ns
                 if is_over and not is_reported:
                     is_reported = True

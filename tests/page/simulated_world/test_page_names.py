@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import trundle
-from trundle.page.simulated_world.titles import page_names
+from trundle.page.simulated_world.page import page_names
 
 _CAR = '<model name="car"><link name="base"/><link name="wheel"/><joint name="axle" type="revolute">\
 <parent>base</parent><child>wheel</child><axis><xyz>0 1 0</xyz></axis></joint></model>'
