@@ -1,4 +1,4 @@
-"""World behind /gazebo on a graph of its own."""
+"""World behind /gazebo on a graph of its own, for tests."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -20,7 +20,7 @@ class Gazebo:
 
     def __init__(self, loop: GraphLoop, uri: str, folder: Path) -> None:
         self.loop, self.folder = loop, folder
-        self.said: list[str] = []
+        self.lines: list[str] = []
         self.report = Diagnostics()
         self.world = GazeboWorld(
             graph=Graph(loop, uri, None, "127.0.0.1"),
@@ -28,14 +28,14 @@ class Gazebo:
             env={"HOME": str(folder)},
             report=self.report,
             folder=folder,
-            say=self.said.append,
+            say=self.lines.append,
             page=None,
         )
         self.host = NodeHost(simulator=self.world)
         self.client = Node("/client", loop=loop, master_uri=uri)
 
     def start(self, distro: str = "noetic", world: str = "") -> None:
-        """Start the server, with an empty world or that of a text."""
+        """Start the server, with an empty world or that of an SDF text."""
         words = ["-u", "-e", "ode"]
         if world:
             (self.folder / "w.world").write_text(world)
@@ -48,14 +48,14 @@ class Gazebo:
         self.loop.run(self.server.wait_registered())
 
     def call(self, name: str, kind: str = "std_srvs/Empty", **fields: Any) -> Message:
-        """Call a service of the server's."""
+        """Call a service of the server."""
         return self.loop.run(self.client.call_service(f"/gazebo/{name}", kind, fields), timeout_s=PATIENCE_S)
 
-    def spawn(self, xml: str, name: str, *, x: float = 0.0, **more: Any) -> Message:
+    def spawn(self, xml: str, name: str, *, x: float = 0.0, **fields: Any) -> Message:
         """Spawn a model from its text."""
         pose = {"position": {"x": x}}
         return self.call(
-            "spawn_sdf_model", "gazebo_msgs/SpawnModel", model_name=name, model_xml=xml, initial_pose=pose, **more
+            "spawn_sdf_model", "gazebo_msgs/SpawnModel", model_name=name, model_xml=xml, initial_pose=pose, **fields
         )
 
     def state(self, name: str, relative_to: str = "") -> Message:

@@ -1,4 +1,4 @@
-"""Commands that are ended while they cut hollow meshes."""
+"""Commands interrupted while they cut hollow meshes."""
 
 import os
 import signal
@@ -12,9 +12,9 @@ import pytest
 CORNERS = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
 
 
-def angle_iron(high: float) -> str:
+def angle_iron(height: float) -> str:
     """A closed L, which is hollow."""
-    points = [f"v {x} {y} {z}" for z in (0.0, high) for x, y in CORNERS]
+    points = [f"v {x} {y} {z}" for z in (0.0, height) for x, y in CORNERS]
     sides = [f"f {i + 1} {(i + 1) % 6 + 1} {(i + 1) % 6 + 7} {i + 7}" for i in range(6)]
     ends = [
         f"f {' '.join(map(str, face))}"
@@ -27,7 +27,7 @@ def angle_iron(high: float) -> str:
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="process groups are POSIX'")
 @pytest.mark.parametrize("command", ["run", "launch"])
-def test_ctrl_c_ends_it_at_once_and_without_a_traceback(command: str, tmp_path: Path) -> None:
+def test_ctrl_c_ends_mesh_cutting_at_once_without_a_traceback(command: str, tmp_path: Path) -> None:
     models = ""
     for i in range(60):
         (tmp_path / f"m{i}.obj").write_text(angle_iron(1 + i / 50))

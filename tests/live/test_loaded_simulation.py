@@ -20,9 +20,9 @@ from trundle.spatial import Wrench
 
 class Pusher(Plugin):
     def __init__(self, model, node):
-        self.model, self.heard = model, []
+        self.model, self.speeds = model, []
         if node is not None:
-            node.subscribe("/said", "std_msgs/Float64", lambda message: self.heard.append(message.data))
+            node.subscribe("/speed", "std_msgs/Float64", lambda message: self.speeds.append(message.data))
 
     @classmethod
     def load(cls, sim, model, node, tag):
@@ -30,8 +30,8 @@ class Pusher(Plugin):
 
     def before_step(self, sim):
         self.model.links[0].apply_wrench(Wrench(force=(2.0, 0.0, 9.8)))
-        if self.heard:
-            self.model.links[0].set_twist(type(self.model.twist)((self.heard.pop(), 0.0, 0.0)))
+        if self.speeds:
+            self.model.links[0].set_twist(type(self.model.twist)((self.speeds.pop(), 0.0, 0.0)))
 """
 
 
@@ -44,7 +44,7 @@ def world(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return file
 
 
-def test_plugins_run_where_they_are_asked_for(world: Path) -> None:
+def test_plugins_run_only_on_request(world: Path) -> None:
     """x = F t² / 2m of a push of 2 N on 1 kg."""
     still, pushed = trundle.load(world), trundle.load(world, plugins=True)
     for sim in (still, pushed):
@@ -56,8 +56,8 @@ def test_plugins_run_where_they_are_asked_for(world: Path) -> None:
     assert [line for line in pushed.report.warnings if "libblower.so" in line]
 
 
-def test_a_spawned_model_comes_and_goes_with_its_plugins_and_sensors(world: Path) -> None:
-    """The copy is pushed as the model that the file has, and its imu has a topic until it is deleted."""
+def test_plugins_and_sensors_start_and_end_with_a_spawned_model(world: Path) -> None:
+    """A plugin pushes the copy like the file's model, and its IMU has a topic until it is deleted."""
     with trundle.load(world, plugins=True, ros=True) as sim:
         imu = Sensor(name="turn", type="imu", at=sim.world.at, update_rate_hz=100.0)
         model = sim["m"].model
@@ -83,7 +83,7 @@ def test_a_spawned_model_comes_and_goes_with_its_plugins_and_sensors(world: Path
         assert sim.sensor_names == ()
 
 
-def test_a_ros_graph_of_its_own_carries_clock_and_commands(world: Path) -> None:
+def test_own_ros_graph_carries_clock_and_commands(world: Path) -> None:
     with trundle.load(world, plugins=True, ros=True) as sim:
         times: list[float] = []
         node = sim.make_node("/me")
@@ -92,9 +92,9 @@ def test_a_ros_graph_of_its_own_carries_clock_and_commands(world: Path) -> None:
             "rosgraph_msgs/Clock",
             lambda message: times.append(message.clock.sec + message.clock.nanosec / 1e9),
         )
-        said = node.advertise("/said", "std_msgs/Float64")
+        speed = node.advertise("/speed", "std_msgs/Float64")
         sim.run(0.2)
-        said.publish({"data": 7.0})
+        speed.publish({"data": 7.0})
         sim.run(0.2)
         assert sim["m"].twist.linear[0] > 7.0
         assert times[-1] == pytest.approx(0.4, abs=0.011)
@@ -112,7 +112,7 @@ def test_another_master_is_joined_by_its_uri(world: Path) -> None:
         sim.run(0.1)
 
 
-def test_a_master_that_does_not_answer_is_named_and_nothing_stays_open(world: Path) -> None:
+def test_an_unreachable_master_is_named_and_no_thread_is_left(world: Path) -> None:
     threads = threading.active_count()
     with pytest.raises(UsageError, match=r"no ROS master answers at http://192\.0\.2\.1:1 "):
         trundle.load(world, ros="http://192.0.2.1:1")

@@ -1,4 +1,4 @@
-"""State logs: of gzserver -r, whose models come and go, and of the page."""
+"""State logs of gzserver -r and of the page."""
 
 from pathlib import Path
 
@@ -23,7 +23,7 @@ def _record(gazebo: Gazebo, folder: Path) -> None:
     gazebo.loop.run(server.wait_registered())
 
 
-def test_each_file_holds_a_world_until_a_model_comes(bare_gazebo: Gazebo, tmp_path: Path) -> None:
+def test_each_spawned_model_starts_a_new_state_log(bare_gazebo: Gazebo, tmp_path: Path) -> None:
     folder, gazebo = tmp_path / "logs", bare_gazebo
     _record(gazebo, folder)
     gazebo.call("unpause_physics")
@@ -43,22 +43,22 @@ def test_each_file_holds_a_world_until_a_model_comes(bare_gazebo: Gazebo, tmp_pa
         4.9**0.5 * (last_s - first_s), abs=0.02
     )
     assert '<model name="ball"' in log.sdf
-    assert [said for said in gazebo.said if "state-2.log; trundle play shows it" in said]
+    assert [line for line in gazebo.lines if "state-2.log; trundle play shows it" in line]
 
 
-def test_a_folder_that_cannot_be_made_is_said_and_the_world_goes_on(bare_gazebo: Gazebo, tmp_path: Path) -> None:
+def test_an_unwritable_log_folder_is_reported_and_the_world_continues(bare_gazebo: Gazebo, tmp_path: Path) -> None:
     (tmp_path / "taken").write_text("")
     _record(bare_gazebo, tmp_path / "taken")
     bare_gazebo.call("unpause_physics")
-    until(lambda: any("recording ends" in said for said in bare_gazebo.said))
+    until(lambda: any("recording ends" in line for line in bare_gazebo.lines))
     bare_gazebo.until_s(bare_gazebo.time_s + 0.05)
 
 
-def test_a_person_records_parts_of_a_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_page_recording_holds_the_recorded_part_of_a_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    said: list[str] = []
+    lines: list[str] = []
     sim = trundle.load("model://ball")
-    recording = PageRecording(sim, said.append)
+    recording = PageRecording(sim, lines.append)
     assert recording.since_ns is None
 
     sim.run(0.5)
@@ -73,10 +73,10 @@ def test_a_person_records_parts_of_a_run(tmp_path: Path, monkeypatch: pytest.Mon
     (file,) = tmp_path.glob("recorded/*/state.log")
     log = read_state_log(file)
     assert (log.times[0], log.times[-1]) == pytest.approx((0.5, 1.5))
-    assert [str(file.relative_to(tmp_path)) in line for line in said] == [True]
+    assert [str(file.relative_to(tmp_path)) in line for line in lines] == [True]
 
 
-def test_two_recordings_of_one_second_are_both_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_two_recordings_in_one_second_are_both_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     sim = trundle.load("model://ball")
     recording = PageRecording(sim, lambda _: None)

@@ -22,7 +22,7 @@ _LAUNCHES = (
     "husky+husky/husky_gazebo/launch/empty_world.launch",
 )
 """A robot without a simulation, one in a world, and one that spawners of controllers wait for."""
-_FAILED = re.compile(r"\[FATAL\]|Traceback|has died|cannot be started|does not come while time is held")
+_FAILED = re.compile(r"\[FATAL\]|Traceback|has died|cannot be started|does not arrive while time is held")
 _WORLD = """<launch><node pkg="gazebo_ros" type="gzserver" name="gazebo" args="worlds/empty.world"/></launch>"""
 
 

@@ -19,7 +19,7 @@ class CallQueue:
         self._waiting.append((call, self._loop.work.start("the simulation's next step")))
 
     def has_pending(self) -> bool:
-        """True if a function waits."""
+        """True if a function is queued."""
         return bool(self._waiting)
 
     def run_pending(self) -> None:

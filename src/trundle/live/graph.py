@@ -11,8 +11,8 @@ from trundle.base.signals import blind_wait
 from trundle.ros import Core, GraphLoop, MasterProxy, MasterUnreachableError, PortTakenError, RosError, host_and_port
 
 DEFAULT_PORT = 11311
-_FEWEST_FILES = 32
-"""Files and sockets of a master with a node or two; with fewer, one of them waits for a connection without end."""
+_MIN_FILES = 32
+"""File descriptors for a master with two nodes; with fewer, connections wait for ever."""
 _LOCAL = frozenset({"localhost", "127.0.0.1", "::1", "0.0.0.0"})
 
 
@@ -38,21 +38,21 @@ class Graph:
         """Join the master of ROS_MASTER_URI, else the default one; start it if none answers.
 
         Args:
-            environment: ROS_MASTER_URI is read from it.
+            environment: environment variables; ROS_MASTER_URI is read.
             host: address that a master started here binds.
-            ports: without ROS_MASTER_URI, start a new master on the first free one (0: any) rather than join the
-                default one, so that ten runs side by side do not meet.
-            rosout: True if a master that is started here gets a /rosout node.
-            log_folder: makes the folder for the logs of a master that is started here, from the run_id.
+            ports: without ROS_MASTER_URI, start a new master at the first free port (0: any) rather than join the
+                default one, so that runs side by side have separate graphs.
+            rosout: True: a master started here gets a /rosout node.
+            log_folder: run_id → log folder of a master started here, which it creates.
 
         Raises:
-            UsageError: ROS_MASTER_URI is no address, no master answers on the other machine that it names, or this
-                process may open too few files.
+            UsageError: ROS_MASTER_URI is invalid or names another machine without a master, or this process may open
+                too few files.
         """
-        if few := too_few_files(_FEWEST_FILES):
-            raise UsageError(few)
-        named = environment.get("ROS_MASTER_URI")
-        uri = named or f"http://localhost:{DEFAULT_PORT}"
+        if shortage := too_few_files(_MIN_FILES):
+            raise UsageError(shortage)
+        uri_from_env = environment.get("ROS_MASTER_URI")
+        uri = uri_from_env or f"http://localhost:{DEFAULT_PORT}"
         try:
             machine, port = host_and_port(uri)
         except RosError as error:
@@ -60,14 +60,14 @@ class Graph:
         loop = GraphLoop()
         loop.start()
         try:
-            if (named or not ports) and _answers(uri):
+            if (uri_from_env or not ports) and _answers(uri):
                 return cls(loop, uri, None, host)
             if machine not in _LOCAL:
                 raise UsageError(
                     f"no ROS master answers at {uri} (ROS_MASTER_URI); start one there, or unset ROS_MASTER_URI"
                 )
             new_core = partial(Core, loop, host=host, rosout=rosout, log_folder=log_folder)
-            core = _start_core(loop, new_core, (port,) if named or not ports else ports)
+            core = _start_core(loop, new_core, (port,) if uri_from_env or not ports else ports)
             return cls(loop, core.uri, core, host)
         except BaseException:
             loop.stop()
@@ -75,7 +75,7 @@ class Graph:
 
     @property
     def summary(self) -> str:
-        """URI of the master, and whether it was started or joined, on one line."""
+        """One line: URI of the master, and whether it was started or joined."""
         return f"ROS master started: {self.master_uri}" if self.core is not None else _joined(self.master_uri)
 
     def close(self) -> None:
@@ -94,7 +94,7 @@ class Graph:
 
 
 def master_notice(environment: Mapping[str, str]) -> str | None:
-    """One line on the master of ROS_MASTER_URI, which `Graph.open` will join; None if none answers there."""
+    """One line about the master of ROS_MASTER_URI, which `Graph.open` will join; None if it does not answer."""
     uri = environment.get("ROS_MASTER_URI")
     try:
         return None if not uri or not _answers(uri) else f"{_joined(uri)}, which ROS_MASTER_URI names"
@@ -116,7 +116,7 @@ def _answers(uri: str) -> bool:
 
 
 def _start_core(loop: GraphLoop, new_core: Callable[..., Core], ports: Sequence[int]) -> Core:
-    """Start a master at the first port that is free.
+    """Start a master at the first free port.
 
     Raises:
         PortTakenError: all are taken.
@@ -130,4 +130,4 @@ def _start_core(loop: GraphLoop, new_core: Callable[..., Core], ports: Sequence[
                 raise
             continue
         return core
-    raise AssertionError("there is a port to try")
+    raise AssertionError("ports is not empty")

@@ -1,4 +1,4 @@
-"""World in motion whose models come and go with their sensors, plugins, topics and nodes."""
+"""A running world whose models are spawned and deleted with their sensors, plugins, topics and nodes."""
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
@@ -21,10 +21,10 @@ if TYPE_CHECKING:  # a world without a graph, a timeline or plugins starts witho
 
 
 class LiveWorld:
-    """One simulation, and what measures and moves its models.
+    """One simulation, with the sensors, plugins, topics and nodes of its models.
 
-    Sensors, plugins, topics and nodes come and go with their model, whether a person at the page, a service, a plugin
-    or a program spawns and deletes it. A live world belongs to the simulation's thread.
+    They start and end with their model, whether the page, a service, a plugin or a program spawns and deletes it.
+    A live world belongs to the simulation's thread.
     """
 
     def __init__(
@@ -37,40 +37,40 @@ class LiveWorld:
         renderer: "RendererName" = "cpu",
         has_sensors: bool = True,
     ) -> None:
-        """Follow the models; the other parts begin with `start_sensors`, `load_plugins` and `keep_timeline`.
+        """Follow spawns and deletions; `start_sensors`, `load_plugins` and `keep_timeline` start the other parts.
 
         Args:
-            simulation: the running one.
-            packages: finder of models.
-            environment: variables that locate plugins.
+            simulation: running simulation.
+            packages: finds models.
+            environment: environment variables that locate plugins.
             say: prints which plugins are loaded.
             renderer: draws the cameras' images.
-            has_sensors: False: nothing measures.
+            has_sensors: False: no sensor measures.
         """
         self.simulation = simulation
         self.packages = packages
         self.environment = environment
         self.timeline: Timeline | None = None
-        """Last minutes of the simulation; None: it cannot go back."""
+        """Last minutes of the simulation; None: not recorded."""
         self.on_parts: Callable[[], None] = lambda: None
-        """Called after sensors or plugins came or went with a model."""
+        """Called after sensors or plugins started or ended with a model."""
         self._say = say
         self._renderer: RendererName = renderer
         self._has_sensors = has_sensors
         self._interfaces: ModelInterfaces | None = None
-        self._arriving: Robot | None = None
+        self._spawning_robot: Robot | None = None
         """URDF of the model that is being spawned."""
         self._robots: dict[ModelHandle, Robot] = {}
         self._plugins: dict[ModelHandle, list[Plugin]] = {}
-        self._known = list(simulation.models)
-        self._seen_changes: int = 0
+        self._followed = list(simulation.models)
+        self._timeline_changes: int = 0
         """`_interface_changes` when the timeline began."""
         self._starts_sensors = self._loads_plugins = self._is_timeline_due = False
         simulation.on_change(self._follow_models)
 
     @cached_property
     def mounted(self) -> "MountedSensors | None":
-        """Sensors by name, mounted on first use; None: nothing measures."""
+        """Sensors by name, mounted on first use; None: no sensor measures."""
         from trundle.sim.renderers import RENDERERS
         from trundle.sim.sensors import MountedSensors
 
@@ -83,7 +83,7 @@ class LiveWorld:
 
     @property
     def image_count(self) -> int:
-        """Number of camera images that were drawn."""
+        """Number of rendered camera images."""
         return 0 if self.mounted is None else sum(camera.image_count for camera in self.mounted.cameras)
 
     def robot(self, model: str) -> "Robot | None":
@@ -93,13 +93,13 @@ class LiveWorld:
     # -- parts
 
     def start_sensors(self) -> None:
-        """Start all sensors, and from now on those of spawned models; each measures while it has a listener."""
+        """Start all sensors, and from now on those of spawned models; each measures while it has subscribers."""
         self._starts_sensors = True
         if self.mounted is not None:
             self.mounted.start()
 
     def join_graph(self, interfaces: "ModelInterfaces") -> None:
-        """Advertise the sensors' topics, and give each plugin that is loaded later a node."""
+        """Advertise the sensors' topics, and make a node for each plugin loaded later."""
         self._interfaces = interfaces
         for model in self.simulation.models:
             self._advertise(model)
@@ -113,11 +113,11 @@ class LiveWorld:
         load_world_plugins(self.simulation, make_node, self.environment, say=self._say)
 
     def keep_timeline(self, limit_bytes: int) -> None:
-        """Keep the last minutes, to go back to; `limit_bytes` is the memory of the saved states."""
+        """Record the last minutes, for seeking; `limit_bytes` is the memory of the saved states."""
         from trundle.sim.timeline import Timeline
 
         self.timeline = Timeline(self.simulation, roots=self._plugin_list, limit_bytes=limit_bytes)
-        self._seen_changes = self._interface_changes
+        self._timeline_changes = self._interface_changes
 
     # -- commands
 
@@ -126,7 +126,7 @@ class LiveWorld:
 
         Args:
             until_ns: time [ns].
-            simulate: simulates up to a time; None: `Simulation.advance`.
+            simulate: simulates up to a time [ns]; None: `Simulation.advance`.
         """
         simulate = simulate or self.simulation.advance
         if self.timeline is None:
@@ -136,10 +136,10 @@ class LiveWorld:
             self.timeline.advance(until_ns, simulate)
 
     def do(self, command: Callable[[Simulation], object]) -> None:
-        """Give the simulation a command, which the timeline repeats.
+        """Run a command on the simulation; the timeline repeats it.
 
         Raises:
-            TrundleError: of the command.
+            TrundleError: the command raised it.
         """
         if self.timeline is None:
             command(self.simulation)
@@ -148,26 +148,26 @@ class LiveWorld:
             self.timeline.do(command)
 
     def spawn(self, model: "Model", robot: "Robot | None" = None) -> None:
-        """Add a model; if it has sensors or plugins, the timeline begins again.
+        """Add a model; if it has sensors or plugins, the timeline restarts.
 
         Args:
-            model: placed at its pose.
-            robot: URDF that it came from.
+            model: model to add at its pose.
+            robot: URDF from which the model was read.
 
         Raises:
-            TrundleError: the name is taken, or MuJoCo cannot simulate it; nothing has changed.
+            TrundleError: the name is in use, or MuJoCo cannot simulate it; nothing has changed.
         """
-        self._arriving = robot
+        self._spawning_robot = robot
         try:
             self._do_or_restart(model, lambda simulation: simulation.spawn(model))
         finally:
-            self._arriving = None
+            self._spawning_robot = None
 
     def delete(self, name: str) -> None:
-        """Delete a model; if it has sensors or plugins, the timeline begins again.
+        """Delete a model; if it has sensors or plugins, the timeline restarts.
 
         Raises:
-            UsageError: no such model; the message lists the models there are.
+            UsageError: no such model; the message lists all models.
         """
         self._do_or_restart(self.simulation[name].model, lambda simulation: simulation.delete(name))
 
@@ -179,7 +179,7 @@ class LiveWorld:
     # -- inside
 
     def _do_or_restart(self, model: "Model", command: Callable[[Simulation], object]) -> None:
-        """Do what a timeline repeats for a bare model, and after which it begins again for one with parts."""
+        """Run a command that the timeline repeats; restart the timeline instead if the model has sensors or plugins."""
         if has_sensors_or_plugins(model):
             command(self.simulation)
             self._restart_timeline_if_due()
@@ -187,11 +187,11 @@ class LiveWorld:
             self.do(command)
 
     def _restart_timeline_if_due(self) -> None:
-        """Begin the timeline again after a model with parts, or a plugin's controller with its topics, came or went."""
+        """Restart the timeline after sensors, plugins or topics of a plugin's controller were added or removed."""
         changes = self._interface_changes
-        if self.timeline is not None and (self._is_timeline_due or changes != self._seen_changes):
+        if self.timeline is not None and (self._is_timeline_due or changes != self._timeline_changes):
             self.timeline.restart(self._plugin_list)
-        self._is_timeline_due, self._seen_changes = False, changes
+        self._is_timeline_due, self._timeline_changes = False, changes
 
     @property
     def _interface_changes(self) -> int:
@@ -202,12 +202,12 @@ class LiveWorld:
         return [plugin for plugins in self._plugins.values() for plugin in plugins]
 
     def _follow_models(self) -> None:
-        """Start what belongs to models that were spawned, and end what belongs to those that were deleted."""
-        before, models = self._known, self.simulation.models
-        self._known = list(models)
-        known, present = set(map(id, before)), set(map(id, models))
-        spawned = [model for model in models if id(model) not in known]
-        deleted = [model for model in before if id(model) not in present]
+        """Start sensors, topics and plugins of spawned models, and end those of deleted ones."""
+        followed, models = self._followed, self.simulation.models
+        self._followed = list(models)
+        old_ids, new_ids = set(map(id, followed)), set(map(id, models))
+        spawned = [model for model in models if id(model) not in old_ids]
+        deleted = [model for model in followed if id(model) not in new_ids]
         if not spawned and not deleted:
             return
         changes_parts = any(has_sensors_or_plugins(model.model) for model in (*spawned, *deleted))
@@ -217,8 +217,8 @@ class LiveWorld:
             self.mounted.start()
         for model in deleted:
             self._unload(model)
-        if self._arriving is not None:
-            self._robots[spawned[0]] = self._arriving
+        if self._spawning_robot is not None:
+            self._robots[spawned[0]] = self._spawning_robot
         for model in spawned:
             self._advertise(model)
             if self._loads_plugins:

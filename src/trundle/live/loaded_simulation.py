@@ -25,7 +25,7 @@ if TYPE_CHECKING:  # a simulation without a graph, or without use of its sensors
 
 
 class LoadedSimulation(Simulation):
-    """One world in motion, with its sensors, plugins and ROS graph.
+    """A running world, with its sensors, plugins and ROS graph.
 
     If it is part of a ROS graph, `close` it, or use it in a `with` statement.
     """
@@ -42,11 +42,11 @@ class LoadedSimulation(Simulation):
         """Compile a world; time is zero.
 
         Args:
-            loaded: the world to compile.
-            report: takes repairs by physics.
-            environment: locates models and plugins; ROS_MASTER_URI is the master to join.
-            seed: of all random numbers.
-            compiled: the world, compiled already.
+            loaded: world to compile.
+            report: collects findings of physics.
+            environment: environment variables that locate models and plugins; ROS_MASTER_URI names the master to join.
+            seed: seed of all random numbers.
+            compiled: the compiled world; None: compile it.
         """
         super().__init__(loaded.flat, report, seed=seed, compiled=compiled)
         self._loaded = loaded
@@ -60,7 +60,7 @@ class LoadedSimulation(Simulation):
             name: `model::link::sensor`, as in Gazebo, or a unique end of it; of a multicamera: `sensor/camera`.
 
         Raises:
-            UsageError: none or several; the message lists the names there are.
+            UsageError: none or several; the message lists all names.
         """
         return self._sensors.camera(name)
 
@@ -71,15 +71,15 @@ class LoadedSimulation(Simulation):
             name: `model::link::sensor`, as in Gazebo, or a unique end of it; of a joint: `model::joint::sensor`.
 
         Raises:
-            UsageError: none or several; the message lists the names there are.
+            UsageError: none or several; the message lists all names.
         """
         return self._sensors.sensor(name)
 
     def range_sensor(self, name: str) -> "RangeSensor":
-        """Lidar or ray sensor itself by name, for readings with another noise than its own.
+        """Lidar or ray sensor by name, for readings with a different noise.
 
         Raises:
-            UsageError: none or several, or of another type; the message lists the names there are.
+            UsageError: none or several, or of another type; the message lists all names.
         """
         return self._sensors.range_sensor(name)
 
@@ -95,7 +95,7 @@ class LoadedSimulation(Simulation):
 
     @cached_property
     def live(self) -> "LiveWorld":
-        """Sensors, plugins and topics, which come and go with their models; begun on first use."""
+        """Sensors, plugins and topics, which start and end with their models; made on first use."""
         from .live_world import LiveWorld
 
         packages = Packages(self._environment, start=Path.cwd())
@@ -136,7 +136,7 @@ class LoadedSimulation(Simulation):
         """URI of its ROS master.
 
         Raises:
-            UsageError: it has no ROS graph.
+            UsageError: the simulation has no ROS graph.
         """
         return self._graph.graph.master_uri
 
@@ -144,7 +144,7 @@ class LoadedSimulation(Simulation):
         """Make a node on simulation time; its callbacks run on this thread, between two steps.
 
         Raises:
-            UsageError: the simulation is part of no graph.
+            UsageError: the simulation has no ROS graph.
         """
         return self._graph.make_node(name)
 

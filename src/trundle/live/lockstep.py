@@ -7,17 +7,17 @@ from collections.abc import Callable
 from trundle.ros import GraphLoop, PendingWork, StepRecorder
 
 _STARTING_PASSES = 50
-"""Passes of the idle loop that count as settled while nodes start: they do more between two calls."""
+"""Idle passes of the loop that count as settled while nodes start, when they do more between two calls."""
 _ANSWER_S = 10.0
-"""Silence [s] after which an answer is taken to need time to pass: a service may sleep, and so may another program."""
+"""Silence [s] after which an answer counts as needing ROS time to pass, as of a service that sleeps."""
 _ANSWER_PASSES = 1000
-"""Passes of the loop in that silence; a process that is stopped for a minute makes none."""
+"""Minimum passes of the loop in that silence; a process stopped for a minute makes none."""
 
 
 class Lockstep:
     """Holds time at zero while a launch starts, at each step until the nodes have settled, and at the end.
 
-    What this process does is waited for without a time limit, and `GraphLoop` says for what.
+    It waits for this process's own work without a time limit; `GraphLoop` prints what it waits for.
     """
 
     def __init__(
@@ -33,17 +33,17 @@ class Lockstep:
 
         Args:
             loop: loop of the nodes.
-            end_ns: end of time [ns]; None: open.
+            end_ns: end of the run [ns]; None: unlimited.
             recorder: writes the messages of each step.
-            say: prints that a service did not answer while time was held.
-            settle: called at each time at which the nodes have settled; True is the end, too.
+            say: prints which answers did not arrive while time was held.
+            settle: called at each time at which the nodes have settled; True ends the run.
         """
         self._settle = settle
         self._loop = loop
         self._end_ns = end_ns
         self._recorder = recorder
         self._say: Callable[[str], None] | None = say
-        self._begun = threading.Event()
+        self._has_begun = threading.Event()
         self.over = threading.Event()
         """Set when the end is reached and recorded."""
 
@@ -61,25 +61,25 @@ class Lockstep:
 
     def start(self) -> None:
         """Let time advance."""
-        self._begun.set()
+        self._has_begun.set()
 
     @property
     def is_ready(self) -> bool:
         """True if time may advance now."""
-        return self._begun.is_set() and not self.over.is_set()
+        return self._has_begun.is_set() and not self.over.is_set()
 
     def hold(self) -> None:
-        """Hold time again, at zero, while nodes are started again."""
-        self._begun.clear()
+        """Hold time at zero again, while nodes restart."""
+        self._has_begun.clear()
         self.over.clear()
 
     def rewind(self) -> None:
-        """Let time advance again after the end, to the same one."""
+        """Let time advance again after the end, to the same end."""
         self.over.clear()
 
-    def target_ns(self, wanted_ns: int) -> int:
-        """Time to advance to [ns]: at most the end."""
-        return wanted_ns if self._end_ns is None else min(wanted_ns, self._end_ns)
+    def target_ns(self, time_ns: int) -> int:
+        """Clamp a target time [ns] to the end of the run."""
+        return time_ns if self._end_ns is None else min(time_ns, self._end_ns)
 
     def wait_settled(
         self, run_calls: Callable[[], None], is_called: Callable[[], bool], is_ending: Callable[[], bool]
@@ -88,7 +88,7 @@ class Lockstep:
 
         Args:
             run_calls: runs the functions that nodes queued for the simulation.
-            is_called: True if there are such functions.
+            is_called: True if functions are queued.
             is_ending: True ends the wait.
         """
         silence = _Silence(self._loop.work)
@@ -107,33 +107,33 @@ class Lockstep:
             self.over.set()
 
     def _check(self, silence: "_Silence") -> None:
-        """Wait no more for answers that need time to pass."""
+        """Stop waiting for answers that need time to pass."""
         if not silence.is_over():
             return
         names = self._loop.work.abandon_answers()
         if self._say is not None:
             self._say(
-                f"{', '.join(names)} does not come while time is held; time goes on, "
+                f"{', '.join(names)} does not arrive while time is held; time advances, "
                 "but another run may differ from this one"
             )
             self._say = None
 
 
 class _Silence:
-    """Time during which nothing but answers is waited for, and none comes; asked at each pass of the loop."""
+    """Timer of a wait for answers only, none of which arrives; polled at each pass of the loop."""
 
     def __init__(self, work: PendingWork) -> None:
         self._work = work
         self._begin()
 
     def _begin(self) -> None:
-        self._seen = self._work.changes
+        self._seen_changes = self._work.changes
         self._start_s = time.monotonic()
         self._passes = 0
 
     def is_over(self) -> bool:
-        """True once the silence is long enough."""
-        if self._seen != self._work.changes or not self._work.awaits_only_answers:
+        """True after a sufficient number of passes and seconds."""
+        if self._seen_changes != self._work.changes or not self._work.awaits_only_answers:
             self._begin()
             return False
         self._passes += 1

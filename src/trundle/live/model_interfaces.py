@@ -11,7 +11,7 @@ from trundle.sim.simulation import ModelHandle, Simulation
 
 
 class ModelInterfaces:
-    """Topics and nodes of the models of one simulation, which end with their model."""
+    """Topics and nodes of one simulation's models, which end with their model."""
 
     def __init__(
         self,
@@ -26,11 +26,11 @@ class ModelInterfaces:
 
         Args:
             node: publishes the sensors' readings.
-            static_broadcaster: of the node's /tf_static.
-            simulation: of the models.
-            make_node: makes a plugin's node of a name.
-            frames: names of the sensors' frames; None: those that robot_state_publisher sends if a model is the only
-                robot, else scoped ones.
+            static_broadcaster: broadcaster of the node's /tf_static.
+            simulation: the models' simulation.
+            make_node: makes a plugin's node from its name.
+            frames: names of the sensors' frames; None: robot_state_publisher's if a model is the only robot, else
+                scoped names.
         """
         self._node = node
         self._static_broadcaster = static_broadcaster
@@ -39,10 +39,10 @@ class ModelInterfaces:
         self._frames = frames
         self._endpoints: dict[ModelHandle, list[Endpoint]] = {}
         self._nodes: dict[ModelHandle | None, list[Node]] = {}
-        """Nodes of plugins; None: of the world's."""
+        """Nodes of each model's plugins; None: of the world's plugins."""
 
     def node_maker(self, model: ModelHandle | None) -> Callable[[str], Node]:
-        """Return a function that makes nodes for the plugins of a model; None: of the world."""
+        """Return a function that makes nodes for a model's plugins; None: for the world's plugins."""
 
         def make(name: str) -> Node:
             node = self._make_node(name)
@@ -61,10 +61,10 @@ class ModelInterfaces:
         """Advertise the topics of the sensors of a model.
 
         Args:
-            model: with the sensors.
-            cameras: of the model.
-            sensors: the others.
-            lone_robot: URDF of the model, if it is the only robot.
+            model: model with the sensors.
+            cameras: the model's cameras.
+            sensors: the model's other sensors.
+            lone_robot: the model's URDF, if it is the only robot.
         """
         if not cameras and not sensors:
             return
@@ -79,18 +79,18 @@ class ModelInterfaces:
             make_sensor_topics(node, self._static_broadcaster, silent_sensors, names)
 
     def unload(self, model: ModelHandle) -> None:
-        """Shut down the nodes of a deleted model; unregister its topics unless another model has them, too."""
+        """Shut down the nodes of a deleted model; unregister its topics unless another model shares them."""
         for node in self._nodes.pop(model, []):
             node.loop.run(node.shutdown())
         endpoints = self._endpoints.pop(model, [])
-        shared = {id(each) for others in self._endpoints.values() for each in others}
+        shared = {id(endpoint) for others in self._endpoints.values() for endpoint in others}
         for endpoint in endpoints:
             if id(endpoint) not in shared:
                 endpoint.unregister()
 
     @property
     def changes(self) -> int:
-        """Number of topics and services that the plugins' nodes have added or removed so far."""
+        """Number of topics and services that the plugins' nodes have added or removed."""
         return sum(node.endpoints.changes for nodes in self._nodes.values() for node in nodes)
 
     def close(self) -> None:

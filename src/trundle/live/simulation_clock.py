@@ -1,11 +1,11 @@
-"""Time of a simulation's nodes."""
+"""Clock of a simulation's nodes."""
 
 from trundle.ros import GraphLoop, SimClock
 from trundle.sim.simulation import Simulation
 
 
 class SimulationClock(SimClock):
-    """Simulation time, exact at every step, also while a timeline repeats it; sleeping nodes wake as `set` says."""
+    """Simulation time, exact at every step, also while a timeline repeats it; `set` wakes sleeping nodes."""
 
     def __init__(self, loop: GraphLoop, simulation: Simulation) -> None:
         super().__init__(loop)

@@ -12,7 +12,7 @@ from trundle.sim.simulation import Simulation, Snapshot, StateRecorder
 
 
 def start_state_log(path: Path, simulation: Simulation, world: World, report: Diagnostics) -> StateRecorder:
-    """Start a log with the current state; `world` is the one that `trundle play` will show.
+    """Start a log with the current state; `trundle play` shows `world`.
 
     Raises:
         OSError: it cannot be written.
@@ -51,7 +51,7 @@ class RunRecorder:
 
 
 class WorldRecorder:
-    """Hook that logs a world whose models come and go; each change starts the next file."""
+    """Hook that logs a world with changing models; each change starts the next file."""
 
     period_ns = StateRecorder.period_ns
 
@@ -59,9 +59,9 @@ class WorldRecorder:
         """Record into `state.log`, then `state-2.log` and so on.
 
         Args:
-            simulation: the one to record.
-            folder: is made; files of earlier recordings are overwritten.
-            say: prints each file, and a failed write.
+            simulation: simulation to record.
+            folder: created if needed; files of earlier recordings are overwritten.
+            say: prints each file's path, and a failed write.
         """
         self._simulation = simulation
         self._folder = folder
@@ -106,14 +106,14 @@ class WorldRecorder:
 
 
 class PageRecording:
-    """Recording that a person at the page begins and ends, each into a folder of its own."""
+    """Recordings started and ended at the page, each into a new folder."""
 
     def __init__(self, simulation: Simulation, say: Callable[[str], None]) -> None:
         """Prepare.
 
         Args:
-            simulation: the one to record.
-            say: prints the files' names.
+            simulation: simulation to record.
+            say: prints the files' paths.
         """
         self._simulation = simulation
         self._say = say
@@ -122,12 +122,12 @@ class PageRecording:
 
     @property
     def since_ns(self) -> int | None:
-        """Simulation time at its begin; None: nothing is recorded."""
+        """Start of the recording [ns]; None: nothing is recorded."""
         recorder = self._recorder
         return self._since_ns if recorder is not None and recorder.is_recording else None
 
     def set(self, on: bool) -> None:
-        """Begin or end a recording in `recorded/<date and time>` below the working directory.
+        """Start or end a recording in `recorded/<date and time>` below the working directory.
 
         Raises:
             UsageError: it cannot be written.
@@ -149,17 +149,17 @@ class PageRecording:
             self._simulation.add_hook(recorder, period_ns=recorder.period_ns)
 
     def follow(self) -> None:
-        """Go on after the simulation went to another moment, at which it may not have been recorded."""
+        """Continue after a jump in simulation time."""
         if self._recorder is not None:
             self._simulation.remove_hook(self._recorder)
             self._simulation.add_hook(self._recorder, period_ns=self._recorder.period_ns)
 
 
 def _make_folder() -> Path:
-    """Make a folder named after the date and time.
+    """Create a folder named after the date and time.
 
     Raises:
-        UsageError: it cannot be made.
+        UsageError: it cannot be created.
     """
     name = datetime.now().strftime("%Y-%m-%d_%H-%M-%S")
     numbered = (Path("recorded", f"{name}-{number}") for number in itertools.count(2))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:  # SDF loads neither the URDF reader nor the builder
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedWorld:
-    """World ready to compile, and the URDF that it came from, if any."""
+    """World ready to compile, and the URDF from which it was read, if any."""
 
     flat: model.World
     """World whose nested models are merged into the outer ones, as physics needs it."""
@@ -41,41 +41,41 @@ def load_world(
     seed: int = 0,
     arguments: Mapping[str, str] = MappingProxyType({}),
 ) -> LoadedWorld:
-    """Read a file; a robot or model is put on a ground plane under a sun, a world is taken as it is.
+    """Read a file; add a ground plane and a sun if it is a robot or model.
 
     Args:
-        file: as `trundle.robots.description.load` takes it.
+        file: see `trundle.robots.description.load`.
         packages: resolves URIs.
-        report: takes all findings.
-        seed: of random placement in SDF.
-        arguments: of a xacro file.
+        report: collects all findings.
+        seed: seed of random placement in SDF.
+        arguments: arguments of a xacro file.
 
     Raises:
         DescriptionError: the file cannot be read.
     """
-    return place(load(file, report, packages=packages, seed=seed, arguments=arguments), packages, report)
+    return _with_ground_and_sun(load(file, report, packages=packages, seed=seed, arguments=arguments), packages, report)
 
 
 def load_built(built: "Model | World", packages: Packages, report: Diagnostics, *, seed: int = 0) -> LoadedWorld:
-    """Take what was built in code, by way of its SDF; a model alone is put on a ground plane under a sun.
+    """Convert a model or world built in code, through its SDF; add a ground plane and a sun to a model.
 
     Raises:
-        DescriptionError: something of it cannot be made sense of.
+        DescriptionError: its SDF is invalid.
     """
     text = built.to_sdf().encode()
     name = f"<{built.name}>"
-    return place(
+    return _with_ground_and_sun(
         load_text(text, name=name, folder=Path.cwd(), packages=packages, report=report, seed=seed), packages, report
     )
 
 
-def place(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> LoadedWorld:
-    """Put a robot alone on a ground plane under a sun; take a world as it is."""
-    world = loaded.world if loaded.kind == "world" else _on_the_ground(loaded, packages, report)
+def _with_ground_and_sun(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> LoadedWorld:
+    """Add a ground plane and a sun, unless the description is a world."""
+    world = loaded.world if loaded.kind == "world" else _add_ground_and_sun(loaded, packages, report)
     return LoadedWorld(flat=with_actors(flattened(world), report), nested=world, robot=loaded.robot, urdf=loaded.urdf)
 
 
-def _on_the_ground(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> model.World:
+def _add_ground_and_sun(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> model.World:
     ground = load("model://ground_plane", report, packages=packages).world.models
     sun = load("model://sun", report, packages=packages).world.lights
     world = loaded.world

@@ -49,20 +49,20 @@ def test_a_model_is_spawned_at_once_and_its_meshes_are_cut_later(
         yield from decompose_parts(parts, **options)
 
     monkeypatch.setattr(jobs, "decompose_parts", decompose_late)
-    before = _shapes(gazebo)
+    count = _shapes(gazebo)
 
     assert gazebo.spawn(_irons(gazebo.folder), "m").success
-    assert _shapes(gazebo) == before + _COUNT
+    assert _shapes(gazebo) == count + _COUNT
     gazebo.call("unpause_physics")
     gazebo.until_s(0.1)
     gazebo.call("pause_physics")
     height, time_s = gazebo.state("m").pose.position.z, gazebo.time_s
     may_cut.set()
-    until(lambda: any("meshes are cut" in line for line in gazebo.said))
+    until(lambda: any("meshes are cut" in line for line in gazebo.lines))
 
-    assert _shapes(gazebo) >= before + 3 * _COUNT  # two pieces of each, and the hull that it stands on a plane with
+    assert _shapes(gazebo) >= count + 3 * _COUNT  # two pieces of each, and the hull that it stands on a plane with
     assert (gazebo.state("m").pose.position.z, gazebo.time_s) == (height, time_s)
-    assert gazebo.said[-2:] == [
+    assert gazebo.lines[-2:] == [
         f"hulls stand in for {_COUNT} hollow meshes until they are cut into convex pieces",
         f"{_COUNT} hollow meshes are cut, and collide as their convex pieces from now on",
     ]
@@ -75,9 +75,9 @@ def test_a_mesh_that_cannot_be_cut_keeps_its_hull_and_is_reported(
         yield from ((part, None) for part in parts)
 
     monkeypatch.setattr(jobs, "decompose_parts", fail)
-    before = _shapes(gazebo)
+    count = _shapes(gazebo)
     gazebo.spawn(_irons(gazebo.folder), "m")
     until(lambda: any("it could not be cut into convex pieces" in str(line) for line in gazebo.report.findings))
 
     assert gazebo.call("get_world_properties", "gazebo_msgs/GetWorldProperties").success  # the compile is done
-    assert _shapes(gazebo) == before + _COUNT
+    assert _shapes(gazebo) == count + _COUNT

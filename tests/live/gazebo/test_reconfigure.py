@@ -34,8 +34,8 @@ TYRE = """<wheel link_name="{name}"><wheel_normal_force>24.5</wheel_normal_force
 
 
 def options(gazebo: Gazebo, name: str) -> dict[str, Option]:
-    found = gazebo.loop.run(read_options(gazebo.client, name, timeout_s=PATIENCE_S), PATIENCE_S)
-    return {option.name: option for option in found}
+    read = gazebo.loop.run(read_options(gazebo.client, name, timeout_s=PATIENCE_S), PATIENCE_S)
+    return {option.name: option for option in read}
 
 
 def change(gazebo: Gazebo, name: str, **values: Any) -> None:
@@ -60,19 +60,19 @@ def test_a_camera_takes_pictures_at_the_rate_it_is_set_to(gazebo: Gazebo) -> Non
     assert gazebo.spawn(CAMERA, "mast").success
     assert options(gazebo, "/r/front")["imager_rate"].value == pytest.approx(50.0)
     change(gazebo, "/r/front", imager_rate=200)
-    heard = gazebo.hear("/r/front/image_raw", "sensor_msgs/Image")
+    images = gazebo.hear("/r/front/image_raw", "sensor_msgs/Image")
     gazebo.call("unpause_physics")
 
     def shortest() -> int:  # a busy machine drops pictures
-        gaps = [to_nsec(b.header.stamp) - to_nsec(a.header.stamp) for a, b in pairwise(list(heard))]
+        gaps = [to_nsec(b.header.stamp) - to_nsec(a.header.stamp) for a, b in pairwise(list(images))]
         return min(gaps, default=1_000_000_000)
 
     until(lambda: shortest() <= 5_000_000)
     assert shortest() == 5_000_000
 
 
-def test_both_eyes_of_a_multicamera_keep_step_at_another_rate(gazebo: Gazebo) -> None:
-    """The rate of one sets both; the plugin states the baseline."""
+def test_multicamera_images_stay_synchronized_at_a_new_rate(gazebo: Gazebo) -> None:
+    """The rate of one camera sets both; the plugin states the baseline."""
     one = CAMERA.partition("<camera>")[2].partition("</camera>")[0]
     eyes = "".join(f'<camera name="my_{side}_eye">{one}</camera>' for side in ("left", "right"))
     both = CAMERA.replace(f"<camera>{one}</camera>", eyes).replace('type="camera"', 'type="multicamera"')
@@ -80,33 +80,33 @@ def test_both_eyes_of_a_multicamera_keep_step_at_another_rate(gazebo: Gazebo) ->
         "</plugin>", "<hackBaseline>0.1</hackBaseline></plugin>"
     )
     assert gazebo.spawn(both, "mast").success
-    there = gazebo.client.wait_for_service("/r/front/left/set_parameters", PATIENCE_S)
-    gazebo.loop.run(there, timeout_s=PATIENCE_S)
+    service_ready = gazebo.client.wait_for_service("/r/front/left/set_parameters", PATIENCE_S)
+    gazebo.loop.run(service_ready, timeout_s=PATIENCE_S)
     change(gazebo, "/r/front/left", imager_rate=200)
-    heard = {side: gazebo.hear(f"/r/front/{side}/image_raw", "sensor_msgs/Image") for side in ("left", "right")}
+    images = {side: gazebo.hear(f"/r/front/{side}/image_raw", "sensor_msgs/Image") for side in ("left", "right")}
     infos = {side: gazebo.hear(f"/r/front/{side}/camera_info", "sensor_msgs/CameraInfo") for side in ("left", "right")}
     gazebo.call("unpause_physics")
 
     def gaps(side: str) -> set[int]:  # a busy machine drops pictures
-        return {to_nsec(b.header.stamp) - to_nsec(a.header.stamp) for a, b in pairwise(list(heard[side]))}
+        return {to_nsec(b.header.stamp) - to_nsec(a.header.stamp) for a, b in pairwise(list(images[side]))}
 
-    until(lambda: all(5_000_000 in gaps(side) for side in heard))
-    assert all(gap % 5_000_000 == 0 for side in heard for gap in gaps(side))
+    until(lambda: all(5_000_000 in gaps(side) for side in images))
+    assert all(gap % 5_000_000 == 0 for side in images for gap in gaps(side))
     until(lambda: all(infos.values()))
     assert infos["left"][-1].P[3] == 0.0
     assert infos["right"][-1].P[3] == pytest.approx(-0.1 * infos["right"][-1].P[0])
 
 
-def test_tyres_slip_as_much_as_they_are_set_to(gazebo: Gazebo) -> None:
-    """A car of 10 kg that rolls and is pushed sideways drifts by compliance · force / load of the way it rolls."""
-    places = {"w0": (0.2, 0.2), "w1": (0.2, -0.2), "w2": (-0.2, 0.2), "w3": (-0.2, -0.2)}
-    wheels = "".join(WHEEL.format(name=name, x=x, y=y) for name, (x, y) in places.items())
-    tyres = "".join(TYRE.format(name=name) for name in places)
+def test_wheel_slip_follows_the_reconfigured_compliance(gazebo: Gazebo) -> None:
+    """A rolling car of 10 kg under a side force drifts by compliance · force / load per distance rolled."""
+    wheel_positions = {"w0": (0.2, 0.2), "w1": (0.2, -0.2), "w2": (-0.2, 0.2), "w3": (-0.2, -0.2)}
+    wheels = "".join(WHEEL.format(name=name, x=x, y=y) for name, (x, y) in wheel_positions.items())
+    tyres = "".join(TYRE.format(name=name) for name in wheel_positions)
     assert gazebo.spawn(CAR.format(wheels, tyres), "car").success
     name = "/car/wheel_slip"
-    ways = [f"slip_compliance_unitless_{way}" for way in ("lateral", "longitudinal")]
-    assert {key: option.value for key, option in options(gazebo, name).items()} == dict.fromkeys(ways, -1.0)
-    change(gazebo, name, **{ways[0]: 0.5})
+    parameters = [f"slip_compliance_unitless_{direction}" for direction in ("lateral", "longitudinal")]
+    assert {key: option.value for key, option in options(gazebo, name).items()} == dict.fromkeys(parameters, -1.0)
+    change(gazebo, name, **{parameters[0]: 0.5})
     gazebo.call("unpause_physics")
     gazebo.call(
         "set_model_state",
@@ -127,7 +127,7 @@ def test_tyres_slip_as_much_as_they_are_set_to(gazebo: Gazebo) -> None:
     assert speed.y == pytest.approx(0.5 * 20.0 / 98.0 * speed.x, rel=0.05)
 
 
-def test_gains_are_changed_while_they_are_in_use(gazebo: Gazebo) -> None:
+def test_pid_gains_change_while_the_controller_runs(gazebo: Gazebo) -> None:
     pid = {"p": 300.0, "i": 0.0, "d": 60.0}
     controller = {"type": "effort_controllers/JointPositionController", "joint": "lift", "pid": pid}
     robot = Robot(gazebo, standing(LIFT), {"lift": controller})

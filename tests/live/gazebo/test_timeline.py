@@ -1,4 +1,4 @@
-"""The world behind /gazebo goes back to a moment of its last minutes, and on from there as it did the first time."""
+"""Timeline of the world behind /gazebo: seeking back, and replay that repeats the first run."""
 
 import queue
 import time
@@ -16,14 +16,14 @@ _BALL = """<sdf version="1.6"><model name="as_written"><pose>0 3 5 0 0 0</pose><
 <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link></model></sdf>"""
 
 
-def _on_its_thread(gazebo: Gazebo, call: Callable[[], Any]) -> Any:
-    answers: queue.SimpleQueue[Any] = queue.SimpleQueue()
-    gazebo.world.post(lambda: answers.put(call()))
-    return answers.get(timeout=PATIENCE_S)
+def _on_simulation_thread(gazebo: Gazebo, call: Callable[[], Any]) -> Any:
+    results: queue.SimpleQueue[Any] = queue.SimpleQueue()
+    gazebo.world.post(lambda: results.put(call()))
+    return results.get(timeout=PATIENCE_S)
 
 
 def _poses(gazebo: Gazebo) -> bytes:
-    return _on_its_thread(gazebo, lambda: gazebo.world.simulation.snapshot().poses.tobytes())
+    return _on_simulation_thread(gazebo, lambda: gazebo.world.simulation.snapshot().poses.tobytes())
 
 
 def _seek(gazebo: Gazebo, time_ns: int) -> None:
@@ -31,20 +31,20 @@ def _seek(gazebo: Gazebo, time_ns: int) -> None:
         assert gazebo.world.live.timeline is not None
         gazebo.world.live.timeline.seek(time_ns)
 
-    _on_its_thread(gazebo, seek)
+    _on_simulation_thread(gazebo, seek)
 
 
-def test_services_and_messages_come_again_after_going_back(gazebo: Gazebo) -> None:
-    """The cart was driven by a node of this process, the ball put elsewhere, pushed, and gravity turned down."""
+def test_replay_repeats_services_and_messages(gazebo: Gazebo) -> None:
+    """A node of this process drives the cart; services move and push the ball, and reduce gravity."""
     gazebo.spawn(_CART, "cart")
     gazebo.spawn(_BALL, "ball")
-    _on_its_thread(gazebo, lambda: gazebo.world.live.keep_timeline(100_000_000))
+    _on_simulation_thread(gazebo, lambda: gazebo.world.live.keep_timeline(100_000_000))
     drive = gazebo.speak("/go", "geometry_msgs/Twist")
     gazebo.call("unpause_physics")
     gazebo.until_s(0.5)
     drive({"linear": {"x": 1.0}})
     until(lambda: gazebo.state("cart").pose.position.x > 0.1)
-    begin_ns = _on_its_thread(gazebo, lambda: gazebo.world.simulation.time_ns)
+    begin_ns = _on_simulation_thread(gazebo, lambda: gazebo.world.simulation.time_ns)
     state = {"model_name": "ball", "pose": {"position": {"x": 4.0, "z": 6.0}}, "reference_frame": "world"}
     assert gazebo.call("set_model_state", "gazebo_msgs/SetModelState", model_state=state).success
     push = {"body_name": "ball::link", "wrench": {"force": {"y": 3.0}}, "duration": {"nanosec": 300_000_000}}
@@ -55,8 +55,8 @@ def test_services_and_messages_come_again_after_going_back(gazebo: Gazebo) -> No
     drive({"linear": {"y": -1.0}})
     until(lambda: gazebo.state("cart").pose.position.y < -0.1)
     gazebo.call("pause_physics")
-    end_ns = _on_its_thread(gazebo, lambda: gazebo.world.simulation.time_ns)
-    ended, ball = _poses(gazebo), gazebo.state("ball").pose.position
+    end_ns = _on_simulation_thread(gazebo, lambda: gazebo.world.simulation.time_ns)
+    end_poses, ball = _poses(gazebo), gazebo.state("ball").pose.position
     assert (ball.x, ball.y > 0.2) == (4.0, True)
 
     _seek(gazebo, begin_ns)
@@ -64,13 +64,13 @@ def test_services_and_messages_come_again_after_going_back(gazebo: Gazebo) -> No
     assert gazebo.state("ball").pose.position.x == 0.0
     assert gazebo.state("cart").pose.position.y == pytest.approx(0.0, abs=1e-9)
     _seek(gazebo, end_ns)
-    assert _poses(gazebo) == ended
+    assert _poses(gazebo) == end_poses
 
 
-def test_what_is_spawned_later_is_part_of_a_new_timeline(gazebo: Gazebo) -> None:
-    """A ball comes again with its time; a cart has a plugin, whose node could not come again."""
+def test_spawning_a_model_with_plugins_restarts_the_timeline(gazebo: Gazebo) -> None:
+    """Replay spawns a ball again; it cannot repeat the node of a cart's plugin."""
     gazebo.spawn(_BALL, "ball")
-    _on_its_thread(gazebo, lambda: gazebo.world.live.keep_timeline(100_000_000))
+    _on_simulation_thread(gazebo, lambda: gazebo.world.live.keep_timeline(100_000_000))
     timeline = gazebo.world.live.timeline
     assert timeline is not None
     gazebo.call("unpause_physics")
@@ -87,9 +87,9 @@ def test_what_is_spawned_later_is_part_of_a_new_timeline(gazebo: Gazebo) -> None
     assert timeline.start_ns == timeline.end_ns >= 500_000_000
 
 
-def test_a_controller_drives_as_it_did_and_the_time_before_it_was_loaded_is_gone(gazebo: Gazebo) -> None:
-    """Its topic and its object are new, and could not come a second time."""
-    _on_its_thread(gazebo, lambda: gazebo.world.live.keep_timeline(100_000_000))
+def test_loading_a_controller_restarts_the_timeline_and_replay_repeats_its_drive(gazebo: Gazebo) -> None:
+    """Replay cannot repeat the creation of its topic and object."""
+    _on_simulation_thread(gazebo, lambda: gazebo.world.live.keep_timeline(100_000_000))
     gazebo.call("unpause_physics")
     gazebo.until_s(0.2)
     with driving(gazebo, BIKE, ACKERMANN):
@@ -105,10 +105,10 @@ def test_a_controller_drives_as_it_did_and_the_time_before_it_was_loaded_is_gone
         timeline = gazebo.world.live.timeline
         assert timeline is not None
         assert timeline.start_ns >= 200_000_000
-        ended, end_ns = _poses(gazebo), timeline.end_ns
+        end_poses, end_ns = _poses(gazebo), timeline.end_ns
         _seek(gazebo, timeline.start_ns)
         assert gazebo.state("car").pose.position.x == pytest.approx(0.0, abs=1e-3)
         _seek(gazebo, end_ns)
-        assert _poses(gazebo) == ended
+        assert _poses(gazebo) == end_poses
         gazebo.call("unpause_physics")
         until(lambda: has_driven(0.9))

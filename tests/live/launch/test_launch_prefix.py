@@ -1,4 +1,4 @@
-"""Prefixes of nodes: what can start a program here, and which programs are to have a terminal."""
+"""Prefixes of nodes: which can start a program here, and which programs need a terminal."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ def env(tmp_path: Path) -> dict[str, str]:
 
 
 @pytest.mark.parametrize(
-    ("text", "words", "wants_terminal", "fault", "program_fault"),
+    ("text", "words", "needs_terminal", "fault", "program_fault"),
     [
         ("", "", False, None, None),
         ("nice -n 5", "nice -n 5", False, None, None),
@@ -36,17 +36,17 @@ def env(tmp_path: Path) -> dict[str, str]:
         ("tmux new", "", True, "there is no tmux here", None),
     ],
 )
-def test_a_prefix_is_used_as_far_as_it_can_start_a_program(
+def test_launch_prefix_is_used_as_far_as_it_can_run(
     env: dict[str, str],
     text: str,
     words: str,
-    wants_terminal: bool,
+    needs_terminal: bool,
     fault: str | None,
     program_fault: str | None,
 ) -> None:
-    expected = LaunchPrefix(tuple(words.split()), wants_terminal, fault, program_fault)
+    expected = LaunchPrefix(tuple(words.split()), needs_terminal, fault, program_fault)
     assert read_prefix(text.split(), env) == expected
 
 
-def test_a_window_opens_where_there_is_a_display(env: dict[str, str]) -> None:
+def test_a_terminal_window_opens_where_there_is_a_display(env: dict[str, str]) -> None:
     assert read_prefix(["konsole", "-e"], {**env, "DISPLAY": ":0"}) == LaunchPrefix(("konsole", "-e"))

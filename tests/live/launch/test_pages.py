@@ -12,7 +12,7 @@ from trundle.robots.packages import Packages
 VIDEO = 'pkg="web_video_server" type="web_video_server"'
 
 
-def test_video_servers_keep_the_ports_that_programs_expect(tmp_path: Path) -> None:
+def test_ports_of_video_servers_are_reserved(tmp_path: Path) -> None:
     plan = read_launch_text(
         f"""<launch><node name="a" {VIDEO}/>
         <node ns="b" name="c" {VIDEO}><param name="port" value="8082"/></node></launch>""",
@@ -24,7 +24,7 @@ def test_video_servers_keep_the_ports_that_programs_expect(tmp_path: Path) -> No
     assert reserved_ports(plan) == (8080, 8082)
 
 
-def test_a_page_leaves_reserved_ports_out() -> None:
+def test_a_page_listens_at_no_reserved_port() -> None:
     reserved = tuple(range(8080, 8090))
     with listen(PageAddress(reserved_ports=reserved)) as listening:
         assert listening.getsockname()[1] not in reserved

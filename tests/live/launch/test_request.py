@@ -21,14 +21,14 @@ def workspace(tmp_path: Path) -> Path:
     return tmp_path / "ws"
 
 
-def test_which_workspace_is_used_is_said(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_used_workspace_is_printed(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     request = read_request(["arm", "arm.launch"], Packages({"HOME": "/nobody"}, start=workspace))
 
     assert request.files == (workspace / "src/robots/arm/arm.launch",)
     assert capsys.readouterr().err == f"using the workspace {workspace}\n"
 
 
-def test_what_ros_package_path_names_comes_first_and_needs_no_word(
+def test_ros_package_path_comes_first_and_prints_nothing(
     workspace: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     other = tmp_path / "other/arm"
@@ -44,17 +44,17 @@ def test_what_ros_package_path_names_comes_first_and_needs_no_word(
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no /dev/fd")
-def test_a_pipe_is_read_as_standard_input_is(tmp_path: Path) -> None:
+def test_a_pipe_is_read_like_standard_input(tmp_path: Path) -> None:
     """`trundle launch <(sed … robot.launch)`."""
-    ours, theirs = os.pipe()
-    os.write(theirs, b"<launch/>")
-    os.close(theirs)
+    reader, writer = os.pipe()
+    os.write(writer, b"<launch/>")
+    os.close(writer)
     (tmp_path / "b.launch").write_text("<launch/>")
 
-    request = read_request([f"/dev/fd/{ours}", str(tmp_path / "b.launch")], Packages({}, start=tmp_path))
+    request = read_request([f"/dev/fd/{reader}", str(tmp_path / "b.launch")], Packages({}, start=tmp_path))
 
     assert (request.files, request.texts) == ((tmp_path / "b.launch",), (("<pipe>", "<launch/>"),))
-    os.close(ours)
+    os.close(reader)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no FIFOs")

@@ -1,4 +1,4 @@
-"""A launch in this process, at a master that is there."""
+"""A launch in this process that joins a running master."""
 
 from collections.abc import Coroutine
 from pathlib import Path
@@ -12,7 +12,7 @@ from trundle.ros import GraphLoop
 
 
 def test_a_launch_waits_without_a_time_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A large launch on a busy machine takes minutes; here every limit is over at once."""
+    """A large launch on a busy machine takes minutes; here every timeout expires at once."""
     run = GraphLoop.run
 
     def hasten(loop: GraphLoop, coroutine: Coroutine[Any, Any, Any], timeout_s: float | None = None) -> Any:

@@ -33,9 +33,7 @@ def options(on_instability: OnInstability | None) -> RunOptions:
     return RunOptions(headless=True, ros=False, speed=None, duration_s=3.0, on_instability=on_instability)
 
 
-def test_without_a_page_the_command_ends_and_says_what_ran_away(
-    world: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_headless_run_exits_and_names_the_diverging_link(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", str(world), *QUIET, "--json"]) == 1
     out, err = capsys.readouterr()
     (error,) = json.loads(out)["diagnostics"]
@@ -44,23 +42,21 @@ def test_without_a_page_the_command_ends_and_says_what_ran_away(
     assert "Traceback" not in err
 
 
-def test_reset_starts_anew_but_not_for_ever(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_reset_restarts_the_simulation_at_most_ten_times(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["run", str(world), *QUIET, "--on-instability", "reset"]) == 1
     assert capsys.readouterr().err.count("the simulation is reset") == 10
 
 
-def test_pause_keeps_the_last_good_state_until_somebody_ends_it(
-    world: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_pause_keeps_the_last_stable_state_until_interrupted(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
     threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
-    outcome = run(str(world), options("pause"))
-    assert outcome.interrupted
+    result = run(str(world), options("pause"))
+    assert result.interrupted
     assert "the simulation is paused at its last stable state, at 0.000 s" in capsys.readouterr().err
-    state = outcome.as_json()["models"][0]["links"][0]
+    state = result.as_json()["models"][0]["links"][0]
     assert all(map(math.isfinite, [*state["pose"], *state["twist"]]))
 
 
-def test_the_error_can_be_asked_what_ran_away(world: Path) -> None:
+def test_the_error_names_the_diverging_link(world: Path) -> None:
     with pytest.raises(SimulationUnstableError) as caught:
         run(str(world), options(None))
     assert (caught.value.divergence.link, caught.value.divergence.joint) == ("ball::l", None)

@@ -1,4 +1,4 @@
-"""An exception in a user's plugin ends a run with a sentence and the plugin's own lines."""
+"""An exception in a user's plugin ends a run with a message and the plugin's lines."""
 
 from pathlib import Path
 
@@ -47,7 +47,7 @@ def test_the_hook_is_named_above_the_lines_of_the_plugin(
     assert not any("Traceback" in line for line in lines)
 
 
-def test_an_exception_that_no_plugin_raised_is_not_blamed_on_one(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_exception_outside_plugins_names_no_plugin(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (model.parent / "arm.py").write_text(PLUGIN.format(hook="idle"))
 
     def fail(simulation: Simulation, until_ns: int) -> None:

@@ -29,7 +29,7 @@ def _turns() -> Iterator[None]:
     sys.setswitchinterval(before)
 
 
-def test_the_wind_blows_and_actors_are_told_of(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wind_moves_a_model_and_actors_are_in_the_result(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "w.world"
     file.write_text(WORLD)
 
@@ -43,10 +43,10 @@ def test_the_wind_blows_and_actors_are_told_of(tmp_path: Path, capsys: pytest.Ca
     assert (bob["name"], bob["pose"][:3]) == ("bob", pytest.approx([2.0, 3.0, 0.0], abs=1e-3))
 
 
-def test_what_was_simulated_before_a_reset_counts(
+def test_summary_counts_the_time_before_a_reset(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The page's button, pressed after a second."""
+    """The world is reset after a second, as by the page's button."""
     file = tmp_path / "w.world"
     file.write_text(WORLD)
     advance = Simulation.advance
@@ -68,7 +68,7 @@ def test_what_was_simulated_before_a_reset_counts(
     assert capsys.readouterr().out.splitlines()[0].endswith("2000 steps, 0 images")
 
 
-def test_a_master_that_is_joined_is_named_before_all_else(
+def test_a_joined_master_is_named_on_the_first_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A forgotten line in ~/.bashrc may name it."""

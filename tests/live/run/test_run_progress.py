@@ -1,9 +1,9 @@
-"""A run without a page tells a person at a terminal how far it is."""
+"""Progress of a headless run in a terminal."""
 
-from trundle.live.run.run_progress import RunProgress
+from trundle.live.run.run_world import RunProgress
 
 
-def test_a_line_every_five_seconds_has_the_time_and_the_speed_since_the_last() -> None:
+def test_progress_prints_time_and_speed_every_five_seconds() -> None:
     lines: list[str] = []
     clock = [0.0]
     progress = RunProgress(lines.append, end_ns=60_000_000_000, now=lambda: clock[0])

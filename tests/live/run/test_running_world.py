@@ -1,4 +1,4 @@
-"""Models with plugins and sensors that come, go and come back while a world runs."""
+"""Models with plugins and sensors that are copied, deleted, restored and reset in a running world."""
 
 import sys
 from collections.abc import Iterator
@@ -39,38 +39,36 @@ def world(graph: Graph, tmp_path: Path) -> Iterator[RunningWorld]:
         yield world
 
 
-def test_the_nodes_and_topics_of_a_model_go_and_come_with_it(graph: Graph, world: RunningWorld) -> None:
-    """The copy has nodes of its own; all of them listen to the topic that the plugins name."""
+def test_nodes_and_topics_end_and_start_with_their_model(graph: Graph, world: RunningWorld) -> None:
+    """The copy has its own nodes; all subscribe to the topic that the plugins name."""
     client = graph.node("/client")
-    ours = "/cart/move"
+    own_node = "/cart/move"
 
     def nodes() -> set[str]:
         published, subscribed, _ = graph.loop.run(client.master.call("getSystemState"), PATIENCE_S)
-        found = {name for _, names in (*published, *subscribed) for name in names}
-        return found & {ours, "/cart_0/move"}
+        names = {name for _, names in (*published, *subscribed) for name in names}
+        return names & {own_node, "/cart_0/move"}
 
     def imu_topics() -> list[str]:
         return [name for name, _ in graph.loop.run(client.master.call("getPublishedTopics", "/")) if "turn" in name]
 
     edits = _model_edits(world)
-    until(lambda: nodes() == {ours})
+    until(lambda: nodes() == {own_node})
     until(imu_topics)
     (topic,) = imu_topics()
     edits.handle(CopyModel("cart", "cart_0", (3, 0, 0)))
-    until(lambda: nodes() == {ours, "/cart_0/move"})
+    until(lambda: nodes() == {own_node, "/cart_0/move"})
     until(lambda: len(imu_topics()) == 2)
     edits.handle(DeleteModel("cart"))
     until(lambda: nodes() == {"/cart_0/move"})
     until(lambda: topic not in imu_topics())
     assert [sensor.model.name for sensor in world.live.sensors] == ["cart_0"]
     edits.handle(RestoreModel("cart"))
-    until(lambda: nodes() == {ours, "/cart_0/move"})
+    until(lambda: nodes() == {own_node, "/cart_0/move"})
     until(lambda: topic in imu_topics())
 
 
-def test_what_is_put_back_is_in_the_state_that_it_had_and_its_plugins_drive_it(
-    graph: Graph, world: RunningWorld
-) -> None:
+def test_a_restored_model_keeps_its_state_and_its_plugins_drive_it(graph: Graph, world: RunningWorld) -> None:
     client = graph.node("/client")
     velocity = client.advertise("/go", "geometry_msgs/Twist", queue_size=1)
     edits, simulation = _model_edits(world), world.simulation
@@ -96,8 +94,8 @@ def test_what_is_put_back_is_in_the_state_that_it_had_and_its_plugins_drive_it(
         edits.handle(RestoreModel("cart"))
 
 
-def test_a_reset_model_s_plugins_are_reset_and_no_others(graph: Graph, world: RunningWorld) -> None:
-    """As Gazebo's Model::Reset: what the cart was told is forgotten, its copy drives on."""
+def test_reset_of_a_model_resets_only_its_plugins(graph: Graph, world: RunningWorld) -> None:
+    """As Gazebo's Model::Reset: the cart forgets its command, its copy drives on."""
     client = graph.node("/client")
     velocity = client.advertise("/go", "geometry_msgs/Twist", queue_size=1)
     edits, simulation = _model_edits(world), world.simulation
@@ -114,7 +112,7 @@ def test_a_reset_model_s_plugins_are_reset_and_no_others(graph: Graph, world: Ru
 
     until(both_move)
     velocity.publish({"linear": {"x": 2.0}})
-    until(both_are_fast)  # all that was published before has come
+    until(both_are_fast)  # all earlier messages have arrived
     before = simulation["cart_0"].pose.position[0]
     edits.handle(ResetModel("cart"))
     world.live.advance(simulation.time_ns + 500_000_000)
@@ -122,8 +120,8 @@ def test_a_reset_model_s_plugins_are_reset_and_no_others(graph: Graph, world: Ru
     assert simulation["cart_0"].pose.position[0] == pytest.approx(before + 1.0, abs=0.05)
 
 
-def test_a_reset_that_is_undone_lets_plugins_go_on(graph: Graph, world: RunningWorld) -> None:
-    """The cart was told once to drive at 1 m/s, and its axle to turn at 2 rad/s."""
+def test_plugins_continue_after_an_undone_reset(graph: Graph, world: RunningWorld) -> None:
+    """The cart is commanded once to drive at 1 m/s, and its axle to turn at 2 rad/s."""
     client = graph.node("/client")
     velocity = client.advertise("/go", "geometry_msgs/Twist", queue_size=1, latch=True)
     velocity.publish({"linear": {"x": 1.0}})
@@ -147,8 +145,8 @@ def test_a_reset_that_is_undone_lets_plugins_go_on(graph: Graph, world: RunningW
     assert axle.position == pytest.approx(before[1] + 1.0, abs=0.01)
 
 
-def test_the_timeline_begins_again_where_plugins_go(world: RunningWorld) -> None:
-    """Before that its nodes were there, which do not come again."""
+def test_deleting_a_model_with_plugins_restarts_the_timeline(world: RunningWorld) -> None:
+    """Replay cannot repeat the nodes of the time before."""
     world.live.advance(500_000_000)
     assert world.live.timeline is not None
     assert world.live.timeline.start_ns == 0

@@ -77,7 +77,7 @@ def main(args: argparse.Namespace) -> int:
         print()
     else:
         print(outcome.summary())
-    if outcome.recording_broke_off:
+    if outcome.recording_failed:
         return 1
     return 130 if outcome.interrupted else 0
 

@@ -1,13 +1,17 @@
 """World behind /gazebo, into which models are spawned from texts."""
 
+import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from msgspec.structs import replace
 
-from trundle.base.diagnostics import Diagnostics, UsageError
-from trundle.robots.model import World
+from trundle.base.diagnostics import DescriptionError, Diagnostics, UsageError
+from trundle.base.xmlnode import parse_xml
+from trundle.robots.description import load
+from trundle.robots.model import Model, World
 from trundle.robots.packages import Packages
+from trundle.robots.robot import Robot
 from trundle.ros import Node, StaticTransformBroadcaster
 from trundle.ros.bridge import ClockTopic
 from trundle.sim.physics import BackgroundCutting
@@ -20,8 +24,9 @@ from ..live_world import LiveWorld
 from ..model_interfaces import ModelInterfaces
 from ..simulation_clock import SimulationClock
 from ..state_logs import WorldRecorder
-from .models import read_spawned
 from .world_setup import WorldSetup
+
+_URDF = re.compile(r"<robot[\s>]")
 
 
 class GazeboContents:
@@ -44,22 +49,22 @@ class GazeboContents:
         setup: WorldSetup | None,
         is_lockstep: bool,
     ) -> None:
-        """Compile the world; `load` starts what is on it.
+        """Compile the world; `load` starts its sensors and plugins.
 
         Args:
-            world: as read.
-            node: gzserver's.
-            graph: of the plugins' nodes.
-            packages: locates what spawned models name.
-            env: variables that locate plugins.
-            folder: keeps the text of each spawned model.
-            report: takes findings of spawned models and physics.
+            world: the world's description.
+            node: gzserver's node.
+            graph: ROS graph that the plugins' nodes join.
+            packages: resolves URIs of spawned models.
+            env: environment variables that locate plugins.
+            folder: folder for the text of each spawned model.
+            report: collects findings of spawned models and physics.
             renderer: draws the cameras' images.
-            clock_hz: rate of /clock; None: the usual one.
+            clock_hz: rate of /clock [Hz]; None: the default.
             post: calls a function on this thread.
-            say: prints which plugins are loaded, and where logs are.
-            setup: seeds the simulation, begins with it, changes spawned models; None: they are spawned as read.
-            is_lockstep: hollow meshes are cut before time goes on, so that runs repeat; else in the background.
+            say: prints which plugins are loaded, and the paths of logs.
+            setup: seeds the simulation, starts with it, changes spawned models; None: no changes.
+            is_lockstep: True: cut hollow meshes before time advances, so that runs repeat; False: in the background.
         """
         self._node, self._graph, self._post = node, graph, post
         self._folder, self._report, self._say = folder, report, say
@@ -105,7 +110,7 @@ class GazeboContents:
         """Add a model with its sensors and plugins."""
         if any(model.name == name for model in self.live.simulation.models):
             raise UsageError(f"Failure - model name {name} already exist.")
-        model, robot = read_spawned(
+        model, robot = _read_spawned(
             xml, name=name, namespace=namespace, folder=self._folder, packages=self.live.packages, report=self._report
         )
         pose = world_from_model @ model.world_from_model
@@ -113,7 +118,7 @@ class GazeboContents:
         self.live.spawn(model if self._setup is None else self._setup.model(model), robot)
 
     def _use_cuts(self, count: int) -> None:
-        """Replace the hulls that stood in for hollow meshes."""
+        """Replace the provisional hulls of hollow meshes by their convex pieces."""
         self.live.simulation.recompile()
         if count:
             self._say(f"{count} hollow meshes are cut, and collide as their convex pieces from now on")
@@ -129,3 +134,48 @@ class GazeboContents:
         if self._cutting is not None:
             self._cutting.close()
         self.live.close()
+
+
+def _read_spawned(
+    xml: str, *, name: str, namespace: str, folder: Path, packages: Packages, report: Diagnostics
+) -> tuple[Model, Robot | None]:
+    """Read the one model of an SDF or URDF text, and the URDF's own tree.
+
+    Args:
+        xml: SDF or URDF; written to a file, so that messages can name its lines.
+        name: the model's name in the world.
+        namespace: robotNamespace for plugins without one, as in gazebo_ros; empty: leave them.
+        folder: folder of that file.
+        packages: resolves URIs.
+        report: collects all findings.
+
+    Raises:
+        TrundleError: no model, or several.
+    """
+    if not xml.strip():
+        raise UsageError(f"model {name!r}: its text is empty")
+    suffix = "urdf" if _URDF.search(xml) else "sdf"
+    file = folder / f"{re.sub(r'[^A-Za-z0-9_.-]', '_', name)}.{suffix}"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(_in_namespace(xml, namespace) if namespace else xml, encoding="utf-8")
+    loaded = load(str(file), report, packages=packages)
+    models = loaded.world.models
+    if len(models) != 1:
+        raise UsageError(f"model {name!r}: the text describes {len(models)} models; one is needed")
+    return models[0], loaded.robot
+
+
+def _in_namespace(xml: str, namespace: str) -> str:
+    """Write <robotNamespace> into every plugin that has none."""
+    try:
+        root = parse_xml(xml, name="", report=Diagnostics())
+    except DescriptionError:
+        return xml  # the reader reports it with its line
+    pending = [root]
+    while pending:
+        node = pending.pop()
+        if node.tag != "plugin":
+            pending += node.children
+        elif node.find("robotNamespace") is None:
+            node.write("robotNamespace", namespace)
+    return root.xml()

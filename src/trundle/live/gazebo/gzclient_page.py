@@ -1,4 +1,4 @@
-"""Page that takes gzclient's place, opened when a node asks for it."""
+"""Page in place of gzclient's window, opened on request of a node."""
 
 from collections.abc import Callable
 
@@ -13,7 +13,7 @@ from ..state_logs import PageRecording
 
 
 class GzclientPage:
-    """Page of the world behind /gazebo; all but `url` and `is_wanted` belongs to the simulation's thread."""
+    """Page of the world behind /gazebo; only `url` and `is_pending` may be read from other threads."""
 
     def __init__(
         self, shared: SharedPage | None, say: Callable[[str], None], *, reload: Callable[[], None] | None
@@ -23,7 +23,7 @@ class GzclientPage:
         Args:
             shared: page of the graph's windows; None: headless.
             say: prints a line.
-            reload: loads the world again; None: it cannot be.
+            reload: loads the world again; None: not supported.
         """
         self._shared = shared
         self._reload = reload
@@ -36,8 +36,8 @@ class GzclientPage:
         return None if self._shared is None else self._shared.url
 
     @property
-    def is_wanted(self) -> bool:
-        """True if the page is still to be opened."""
+    def is_pending(self) -> bool:
+        """True if the page can be opened and is not open yet."""
         return self._shared is not None and self._page is None
 
     def open(self, live: LiveWorld, node: Node) -> None:

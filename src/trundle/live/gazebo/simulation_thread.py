@@ -11,7 +11,7 @@ from trundle.ros import GraphLoop
 
 from ..call_queue import CallQueue
 
-_LOOK_S = 0.5
+_POLL_S = 0.5
 _log = logging.getLogger(__name__)
 
 
@@ -22,9 +22,9 @@ class SimulationThread:
         """Prepare.
 
         Args:
-            loop: of the nodes.
+            loop: the nodes' event loop.
             tick: called on the thread, over and over.
-            end: called on the thread, last.
+            end: called on the thread before it ends.
         """
         self._loop = loop
         self._tick = tick
@@ -45,7 +45,7 @@ class SimulationThread:
         """Start the thread, and wait until it has called `build`.
 
         Raises:
-            TrundleError: building failed; the thread goes on.
+            TrundleError: building failed; the thread keeps running.
         """
         self._thread = threading.Thread(target=self._run, name="trundle-gazebo", daemon=True)
         built = asyncio.get_running_loop().create_future()
@@ -78,7 +78,7 @@ class SimulationThread:
         self.ending.set()
         notice = WaitNotice("the simulation's last step")
         while thread.is_alive():
-            thread.join(_LOOK_S)
+            thread.join(_POLL_S)
             notice.poll()
         self.calls.clear()
         self.ending.clear()
@@ -90,13 +90,13 @@ class SimulationThread:
                 try:
                     self.calls.run_pending()
                     self._tick()
-                except Exception as error:  # the thread goes on, and answers calls of services
+                except Exception as error:  # the thread keeps running, to answer service calls
                     self._report(error)
         finally:
             self._end()
 
     def _report(self, error: Exception) -> None:
-        """Log an error with its traceback, once; a tick that fails fails again."""
+        """Log an error with its traceback, once: each tick may raise the same."""
         text = f"{type(error).__name__}: {error}"
         if text not in self._reported:
             self._reported.add(text)

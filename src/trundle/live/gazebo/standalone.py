@@ -19,7 +19,7 @@ from ..graph import Graph
 from .world import GazeboWorld
 
 OPEN_WINDOW = "/gazebo/open_window"
-"""Service, a std_srvs/Trigger, that opens the page and returns its URL, as a gzclient started later needs it.
+"""std_srvs/Trigger service that opens the page and returns its URL, for a gzclient started later.
 
 Every user of the machine may call it, so the URL has no token.
 """
@@ -31,10 +31,10 @@ def run_gazebo(arguments: Sequence[str], environment: Mapping[str, str], *, logs
     """Simulate until interrupted; return the exit code.
 
     Args:
-        arguments: gzserver's.
-        environment: ROS_MASTER_URI is joined, else the default master; none there: it is started.
+        arguments: gzserver's command line arguments.
+        environment: ROS_MASTER_URI names the master to join; without it the default one, started if none answers.
         logs: folder for logs and spawned models.
-        window: True: open the page at once; False: when a gzclient asks for it.
+        window: True: open the page at once; False: on request of a gzclient.
     """
     report = Diagnostics()
     console = Console(sys.stderr, report)
@@ -50,7 +50,7 @@ def run_gazebo(arguments: Sequence[str], environment: Mapping[str, str], *, logs
             folder=logs / "spawned",
             say=console.line,
             page=shared,
-            reload=lambda: graph.loop.call_soon(reloads.wanted.set),
+            reload=lambda: graph.loop.call_soon(reloads.requested.set),
         )
         kind = BuiltinReplacement(f"trundle.gazebo.nodes.gazebo:{'Gazebo' if window else 'GazeboServer'}")
         printing = graph.loop.spawn(_print_findings(console))
@@ -64,28 +64,28 @@ def run_gazebo(arguments: Sequence[str], environment: Mapping[str, str], *, logs
 
 
 class _Reloads:
-    """Runs that a person at the page begins again; on the graph's loop."""
+    """Restarts the run on request from the page; on the graph's loop."""
 
     def __init__(self) -> None:
-        self.wanted = asyncio.Event()
+        self.requested = asyncio.Event()
         """Set to end a run and begin the next."""
 
     async def run(self, run_once: Callable[[], Coroutine[object, object, int]], page: SharedPage) -> int:
         """Run until a run ends by itself; return its exit code."""
         while True:
             running = asyncio.create_task(run_once())
-            waiting = asyncio.create_task(self.wanted.wait())
+            waiting = asyncio.create_task(self.requested.wait())
             try:
                 await asyncio.wait((running, waiting), return_when=asyncio.FIRST_COMPLETED)
                 if running.done():
                     return running.result()
                 if page.url is not None:
-                    page.acquire(None)  # so that it stays between two runs
+                    page.acquire(None)  # keeps it open between two runs
             finally:
                 waiting.cancel()
                 running.cancel()
                 await asyncio.wait((running,))
-            self.wanted.clear()
+            self.requested.clear()
 
 
 async def _run_once(graph: Graph, world: GazeboWorld, kind: BuiltinReplacement, arguments: Sequence[str]) -> int:

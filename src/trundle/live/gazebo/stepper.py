@@ -31,10 +31,10 @@ class GazeboStepper:
         """Prepare.
 
         Args:
-            loop: of the nodes.
-            thread: of the simulation.
-            speed: times real time; None: flat out.
-            lockstep: holds time until the nodes are done; None: time is free.
+            loop: the nodes' event loop.
+            thread: the simulation's thread.
+            speed: real-time factor; None: flat out.
+            lockstep: holds time until the nodes have settled; None: time never waits.
             say: prints why the simulation stopped.
         """
         self._loop = loop
@@ -44,12 +44,12 @@ class GazeboStepper:
         self._say = say
         self.pacer = RealtimePacer(speed)
         self.clock = SimClock(loop)
-        """Time of the plugins' nodes; zero before there is a world."""
+        """Clock of the plugins' nodes; zero before a world is open."""
         self.paused = False
         self.is_held = True
-        """True until everything that others may call is registered."""
+        """True until all services are registered."""
         self.stop_reason: str | None = None
-        """Reason for which the simulation could not go on; None: it can."""
+        """Why the simulation had to stop; None: it runs."""
 
     @property
     def is_lockstep(self) -> bool:
@@ -62,28 +62,28 @@ class GazeboStepper:
         return self._lockstep is not None and self._lockstep.over.is_set()
 
     def set_paused(self, paused: bool) -> None:
-        """Pause, or go on."""
+        """Pause or resume."""
         self.paused = paused
         self.pacer.restart()
 
     def restart(self, time_ns: int) -> None:
-        """Go on from a time that is not the next one."""
+        """Continue after a jump in time [ns]."""
         self.clock.set(time_ns)
         self.pacer.restart()
 
     def begin(self) -> None:
-        """Hold time, and the nodes' messages of a run in lockstep until it advances."""
+        """Hold time, and in lockstep the nodes' messages too, until it advances."""
         self.is_held = True
         if self._lockstep is not None:
             self._loop.begin_batch()
 
     def step(self, live: LiveWorld) -> None:
-        """Advance as far as the pacer says, or wait a moment while paused."""
+        """Advance to the pacer's next target, or wait briefly while paused."""
         simulation = live.simulation
         if self.paused or self.is_held or not (self._lockstep is None or self._lockstep.is_ready):
             self.pacer.restart()
             simulation.advance(simulation.time_ns)
-            self.clock.set(simulation.time_ns)  # the page may have gone to another moment
+            self.clock.set(simulation.time_ns)  # the page may have moved along the timeline
             self._loop.end_batch()
             self._ending.wait(IDLE_S)
             return
@@ -97,7 +97,7 @@ class GazeboStepper:
                 live.advance(self._lockstep.target_ns(target_ns), step)
         except SimulationUnstableError as error:
             self._stop(str(error))
-        except Exception as error:  # a plugin's code may raise anything
+        except Exception as error:  # a plugin may raise anything
             self._stop(str(plugin_error(error) or f"{type(error).__name__}: {error}"))
         self.clock.set(simulation.time_ns)
         if self._lockstep is None and self.pacer.speed is None:
@@ -105,7 +105,7 @@ class GazeboStepper:
 
     def _step_lockstep(self, simulation: Simulation, steps: Lockstep, until_ns: int) -> None:
         """Advance hook by hook, and wait after each until the nodes have settled."""
-        end_ns = simulation.simulated_ns + until_ns - simulation.time_ns  # a node may have time reset amid this
+        end_ns = simulation.simulated_ns + until_ns - simulation.time_ns  # a node may reset time meanwhile
         while (left_ns := end_ns - simulation.simulated_ns) > 0 and not self.paused and not self._ending.is_set():
             if steps.over.is_set():
                 return
@@ -116,7 +116,7 @@ class GazeboStepper:
             )
             steps.record_step(simulation.time_ns)
 
-    def _stop(self, why: str) -> None:
-        self.paused, self.stop_reason = True, why
-        what, *lines = why.split("\n")
-        self._say("\n".join([f"{what}; the simulation is paused (/gazebo/unpause_physics tries to go on)", *lines]))
+    def _stop(self, reason: str) -> None:
+        self.paused, self.stop_reason = True, reason
+        first, *lines = reason.split("\n")
+        self._say("\n".join([f"{first}; the simulation is paused (/gazebo/unpause_physics tries to go on)", *lines]))

@@ -1,6 +1,7 @@
 """Simulation of a launch: opened by gzserver, filled by spawn_model, shown by gzclient, on a thread of its own."""
 
 import asyncio
+import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -26,10 +27,10 @@ from .contents import GazeboContents
 from .gzclient_page import GzclientPage
 from .simulation_thread import SimulationThread
 from .stepper import IDLE_S, GazeboStepper
-from .world_file import find_world
 from .world_setup import WorldSetup
 
 _POLL_S = 0.5
+_EMPTY_WORLD = "worlds/empty.world"
 
 
 class GazeboWorld:
@@ -55,19 +56,19 @@ class GazeboWorld:
         """Prepare; `open` starts the simulation.
 
         Args:
-            graph: of its nodes.
-            start: a file of the launch; packages are searched around it, too.
-            env: variables that locate packages, models and plugins.
-            report: takes findings of files and physics.
-            folder: keeps the text of each spawned model; messages name its lines.
+            graph: ROS graph of its nodes.
+            start: a file of the launch; packages are searched around it too.
+            env: environment variables that locate packages, models and plugins.
+            report: collects findings of files and physics.
+            folder: folder for the text of each spawned model, whose lines messages name.
             say: prints a line.
-            page: of the graph's windows; None: headless.
-            speed: times real time; None: flat out.
+            page: page of the graph's windows; None: headless.
+            speed: real-time factor; None: flat out.
             renderer: draws the cameras' images.
             timeline_mb: memory of the timeline, with a page [MB]; 0: none.
-            reload: asks, from any thread, to load the world again; None: it cannot be.
-            steps: holds time until the nodes are done; None: time is free.
-            setup: changes the world and its models, and begins with it; None: they are simulated as read.
+            reload: requests, from any thread, to load the world again; None: not supported.
+            steps: holds time until the nodes have settled; None: time never waits.
+            setup: changes the world and its models, and starts with it; None: no changes.
         """
         self._setup = setup
         self._graph = graph
@@ -78,12 +79,12 @@ class GazeboWorld:
         self._say = say
         self._renderer: RendererName = renderer
         self._timeline_mb = timeline_mb
-        self._ask_reload = reload
+        self._request_reload = reload
         self._file = ""
         self._spawned: dict[str, Callable[[], None]] = {}
-        """Spawned model → what spawns it again."""
-        self._returning: list[Callable[[], None]] | None = None
-        """Functions that spawn the models when the world is loaded again; None: it is opened for the first time."""
+        """Spawned model → function that spawns it again."""
+        self._respawns: list[Callable[[], None]] | None = None
+        """Functions that spawn the models of a world that is loaded again; None: it is opened for the first time."""
         self._window = GzclientPage(page, say, reload=None if reload is None else self._reload)
         self._thread = SimulationThread(graph.loop, self._tick, self._end)
         self._contents: GazeboContents | None = None
@@ -95,7 +96,7 @@ class GazeboWorld:
     async def open(
         self, node: Node, world: str, *, paused: bool, env: Mapping[str, str], record: str | None = None
     ) -> None:
-        """Read a world; `begin` starts its time."""
+        """Read a world; `begin` lets its time advance."""
         with self._graph.loop.work.pending(f"the world {world}"):
             await self._open(node, world, paused=paused, env=env, record=record)
 
@@ -106,7 +107,7 @@ class GazeboWorld:
         packages = Packages(self._env, start=self._start)
         self._stepper.paused = paused
         clock_hz = await clock_rate_hz(node)
-        self._file = find_world(name, packages, node)
+        self._file = _find_world(name, packages, node)
         loaded = await asyncio.to_thread(self._read_world, packages, self._report)
         logs = None if record is None else Path(record).expanduser() if record else self._folder.parent / "gazebo"
         try:
@@ -132,9 +133,9 @@ class GazeboWorld:
         self._thread.calls.post(call)
 
     async def show(self, node: Node) -> int:
-        """Open the page once there is a world, and keep it until cancelled."""
+        """Open the page once a world is open, and keep it until cancelled."""
         while not node.closed.is_set():
-            if self._window.is_wanted and self._contents is not None:
+            if self._window.is_pending and self._contents is not None:
                 self.post(lambda: self._open_window(node))
             await asyncio.sleep(_POLL_S)
         return 0
@@ -152,7 +153,7 @@ class GazeboWorld:
 
     @property
     def is_ready(self) -> bool:
-        """True if an open world has its contents."""
+        """True if the open world has been built."""
         return self._contents is not None
 
     # -- on its thread
@@ -185,11 +186,11 @@ class GazeboWorld:
 
     @property
     def stop_reason(self) -> str | None:
-        """Reason for which the simulation could not go on; None: it can."""
+        """Why the simulation had to stop; None: it runs."""
         return self._stepper.stop_reason
 
     def set_paused(self, paused: bool) -> None:
-        """Pause, or go on."""
+        """Pause or resume."""
         self._stepper.set_paused(paused)
 
     def open_window(self, node: Node) -> str | None:
@@ -213,7 +214,7 @@ class GazeboWorld:
         self._stepper.pacer.restart()
 
     def do(self, command: Callable[[Simulation], object]) -> None:
-        """Give the simulation a command, which its timeline repeats."""
+        """Run a command on the simulation; the timeline repeats it."""
         self.live.do(command)
 
     def set_speed(self, speed: float | None) -> None:
@@ -228,18 +229,18 @@ class GazeboWorld:
     # -- inside
 
     def _reload(self) -> None:
-        """Ask to load the world again, if its file can be read.
+        """Request to load the world again, if its file can be read.
 
         Raises:
-            TrundleError: it cannot; the world goes on.
+            TrundleError: it cannot be read; the running world continues.
         """
-        assert self._ask_reload is not None
+        assert self._request_reload is not None
         self._read_world(self.live.packages, Diagnostics())
-        self._ask_reload()
-        self._returning = list(self._spawned.values())
+        self._request_reload()
+        self._respawns = list(self._spawned.values())
 
     def _open_window(self, node: Node) -> None:
-        if self._window.is_wanted and self.live.timeline is None and self._timeline_mb and self._setup is None:
+        if self._window.is_pending and self.live.timeline is None and self._timeline_mb and self._setup is None:
             self.live.keep_timeline(self._timeline_mb * 1_000_000)
         self._window.open(self.live, node)
 
@@ -277,11 +278,24 @@ class GazeboWorld:
         self._stepper.clock = self._contents.clock
         self._contents.load(logs)
         self._spawned.clear()
-        returning, self._returning = self._returning, None
-        if returning is not None:
-            for spawn in returning:
+        respawns, self._respawns = self._respawns, None
+        if respawns is not None:
+            for spawn in respawns:
                 try:
                     spawn()
                 except TrundleError as error:
                     self._say(str(error))
             self._open_window(node)
+
+
+def _find_world(world: str, packages: Packages, node: Node) -> str:
+    """Find a world file; if there is none, log an error and return gzserver's empty world."""
+    exists = world.startswith(("model://", "file://")) or os.path.exists(os.path.expanduser(world))
+    if exists or packages.find_world(world) is not None:
+        return world
+    shipped = ", ".join(packages.worlds())
+    node.log.error(
+        f"{world}: no such world file; {_EMPTY_WORLD} is opened in its place, as gzserver does; worlds that come "
+        f"with Trundle: {shipped}; others are searched along GAZEBO_RESOURCE_PATH"
+    )
+    return _EMPTY_WORLD

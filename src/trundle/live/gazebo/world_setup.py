@@ -16,7 +16,7 @@ class WorldSetup(Protocol):
         ...
 
     def settle(self) -> bool:
-        """Do what is due when the nodes have settled at a time; return True if the run is to end there."""
+        """Handle a time at which all nodes have settled; return True to end the run."""
         ...
 
     def world(self, world: World) -> World:
@@ -28,5 +28,5 @@ class WorldSetup(Protocol):
         ...
 
     def start(self, simulation: Simulation, node: Node) -> None:
-        """Begin, at time zero; the node is gzserver's."""
+        """Start at time zero; `node` is gzserver's."""
         ...

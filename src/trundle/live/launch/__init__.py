@@ -1,1 +1,1 @@
-"""`trundle launch` and `trundle test`: launch files brought up, watched and ended."""
+"""`trundle launch` and `trundle test`: starts, supervises and ends the nodes of launch files."""

@@ -1,4 +1,4 @@
-"""`trundle launch --child`: runs the nodes that a roslaunch on another machine, the parent, has for this one.
+"""`trundle launch --child`: runs the nodes that the parent, a roslaunch on another machine, assigns to this one.
 
 The parent starts it over ssh, then both call each other over XML-RPC, as roslaunch and its children do.
 """
@@ -23,7 +23,7 @@ from trundle.robots.packages import Packages
 from trundle.ros import GraphLoop, MasterProxy, RpcServer, UnknownMethodError, master_uri_from_env, server_address
 
 from .loaded_launch import LoadedLaunch
-from .nodes import Launched
+from .nodes import LaunchedNode
 from .options import LaunchOptions
 from .parent import ParentLaunch
 from .running_nodes import RunningNodes
@@ -34,7 +34,7 @@ def run_child(parent: ParentLaunch, options: LaunchOptions, environment: Mapping
     """Serve the parent until its shutdown call, every node's end, or Ctrl-C; return 1 if a required node died.
 
     Raises:
-        UsageError: the parent cannot be reached, or does not know this child.
+        UsageError: the parent cannot be reached, or refuses this child.
     """
     env = dict(os.environ if environment is None else environment)
     warn_of_network(options.host, Console(sys.stderr, Diagnostics()).line)
@@ -69,13 +69,13 @@ class _Child:
         self._running: list[RunningNodes] = []
         self._starts: dict[str, int] = {}
         self._codes: dict[str, int] = {}
-        """Process → exit code, for those that ended and were not respawned."""
+        """Process → exit code, of ended processes that were not respawned."""
         self._is_ending = False
         self.is_shutdown_requested = False
 
     @property
     def is_over(self) -> bool:
-        """True if all that was launched has ended, or a required node has."""
+        """True if all launched nodes have ended, or a required one has."""
         if self._busy.locked() or not self._running:
             return False
         return self.required_died or (bool(self._starts) and all(nodes.is_over for nodes in self._running))
@@ -112,7 +112,7 @@ class _Child:
                 raise UnknownMethodError(f'method "{method}" is not supported with {len(arguments)} arguments')
 
     def stop_nodes(self) -> None:
-        """Stop all launches, the last first, and refuse new ones."""
+        """Stop all launches, newest first, and refuse new ones."""
         self._is_ending = True
         with self._busy:
             self._launches.close()
@@ -120,7 +120,7 @@ class _Child:
     def _launch(self, xml: str) -> tuple[int, str, list[list[str]]]:
         """Start nodes; return (code, message, [names started, names not started])."""
         try:
-            read = self._read(xml)
+            loaded = self._read(xml)
         except TrundleError as error:
             return -1, f"ERROR: {error}", [[], []]
         self._parent.log("launching nodes...")
@@ -129,34 +129,34 @@ class _Child:
                 if self._is_ending:
                     raise UsageError("it is shutting down")
                 self._check_run()
-                session = opened.enter_context(LaunchSession(read, self._options, listener=self._notify_parent))
-                running = session.start(read.plan.nodes, is_ending=lambda: self._is_ending)
+                session = opened.enter_context(LaunchSession(loaded, self._options, listener=self._notify_parent))
+                running = session.start(loaded.plan.nodes, is_ending=lambda: self._is_ending)
             except TrundleError as error:
                 return 0, f"ERROR: {error}", [[], []]
             self._running.append(running)
             self._launches.push(opened.pop_all())
-        for warning in read.report.warnings:
+        for warning in loaded.report.warnings:
             self._parent.log(warning, error=True)
         self._parent.log("... done launching nodes")
-        names = [[_called(e) for e in running.launched if (e.job is not None) is runs] for runs in (True, False)]
+        names = [[_process_name(n) for n in running.launched if (n.job is not None) is runs] for runs in (True, False)]
         return 1, "launched", names
 
     def _read(self, xml: str) -> LoadedLaunch:
         report = Diagnostics(strict=self._options.strict)
-        here = Path.cwd()
-        packages = Packages(self._env, start=here)
+        folder = Path.cwd()
+        packages = Packages(self._env, start=folder)
         plan = read_launch_text(xml, name=self._parent.uri, packages=packages, report=report, env=self._env)
         if plan.params or plan.clear_params or plan.steps:
             raise UsageError("a child sets no parameters; its parent does")
         show = Console(sys.stderr, report)
         return LoadedLaunch(
-            plan=plan, params=(), packages=packages, start=here, env=self._env, report=report, show=show
+            plan=plan, params=(), packages=packages, start=folder, env=self._env, report=report, show=show
         )
 
     def _check_run(self) -> None:
         master = MasterProxy(self._env.get("ROS_MASTER_URI") or master_uri_from_env())
-        if (theirs := master.call("getParam", "/run_id")) != self._parent.run_id:
-            raise UsageError(f"the master at {master.uri} has the run_id {theirs}, not {self._parent.run_id}")
+        if (run_id := master.call("getParam", "/run_id")) != self._parent.run_id:
+            raise UsageError(f"the master at {master.uri} has the run_id {run_id}, not {self._parent.run_id}")
 
     def _notify_parent(self, event: Event, text: str) -> None:
         if event.kind == "started":
@@ -168,5 +168,5 @@ class _Child:
         self._parent.log(text, error=event.kind in ("died", "failed", "required"))
 
 
-def _called(entry: Launched) -> str:
-    return entry.node.name if entry.job is None else f"Process<{entry.job.name}>"
+def _process_name(launched: LaunchedNode) -> str:
+    return launched.node.name if launched.job is None else f"Process<{launched.job.name}>"

@@ -1,4 +1,4 @@
-"""/clock of a flat-out launch without a simulation: a tick once the nodes are done with the last."""
+"""/clock of a flat-out launch without a simulation: a tick whenever the nodes have settled."""
 
 import threading
 
@@ -12,14 +12,14 @@ _IDLE_S = 0.005
 
 
 class ClockPublisher:
-    """Publishes /clock from a thread of its own, as fast as the nodes of this process can follow."""
+    """Publishes /clock on its own thread, as fast as the nodes of this process can follow."""
 
     def __init__(self, node: Node, steps: Lockstep) -> None:
-        """Start; time stays at zero until the launch has begun.
+        """Start; time stays zero until the launch has begun.
 
         Args:
             node: publishes /clock.
-            steps: holds time until the nodes are done.
+            steps: holds time until the nodes have settled.
         """
         self._loop = node.loop
         self._publisher = node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=10)

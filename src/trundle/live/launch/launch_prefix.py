@@ -1,4 +1,4 @@
-"""A node's launch-prefix: words before its program, and whether the program is to have a terminal."""
+"""A node's launch-prefix: words before its program, and whether the program needs a terminal."""
 
 import os
 import shutil
@@ -10,12 +10,12 @@ _WINDOWS = """
     alacritty gnome-terminal kitty konsole lxterm lxterminal mate-terminal qterminal rxvt terminator tilix urxvt uxterm
     x-terminal-emulator xfce4-terminal xterm
 """
-"""Programs that open a window with a terminal."""
+"""Terminal emulators: programs that open a window."""
 _SCREENS = frozenset({"byobu", "screen", "tmux"})
-"""Programs that keep what runs in their terminal, after options of their own."""
+"""Terminal multiplexers: they run a program in their own terminal."""
 _DEBUGGERS = frozenset({"cgdb", "gdb", "gdbtui", "ipdb", "ipdb3", "lldb", "pdb", "pdb3", "pudb", "pudb3"})
 _BEFORE_COMMAND = frozenset({"-e", "-x", "--", "--execute"})
-"""Options of a window behind which the command stands that it runs."""
+"""Options of a terminal emulator that precede the command to run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,18 +23,18 @@ class LaunchPrefix:
     """Words before a node's program."""
 
     words: tuple[str, ...] = ()
-    wants_terminal: bool = False
+    needs_terminal: bool = False
     """True: the program reads keys, or draws on a screen."""
     fault: str | None = None
-    """Reason for which words of the prefix are left out; None: all are used."""
+    """Why words of the prefix are left out; None: all are used."""
     program_fault: str | None = None
-    """The same, of the programs that a terminal does not take the place of."""
+    """The same, for programs that are no terminals."""
 
 
 def read_prefix(words: Sequence[str], env: Mapping[str, str]) -> LaunchPrefix:
     """Return the part of a launch-prefix that can start a program here.
 
-    A window stays where it can open; elsewhere the program gets a terminal of ours.
+    A terminal emulator is kept where it can open a window; elsewhere the program gets a terminal on the page.
     """
     if not words:
         return LaunchPrefix()
@@ -52,7 +52,7 @@ def read_prefix(words: Sequence[str], env: Mapping[str, str]) -> LaunchPrefix:
 
 
 def _command(words: Sequence[str]) -> Sequence[str]:
-    """Return the words of a window that are a command; usually none, since that is the node's program."""
+    """Return the command among a terminal emulator's words; usually none, as the node's program follows."""
     return next((words[i + 1 :] for i, word in enumerate(words) if word in _BEFORE_COMMAND), ())
 
 

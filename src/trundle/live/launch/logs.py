@@ -19,10 +19,10 @@ def ros_home(env: Mapping[str, str]) -> Path:
 
 
 def log_folder(env: Mapping[str, str], run_id: str) -> Path:
-    """Make the log folder of one run, by ROS_LOG_DIR and ROS_HOME.
+    """Create the log folder of one run, from ROS_LOG_DIR and ROS_HOME.
 
     Raises:
-        UsageError: it cannot be made.
+        UsageError: it cannot be created.
     """
     parent = Path(env.get("ROS_LOG_DIR") or ros_home(env) / "log")
     folder = parent / (run_id or "trundle")

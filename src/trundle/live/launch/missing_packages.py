@@ -1,4 +1,4 @@
-"""Finds the packages that a launch needs and that are not here; nothing is run."""
+"""Finds the missing packages of a launch without running anything."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -17,16 +17,18 @@ from .request import LaunchRequest, read_request
 _URI = re.compile(r"package://([\w-]+)/")
 
 
-class _NotingPackages(Packages):
-    """Packages that note the names of missing ones; what needs those is left out."""
+class _RecordingPackages(Packages):
+    """Finder that records the names of missing packages; files of those are left out."""
 
-    def __init__(self, environment: Mapping[str, str], *, start: Path, known: "_NotingPackages | None" = None) -> None:
-        self._own = {**environment, LENIENT: "1"}
-        super().__init__(self._own, start=start, known=known)
+    def __init__(
+        self, environment: Mapping[str, str], *, start: Path, known: "_RecordingPackages | None" = None
+    ) -> None:
+        environment = {**environment, LENIENT: "1"}
+        super().__init__(environment, start=start, known=known)
         self.missing: dict[str, None] = {} if known is None else known.missing
 
-    def around(self, file: Path) -> "_NotingPackages":
-        return _NotingPackages(self._own, start=file, known=self)
+    def around(self, file: Path) -> "_RecordingPackages":
+        return _RecordingPackages(self._environment, start=file, known=self)
 
     def find_folder(self, name: str) -> Path | None:
         folder = super().find_folder(name)
@@ -42,11 +44,11 @@ class _NotingPackages(Packages):
 
 
 def missing_packages(words: Sequence[str], environment: Mapping[str, str]) -> list[str]:
-    """Return the names of missing packages: of `$(find)`s, nodes, robots' files and meshes.
+    """Return the names of missing packages, from `$(find)`s, nodes, robots' files and meshes.
 
     Args:
-        words: command line of a launch: PKG FILE or FILE…, and NAME:=VALUE.
-        environment: where packages are searched.
+        words: a launch's command line: PKG FILE or FILE…, and NAME:=VALUE.
+        environment: environment variables that locate packages.
 
     Raises:
         TrundleError: the launch cannot be read, for another reason.
@@ -66,22 +68,22 @@ def missing_packages(words: Sequence[str], environment: Mapping[str, str]) -> li
 def with_all_missing(
     error: DescriptionError, request: LaunchRequest, environment: Mapping[str, str]
 ) -> DescriptionError:
-    """Return an error on missing packages with all others that the launch needs, too."""
+    """Extend an error on missing packages by all other missing packages of the launch."""
     with suppress(TrundleError):
         others = [
-            each for each in _errors(request, environment) if each.missing_packages[0] not in error.missing_packages
+            other for other in _errors(request, environment) if other.missing_packages[0] not in error.missing_packages
         ]
-        names = (*error.missing_packages, *(name for each in others for name in each.missing_packages))
+        names = (*error.missing_packages, *(name for other in others for name in other.missing_packages))
         return DescriptionError(error.at, error.what, more=[*error.more, *others], missing_packages=names)
     return error
 
 
 def _errors(request: LaunchRequest, environment: Mapping[str, str]) -> list[DescriptionError]:
-    """Return an error for each missing package, with the first place that needs it."""
+    """Return an error for each missing package, at the first line that needs it."""
     start = _start(request)
-    packages = _NotingPackages(environment, start=start)
+    packages = _RecordingPackages(environment, start=start)
     report = Diagnostics()
-    places: dict[str, Source] = {}
+    sources: dict[str, Source] = {}
     try:
         plan = read_launch(
             request.files,
@@ -97,25 +99,25 @@ def _errors(request: LaunchRequest, environment: Mapping[str, str]) -> list[Desc
     else:
         for node in plan.nodes:
             packages.find_folder(node.package)
-            places.setdefault(node.package, node.at)
-        _note_those_of_robots(plan, packages, report, environment, places)
+            sources.setdefault(node.package, node.at)
+        _find_packages_of_robots(plan, packages, report, environment, sources)
     for name in packages.missing:
-        found = (each.at for each in report.findings if f"no package {name!r}" in each.what)
-        places[name] = next(found, None) or places.get(name) or Source(str(start))
+        reported = (finding.at for finding in report.findings if f"no package {name!r}" in finding.what)
+        sources[name] = next(reported, None) or sources.get(name) or Source(str(start))
     return [
-        DescriptionError(places[name], f"no package {name!r}{repository_hint(name)}", missing_packages=(name,))
+        DescriptionError(sources[name], f"no package {name!r}{repository_hint(name)}", missing_packages=(name,))
         for name in packages.missing
     ]
 
 
-def _note_those_of_robots(
+def _find_packages_of_robots(
     plan: LaunchPlan,
-    packages: _NotingPackages,
+    packages: _RecordingPackages,
     report: Diagnostics,
     environment: Mapping[str, str],
-    places: dict[str, Source],
+    sources: dict[str, Source],
 ) -> None:
-    """Expand the robots of a launch as far as they can be without what is missing."""
+    """Expand the robots of a launch as far as possible without the missing packages."""
 
     def expand(file: Path, arguments: Mapping[str, str]) -> str:
         return expand_xacro(file, arguments, packages=packages, report=report)
@@ -126,7 +128,7 @@ def _note_those_of_robots(
             (resolved,) = resolve_params(alone, report, expand_xacro=expand, env=environment, run=_run_nothing)
             for name in _URI.findall(resolved.value) if isinstance(resolved.value, str) else ():
                 packages.find_folder(name)
-                places.setdefault(name, param.at)
+                sources.setdefault(name, param.at)
 
 
 def _start(request: LaunchRequest) -> Path:

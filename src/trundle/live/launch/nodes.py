@@ -37,19 +37,19 @@ from .terminals import NodeTerminals, TerminalOutput
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Launched:
-    """One node of a launch, and how it runs."""
+class LaunchedNode:
+    """Node of a launch, and how it runs."""
 
     node: LaunchNode
     kind: Literal["process", "stand-in", "missing", "failed"]
-    what: str
-    """Path of the program, package/type of the stand-in, or why there is neither."""
+    detail: str
+    """Path of the program, package/type of the stand-in, or why the node is missing."""
     job: Job | None = None
     log_files: str = ""
     terminal: Terminal | None = None
-    """Terminal of ours that it has; None: it has none of its own."""
+    """Its terminal on the page; None: it has none."""
 
-    def failed(self) -> "Launched":
+    def failed(self) -> "LaunchedNode":
         """Copy of this, marked as not started."""
         return replace(self, kind="failed", job=None)
 
@@ -66,40 +66,40 @@ class NodeStarter:
     """Interface of stand-ins to the launch."""
     terminals: NodeTerminals
     tree: ProcessTree
-    """Parent of the started processes; they end with it."""
+    """Tree of the started processes, which end with it."""
     log_folder: Path
     output: Literal["screen", "log"] | None = None
-    """Overrides what the launch file says."""
+    """Overrides the launch file."""
     all_required: bool = False
 
     def prepare(
-        self, node: LaunchNode, label: str, *, show: Callable[[str, str], None], more: tuple[str, ...] = ()
-    ) -> Launched:
-        """Make a node's job; warn if nothing can run it.
+        self, node: LaunchNode, label: str, *, show: Callable[[str, str], None], extra_arguments: tuple[str, ...] = ()
+    ) -> LaunchedNode:
+        """Make a node's job; warn if no program or stand-in can run it.
 
         Args:
-            node: the one to run.
-            label: its name in messages.
-            show: takes the label and a line of output.
-            more: further arguments of a program, after those of the launch file.
+            node: node to run.
+            label: the node's name in messages.
+            show: called with the label and a line of output.
+            extra_arguments: arguments of a program after those of the launch file.
 
         Raises:
-            DescriptionError: nothing can run it, and it is required.
+            DescriptionError: a required node that nothing can run.
         """
-        assert node.address is not None, "a launch with a node of no machine is refused"
+        assert node.address is not None, "a node without a machine is refused before"
         if not is_here(node.address, self.env):
-            why = f"{node.address} is another machine, and nothing is started there; run trundle launch on it, too"
-            return self._missing(node, f"{why}, with ROS_MASTER_URI={self.graph.master_uri}")
+            reason = f"{node.address} is another machine, and nothing is started there; run trundle launch on it, too"
+            return self._missing(node, f"{reason}, with ROS_MASTER_URI={self.graph.master_uri}")
         env = {**self.env, "ROS_NAMESPACE": node.namespace, "ROS_MASTER_URI": self.graph.master_uri, **dict(node.env)}
         if env["ROS_NAMESPACE"] == "/":
             del env["ROS_NAMESPACE"]
         match find_launch_node(node, self.packages, env):
             case Executable(path):
-                return self._prepare_process(node, label, path, env, show=show, more=more)
+                return self._prepare_process(node, label, path, env, show=show, extra_arguments=extra_arguments)
             case BuiltinReplacement() as stand_in:
                 return self._prepare_stand_in(node, label, stand_in)
-            case MissingNode(why):
-                return self._missing(node, why)
+            case MissingNode(reason):
+                return self._missing(node, reason)
 
     def _prepare_process(
         self,
@@ -109,60 +109,62 @@ class NodeStarter:
         env: Mapping[str, str],
         *,
         show: Callable[[str, str], None],
-        more: tuple[str, ...],
-    ) -> Launched:
+        extra_arguments: tuple[str, ...],
+    ) -> LaunchedNode:
         if fault := script_fault(path):
             self.report.warn(node.at, f"node {node.full_name}: {path} {fault}")
         prefix = read_prefix(_split(node.launch_prefix, node), env)
         output: Literal["screen", "log"] | TerminalOutput | None = None
         fault = prefix.fault
-        if prefix.wants_terminal:
+        if prefix.needs_terminal:
             output = self.terminals.find(node.full_name, is_process=True)
             if output is not None:
                 fault = prefix.program_fault
             elif fault is not None:
-                fault = f"{fault}, and {self.terminals.why_none(node)}"
+                fault = f"{fault}, and {self.terminals.reason_for_none(node)}"
         if fault is not None:
             self._warn_of_prefix(node, f"is left out: {fault}")
         if output is None:
             output = self.output or ("screen" if node.launch_prefix and not prefix.words else node.output)
-        command = self._command(node, label, path, env, (*prefix.words, *start_words(path, env)), more, output)
-        return Launched(
+        command = self._command(
+            node, label, path, env, (*prefix.words, *start_words(path, env)), extra_arguments, output
+        )
+        return LaunchedNode(
             node=node,
             kind="process",
-            what=f"{path}{_in_terminal(output)}",
+            detail=f"{path}{_in_terminal(output)}",
             job=ProcessJob(command, show, tree=self.tree),
             log_files=f"{self.log_folder / label.replace('/', '-')}*.log",
             terminal=output if isinstance(output, Terminal) else None,
         )
 
-    def _prepare_stand_in(self, node: LaunchNode, label: str, stand_in: BuiltinReplacement) -> Launched:
+    def _prepare_stand_in(self, node: LaunchNode, label: str, stand_in: BuiltinReplacement) -> LaunchedNode:
         terminal = None
         prefix = read_prefix(_split(node.launch_prefix, node), {})
-        if prefix.wants_terminal and (node.package, node.type) in KEYBOARDS:
+        if prefix.needs_terminal and (node.package, node.type) in KEYBOARDS:
             terminal = self.terminals.find(node.full_name, is_process=False)
             if terminal is None:
-                self._warn_of_prefix(node, f"is left out: {self.terminals.why_none(node)}")
+                self._warn_of_prefix(node, f"is left out: {self.terminals.reason_for_none(node)}")
         elif node.launch_prefix:
             self._warn_of_prefix(node, "is not used; the stand-in runs within this process")
-        own = terminal if isinstance(terminal, Terminal) else None
+        page_terminal = terminal if isinstance(terminal, Terminal) else None
         name = label.replace("/", "-")
         log = None if (self.output or node.output) == "screen" else self.log_folder / f"{name}-stdout.log"
-        return Launched(
+        return LaunchedNode(
             node=node,
             kind="stand-in",
-            what=f"{node.package}/{node.type}{_in_terminal(terminal)}",
-            job=TaskJob(label, lambda: self._run(node, stand_in, log, own)),
+            detail=f"{node.package}/{node.type}{_in_terminal(terminal)}",
+            job=TaskJob(label, lambda: self._run(node, stand_in, log, page_terminal)),
             log_files="" if log is None else str(log),
-            terminal=own,
+            terminal=page_terminal,
         )
 
-    def _warn_of_prefix(self, node: LaunchNode, what: str) -> None:
-        self.report.warn(node.at, f"node {node.full_name}: launch-prefix {node.launch_prefix!r} {what}")
+    def _warn_of_prefix(self, node: LaunchNode, problem: str) -> None:
+        self.report.warn(node.at, f"node {node.full_name}: launch-prefix {node.launch_prefix!r} {problem}")
 
-    def _missing(self, node: LaunchNode, why: str) -> Launched:
-        report_missing_node(node, why, self.report, is_required=self.policy(node).required)
-        return Launched(node=node, kind="missing", what=why)
+    def _missing(self, node: LaunchNode, reason: str) -> LaunchedNode:
+        report_missing_node(node, reason, self.report, is_required=self.policy(node).required)
+        return LaunchedNode(node=node, kind="missing", detail=reason)
 
     def policy(self, node: LaunchNode) -> RespawnPolicy:
         """Respawn policy of a node."""
@@ -172,14 +174,14 @@ class NodeStarter:
     async def _run(
         self, node: LaunchNode, stand_in: BuiltinReplacement, log: Path | None, terminal: Terminal | None
     ) -> int:
-        given = parse_arguments(_split(node.arguments, node))
+        arguments = parse_arguments(_split(node.arguments, node))
         ros_node = Node(
-            given.name or node.name,
+            arguments.name or node.name,
             loop=self.graph.loop,
             master_uri=self.graph.master_uri,
-            namespace=given.namespace or node.namespace,
-            remappings={**dict(node.remappings), **given.remappings},
-            params={name: _value(text) for name, text in given.params.items()},
+            namespace=arguments.namespace or node.namespace,
+            remappings={**dict(node.remappings), **arguments.remappings},
+            params={name: _value(text) for name, text in arguments.params.items()},
             host=self.graph.host,
         )
         if (node.package, node.type) in ROSCPP:
@@ -188,7 +190,7 @@ class NodeStarter:
             if log is not None:
                 ros_node.log.quiet = files.enter_context(log.open("a", encoding="utf-8"))
             host = replace(self.host, env=dict(node.env), terminal=terminal, tree=self.tree)
-            return await run_builtin_node(stand_in, ros_node, list(given.rest), host)
+            return await run_builtin_node(stand_in, ros_node, list(arguments.rest), host)
 
     def _command(
         self,
@@ -196,22 +198,22 @@ class NodeStarter:
         label: str,
         program: Path,
         env: Mapping[str, str],
-        before: tuple[str, ...],
-        more: tuple[str, ...],
+        prefix: tuple[str, ...],
+        extra_arguments: tuple[str, ...],
         output: Literal["screen", "log"] | TerminalOutput,
     ) -> ProcessCommand:
-        """Return the command line of a program, with the words before it."""
+        """Return a program's command line, with its prefix."""
         log = self.log_folder / label.replace("/", "-")
         if isinstance(output, Terminal):
             env = {**env, "TERM": "xterm-256color", "COLORTERM": "truecolor"}
         return ProcessCommand(
             name=label,
             argv=(
-                *before,
+                *prefix,
                 str(program),
                 *_split(node.arguments, node),
-                *more,
-                *(f"{there}:={here}" for there, here in node.remappings),
+                *extra_arguments,
+                *(f"{name}:={target}" for name, target in node.remappings),
                 f"__name:={node.name}",
                 f"__log:={log}.log",
             ),
@@ -224,7 +226,7 @@ class NodeStarter:
 
 
 def _in_terminal(output: object) -> str:
-    """Return where the terminal of a node is, for the table of what runs."""
+    """Suffix of a node's row in the table, if its terminal is on the page."""
     return ", in a terminal on the page" if isinstance(output, Terminal) else ""
 
 
@@ -238,7 +240,7 @@ def _split(text: str, node: LaunchNode) -> list[str]:
 
 
 def _value(text: str) -> object:
-    """Value of a node's `_name:=value` argument: as YAML, else the text."""
+    """Value of a node's `_name:=value` argument: YAML if it is valid, else the text."""
     try:
         value = load_yaml(text)
     except yaml.YAMLError:

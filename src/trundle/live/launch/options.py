@@ -18,17 +18,17 @@ class LaunchOptions:
     view_port: int | None = None
     host: str = "127.0.0.1"
     allowed: AllowedNames = AllowedNames()
-    """Hosts and origins that the page serves beside its own."""
+    """Hosts and origins that the page serves besides its own."""
     view_only: bool = False
-    """True: print a second link, which only allows looking."""
+    """True: print a second link, which is view-only."""
     opens_browser: bool = True
-    """Open the page where there is a display; False: print its URL only."""
+    """True: open the page where there is a display; False: only print its URL."""
     renderer: Literal["cpu", "egl"] = "cpu"
     """As `RunOptions.renderer`."""
     output: Literal["screen", "log"] | None = None
     """Output of every node; overrides the file's."""
     reads_keys: bool = False
-    """Nodes may read the terminal in which the launch runs."""
+    """True: nodes may read the terminal in which the launch runs."""
     all_required: bool = False
     wait_for_master: bool = False
     summary: bool = True
@@ -37,20 +37,20 @@ class LaunchOptions:
     pid_file: Path | None = None
     interrupt_s: float = 15.0
     terminate_s: float = 2.0
-    """Timeouts of a node's end after SIGINT, then after SIGTERM [s]; the defaults are roslaunch's."""
+    """Timeouts [s] after SIGINT, then after SIGTERM; the defaults are roslaunch's."""
     strict: bool = False
     quiet: bool = False
     """Print failures only."""
     distro: str | None = None
-    """ROS distribution; None: that of the master; Noetic if it is started here."""
+    """ROS distribution; None: the master's, Noetic if it is started here."""
     speed: float | None = 1.0
     """Simulated seconds per second of wall time; None: flat out."""
     in_step: bool = False
-    """Time waits for the nodes at each step at any speed, as it does flat out."""
+    """True: time waits for the nodes at each step at any speed, as it does flat out."""
     record: Path | None = None
-    """Bag of every topic."""
+    """Path of a bag that records every topic."""
     record_from_s: float = 0.0
-    """Time at which a bag in lockstep begins [s]."""
+    """Start time of a bag in lockstep [s]."""
     record_without: frozenset[str] = frozenset()
     """Message types that the bag leaves out."""
     only: Literal["nodes", "files", "find-node", "args", "arguments", "params", "translation"] | None = None

@@ -7,7 +7,7 @@ from typing import Protocol
 from trundle.gazebo.nodes import CLIENTS, WINDOWS
 from trundle.robots.launch import LaunchPlan
 
-from .nodes import Launched
+from .nodes import LaunchedNode
 
 _TIMEOUT_S = 20.0
 """A world may take longer to read; its page's URL is then printed on a line of its own."""
@@ -17,7 +17,7 @@ _VIDEO_PORT = 8080
 
 
 class OpeningPage(Protocol):
-    """A page that is being opened, or never will be."""
+    """A page that is being opened, or failed to open."""
 
     @property
     def url(self) -> str | None: ...
@@ -25,14 +25,14 @@ class OpeningPage(Protocol):
     def is_over(self) -> bool: ...
 
 
-def opens_page(launched: Sequence[Launched]) -> bool:
-    """Return True if one of the started nodes opens the page, as rviz, rqt's programs, gzclient and terminals do."""
+def opens_page(launched: Sequence[LaunchedNode]) -> bool:
+    """Return True if a started node opens the page, as rviz, rqt's programs, gzclient and terminals do."""
     started = {(entry.node.package, entry.node.type) for entry in launched if entry.kind == "stand-in"}
     return not (CLIENTS | WINDOWS).isdisjoint(started) or any(entry.terminal is not None for entry in launched)
 
 
 def await_url(page: OpeningPage, is_ending: Callable[[], bool]) -> str | None:
-    """Wait until the page is served or will not be; return its URL."""
+    """Wait until the page is served or has failed; return its URL."""
     deadline = time.monotonic() + _TIMEOUT_S
     while not is_ending() and time.monotonic() < deadline:
         if page.url is not None or page.is_over:
@@ -42,7 +42,7 @@ def await_url(page: OpeningPage, is_ending: Callable[[], bool]) -> str | None:
 
 
 def reserved_ports(plan: LaunchPlan) -> tuple[int, ...]:
-    """Ports of web_video_servers in a launch, whose default is that of pages; other programs expect them there."""
+    """Ports of web_video_servers in a launch, which other programs expect; their default is also the page's."""
     ports: list[int] = []
     for node in plan.nodes:
         if (node.package, node.type) == _VIDEO_SERVER:

@@ -1,4 +1,4 @@
-"""Parameters of a launch, set on the server: dump and delete, then clear and set, in roslaunch's order."""
+"""Sets a launch's parameters on the server: dump and delete, then clear and set, in roslaunch's order."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,7 +12,7 @@ from trundle.ros import Node, ParameterError
 
 
 async def set_params(node: Node, plan: LaunchPlan, params: Sequence[LaunchParam]) -> None:
-    """Dump, delete, clear and set, before any node starts.
+    """Dump, delete, clear and set parameters before any node starts.
 
     Raises:
         DescriptionError: an invalid parameter value, or a file that cannot be written.

@@ -10,7 +10,7 @@ from trundle.base.diagnostics import UsageError
 from trundle.robots.launch import LaunchArgument, LaunchNode, LaunchParam, LaunchPlan
 from trundle.robots.packages import Packages
 
-_LONGEST_VALUE = 20
+_MAX_VALUE_LENGTH = 20
 _RULE = "========"
 
 
@@ -49,23 +49,23 @@ def node_command(plan: LaunchPlan, name: str, packages: Packages, env: Mapping[s
             program = str(path)
         case BuiltinReplacement():
             program = f"{node.package}/{node.type}"  # runs within trundle: there is no command line to copy
-        case MissingNode(why):
-            raise UsageError(f"node {node.full_name}: {why}")
+        case MissingNode(reason):
+            raise UsageError(f"node {node.full_name}: {reason}")
     words = [*shlex.split(node.launch_prefix), program, *shlex.split(node.arguments)]
-    words += [f"{there}:={here}" for there, here in node.remappings]
+    words += [f"{name}:={target}" for name, target in node.remappings]
     return " ".join([*(f'{key}="{value}"' for key, value in variables), *words, f"__name:={node.name}"])
 
 
 def translations(plan: LaunchPlan, packages: Packages, env: Mapping[str, str]) -> str:
-    """`--show-translation`: what is changed in the Python 2 programs of the nodes."""
+    """`--show-translation`: changes to the nodes' Python 2 programs."""
     from trundle.gazebo.nodes import Executable, find_node
     from trundle.ros.rospy.python2.cache import changes
 
     programs: dict[Path, None] = {}
     for node in _nodes(plan):
-        found = find_node(node.package, node.type, packages.find_package, env=env, arguments=node.arguments)
-        if isinstance(found, Executable):
-            programs[found.path] = None
+        executable = find_node(node.package, node.type, packages.find_package, env=env, arguments=node.arguments)
+        if isinstance(executable, Executable):
+            programs[executable.path] = None
     texts = [text for program in programs if (text := changes(program))]
     return "\n".join(texts) or "no node of this launch is a Python 2 program"
 
@@ -94,15 +94,15 @@ def summary(plan: LaunchPlan, params: Mapping[str, object]) -> str:
         lines += ["", "PARAMETERS", *sorted(f" * {name}: {_short(value)}" for name, value in params.items())]
     lines += ["", "NODES"]
     for namespace in sorted({node.namespace.rstrip("/") + "/" for node in plan.nodes}):
-        here = [n for n in plan.nodes if n.namespace.rstrip("/") + "/" == namespace]
-        lines += [f"  {namespace}", *sorted(f"    {n.name} ({n.package}/{n.type})" for n in here)]
+        nodes = [n for n in plan.nodes if n.namespace.rstrip("/") + "/" == namespace]
+        lines += [f"  {namespace}", *sorted(f"    {n.name} ({n.package}/{n.type})" for n in nodes)]
     return "\n".join([*lines, ""])
 
 
 def _short(value: object) -> str:
     text = str(value)
-    if len(text) > _LONGEST_VALUE:
-        text = text[: _LONGEST_VALUE - 3] + "..."
+    if len(text) > _MAX_VALUE_LENGTH:
+        text = text[: _MAX_VALUE_LENGTH - 3] + "..."
     text = text.rstrip()
     return text if all(" " <= char <= "~" for char in text) else "<...>"
 
@@ -116,5 +116,5 @@ def _named(plan: LaunchPlan, name: str) -> LaunchNode:
     for node in _nodes(plan):
         if node.full_name == full:
             return node
-    there = ", ".join(node.full_name for node in _nodes(plan)) or "none"
-    raise UsageError(f"no node named {full}; nodes of this launch: {there}")
+    names = ", ".join(node.full_name for node in _nodes(plan)) or "none"
+    raise UsageError(f"no node named {full}; nodes of this launch: {names}")

@@ -13,7 +13,7 @@ from trundle.robots.packages import Packages
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LaunchRequest:
-    """Launch files and the `name:=value` of the command line."""
+    """Launch files and `name:=value` arguments of the command line."""
 
     files: tuple[Path, ...] = ()
     arguments: dict[str, str] = field(default_factory=dict[str, str])
@@ -27,7 +27,7 @@ def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
     """Read `PKG FILE` or `FILE…`, as roslaunch does: `FILE…` if the first word is a file; `-` is standard input.
 
     Raises:
-        UsageError: no such file or package; the message lists those there are.
+        UsageError: no such file or package; the message lists the existing ones.
     """
     arguments: dict[str, str] = {}
     special: dict[str, str] = {}
@@ -46,7 +46,7 @@ def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
         files = [word for word in rest if word not in texts]
         missing = [word for word in files if not os.path.isfile(word)]
         if missing:
-            raise UsageError(f"no such file: {', '.join(each + similar_file(each) for each in missing)}")
+            raise UsageError(f"no such file: {', '.join(path + similar_file(path) for path in missing)}")
         if texts.count("-") > 1:
             raise UsageError("standard input ('-') can be read only once")
         return LaunchRequest(
@@ -59,12 +59,12 @@ def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
         raise UsageError(f"no such file: {rest[0]}{similar_file(rest[0])}")
     package = packages.find_package(rest[0]) and packages.find_folder(rest[0])
     if package is None:
-        what = f"{packages.why_not_found(rest[0])}; {rest[0]!r} is no file either"
-        raise UsageError(what, missing_packages=(rest[0],))
+        message = f"{packages.why_not_found(rest[0])}; {rest[0]!r} is no file either"
+        raise UsageError(message, missing_packages=(rest[0],))
     if (workspace := packages.workspace_of(package)) is not None:
         print(f"using the workspace {workspace}", file=sys.stderr)
-    found = tuple(_in_package(package, rest[0], word) for word in rest[1:])
-    return LaunchRequest(files=found, arguments=arguments, namespace=special.get("__ns", ""))
+    files = tuple(_in_package(package, rest[0], word) for word in rest[1:])
+    return LaunchRequest(files=files, arguments=arguments, namespace=special.get("__ns", ""))
 
 
 def _is_text(word: str) -> bool:
@@ -88,9 +88,9 @@ def _read(word: str) -> tuple[str, str]:
 def _in_package(folder: Path, package: str, name: str) -> Path:
     if os.path.isfile(folder / name):
         return folder / name
-    found = sorted(path for path in folder.rglob(Path(name).name) if os.path.isfile(path) and path.match(name))
-    if found:
-        return found[0]
-    there = sorted(path.name for path in folder.rglob("*.launch"))
-    what = f"package {package!r} ({folder}) has no {name}{did_you_mean(name, there)}"
-    raise UsageError(f"{what}; launch files there: {', '.join(there) or 'none'}")
+    matches = sorted(path for path in folder.rglob(Path(name).name) if os.path.isfile(path) and path.match(name))
+    if matches:
+        return matches[0]
+    launch_files = sorted(path.name for path in folder.rglob("*.launch"))
+    message = f"package {package!r} ({folder}) has no {name}{did_you_mean(name, launch_files)}"
+    raise UsageError(f"{message}; launch files there: {', '.join(launch_files) or 'none'}")

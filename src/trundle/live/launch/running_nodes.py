@@ -1,4 +1,4 @@
-"""Nodes of one launch under their supervisor, and the lines printed about them."""
+"""Supervised nodes of one launch, and the lines printed about them."""
 
 import asyncio
 import re
@@ -10,15 +10,15 @@ from trundle.base.supervisor import Event, StopTimeouts, Supervisor
 from trundle.gazebo.nodes import WORLDS, missing_ros_module, missing_rospy_advice
 from trundle.robots.launch import LaunchNode
 
-from .nodes import Launched, NodeStarter
+from .nodes import LaunchedNode, NodeStarter
 from .terminals import exec_command
 
 _RULE = "=" * 80
 _NO_TERMINAL = re.compile("Inappropriate ioctl for device|EOFError: EOF when reading a line|_curses.error")
-"""Output of programs that read keys and find no terminal."""
+"""Output of programs that read keys but have no terminal."""
 
 Listener: TypeAlias = Callable[[Event, str], None]
-"""Takes an event of a node, and its printed line."""
+"""Called with an event of a node, and its printed line."""
 
 
 class RunningNodes:
@@ -38,19 +38,19 @@ class RunningNodes:
         self._nodes = nodes
         self._timeouts = timeouts
         self._listener = listener
-        self._unsaid = {"started", "finished", "stopping"} if quiet else set[str]()
+        self._silent_kinds = {"started", "finished", "stopping"} if quiet else set[str]()
         self._supervisor: Supervisor | None = None
         self._waiting: asyncio.Task[str | None] | None = None
-        self._by_label: dict[str, Launched] = {}
+        self._by_label: dict[str, LaunchedNode] = {}
         self._worlds: set[str] = set()
         self._ended: set[str] = set()
-        self.launched: list[Launched] = []
+        self.launched: list[LaunchedNode] = []
         """Nodes as started, in the file's order."""
 
     async def start(
         self, is_ending: Callable[[], bool], let_start: Callable[[Callable[[], bool]], Awaitable[None]] | None = None
     ) -> None:
-        """Start all nodes that can run, unless the end comes first; await `let_start` after each."""
+        """Start all nodes that can run, until `is_ending`; await `let_start` after each."""
         self._supervisor = Supervisor(self._print_event, timeouts=self._timeouts)
         for number, node in enumerate(self._nodes, start=1):
             if is_ending():
@@ -69,21 +69,21 @@ class RunningNodes:
         self._waiting = asyncio.create_task(self._supervisor.wait())
 
     async def stop(self) -> None:
-        """Stop all nodes, the last started first."""
+        """Stop all nodes, the last one first."""
         if self._supervisor is not None:
             await self._supervisor.stop()
 
     @property
     def is_over(self) -> bool:
-        """True if every node has ended, or a required one."""
+        """True if every node has ended, or a required one has."""
         return self._waiting is not None and self._waiting.done()
 
     @property
     def required_died(self) -> bool:
-        """True if a required node's end ended the launch."""
+        """True if the end of a required node ended the launch."""
         return self.is_over and self._waiting is not None and self._waiting.result() is not None
 
-    def is_worldless(self) -> bool:
+    def has_world_ended(self) -> bool:
         """True if worlds were started and all have ended."""
         return bool(self._worlds) and self._worlds <= self._ended
 
@@ -114,18 +114,18 @@ class RunningNodes:
             case _:
                 text = f"[{name}] {event.text}"
         self._listener(event, text)
-        if event.kind not in self._unsaid:
+        if event.kind not in self._silent_kinds:
             say(text)
 
 
-def what_runs(launched: Sequence[Launched], page: str | None = None) -> str:
-    """Table of the nodes by kind: process, stand-in, missing, failed; then the URL of the page."""
-    rows = [(entry.kind, entry.node.full_name, entry.what) for entry in launched]
+def launched_table(launched: Sequence[LaunchedNode], page: str | None = None) -> str:
+    """Table of the nodes (process, stand-in, missing or failed), and the URL of the page."""
+    rows = [(entry.kind, entry.node.full_name, entry.detail) for entry in launched]
     widths = [max((len(row[column]) for row in rows), default=0) for column in (0, 1)]
     return "\n".join(
         [
             "WHAT RUNS",
-            *(f"  {kind:<{widths[0]}}  {name:<{widths[1]}}  {what}" for kind, name, what in rows),
+            *(f"  {kind:<{widths[0]}}  {name:<{widths[1]}}  {detail}" for kind, name, detail in rows),
             *([] if page is None else [f"  {'page':<{widths[0]}}  {page}"]),
         ]
     )
@@ -139,4 +139,4 @@ def _terminal_advice(node: LaunchNode) -> str:
 
 
 def _show_output(_name: str, line: str) -> None:
-    say(line)  # as roslaunch, without a prefix
+    say(line)  # like roslaunch, without a prefix

@@ -1,6 +1,5 @@
 """One launch: its graph, parameters, recording, page, simulation and nodes."""
 
-import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from functools import partial
@@ -14,7 +13,7 @@ from trundle.base.http.page_address import PageAddress
 from trundle.base.supervisor import Event, ProcessTree, StopTimeouts
 from trundle.gazebo.nodes import WORLDS, Executable, NodeHost, Simulator, find_node
 from trundle.robots.launch import LaunchNode, LaunchPlan
-from trundle.ros import DISTROS, Clock, Node, Recorder, RecorderOptions, StepRecorder, follow_time
+from trundle.ros import DISTROS, Node, Recorder, RecorderOptions, StepRecorder, follow_time
 from trundle.spatial import NS_PER_S
 
 from ..graph import Graph
@@ -27,7 +26,7 @@ from .nodes import NodeStarter
 from .options import LaunchOptions
 from .pages import await_url, opens_page, reserved_ports
 from .params import set_params
-from .running_nodes import Listener, RunningNodes, what_runs
+from .running_nodes import Listener, RunningNodes, launched_table
 from .terminals import NodeTerminals
 
 if TYPE_CHECKING:
@@ -38,15 +37,13 @@ if TYPE_CHECKING:
     from ..gazebo.world import GazeboWorld
     from ..gazebo.world_setup import WorldSetup
 
-_SILENCE_S = 5.0
-
 
 class LaunchSession:
-    """A graph with the launch's parameters on it, and its nodes once they are started."""
+    """A graph with the launch's parameters, and its nodes once started."""
 
     def __init__(
         self,
-        read: LoadedLaunch,
+        loaded: LoadedLaunch,
         options: LaunchOptions,
         *,
         ports: Sequence[int] = (),
@@ -55,28 +52,28 @@ class LaunchSession:
         setup: "WorldSetup | None" = None,
         read_again: Callable[[], LoadedLaunch] | None = None,
     ) -> None:
-        """Join or start a graph and set the parameters.
+        """Join or start a graph, and set the parameters.
 
         Args:
-            read: the launch.
-            options: of the launch.
-            ports: as `Graph.open`.
-            rosout: as `Graph.open`.
-            listener: takes each node's events, on the graph's thread.
-            setup: of the simulated world.
-            read_again: reads the launch again, for `reload`; called on the simulation's thread. None: it cannot be.
+            loaded: the launch as read.
+            options: launch options.
+            ports: see `Graph.open`.
+            rosout: see `Graph.open`.
+            listener: called with each node's events, on the graph's thread.
+            setup: changes the simulated world; None: no changes.
+            read_again: reads the launch again, for `reload`, on the simulation's thread; None: not supported.
         """
         self._read_again = read_again
         self._reloaded: LoadedLaunch | None = None
-        """Launch that the page asked for, as read again."""
+        """Launch as read again on request of the page."""
         self._setup = setup
         self._gazebo: GazeboWorld | None = None
-        self._read = read
+        self._loaded = loaded
         self._options = options
         self._listener = listener
-        self._open_things = ExitStack()
+        self._resources = ExitStack()
         self._running: RunningNodes | None = None
-        self.recording_broke_off = False
+        self.recording_failed = False
         self._lockstep: Lockstep | None = None
         self._page: SharedPage | None = None
         self._display: GraphPage | None = None
@@ -84,37 +81,37 @@ class LaunchSession:
             with no_garbage():
                 self._open(ports, rosout=rosout)
         except BaseException:
-            self._open_things.close()
+            self._resources.close()
             raise
 
     def _open(self, ports: Sequence[int], *, rosout: bool) -> None:
-        read, options, show = self._read, self._options, self._read.show
-        graph = self.graph = self._open_things.enter_context(
+        loaded, options, show = self._loaded, self._options, self._loaded.show
+        graph = self.graph = self._resources.enter_context(
             Graph.open(
-                read.env, host=options.host, ports=ports, rosout=rosout, log_folder=partial(log_folder, read.env)
+                loaded.env, host=options.host, ports=ports, rosout=rosout, log_folder=partial(log_folder, loaded.env)
             )
         )
         show.line(graph.summary)
         launcher = self._launcher = Node(
             "/roslaunch", loop=graph.loop, master_uri=graph.master_uri, host=graph.host, rosout=False
         )
-        logs = log_folder(read.env, str(graph.loop.run(launcher.params.get("/run_id", ""))))
+        logs = log_folder(loaded.env, str(graph.loop.run(launcher.params.get("/run_id", ""))))
         self._log = LaunchLog(logs)
-        self._open_things.callback(self._log.close)
+        self._resources.callback(self._log.close)
         show.log_to(self._log.write)
         if options.distro is not None:
             profile = DISTROS[options.distro]
             for name, value in (("/rosdistro", profile.distro), ("/rosversion", profile.version)):
                 graph.loop.run(launcher.params.set(name, f"{value}\n"))
         if options.summary and not options.core_only:
-            core = {name: str(graph.loop.run(launcher.params.get(name, ""))).strip() for name in _SHOWN}
-            values = {**core, **{param.name: param.value for param in read.params}}
-            self._say(printing.summary(read.plan, values))
-        graph.loop.run(set_params(launcher, read.plan, read.params))
+            core = {name: str(graph.loop.run(launcher.params.get(name, ""))).strip() for name in _CORE_PARAMS}
+            values = {**core, **{param.name: param.value for param in loaded.params}}
+            self._say(printing.summary(loaded.plan, values))
+        graph.loop.run(set_params(launcher, loaded.plan, loaded.params))
         programs = self._programs()
         may_wait = options.speed is None or options.in_step
         publishes_clock = may_wait and not programs and self._may_publish_clock(launcher)
-        in_step = publishes_clock or (may_wait and _has_world(read.plan))
+        in_step = publishes_clock or (may_wait and _has_world(loaded.plan))
         if publishes_clock or (in_step and not graph.loop.run(launcher.params.has("/use_sim_time"))):
             graph.loop.run(launcher.params.set("/use_sim_time", True))
         self.clock = graph.loop.run(follow_time(launcher))
@@ -125,27 +122,27 @@ class LaunchSession:
             self._lockstep = Lockstep(graph.loop, end_ns=end_ns, recorder=recorder, say=show.line, settle=settle)
             if publishes_clock:
                 show.line("no simulation publishes /clock: it is published here, as fast as the nodes can follow")
-                self._open_things.callback(ClockPublisher(launcher, self._lockstep).close)
+                self._resources.callback(ClockPublisher(launcher, self._lockstep).close)
         page = self._page = None if options.headless else self._shared_page()
         if page is not None:
             from trundle.page.graph_page import GraphPage
 
-            self._display = GraphPage(page, read.report)
+            self._display = GraphPage(page, loaded.report)
         display = self._display
         self._terminals = NodeTerminals(None if display is None else display.terminals, reads_keys=options.reads_keys)
-        self._open_things.callback(self._terminals.close)
-        self._tree = self._open_things.enter_context(ProcessTree(terminate_s=options.terminate_s))
+        self._resources.callback(self._terminals.close)
+        self._tree = self._resources.enter_context(ProcessTree(terminate_s=options.terminate_s))
         self.starter = self._make_starter(logs)
 
     def _make_starter(self, logs: Path) -> NodeStarter:
-        read, options = self._read, self._options
+        loaded, options = self._loaded, self._options
         self._logs = logs
-        simulator = self._simulator(logs) if _simulates(read.plan) else None
+        simulator = self._simulator(logs) if _simulates(loaded.plan) else None
         return NodeStarter(
             graph=self.graph,
-            packages=read.packages,
-            env=read.env,
-            report=read.report,
+            packages=loaded.packages,
+            env=loaded.env,
+            report=loaded.report,
             host=NodeHost(display=self._display, simulator=simulator),
             terminals=self._terminals,
             tree=self._tree,
@@ -155,24 +152,24 @@ class LaunchSession:
         )
 
     def _shared_page(self) -> "SharedPage":
-        from trundle.page import GraphAddress  # a launch without a page does not wait for it
+        from trundle.page import GraphAddress  # a launch without a page does not import it
         from trundle.page.shared_page import SharedPage
 
-        graph, options, read = self.graph, self._options, self._read
+        graph, options, loaded = self.graph, self._options, self._loaded
         page = SharedPage(
-            say=read.show.line,
+            say=loaded.show.line,
             at=PageAddress(
                 host=options.host,
                 port=options.view_port,
-                reserved_ports=reserved_ports(read.plan),
+                reserved_ports=reserved_ports(loaded.plan),
                 allowed=options.allowed,
                 view_only=options.view_only,
             ),
             graph=GraphAddress(master_uri=graph.master_uri, host=graph.host),
-            source=next(iter(read.plan.files), None),
+            source=next(iter(loaded.plan.files), None),
             opens_browser=options.opens_browser,
         )
-        self._open_things.callback(page.close)
+        self._resources.callback(page.close)
         return page
 
     def _record(self, file: Path, in_step: bool, programs: Sequence[str]) -> StepRecorder | None:
@@ -182,68 +179,70 @@ class LaunchSession:
             steps = StepRecorder(
                 graph.loop,
                 file,
-                complain=self._complain,
+                complain=self._report_recording_failure,
                 from_ns=round(self._options.record_from_s * NS_PER_S),
                 without_types=self._options.record_without,
             )
-            self._open_things.callback(steps.close)
-            self._read.show.line(
+            self._resources.callback(steps.close)
+            self._loaded.show.line(
                 f"{file} will be the same whenever this is run; /rosout and other programs are left out"
             )
             return steps
         if self._options.speed is None:
-            why = (
+            reason = (
                 f"{', '.join(programs)} run as programs of their own"
                 if programs
                 else "another program publishes /clock"
             )
-            self._read.show.line(f"{file} will differ from run to run: {why}")
+            self._loaded.show.line(f"{file} will differ from run to run: {reason}")
         node = Node("/record", loop=graph.loop, master_uri=graph.master_uri, host=graph.host)
-        self._open_things.callback(lambda: graph.loop.run(node.shutdown()))
+        self._resources.callback(lambda: graph.loop.run(node.shutdown()))
         graph.loop.run(follow_time(node))
         options = RecorderOptions(all_topics=True, path=file, without_types=self._options.record_without)
-        recorder = Recorder(node, options, say=node.log.debug, complain=self._complain)
+        recorder = Recorder(node, options, say=node.log.debug, complain=self._report_recording_failure)
         recorder.start()
-        self._open_things.callback(recorder.stop)
+        self._resources.callback(recorder.stop)
         return None
 
-    def _complain(self, why: str) -> None:
-        self.recording_broke_off = True
-        self._read.show.line(why)
+    def _report_recording_failure(self, reason: str) -> None:
+        self.recording_failed = True
+        self._loaded.show.line(reason)
 
     def _may_publish_clock(self, launcher: Node) -> bool:
-        """True if nothing else publishes it: a simulation, a graph joined, or a bag to be played."""
+        """True if nothing else publishes it: no simulation, no other program of a joined graph, no bag to play."""
         graph = self.graph
-        if _has_world(self._read.plan) or graph.core is None:
+        if _has_world(self._loaded.plan) or graph.core is None:
             return False
         return graph.loop.run(launcher.params.get("/use_sim_time", False)) is not True
 
     def _programs(self) -> list[str]:
         """Names of the nodes that run as processes."""
-        read, find = self._read, self._read.packages.find_package
+        loaded, find = self._loaded, self._loaded.packages.find_package
         return [
-            n.name for n in read.plan.nodes if isinstance(find_node(n.package, n.type, find, env=read.env), Executable)
+            n.name
+            for n in loaded.plan.nodes
+            if isinstance(find_node(n.package, n.type, find, env=loaded.env), Executable)
         ]
 
     @property
     def has_master(self) -> bool:
-        """True if the master was started here: as roslaunch, the launch then outlives its last node."""
+        """True if the master was started here: like roslaunch, the launch then outlives its last node."""
         return self.graph.core is not None
 
     @property
     def is_over(self) -> bool:
-        """True if a launch in lockstep has reached its --duration and recorded it, or its setup says so."""
+        """True if a launch in lockstep has reached and recorded its --duration, or its setup ended it."""
         return self._lockstep is not None and self._lockstep.over.is_set()
 
     def rewind(self) -> None:
-        """Go on after the end of a launch in lockstep, whose world was reset."""
+        """Resume after the end of a launch in lockstep whose world was reset."""
         if self._lockstep is not None:
             self._lockstep.rewind()
 
     @property
     def nodes(self) -> Sequence[LaunchNode]:
         """Nodes of the launch."""
-        return self._read.plan.nodes
+        return self._loaded.plan.nodes
 
     @property
     def is_paused(self) -> bool:
@@ -252,12 +251,12 @@ class LaunchSession:
 
     @property
     def is_busy(self) -> bool:
-        """True while something in this process is at work that needs no time to pass."""
+        """True while this process has work that needs no ROS time to pass."""
         return self.graph.loop.work.is_busy
 
     @property
     def stop_reason(self) -> str | None:
-        """Reason for which its world could not go on; None: it can."""
+        """Why its world had to stop; None: it runs."""
         return None if self._gazebo is None else self._gazebo.stop_reason
 
     @property
@@ -266,16 +265,16 @@ class LaunchSession:
         return self._lockstep is not None
 
     def _simulator(self, logs: Path) -> Simulator:
-        from ..gazebo.world import GazeboWorld  # a launch without Gazebo does not wait for the physics
+        from ..gazebo.world import GazeboWorld  # a launch without Gazebo does not import the physics
 
-        options, read = self._options, self._read
+        options, loaded = self._options, self._loaded
         gazebo = GazeboWorld(
             graph=self.graph,
-            start=read.start,
-            env=read.env,
-            report=read.report,
+            start=loaded.start,
+            env=loaded.env,
+            report=loaded.report,
             folder=logs / "spawned",
-            say=read.show.line,
+            say=loaded.show.line,
             page=self._page,
             speed=options.speed,
             renderer=options.renderer,
@@ -285,31 +284,31 @@ class LaunchSession:
             setup=self._setup,
         )
         self._gazebo = gazebo
-        self._open_things.callback(gazebo.close)
+        self._resources.callback(gazebo.close)
         return gazebo
 
     def show_world(self) -> "PageServer":
-        """Serve the page and show the world there once there is one, as gzclient does; return the page's server.
+        """Serve the page and show the world there once it is open, as gzclient does; return the page's server.
 
         Raises:
-            UsageError: the port asked for is taken.
+            UsageError: the requested port is in use.
         """
         assert self._page is not None, "the launch is headless"
         assert self._gazebo is not None, "the launch has no world"
         server = self._page.acquire(self._launcher, shows_world=True)
         window = self.graph.loop.spawn(self._gazebo.show(self._launcher))
-        self._open_things.callback(window.cancel)
+        self._resources.callback(window.cancel)
         return server
 
     def start(
         self, nodes: Sequence[LaunchNode], *, is_ending: Callable[[], bool] = lambda: False, begins: bool = True
     ) -> RunningNodes:
-        """Start nodes, unless the end comes first, and print the table of them.
+        """Start nodes, until `is_ending`, and print their table.
 
         Args:
-            nodes: of the launch.
-            is_ending: polled; True ends the start.
-            begins: False: time stays at zero until `begin`, in lockstep.
+            nodes: nodes of the launch.
+            is_ending: polled; True cancels the start.
+            begins: False: time stays zero until `begin`, in lockstep.
         """
         loop, options = self.graph.loop, self._options
         timeouts = StopTimeouts(interrupt_s=options.interrupt_s, terminate_s=options.terminate_s)
@@ -321,60 +320,60 @@ class LaunchSession:
         if begins:
             self.begin()
         if self._display is not None and self._display.terminals:
-            self._open_things.callback(loop.spawn(self._show_terminals(self._display)).cancel)
-        self._read.show.findings()
+            self._resources.callback(loop.spawn(self._show_terminals(self._display)).cancel)
+        self._loaded.show.findings()
         if running.launched and not options.quiet:
             page = self._page if opens_page(running.launched) else None
             url = None if page is None else await_url(page, lambda: is_ending() or running.is_over)
-            self._say(what_runs(running.launched, url))
+            self._say(launched_table(running.launched, url))
         return running
 
     def _request_reload(self) -> None:
         """Read the launch again; `reload` then starts it.
 
         Raises:
-            TrundleError: it cannot be read; the launch goes on.
+            TrundleError: it cannot be read; the running launch continues.
         """
         if self._options.record is not None:
-            raise UsageError("the bag of this launch has one run: start it without --record to load others")
+            raise UsageError("the bag of this launch holds one run: start it without --record to load others")
         assert self._read_again is not None
         self._reloaded = self._read_again()
 
     @property
     def show(self) -> Console:
         """Console that prints the findings of the launch's files."""
-        return self._read.show
+        return self._loaded.show
 
     @property
     def is_reload_due(self) -> bool:
-        """True if the page has asked to load the launch again."""
+        """True if the page has requested to load the launch again."""
         return self._reloaded is not None
 
     def reload(self, *, is_ending: Callable[[], bool]) -> RunningNodes:
-        """Stop all nodes, and start those of the launch as read again, on the same graph and page."""
-        read, self._reloaded = self._reloaded, None
-        assert read is not None
+        """Stop all nodes, and start those of the reread launch on the same graph and page."""
+        loaded, self._reloaded = self._reloaded, None
+        assert loaded is not None
         assert self._running is not None
-        assert self._page is not None, "the page has asked"
-        self._page.acquire(self._launcher)  # it stays to the end of the launch, as its windows close meanwhile
+        assert self._page is not None, "the page has requested it"
+        self._page.acquire(self._launcher)  # keeps it open while its windows close
         loop = self.graph.loop
         loop.run(self._running.stop())
-        self._read = read
-        read.show.log_to(self._log.write)
+        self._loaded = loaded
+        loaded.show.log_to(self._log.write)
         if self._display is not None:
-            self._display.report = read.report
-        loop.run(set_params(self._launcher, read.plan, read.params))
+            self._display.report = loaded.report
+        loop.run(set_params(self._launcher, loaded.plan, loaded.params))
         if self._lockstep is not None:
             self._lockstep.hold()
         self.starter = self._make_starter(self._logs)
-        return self.start(read.plan.nodes, is_ending=is_ending)
+        return self.start(loaded.plan.nodes, is_ending=is_ending)
 
     async def _show_terminals(self, display: "GraphPage") -> None:
-        """Serve the page, whichever other windows the launch has."""
+        """Serve the page, even if no node opens a window on it."""
         try:
             await display.serve(self._launcher)
         except TrundleError as error:
-            self._read.show.line(f"the terminals of nodes cannot be shown: {error}")
+            self._loaded.show.line(f"the terminals of nodes cannot be shown: {error}")
 
     def begin(self) -> None:
         """Let time advance, in lockstep."""
@@ -390,12 +389,12 @@ class LaunchSession:
         self._listener(event, text)
 
     def close(self) -> None:
-        """Stop the nodes, the last started first, then everything else."""
+        """Stop the nodes, the last one first, then everything else."""
         try:
             if self._running is not None:
                 self.graph.loop.run(self._running.stop())
         finally:
-            self._open_things.close()
+            self._resources.close()
 
     def __enter__(self) -> Self:
         return self
@@ -404,25 +403,8 @@ class LaunchSession:
         self.close()
 
 
-_SHOWN = ("/rosdistro", "/rosversion")
+_CORE_PARAMS = ("/rosdistro", "/rosversion")
 """Core parameters that roslaunch's summary shows."""
-
-
-class ClockWarning:
-    """Warns once if /use_sim_time is true and nothing publishes /clock, which stops every node's time."""
-
-    def __init__(self, clock: Clock, say: Callable[[str], None]) -> None:
-        self._clock = clock
-        self._say: Callable[[str], None] | None = say
-        self._due = time.monotonic() + _SILENCE_S
-
-    def check(self) -> None:
-        """Warn if no time has come for 5 s; to be polled."""
-        if self._say is None or self._clock.now_ns() > 0:
-            self._say = None
-        elif time.monotonic() > self._due:
-            self._say("/use_sim_time is true, but nothing has published a time on /clock yet (a simulation, a bag?)")
-            self._say = None
 
 
 def _simulates(plan: LaunchPlan) -> bool:
@@ -430,5 +412,5 @@ def _simulates(plan: LaunchPlan) -> bool:
 
 
 def _has_world(plan: LaunchPlan) -> bool:
-    """True if one of its nodes runs Gazebo's world, and so publishes /clock; a spawner alone does not."""
+    """True if a node runs Gazebo's world, and so publishes /clock; a spawner alone does not."""
     return any((node.package, node.type) in WORLDS for node in plan.nodes)

@@ -17,9 +17,9 @@ class CaseResult:
     name: str
     seconds: float = 0.0
     problem: str = ""
-    """Reason of the failure; empty: it passed."""
+    """Message of the failure; empty: it passed."""
     is_error: bool = False
-    """True if it could not be run, rather than failed."""
+    """True if it could not be run; False: it failed or passed."""
 
     @property
     def verdict(self) -> str:

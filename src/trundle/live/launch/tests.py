@@ -1,4 +1,4 @@
-"""`trundle test`: the <test> nodes of launch files, each in a launch of its own, as rostest runs them."""
+"""`trundle test`: runs each <test> node of launch files in a separate launch, as rostest does."""
 
 import os
 import tempfile
@@ -25,43 +25,44 @@ from .test_results import CaseResult, SuiteResult, read_result, write_junit
 def run_tests(
     words: Sequence[str],
     options: LaunchOptions,
-    how: LaunchTestOptions,
+    test_options: LaunchTestOptions,
     *,
     environment: Mapping[str, str] | None = None,
 ) -> int:
     """Run every test; return rostest's exit code: 0: all passed, 1: one did not run, 2: a case failed.
 
     Args:
-        words: command line: PKG FILE or FILE…, and NAME:=VALUE.
-        options: of the launch.
-        how: options of the tests.
-        environment: None: os.environ.
+        words: the command line: PKG FILE or FILE…, and NAME:=VALUE.
+        options: launch options.
+        test_options: options of `trundle test`.
+        environment: environment variables; None: os.environ.
 
     Raises:
         TrundleError: an invalid file or request.
     """
-    if how.clear and not how.reuse_master:
+    if test_options.clear and not test_options.reuse_master:
         raise UsageError("--clear is only valid with --reuse-master: a test's own graph has no parameters yet")
     env = dict(os.environ if environment is None else environment)
-    if how.reuse_master:
+    if test_options.reuse_master:
         env["ROS_MASTER_URI"] = _answering_master(env)
     else:
-        env.pop("ROS_MASTER_URI", None)  # a test is alone on its graph
-    read = read_files(words, options, env)
-    if read is None:
+        env.pop("ROS_MASTER_URI", None)  # each test gets a new graph
+    loaded = read_files(words, options, env)
+    if loaded is None:
         return 0
-    if not read.plan.tests:
-        raise UsageError("there is no <test> in what was given; trundle launch starts its nodes")
-    with tempfile.TemporaryDirectory() as passing:
-        folder = Path(passing) if how.text else _results_folder(env, how, _package_of(read, how))
-        suites = [_run(read, options, how, test, folder) for test in read.plan.tests]
+    if not loaded.plan.tests:
+        raise UsageError("no <test> in these launch files; trundle launch starts their nodes")
+    with tempfile.TemporaryDirectory() as temporary:
+        package = _package_of(loaded, test_options)
+        folder = Path(temporary) if test_options.text else _results_folder(env, test_options, package)
+        suites = [_run(loaded, options, test_options, test, folder) for test in loaded.plan.tests]
     for suite in suites:
         for case in suite.cases:
-            said = f"\n  {case.problem}" if case.problem else ""
-            print(f"[{suite.name}/{case.name}][{case.verdict}]{said}")
-    junit = how.junit
-    if junit is None and not how.text:
-        junit = folder / f"rostest-{_name_of(read, how)}.xml"
+            problem = f"\n  {case.problem}" if case.problem else ""
+            print(f"[{suite.name}/{case.name}][{case.verdict}]{problem}")
+    junit = test_options.junit
+    if junit is None and not test_options.text:
+        junit = folder / f"rostest-{_name_of(loaded, test_options)}.xml"
     if junit is not None:
         write_junit(junit, suites)
     failures = sum(suite.failures for suite in suites)
@@ -75,27 +76,27 @@ def run_tests(
 
 
 def _run(
-    read: LoadedLaunch, options: LaunchOptions, how: LaunchTestOptions, test: LaunchTest, folder: Path
+    loaded: LoadedLaunch, options: LaunchOptions, test_options: LaunchTestOptions, test: LaunchTest, folder: Path
 ) -> SuiteResult:
-    """Run a test, and retry it as often as it allows; the last result counts. Its program writes into `folder`."""
+    """Run a test, with its retries, and return the last result; its program writes into `folder`."""
     name = f"{test.node.package}.{test.name}"
     for left in range(test.retries, -1, -1):
         started = time.monotonic()
-        if how.clear:
-            _clear_params(MasterProxy(read.env["ROS_MASTER_URI"]))
-        with LaunchSession(read, replace(options, summary=False), ports=(0,), rosout=False) as session:
-            session.start(read.plan.nodes)
-            did_run, cases = _attempt(session, test, folder / f"rosunit-{test.name}.xml", text=how.text)
+        if test_options.clear:
+            _clear_params(MasterProxy(loaded.env["ROS_MASTER_URI"]))
+        with LaunchSession(loaded, replace(options, summary=False), ports=(0,), rosout=False) as session:
+            session.start(loaded.plan.nodes)
+            did_run, cases = _attempt(session, test, folder / f"rosunit-{test.name}.xml", text=test_options.text)
         seconds = time.monotonic() - started
         suite = SuiteResult(name=name, seconds=seconds, cases=tuple(cases), did_run=did_run)
         if left == 0 or suite.failures + suite.errors == 0:
             return suite
-        read.show.line(f"test {test.name!r} did not pass; {left} more {'try' if left == 1 else 'tries'}")
+        loaded.show.line(f"test {test.name!r} did not pass; {left} more {'try' if left == 1 else 'tries'}")
     raise AssertionError("the last try returns")
 
 
 @dataclass(frozen=True, slots=True)
-class _Ended:
+class _ProgramExit:
     code: int | None
     """Exit code; None: timed out."""
     output: list[str]
@@ -110,13 +111,13 @@ def _attempt(
         return False, [CaseResult(name=test.name, problem=problem, is_error=is_error)]
 
     result.unlink(missing_ok=True)
-    more = (f"--gtest_output=xml:{result}", *(["--text"] if text else []))
+    arguments = (f"--gtest_output=xml:{result}", *(["--text"] if text else []))
     try:
-        prepared = session.starter.prepare(test.node, f"test-{test.name}", show=_show, more=more)
+        prepared = session.starter.prepare(test.node, f"test-{test.name}", show=_show, extra_arguments=arguments)
     except DescriptionError as error:
         return did_not_run(str(error))
     if prepared.job is None:
-        return did_not_run(prepared.what)
+        return did_not_run(prepared.detail)
     try:
         ended = _wait_for_exit(session.graph.loop, prepared.job, test.time_limit_s)
     except JobError as error:
@@ -126,13 +127,13 @@ def _attempt(
     if result.is_file():
         return True, read_result(result, test.name)
     if prepared.kind == "process" and not text:
-        said = "\n  ".join(["", *ended.output])
-        problem = f"it wrote no results ({result}), and ended with exit code {ended.code}{said}"
+        output = "\n  ".join(["", *ended.output])
+        problem = f"it wrote no results ({result}), and ended with exit code {ended.code}{output}"
         return did_not_run(problem)
     return True, [CaseResult(name=test.name, problem="" if ended.code == 0 else f"exit code {ended.code}")]
 
 
-def _wait_for_exit(loop: GraphLoop, job: Job, limit_s: float) -> _Ended:
+def _wait_for_exit(loop: GraphLoop, job: Job, limit_s: float) -> _ProgramExit:
     loop.run(job.start())
     try:
         code = loop.run(job.wait(), limit_s)
@@ -140,7 +141,7 @@ def _wait_for_exit(loop: GraphLoop, job: Job, limit_s: float) -> _Ended:
         code = None
     finally:  # also on Ctrl-C
         loop.run(job.stop(StopTimeouts()))
-    return _Ended(code, job.last_output())
+    return _ProgramExit(code, job.last_output())
 
 
 def _answering_master(env: Mapping[str, str]) -> str:
@@ -153,18 +154,18 @@ def _answering_master(env: Mapping[str, str]) -> str:
 
 
 def _clear_params(master: MasterProxy) -> None:
-    """Delete the graph's parameters, except those of its master and of other launches."""
+    """Delete the graph's parameters, except those of its master and of roslaunch."""
     for name in master.call("getParamNames"):
-        if name not in _KEPT and not name.startswith("/roslaunch/"):
+        if name not in _MASTER_PARAMS and not name.startswith("/roslaunch/"):
             master.call("deleteParam", name)
 
 
-_KEPT = ("/run_id", "/rosversion", "/rosdistro")
+_MASTER_PARAMS = ("/run_id", "/rosversion", "/rosdistro")
 
 
-def _results_folder(env: Mapping[str, str], how: LaunchTestOptions, package: str) -> Path:
-    """Make rostest's results folder of a package."""
-    base = how.results_folder or env.get("ROS_TEST_RESULTS_DIR") or ros_home(env) / "test_results"
+def _results_folder(env: Mapping[str, str], test_options: LaunchTestOptions, package: str) -> Path:
+    """Create rostest's results folder of a package."""
+    base = test_options.results_folder or env.get("ROS_TEST_RESULTS_DIR") or ros_home(env) / "test_results"
     folder = Path(base).absolute() / package
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -175,23 +176,23 @@ def _results_folder(env: Mapping[str, str], how: LaunchTestOptions, package: str
     return folder
 
 
-def _package_of(read: LoadedLaunch, how: LaunchTestOptions) -> str:
-    """Package given, else the one whose folder holds the file, else that of the first test."""
-    if how.package is not None:
-        return how.package
-    homes = {folder.resolve(): name for name, folder in read.packages.ros_packages().items()}
-    here = (homes[folder] for folder in read.start.resolve().parents if folder in homes)
-    return next(here, read.plan.tests[0].node.package)
+def _package_of(loaded: LoadedLaunch, test_options: LaunchTestOptions) -> str:
+    """Package of the options, else of the folder that contains the file, else of the first test."""
+    if test_options.package is not None:
+        return test_options.package
+    package_names = {folder.resolve(): name for name, folder in loaded.packages.ros_packages().items()}
+    enclosing = (package_names[folder] for folder in loaded.start.resolve().parents if folder in package_names)
+    return next(enclosing, loaded.plan.tests[0].node.package)
 
 
-def _name_of(read: LoadedLaunch, how: LaunchTestOptions) -> str:
+def _name_of(loaded: LoadedLaunch, test_options: LaunchTestOptions) -> str:
     """rostest's name of a file's results: its path in the package, with "_" for slashes and no suffix."""
-    if how.results_name is not None:
-        return Path(how.results_name).stem
-    home = how.package_folder or read.packages.find_package(_package_of(read, how))
-    file = read.start.resolve()
-    inside = file.relative_to(home.resolve()) if home and file.is_relative_to(home.resolve()) else Path(file.name)
-    return inside.with_suffix("").as_posix().replace("/", "_")
+    if test_options.results_name is not None:
+        return Path(test_options.results_name).stem
+    base = test_options.package_folder or loaded.packages.find_package(_package_of(loaded, test_options))
+    file = loaded.start.resolve()
+    path = file.relative_to(base.resolve()) if base and file.is_relative_to(base.resolve()) else Path(file.name)
+    return path.with_suffix("").as_posix().replace("/", "_")
 
 
 def _show(_name: str, line: str) -> None:

@@ -19,7 +19,7 @@ class RosInterface:
     """Node, topics and parameters of one world."""
 
     def __init__(self, graph: Graph, live: LiveWorld, loaded: LoadedWorld) -> None:
-        """Advertise a world, whose sensors are started, on a graph."""
+        """Advertise a world on a graph; its sensors have started."""
         simulation = live.simulation
         self._graph = graph
         self._simulation = simulation
@@ -40,7 +40,7 @@ class RosInterface:
             loop.run(self.node.params.set("/robot_description", loaded.urdf))
             states, robot = JointStatesTopic(self.node, simulation.models[0]), simulation.models[0].name
             simulation.on_change(
-                lambda: states.set_model(next((each for each in simulation.models if each.name == robot), None))
+                lambda: states.set_model(next((model for model in simulation.models if model.name == robot), None))
             )
             simulation.add_hook(states, period_ns=states.period_ns, enabled=states.enabled, name="/joint_states")
 
@@ -69,7 +69,7 @@ class RosInterface:
         return self._graph
 
     def make_node(self, name: str) -> Node:
-        """Make a node on simulation time, whose callbacks run on the simulation's thread between two steps."""
+        """Make a node on simulation time; its callbacks run on the simulation's thread between two steps."""
         simulation = self._simulation
         node = Node(
             name,
@@ -83,28 +83,28 @@ class RosInterface:
         return node
 
     def settle(self) -> None:
-        """Wait until the nodes of this process are registered and connected, so that nothing published is lost."""
+        """Wait until this process's nodes are registered and connected, so that no message is lost."""
         self._graph.loop.wait_idle()
 
     def tick(self, *, wait: bool) -> None:
         """Set the nodes' clock at the end of a stride.
 
         Args:
-            wait: wait until every message published so far has reached the nodes of this process. Flat-out runs do,
+            wait: True: wait until every published message has reached the nodes of this process, as flat-out runs do,
                 so that delivery order does not depend on the machine's speed.
         """
         self.clock.set(self._simulation.time_ns)
         if wait:
             self._graph.loop.flush_deliveries()
 
-    def replaced(self, live: LiveWorld, loaded: LoadedWorld) -> Self:
-        """Leave the graph and return the interface of another world on it."""
+    def replace_world(self, live: LiveWorld, loaded: LoadedWorld) -> Self:
+        """Leave the graph, and return the interface of another world on it."""
         for node in self._nodes:
             self._graph.loop.run(node.shutdown())
         return type(self)(self._graph, live, loaded)
 
     def close(self) -> None:
-        """Leave the graph; stop it if it was started here."""
+        """Leave the graph; stop its master if it was started here."""
         self._graph.close()
 
     def __enter__(self) -> Self:

@@ -19,11 +19,11 @@ class RunOptions:
     port: int | None = None
     """Port of the page; None: 8080 or the next free one."""
     allowed: AllowedNames = AllowedNames()
-    """Hosts and origins that the page serves beside its own."""
+    """Hosts and origins that the page serves besides its own."""
     view_only: bool = False
-    """True: print a second link, which only allows looking."""
+    """True: print a second link, which is view-only."""
     opens_browser: bool = True
-    """Open the page where there is a display; False: print its URL only."""
+    """True: open the page where there is a display; False: only print its URL."""
     duration_s: float | None = None
     """Simulation time [s]; None: until interrupted."""
     speed: float | None = 1.0
@@ -36,7 +36,7 @@ class RunOptions:
     """Renderer of cameras: Trundle's own, or OpenGL over EGL."""
     strict: bool = False
     record: Path | None = None
-    """State log to write."""
+    """Path of the state log to write."""
     timeline_mb: int = 256
     """Memory of the timeline, with a page [MB]; 0: none."""
     on_instability: OnInstability | None = None

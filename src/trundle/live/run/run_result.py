@@ -54,14 +54,14 @@ class RunResult:
     snapshot: Snapshot
     steps: int
     simulated_s: float
-    """Over the whole run [s], as are the steps; a reset sets only the snapshot's time back."""
+    """Total of the run [s], like the steps; a reset only rewinds the snapshot's time."""
     wall_s: float
     images: int
-    """Number of camera images rendered, for whatever read them."""
+    """Number of rendered camera images."""
     report: Diagnostics
     interrupted: bool
     """True if Ctrl-C or SIGTERM ended it."""
-    recording_broke_off: bool
+    recording_failed: bool
 
     @property
     def time_s(self) -> float:
@@ -74,7 +74,7 @@ class RunResult:
         return self.simulated_s / self.wall_s if self.wall_s > 0 else None
 
     def as_json(self) -> RunResultJson:
-        """Final state; lists are in file order, poses and twists in the world frame."""
+        """Final state as JSON; lists are in file order, poses and twists in the world frame."""
         return {
             "time": self.time_s,
             "steps": self.steps,
@@ -148,7 +148,7 @@ class _State:
 
 
 def _one_or_all(axes: list[float]) -> float | list[float]:
-    """Number for a joint of at most one degree of freedom, else a list."""
+    """Return a number for a joint of at most one degree of freedom, else the list."""
     if len(axes) > 1:
         return axes
     return axes[0] if axes else 0.0

@@ -22,7 +22,6 @@ from trundle.sim.simulation import Simulation, with_actors
 from trundle.spatial import NS_PER_S
 
 from .run_options import RunOptions
-from .run_progress import RunProgress
 from .run_result import RunResult
 from .running_world import RunningWorld
 
@@ -31,15 +30,16 @@ if TYPE_CHECKING:  # a run without a page starts without its modules
 
 _MAX_RESETS = 10
 """Resets after which --on-instability reset exits."""
+_PROGRESS_PERIOD_S = 5.0
 
 
 def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = None) -> RunResult:
     """Simulate a description.
 
     Args:
-        file: a path, a folder with model.config, model://NAME, or package://NAME/FILE.
-        options: of the run.
-        environment: None: os.environ.
+        file: path, folder with model.config, model://NAME, or package://NAME/FILE.
+        options: run options.
+        environment: environment variables; None: os.environ.
 
     Raises:
         TrundleError: an invalid file or request.
@@ -54,13 +54,13 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             show.line(f"{joined}: something else started it")
     warn_of_network(options.host, show.line)
     report_workspace(file, Packages(env, start=Path.cwd()), show.line)
-    world = RunningWorld(file, options, env, report, show)  # nothing is open yet: Ctrl-C ends the process at once
-    with stop_flag() as stop, ExitStack() as open_things:
-        open_things.callback(world.close)
+    world = RunningWorld(file, options, env, report, show)  # Ctrl-C still ends the process at once
+    with stop_flag() as stop, ExitStack() as resources:
+        resources.callback(world.close)
         world.start()
         page = None
         if not options.headless:
-            page = open_things.enter_context(_open_page(world, options, show.line))
+            page = resources.enter_context(_open_page(world, options, show.line))
         wall_s = _simulate(world, page, options, stop, show.line)
         show.findings()
         simulation = world.simulation
@@ -73,12 +73,12 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             images=world.live.image_count,
             report=report,
             interrupted=stop.is_set(),
-            recording_broke_off=world.recorder is not None and world.recorder.has_failed,
+            recording_failed=world.recorder is not None and world.recorder.has_failed,
         )
 
 
 def _open_page(world: RunningWorld, options: RunOptions, say: Callable[[str], None]) -> "SimulationPage":
-    """Serve the page; with ROS it joins the graph, and drives what listens to /cmd_vel."""
+    """Serve the page; with ROS it joins the graph, and can publish /cmd_vel."""
     from trundle.page import GraphAddress
     from trundle.page.shared_page import SharedPage
     from trundle.page.simulated_world.page import SimulationPage
@@ -119,7 +119,7 @@ def _simulate(
     """Step until the end of --duration, a failed recording or Ctrl-C; return the wall time taken [s].
 
     Raises:
-        SimulationUnstableError: the physics is unstable, and the option is to exit.
+        SimulationUnstableError: the physics is unstable, and --on-instability is exit.
         TrundleError: a user's plugin raised an exception.
     """
     end_ns = None if options.duration_s is None else round(options.duration_s * NS_PER_S)
@@ -153,10 +153,10 @@ def _simulate(
             continue
         except TrundleError:
             raise
-        except Exception as error:  # a plugin's code may raise anything
-            if (theirs := plugin_error(error)) is None:
+        except Exception as error:  # a plugin may raise anything
+            if (failure := plugin_error(error)) is None:
                 raise
-            raise theirs from None
+            raise failure from None
         if progress is not None:
             progress.update(world.simulation.time_ns)
         if world.ros is not None:
@@ -167,16 +167,41 @@ def _simulate(
 
 
 def _recover(
-    simulation: Simulation, options: RunOptions, error: SimulationUnstableError, times: int, say: Callable[[str], None]
+    simulation: Simulation, options: RunOptions, error: SimulationUnstableError, resets: int, say: Callable[[str], None]
 ) -> bool:
     """React to unstable physics by --on-instability; return True if the simulation is paused now."""
     match options.on_instability or ("exit" if options.headless else "pause"):
         case "pause":
             say(f"{error}; the simulation is paused at its last stable state, at {simulation.time_ns / NS_PER_S:.3f} s")
             return True
-        case "reset" if times <= _MAX_RESETS:
+        case "reset" if resets <= _MAX_RESETS:
             say(f"{error}; the simulation is reset")
             simulation.reset()
             return False
         case _:
             raise error
+
+
+class RunProgress:
+    """Prints a line every few seconds in a run without a page."""
+
+    def __init__(
+        self, say: Callable[[str], None], *, end_ns: int | None, now: Callable[[], float] = time.monotonic
+    ) -> None:
+        """Start counting; `end_ns` is the end of the run in simulation time [ns], if it has one."""
+        self._say, self._end_ns, self._now = say, end_ns, now
+        self._last: tuple[float, int] | None = None
+        """Wall time [s] and simulation time [ns] of the last line."""
+
+    def update(self, time_ns: int) -> None:
+        """Print the simulation time [ns] and the speed since the last line, if one is due."""
+        wall = self._now()
+        if self._last is None or time_ns < self._last[1]:
+            self._last = (wall, time_ns)
+        elapsed = wall - self._last[0]
+        if elapsed < _PROGRESS_PERIOD_S:
+            return
+        of = "" if self._end_ns is None else f" of {self._end_ns / NS_PER_S:g}"
+        speed = (time_ns - self._last[1]) / NS_PER_S / elapsed
+        self._say(f"{time_ns / NS_PER_S:.1f}{of} s simulated, {speed:.3g} times real time; Ctrl-C ends it")
+        self._last = (wall, time_ns)

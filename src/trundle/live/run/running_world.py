@@ -1,4 +1,4 @@
-"""World of a run: its simulation with sensors, ROS interface, recording and plugins; it can be loaded again."""
+"""World of a run: its simulation with sensors, ROS interface, recording and plugins; it can be reloaded."""
 
 from collections.abc import Mapping
 from contextlib import ExitStack
@@ -22,19 +22,19 @@ if TYPE_CHECKING:  # a run without a graph or a recording starts without their m
 
 
 class RunningWorld:
-    """The world of a run, and all that measures, publishes or records it."""
+    """World of a run, with its sensors, ROS interface and recording."""
 
     def __init__(
         self, file: str, options: RunOptions, environment: Mapping[str, str], report: Diagnostics, show: Console
     ) -> None:
-        """Read and compile a description; `start` starts what belongs to it.
+        """Read and compile a description; `start` starts its sensors, ROS interface, recording and plugins.
 
         Args:
             file: see `run`.
-            options: of the run.
-            environment: locates packages, plugins and the ROS master.
-            report: takes all findings.
-            show: prints them.
+            options: run options.
+            environment: environment variables that locate packages, plugins and the ROS master.
+            report: collects all findings.
+            show: prints the findings.
 
         Raises:
             TrundleError: the file is invalid.
@@ -44,7 +44,7 @@ class RunningWorld:
         self._environment = environment
         self._report = report
         self._show = show
-        self._open_things = ExitStack()
+        self._resources = ExitStack()
         self.ros: RosInterface | None = None
         self.recorder: RunRecorder | None = None
         self.loaded, self.live = self._read()
@@ -74,7 +74,7 @@ class RunningWorld:
         """Start sensors, the ROS interface, recording and plugins.
 
         Raises:
-            TrundleError: the graph cannot be joined, or the recording not be written.
+            TrundleError: the graph cannot be joined, or the recording cannot be written.
         """
         self.live.start_sensors()
         self._show.findings()
@@ -85,10 +85,10 @@ class RunningWorld:
         self._load_plugins()
 
     def reload(self) -> None:
-        """Read the file again, and simulate it from its beginning.
+        """Read the file again, and simulate it from time zero.
 
         Raises:
-            TrundleError: that cannot be done; the world that runs goes on.
+            TrundleError: the file cannot be read; the running world continues.
         """
         if self.recorder is not None:
             raise UsageError("the recording of this run has one world: start it without --record to load others")
@@ -97,14 +97,14 @@ class RunningWorld:
         self.loaded, self.live = self._read()
         self.live.start_sensors()
         if self.ros is not None:
-            self.ros = self.ros.replaced(self.live, self.loaded)
+            self.ros = self.ros.replace_world(self.live, self.loaded)
         self._load_plugins()
 
     def _open_graph(self) -> None:
         from .ros_interface import RosInterface
 
         self.ros = RosInterface.open(self.live, self.loaded, self._environment, host=self._options.host)
-        self._open_things.callback(lambda: self.ros is None or self.ros.close())
+        self._resources.callback(lambda: self.ros is None or self.ros.close())
         if self.ros.graph.core is not None:
             self._show.line(self.ros.graph.summary)
 
@@ -114,7 +114,7 @@ class RunningWorld:
         log = start_state_log(file, self.simulation, self.loaded.nested, self._report)
         recorder = self.recorder = RunRecorder(log, self._show.line)
         self.simulation.add_hook(recorder, period_ns=recorder.period_ns)
-        self._open_things.callback(recorder.close)
+        self._resources.callback(recorder.close)
 
     def _load_plugins(self) -> None:
         self.live.load_plugins()
@@ -123,8 +123,8 @@ class RunningWorld:
             self.live.keep_timeline(self._options.timeline_mb * 1_000_000)
 
     def close(self) -> None:
-        """End everything that was started."""
-        self._open_things.close()
+        """Stop everything that was started."""
+        self._resources.close()
 
     def __enter__(self) -> Self:
         return self

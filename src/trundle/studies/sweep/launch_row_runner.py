@@ -170,7 +170,7 @@ def check_running(running: RunningNodes) -> None:
     """
     if running.required_died:
         raise UsageError("a required node died")
-    if running.is_worldless():
+    if running.has_world_ended():
         raise UsageError("the launch has no world (a node of gazebo_ros), or it has ended")
 
 
