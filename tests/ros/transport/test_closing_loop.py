@@ -1,4 +1,4 @@
-"""Servers of a loop whose process may open few files."""
+"""Servers of a process with a low limit of open files."""
 
 import os
 import socket
@@ -11,7 +11,7 @@ from contextlib import contextmanager, suppress
 
 import pytest
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="this system limits no files")
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="ulimit needs a POSIX shell")
 
 _MAX_FILES = 30
 _SERVER = """
@@ -39,9 +39,9 @@ _SERVER = """
 
 @contextmanager
 def _server() -> "Generator[tuple[subprocess.Popen[str], tuple[str, int]]]":
-    words = ["sh", "-c", f'ulimit -n {_MAX_FILES}; exec "$@"', "sh", sys.executable, "-c", textwrap.dedent(_SERVER)]
+    command = ["sh", "-c", f'ulimit -n {_MAX_FILES}; exec "$@"', "sh", sys.executable, "-c", textwrap.dedent(_SERVER)]
     pipe = subprocess.PIPE
-    with subprocess.Popen(words, stdin=pipe, stdout=pipe, stderr=pipe, text=True) as process:
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, text=True) as process:
         try:
             assert process.stdout is not None
             yield process, ("127.0.0.1", int(process.stdout.readline()))
@@ -60,7 +60,7 @@ def _greeted(clients: list[socket.socket]) -> int:
 
 
 @pytest.mark.parametrize("client_leaves", [True, False])
-def test_without_descriptors_it_says_so_once_and_accepts_when_there_are_some(*, client_leaves: bool) -> None:
+def test_a_shortage_of_descriptors_is_reported_once_and_accepting_resumes(*, client_leaves: bool) -> None:
     with _server() as (process, address):
         clients = [socket.create_connection(address) for _ in range(2 * _MAX_FILES)]
         time.sleep(2.5)  # asyncio has tried again twice
@@ -71,11 +71,11 @@ def test_without_descriptors_it_says_so_once_and_accepts_when_there_are_some(*, 
                 client.close()
             with socket.create_connection(address, 60) as another:
                 assert another.recv(10) == b"hello"
-        _, said = process.communicate("\n", timeout=60)
+        _, output = process.communicate("\n", timeout=60)
         for client in clients:
             client.close()
     assert process.returncode == 0
-    assert said == (
+    assert output == (
         "this process has as many files open as it may (30; ulimit -n): close some, or raise the limit; "
         "connections are accepted again then\n"
     )

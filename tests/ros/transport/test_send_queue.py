@@ -1,4 +1,4 @@
-"""Bytes to one peer, however many the kernel takes at a time."""
+"""Frames to one peer, written in as many parts as the kernel requires."""
 
 import asyncio
 import socket
@@ -9,7 +9,7 @@ import pytest
 from trundle.ros.transport.send_queue import SendQueue
 
 _FRAMES = [(bytes([i % 200]) * 10, bytes([i % 100 + 100]) * 30_000) for i in range(1000)]
-"""More than the kernel takes without a reader, and each short enough for a socket."""
+"""More than the kernel buffers without a reader, and each short enough for a socket."""
 
 
 def _tcp_pair() -> tuple[socket.socket, socket.socket]:
@@ -19,52 +19,52 @@ def _tcp_pair() -> tuple[socket.socket, socket.socket]:
 
 
 @pytest.mark.parametrize("pair", [socket.socketpair, _tcp_pair], ids=["nearby", "TCP"])
-@pytest.mark.parametrize("at_a_time", [1, 7])
-def test_frames_the_kernel_takes_in_parts_arrive_whole_and_in_order(
-    pair: "Callable[[], tuple[socket.socket, socket.socket]]", at_a_time: int
+@pytest.mark.parametrize("batch_size", [1, 7])
+def test_partly_written_frames_arrive_complete_and_in_order(
+    pair: "Callable[[], tuple[socket.socket, socket.socket]]", batch_size: int
 ) -> None:
-    async def exchange(ours: socket.socket, theirs: socket.socket) -> bytes:
-        ours.setblocking(False)
-        theirs.setblocking(False)
+    async def exchange(sender: socket.socket, receiver: socket.socket) -> bytes:
+        sender.setblocking(False)
+        receiver.setblocking(False)
         drained = asyncio.Event()
-        out = SendQueue(ours, drained=drained.set, broken=lambda: None)
-        for first in range(0, len(_FRAMES), at_a_time):
-            out.send(_FRAMES[first : first + at_a_time], None)
+        out = SendQueue(sender, drained=drained.set, broken=lambda: None)
+        for first in range(0, len(_FRAMES), batch_size):
+            out.send(_FRAMES[first : first + batch_size], None)
         assert out.is_congested
         got = bytearray()
         while len(got) < sum(map(len, sent)):
-            got += await asyncio.get_running_loop().sock_recv(theirs, 65536)
+            got += await asyncio.get_running_loop().sock_recv(receiver, 65536)
         await drained.wait()
         assert (out.frames_sent, out.bytes_sent, out.dropped) == (len(_FRAMES), len(got), 0)
         out.close()
         return bytes(got)
 
     sent = [piece for frame in _FRAMES for piece in frame]
-    ours, theirs = pair()
-    with ours, theirs:
-        assert asyncio.run(exchange(ours, theirs)) == b"".join(sent)
+    sender, receiver = pair()
+    with sender, receiver:
+        assert asyncio.run(exchange(sender, receiver)) == b"".join(sent)
 
 
-def test_a_peer_that_has_gone_is_told_once() -> None:
+def test_a_broken_connection_is_reported_once() -> None:
     async def send() -> int:
-        ours, theirs = socket.socketpair()
-        with ours:
-            ours.setblocking(False)
-            gone = asyncio.Event()
-            told = 0
+        sender, receiver = socket.socketpair()
+        with sender:
+            sender.setblocking(False)
+            is_broken = asyncio.Event()
+            calls = 0
 
             def broken() -> None:
-                nonlocal told
-                told += 1
-                gone.set()
+                nonlocal calls
+                calls += 1
+                is_broken.set()
 
-            out = SendQueue(ours, drained=lambda: None, broken=broken)
+            out = SendQueue(sender, drained=lambda: None, broken=broken)
             out.send([(b"warm",)], None)
-            theirs.close()
+            receiver.close()
             out.send([(b"lost",)], None)
-            await gone.wait()
+            await is_broken.wait()
             assert not out.is_congested
             out.close()
-        return told
+        return calls
 
     assert asyncio.run(send()) == 1

@@ -44,7 +44,7 @@ def run_child(parent: ParentLaunch, options: LaunchOptions, environment: Mapping
         address = server_address(options.host)
         loop.run(server.start(address.bind, 0))
         try:
-            parent.register(f"http://{address.at(server.port)}/", address.bind)
+            parent.register(f"http://{address.authority(server.port)}/", address.bind)
             while not stop.wait(0.05) and not child.is_over:
                 pass
         finally:

@@ -73,7 +73,7 @@ class Master:
         """
         address = server_address(host)
         await self._server.start(address.bind or LOOPBACK, port)
-        self.uri = f"http://{address.at(self._server.port)}/"
+        self.uri = f"http://{address.authority(self._server.port)}/"
 
     @property
     def port(self) -> int:

@@ -58,7 +58,7 @@ class Slave:
     async def start(self) -> None:
         """Listen on two ports and on a Unix socket."""
         await self._rpc.start(self._address.bind, self._ports[0])
-        self.uri = f"http://{self._address.at(self._rpc.port)}/"
+        self.uri = f"http://{self._address.authority(self._rpc.port)}/"
         loop = asyncio.get_running_loop()
         server = await loop.create_server(self._inbound, self._address.bind, self._ports[1], backlog=_BACKLOG)
         self._servers.append(server)
@@ -71,7 +71,7 @@ class Slave:
     @property
     def service_uri(self) -> str:
         """rosrpc URI of the node's services."""
-        return f"rosrpc://{self._address.at(self.tcp_port)}"
+        return f"rosrpc://{self._address.authority(self.tcp_port)}"
 
     async def stop(self) -> None:
         """Stop listening and close all connections."""

@@ -83,7 +83,7 @@ class SubscriberLink(FrameProtocol):
             assert self.transport is not None
             with contextlib.suppress(OSError):  # the ring cannot be mapped: keep using the socket
                 self._shared_ring = SharedRingReader(self.transport.get_extra_info("socket"), note)
-                self.out.send([(self._shared_ring.seen_note(),)], None)
+                self.out.send([(self._shared_ring.mapped_note(),)], None)
             return None
         content, answer = self._shared_ring.read(note, self._subscription.copy)
         if answer is not None:

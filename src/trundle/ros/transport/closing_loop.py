@@ -17,7 +17,7 @@ _log = logging.getLogger(__name__)
 _OPENING_S, _ENDING_S = 1.0, 1.0
 """Timeouts at the loop's end: for servers being opened, and for tasks."""
 _ENDING_ROUNDS = 10
-"""Rounds of closing, for what is opened meanwhile."""
+"""Rounds of closing, since cancelled tasks may open more."""
 _PASSES = 5
 """Passes of the loop in which a transport opens or closes its socket."""
 _SAME_SHORTAGE_S = 10.0
@@ -31,7 +31,7 @@ class ClosingLoop(asyncio.SelectorEventLoop):
         try:
             super().__init__(selector)
         except OSError:
-            self._closed = True  # asyncio would close what it did not open
+            self._closed = True  # else asyncio's destructor closes pipes that were never opened
             raise
         self._servers: WeakSet[asyncio.Server] = WeakSet()
         """Listening servers."""
@@ -43,79 +43,79 @@ class ClosingLoop(asyncio.SelectorEventLoop):
         """Create a server that is closed at the end even if its creator is cancelled."""
         task = self.create_task(self._create_server(super().create_server(*args, backlog=1, **options), backlog))
         self._opening.add(task)
-        task.add_done_callback(self._opened)
+        task.add_done_callback(self._on_created)
         return await asyncio.shield(task)
 
     @staticmethod
-    async def _create_server(creating: Coroutine[Any, Any, asyncio.Server], backlog: int) -> asyncio.Server:
-        """Let the system queue connections of which asyncio accepts one in each pass.
+    async def _create_server(coroutine: Coroutine[Any, Any, asyncio.Server], backlog: int) -> asyncio.Server:
+        """Create a server that accepts one connection per pass; the system queues `backlog` more.
 
-        It tries to accept as many as it queues, without a pause when the process has no descriptor left, and returns
-        a server without sockets if it could open none.
+        asyncio would accept its whole backlog per pass, without a pause when the process is out of file descriptors,
+        and returns a server without sockets if it could open none.
         """
-        server = await creating
+        server = await coroutine
         try:
             if not server.sockets:
                 socket.socket().close()
                 raise OSError(errno.EAFNOSUPPORT, os.strerror(errno.EAFNOSUPPORT))
-            for listening in server.sockets:
-                with socket.fromfd(listening.fileno(), listening.family, listening.type) as same:
-                    same.listen(backlog)
+            for listener in server.sockets:
+                with socket.fromfd(listener.fileno(), listener.family, listener.type) as duplicate:
+                    duplicate.listen(backlog)
         except OSError:
             server.close()
             raise
         return server
 
     def default_exception_handler(self, context: dict[str, Any]) -> None:
-        """Report in one sentence what the process ran out of, anything else as asyncio does."""
+        """Report a shortage, such as of file descriptors, in one sentence, and other exceptions as asyncio does."""
         error = context.get("exception")
         if (reason := shortage(error)) is not None:
             if self.time() > self._shortage_s + _SAME_SHORTAGE_S:
-                accepts = "; connections are accepted again then" if "socket" in context else ""
-                _log.error("%s%s", reason, accepts)
+                suffix = "; connections are accepted again then" if "socket" in context else ""
+                _log.error("%s%s", reason, suffix)
             self._shortage_s = self.time()
         elif not (isinstance(error, ValueError) and "_start_serving" in context["message"]):
             # ValueError: the server was closed before asyncio tried to accept again
             super().default_exception_handler(context)
 
     async def close_all(self) -> None:
-        """Close servers, cancel tasks, abort connections; in this order, to limit what is opened meanwhile.
+        """Close servers, cancel tasks, abort connections; in this order, so that fewer are opened meanwhile.
 
         Repeats until nothing is left, up to a limit; tasks that do not end are abandoned.
         """
         cancelled: set[asyncio.Task[Any]] = set()
         for _ in range(_ENDING_ROUNDS):
             await self._close_servers()
-            others = self._others()
-            for task in others - cancelled:
+            tasks = self._other_tasks()
+            for task in tasks - cancelled:
                 task.cancel()
-            cancelled |= others
-            if others:
-                await asyncio.wait(others, timeout=_ENDING_S / _ENDING_ROUNDS)
-            for transport in self._connected():
+            cancelled |= tasks
+            if tasks:
+                await asyncio.wait(tasks, timeout=_ENDING_S / _ENDING_ROUNDS)
+            for transport in self._open_transports():
                 transport.abort()
             await _passes()
-            if not (self._others() or self._opening or self._connected()):
+            if not (self._other_tasks() or self._opening or self._open_transports()):
                 return
 
     async def _close_servers(self) -> None:
         if self._opening:
-            opened, _ = await asyncio.wait(self._opening, timeout=_OPENING_S / _ENDING_ROUNDS)
-            for task in opened:  # their done callbacks may run later
-                self._opened(task)
+            done, _ = await asyncio.wait(self._opening, timeout=_OPENING_S / _ENDING_ROUNDS)
+            for task in done:  # their done callbacks may run later
+                self._on_created(task)
         while self._servers:
             await close_server(self._servers.pop())
 
-    def _others(self) -> "set[asyncio.Task[Any]]":
-        """Tasks other than the current one and servers being created, which could not be closed."""
+    def _other_tasks(self) -> "set[asyncio.Task[Any]]":
+        """Tasks except the current one and those that create servers, which could then not be closed."""
         return asyncio.all_tasks() - self._opening - {asyncio.current_task()}
 
-    def _connected(self) -> list[asyncio.Transport]:
+    def _open_transports(self) -> list[asyncio.Transport]:
         # private in asyncio before Python 3.12
         transports: Mapping[int, asyncio.Transport] = getattr(self, "_transports", {})
         return [transport for transport in list(transports.values()) if not transport.is_closing()]
 
-    def _opened(self, task: "asyncio.Task[asyncio.Server]") -> None:
+    def _on_created(self, task: "asyncio.Task[asyncio.Server]") -> None:
         self._opening.discard(task)
         if not task.cancelled() and task.exception() is None:
             self._servers.add(task.result())
@@ -128,8 +128,8 @@ async def close_server(server: asyncio.Server) -> None:
     socket.
     """
     loop = asyncio.get_running_loop()
-    for listening in server.sockets:
-        loop.remove_reader(listening.fileno())
+    for listener in server.sockets:
+        loop.remove_reader(listener.fileno())
     await _passes()
     server.close()
 

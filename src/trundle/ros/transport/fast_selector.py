@@ -8,12 +8,12 @@ import socket
 from collections.abc import Callable
 
 _log = logging.getLogger(__name__)
-_AT_ONCE = 64
-"""Maximum sockets polled at once, for fairness to other work on the loop."""
+_MAX_EVENTS = 64
+"""Maximum sockets read per poll, for fairness to other work on the loop."""
 
 
 class FastSelector(selectors.DefaultSelector):
-    """Selector of an asyncio loop that calls the readers of its own sockets itself."""
+    """Selector of an asyncio loop that itself calls the readers of sockets added with `add_reader`."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -34,22 +34,22 @@ class FastSelector(selectors.DefaultSelector):
         self.unregister(sock)
 
     def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
-        """Poll; call own readers and return only the loop's events."""
+        """Poll; call the readers and return only the loop's events."""
         if self._epoll is not None:
-            events, ready = self._epoll.poll(timeout, _AT_ONCE), None
+            events, ready = self._epoll.poll(timeout, _MAX_EVENTS), None
         else:
             ready = super().select(timeout)
             events = [(key.fd, mask) for key, mask in ready]
-        has_more = False
+        has_loop_events = False
         for number, _ in events:
             if (readable := self._readers.get(number)) is None:
-                has_more = True
+                has_loop_events = True
                 continue
             try:
                 readable()
             except Exception:  # as in asyncio, the loop goes on
                 _log.exception("a connection could not be read")
-        if not has_more:
+        if not has_loop_events:
             return []
         return [event for event in ready or super().select(0.0) if event[0].fd not in self._readers]
 

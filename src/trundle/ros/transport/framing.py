@@ -14,7 +14,7 @@ Pieces: TypeAlias = tuple[bytes | memoryview, ...]
 Split: TypeAlias = (
     "Callable[[Callable[[memoryview], int], memoryview, memoryview, int, int], tuple[Sequence[Any], int, int]]"
 )
-"""`_message_codec.receive`, or that of a type: receives into a part of a buffer and splits all of it into frames."""
+"""`receive` of `_message_codec` or of a type's codec: receives into part of a buffer and splits it all into frames."""
 _SHARED_BYTES = 16 * 1024
 """Room for hundreds of small messages; a larger buffer would delay other connections of a busy graph."""
 _LONG_BYTES = 4 * 1024
@@ -24,7 +24,7 @@ _TRUST_BYTES = 256 * 1024
 _NOTE = 1 << 31
 """Flag in the length of a control note between two Trundle programs."""
 _MAX_NOTE_BYTES = 64
-_of_this_thread = threading.local()
+_thread_local = threading.local()
 
 
 def encode_note(content: bytes) -> bytes:
@@ -43,11 +43,11 @@ class FrameDecoder:
         self.limit = limit
         """Longest frame accepted [bytes]; may change between two frames."""
         self.on_note: Callable[[bytes], bytes | None] | None = None
-        """Called with each note, if notes are accepted; returns the content of a frame it stands for, if any."""
+        """Called with each note, if notes are accepted; returns the content of the frame it announces, if any."""
         self._shared = _shared_buffer()
         self._rest = b""
         """Received part of a short frame."""
-        self._own: memoryview | None = None
+        self._long_frame: memoryview | None = None
         """Buffer of a long frame, length prefix included."""
         self._filled = 0
         self._expected = 0
@@ -55,11 +55,11 @@ class FrameDecoder:
 
     def get_buffer(self) -> memoryview:
         """Buffer for the next bytes; valid until the next call for any connection of this thread."""
-        if self._own is None and self._expected:
-            self._own = _copied(self._rest, self._expected)
+        if self._long_frame is None and self._expected:
+            self._long_frame = _copied(self._rest, self._expected)
             self._filled, self._rest = len(self._rest), b""
-        if self._own is not None:
-            return self._own[self._filled :]
+        if self._long_frame is not None:
+            return self._long_frame[self._filled :]
         self._shared[: len(self._rest)] = self._rest
         return self._shared[len(self._rest) :]
 
@@ -69,7 +69,7 @@ class FrameDecoder:
         """Receive once.
 
         Args:
-            recv_into: of the socket.
+            recv_into: socket's method.
             split: splits the buffer into frames, and may decode them.
 
         Returns:
@@ -77,7 +77,7 @@ class FrameDecoder:
             other frames, as `decode` yields them.
         """
         room, filled = self.get_buffer(), len(self._rest)
-        if self._own is not None:
+        if self._long_frame is not None:
             count = recv_into(room)
             return (), count, self.decode(count)
         contents, start, count = split(recv_into, room, self._shared, filled, self.limit)
@@ -91,12 +91,16 @@ class FrameDecoder:
 
         Args:
             count: bytes received since the last call.
-            start: where the first frame begins that `receive` did not return.
+            start: offset of the first frame that `receive` did not return.
 
         Raises:
             WireError: the announced length exceeds `limit`.
         """
-        data, end = (self._shared, len(self._rest) + count) if self._own is None else (self._own, self._filled + count)
+        data, end = (
+            (self._shared, len(self._rest) + count)
+            if self._long_frame is None
+            else (self._long_frame, self._filled + count)
+        )
         size = 0
         while (begin := start + LENGTH.size) <= end:
             (size,) = LENGTH.unpack_from(data, start)
@@ -116,38 +120,38 @@ class FrameDecoder:
                 break
             start = begin + size
             self._expected = size + LENGTH.size if size > _LONG_BYTES else 0
-            fills = data is self._own and start == len(data)
-            yield data[begin:start].toreadonly() if fills and self._expected else bytes(data[begin:start])
+            fills_buffer = data is self._long_frame and start == len(data)
+            yield data[begin:start].toreadonly() if fills_buffer and self._expected else bytes(data[begin:start])
             size = 0
         rest, size = data[start:end], size + LENGTH.size
         if size <= _LONG_BYTES:
-            self._own, self._rest = None, bytes(rest)
+            self._long_frame, self._rest = None, bytes(rest)
             return
-        if data is not self._own or start or end == len(data):
-            self._own = _copied(rest, min(size, max(2 * len(rest), self._expected, _TRUST_BYTES)))
+        if data is not self._long_frame or start or end == len(data):
+            self._long_frame = _copied(rest, min(size, max(2 * len(rest), self._expected, _TRUST_BYTES)))
         self._rest, self._filled = b"", len(rest)
 
 
 def _uninitialized(size: int) -> memoryview:
-    """Allocate without clearing: clearing an image takes as long as writing it."""
+    """Allocate without clearing, which would take as long as writing an image."""
     return _numpy().empty(size, "u1").data
 
 
 @cache
 def _numpy() -> Any:
-    import numpy  # lazy: connections with short messages only do without
+    import numpy  # lazy: short messages do not need it
 
     return numpy
 
 
 def _copied(data: bytes | memoryview, size: int) -> memoryview:
     """Copy to the start of new, uninitialized memory."""
-    moved = _uninitialized(size)
-    moved[: len(data)] = data
-    return moved
+    buffer = _uninitialized(size)
+    buffer[: len(data)] = data
+    return buffer
 
 
 def _shared_buffer() -> memoryview:
-    if not hasattr(_of_this_thread, "buffer"):
-        _of_this_thread.buffer = memoryview(bytearray(_SHARED_BYTES))
-    return _of_this_thread.buffer
+    if not hasattr(_thread_local, "buffer"):
+        _thread_local.buffer = memoryview(bytearray(_SHARED_BYTES))
+    return _thread_local.buffer

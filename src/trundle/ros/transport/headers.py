@@ -48,6 +48,6 @@ def frame(data: bytes | bytearray | memoryview) -> bytes:
     return b"".join((LENGTH.pack(len(data)), data))
 
 
-def check_md5(wanted: str, ours: str) -> bool:
-    """True if two md5 sums agree; `*` matches any."""
-    return wanted in ("*", ours)
+def check_md5(requested: str, offered: str) -> bool:
+    """True if two md5 sums agree; a requested `*` matches any."""
+    return requested in ("*", offered)

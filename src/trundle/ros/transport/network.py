@@ -16,8 +16,8 @@ class ServerAddress(NamedTuple):
     warning: str | None = None
     """Reason why ROS_HOSTNAME or ROS_IP is ignored, in one sentence."""
 
-    def at(self, port: int) -> str:
-        """Host and port of a URI: an IPv6 address in brackets."""
+    def authority(self, port: int) -> str:
+        """Authority of a URI, host:port; an IPv6 address is in brackets."""
         return f"[{self.advertise}]:{port}" if ":" in self.advertise else f"{self.advertise}:{port}"
 
 
@@ -32,26 +32,26 @@ def server_address(host: str | None = None) -> ServerAddress:
     ROS_HOSTNAME and ROS_IP name the address to advertise. They are ignored unless they resolve to the bound address,
     since the node would be unreachable.
     """
-    wanted = os.environ.get("ROS_HOSTNAME") or os.environ.get("ROS_IP")
+    name = os.environ.get("ROS_HOSTNAME") or os.environ.get("ROS_IP")
     bind = host or LOOPBACK
-    if host is None and wanted and not _leads_to(wanted, LOOPBACK) and _leads_to(wanted, _LOOPBACK_6):
+    if host is None and name and not _resolves_to(name, LOOPBACK) and _resolves_to(name, _LOOPBACK_6):
         bind = _LOOPBACK_6
-    open_to_all = bind in ("0.0.0.0", "::", "")
-    if wanted and (open_to_all or _leads_to(wanted, bind)):
-        return ServerAddress(bind=bind, advertise=wanted)
+    is_wildcard = bind in ("0.0.0.0", "::", "")
+    if name and (is_wildcard or _resolves_to(name, bind)):
+        return ServerAddress(bind=bind, advertise=name)
     warning = None
-    if wanted:
+    if name:
         warning = (
-            f"ROS_HOSTNAME or ROS_IP is {wanted!r} but the server listens on {bind}, so {bind} is advertised; "
+            f"ROS_HOSTNAME or ROS_IP is {name!r} but the server listens on {bind}, so {bind} is advertised; "
             f"listen on that address (or 0.0.0.0) to be reachable from other machines"
         )
-    return ServerAddress(bind=bind, advertise=socket.gethostname() if open_to_all else bind, warning=warning)
+    return ServerAddress(bind=bind, advertise=socket.gethostname() if is_wildcard else bind, warning=warning)
 
 
-def _leads_to(name: str, address: str) -> bool:
+def _resolves_to(name: str, address: str) -> bool:
     try:
-        found = {str(info[4][0]) for info in socket.getaddrinfo(name, None, type=socket.SOCK_STREAM)}
-        listening = {str(info[4][0]) for info in socket.getaddrinfo(address, None, type=socket.SOCK_STREAM)}
+        resolved = {str(info[4][0]) for info in socket.getaddrinfo(name, None, type=socket.SOCK_STREAM)}
+        bound = {str(info[4][0]) for info in socket.getaddrinfo(address, None, type=socket.SOCK_STREAM)}
     except OSError:
         return False
-    return bool(found & listening)
+    return bool(resolved & bound)

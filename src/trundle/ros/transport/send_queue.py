@@ -1,4 +1,4 @@
-"""Send queue of one connection: any thread writes as much as the kernel takes; the rest waits for the loop."""
+"""Send queue of one connection: any thread writes as much as the kernel accepts, the loop writes the rest."""
 
 import asyncio
 import contextlib
@@ -20,10 +20,10 @@ _MAX_KERNEL_BYTES = 4 * 1024 * 1024
 _UNIX = getattr(socket, "AF_UNIX", None)
 _WRITEV: "Callable[[int, Sequence[bytes | memoryview]], int] | None" = getattr(os, "writev", None)
 """None on Windows, where sockets are not file descriptors."""
-_AGAIN_S = 0.05
+_RETRY_S = 0.05
 """Retry interval if the loop cannot watch the socket."""
-_AT_ONCE = 200
-"""Frames per writev call, which takes at most IOV_MAX (1024) pieces; a frame has at most three."""
+_MAX_FRAMES = 200
+"""Frames per writev call, which accepts at most IOV_MAX (1024) pieces; a frame has at most three."""
 
 
 class SendQueue:
@@ -42,7 +42,7 @@ class SendQueue:
         self.is_congested = False
         """True while frames wait for a peer that reads too slowly."""
         self.direct = _message_codec.DirectSocket(sock.fileno())
-        """Writes short frames while nothing waits."""
+        """Writes short frames while the queue is empty."""
         self.dropped = 0
         """Frames dropped because the peer reads too slowly."""
         self._loop = asyncio.get_running_loop()
@@ -51,8 +51,8 @@ class SendQueue:
         self._socket = sock
         self._fd = sock.fileno()
         self._bytes_sent = self._frames_sent = 0
-        """Without those that were written directly."""
-        self._twin: socket.socket | None = None
+        """Without those written directly."""
+        self._duplicate: socket.socket | None = None
         """Duplicate of the socket to watch for writability, since the loop reserves the first for its transport."""
         self._queue: deque[Pieces] = deque()
         self._rest: Pieces = ()
@@ -98,7 +98,7 @@ class SendQueue:
         self._call_soon(self._wait)
 
     def _write_directly(self, frame: Pieces) -> bool:
-        """Write one short frame, bypassing the queue (usual); thread-safe. False: nothing was written."""
+        """Write one short frame, bypassing the queue (usual); thread-safe. False if nothing was written."""
         piece = frame[0] if len(frame) == 1 else None
         if not isinstance(piece, bytes) or len(piece) >= LONG_BYTES or not self.direct.write(piece):
             return False
@@ -106,7 +106,7 @@ class SendQueue:
         return True
 
     def send_rest(self) -> None:
-        """Queue what the kernel did not take of a frame that was written directly; thread-safe."""
+        """Queue the rest of a directly written frame that the kernel did not accept; thread-safe."""
         if not self.direct.is_open:
             self.send((), None)
 
@@ -129,15 +129,15 @@ class SendQueue:
         with self._lock:  # wait for a thread that is writing
             self._is_closed = True
             self.direct.is_open = False
-            self._forget()
+            self._clear()
             self._stop_waiting()
-            if self._twin is not None:
-                self._twin.close()
+            if self._duplicate is not None:
+                self._duplicate.close()
             if self._ring is not None:
                 self._ring.close()
 
     def _write(self) -> None:
-        """Write as much as the kernel and the shared ring take."""
+        """Write as much as the kernel and the shared ring accept."""
         self.direct.is_open = False
         if rest := self.direct.take_rest():
             self._rest = (rest, *self._rest)
@@ -154,7 +154,7 @@ class SendQueue:
                 self._is_full = True
                 return
             except OSError:  # the connection is broken
-                self._forget()
+                self._clear()
                 self._call_soon(self._broken)
                 return
             self._bytes_sent += sent
@@ -165,7 +165,7 @@ class SendQueue:
         if self.is_local:
             self._share_frames()
         pieces = [*self._rest]
-        for frame in islice(self._queue, _AT_ONCE):
+        for frame in islice(self._queue, _MAX_FRAMES):
             if self.is_local and (size := _size(frame)) >= LONG_BYTES:
                 if not pieces and not (self._ring is not None and self._ring.has_room(size)):
                     self._grow_send_buffer(size)
@@ -198,7 +198,7 @@ class SendQueue:
                 self._rest = (*self._rest, self._ring.offer_note())
 
     def _send_pieces(self, pieces: list[bytes | memoryview]) -> int:
-        return self._open_twin().send(pieces[0]) if _WRITEV is None else _WRITEV(self._fd, pieces)
+        return self._open_duplicate().send(pieces[0]) if _WRITEV is None else _WRITEV(self._fd, pieces)
 
     def _grow_send_buffer(self, size: int) -> None:
         """Enlarge SO_SNDBUF to hold a whole long frame; the kernel adapts it for TCP only."""
@@ -206,9 +206,9 @@ class SendQueue:
             return
         self._kernel_bytes = size
         with contextlib.suppress(OSError):
-            wanted = min(2 * size, _MAX_KERNEL_BYTES)
-            if wanted > self._socket.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF):
-                self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, wanted)
+            buffer_size = min(2 * size, _MAX_KERNEL_BYTES)
+            if buffer_size > self._socket.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF):
+                self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, buffer_size)
 
     def _discard_sent(self, sent: int) -> None:
         """Remove sent bytes from the queue."""
@@ -217,27 +217,27 @@ class SendQueue:
                 self._rest = self._queue.popleft()
                 self._frames_sent += 1
             size = _size(self._rest)
-            self._rest = () if sent >= size else _after(self._rest, sent)
+            self._rest = () if sent >= size else _without_first(self._rest, sent)
             sent -= min(sent, size)
 
-    def _forget(self) -> None:
+    def _clear(self) -> None:
         self._queue.clear()
         self._rest = ()
         self.is_congested = False
 
-    def _open_twin(self) -> socket.socket:
-        if self._twin is None:
-            self._twin = self._socket.dup()
-        return self._twin
+    def _open_duplicate(self) -> socket.socket:
+        if self._duplicate is None:
+            self._duplicate = self._socket.dup()
+        return self._duplicate
 
     def _wait(self) -> None:
         with self._lock:
             if self._is_full and self.is_congested and not self._is_waiting:
                 try:
-                    self._loop.add_writer(self._open_twin().fileno(), self._resume)
+                    self._loop.add_writer(self._open_duplicate().fileno(), self._resume)
                     self._is_waiting = True
                 except OSError:  # out of file descriptors
-                    self._loop.call_later(_AGAIN_S, self._resume)
+                    self._loop.call_later(_RETRY_S, self._resume)
 
     def _resume(self) -> None:
         """Continue writing."""
@@ -253,7 +253,7 @@ class SendQueue:
     def _stop_waiting(self) -> None:
         if self._is_waiting:
             self._is_waiting = False
-            self._loop.remove_writer(self._open_twin().fileno())
+            self._loop.remove_writer(self._open_duplicate().fileno())
 
     def _call_soon(self, function: Callable[[], None]) -> None:
         with contextlib.suppress(RuntimeError):  # the loop has ended
@@ -264,7 +264,7 @@ def _size(pieces: Pieces) -> int:
     return sum(map(len, pieces))
 
 
-def _after(pieces: Pieces, count: int) -> Pieces:
+def _without_first(pieces: Pieces, count: int) -> Pieces:
     """Pieces without their first `count` bytes, which must be fewer than all."""
     for i, piece in enumerate(pieces):
         if count < len(piece):

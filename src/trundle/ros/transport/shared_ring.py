@@ -1,4 +1,4 @@
-"""Shared memory between a publisher and one subscriber: long frames go there, and the socket carries their positions.
+"""Shared memory between a publisher and one subscriber: holds long frames, while the socket carries their positions.
 
 A socket's copy costs the kernel fresh pages for each image; the ring is reused. The publisher creates it for its first
 long frame and announces it in a note; until the subscriber acknowledges, and always between different users, frames go
@@ -19,10 +19,10 @@ from .unix_sockets import peer_process
 
 LONG_BYTES: Final = 32 * 1024
 """Minimum frame length [bytes]; for shorter ones a socket is as fast."""
-_FRAMES, _FEWEST_FRAMES = 16, 4
+_FRAMES, _MIN_FRAMES = 16, 4
 """Capacity in frames of the first one's length, and the minimum for long frames."""
-_MIN_BYTES, _PLENTY_BYTES, _MAX_BYTES = 1024 * 1024, 32 * 1024 * 1024, 64 * 1024 * 1024
-"""Limits of the ring's size; above the second one, only for the minimum number of frames."""
+_MIN_BYTES, _USUAL_BYTES, _MAX_BYTES = 1024 * 1024, 32 * 1024 * 1024, 64 * 1024 * 1024
+"""Limits of the ring's size; it exceeds the second one only to hold the minimum number of frames."""
 _OPENED = struct.Struct("<QQ")
 """Publisher to subscriber: file descriptor in the publisher's process, size."""
 _WRITTEN = struct.Struct("<QQQ")
@@ -37,21 +37,21 @@ class SharedRing:
     Positions count all bytes ever used, including those skipped at the ring's end.
     """
 
-    def __init__(self, longest: int) -> None:
-        """Allocate room for several frames of length `longest` [bytes].
+    def __init__(self, frame_bytes: int) -> None:
+        """Allocate room for several frames of a length [bytes].
 
         Raises:
             OSError: no memfd on this system, or too little memory.
         """
-        plenty = min(max(_FRAMES * longest, _MIN_BYTES), _PLENTY_BYTES)
-        if (wanted := max(plenty, _FEWEST_FRAMES * longest)) > _MAX_BYTES:
-            raise OSError(f"frames of {longest} bytes are too long to be shared")
-        self._size = -(-wanted // mmap.PAGESIZE) * mmap.PAGESIZE
+        usual_size = min(max(_FRAMES * frame_bytes, _MIN_BYTES), _USUAL_BYTES)
+        if (size := max(usual_size, _MIN_FRAMES * frame_bytes)) > _MAX_BYTES:
+            raise OSError(f"frames of {frame_bytes} bytes are too long to be shared")
+        self._size = -(-size // mmap.PAGESIZE) * mmap.PAGESIZE
         self._file = _sealed_memory(self._size)
         self._memory = mmap.mmap(self._file, self._size)
         self._end = 0
-        self._taken = 0
-        self.is_seen = False
+        self._acknowledged = 0
+        self.is_mapped = False
         """True once the subscriber has mapped the memory."""
 
     def offer_note(self) -> bytes:
@@ -60,20 +60,19 @@ class SharedRing:
 
     def has_room(self, size: int) -> bool:
         """True if frames of this length go through the ring: with up to half of it unacknowledged, one always fits."""
-        return self.is_seen and LONG_BYTES <= size <= self._size // _FEWEST_FRAMES
+        return self.is_mapped and LONG_BYTES <= size <= self._size // _MIN_FRAMES
 
     def write(self, frame: Pieces, size: int) -> bytes | None:
         """Copy a frame with its length prefix into the ring and return its note; None if there is no room yet."""
-        at = self._end % self._size
-        skipped = self._size - at if at + size > self._size else 0
+        offset = self._end % self._size
+        skipped = self._size - offset if offset + size > self._size else 0
         end = self._end + skipped + size
-        if end - self._taken > self._size:
+        if end - self._acknowledged > self._size:
             return None
-        at = start = (self._end + skipped) % self._size
+        offset = start = (self._end + skipped) % self._size
         for piece in frame:
-            behind = at + len(piece)
-            self._memory[at:behind] = piece
-            at = behind
+            self._memory[offset : offset + len(piece)] = piece
+            offset += len(piece)
         self._end = end
         return encode_note(_WRITTEN.pack(start, size, end))
 
@@ -84,9 +83,9 @@ class SharedRing:
             WireError: the position is invalid.
         """
         (position,) = _unpacked(_READ, note)
-        if not self._taken <= position <= self._end:
+        if not self._acknowledged <= position <= self._end:
             raise WireError("the peer acknowledged a position that was never written")
-        self._taken, self.is_seen = position, True
+        self._acknowledged, self.is_mapped = position, True
 
     def close(self) -> None:
         """Unmap and close the memory."""
@@ -117,9 +116,9 @@ class SharedRingReader:
         finally:
             os.close(file)
         self._acknowledged = 0
-        _message_codec.keep_freed_memory(2 * self._size)  # where the copies of its frames come and go
+        _message_codec.keep_freed_memory(2 * self._size)  # for the copies of its frames
 
-    def seen_note(self) -> bytes:
+    def mapped_note(self) -> bytes:
         """Acknowledgement after which the publisher uses the ring."""
         return encode_note(_READ.pack(0))
 
@@ -127,8 +126,8 @@ class SharedRingReader:
         """Copy a frame's content; the second value is the acknowledgement to send, if one is due.
 
         Args:
-            note: publisher's.
-            copy: returns the copy of a view, which is overwritten later.
+            note: publisher's note of the frame.
+            copy: copies a view, which is overwritten later.
 
         Raises:
             WireError: the position is outside the ring.
@@ -172,5 +171,5 @@ def _check_seals(file: int, size: int) -> None:
 
 def _unpacked(kind: struct.Struct, note: bytes | memoryview) -> tuple[Any, ...]:
     if len(note) != kind.size:
-        raise WireError(f"a note of {len(note)} bytes where one of {kind.size} belongs")
+        raise WireError(f"a note has {len(note)} bytes, not {kind.size}")
     return kind.unpack(note)

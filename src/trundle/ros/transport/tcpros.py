@@ -36,7 +36,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
         self._socket: socket.socket | None = None
         """Duplicate of the socket, read directly instead of through asyncio."""
         self._is_paused = False
-        self._ending: str | None = None
+        self._close_reason: str | None = None
 
     # for subclasses to override
 
@@ -50,11 +50,11 @@ class FrameProtocol(asyncio.BufferedProtocol):
         """Called with each frame after the header; a WireError ends the connection."""
 
     def note_received(self, note: bytes, /) -> bytes | None:
-        """Called with each note of a local peer; returns the frame it stands for, if any. May raise WireError."""
-        raise WireError(f"a note of {len(note)} bytes that was not expected")
+        """Called with each note of a local peer; returns the frame it announces, if any. May raise WireError."""
+        raise WireError(f"an unexpected note of {len(note)} bytes")
 
     def drained(self) -> None:
-        """Called when the peer, having been too slow, has read everything."""
+        """Called when a congested queue is empty again."""
 
     def closed(self, reason: str, /) -> None:
         """Called once when the connection has ended."""
@@ -63,10 +63,10 @@ class FrameProtocol(asyncio.BufferedProtocol):
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self.transport = cast(asyncio.Transport, transport)
-        self.out = SendQueue(transport.get_extra_info("socket"), drained=self._resumed, broken=self._abort)
+        self.out = SendQueue(transport.get_extra_info("socket"), drained=self._on_drained, broken=self._abort)
         if self.out.is_local:
             self.frames.on_note = self.note_received
-        self._deadline = asyncio.get_running_loop().call_later(HANDSHAKE_S, self._too_slow)
+        self._deadline = asyncio.get_running_loop().call_later(HANDSHAKE_S, self._on_timeout)
         self.connected()
 
     def get_buffer(self, sizehint: int) -> memoryview:
@@ -107,10 +107,10 @@ class FrameProtocol(asyncio.BufferedProtocol):
         if self._socket is not None or self.transport is None:
             return
         with contextlib.suppress(OSError):  # out of file descriptors: asyncio goes on reading
-            own: socket.socket = self.transport.get_extra_info("socket").dup()
-            selector.add_reader(own, self._readable)
+            duplicate: socket.socket = self.transport.get_extra_info("socket").dup()
+            selector.add_reader(duplicate, self._readable)
             self.transport.pause_reading()
-            self._selector, self._socket = selector, own
+            self._selector, self._socket = selector, duplicate
 
     def _readable(self) -> None:
         assert self._socket is not None
@@ -141,7 +141,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
 
     def finish(self, reason: str) -> None:
         """Close once everything queued is sent."""
-        self._ending = reason
+        self._close_reason = reason
         if not self.out.is_congested:
             self.close(reason)
 
@@ -153,7 +153,7 @@ class FrameProtocol(asyncio.BufferedProtocol):
             transport.close()
 
     def pause(self) -> None:
-        """Read no more until `resume`: what the peer sends waits with the peer."""
+        """Stop reading until `resume`; the peer's messages wait in its queue."""
         if self._selector is not None and self._socket is not None and not self._is_paused:
             self._selector.remove_reader(self._socket)
             self._is_paused = True
@@ -183,17 +183,17 @@ class FrameProtocol(asyncio.BufferedProtocol):
         number = self.transport.get_extra_info("socket").fileno()
         return f"TCPROS connection on port {local[1]} to [{peer[0]}:{peer[1]} on socket {number}]"
 
-    def _resumed(self) -> None:
-        if self._ending is None:
+    def _on_drained(self) -> None:
+        if self._close_reason is None:
             self.drained()
         else:
-            self.close(self._ending)
+            self.close(self._close_reason)
 
     def _abort(self) -> None:
         if self.transport is not None:
             self.transport.abort()
 
-    def _too_slow(self) -> None:
+    def _on_timeout(self) -> None:
         self.close("no connection header came in time")
 
     def _end(self, reason: str) -> None:

@@ -23,18 +23,18 @@ def listen_unix() -> tuple[socket.socket, str] | None:
     if sys.platform != "linux":
         return None
     name = _PREFIX + os.urandom(16).hex()
-    listening = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
-        listening.bind(f"\0{name}")
+        listener.bind(f"\0{name}")
     except OSError:  # a sandbox may forbid it
-        listening.close()
+        listener.close()
         return None
-    return listening, name
+    return listener, name
 
 
-def unix_address(offered: Sequence[object]) -> str | None:
-    """Socket address in what a publisher answers after host and port."""
-    match offered:
+def unix_address(protocol_params: Sequence[object]) -> str | None:
+    """Socket address in a publisher's protocol parameters after host and port; None if there is none."""
+    match protocol_params:
         case [str(name), *_] if name.startswith(_PREFIX) and name.isascii() and sys.platform == "linux":
             return f"\0{name}"
         case _:
