@@ -20,10 +20,10 @@ for _class in (Chain, Frame, Jacobian, JntArray, Joint, Rotation, Segment, Twist
     _class.__module__ = __name__
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> object:
     if name.startswith("__"):
         raise AttributeError(name)
     raise AttributeError(
         f"PyKDL.{name} is not part of Trundle's PyKDL, which has {', '.join(__all__)}; trees, inverse kinematics and "
-        "dynamics need Orocos KDL itself (Debian and Ubuntu: python3-pykdl), which is used as soon as it is installed"
+        "dynamics need Orocos KDL itself (Debian and Ubuntu: python3-pykdl), which is used where it is installed"
     )

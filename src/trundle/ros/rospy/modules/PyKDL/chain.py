@@ -2,66 +2,71 @@
 
 from .frame import Frame
 from .joint import NO_NAME, Joint
+from .screws import Twist
+
+TYPE_CHECKING = False  # not from `typing`, whose import takes longer than this package's
+if TYPE_CHECKING:
+    from typing import Any
 
 
 class Segment:
-    """A joint, and a rigid body from it to the tip, on which the next segment stands."""
+    """A joint and a rigid body from it to the tip, where the next segment starts."""
 
-    def __init__(self, *arguments):
+    def __init__(self, *arguments: "Any") -> None:
         """A copy, or [name], joint, pose of the tip; an inertia has no effect."""
         if len(arguments) == 1 and isinstance(arguments[0], Segment):
             vars(self).update(vars(arguments[0]))
             return
-        given = list(arguments)
-        self._name = given.pop(0) if given and isinstance(given[0], str) else NO_NAME
-        self._joint = Joint(given.pop(0)) if given else Joint()
-        tip = Frame(given.pop(0)) if given else Frame()
+        remaining = list(arguments)
+        self._name = remaining.pop(0) if remaining and isinstance(remaining[0], str) else NO_NAME
+        self._joint = Joint(remaining.pop(0)) if remaining else Joint()
+        tip = Frame(remaining.pop(0)) if remaining else Frame()
         self._tip = self._joint.pose(0.0).Inverse() * tip
 
-    def getName(self):
+    def getName(self) -> str:
         """Name."""
         return self._name
 
-    def getJoint(self):
+    def getJoint(self) -> Joint:
         """Joint."""
         return self._joint
 
-    def getFrameToTip(self):
+    def getFrameToTip(self) -> Frame:
         """Pose of the tip at the joint's value 0."""
         return self._joint.pose(0.0) * self._tip
 
-    def pose(self, q):
+    def pose(self, q: float) -> Frame:
         """Pose of the tip, at the joint's value q."""
         return self._joint.pose(q) * self._tip
 
-    def twist(self, q, qdot):
+    def twist(self, q: float, qdot: float) -> Twist:
         """Velocity of the tip, at the joint's value q and rate qdot."""
         return self._joint.twist(qdot).RefPoint(self._joint.pose(q).M * self._tip.p)
 
 
 class Chain:
-    """Segments, each on the tip of the one before."""
+    """Segments, each at the tip of the previous one."""
 
-    def __init__(self, other=None):
+    def __init__(self, other: "Chain | None" = None) -> None:
         """No segments, or a copy."""
-        self._segments = [] if other is None else list(other._segments)
+        self._segments: list[Segment] = [] if other is None else list(other._segments)
 
-    def addSegment(self, segment):
+    def addSegment(self, segment: Segment) -> None:
         """Add a segment at the tip."""
         self._segments.append(Segment(segment))
 
-    def addChain(self, chain):
+    def addChain(self, chain: "Chain") -> None:
         """Add another chain's segments at the tip."""
         self._segments.extend(list(chain._segments))
 
-    def getNrOfSegments(self):
+    def getNrOfSegments(self) -> int:
         """Count of segments."""
         return len(self._segments)
 
-    def getNrOfJoints(self):
+    def getNrOfJoints(self) -> int:
         """Count of joints that move."""
         return sum(segment.getJoint().getType() != Joint.Fixed for segment in self._segments)
 
-    def getSegment(self, nr):
+    def getSegment(self, nr: int) -> Segment:
         """Segment by its number, from 0."""
         return self._segments[nr]

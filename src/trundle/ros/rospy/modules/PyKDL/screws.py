@@ -1,43 +1,52 @@
 """Twist and Wrench: pairs of vectors at a point."""
 
+from collections.abc import Iterable
+
 from .numbers import Numbers
+from .rotation import Rotation
 from .vector import Vector
 
+TYPE_CHECKING = False  # not from `typing`, whose import takes longer than this package's
+if TYPE_CHECKING:
+    from typing import Any, Self
 
-def _part(start):
-    def read(self):
+    from .frame import Frame
+
+
+def _part(start: int) -> property:
+    def read(self: "_Screw") -> "Part":
         return Part(self, start)
 
-    def write(self, vector):
+    def write(self: "_Screw", vector: Iterable[float]) -> None:
         self._values[start : start + 3] = list(vector)
 
     return property(read, write)
 
 
 class Part(Vector):
-    """A Vector that is part of a Twist or Wrench: a change of it changes that."""
+    """View of a Vector in a Twist or Wrench: changes are written through."""
 
     __slots__ = ("_start", "_whole")
 
-    def __init__(self, whole, start):
+    def __init__(self, whole: "_Screw", start: int) -> None:
         super().__init__(*whole._values[start : start + 3])
         self._whole, self._start = whole, start
 
     @classmethod
-    def _of(cls, values):
+    def _of(cls, values: Iterable[float]) -> "Any":
         return Vector(*values)
 
-    def __setitem__(self, index, value):
+    def __setitem__(self, index: int, value: float) -> None:
         super().__setitem__(index, value)
         self._whole._values[self._start + index] = float(value)
 
-    def __add__(self, other):
+    def __add__(self, other: "Any") -> "Any":
         return Vector(self) + Vector(other)
 
-    def __sub__(self, other):
+    def __sub__(self, other: "Any") -> "Any":
         return Vector(self) - Vector(other)
 
-    def __eq__(self, other):
+    def __eq__(self, other: object) -> bool:
         return isinstance(other, Vector) and Vector(self) == Vector(other)
 
     __hash__ = None
@@ -47,7 +56,7 @@ class _Screw(Numbers):
     __slots__ = ()
     size = 6
 
-    def __init__(self, first=None, second=None):
+    def __init__(self, first: object = None, second: object = None) -> None:
         if first is None and second is None:
             self._values = [0.0] * 6
         elif isinstance(first, type(self)) and second is None:
@@ -57,10 +66,10 @@ class _Screw(Numbers):
         else:
             raise TypeError(f"{type(self).__name__} takes nothing, two Vectors or a copy, not ({first!r}, {second!r})")
 
-    def _vectors(self):
+    def _vectors(self) -> tuple[Vector, Vector]:
         return Vector(*self._values[:3]), Vector(*self._values[3:])
 
-    def _rotated(self, rotation):
+    def _rotated(self, rotation: Rotation) -> "Self":
         first, second = self._vectors()
         return type(self)(rotation * first, rotation * second)
 
@@ -72,12 +81,12 @@ class Twist(_Screw):
     vel = _part(0)
     rot = _part(3)
 
-    def RefPoint(self, v_base_AB):
-        """The same motion, at a point further by a vector."""
+    def RefPoint(self, v_base_AB: Vector) -> "Twist":
+        """The same motion, at a point shifted by a vector."""
         vel, rot = self._vectors()
         return Twist(vel + rot * v_base_AB, rot)
 
-    def _moved(self, frame):
+    def _moved(self, frame: "Frame") -> "Twist":
         """In the frame's parent, at the parent's origin."""
         vel, rot = self._rotated(frame.M)._vectors()
         return Twist(vel + frame.p * rot, rot)
@@ -90,12 +99,12 @@ class Wrench(_Screw):
     force = _part(0)
     torque = _part(3)
 
-    def RefPoint(self, v_base_AB):
-        """The same load, at a point further by a vector."""
+    def RefPoint(self, v_base_AB: Vector) -> "Wrench":
+        """The same load, at a point shifted by a vector."""
         force, torque = self._vectors()
         return Wrench(force, torque + force * v_base_AB)
 
-    def _moved(self, frame):
+    def _moved(self, frame: "Frame") -> "Wrench":
         """In the frame's parent, at the parent's origin."""
         force, torque = self._rotated(frame.M)._vectors()
         return Wrench(force, torque + frame.p * force)

@@ -1,20 +1,24 @@
 """Forward kinematics of a chain."""
 
+from collections.abc import Generator
+
+from .chain import Chain, Segment
 from .frame import Frame
 from .joint import Joint
+from .joint_arrays import Jacobian, JntArray
 
 _SIZE_MISMATCH, _OUT_OF_RANGE = -4, -6
-"""KDL's numbers of errors."""
+"""KDL's error codes."""
 
 
 class _Solver:
-    def __init__(self, chain):
+    def __init__(self, chain: Chain) -> None:
         self._chain = chain
 
-    def updateInternalDataStructures(self):
+    def updateInternalDataStructures(self) -> None:
         """Do nothing: the chain is read each time."""
 
-    def _posed(self, q, count):
+    def _posed(self, q: JntArray, count: int) -> Generator[tuple[Segment, bool, float]]:
         """Segments with the value of their joints, 0 for fixed ones."""
         used = 0
         for number in range(count):
@@ -23,17 +27,17 @@ class _Solver:
             yield segment, is_moving, q[used] if is_moving else 0.0
             used += is_moving
 
-    def _fault(self, q, count):
-        """Number of an error; 0 if there is none."""
+    def _fault(self, q: JntArray, count: int) -> int:
+        """Error code; 0 if there is none."""
         if q.rows() != self._chain.getNrOfJoints():
             return _SIZE_MISMATCH
         return _OUT_OF_RANGE if count > self._chain.getNrOfSegments() else 0
 
 
 class ChainFkSolverPos_recursive(_Solver):
-    """Pose of the tip, or of a segment on the way."""
+    """Pose of the tip, or of another segment."""
 
-    def JntToCart(self, q_in, p_out, segmentNr=-1):
+    def JntToCart(self, q_in: JntArray, p_out: Frame | list[Frame], segmentNr: int = -1) -> int:
         """Write the pose after a count of segments into `p_out`, a Frame or a list of Frames; all segments with -1.
 
         Returns:
@@ -42,7 +46,7 @@ class ChainFkSolverPos_recursive(_Solver):
         count = self._chain.getNrOfSegments() if segmentNr < 0 else segmentNr
         if fault := self._fault(q_in, count):
             return fault
-        pose, poses = Frame(), []
+        pose, poses = Frame(), list[Frame]()
         for segment, _, value in self._posed(q_in, count):
             pose = pose * segment.pose(value)
             poses.append(pose)
@@ -56,7 +60,7 @@ class ChainFkSolverPos_recursive(_Solver):
 class ChainJntToJacSolver(_Solver):
     """Jacobian of the tip, in the axes of the chain's base."""
 
-    def JntToJac(self, q_in, jac, seg_nr=-1):
+    def JntToJac(self, q_in: JntArray, jac: Jacobian, seg_nr: int = -1) -> int:
         """Write the Jacobian after a count of segments; all segments with -1.
 
         Returns:

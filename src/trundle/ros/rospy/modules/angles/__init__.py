@@ -5,41 +5,43 @@ from math import fmod, pi
 _TURN = 2.0 * pi
 
 
-def normalize_angle_positive(angle):
+def normalize_angle_positive(angle: float) -> float:
     """The same angle in [0, 2π)."""
     return fmod(fmod(angle, _TURN) + _TURN, _TURN)
 
 
-def normalize_angle(angle):
+def normalize_angle(angle: float) -> float:
     """The same angle in (-π, π]."""
     positive = normalize_angle_positive(angle)
     return positive - _TURN if positive > pi else positive
 
 
-def shortest_angular_distance(from_angle, to_angle):
+def shortest_angular_distance(from_angle: float, to_angle: float) -> float:
     """Shortest turn from one angle to another, in (-π, π]."""
     return normalize_angle(to_angle - from_angle)
 
 
-def two_pi_complement(angle):
-    """The turn to the same place the other way round."""
+def two_pi_complement(angle: float) -> float:
+    """Turn to the same angle in the other direction."""
     if abs(angle) > _TURN:
         angle = fmod(angle, _TURN)
     return angle - _TURN if angle > 0 else angle + _TURN
 
 
-def shortest_angular_distance_with_limits(from_angle, to_angle, left_limit, right_limit):
+def shortest_angular_distance_with_limits(
+    from_angle: float, to_angle: float, left_limit: float, right_limit: float
+) -> tuple[bool, float]:
     """Shortest turn that stays between two limits.
 
     Args:
         from_angle: start, in [-π, π).
         to_angle: end.
         left_limit: lower limit, in [-π, π].
-        right_limit: upper limit, in [-π, π]; below the left one the interval goes over ±π.
+        right_limit: upper limit, in [-π, π]; if it is below the left one, the interval crosses ±π.
 
     Returns:
-        (True, turn), or (False, turn) if an end is outside the limits; the turn is then the one that leads
-        further into the allowed interval.
+        (True, turn), or (False, turn) if an end is outside the limits; the turn then leads further into the allowed
+        interval.
     """
     is_inside, lowest, highest = _find_min_max_delta(from_angle, left_limit, right_limit)
     short = shortest_angular_distance(from_angle, to_angle)
@@ -59,7 +61,9 @@ def shortest_angular_distance_with_limits(from_angle, to_angle, left_limit, righ
     return False, min(turns[::-1], key=abs)
 
 
-def shortest_angular_distance_with_large_limits(from_angle, to_angle, left_limit, right_limit):
+def shortest_angular_distance_with_large_limits(
+    from_angle: float, to_angle: float, left_limit: float, right_limit: float
+) -> tuple[bool, float]:
     """Shortest turn that stays between two limits of any size; (is possible, turn)."""
     short = shortest_angular_distance(from_angle, to_angle)
     turns = sorted((short, two_pi_complement(short)), key=abs)
@@ -70,8 +74,8 @@ def shortest_angular_distance_with_large_limits(from_angle, to_angle, left_limit
     return False, turns[0]
 
 
-def _find_min_max_delta(from_angle, left_limit, right_limit):
-    """(is inside, most negative turn, most positive turn) from an angle to its limits."""
+def _find_min_max_delta(from_angle: float, left_limit: float, right_limit: float) -> tuple[bool, float, float]:
+    """(is inside, minimum turn, maximum turn) from an angle to its limits."""
     left = shortest_angular_distance(from_angle, left_limit)
     right = shortest_angular_distance(from_angle, right_limit)
     other_left, other_right = two_pi_complement(left), two_pi_complement(right)
@@ -79,8 +83,8 @@ def _find_min_max_delta(from_angle, left_limit, right_limit):
         return True, left, max(right, other_right)
     if right == 0:
         return True, min(left, other_left), right
-    lowest, beyond_left = min(left, other_left), max(left, other_left)
-    highest, beyond_right = max(right, other_right), min(right, other_right)
-    if lowest <= beyond_right or highest >= beyond_left:
-        return left_limit == -pi and right_limit == pi, beyond_right, beyond_left
+    lowest, max_left = min(left, other_left), max(left, other_left)
+    highest, min_right = max(right, other_right), min(right, other_right)
+    if lowest <= min_right or highest >= max_left:
+        return left_limit == -pi and right_limit == pi, min_right, max_left
     return True, lowest, highest

@@ -1,23 +1,28 @@
-"""Messages of several topics, put together by their stamps."""
+"""Synchronization of several topics by the messages' stamps."""
 
 import itertools
 import threading
+from collections.abc import Sequence
+from typing import Any
 
+import genpy
 import rospy
 
 from .simple_filter import SimpleFilter, stamp_of
 
+_Queue = dict[genpy.Time, Any]
+
 
 class TimeSynchronizer(SimpleFilter):
-    """Calls with one message of each filter, when all have the same stamp."""
+    """Calls with one message of each filter, once all have the same stamp."""
 
-    def __init__(self, fs, queue_size, reset=False):
+    def __init__(self, fs: Sequence[SimpleFilter], queue_size: int, reset: bool = False) -> None:
         """Connect to filters.
 
         Args:
-            fs: the filters.
-            queue_size: number of messages that each may wait.
-            reset: in sim time, drop what waits when the time jumps back.
+            fs: sources of the messages.
+            queue_size: maximum number of queued messages per filter.
+            reset: in sim time, drop queued messages when the time jumps back.
         """
         super().__init__()
         self.lock = threading.Lock()
@@ -25,16 +30,16 @@ class TimeSynchronizer(SimpleFilter):
         self.enable_reset = reset
         self.connectInput(fs)
 
-    def connectInput(self, fs):
-        """Take the messages of filters, in this order."""
-        self.queues = [{} for _ in fs]
-        self.latest_stamps = [rospy.Time(0)] * len(fs)
+    def connectInput(self, fs: Sequence[SimpleFilter]) -> None:
+        """Receive the messages of filters, in this order."""
+        self.queues: list[_Queue] = [{} for _ in fs]
+        self.latest_stamps: list[genpy.Time] = [rospy.Time(0)] * len(fs)
         self.input_connections = [
-            each.registerCallback(self.add, queue, index)
-            for index, (each, queue) in enumerate(zip(fs, self.queues, strict=True))
+            source.registerCallback(self.add, queue, index)
+            for index, (source, queue) in enumerate(zip(fs, self.queues, strict=True))
         ]
 
-    def add(self, msg, my_queue, my_queue_index=None):
+    def add(self, msg: Any, my_queue: _Queue, my_queue_index: int | None = None) -> None:
         """Queue a message, and call if it completes a set."""
         with self.lock:
             if not self._enqueue(msg, msg.header.stamp, my_queue, my_queue_index):
@@ -42,8 +47,8 @@ class TimeSynchronizer(SimpleFilter):
             for stamp in sorted(set.intersection(*map(set, self.queues))):
                 self._emit([stamp] * len(self.queues))
 
-    def _enqueue(self, msg, stamp, queue, index):
-        """Queue a message; False if others have to come first, after a jump in time."""
+    def _enqueue(self, msg: Any, stamp: genpy.Time, queue: _Queue, index: int | None) -> bool:
+        """Queue a message; False after a time jump, until each queue has received a message."""
         now = rospy.Time.now()
         watches_time = self.enable_reset and not rospy.rostime.is_wallclock()
         if watches_time and index is not None:
@@ -56,10 +61,10 @@ class TimeSynchronizer(SimpleFilter):
             del queue[min(queue)]
         return not watches_time or max(self.latest_stamps) == now
 
-    def _note_time(self, now):
-        """Overridden where all queues follow the time."""
+    def _note_time(self, now: genpy.Time) -> None:
+        """Clear the queues after a time jump, where a subclass does so."""
 
-    def _emit(self, stamps):
+    def _emit(self, stamps: Sequence[genpy.Time]) -> None:
         messages = [queue[stamp] for queue, stamp in zip(self.queues, stamps, strict=True)]
         self.signalMessage(*messages)
         for queue, stamp in zip(self.queues, stamps, strict=True):
@@ -67,25 +72,32 @@ class TimeSynchronizer(SimpleFilter):
 
 
 class ApproximateTimeSynchronizer(TimeSynchronizer):
-    """Calls with one message of each filter, when their stamps are near each other."""
+    """Calls with one message of each filter, once their stamps are close."""
 
-    def __init__(self, fs, queue_size, slop, allow_headerless=False, reset=False):
+    def __init__(
+        self,
+        fs: Sequence[SimpleFilter],
+        queue_size: int,
+        slop: float,
+        allow_headerless: bool = False,
+        reset: bool = False,
+    ) -> None:
         """Connect to filters.
 
         Args:
-            fs: the filters.
-            queue_size: number of messages that each may wait.
+            fs: sources of the messages.
+            queue_size: maximum number of queued messages per filter.
             slop: largest difference of the stamps [s].
             allow_headerless: stamp messages without a header on arrival, instead of dropping them.
-            reset: in sim time, drop what waits when the time jumps back.
+            reset: in sim time, drop queued messages when the time jumps back.
         """
         super().__init__(fs, queue_size, reset)
         self.slop = rospy.Duration.from_sec(slop)
         self.allow_headerless = allow_headerless
         self.last_added = rospy.Time()
 
-    def add(self, msg, my_queue, my_queue_index=None):
-        """Queue a message, and call if it completes a set; the nearest in time are taken."""
+    def add(self, msg: Any, my_queue: _Queue, my_queue_index: int | None = None) -> None:
+        """Queue a message, and call if it completes a set; the nearest stamps win."""
         stamp = stamp_of(msg, self.allow_headerless)
         if stamp is None:
             return
@@ -98,12 +110,12 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
                     self._emit(stamps)
                     break
 
-    def _near(self, stamp, queue):
+    def _near(self, stamp: genpy.Time, queue: _Queue) -> list[genpy.Time]:
         """Stamps of a queue within the slop, nearest first."""
-        within = [each for each in queue if abs(each - stamp) <= self.slop]
-        return sorted(within, key=lambda each: abs(each - stamp))
+        near = [queued for queued in queue if abs(queued - stamp) <= self.slop]
+        return sorted(near, key=lambda queued: abs(queued - stamp))
 
-    def _note_time(self, now):
+    def _note_time(self, now: genpy.Time) -> None:
         if now < self.last_added:
             rospy.loginfo("ApproximateTimeSynchronizer: the time jumped back; waiting messages are dropped")
             for queue in self.queues:

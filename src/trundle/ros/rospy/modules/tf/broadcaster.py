@@ -1,25 +1,31 @@
 """Publisher of moving transforms, with the arguments of tf."""
 
+from collections.abc import Sequence
+from typing import Any
+
 from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
 
+import genpy
 import tf2_ros
 
 
 class TransformBroadcaster:
     """Publishes on /tf."""
 
-    def __init__(self, queue_size=100):
-        """Advertise; `queue_size` has no effect, as since tf is built on tf2."""
+    def __init__(self, queue_size: int = 100) -> None:
+        """Advertise; `queue_size` has no effect, as since tf uses tf2."""
         del queue_size
         self.tf2_broadcaster = tf2_ros.TransformBroadcaster()
 
-    def sendTransform(self, translation, rotation, time, child, parent):
+    def sendTransform(
+        self, translation: Sequence[float], rotation: Sequence[float], time: genpy.Time, child: str, parent: str
+    ) -> None:
         """Send the pose of a frame in its parent.
 
         Args:
             translation: (x, y, z) [m].
             rotation: (x, y, z, w).
-            time: rospy.Time.
+            time: stamp.
             child: frame's name.
             parent: its parent's name.
         """
@@ -30,6 +36,6 @@ class TransformBroadcaster:
         transform.transform.rotation = Quaternion(*rotation[:4])
         self.sendTransformMessage(transform)
 
-    def sendTransformMessage(self, transform):
+    def sendTransformMessage(self, transform: Any) -> None:
         """Send a TransformStamped."""
         self.tf2_broadcaster.sendTransform([transform])

@@ -1,4 +1,4 @@
-"""geometry_msgs for tf2: import it, and `Buffer.transform` knows their stamped types."""
+"""geometry_msgs for tf2; importing it registers their stamped types for `Buffer.transform`."""
 
 from geometry_msgs.msg import PointStamped, PoseStamped, Vector3Stamped, WrenchStamped
 

@@ -12,7 +12,7 @@ from trundle.ros import errors
 
 
 class TransformException(Exception):
-    """A transform cannot be given."""
+    """A transform lookup failed."""
 
 
 class ConnectivityException(TransformException):
@@ -41,7 +41,7 @@ for _class in (
 ):  # fmt: skip
     _class.__module__ = "tf2"  # tracebacks name it, as those of the original's compiled module
 
-_CLASSES = {
+_CLASSES: dict[type[errors.TransformError], type[TransformException]] = {
     errors.ConnectivityError: ConnectivityException,
     errors.ExtrapolationError: ExtrapolationException,
     errors.FrameNameError: InvalidArgumentException,
@@ -49,6 +49,6 @@ _CLASSES = {
 }
 
 
-def of_error(error):
-    """Make tf2's exception of a TransformError."""
+def of_error(error: errors.TransformError) -> TransformException:
+    """Convert a TransformError to tf2's exception."""
     return _CLASSES.get(type(error), TransformException)(str(error))

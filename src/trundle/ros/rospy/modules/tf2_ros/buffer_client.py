@@ -1,9 +1,12 @@
-"""Client of a node that keeps the buffer for others (buffer_server)."""
+"""Client of a node that looks up transforms for others (buffer_server)."""
+
+from typing import Any
 
 from actionlib_msgs.msg import GoalStatus
 from tf2_msgs.msg import LookupTransformAction, LookupTransformGoal, TF2Error
 
 import actionlib
+import genpy
 import rospy
 from tf2_py import (
     ConnectivityException,
@@ -30,13 +33,15 @@ _ERRORS = {
 class BufferClient(BufferInterface):
     """Transforms looked up by an action server."""
 
-    def __init__(self, ns, check_frequency=None, timeout_padding=_PADDING):
+    def __init__(
+        self, ns: str, check_frequency: float | None = None, timeout_padding: genpy.Duration = _PADDING
+    ) -> None:
         """Connect to the action `ns`.
 
         Args:
-            ns: name of the action.
-            check_frequency: unused, as since ROS Kinetic.
-            timeout_padding: rospy.Duration that the answer may be late by.
+            ns: action's name.
+            check_frequency: no effect, as since ROS Kinetic.
+            timeout_padding: rospy.Duration by which the result may be late.
         """
         BufferInterface.__init__(self)
         self.client = actionlib.SimpleActionClient(ns, LookupTransformAction)
@@ -44,20 +49,28 @@ class BufferClient(BufferInterface):
         if check_frequency is not None:
             rospy.logwarn("BufferClient: check_frequency is deprecated; it has no effect")
 
-    def wait_for_server(self, timeout=_NO_WAIT):
-        """Wait for the server; False if it is not there in time."""
+    def wait_for_server(self, timeout: genpy.Duration = _NO_WAIT) -> bool:
+        """Wait for the server; False after the timeout."""
         return self.client.wait_for_server(timeout)
 
-    def lookup_transform(self, target_frame, source_frame, time, timeout=_NO_WAIT):
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: genpy.Time, timeout: genpy.Duration = _NO_WAIT
+    ) -> Any:
         """See `Buffer.lookup_transform`."""
         goal = LookupTransformGoal(
             target_frame=target_frame, source_frame=source_frame, source_time=time, timeout=timeout, advanced=False
         )
-        return self._ask(goal)
+        return self._request(goal)
 
     def lookup_transform_full(
-        self, target_frame, target_time, source_frame, source_time, fixed_frame, timeout=_NO_WAIT
-    ):
+        self,
+        target_frame: str,
+        target_time: genpy.Time,
+        source_frame: str,
+        source_time: genpy.Time,
+        fixed_frame: str,
+        timeout: genpy.Duration = _NO_WAIT,
+    ) -> Any:
         """See `Buffer.lookup_transform_full`."""
         goal = LookupTransformGoal(
             target_frame=target_frame,
@@ -68,9 +81,11 @@ class BufferClient(BufferInterface):
             fixed_frame=fixed_frame,
             advanced=True,
         )
-        return self._ask(goal)
+        return self._request(goal)
 
-    def can_transform(self, target_frame, source_frame, time, timeout=_NO_WAIT):
+    def can_transform(
+        self, target_frame: str, source_frame: str, time: genpy.Time, timeout: genpy.Duration = _NO_WAIT
+    ) -> bool:
         """True if the lookup succeeds."""
         try:
             self.lookup_transform(target_frame, source_frame, time, timeout)
@@ -78,7 +93,15 @@ class BufferClient(BufferInterface):
             return False
         return True
 
-    def can_transform_full(self, target_frame, target_time, source_frame, source_time, fixed_frame, timeout=_NO_WAIT):
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: genpy.Time,
+        source_frame: str,
+        source_time: genpy.Time,
+        fixed_frame: str,
+        timeout: genpy.Duration = _NO_WAIT,
+    ) -> bool:
         """True if the full lookup succeeds."""
         try:
             self.lookup_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
@@ -86,7 +109,7 @@ class BufferClient(BufferInterface):
             return False
         return True
 
-    def _ask(self, goal):
+    def _request(self, goal: Any) -> Any:
         self.client.send_goal(goal)
         if not self.client.wait_for_result(goal.timeout + self.timeout_padding):
             raise TimeoutException("the buffer server did not answer in time")

@@ -1,4 +1,6 @@
-"""PointCloud2 moved by a TransformStamped."""
+"""Transformation of PointCloud2 by a TransformStamped."""
+
+from typing import Any, TypeVar
 
 import numpy as np
 from sensor_msgs.msg import PointCloud2
@@ -7,25 +9,27 @@ import tf2_ros
 from PyKDL import Frame, Rotation, Vector
 from sensor_msgs.point_cloud2 import create_cloud, read_points
 
+_T = TypeVar("_T")
 
-def to_msg_msg(msg):
-    """A message is its own message."""
+
+def to_msg_msg(msg: _T) -> _T:
+    """Return the message itself."""
     return msg
 
 
-def from_msg_msg(msg):
-    """See `to_msg_msg`."""
+def from_msg_msg(msg: _T) -> _T:
+    """Return the message itself."""
     return msg
 
 
-def transform_to_kdl(t):
+def transform_to_kdl(t: Any) -> Frame:
     """PyKDL.Frame of a TransformStamped."""
     q, p = t.transform.rotation, t.transform.translation
     return Frame(Rotation.Quaternion(q.x, q.y, q.z, q.w), Vector(p.x, p.y, p.z))
 
 
-def do_transform_cloud(cloud, transform):
-    """Move the points of a PointCloud2, whose first three fields are x, y and z; others are kept."""
+def do_transform_cloud(cloud: Any, transform: Any) -> Any:
+    """Transform the points of a PointCloud2 whose first three fields are x, y and z; other fields stay."""
     frame = transform_to_kdl(transform)
     rotation = np.array([[frame.M[row, column] for column in range(3)] for row in range(3)])
     points = np.array(list(read_points(cloud)), dtype=np.float64)

@@ -1,36 +1,42 @@
 """Translation, rotation, reflection, scaling, projection and shear, as matrices and back."""
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .vectors import _EPS, eigenvector_for, fixed_point, unit_vector, vector_norm
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
-def identity_matrix():
+    from .vectors import Array, Vector
+
+
+def identity_matrix() -> "Array":
     """4×4 identity."""
     return np.identity(4)
 
 
-def inverse_matrix(matrix):
+def inverse_matrix(matrix: "ArrayLike") -> "Array":
     """Inverse of a square matrix."""
-    return np.linalg.inv(matrix)
+    return np.linalg.inv(np.asarray(matrix))
 
 
-def translation_matrix(direction):
+def translation_matrix(direction: "Vector") -> "Array":
     """Translation by a vector."""
     matrix = np.identity(4)
     matrix[:3, 3] = direction[:3]
     return matrix
 
 
-def translation_from_matrix(matrix):
+def translation_from_matrix(matrix: "ArrayLike") -> "Array":
     """Translation part of a matrix, (3,)."""
     return np.array(matrix)[:3, 3].copy()
 
 
-def reflection_matrix(point, normal):
-    """Mirror at the plane through `point` that is perpendicular to `normal`."""
+def reflection_matrix(point: "Vector", normal: "Vector") -> "Array":
+    """Reflection at the plane through `point` perpendicular to `normal`."""
     n = unit_vector(normal[:3])
     matrix = np.identity(4)
     matrix[:3, :3] -= 2.0 * np.outer(n, n)
@@ -38,8 +44,8 @@ def reflection_matrix(point, normal):
     return matrix
 
 
-def reflection_from_matrix(matrix):
-    """Mirror plane (point, normal) of a reflection matrix.
+def reflection_from_matrix(matrix: "ArrayLike") -> "tuple[Array, Array]":
+    """Plane (point, normal) of a reflection matrix.
 
     Raises:
         ValueError: the matrix is no reflection.
@@ -54,7 +60,7 @@ def reflection_from_matrix(matrix):
     return point, normal
 
 
-def rotation_matrix(angle, direction, point=None):
+def rotation_matrix(angle: float, direction: "Vector", point: "Vector | None" = None) -> "Array":
     """Rotation by `angle` about the axis `direction`, which passes through `point` (default: the origin)."""
     axis = unit_vector(direction[:3])
     sin, cos = math.sin(angle), math.cos(angle)
@@ -64,12 +70,12 @@ def rotation_matrix(angle, direction, point=None):
     matrix = np.identity(4)
     matrix[:3, :3] = rotation
     if point is not None:
-        centre = np.asarray(point[:3], dtype=np.float64)
-        matrix[:3, 3] = centre - rotation @ centre
+        center = np.asarray(point[:3], dtype=np.float64)
+        matrix[:3, 3] = center - rotation @ center
     return matrix
 
 
-def rotation_from_matrix(matrix):
+def rotation_from_matrix(matrix: "ArrayLike") -> "tuple[float, Array, Array]":
     """Angle, axis (3,) and a homogeneous point on the axis of a rotation matrix.
 
     Raises:
@@ -88,7 +94,7 @@ def rotation_from_matrix(matrix):
     return math.atan2(skew[largest] / 2.0 / axis[largest], cos), axis, point
 
 
-def scale_matrix(factor, origin=None, direction=None):
+def scale_matrix(factor: float, origin: "Vector | None" = None, direction: "Vector | None" = None) -> "Array":
     """Scaling by `factor` about `origin`, in all directions or along `direction` only."""
     matrix = np.identity(4)
     if direction is None:
@@ -97,16 +103,16 @@ def scale_matrix(factor, origin=None, direction=None):
         axis = unit_vector(direction[:3])
         matrix[:3, :3] -= (1.0 - factor) * np.outer(axis, axis)
     if origin is not None:
-        centre = np.asarray(origin[:3], dtype=np.float64)
-        matrix[:3, 3] = centre - matrix[:3, :3] @ centre
+        center = np.asarray(origin[:3], dtype=np.float64)
+        matrix[:3, 3] = center - matrix[:3, :3] @ center
     return matrix
 
 
-def scale_from_matrix(matrix):
+def scale_from_matrix(matrix: "ArrayLike") -> "tuple[float, Array, Array | None]":
     """Factor, homogeneous origin, and direction of a scaling; direction is None if uniform.
 
     Raises:
-        ValueError: no point stays in place.
+        ValueError: the matrix has no fixed point.
     """
     m = np.asarray(matrix, dtype=np.float64)
     factor = np.trace(m[:3, :3]) - 2.0
@@ -121,14 +127,20 @@ def scale_from_matrix(matrix):
     return factor, origin, direction
 
 
-def projection_matrix(point, normal, direction=None, perspective=None, pseudo=False):
+def projection_matrix(
+    point: "Vector",
+    normal: "Vector",
+    direction: "Vector | None" = None,
+    perspective: "Vector | None" = None,
+    pseudo: bool = False,
+) -> "Array":
     """Projection on the plane through `point` perpendicular to `normal`.
 
     Args:
-        point: any point of the plane.
-        normal: of the plane.
-        direction: of a parallel projection; default: along the normal.
-        perspective: eye of a perspective projection, in place of `direction`.
+        point: a point of the plane.
+        normal: normal of the plane.
+        direction: direction of a parallel projection; default: along the normal.
+        perspective: center of a perspective projection, instead of `direction`.
         pseudo: keep the relative depth of points, in a perspective projection.
     """
     matrix = np.identity(4)
@@ -152,7 +164,9 @@ def projection_matrix(point, normal, direction=None, perspective=None, pseudo=Fa
     return matrix
 
 
-def projection_from_matrix(matrix, pseudo=False):
+def projection_from_matrix(
+    matrix: "ArrayLike", pseudo: bool = False
+) -> "tuple[Array, Array, Array | None, Array | None, bool]":
     """(point, normal, direction, perspective, pseudo): the arguments of `projection_matrix`; unused ones are None.
 
     Raises:
@@ -167,10 +181,10 @@ def projection_from_matrix(matrix, pseudo=False):
             raise ValueError("not a projection: no eigenvalue is 0")
         return point, normal / vector_norm(normal), direction / vector_norm(direction), None, False
     values, vectors = np.linalg.eig(m)
-    moving = np.flatnonzero(np.abs(values.real) > 1e-8)
+    moving = np.flatnonzero(np.abs(np.real(values)) > 1e-8)
     if not len(moving):
         raise ValueError("not a projection: every eigenvalue is 0")
-    point = vectors[:, moving[-1]].real
+    point = np.real(vectors[:, moving[-1]])
     point = point / point[3]
     normal = -m[3, :3]
     perspective = m[:3, 3] / np.dot(point[:3], normal)
@@ -179,7 +193,7 @@ def projection_from_matrix(matrix, pseudo=False):
     return point, normal, None, perspective, pseudo
 
 
-def shear_matrix(angle, direction, point, normal):
+def shear_matrix(angle: float, direction: "Vector", point: "Vector", normal: "Vector") -> "Array":
     """Shear by `angle` along `direction`, which lies in the fixed plane through `point` with `normal`.
 
     Raises:
@@ -196,7 +210,7 @@ def shear_matrix(angle, direction, point, normal):
     return matrix
 
 
-def shear_from_matrix(matrix):
+def shear_from_matrix(matrix: "ArrayLike") -> "tuple[float, Array, Array, Array]":
     """(angle, direction, point, normal): the arguments of `shear_matrix`.
 
     Raises:
@@ -204,9 +218,9 @@ def shear_from_matrix(matrix):
     """
     m = np.asarray(matrix, dtype=np.float64)
     change = m[:3, :3] - np.identity(3)  # slope · direction · normalᵀ, of rank 1
-    left, sizes, right = np.linalg.svd(change)
-    slope, direction, normal = sizes[0], left[:, 0], right[0]
-    if sizes[1] > 1e-4 * max(slope, _EPS) or slope < _EPS or abs(np.dot(direction, normal)) > 1e-4:
-        raise ValueError("not a shear: the matrix does not leave a plane in place")
+    left, singular_values, right = np.linalg.svd(change)
+    slope, direction, normal = singular_values[0], left[:, 0], right[0]
+    if singular_values[1] > 1e-4 * max(slope, _EPS) or slope < _EPS or abs(np.dot(direction, normal)) > 1e-4:
+        raise ValueError("not a shear: the matrix has no fixed plane")
     nearest = np.linalg.lstsq(change, -m[:3, 3], rcond=1e-8)[0]
     return math.atan(slope), direction, np.append(nearest, 1.0), normal

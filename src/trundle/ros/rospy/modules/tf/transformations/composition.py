@@ -1,6 +1,7 @@
-"""Matrices of several transforms, view frustums, crystal cells and point-set alignment."""
+"""Composed transforms, view frustums, crystal cells and point-set alignment."""
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -8,8 +9,13 @@ from .euler import euler_matrix
 from .quaternions import quaternion_matrix
 from .vectors import _EPS, vector_norm
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
-def concatenate_matrices(*matrices):
+    from .vectors import Array, Vector
+
+
+def concatenate_matrices(*matrices: "ArrayLike") -> "Array":
     """Product of matrices, from the left."""
     product = np.identity(4)
     for matrix in matrices:
@@ -17,13 +23,15 @@ def concatenate_matrices(*matrices):
     return product
 
 
-def is_same_transform(matrix0, matrix1):
+def is_same_transform(matrix0: "ArrayLike", matrix1: "ArrayLike") -> bool:
     """True if two matrices are the same transform up to a factor."""
     first, second = (np.array(matrix, dtype=np.float64) for matrix in (matrix0, matrix1))
     return np.allclose(first / first[3, 3], second / second[3, 3])
 
 
-def clip_matrix(left, right, bottom, top, near, far, perspective=False):
+def clip_matrix(
+    left: float, right: float, bottom: float, top: float, near: float, far: float, perspective: bool = False
+) -> "Array":
     """Map a view frustum (or box) to the cube from -1 to 1.
 
     Raises:
@@ -53,7 +61,7 @@ def clip_matrix(left, right, bottom, top, near, far, perspective=False):
     )
 
 
-def decompose_matrix(matrix):
+def decompose_matrix(matrix: "ArrayLike") -> "tuple[Array, list[float], list[float], Array, Array]":
     """(scale, shear, angles, translate, perspective), as `compose_matrix` takes them.
 
     Formulas: Spencer W. Thomas, Decomposing a Matrix into Simple Transformations, Graphics Gems II, 1991.
@@ -86,7 +94,7 @@ def decompose_matrix(matrix):
     return scale, shear, angles, translate, perspective
 
 
-def _orthogonalize(rows):
+def _orthogonalize(rows: "Array") -> "tuple[Array, list[float]]":
     """Gram-Schmidt on three rows in place; returns scale (3,) and the shears [xy, xz, yz]."""
     scale, shear = np.zeros(3), [0.0, 0.0, 0.0]
     scale[0] = vector_norm(rows[0])
@@ -107,7 +115,13 @@ def _orthogonalize(rows):
     return scale, shear
 
 
-def compose_matrix(scale=None, shear=None, angles=None, translate=None, perspective=None):
+def compose_matrix(
+    scale: "Vector | None" = None,
+    shear: "Vector | None" = None,
+    angles: "Vector | None" = None,
+    translate: "Vector | None" = None,
+    perspective: "Vector | None" = None,
+) -> "Array":
     """Product of perspective (4), translate (3), angles (static x, y, z), shear (xy, xz, yz) and scale (3)."""
     matrix = np.identity(4)
     if perspective is not None:
@@ -117,7 +131,8 @@ def compose_matrix(scale=None, shear=None, angles=None, translate=None, perspect
         shift[:3, 3] = translate[:3]
         matrix = matrix @ shift
     if angles is not None:
-        matrix = matrix @ euler_matrix(*angles[:3], "sxyz")
+        x, y, z = angles[:3]
+        matrix = matrix @ euler_matrix(x, y, z, "sxyz")
     if shear is not None:
         skew = np.identity(4)
         skew[0, 1], skew[0, 2], skew[1, 2] = shear[:3]
@@ -127,12 +142,12 @@ def compose_matrix(scale=None, shear=None, angles=None, translate=None, perspect
     return matrix / matrix[3, 3]
 
 
-def orthogonalization_matrix(lengths, angles):
+def orthogonalization_matrix(lengths: "Vector", angles: "Vector") -> "Array":
     """Transform from crystal cell coordinates to Cartesian ones.
 
     Args:
-        lengths: of the cell's three edges.
-        angles: alpha, beta, gamma between them [degrees].
+        lengths: edges a, b, c of the cell.
+        angles: angles alpha, beta, gamma between the edges [degrees].
     """
     a, b, c = lengths
     alpha, beta, gamma = np.radians(angles)
@@ -148,12 +163,12 @@ def orthogonalization_matrix(lengths, angles):
     )
 
 
-def superimposition_matrix(v0, v1, scaling=False, usesvd=True):
+def superimposition_matrix(v0: "ArrayLike", v1: "ArrayLike", scaling: bool = False, usesvd: bool = True) -> "Array":
     """4×4 transform that maps points `v0` on `v1` with the least squared error.
 
     Args:
         v0: points, (3, N) or (4, N).
-        v1: as many points.
+        v1: points of the same shape.
         scaling: allow a uniform scale.
         usesvd: singular value decomposition (Kabsch) in place of the eigenvector of the quaternion matrix (Horn).
 
@@ -163,26 +178,26 @@ def superimposition_matrix(v0, v1, scaling=False, usesvd=True):
     first, second = np.array(v0, dtype=np.float64)[:3], np.array(v1, dtype=np.float64)[:3]
     if first.shape != second.shape or first.shape[1] < 3:
         raise ValueError("two sets of at least three points each are needed, of the same shape")
-    centre0, centre1 = first.mean(axis=1), second.mean(axis=1)
-    first, second = first - centre0[:, None], second - centre1[:, None]
+    center0, center1 = first.mean(axis=1), second.mean(axis=1)
+    first, second = first - center0[:, None], second - center1[:, None]
     matrix = np.identity(4)
     matrix[:3, :3] = (_kabsch if usesvd else _horn)(first, second)
     if scaling:
         matrix[:3, :3] *= math.sqrt(np.sum(second * second) / np.sum(first * first))
-    matrix[:3, 3] = centre1 - matrix[:3, :3] @ centre0
+    matrix[:3, 3] = center1 - matrix[:3, :3] @ center0
     return matrix
 
 
-def _kabsch(first, second):
-    """Best rotation of centred points: Wolfgang Kabsch, Acta Cryst. A32, 1976."""
+def _kabsch(first: "Array", second: "Array") -> "Array":
+    """Best rotation of centered points: Wolfgang Kabsch, Acta Cryst. A32, 1976."""
     u, _, vh = np.linalg.svd(second @ first.T)
-    if np.linalg.det(u) * np.linalg.det(vh) < 0.0:  # a reflection: turn the least important axis around
+    if np.linalg.det(u) * np.linalg.det(vh) < 0.0:  # a reflection: flip the axis of the smallest singular value
         u[:, 2] = -u[:, 2]
     return u @ vh
 
 
-def _horn(first, second):
-    """Best rotation of centred points: Berthold K. P. Horn, J. Opt. Soc. Am. A 4(4), 1987."""
+def _horn(first: "Array", second: "Array") -> "Array":
+    """Best rotation of centered points: Berthold K. P. Horn, J. Opt. Soc. Am. A 4(4), 1987."""
     s = first @ second.T
     delta = s - s.T
     quadratic = np.empty((4, 4))

@@ -1,13 +1,19 @@
 """Quaternions [x, y, z, w]."""
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .vectors import _EPS, unit_vector, vector_norm
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
-def quaternion_about_axis(angle, axis):
+    from .vectors import Array, Vector
+
+
+def quaternion_about_axis(angle: float, axis: "Vector") -> "Array":
     """Quaternion of a turn by `angle` about an axis."""
     quaternion = np.zeros(4)
     quaternion[:3] = axis[:3]
@@ -18,7 +24,7 @@ def quaternion_about_axis(angle, axis):
     return quaternion
 
 
-def quaternion_matrix(quaternion):
+def quaternion_matrix(quaternion: "Vector") -> "Array":
     """4×4 rotation; the quaternion may have any length."""
     x, y, z, w = np.array(quaternion[:4], dtype=np.float64)
     norm = x * x + y * y + z * z + w * w
@@ -35,7 +41,7 @@ def quaternion_matrix(quaternion):
     )
 
 
-def quaternion_from_matrix(matrix):
+def quaternion_from_matrix(matrix: "ArrayLike") -> "Array":
     """Quaternion of a 4×4 rotation; w ≥ 0 if the trace is positive."""
     m = np.array(matrix, dtype=np.float64)[:4, :4]
     quaternion = np.empty(4)
@@ -44,7 +50,7 @@ def quaternion_from_matrix(matrix):
         quaternion[3] = trace
         quaternion[:3] = m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]
         size = trace
-    else:  # the largest component is on the axis: take the root of that one
+    else:  # x, y or z is the largest component: compute it from the root
         i = 0
         if m[1, 1] > m[0, 0]:
             i = 1
@@ -59,7 +65,7 @@ def quaternion_from_matrix(matrix):
     return quaternion * (0.5 / math.sqrt(size * m[3, 3]))
 
 
-def quaternion_multiply(quaternion1, quaternion0):
+def quaternion_multiply(quaternion1: "Vector", quaternion0: "Vector") -> "Array":
     """Hamilton product: the rotation `quaternion0`, then `quaternion1`."""
     x1, y1, z1, w1 = quaternion1
     x0, y0, z0, w0 = quaternion0
@@ -74,25 +80,27 @@ def quaternion_multiply(quaternion1, quaternion0):
     )
 
 
-def quaternion_conjugate(quaternion):
+def quaternion_conjugate(quaternion: "Vector") -> "Array":
     """[-x, -y, -z, w]."""
     x, y, z, w = quaternion[:4]
     return np.array((-x, -y, -z, w), dtype=np.float64)
 
 
-def quaternion_inverse(quaternion):
+def quaternion_inverse(quaternion: "Vector") -> "Array":
     """Inverse of a quaternion of any length but zero."""
     return quaternion_conjugate(quaternion) / np.dot(quaternion, quaternion)
 
 
-def quaternion_slerp(quat0, quat1, fraction, spin=0, shortestpath=True):
-    """Interpolate on the sphere: `quat0` at fraction 0, `quat1` at 1.
+def quaternion_slerp(
+    quat0: "Vector", quat1: "Vector", fraction: float, spin: float = 0, shortestpath: bool = True
+) -> "Array":
+    """Spherical linear interpolation: `quat0` at fraction 0, `quat1` at 1.
 
     Args:
         quat0: first quaternion.
         quat1: second quaternion.
         fraction: 0 to 1.
-        spin: whole turns to add.
+        spin: half turns to add.
         shortestpath: take the nearer of quat1 and -quat1.
     """
     start, end = unit_vector(quat0[:4]), unit_vector(quat1[:4])
@@ -111,11 +119,13 @@ def quaternion_slerp(quat0, quat1, fraction, spin=0, shortestpath=True):
     return (math.sin((1.0 - fraction) * angle) * start + math.sin(fraction * angle) * end) / math.sin(angle)
 
 
-def random_quaternion(rand=None):
+def random_quaternion(rand: "Vector | None" = None) -> "Array":
     """Uniformly distributed unit quaternion.
 
     Args:
-        rand: three numbers in [0, 1) to use. Formula: Ken Shoemake, Uniform Random Rotations, Graphics Gems III, 1992.
+        rand: three numbers in [0, 1); default: random.
+
+    Formula: Ken Shoemake, Uniform Random Rotations, Graphics Gems III, 1992.
     """
     u, v, w = np.random.rand(3) if rand is None else rand
     a, b = 2.0 * math.pi * v, 2.0 * math.pi * w
@@ -123,6 +133,6 @@ def random_quaternion(rand=None):
     return np.array((math.sin(a) * low, math.cos(a) * low, math.sin(b) * high, math.cos(b) * high))
 
 
-def random_rotation_matrix(rand=None):
+def random_rotation_matrix(rand: "Vector | None" = None) -> "Array":
     """Uniformly distributed 4×4 rotation; `rand` as in `random_quaternion`."""
     return quaternion_matrix(random_quaternion(rand))
