@@ -1,4 +1,4 @@
-"""Compiled modules of a checkout that are not of its C++."""
+"""Compiled modules of a checkout that do not match its C++ sources."""
 
 from pathlib import Path
 from types import ModuleType
@@ -11,7 +11,7 @@ from trundle.base.diagnostics import TrundleError
 
 @pytest.fixture
 def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
-    """One that is built of the two files beside it."""
+    """A module built from two source files."""
     monkeypatch.setattr(built, "_SOURCES", tmp_path / "cpp")
     (tmp_path / "cpp/render").mkdir(parents=True)
     (tmp_path / "cpp/render/a.cc").write_text("int a;")
@@ -19,12 +19,12 @@ def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     (tmp_path / "cpp/render/notes.txt").write_text("not compiled")
     (tmp_path / "sources.sha256").write_text(built._digest(tmp_path / "cpp") or "")
     built._digest.cache_clear()
-    made = ModuleType("trundle.sim.render._native")
-    made.__file__ = str(tmp_path / "sim/render/_native.so")
-    return made
+    module = ModuleType("trundle.sim.render._native")
+    module.__file__ = str(tmp_path / "sim/render/_native.so")
+    return module
 
 
-def test_modules_of_these_sources_are_taken(module: ModuleType, tmp_path: Path) -> None:
+def test_modules_of_the_same_sources_are_accepted(module: ModuleType, tmp_path: Path) -> None:
     built.refuse_stale(module)
     (tmp_path / "cpp/render/notes.txt").write_text("more notes")
     built._digest.cache_clear()
@@ -32,10 +32,10 @@ def test_modules_of_these_sources_are_taken(module: ModuleType, tmp_path: Path) 
 
 
 @pytest.mark.parametrize("change", ["cpp/render/a.cc", "cpp/render/b.h", "sources.sha256"])
-def test_modules_of_other_sources_are_refused_with_what_to_do(module: ModuleType, tmp_path: Path, change: str) -> None:
+def test_modules_of_other_sources_are_refused_with_advice(module: ModuleType, tmp_path: Path, change: str) -> None:
     (tmp_path / change).write_text("int b;")
-    said = r"does not match the sources in .*/cpp; build it: make \.venv/\.ready, or pip"
-    with pytest.raises(TrundleError, match=said):
+    message = r"does not match the sources in .*/cpp; build it: make \.venv/\.ready, or pip"
+    with pytest.raises(TrundleError, match=message):
         built.refuse_stale(module)
 
 
@@ -45,7 +45,7 @@ def test_modules_without_a_record_are_refused(module: ModuleType, tmp_path: Path
         built.refuse_stale(module)
 
 
-def test_an_installed_wheel_has_no_sources_to_be_held_against(module: ModuleType, tmp_path: Path) -> None:
+def test_modules_of_an_installed_wheel_are_accepted(module: ModuleType, tmp_path: Path) -> None:
     (tmp_path / "cpp").rename(tmp_path / "elsewhere")
     (tmp_path / "sources.sha256").unlink()
     built.refuse_stale(module)

@@ -1,13 +1,13 @@
-"""Findings as they are printed."""
+"""Findings as printed."""
 
 import io
 
 import pytest
 
-from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, UsageError, coloured
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, UsageError, colored
 
 
-def test_what_is_said_of_many_lines_is_printed_once_worst_first() -> None:
+def test_a_message_on_many_lines_is_printed_once_worst_first() -> None:
     report = Diagnostics()
     for line in (7, 9, 11, 13, 15):
         report.info(Source("a.urdf", line), "grey")
@@ -25,7 +25,7 @@ def test_what_is_said_of_many_lines_is_printed_once_worst_first() -> None:
     assert len(report.findings) == 9
 
 
-def test_an_error_that_names_more_is_as_many_findings() -> None:
+def test_an_error_with_further_errors_adds_one_finding_each() -> None:
     report = Diagnostics()
     error = DescriptionError(
         Source("a.launch", 2), "no package 'a'", more=[DescriptionError(Source("b.launch", 7), "no package 'b'")]
@@ -33,16 +33,16 @@ def test_an_error_that_names_more_is_as_many_findings() -> None:
 
     report.error(error)
 
-    said = ["a.launch:2: error: no package 'a'", "b.launch:7: error: no package 'b'"]
-    assert report.errors == said == str(error).splitlines()
+    messages = ["a.launch:2: error: no package 'a'", "b.launch:7: error: no package 'b'"]
+    assert report.errors == messages == str(error).splitlines()
 
 
-def test_an_error_that_ends_nothing_is_said_once_and_where_it_is() -> None:
-    """A rendered error within a warning would name the place and the severity twice."""
+def test_a_recovered_error_becomes_a_warning_at_its_own_source() -> None:
+    """The warning names the position and the severity once."""
     report = Diagnostics()
 
     report.warn_error(DescriptionError(Source("b.urdf", 3), "no mesh"), Source("a.urdf", 1), "it is left out")
-    report.warn_error(UsageError("no joint"), Source("a.urdf", 1), "it is left out", who="plugin 'p'")
+    report.warn_error(UsageError("no joint"), Source("a.urdf", 1), "it is left out", subject="plugin 'p'")
 
     assert report.warnings == [
         "b.urdf:3: warning: no mesh; it is left out",
@@ -50,15 +50,15 @@ def test_an_error_that_ends_nothing_is_said_once_and_where_it_is() -> None:
     ]
 
 
-def test_a_name_out_of_a_file_neither_breaks_the_line_nor_commands_the_terminal() -> None:
+def test_control_characters_in_names_are_escaped() -> None:
     name = "a\nx.sdf:1: error: forged\x1b[2J\x9b2J\u202e é"
     report = Diagnostics()
     report.warn(Source("x\n.sdf", 2), f"no model {name}")
     error = DescriptionError(Source("x.sdf", 1), f"no model {name}")
 
-    shown = r"no model a\nx.sdf:1: error: forged\x1b[2J\x9b2J\u202e é"
-    assert report.warnings == [rf"x\n.sdf:2: warning: {shown}"]
-    assert str(error) == f"x.sdf:1: error: {shown}"
+    escaped = r"no model a\nx.sdf:1: error: forged\x1b[2J\x9b2J\u202e é"
+    assert report.warnings == [rf"x\n.sdf:2: warning: {escaped}"]
+    assert str(error) == f"x.sdf:1: error: {escaped}"
 
 
 class _Terminal(io.StringIO):
@@ -66,15 +66,15 @@ class _Terminal(io.StringIO):
         return True
 
 
-def test_severities_are_coloured_on_a_terminal_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_severities_are_colored_only_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("NO_COLOR", raising=False)
     text = "a.sdf:3: warning: no mass\na.sdf: a model; 1 warning: none\ntrundle: error: no\n"
 
-    assert coloured(text, io.StringIO()) == text
-    assert coloured(text, _Terminal()).split("\n")[:3] == [
+    assert colored(text, io.StringIO()) == text
+    assert colored(text, _Terminal()).split("\n")[:3] == [
         "a.sdf:3: \033[1;33mwarning:\033[0m no mass",
         "a.sdf: a model; 1 warning: none",
         "trundle: \033[1;31merror:\033[0m no",
     ]
     monkeypatch.setenv("NO_COLOR", "1")
-    assert coloured(text, _Terminal()) == text
+    assert colored(text, _Terminal()) == text

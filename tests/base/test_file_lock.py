@@ -1,4 +1,4 @@
-"""A file that one program writes, no other overwrites, damages or removes."""
+"""A file that one program writes cannot be overwritten, damaged or removed by another."""
 
 import os
 import re
@@ -30,7 +30,7 @@ WORLD = '<sdf version="1.6"><world name="w"><model name="m"><link name="l"/></mo
 
 @contextmanager
 def _holder(path: Path) -> Generator[subprocess.Popen[str]]:
-    """Another process that writes a file."""
+    """Start another process that locks a file."""
     words = [sys.executable, "-c", _HOLD, str(path)]
     with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
@@ -41,17 +41,17 @@ def _holder(path: Path) -> Generator[subprocess.Popen[str]]:
             process.kill()
 
 
-def test_a_file_that_another_process_writes_is_refused_with_its_name(tmp_path: Path) -> None:
+def test_a_locked_file_is_refused_with_the_holders_name(tmp_path: Path) -> None:
     file, link = tmp_path / "a.bag", tmp_path / "link.bag"
     link.symlink_to(file)
     with _holder(file) as process, pytest.raises(OSError, match="choose another name") as caught:
         FileLock(link)
-    who = "another program" if sys.platform != "linux" else rf"process {process.pid} \(python.*\)"
-    assert re.fullmatch(rf"{who} writes it: end that, or choose another name", caught.value.strerror or "")
+    holder = "another program" if sys.platform != "linux" else rf"process {process.pid} \(python.*\)"
+    assert re.fullmatch(rf"{holder} writes it: end that, or choose another name", caught.value.strerror or "")
     assert caught.value.filename == str(file)
 
 
-def test_a_killed_process_holds_nothing(tmp_path: Path) -> None:
+def test_a_killed_process_releases_its_lock(tmp_path: Path) -> None:
     with _holder(tmp_path / "a.bag") as process:
         process.kill()
         process.wait()
@@ -60,8 +60,8 @@ def test_a_killed_process_holds_nothing(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_one_of_many_holds_a_file_at_a_time(tmp_path: Path) -> None:
-    """Each removes the lock's file at its end, while others may have it open."""
+def test_only_one_of_many_processes_holds_a_lock(tmp_path: Path) -> None:
+    """Each removes the lock file when done, while others may have it open."""
     code = f"""
 import os
 from pathlib import Path
@@ -81,7 +81,7 @@ for i in range(300):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="this system has no links and devices")
-def test_a_link_is_not_followed_and_a_device_not_locked(tmp_path: Path) -> None:
+def test_links_are_not_followed_and_devices_not_locked(tmp_path: Path) -> None:
     (tmp_path / ".a.lock").symlink_to(tmp_path / "elsewhere")
     with pytest.raises(OSError, match="Too many levels of symbolic links"):
         FileLock(tmp_path / "a")
@@ -90,11 +90,11 @@ def test_a_link_is_not_followed_and_a_device_not_locked(tmp_path: Path) -> None:
         pass
 
 
-def test_what_is_saved_twice_at_once_is_refused(tmp_path: Path) -> None:
-    """The first video that ended put the second's beginning in place."""
+def test_concurrent_writes_are_refused(tmp_path: Path) -> None:
+    """Without the lock, the first writer would install the second's incomplete file."""
     file = tmp_path / "a.gif"
-    with replaced_atomically(file) as half:
-        half.write_text("first")
+    with replaced_atomically(file) as partial:
+        partial.write_text("first")
         with pytest.raises(OSError, match="writes it"), replaced_atomically(file):
             pass
         with pytest.raises(UsageError, match=r"cannot write .*a\.gif: .* writes it: end that, or choose another name"):
@@ -103,7 +103,7 @@ def test_what_is_saved_twice_at_once_is_refused(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["a.gif"]
 
 
-def test_a_run_does_not_overwrite_what_another_records(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_run_does_not_overwrite_the_recording_of_another(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "w.sdf").write_text(WORLD)
     log = tmp_path / "run.log"
     words = ["run", str(tmp_path / "w.sdf"), "--headless", "--record", str(log)]

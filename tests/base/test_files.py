@@ -1,4 +1,4 @@
-"""Reading files that other files name, and the pipes that the command line may name."""
+"""Reading of regular files, and of pipes from the command line."""
 
 import io
 import os
@@ -16,71 +16,71 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no 
 
 @pytest.fixture
 def fifo(tmp_path: Path) -> Path:
-    """A pipe with a name that nothing writes to."""
+    """A named pipe without a writer."""
     os.mkfifo(tmp_path / "fifo")
     return tmp_path / "fifo"
 
 
-def refused(read: Callable[[], object]) -> str:
+def error_of(read: Callable[[], object]) -> str:
     with pytest.raises(OSError, match=r".") as caught:
         read()
     return str(caught.value.strerror)
 
 
-def test_what_a_file_names_is_a_regular_file(fifo: Path) -> None:
-    assert refused(lambda: files.read_file(fifo)) == "it is a pipe, not a regular file"
-    assert refused(lambda: files.read_file("/dev/zero")) == "it is a device, not a regular file"
-    assert refused(lambda: files.read_file(fifo.parent)) == "it is a folder, not a file"
-    assert refused(lambda: files.read_file(fifo.with_name("no"))) == "No such file or directory"
+def test_only_regular_files_are_read(fifo: Path) -> None:
+    assert error_of(lambda: files.read_file(fifo)) == "it is a pipe, not a regular file"
+    assert error_of(lambda: files.read_file("/dev/zero")) == "it is a device, not a regular file"
+    assert error_of(lambda: files.read_file(fifo.parent)) == "it is a folder, not a file"
+    assert error_of(lambda: files.read_file(fifo.with_name("no"))) == "No such file or directory"
 
 
 @pytest.mark.parametrize("name", ["a\0b", "\ud800"])
-def test_a_name_that_no_file_can_have_is_no_file(name: str) -> None:
-    assert refused(lambda: files.read_file(name)) == "no file can have this name"
+def test_invalid_names_are_reported(name: str) -> None:
+    assert error_of(lambda: files.read_file(name)) == "no file can have this name"
 
 
-def test_bytes_are_counted_as_they_are_read(tmp_path: Path) -> None:
-    """A file of /proc has contents and no size."""
-    full = tmp_path / "full"
-    full.write_bytes(b"12345")
+def test_size_limit_is_checked_while_reading(tmp_path: Path) -> None:
+    """Files of /proc have contents but size 0."""
+    file = tmp_path / "full"
+    file.write_bytes(b"12345")
 
-    assert files.read_file(full, max_bytes=5) == b"12345"
-    assert refused(lambda: files.read_file(full, max_bytes=4)) == "larger than 4 bytes, the largest file read"
+    assert files.read_file(file, max_bytes=5) == b"12345"
+    assert error_of(lambda: files.read_file(file, max_bytes=4)) == "larger than 4 bytes, the largest file read"
     assert files.read_file("/proc/self/status")
-    assert "larger than 9 bytes" in refused(lambda: files.read_file("/proc/self/status", max_bytes=9))
+    assert "larger than 9 bytes" in error_of(lambda: files.read_file("/proc/self/status", max_bytes=9))
 
 
-def test_a_text_has_the_lines_of_unix_and_no_byte_stops_it(tmp_path: Path) -> None:
+def test_text_has_unix_line_ends_and_replaced_invalid_bytes(tmp_path: Path) -> None:
     (tmp_path / "text").write_bytes(b"a\r\nb\rc\xff")
 
     assert files.read_text(tmp_path / "text") == "a\nb\nc\ufffd"
 
 
-def test_a_pipe_of_the_command_line_is_read_to_its_end() -> None:
-    """The writer is often gone by then, as with <(cat robot.urdf)."""
-    ours, theirs = os.pipe()
-    os.write(theirs, b"<robot/>")
-    os.close(theirs)
+def test_a_pipe_is_read_to_its_end() -> None:
+    """The writer may have ended by then, as with <(cat robot.urdf)."""
+    reader, writer = os.pipe()
+    os.write(writer, b"<robot/>")
+    os.close(writer)
 
-    assert files.is_stream(f"/dev/fd/{ours}")
-    assert files.read_stream(f"/dev/fd/{ours}") == b"<robot/>"
+    assert files.is_stream(f"/dev/fd/{reader}")
+    assert files.read_stream(f"/dev/fd/{reader}") == b"<robot/>"
 
-    os.close(ours)
+    os.close(reader)
 
 
-def test_a_pipe_that_nothing_writes_to_does_not_hang(fifo: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_pipe_without_a_writer_times_out(fifo: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(files, "_TIMEOUT_S", 0.05)
 
-    assert refused(lambda: files.read_stream(fifo)) == "no end of the stream within 0.05 s"
+    assert error_of(lambda: files.read_stream(fifo)) == "no end of the stream within 0.05 s"
 
 
-def test_a_stream_without_end_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_endless_stream_is_refused_at_the_size_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(files, "MAX_BYTES", 100_000)
 
-    assert refused(lambda: files.read_stream("/dev/zero")) == "larger than 100000 bytes, the largest file read"
+    assert error_of(lambda: files.read_stream("/dev/zero")) == "larger than 100000 bytes, the largest file read"
 
 
-def test_what_this_process_has_open_is_a_stream_even_where_it_is_a_file(tmp_path: Path) -> None:
+def test_open_descriptors_are_streams_even_of_regular_files(tmp_path: Path) -> None:
     """`trundle check /dev/stdin < robot.urdf`: its files are relative to the working directory, not to /dev."""
     (tmp_path / "robot.urdf").write_text("<robot/>")
     with (tmp_path / "robot.urdf").open() as file:
@@ -88,29 +88,29 @@ def test_what_this_process_has_open_is_a_stream_even_where_it_is_a_file(tmp_path
         assert (files.is_stream(name), files.read_input(name)) == (True, b"<robot/>")
 
 
-def test_files_folders_and_nothing_are_no_streams(tmp_path: Path) -> None:
+def test_files_folders_and_missing_paths_are_no_streams(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
 
-    assert not any(files.is_stream(each) for each in (tmp_path, tmp_path / "file", tmp_path / "no", "a\0b"))
+    assert not any(files.is_stream(path) for path in (tmp_path, tmp_path / "file", tmp_path / "no", "a\0b"))
 
 
 @pytest.mark.parametrize("text", ["x: 1\n", ""])
-def test_a_program_may_put_a_text_in_place_of_standard_input(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_standard_input_may_be_a_string_io(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "stdin", io.StringIO(text))
     assert files.read_standard_input() == text.encode()
 
 
 class TestEveryReader:
-    """No reader waits for a writer of a pipe that a file names."""
+    """All readers refuse a pipe, instead of waiting for its writer."""
 
-    SAID = "it is a pipe, not a regular file"
+    MESSAGE = "it is a pipe, not a regular file"
 
     def test_of_meshes(self, fifo: Path) -> None:
         from trundle.robots.meshes import load_mesh, load_motion, load_skin
 
         fifo = fifo.rename(fifo.with_name("fifo.dae"))
         for reader in (load_mesh, load_skin, load_motion):
-            with pytest.raises(TrundleError, match=self.SAID):
+            with pytest.raises(TrundleError, match=self.MESSAGE):
                 reader(fifo)
 
     def test_of_images(self, fifo: Path) -> None:
@@ -118,33 +118,33 @@ class TestEveryReader:
         from trundle.sim.render.textures import load_texture
 
         assert png_of(fifo) is None
-        assert load_texture(fifo) == self.SAID
-        with pytest.raises(TrundleError, match=self.SAID):
+        assert load_texture(fifo) == self.MESSAGE
+        with pytest.raises(TrundleError, match=self.MESSAGE):
             read_heights(fifo)
 
     def test_of_maps(self, fifo: Path) -> None:
         from trundle.gazebo.nodes.map_server.occupancy_grid import read_map
 
         keys = "resolution: 1, origin: [0, 0, 0], negate: 0, occupied_thresh: 1, free_thresh: 0"
-        described = fifo.with_name("map.yaml")
-        described.write_text(f"{{image: {fifo}, {keys}}}")
-        for file in (fifo, described):
-            with pytest.raises(UsageError, match=self.SAID):
+        map_file = fifo.with_name("map.yaml")
+        map_file.write_text(f"{{image: {fifo}, {keys}}}")
+        for file in (fifo, map_file):
+            with pytest.raises(UsageError, match=self.MESSAGE):
                 read_map(file)
 
     def test_of_rviz_configurations(self, fifo: Path) -> None:
         from trundle.page.graph_page import read_rviz_file
 
-        with pytest.raises(DescriptionError, match=self.SAID):
+        with pytest.raises(DescriptionError, match=self.MESSAGE):
             read_rviz_file(fifo)
 
     def test_of_recordings(self, fifo: Path) -> None:
         from trundle.ros import RosError, open_bag
         from trundle.sim.simulation import read_state_log
 
-        with pytest.raises(RosError, match=self.SAID):
+        with pytest.raises(RosError, match=self.MESSAGE):
             open_bag(fifo)
-        assert refused(lambda: read_state_log(fifo)) == self.SAID
+        assert error_of(lambda: read_state_log(fifo)) == self.MESSAGE
 
     def test_of_launch_files(self, fifo: Path) -> None:
         from trundle.robots.launch import read_launch_text
@@ -155,9 +155,9 @@ class TestEveryReader:
             read_launch_text(text, name="a.launch", packages=Packages({}, start=fifo), report=Diagnostics())
 
         for tag in ("<rosparam file='{}'/>", "<param name='a' textfile='{}'/>"):
-            with pytest.raises(DescriptionError, match=rf"a\.launch:2: error: .*{self.SAID}"):
+            with pytest.raises(DescriptionError, match=rf"a\.launch:2: error: .*{self.MESSAGE}"):
                 read(tag.format(fifo))
-        with pytest.raises(DescriptionError, match=rf"fifo: error: .*{self.SAID}; included at a\.launch:2"):
+        with pytest.raises(DescriptionError, match=rf"fifo: error: .*{self.MESSAGE}; included at a\.launch:2"):
             read(f"<include file='{fifo}'/>")
         with pytest.raises(DescriptionError, match=r"a\.launch:2: error: no launch file 'aaa"):
             read(f"<include file='{'a' * 5000}'/>")

@@ -1,26 +1,26 @@
-"""Garbage collection paused and resumed."""
+"""Garbage collection is reduced, then restored."""
 
 import gc
 
 from trundle.base.garbage import no_garbage
 
 
-def test_nothing_is_searched_while_things_are_made_nor_are_they_later() -> None:
-    searches: list[int] = []
+def test_no_collection_runs_and_new_objects_are_frozen() -> None:
+    collections: list[int] = []
 
-    def note(phase: str, info: dict[str, int]) -> None:
-        searches.append(info["generation"])
+    def record(phase: str, info: dict[str, int]) -> None:
+        collections.append(info["generation"])
 
-    usual = gc.get_threshold()
-    gc.callbacks.append(note)
+    thresholds = gc.get_threshold()
+    gc.callbacks.append(record)
     try:
         with no_garbage():
-            made = [[each] for each in range(10_000)]
+            objects = [[number] for number in range(10_000)]
     finally:
-        gc.callbacks.remove(note)
-        kept = gc.get_freeze_count()
+        gc.callbacks.remove(record)
+        frozen = gc.get_freeze_count()
         gc.unfreeze()
 
-    assert searches == []
-    assert kept >= len(made)
-    assert gc.get_threshold() == usual
+    assert collections == []
+    assert frozen >= len(objects)
+    assert gc.get_threshold() == thresholds

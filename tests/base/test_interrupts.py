@@ -1,4 +1,4 @@
-"""Ctrl-C interrupts once for each press."""
+"""Ctrl-C interrupts once per press."""
 
 import signal
 import time
@@ -10,11 +10,11 @@ from trundle.base.interrupts import ONE_PRESS_S, PRESS, interrupt
 
 
 @pytest.fixture(autouse=True)
-def _handled() -> Iterator[None]:
-    before = signal.signal(signal.SIGINT, interrupt)
-    PRESS.forget()
+def _interrupt_handler() -> Iterator[None]:
+    old_handler = signal.signal(signal.SIGINT, interrupt)
+    PRESS.reset()
     yield
-    signal.signal(signal.SIGINT, before)
+    signal.signal(signal.SIGINT, old_handler)
 
 
 def test_two_signals_of_a_press_interrupt_once() -> None:
@@ -23,7 +23,7 @@ def test_two_signals_of_a_press_interrupt_once() -> None:
     signal.raise_signal(signal.SIGINT)
 
 
-def test_a_press_that_lasts_and_a_later_one_interrupt_again(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_later_press_interrupts_again(monkeypatch: pytest.MonkeyPatch) -> None:
     now_s = time.monotonic()
     monkeypatch.setattr(time, "monotonic", lambda: now_s)
     with pytest.raises(KeyboardInterrupt):

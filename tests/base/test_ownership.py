@@ -22,15 +22,15 @@ from trundle.robots.meshes import RawPart, load_parts, save_parts
 from trundle.ros import blocking_call
 from trundle.ros.transport.unix_sockets import UNIXROS, connect_unix
 
-_OTHER = 65534
-"""User id of `nobody`, without rights."""
+_OTHER_UID = 65534
+"""User id of `nobody`."""
 
 _BECOME = f"""
 import os, socket, struct, sys
-os.setgroups([]); os.setgid({_OTHER}); os.setuid({_OTHER})
+os.setgroups([]); os.setgid({_OTHER_UID}); os.setuid({_OTHER_UID})
 exec(sys.argv.pop(1))
 """
-"""The interpreter may be where only root finds it: it is started first."""
+"""Starts as root, as only root may be able to read the interpreter."""
 
 
 class Stranger:
@@ -50,36 +50,36 @@ class Stranger:
 def stranger() -> Stranger:
     if not hasattr(os, "geteuid") or os.geteuid() != 0:
         pytest.skip("only root can become another user")
-    said, complaints = Stranger().run("print(os.getuid())")
-    if said.strip() != str(_OTHER):
-        pytest.skip(f"no program can be run as another user here: {complaints.strip()[-200:]}")
+    output, errors = Stranger().run("print(os.getuid())")
+    if output.strip() != str(_OTHER_UID):
+        pytest.skip(f"no program can be run as another user here: {errors.strip()[-200:]}")
     return Stranger()
 
 
 @pytest.fixture
-def for_all() -> Iterator[Path]:
-    """A folder that all write to, as /tmp."""
+def shared_folder() -> Iterator[Path]:
+    """A world-writable, sticky folder like /tmp."""
     with tempfile.TemporaryDirectory(dir="/tmp") as folder:
         Path(folder).chmod(0o1777)
         yield Path(folder)
 
 
 @pytest.mark.parametrize("named", [False, True])
-def test_pictures_and_poses_are_neither_read_nor_written(
+def test_a_mailbox_cannot_be_read_or_written_by_another_user(
     stranger: Stranger, named: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if named:
         monkeypatch.delattr(os, "memfd_create")
-    box = Mailbox.create(1000)
+    mailbox = Mailbox.create(1000)
     try:
         for mode in ("rb", "r+b"):
-            _, complaints = stranger.run("open(*sys.argv[1:])", box.address.path, mode)
-            assert "PermissionError" in complaints
+            _, errors = stranger.run("open(*sys.argv[1:])", mailbox.address.path, mode)
+            assert "PermissionError" in errors
     finally:
-        box.unlink()
+        mailbox.unlink()
 
 
-def test_a_topics_socket_hangs_up_on_another_user(stranger: Stranger) -> None:
+def test_a_topics_socket_disconnects_another_user(stranger: Stranger) -> None:
     """The socket's name is public: /proc/net/unix lists it."""
     program = """
 connection = socket.socket(socket.AF_UNIX)
@@ -101,15 +101,15 @@ except ConnectionError:
 
         assert stranger.run(program, name)[0].strip() in ("hung up", "answered b''")
 
-        with socket.socket(socket.AF_UNIX) as ours:
-            ours.settimeout(60)
-            ours.connect(f"\0{name}")
-            ours.sendall(b"\x04\x00\x00\x00\xff\xff\xff\xff")  # a header that is none, and is read
-            assert ours.recv(100) == b""
+        with socket.socket(socket.AF_UNIX) as client:
+            client.settimeout(60)
+            client.connect(f"\0{name}")
+            client.sendall(b"\x04\x00\x00\x00\xff\xff\xff\xff")  # an invalid header, which is read
+            assert client.recv(100) == b""
 
 
 def test_a_node_does_not_connect_to_another_users_socket(stranger: Stranger) -> None:
-    """A publisher may name any socket; that of another user is as good as none, and TCP is used."""
+    """A publisher may name any socket; if it is another user's, TCP is used instead."""
     program = """
 listening = socket.socket(socket.AF_UNIX)
 listening.bind("\\0trundle-of-another-user")
@@ -125,7 +125,7 @@ sys.stdin.read()
     with stranger.start(program) as other:
         assert other.stdout is not None
         assert other.stdout.readline() == "ready\n"
-        with ThreadPoolExecutor(1) as thread:  # a browser's test leaves a loop in this one
+        with ThreadPoolExecutor(1) as thread:  # browser tests leave a running loop in this thread
             thread.submit(asyncio.run, connect()).result()
         other.communicate()
 
@@ -135,46 +135,46 @@ def _part() -> RawPart:
     return RawPart(names=("a",), vertices=corners, faces=np.array([[0, 1, 2]]))
 
 
-def test_a_cache_that_another_user_prepared_is_not_believed(
-    stranger: Stranger, for_all: Path, monkeypatch: pytest.MonkeyPatch
+def test_another_users_cache_is_not_used(
+    stranger: Stranger, shared_folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(for_all / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(shared_folder / "cache"))
     save_parts("k", [_part()])
-    kept = (for_all / "cache/trundle/meshes/k.npz").read_bytes()
+    content = (shared_folder / "cache/trundle/meshes/k.npz").read_bytes()
     assert load_parts("k") is not None
-    assert "PermissionError" in stranger.run("os.listdir(sys.argv[1])", for_all / "cache/trundle/meshes")[1]
+    assert "PermissionError" in stranger.run("os.listdir(sys.argv[1])", shared_folder / "cache/trundle/meshes")[1]
 
-    theirs = for_all / "theirs"
+    other_cache = shared_folder / "theirs"
     program = "os.makedirs(sys.argv[1]); os.chmod(sys.argv[1], 0o777)"
-    assert stranger.run(program, theirs / "trundle/meshes") == ("", "")
-    (theirs / "trundle/meshes/k.npz").write_bytes(kept)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(theirs))
+    assert stranger.run(program, other_cache / "trundle/meshes") == ("", "")
+    (other_cache / "trundle/meshes/k.npz").write_bytes(content)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(other_cache))
     assert load_parts("k") is None
     save_parts("other", [_part()])
-    assert [file.name for file in (theirs / "trundle/meshes").iterdir()] == ["k.npz"]
+    assert [file.name for file in (other_cache / "trundle/meshes").iterdir()] == ["k.npz"]
 
 
-def test_a_log_folder_that_another_user_prepared_is_not_used(stranger: Stranger, for_all: Path) -> None:
-    assert stranger.run("os.mkdir(sys.argv[1])", for_all / "gazebo") == ("", "")
+def test_another_users_log_folder_is_not_used(stranger: Stranger, shared_folder: Path) -> None:
+    assert stranger.run("os.mkdir(sys.argv[1])", shared_folder / "gazebo") == ("", "")
 
-    folder = log_folder({"ROS_LOG_DIR": str(for_all), "HOME": str(for_all)}, "gazebo")
+    folder = log_folder({"ROS_LOG_DIR": str(shared_folder), "HOME": str(shared_folder)}, "gazebo")
 
-    assert folder.parent == for_all
-    assert folder != for_all / "gazebo"
+    assert folder.parent == shared_folder
+    assert folder != shared_folder / "gazebo"
     assert is_owned_by_user(folder)
 
 
-def test_a_link_where_a_file_is_about_to_be_written_is_not_followed(tmp_path: Path) -> None:
-    ours, out = tmp_path / "ours", tmp_path / "out.sdf"
-    ours.write_text("precious")
-    (tmp_path / ".out.sdf.part").symlink_to(ours)
+def test_a_link_in_place_of_the_temporary_file_is_not_followed(tmp_path: Path) -> None:
+    client, out = tmp_path / "ours", tmp_path / "out.sdf"
+    client.write_text("precious")
+    (tmp_path / ".out.sdf.part").symlink_to(client)
 
     write_atomically(out, "new")
 
-    assert (ours.read_text(), out.read_text(), out.is_symlink()) == ("precious", "new", False)
+    assert (client.read_text(), out.read_text(), out.is_symlink()) == ("precious", "new", False)
 
 
-def test_folders_are_ours_where_no_other_user_can_change_the_way(tmp_path: Path) -> None:
+def test_folders_below_world_writable_ones_are_not_owned(tmp_path: Path) -> None:
     folder = tmp_path / "a/b"
     folder.mkdir(parents=True)
     assert is_owned_by_user(folder)
@@ -185,7 +185,7 @@ def test_folders_are_ours_where_no_other_user_can_change_the_way(tmp_path: Path)
     assert is_owned_by_user(folder)
 
 
-def test_without_home_the_systems_is_taken_and_never_a_folder_for_all(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_home_folder_falls_back_to_the_system_never_to_a_shared_folder(monkeypatch: pytest.MonkeyPatch) -> None:
     assert home_folder({"HOME": "/home/me"}) == Path("/home/me")
     monkeypatch.delenv("HOME", raising=False)
     assert home_folder({}) == Path("~").expanduser()

@@ -1,4 +1,4 @@
-"""The flag that Ctrl-C sets."""
+"""`StopFlag`, which Ctrl-C sets."""
 
 import os
 import signal
@@ -26,7 +26,7 @@ print(looks)
 """
 
 
-def test_it_stays_set() -> None:
+def test_the_flag_stays_set() -> None:
     flag = StopFlag()
     assert not flag.is_set()
     assert not flag.wait(0.0)
@@ -40,27 +40,27 @@ def test_it_stays_set() -> None:
 
 @pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="timers that send signals are POSIX's")
-def test_a_signal_may_set_it_at_any_moment() -> None:
-    """Thousands of signals hit every line of a wait; none of them may block it."""
-    done = subprocess.run([sys.executable, "-c", _HAMMERED], capture_output=True, text=True, timeout=100)
-    assert done.stdout == "3000\n", done.stderr
+def test_signals_during_waits_do_not_deadlock() -> None:
+    """Thousands of signals arrive at every line of a wait."""
+    process = subprocess.run([sys.executable, "-c", _HAMMERED], capture_output=True, text=True, timeout=100)
+    assert process.stdout == "3000\n", process.stderr
 
 
-def test_the_first_press_sets_it_and_the_second_interrupts() -> None:
-    before = signal.getsignal(signal.SIGINT)
-    PRESS.forget()
+def test_the_first_press_sets_the_flag_and_the_second_interrupts() -> None:
+    old_handler = signal.getsignal(signal.SIGINT)
+    PRESS.reset()
     with stop_flag() as flag:
         signal.raise_signal(signal.SIGINT)
         assert flag.is_set()
         signal.raise_signal(signal.SIGINT)  # of the same press
-        PRESS.forget()  # as after a while
+        PRESS.reset()  # as after a while
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)
-    assert signal.getsignal(signal.SIGINT) == before
+    assert signal.getsignal(signal.SIGINT) == old_handler
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="terminals that hang up are POSIX's")
-def test_the_first_press_interrupts_what_cannot_poll_the_flag() -> None:
+def test_the_first_signal_interrupts_a_blind_wait() -> None:
     with stop_flag() as stop:
         with pytest.raises(KeyboardInterrupt), blind_wait():
             signal.raise_signal(signal.SIGTERM)
@@ -69,12 +69,12 @@ def test_the_first_press_interrupts_what_cannot_poll_the_flag() -> None:
         assert stop.is_set()
 
 
-@pytest.mark.parametrize("is_told", [True, False])
-def test_the_end_of_the_terminal_sets_it_too_but_for_nohup(is_told: bool) -> None:
-    before = signal.signal(signal.SIGHUP, signal.SIG_DFL if is_told else signal.SIG_IGN)
+@pytest.mark.parametrize("is_default", [True, False])
+def test_sighup_sets_the_flag_unless_ignored(is_default: bool) -> None:
+    old_handler = signal.signal(signal.SIGHUP, signal.SIG_DFL if is_default else signal.SIG_IGN)
     try:
         with stop_flag() as flag:
             signal.raise_signal(signal.SIGHUP)
-            assert flag.is_set() is is_told
+            assert flag.is_set() is is_default
     finally:
-        signal.signal(signal.SIGHUP, before)
+        signal.signal(signal.SIGHUP, old_handler)

@@ -1,14 +1,15 @@
-"""Waits without a time limit say what they wait for."""
+"""Notices of waits without a time limit."""
+
+import time
 
 import pytest
 
-from trundle.base import waiting
 from trundle.base.waiting import WaitNotice
 
 
-def test_a_long_wait_says_every_few_seconds_what_it_is_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_long_wait_prints_a_notice_every_ten_seconds(monkeypatch: pytest.MonkeyPatch) -> None:
     now_s = [100.0]
-    monkeypatch.setattr(waiting.time, "monotonic", lambda: now_s[0])
+    monkeypatch.setattr(time, "monotonic", lambda: now_s[0])
     lines: list[str] = []
 
     notice = WaitNotice("the page's server to start", lines.append)

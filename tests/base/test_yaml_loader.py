@@ -1,4 +1,4 @@
-"""YAML of files: plain data, bounded, and one type of error."""
+"""YAML as plain data: limits, and one type of error."""
 
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from trundle.gazebo.nodes.map_server.occupancy_grid import read_map
 
 
 def billions(first: str, again: str) -> str:
-    """Lines each of which stands for ten times the one before."""
+    """Return lines of aliases, each of which expands to ten times the one before."""
     lines = [f"a0: &a0 {first}"]
     return "\n".join([*lines, *(f"a{n}: &a{n} {again.format(', '.join([f'*a{n - 1}'] * 10))}" for n in range(1, 12))])
 
@@ -38,23 +38,23 @@ def billions(first: str, again: str) -> str:
         ("x" * (16 * 1024 * 1024 + 1), "characters of YAML; the most read is 16777216"),
     ],
 )
-def test_what_cannot_be_loaded_is_a_sentence(text: str, words: str) -> None:
+def test_invalid_yaml_is_reported_in_one_line(text: str, words: str) -> None:
     with pytest.raises(yaml.YAMLError) as error:
         load_yaml(text)
     assert words in one_line(error.value)
 
 
-def test_many_values_are_refused_before_they_are_made(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_too_many_values_are_refused_before_construction(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("trundle.base.yaml_loader._MAX_NODES", 100)
     with pytest.raises(yaml.YAMLError, match="more than 100 values"):
         load_yaml("[" + "0, " * 200 + "0]")
 
 
-def test_keys_whose_hashes_may_collide_are_few() -> None:
-    """As multiples of 2**61 - 1, of which 100,000 would take minutes."""
-    many = "\n".join(f"{number * (2**61 - 1)}: 1" for number in range(2001))
+def test_keys_that_are_not_text_are_limited() -> None:
+    """100,000 multiples of 2**61 - 1, whose hashes collide, would take minutes."""
+    keys = "\n".join(f"{number * (2**61 - 1)}: 1" for number in range(2001))
     with pytest.raises(yaml.YAMLError, match="line 1: more than 2000 keys of a mapping that are not text"):
-        load_yaml(many)
+        load_yaml(keys)
     assert len(load_yaml("\n".join(f"k{number}: 1" for number in range(2001)))) == 2001  # pyright: ignore[reportArgumentType]
 
 
@@ -68,7 +68,7 @@ def test_plain_data_and_aliases_are_loaded() -> None:
     assert list(yaml.load_all("1\n---\n2", BoundedLoader)) == [1, 2]
 
 
-def test_other_readers_of_yaml_are_bounded_too(tmp_path: Path) -> None:
+def test_other_readers_of_yaml_are_bounded(tmp_path: Path) -> None:
     bomb = tmp_path / "bomb.yaml"
     bomb.write_text(billions("[x, x]", "[{0}]"))
     with pytest.raises(UsageError, match="its aliases stand for more than"):

@@ -12,14 +12,13 @@ from .file_lock import FileLock
 
 
 def write_atomically(path: Path, content: str | bytes | Path, *, replace: bool = True) -> None:
-    """Write bytes, a text as UTF-8, or a copy of a file; an existing file keeps its content until the new one is on
-    disk.
+    """Write bytes, a text as UTF-8, or a copy of a file; an existing file is replaced once the new one is complete.
 
     Permissions and symbolic links are kept; pipes and devices such as /dev/stdout are written directly.
 
     Raises:
         UsageError: it cannot be written.
-        FileExistsError: it is there, and `replace` is False.
+        FileExistsError: the file exists, and `replace` is False.
     """
     try:
         if path.exists() and not path.is_file():
@@ -36,7 +35,7 @@ def write_atomically(path: Path, content: str | bytes | Path, *, replace: bool =
 
 @contextmanager
 def replaced_atomically(path: Path) -> Generator[Path]:
-    """Yield a file of the same suffix to write to, which replaces the one at `path` at the end, but not after an error.
+    """Yield a temporary file of the same suffix, which replaces `path` at the end, but not after an error.
 
     Pipes and devices are yielded themselves.
 
@@ -47,34 +46,34 @@ def replaced_atomically(path: Path) -> Generator[Path]:
         yield path
         return
     path = path.resolve()
-    half = path.with_name(f".{path.stem}.part{path.suffix}")
+    partial = path.with_name(f".{path.stem}.part{path.suffix}")
     with FileLock(path):
-        half.unlink(missing_ok=True)
-        half.open("xb").close()  # no link that another user placed
+        partial.unlink(missing_ok=True)
+        partial.open("xb").close()  # never another user's link
         try:
-            yield half
+            yield partial
             if path.exists():
-                shutil.copymode(path, half)
-            os.replace(half, path)
+                shutil.copymode(path, partial)
+            os.replace(partial, path)
         except BaseException:
-            half.unlink(missing_ok=True)
+            partial.unlink(missing_ok=True)
             raise
 
 
 def _write(path: Path, content: str | bytes | Path, *, replace: bool) -> None:
-    half = path.with_name(f".{path.name}.part")
+    partial = path.with_name(f".{path.name}.part")
     try:
-        half.unlink(missing_ok=True)  # left by a killed program, or a link placed by another user
-        with half.open("xb") as file:
+        partial.unlink(missing_ok=True)  # left by a killed program, or another user's link
+        with partial.open("xb") as file:
             if path.exists():
-                shutil.copymode(path, half)
+                shutil.copymode(path, partial)
             _fill(file, content)
         if replace:
-            os.replace(half, path)
+            os.replace(partial, path)
         else:
-            _move_new(half, path)
+            _move_new(partial, path)
     except OSError:
-        half.unlink(missing_ok=True)
+        partial.unlink(missing_ok=True)
         raise
 
 
@@ -86,13 +85,13 @@ def _fill(file: BinaryIO, content: str | bytes | Path) -> None:
         file.write(content if isinstance(content, bytes) else content.encode(errors="surrogateescape"))
 
 
-def _move_new(half: Path, path: Path) -> None:
-    """Move a file to a name that no other one has."""
+def _move_new(partial: Path, path: Path) -> None:
+    """Move a file to a name that must be free."""
     try:
-        os.link(half, path)
-        half.unlink()
+        os.link(partial, path)
+        partial.unlink()
     except FileExistsError:
         raise
     except OSError:  # a disk without hard links
         path.touch(exist_ok=False)
-        os.replace(half, path)
+        os.replace(partial, path)

@@ -11,18 +11,18 @@ _SOURCES = Path(__file__).parents[3] / "cpp"
 
 
 def refuse_stale(module: ModuleType) -> None:
-    """Refuse a compiled module of a checkout that was built from other sources; an installed wheel has no sources.
+    """Refuse a compiled module that does not match the checkout's C++ sources; an installed wheel has no sources.
 
     Raises:
         TrundleError: the sources differ.
     """
-    wanted = _digest(_SOURCES)
+    digest = _digest(_SOURCES)
     package = Path(str(module.__file__)).parents[module.__name__.count(".") - 1]
     record = package / "sources.sha256"  # CMake's, installed with the modules
-    if wanted is None or (record.is_file() and record.read_text() == wanted):
+    if digest is None or (record.is_file() and record.read_text() == digest):
         return
-    what = f"the compiled part of Trundle does not match the sources in {_SOURCES}"
-    raise TrundleError(f"{what}; build it: make .venv/.ready, or pip install --editable {_SOURCES.parent}")
+    problem = f"the compiled part of Trundle does not match the sources in {_SOURCES}"
+    raise TrundleError(f"{problem}; build it: make .venv/.ready, or pip install --editable {_SOURCES.parent}")
 
 
 @cache

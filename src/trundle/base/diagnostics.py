@@ -1,12 +1,12 @@
-"""Sources, warnings and errors of reading files.
+"""Warnings and errors of reading files, with their source positions.
 
 A `Diagnostics` is passed in by the caller; there is no global log. Every command imports this module, so it has no
 dataclasses: their module takes longer to load than light commands take to run.
 
     TrundleError
     ├── DescriptionError           a file cannot be interpreted
-    │   └── UnknownArgumentError   a file is given an argument that it does not have
-    └── UsageError                the request itself is wrong (a taken port, an unknown name)
+    │   └── UnknownArgumentError   an argument that a file does not declare
+    └── UsageError                an invalid request (a port in use, an unknown name)
 """
 
 import os
@@ -15,39 +15,39 @@ from typing import Literal, NamedTuple, TextIO, TypeAlias, TypedDict
 
 Severity: TypeAlias = Literal["error", "warning", "info"]
 _CONTROLS = (*range(0x20), *range(0x7F, 0xA0), 0x2028, 0x2029, *range(0x202A, 0x202F), *range(0x2066, 0x206A))
-"""Line breaks, terminals' commands, and marks that change the order in which text is shown."""
+"""Line breaks, terminal control characters, and marks that reorder displayed text."""
 _ESCAPES = {code: repr(chr(code))[1:-1] for code in _CONTROLS}
-_COLOURS = {"error": 31, "warning": 33, "info": 36}
+_COLORS = {"error": 31, "warning": 33, "info": 36}
 """ANSI's red, yellow and cyan."""
-_SLIP = 0.75
-"""Similarity of a name with a slip of the finger or two."""
-_NAMED = 3
-"""Most further lines listed for one message."""
+_TYPO_SIMILARITY = 0.75
+"""Minimum similarity of a name with one or two typing errors."""
+_MAX_LISTED = 3
+"""Maximum number of further lines listed for one message."""
 _ORDER: dict[str, int] = {"error": 0, "warning": 1, "info": 2}
 
 
 def printable(text: str) -> str:
-    """Return a text on one line, control characters as Python writes them; names out of files may have any."""
+    """Return a text on one line, with control characters escaped as in Python."""
     return text.translate(_ESCAPES)
 
 
-def coloured(text: str, stream: TextIO) -> str:
-    """Colour the severity in each line of findings, if the stream is a terminal and NO_COLOR is not set."""
+def colored(text: str, stream: TextIO) -> str:
+    """Color the severity in each line of findings, if the stream is a terminal and NO_COLOR is not set."""
     if not stream.isatty() or os.environ.get("NO_COLOR"):  # https://no-color.org
         return text
-    return "\n".join(map(_coloured_line, text.split("\n")))
+    return "\n".join(map(_colored_line, text.split("\n")))
 
 
-def _coloured_line(line: str) -> str:
-    for severity, colour in _COLOURS.items():
+def _colored_line(line: str) -> str:
+    for severity, color in _COLORS.items():
         at, marker, what = line.partition(f" {severity}: ")
         if marker and (at.endswith(":") or not at):
-            return f"{at} \033[1;{colour}m{severity}:\033[0m {what}"
+            return f"{at} \033[1;{color}m{severity}:\033[0m {what}"
     return line
 
 
 class Source(NamedTuple):
-    """Position in a text: the file as named by the user, and the line, counted from 1."""
+    """Source position: the file as named by the user, and the line, counted from 1."""
 
     file: str
     line: int | None = None
@@ -61,7 +61,7 @@ class TrundleError(Exception):
     """Base of all errors that a user can fix."""
 
     missing_packages: tuple[str, ...] = ()
-    """ROS packages that would have to be here."""
+    """Names of missing ROS packages."""
 
 
 class UsageError(TrundleError):
@@ -74,7 +74,7 @@ class UsageError(TrundleError):
 
 
 class DescriptionError(TrundleError):
-    """File, or place in a file, that cannot be interpreted."""
+    """File, or part of a file, that cannot be interpreted."""
 
     def __init__(
         self, at: Source, what: str, *, more: "Iterable[DescriptionError]" = (), missing_packages: tuple[str, ...] = ()
@@ -88,29 +88,29 @@ class DescriptionError(TrundleError):
 
 
 class UnknownArgumentError(DescriptionError):
-    """Argument that a xacro or launch file does not have."""
+    """Argument that a xacro or launch file does not declare."""
 
     def __init__(self, at: Source, what: str, *, name: str) -> None:
-        """State the error; `name` is the argument's."""
+        """State the error; `name` is the argument's name."""
         super().__init__(at, what)
         self.name = name
 
 
 def nearest(name: str, names: Collection[str], *, similarity: float = 0.6) -> str | None:
-    """Return the most similar of some names; None if none is similar, on a scale from 0 to 1."""
+    """Return the most similar name; None if none reaches the similarity (0 to 1)."""
     from difflib import get_close_matches  # lazy: slow to import, rarely needed
 
     return next(iter(get_close_matches(name, sorted(names), n=1, cutoff=similarity)), None)
 
 
 def did_you_mean(name: str, names: Collection[str]) -> str:
-    """Return ` (did you mean 'NAME'?)` for the most similar of some names; "" if none is similar."""
-    near = nearest(name, names, similarity=_SLIP)
+    """Return ` (did you mean 'NAME'?)` for the most similar name; "" if none is similar."""
+    near = nearest(name, names, similarity=_TYPO_SIMILARITY)
     return "" if near is None else f" (did you mean {near!r}?)"
 
 
 def similar_file(path: str) -> str:
-    """Return ` (did you mean 'NAME'?)` for a file beside a missing one; "" if none has a similar name."""
+    """Return ` (did you mean 'NAME'?)` for a missing file's neighbor; "" if none has a similar name."""
     try:
         names = os.listdir(os.path.dirname(path) or ".")
     except (OSError, ValueError):
@@ -145,13 +145,13 @@ class Diagnostics:
     """Collection of findings in order, without duplicates."""
 
     def __init__(self, *, strict: bool = False) -> None:
-        """Start empty; `strict` turns every warning into an error, so that reading ends at the first one."""
+        """Start empty; `strict` turns every warning into an error, which ends reading."""
         self.strict = strict
         self.findings: list[Diagnostic] = []
         self._seen: set[Diagnostic] = set()
 
     def warn(self, at: Source, what: str) -> None:
-        """Add a warning; the sentence states what is done instead.
+        """Add a warning; its sentence states the fallback.
 
         Raises:
             DescriptionError: in strict mode.
@@ -160,23 +160,29 @@ class Diagnostics:
             raise DescriptionError(at, what)
         self._add(Diagnostic("warning", at, what))
 
-    def warn_error(self, error: TrundleError, at: Source, otherwise: str, *, who: str = "") -> None:
-        """Add a recovered error as a warning, at its own source or else at `at`; `otherwise` states what is done.
+    def warn_error(self, error: TrundleError, at: Source, otherwise: str, *, subject: str = "") -> None:
+        """Add a recovered error as a warning.
+
+        Args:
+            error: recovered error.
+            at: position for an error without a source of its own.
+            otherwise: fallback, as a clause.
+            subject: begins the sentence; empty: none.
 
         Raises:
             DescriptionError: in strict mode.
         """
         where, what = (error.at, error.what) if isinstance(error, DescriptionError) else (at, str(error))
-        self.warn(where, f"{who}: {what}; {otherwise}" if who else f"{what}; {otherwise}")
+        self.warn(where, f"{subject}: {what}; {otherwise}" if subject else f"{what}; {otherwise}")
 
     def info(self, at: Source, what: str) -> None:
-        """Add a note on an applied rule that a reader of the file may not expect."""
+        """Add a note on an applied rule that may surprise the file's author."""
         self._add(Diagnostic("info", at, what))
 
     def error(self, error: DescriptionError) -> None:
-        """Add the error that ended a reading, and the further ones in it."""
-        for each in (error, *error.more):
-            self._add(Diagnostic("error", each.at, each.what))
+        """Add the error that ended reading, with the further errors in it."""
+        for part in (error, *error.more):
+            self._add(Diagnostic("error", part.at, part.what))
 
     def extend(self, findings: Iterable[Diagnostic]) -> None:
         """Add the findings of another collection."""
@@ -191,28 +197,28 @@ class Diagnostics:
 
     @property
     def warnings(self) -> list[str]:
-        """Printed warnings."""
+        """Warnings as printed."""
         return [str(f) for f in self.findings if f.severity == "warning"]
 
     @property
     def errors(self) -> list[str]:
-        """Printed errors."""
+        """Errors as printed."""
         return [str(f) for f in self.findings if f.severity == "error"]
 
     def worst_first(self) -> list[str]:
-        """Return printed errors, then warnings, then notes; a message for many lines of a file is printed once."""
+        """Return errors, then warnings, then notes as printed; a message on many lines of a file occurs once."""
         lines: dict[Diagnostic, list[int | None]] = {}
         for finding in sorted(self.findings, key=lambda f: _ORDER[f.severity]):
-            everywhere = finding._replace(at=Source(finding.at.file))
-            lines.setdefault(everywhere, []).append(finding.at.line)
+            without_line = finding._replace(at=Source(finding.at.file))
+            lines.setdefault(without_line, []).append(finding.at.line)
         return [
-            f"{said._replace(at=Source(said.at.file, first))}{_also([line for line in more if line])}"
-            for said, (first, *more) in lines.items()
+            f"{finding._replace(at=Source(finding.at.file, first))}{_also([line for line in more if line])}"
+            for finding, (first, *more) in lines.items()
         ]
 
 
 def _also(lines: list[int]) -> str:
     if not lines:
         return ""
-    named, rest = ", ".join(map(str, lines[:_NAMED])), len(lines) - _NAMED
-    return f" (also on line{'s' if lines[1:] else ''} {named}{f' and {rest} more' if rest > 0 else ''})"
+    listed, rest = ", ".join(map(str, lines[:_MAX_LISTED])), len(lines) - _MAX_LISTED
+    return f" (also on line{'s' if lines[1:] else ''} {listed}{f' and {rest} more' if rest > 0 else ''})"

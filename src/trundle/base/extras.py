@@ -1,4 +1,4 @@
-"""Packages of Trundle's extras, which not everyone has."""
+"""Optional packages, which Trundle's extras install."""
 
 import importlib
 import importlib.metadata
@@ -15,7 +15,7 @@ def import_extra(module: str, *, extra: str = "sweep") -> Any:
     """Import a module of a package that belongs to an extra.
 
     Raises:
-        UsageError: it is not installed; says how to install it.
+        UsageError: it is not installed; the message says how to install it.
     """
     package = module.partition(".")[0]
     try:

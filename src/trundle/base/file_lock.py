@@ -1,4 +1,4 @@
-"""Locks on files and folders that one program writes at a time."""
+"""Locks on files and folders that only one program may write at a time."""
 
 import contextlib
 import errno
@@ -27,17 +27,17 @@ _IN_USE = (errno.EAGAIN, errno.EACCES)
 
 
 class FileLock:
-    """Lock on the name of a file, there or not, or on a folder; it ends with the process, however that ends.
+    """Lock on the name of a file, which need not exist, or on a folder; it ends with the process.
 
-    What is locked is a hidden file beside it, or in the folder, which is removed at the end. Devices and pipes are not
-    locked, nor is anything on a disk without locks.
+    The lock is on a hidden file beside it, or in the folder, which is removed at the end. Devices, pipes, and disks
+    without locks are not locked.
     """
 
     def __init__(self, path: Path) -> None:
         """Lock.
 
         Raises:
-            OSError: another program writes it, which `strerror` names, or nothing can be written beside it.
+            OSError: another program, which `strerror` names, has locked it, or its folder is not writable.
         """
         self._file: int | None = None
         path = Path(os.path.realpath(path))
@@ -54,7 +54,7 @@ class FileLock:
         """Unlock."""
         if self._file is None:
             return
-        with contextlib.suppress(OSError):  # Windows removes no open file
+        with contextlib.suppress(OSError):  # Windows cannot remove an open file
             self._path.unlink()  # before another program may lock it
         os.close(self._file)
         self._file = None
@@ -69,7 +69,7 @@ class FileLock:
         self.release()
 
     def _locked(self) -> int | None:
-        """Return the file, open and locked; None if its last holder has just removed it."""
+        """Return the open, locked file; None if its last holder has just removed it."""
         try:
             file = os.open(self._path, os.O_RDWR | _FLAGS, 0o666)
         except PermissionError:  # another user's
@@ -89,7 +89,7 @@ class FileLock:
 
 
 def _holder(file: int) -> str:
-    """Name the process that has a file locked, if /proc/locks lists it."""
+    """Name the process that holds the lock, if /proc/locks lists it."""
     end = f":{os.fstat(file).st_ino}"
     with contextlib.suppress(OSError, IndexError), open("/proc/locks", encoding="ascii") as table:  # Linux has it
         for fields in map(str.split, table):

@@ -1,6 +1,6 @@
-"""Input files: read whole, bounded in bytes and in time.
+"""Reading of whole input files, with limits in bytes and time.
 
-Every fault is an `OSError` whose `strerror` is a sentence for the user. Existence is tested with `os.path`, which
+Every error is an `OSError` whose `strerror` is a sentence for the user. Existence is tested with `os.path`, which
 returns False for invalid names; `pathlib` raises for some of them.
 """
 
@@ -19,10 +19,10 @@ from typing import BinaryIO, TypeAlias
 AnyPath: TypeAlias = str | os.PathLike[str]
 
 MAX_BYTES = 64 * 1024 * 1024
-"""Largest size of a description or text; the largest published ones are a few MB."""
+"""Maximum size of a description or text; the largest published ones have a few MB."""
 _CHUNK_BYTES = 64 * 1024
 _TIMEOUT_S = 60.0
-"""Time limit for a pipe; `<param command>` has the same."""
+"""Time limit for a pipe, as for `<param command>`."""
 _DESCRIPTOR = re.compile(r"/dev/stdin|(?:/dev|/proc/self)/fd/(\d{1,9})")
 _STREAMS = {stat.S_IFIFO: "a pipe", stat.S_IFCHR: "a device", stat.S_IFSOCK: "a socket"}
 _FLAGS = ("O_NONBLOCK", "O_NOCTTY", "O_BINARY", "O_CLOEXEC")
@@ -34,8 +34,8 @@ def read_file(path: AnyPath, /, *, max_bytes: int = MAX_BYTES) -> bytes:
     """Read a regular file.
 
     Args:
-        path: of the file.
-        max_bytes: limit, counted while reading, because files may grow and those of /proc have size 0.
+        path: path of the file.
+        max_bytes: size limit, checked while reading: files may grow, and those of /proc have size 0.
 
     Raises:
         OSError: no such file, a pipe, device or folder, a larger one, or one that cannot be read.
@@ -48,7 +48,7 @@ def read_text(path: AnyPath, /, *, max_bytes: int = MAX_BYTES) -> str:
     """Read a regular file as UTF-8 with invalid bytes replaced and Unix line ends.
 
     Raises:
-        OSError: as `read_file`.
+        OSError: see `read_file`.
     """
     return read_file(path, max_bytes=max_bytes).decode(errors="replace").replace("\r\n", "\n").replace("\r", "\n")
 
@@ -76,7 +76,7 @@ def read_input(path: AnyPath, /) -> bytes:
     """Read a file or pipe of the command line.
 
     Raises:
-        OSError: as `read_file` and `read_stream`.
+        OSError: see `read_file` and `read_stream`.
     """
     return read_stream(path) if is_stream(path) else read_file(path)
 
@@ -84,8 +84,8 @@ def read_input(path: AnyPath, /) -> bytes:
 def is_stream(path: AnyPath, /) -> bool:
     """True for a pipe, device, socket or open descriptor; False for files, folders and missing paths."""
     try:
-        is_open_here = _DESCRIPTOR.fullmatch(os.fspath(path)) is not None
-        return stat.S_IFMT(os.stat(path).st_mode) in _STREAMS or is_open_here
+        is_descriptor = _DESCRIPTOR.fullmatch(os.fspath(path)) is not None
+        return stat.S_IFMT(os.stat(path).st_mode) in _STREAMS or is_descriptor
     except (OSError, ValueError):
         return False
 
@@ -97,9 +97,9 @@ def read_stream(path: AnyPath, /) -> bytes:
         OSError: it has no end within a minute or `MAX_BYTES`, or cannot be read.
     """
     name = os.fspath(path)
-    given = _DESCRIPTOR.fullmatch(name)
-    # An own pipe is duplicated, not reopened: a reopened one would miss the writer's end.
-    descriptor = os.open(path, _OPEN) if given is None else os.dup(int(given[1] or 0))
+    match = _DESCRIPTOR.fullmatch(name)
+    # A pipe of this process is duplicated: reopened, it would miss the writer's end.
+    descriptor = os.open(path, _OPEN) if match is None else os.dup(int(match[1] or 0))
     try:
         return _joined(_chunks(descriptor, name), MAX_BYTES, name)
     finally:
@@ -110,12 +110,12 @@ def read_standard_input() -> bytes:
     """Read standard input to its end; a terminal has no time limit.
 
     Raises:
-        OSError: as `read_stream`.
+        OSError: see `read_stream`.
     """
-    given = sys.stdin
+    stream = sys.stdin
     try:
-        descriptor = 0 if given is None else given.fileno()  # pyright: ignore[reportUnnecessaryComparison]
-    except (AttributeError, io.UnsupportedOperation):  # a program put text there
+        descriptor = 0 if stream is None else stream.fileno()  # pyright: ignore[reportUnnecessaryComparison]
+    except (AttributeError, io.UnsupportedOperation):  # a StringIO, for instance
         return sys.stdin.read().encode()
     return _joined(_chunks(descriptor, "<stdin>"), MAX_BYTES, "<stdin>")
 
@@ -129,19 +129,19 @@ def _refuse_irregular(mode: int, path: AnyPath) -> None:
 
 
 def _joined(chunks: Iterable[bytes], max_bytes: int, path: AnyPath) -> bytes:
-    kept: list[bytes] = []
-    left = max_bytes
+    parts: list[bytes] = []
+    remaining = max_bytes
     for chunk in chunks:
-        kept.append(chunk)
-        left -= len(chunk)
-        if left < 0:
+        parts.append(chunk)
+        remaining -= len(chunk)
+        if remaining < 0:
             raise OSError(errno.EFBIG, f"larger than {max_bytes} bytes, the largest file read", os.fspath(path))
-    return b"".join(kept)
+    return b"".join(parts)
 
 
 def _chunks(descriptor: int, name: str) -> Iterator[bytes]:
-    due = time.monotonic() + (math.inf if os.isatty(descriptor) else _TIMEOUT_S)
-    while (left := due - time.monotonic()) > 0.0 and _has_more(descriptor, left):
+    deadline_s = time.monotonic() + (math.inf if os.isatty(descriptor) else _TIMEOUT_S)
+    while (remaining := deadline_s - time.monotonic()) > 0.0 and _has_more(descriptor, remaining):
         chunk = os.read(descriptor, _CHUNK_BYTES)
         if not chunk:
             return

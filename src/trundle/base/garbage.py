@@ -4,17 +4,17 @@ import gc
 from collections.abc import Generator
 from contextlib import contextmanager
 
-_SELDOM = 200_000
-"""Threshold of allocations, above those of modules and ordinary files."""
+_THRESHOLD = 200_000
+"""Allocations until a collection: more than importing modules and reading ordinary files make."""
 
 
 @contextmanager
 def no_garbage() -> Generator[None]:
     """Collect rarely, and freeze the objects that exist at the end."""
-    before = gc.get_threshold()
-    gc.set_threshold(_SELDOM)
+    thresholds = gc.get_threshold()
+    gc.set_threshold(_THRESHOLD)
     try:
         yield
     finally:
-        gc.set_threshold(*before)
+        gc.set_threshold(*thresholds)
         gc.freeze()

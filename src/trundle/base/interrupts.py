@@ -7,31 +7,31 @@ import time
 from types import CodeType, FrameType
 
 ONE_PRESS_S = 0.5
-"""Signals that follow one so soon are of the same press of Ctrl-C.
+"""Signals within this time belong to one press of Ctrl-C [s].
 
-`timeout -s INT` and other starters of programs signal the process and its group, and people press twice: the program
-is ending already, and would break off what it closes.
+`timeout -s INT` and similar programs signal both the process and its group, and people press twice; a second interrupt
+would abort the cleanup of the first.
 """
 _AGAIN_S = 0.001
-"""Wait before a dropped interrupt is repeated, and between looks if it would be dropped once more."""
+"""Delay before a dropped interrupt is repeated, and between checks whether it would be dropped again [s]."""
 
 
 class _Press:
-    """The last press of Ctrl-C; signals are the process's, and so are presses."""
+    """Last press of Ctrl-C; one per process, as signals are."""
 
     def __init__(self) -> None:
         self._start_s = -ONE_PRESS_S
         """Monotonic time of its first signal."""
 
     def is_new(self) -> bool:
-        """Tell whether a signal that a handler got begins a press."""
+        """True if a received signal begins a new press."""
         now_s = time.monotonic()
         if now_s < self._start_s + ONE_PRESS_S:
             return False
         self._start_s = now_s
         return True
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         """Let the next signal begin a press."""
         self._start_s = -ONE_PRESS_S
 
@@ -50,7 +50,7 @@ def interrupt(_number: int, _frame: FrameType | None) -> None:
 
 
 def ending_signals() -> list[signal.Signals]:
-    """Signals that end a program cleanly; without SIGHUP if ignored, as under `nohup`."""
+    """Signals that end a program cleanly; without SIGHUP if it is ignored, as under `nohup`."""
     ends = [signal.SIGINT, signal.SIGTERM]
     if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # Windows has none
         ends.append(signal.SIGHUP)
@@ -58,7 +58,7 @@ def ending_signals() -> list[signal.Signals]:
 
 
 def interrupt_main_thread() -> None:
-    """Interrupt the main thread, also while it waits for the system."""
+    """Interrupt the main thread, also during a blocking system call."""
     if hasattr(signal, "pthread_kill"):
         signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
     else:
@@ -68,8 +68,8 @@ def interrupt_main_thread() -> None:
 def keep_interrupts() -> None:
     """Repeat each interrupt that Python would drop because a finalizer or a weak reference's callback was running.
 
-    What these raise is only reported (https://docs.python.org/3/library/sys.html#sys.unraisablehook), KeyboardInterrupt
-    included: the program would go on as if Ctrl-C had not been pressed.
+    Python only reports exceptions of these (https://docs.python.org/3/library/sys.html#sys.unraisablehook), even a
+    KeyboardInterrupt: the program would ignore Ctrl-C.
     """
     report = sys.unraisablehook
 
@@ -83,16 +83,16 @@ def keep_interrupts() -> None:
 
 
 def _interrupt_after(code: CodeType) -> None:
-    """Interrupt the main thread when a function, in which an interrupt is dropped as well, has returned there."""
+    """Interrupt the main thread once a function has returned there; within it, the interrupt would be dropped again."""
     time.sleep(_AGAIN_S)
     while _is_running(code):
         time.sleep(_AGAIN_S)
-    PRESS.forget()  # it had no effect yet
+    PRESS.reset()  # it has had no effect
     interrupt_main_thread()
 
 
 def _is_running(code: CodeType) -> bool:
-    """Tell if the main thread is in a function, or in one that it called."""
+    """True if the main thread is in a function, or in one that it called."""
     frame = sys._current_frames().get(threading.main_thread().ident or 0)  # pyright: ignore[reportPrivateUsage]
     while frame is not None and frame.f_code is not code:
         frame = frame.f_back

@@ -9,8 +9,8 @@ from pathlib import Path
 def is_owned_by_user(folder: Path) -> bool:
     """True if a folder is this user's, and only root could replace it.
 
-    As OpenSSH checks ~/.ssh: each parent folder is ours or the system's, and not world-writable, unless it is sticky,
-    as /tmp. Windows separates profile folders by itself.
+    As OpenSSH checks ~/.ssh: each parent folder belongs to the user or the system, and is not world-writable unless it
+    is sticky, like /tmp. Windows separates profile folders itself.
     """
     if not hasattr(os, "geteuid"):
         return True
@@ -19,14 +19,14 @@ def is_owned_by_user(folder: Path) -> bool:
         if folder.stat().st_uid != os.geteuid():
             return False
         system = {0, os.geteuid(), Path("/").stat().st_uid}
-        return all(_is_protected(above, system) for above in (folder, *folder.parents))
+        return all(_is_protected(parent, system) for parent in (folder, *folder.parents))
     except (OSError, RuntimeError):
         return False
 
 
 def _is_protected(folder: Path, owners: set[int]) -> bool:
-    found = folder.stat()
-    return found.st_uid in owners and (not found.st_mode & 0o002 or bool(found.st_mode & 0o1000))
+    status = folder.stat()
+    return status.st_uid in owners and (not status.st_mode & 0o002 or bool(status.st_mode & 0o1000))
 
 
 def home_folder(environment: Mapping[str, str]) -> Path:
@@ -36,7 +36,7 @@ def home_folder(environment: Mapping[str, str]) -> Path:
 
 
 def write_private_file(name: str, content: bytes, environment: Mapping[str, str]) -> Path | None:
-    """Write a file that only this user may read, in place of one of its name; None: it cannot be written."""
+    """Write or replace a file that only this user may read; return its path, or None if it cannot be written."""
     for folder in runtime_folders(environment):
         file = folder / name
         with contextlib.suppress(OSError):
@@ -51,7 +51,7 @@ def write_private_file(name: str, content: bytes, environment: Mapping[str, str]
 def runtime_folders(environment: Mapping[str, str]) -> list[Path]:
     """Return the folders for files of running programs that only this user may enter, best first.
 
-    They are below XDG_RUNTIME_DIR, and below the folder of temporary files; one that is missing is made.
+    They are below XDG_RUNTIME_DIR and below the folder of temporary files, and are created if missing.
     """
     import tempfile  # which takes random and bz2 with it
 
@@ -63,7 +63,7 @@ def runtime_folders(environment: Mapping[str, str]) -> list[Path]:
 
 
 def _is_private(folder: Path) -> bool:
-    """Make a folder if it is missing; True if only this user may enter it."""
+    """Create a folder if it is missing; True if only this user may enter it."""
     with contextlib.suppress(OSError):
         folder.mkdir(mode=0o700, exist_ok=True)
         mode = folder.lstat().st_mode

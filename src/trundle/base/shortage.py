@@ -4,17 +4,17 @@ import errno
 import os
 
 try:
-    import resource  # at once: without a descriptor nothing can be imported
+    import resource  # not later: importing needs a file descriptor
 except ImportError:  # Windows has no such limits
     resource = None
 
 _NO_MEMORY = ("failed to map segment", "annot allocate memory")
-"""Parts of what the dynamic linker and libraries say."""
+"""Parts of error messages of the dynamic linker and libraries."""
 _MIB = 1 << 20
 
 
 def shortage(error: BaseException | None) -> str | None:
-    """Say what this process ran out of, its limit, and what to do; None for an error of another kind."""
+    """Return a sentence on the exhausted resource, its limit and the remedy; None for another error."""
     number = error.errno if isinstance(error, OSError) else None
     if number == errno.EMFILE:
         limit = _limit("RLIMIT_NOFILE")
@@ -34,7 +34,7 @@ def shortage(error: BaseException | None) -> str | None:
 
 
 def too_few_files(needed: int) -> str | None:
-    """Say that this process may not open as many files as it needs, and what to do; None if it may."""
+    """Return a sentence if this process may not open as many files as needed; None if it may."""
     limit = _limit("RLIMIT_NOFILE")
     if limit == "none" or int(limit) >= needed:
         return None
@@ -46,7 +46,7 @@ def _is(error: BaseException | None, kind: type[Exception], *parts: str) -> bool
 
 
 def _limit(name: str, unit: int = 1) -> str:
-    """Return a limit of this process, in units; 'none' where the system's own is reached."""
+    """Return a limit of this process, in units; 'none' if it is unlimited."""
     if resource is None:
         return "none"
     soft, _ = resource.getrlimit(getattr(resource, name))

@@ -18,28 +18,28 @@ class StopFlag:
     """
 
     def __init__(self) -> None:
-        self._asked: SimpleQueue[None] = SimpleQueue()
+        self._requests: SimpleQueue[None] = SimpleQueue()
 
     def set(self) -> None:
         """Set the flag; from a signal handler or any thread."""
-        self._asked.put(None)
+        self._requests.put(None)
 
     def is_set(self) -> bool:
         """True if it was ever set."""
-        return not self._asked.empty()
+        return not self._requests.empty()
 
     def wait(self, seconds: float) -> bool:
-        """Wait for the flag for at most so many seconds; return True if it is set."""
+        """Wait for the flag, up to a timeout; return True if it is set."""
         try:
-            self._asked.get(timeout=seconds)
+            self._requests.get(timeout=seconds)
         except Empty:
             return False
-        self._asked.put(None)
+        self._requests.put(None)
         return True
 
 
 _blind_waits = 0
-"""Number of blocks of the main thread, which handles signals, that wait and cannot poll a flag."""
+"""Nesting depth of `blind_wait` blocks on the main thread, which handles signals."""
 
 
 @contextmanager
@@ -58,26 +58,26 @@ def blind_wait() -> Generator[None]:
 
 @contextmanager
 def stop_flag() -> Generator[StopFlag]:
-    """Yield a flag that the first SIGINT, SIGTERM or SIGHUP sets; a SIGINT of another press interrupts, and any signal
-    within a `blind_wait`.
+    """Yield a flag that the first SIGINT, SIGTERM or SIGHUP sets; a second press of Ctrl-C interrupts, and so does any
+    signal within a `blind_wait`.
     """
     flag = StopFlag()
     if threading.current_thread() is not threading.main_thread():  # only the main thread may set signal handlers
         yield flag
         return
-    was_asked = False
+    is_stopping = False
 
-    def ask_to_stop(number: int, _frame: FrameType | None) -> None:
-        nonlocal was_asked
+    def stop(number: int, _frame: FrameType | None) -> None:
+        nonlocal is_stopping
         is_new = PRESS.is_new()
-        if _blind_waits or (is_new and was_asked and number == signal.SIGINT):
+        if _blind_waits or (is_new and is_stopping and number == signal.SIGINT):
             raise KeyboardInterrupt
-        was_asked = True
+        is_stopping = True
         flag.set()
 
-    before = {number: signal.signal(number, ask_to_stop) for number in ending_signals()}
+    old_handlers = {number: signal.signal(number, stop) for number in ending_signals()}
     try:
         yield flag
     finally:
-        for number, handler in before.items():
+        for number, handler in old_handlers.items():
             signal.signal(number, handler)

@@ -1,6 +1,6 @@
-"""Waits without a time limit: every few seconds they say what they wait for.
+"""Notices of waits without a time limit, printed every few seconds.
 
-A machine that is busy, slow or suspended breaks no wait: docs/decisions/0026.
+A busy, slow or suspended machine aborts no wait: docs/decisions/0026.
 """
 
 import sys
@@ -17,13 +17,13 @@ def _print(line: str) -> None:
 
 
 class WaitNotice:
-    """Says every few seconds what is waited for, and since when; to be polled while waiting."""
+    """Prints every few seconds what a wait is for, and its duration; to be polled while waiting."""
 
     def __init__(self, what: str, say: Callable[[str], object] = _print) -> None:
-        """Begin the wait.
+        """Start the wait.
 
         Args:
-            what: what is waited for, such as "the page's server".
+            what: the awaited event or object, such as "the page's server".
             say: prints a line.
         """
         self._what = what
@@ -32,7 +32,7 @@ class WaitNotice:
         self._due_s = self._start_s + PERIOD_S
 
     def poll(self) -> None:
-        """Say it, if it is time."""
+        """Print the notice, if it is due."""
         now_s = time.monotonic()
         if now_s >= self._due_s:
             self._due_s = now_s + PERIOD_S
@@ -40,5 +40,5 @@ class WaitNotice:
 
 
 def waiting_line(what: str, seconds: float) -> str:
-    """Return the notice of a wait that lasts already."""
+    """Return the notice of a wait."""
     return f"waiting for {what} since {seconds:.0f} s"

@@ -1,4 +1,4 @@
-"""YAML as plain data, loaded in bounded time and memory.
+"""Loader of YAML as plain data, in bounded time and memory.
 
 A few lines of `&a [*b, *b]` can expand to billions of values.
 """
@@ -10,19 +10,19 @@ from typing import Any
 import yaml
 
 MAX_VALUES = 500_000
-"""Most values with aliases expanded."""
+"""Maximum number of values with aliases expanded."""
 _MAX_NODES = 250_000
-"""Most nodes as written; each takes half a kilobyte while reading."""
+"""Maximum number of nodes as written; each takes half a kilobyte while reading."""
 _MAX_OTHER_KEYS = 2_000
-"""Most keys of one mapping that are not text: a file can choose them so that their hashes collide."""
+"""Maximum number of keys of one mapping that are not text: a file can choose them so that their hashes collide."""
 _MAX_CHARACTERS = 16 * 1024 * 1024
 
 
 class BoundedLoader(yaml.SafeLoader):
-    """Loader of plain data; every fault is a YAMLError."""
+    """Loader of plain data; every error is a YAMLError."""
 
     def __init__(self, stream: str, count: Callable[[int], None] | None = None) -> None:
-        """Start at a text; `count` is called with the number of further values, as written and as aliases."""
+        """Load a text; `count` is called with the number of further values, as written and as aliases."""
         if len(stream) > _MAX_CHARACTERS:
             raise yaml.YAMLError(f"{len(stream)} characters of YAML; the most read is {_MAX_CHARACTERS}")
         super().__init__(stream)  # checks every character
@@ -39,7 +39,7 @@ class BoundedLoader(yaml.SafeLoader):
         return super().compose_node(parent, index)
 
     def compose_scalar_node(self, anchor: Any) -> Any:
-        r"""Compose a scalar; a lone `\ud800` in it could be neither sent nor written."""
+        r"""Compose a scalar; refuse a lone `\ud800`, which could be neither sent nor written."""
         node = super().compose_scalar_node(anchor)
         try:
             node.value.encode()
@@ -63,8 +63,8 @@ class BoundedLoader(yaml.SafeLoader):
 
     def construct_mapping(self, node: Any, deep: bool = False) -> Any:
         """Construct a mapping, with a limit on keys that are not text."""
-        others = sum(key.tag != "tag:yaml.org,2002:str" for key, _ in node.value)
-        if others > _MAX_OTHER_KEYS:
+        other_keys = sum(key.tag != "tag:yaml.org,2002:str" for key, _ in node.value)
+        if other_keys > _MAX_OTHER_KEYS:
             line = node.start_mark.line + 1
             raise yaml.YAMLError(f"line {line}: more than {_MAX_OTHER_KEYS} keys of a mapping that are not text")
         return super().construct_mapping(node, deep)
@@ -84,41 +84,41 @@ class BoundedLoader(yaml.SafeLoader):
 def load_yaml(
     text: str, loader: type[BoundedLoader] = BoundedLoader, count: Callable[[int], None] | None = None
 ) -> object:
-    """Load one document; `count` as in the loader.
+    """Load one document; see `BoundedLoader` for `count`.
 
     Raises:
         yaml.YAMLError: not YAML, too large, or not plain data.
     """
-    opened = loader(text, count)
+    document = loader(text, count)
     try:
-        return opened.get_single_data()
+        return document.get_single_data()
     finally:
-        opened.dispose()  # pyright: ignore[reportUnknownMemberType]
+        document.dispose()  # pyright: ignore[reportUnknownMemberType]
 
 
 def one_line(error: yaml.YAMLError) -> str:
-    """Return the error and its position in one line."""
+    """Return the error and its position on one line."""
     if not isinstance(error, yaml.MarkedYAMLError):
         return re.sub(r"\s+", " ", str(error)).strip()
     mark = error.problem_mark or error.context_mark
-    what = error.problem or error.context or "unreadable"
-    return what if mark is None else f"line {mark.line + 1}, column {mark.column + 1}: {what}"
+    problem = error.problem or error.context or "unreadable"
+    return problem if mark is None else f"line {mark.line + 1}, column {mark.column + 1}: {problem}"
 
 
-def _expanded_size(node: yaml.Node, known: dict[int, int]) -> int:
+def _expanded_size(node: yaml.Node, sizes: dict[int, int]) -> int:
     """Count values with aliases expanded; a node that contains itself is an error."""
-    size = known.get(id(node))
+    size = sizes.get(id(node))
     if size == 0:
         raise yaml.YAMLError(f"line {node.start_mark.line + 1}: a value contains itself")
     if size is not None:
         return size
-    known[id(node)] = 0
+    sizes[id(node)] = 0
     match node:
         case yaml.MappingNode(value=pairs):
-            size = 1 + sum(_expanded_size(k, known) + _expanded_size(v, known) for k, v in pairs)
+            size = 1 + sum(_expanded_size(k, sizes) + _expanded_size(v, sizes) for k, v in pairs)
         case yaml.SequenceNode(value=items):
-            size = 1 + sum(_expanded_size(item, known) for item in items)
+            size = 1 + sum(_expanded_size(item, sizes) for item in items)
         case _:
             size = 1
-    known[id(node)] = size
+    sizes[id(node)] = size
     return size

@@ -148,7 +148,7 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", simulation: 
                 sensor.topics |= {end.topic: end.type for end in ends if isinstance(end, Publisher)}
                 attached += 1
             except TrundleError as error:
-                report.warn_error(error, tag.at, _TOPICS_WITHOUT, who=_sensor_plugin(sensor.name, tag))
+                report.warn_error(error, tag.at, _TOPICS_WITHOUT, subject=_sensor_plugin(sensor.name, tag))
         if not attached:
             silent.append(sensor)
     return silent
@@ -193,7 +193,7 @@ def _loaded(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _
         return load()
     except TrundleError as error:
         who = "" if isinstance(error, DescriptionError) else f"plugin {tag.name!r}"
-        report.warn_error(error, tag.at, "the run goes on without it", who=who)
+        report.warn_error(error, tag.at, "the run goes on without it", subject=who)
     except Exception as error:  # user code may raise anything
         report.warn(tag.at, f"plugin {tag.name!r}: {type(error).__name__}: {error}; the run goes on without it")
     return None

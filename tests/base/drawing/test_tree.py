@@ -1,4 +1,4 @@
-"""Trees as text and as pictures."""
+"""Trees as text and as SVG."""
 
 from trundle.base.drawing.tree import TreeNode, tree_svg, tree_text
 from trundle.base.xmlnode import parse_xml
@@ -12,7 +12,7 @@ BASE = TreeNode(
 )
 
 
-def test_a_tree_is_drawn_with_lines() -> None:
+def test_tree_text_has_connecting_lines() -> None:
     assert tree_text([BASE]).splitlines() == [
         "base",
         "├─ arm  (shoulder: revolute)",
@@ -21,7 +21,7 @@ def test_a_tree_is_drawn_with_lines() -> None:
     ]
 
 
-def test_a_picture_has_a_box_a_node_and_a_line_a_joint() -> None:
+def test_tree_svg_has_a_box_per_node_and_a_line_per_edge() -> None:
     picture = parse_xml(tree_svg([BASE], title="a & b"), name="tree.svg")
 
     assert len(picture.all("path")) == 3
@@ -29,7 +29,7 @@ def test_a_picture_has_a_box_a_node_and_a_line_a_joint() -> None:
     assert [text for text in texts if ":" not in text] == ["base", "arm", "hand <left>", "head"]
 
 
-def test_a_chain_of_thousands_is_drawn() -> None:
+def test_deep_trees_are_drawn_without_recursion() -> None:
     top = last = TreeNode("0")
     for i in range(1, 3000):
         last.children.append(TreeNode(str(i)))

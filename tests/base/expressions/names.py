@@ -1,11 +1,11 @@
-"""Evaluation for these tests: every function that an expression may call has a name."""
+"""Evaluation with a name for every function that an expression may call."""
 
 from typing import Any
 
 from trundle.base.expressions import MATH_NAMES, Interpreter
 from trundle.base.expressions.functions import GUARDED
 
-NAMES: dict[str, Any] = {**MATH_NAMES, **{each.__name__: each for each in GUARDED}}
+NAMES: dict[str, Any] = {**MATH_NAMES, **{function.__name__: function for function in GUARDED}}
 
 
 def evaluate(text: str, **names: Any) -> Any:

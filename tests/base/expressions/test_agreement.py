@@ -1,4 +1,4 @@
-"""Expressions evaluate as in Python, values and errors alike."""
+"""Expressions have the same values and errors as in Python."""
 
 import warnings
 from collections.abc import Callable
@@ -8,34 +8,34 @@ import pytest
 from hypothesis import given, strategies as st
 from tests.base.expressions.names import NAMES, evaluate
 
-import trundle.base.expressions as room
+from trundle.base.expressions import Interpreter
 
 _VALUES: dict[str, Any] = {"x": 3, "y": 0.25, "s": "a_b", "items": [3, 1, 2], "d": {"a": 1, "b": [2]}, "f": float}
 
 
-def meaning(evaluated: Callable[[str], object], text: str) -> object:
-    """The value, by its type and text, or the type of the error."""
+def result_of(evaluate_text: Callable[[str], object], text: str) -> object:
+    """Return the type and text of the value, or the type of the error."""
     try:
-        value = evaluated(text)
+        value = evaluate_text(text)
         return type(value).__name__, repr(value)
     except Exception as error:
         return type(error)
 
 
-def of_python(text: str) -> object:
-    def evaluated(text: str) -> object:
+def python_result(text: str) -> object:
+    def evaluate_text(text: str) -> object:
         return eval(text, {"__builtins__": {}, **NAMES, **_VALUES})
 
-    with warnings.catch_warnings():  # of `1[0]`, which is legal
+    with warnings.catch_warnings():  # as of `1[0]`, which is legal
         warnings.simplefilter("ignore")
-        return meaning(evaluated, text)
+        return result_of(evaluate_text, text)
 
 
-def of_ours(text: str) -> object:
-    def evaluated(text: str) -> object:
+def trundle_result(text: str) -> object:
+    def evaluate_text(text: str) -> object:
         return evaluate(text, **_VALUES)
 
-    return meaning(evaluated, text)
+    return result_of(evaluate_text, text)
 
 
 _OPERANDS = """
@@ -120,22 +120,22 @@ _EXPRESSIONS = st.recursive(
             inner,
             st.sampled_from(_OPERATORS.split()),
             inner,
-        ).map(lambda three: f"({' '.join(three)})"),
+        ).map(lambda parts: f"({' '.join(parts)})"),
         st.tuples(st.sampled_from(["not ", "-", "len", "str", "list", "sorted", "bool", "sum"]), inner).map(
-            lambda two: f"{two[0]}({two[1]})"
+            lambda parts: f"{parts[0]}({parts[1]})"
         ),
-        st.tuples(inner, inner, inner).map(lambda three: "({} if {} else {})".format(*three)),
-        st.tuples(inner, inner).map(lambda two: "({})[{}]".format(*two)),
-        st.tuples(inner, inner).map(lambda two: "[{} for v in ({})]".format(*two)),
-        st.tuples(inner, inner).map(lambda two: "(lambda v: {})({})".format(*two)),
+        st.tuples(inner, inner, inner).map(lambda parts: "({} if {} else {})".format(*parts)),
+        st.tuples(inner, inner).map(lambda parts: "({})[{}]".format(*parts)),
+        st.tuples(inner, inner).map(lambda parts: "[{} for v in ({})]".format(*parts)),
+        st.tuples(inner, inner).map(lambda parts: "(lambda v: {})({})".format(*parts)),
     ),
     max_leaves=6,
 )
 
 
 @given(_EXPRESSIONS)
-def test_any_expression_means_what_it_means_to_python(text: str) -> None:
-    assert of_ours(text) == of_python(text)
+def test_generated_expressions_agree_with_python(text: str) -> None:
+    assert trundle_result(text) == python_result(text)
 
 
 @pytest.mark.parametrize(
@@ -220,17 +220,12 @@ def test_any_expression_means_what_it_means_to_python(text: str) -> None:
         "x = 1",
     ],
 )
-def test_what_files_write_means_what_it_means_to_python(text: str) -> None:
-    expected = of_python(text.strip())
-    assert of_ours(text) == expected
+def test_typical_expressions_agree_with_python(text: str) -> None:
+    expected = python_result(text.strip())
+    assert trundle_result(text) == expected
 
 
-def test_expressions_leave_what_they_are_given_as_it_is() -> None:
+def test_expressions_do_not_change_their_names() -> None:
     names = {"a": [3, 1]}
-    room.Interpreter().evaluate("[a for a in [1]] + (lambda a: [a])(2)", names)
+    Interpreter().evaluate("[a for a in [1]] + (lambda a: [a])(2)", names)
     assert names == {"a": [3, 1]}
-
-
-def test_the_front_door_is_whole() -> None:
-    assert len(set(room.__all__)) == len(room.__all__)
-    assert all(hasattr(room, name) for name in room.__all__)

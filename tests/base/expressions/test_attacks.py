@@ -1,4 +1,4 @@
-"""Escapes from a Python sandbox: each is refused by a sentence, and none runs code."""
+"""Known escapes from Python sandboxes: all are refused with a message, and none runs code."""
 
 from typing import Any
 
@@ -162,7 +162,7 @@ class Plain:
 
 
 @pytest.mark.parametrize(("text", "words"), ATTACKS, ids=[text for text, _ in ATTACKS])
-def test_ways_out_are_refused(text: str, words: str | None) -> None:
+def test_sandbox_escapes_are_refused(text: str, words: str | None) -> None:
     names: dict[str, Any] = {"plain": Plain(), "error": ValueError("x"), "offered": wrap_function(len, "offered")}
     if words is None:
         assert isinstance(evaluate(text, **names), type)
@@ -182,22 +182,22 @@ class Shouting(str):
         return "out"
 
 
-def test_a_kind_of_text_has_the_methods_of_text_alone() -> None:
+def test_a_str_subclass_has_only_str_methods() -> None:
     assert evaluate("shout.upper()", shout=Shouting("a")) == "A"
     with pytest.raises(AttributeError, match="no attribute 'reach' that an expression may use"):
         evaluate("shout.reach()", shout=Shouting("a"))
 
 
-def test_what_the_program_offers_is_called_with_what_it_is_given() -> None:
-    given: list[object] = []
-    offered = wrap_function(lambda *values, **named: given.append((values, named)), "offered")
+def test_wrapped_functions_are_called_with_the_arguments() -> None:
+    calls: list[object] = []
+    offered = wrap_function(lambda *values, **named: calls.append((values, named)), "offered")
 
     assert repr(offered) == "<function offered>"
     assert evaluate("offered(1, a=[2])", offered=offered) is None
-    assert given == [((1,), {"a": [2]})]
+    assert calls == [((1,), {"a": [2]})]
 
 
-def test_a_function_of_python_that_was_not_offered_is_not_called() -> None:
+def test_unwrapped_functions_are_not_called() -> None:
     called: list[object] = []
     with pytest.raises(TypeError, match="'builtin_function_or_method' object is not callable for an expression"):
         evaluate("function(1)", function=called.append)
@@ -206,10 +206,10 @@ def test_a_function_of_python_that_was_not_offered_is_not_called() -> None:
 
 
 @pytest.mark.parametrize("text", [r"'\ud800'", "'%c' % 55296", "'{:c}'.format(55296)", r"['a', '\udfff'][1]"])
-def test_a_text_that_no_file_can_hold_is_refused(text: str) -> None:
+def test_lone_surrogates_are_refused(text: str) -> None:
     with pytest.raises(ExpressionError, match="half of a surrogate pair"):
         evaluate(text)
 
 
-def test_letters_of_every_alphabet_are_text() -> None:
+def test_unicode_escapes_are_text() -> None:
     assert evaluate(r"'\u00e9' + '\U0001f916'") == "é🤖"

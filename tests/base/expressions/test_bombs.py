@@ -1,4 +1,4 @@
-"""Expressions that would take the machine's memory or an hour: each ends in a sentence, soon and small."""
+"""Expressions that would exhaust memory or time: each is refused with a message, quickly and in little memory."""
 
 import math
 import re
@@ -21,15 +21,15 @@ _FORMAT = "the format .* is not supported"
 _DEEP = "nested too deeply"
 _DIGITS = "Exceeds the limit"
 _CPU = "s of the processor"
-_ALIKE = (
+_COLLIDING_KEYS = (
     "j * (2**61 - 1)",
     "1j * j - 1000003 * j",
     "(j * (2**61 - 1),)",
     "('a' * 99, j * (2**61 - 1))",
     "frozenset([j * (2**61 - 1)])",
 )
-"""Keys with one hash."""
-_ALIKE_SETS = "*[frozenset(j * (2**61 - 1) for j in range(1000)) for _ in range(2)],"
+"""Keys with equal hashes."""
+_COLLIDING_SETS = "*[frozenset(j * (2**61 - 1) for j in range(1000)) for _ in range(2)],"
 _DOUBLE = "(lambda d: d(d, 0, {0}))(lambda d, n, x: d(d, n + 1, {1}) if n < 45 else {2})"
 
 BOMBS = [
@@ -117,7 +117,7 @@ BOMBS = [
     ("[isqrt(3**40000) for _ in range(10**5)]", _STEPS),
     ("[-x for x in [3**49000] for _ in range(10**5)]", _MEMORY),
     ("[x + 1 for x in [3**49000] for _ in range(10**5)]", _MEMORY),
-    # What is shared, and looks longer than it is.
+    # Values with shared parts, whose text is exponentially longer.
     (_DOUBLE.format("[1]", "[x, x]", "x"), _SIZE),
     (_DOUBLE.format("[1]", "[x, x]", "x == [x]"), _SIZE),
     (_DOUBLE.format("(1,)", "(x, x)", "{x: 1}"), _SIZE),
@@ -130,7 +130,7 @@ BOMBS = [
     (_DOUBLE.format("[1]", "[x, x]", "sorted([x, x])"), _SIZE),
     ("(lambda h: [h.append(h), h])([1])", _SIZE),
     ("(lambda h: [h.append(h), str(h)])([1])", _SIZE),
-    # What Python does slowly.
+    # Slow operations of Python.
     ("[('a' * 500000 + 'b').rfind('c' + 'a' * 250000) for _ in range(1000)]", _STEPS),
     ("('a' * 1000000).strip('b' * 999990 + 'a')", _STEPS),
     ("len({i * (2**61 - 1): 0 for i in range(10**5)})", _STEPS),
@@ -138,7 +138,7 @@ BOMBS = [
     ("len(dict([(i * (2**61 - 1), 0) for i in range(10**5)]))", _STEPS),
     *(
         (text.format(f"({key} for j in range(50000))"), f"{_STEPS}|{_CPU}|{_MEMORY}")
-        for key in _ALIKE
+        for key in _COLLIDING_KEYS
         for text in (
             "len(set({0}))",
             "len(frozenset({0}))",
@@ -147,7 +147,7 @@ BOMBS = [
         )
     ),
     *(
-        (f"[{use} for x, y in [({_ALIKE_SETS})] for _ in range(10**6)]", f"{_STEPS}|{_CPU}|{_MEMORY}")
+        (f"[{use} for x, y in [({_COLLIDING_SETS})] for _ in range(10**6)]", f"{_STEPS}|{_CPU}|{_MEMORY}")
         for use in (
             "x == y",
             "x <= y",
@@ -174,13 +174,13 @@ BOMBS = [
     ("[h.insert(0, 1) for h in [[1] * 900000] for _ in range(90000)]", _STEPS),
     ("[h.count('b') for h in ['a' * 900000] for _ in range(900000)]", _STEPS),
     ("sorted([str(i) * 100 for i in range(20000)] * 40, key=lambda s: s)", f"{_STEPS}|{_MEMORY}"),
-    # Nested more deeply than Python itself can bear.
+    # Nested more deeply than Python's recursion allows.
     *(
         (
-            f"(lambda h: [h.append({more}) for _ in range(40000)] and {then})([(1,)])",
+            f"(lambda h: [h.append({nested}) for _ in range(40000)] and {use_nested})([(1,)])",
             f"{_DEEP}|{_STEPS}|{_MEMORY}|{_SIZE}",
         )
-        for more, then in [
+        for nested, use_nested in [
             ("[h[-1]]", "str(h[-1])"),
             ("[h[-1]]", "h[-1] == [h[-1]]"),
             ("(h[-1],)", "{h[-1]: 1}"),
@@ -217,7 +217,7 @@ for text, _ in BOMBS:
         print("no error")
     except Exception as error:
         print(type(error).__name__, " ".join(str(error).split())[:300])
-status = Path("/proc/self/status")  # ru_maxrss is that of the process that started this one, where that was larger
+status = Path("/proc/self/status")  # ru_maxrss may be inherited from the parent process
 peaks = [line.split()[1] for line in status.read_text().splitlines() if line.startswith("VmHWM")]
 print(peaks[0] if peaks else resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
 """
@@ -225,10 +225,10 @@ _MAX_KIB = 250_000
 
 
 @pytest.mark.slow
-def test_bombs_end_in_a_sentence_and_in_little_memory() -> None:
-    """The whole budget of a document for each; the time-out is a safety net only."""
+def test_bombs_are_refused_in_little_memory() -> None:
+    """Each with the whole budget of a document; the timeout is only a safety net."""
     limit = (1 << 30, 1 << 30)
-    ended = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-c", _RUN],
         capture_output=True,
         text=True,
@@ -236,16 +236,16 @@ def test_bombs_end_in_a_sentence_and_in_little_memory() -> None:
         check=True,
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, limit),
     )
-    *answers, peak_kib = ended.stdout.splitlines()
+    *results, peak_kib = process.stdout.splitlines()
 
-    pairs = zip(BOMBS, answers, strict=True)
-    assert [(text, answer) for (text, words), answer in pairs if not re.search(f"{words}|{_CPU}", answer)] == []
+    pairs = zip(BOMBS, results, strict=True)
+    assert [(text, result) for (text, words), result in pairs if not re.search(f"{words}|{_CPU}", result)] == []
     assert int(peak_kib) < _MAX_KIB
 
 
 @pytest.mark.parametrize(("text", "words"), BOMBS, ids=[text[:60] for text, _ in BOMBS])
-def test_a_bomb_ends_in_a_sentence(text: str, words: str) -> None:
-    """A small budget, for the same walls stand nearer."""
+def test_a_bomb_is_refused_with_a_message(text: str, words: str) -> None:
+    """With a small budget, which is exhausted sooner."""
     with pytest.raises((ExpressionError, SyntaxError, ValueError, TypeError), match=f"{words}|{_STEPS}|{_MEMORY}"):
         Interpreter(Budget(steps=100_000, octets=8_000_000, cpu_s=math.inf)).evaluate(text, NAMES)
 
@@ -260,8 +260,8 @@ def test_a_bomb_ends_in_a_sentence(text: str, words: str) -> None:
         "[-x for x in [3**49000] for _ in range(10**5)]",
     ],
 )
-def test_a_budget_of_memory_is_what_is_taken(text: str) -> None:
-    """A part of the usual budget, because tracing is slow; twice that includes temporary values."""
+def test_memory_stays_within_twice_the_budget(text: str) -> None:
+    """Twice the budget includes temporary values; the budget is reduced because tracing is slow."""
     budget = Budget(octets=4_000_000)
     tracemalloc.start()
     try:
@@ -275,16 +275,16 @@ def test_a_budget_of_memory_is_what_is_taken(text: str) -> None:
 def test_the_expressions_of_a_document_share_their_budget() -> None:
     interpreter = Interpreter(Budget(steps=300_000))
 
-    def go_on() -> None:
+    def exhaust() -> None:
         for _ in range(100):
             interpreter.evaluate("[x for x in range(9999)]", {"range": range})
 
     with pytest.raises(ExpressionError, match=_STEPS):
-        go_on()
+        exhaust()
 
 
-def test_ordinary_work_is_far_from_any_bound() -> None:
-    """As a description of three hundred links: a hundred expressions for each, of some ten operations."""
+def test_ordinary_work_is_far_below_the_limits() -> None:
+    """A description of three hundred links, with a hundred expressions each of about ten operations."""
     interpreter = Interpreter()
     for number in range(300):
         names = {"n": number, "pi": 3.14, "name": "link"}

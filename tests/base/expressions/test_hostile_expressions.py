@@ -1,4 +1,4 @@
-"""Commands that only read a file run no code in it, however it is written."""
+"""Commands that read a file never run code in it."""
 
 from pathlib import Path
 
@@ -14,7 +14,7 @@ _LAUNCH = """<launch><param name="x" value="$(eval {text})"/></launch>"""
 _RUN = "['__import__']('os').system('touch {marker}')"
 _FRAME = "(lambda h: [h.append((h[0].gi_frame{back}.f_builtins for _ in [1])), list(h[0])[0]{run}][1])([])"
 _FRAMES = [_FRAME.format(back=".f_back" * count, run=_RUN) for count in range(8)]
-"""A generator's frame leads to that of its caller, and so on, until one has the builtins."""
+"""A generator's frame leads to its callers' frames, one of which has the builtins."""
 _PAYLOADS = [
     *_FRAMES,
     "__import__('os').system('touch {marker}')",
@@ -24,7 +24,7 @@ _PAYLOADS = [
 ]
 
 
-def _written(folder: Path, kind: str, payload: str, marker: Path) -> Path:
+def _write_file(folder: Path, kind: str, payload: str, marker: Path) -> Path:
     text = payload.format(marker=marker).replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
     if kind == "launch":
         file = folder / "x.launch"
@@ -44,10 +44,10 @@ def _written(folder: Path, kind: str, payload: str, marker: Path) -> Path:
 
 
 @pytest.mark.parametrize("kind", ["attribute", "condition", "property", "default", "angle", "launch"])
-def test_looking_at_a_file_runs_nothing(tmp_path: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_reading_a_hostile_file_runs_no_code(tmp_path: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
     marker = tmp_path / "marker"
     for payload in _PAYLOADS:
-        file = str(_written(tmp_path, kind, payload, marker))
+        file = str(_write_file(tmp_path, kind, payload, marker))
         for command in (
             ["check", file],
             ["xacro", file],

@@ -1,4 +1,4 @@
-"""HTML files that Trundle writes, in a browser: what a hostile name could do if it were not escaped."""
+"""HTML files that Trundle writes, opened in a browser with hostile names and injected markup."""
 
 import os
 import subprocess
@@ -22,13 +22,13 @@ INJECTED = (
     '<a id="link" href="javascript:window.ran = 1">link</a><object data="http://evil.example/"></object>'
 )
 HOSTILE = "a<img src=x onerror=window.ran=1>\"'&\u202e\u200b"
-"""Name of a file: markup, quotes, a change of direction, a letter without width."""
+"""File name with markup, quotes, a direction override and a zero-width space."""
 
 
 def _trundle(*words: str, folder: Path, code: int = 0) -> str:
-    done = subprocess.run([sys.executable, "-m", "trundle", *words], cwd=folder, capture_output=True, text=True)
-    assert done.returncode == code, done.stderr
-    return done.stdout
+    process = subprocess.run([sys.executable, "-m", "trundle", *words], cwd=folder, capture_output=True, text=True)
+    assert process.returncode == code, process.stderr
+    return process.stdout
 
 
 def _replay(folder: Path) -> Path:
@@ -63,15 +63,15 @@ def _contact_sheet(folder: Path) -> Path:
 @needs_client
 @pytest.mark.skipif(os.name != "posix", reason='names of files have no <, > and " elsewhere')
 @pytest.mark.parametrize("write", [_replay, _report, _contact_sheet])
-def test_it_opens_alone_and_runs_nothing_of_others(
+def test_html_files_load_nothing_and_run_only_their_own_script(
     chromium: Any, tmp_path: Path, write: Callable[[Path], Path]
 ) -> None:
-    """As written it breaks no rule of its policy; with an attacker's elements, it runs and loads none of them."""
+    """The file violates no rule of its policy; with injected elements, it runs and loads none of them."""
     file = write(tmp_path)
 
-    violations, asked = _open(chromium, file)
+    violations, requested = _open(chromium, file)
     assert violations == []
-    assert [url for url in asked if not url.startswith(("blob:", "data:"))] == [file.as_uri()]
+    assert [url for url in requested if not url.startswith(("blob:", "data:"))] == [file.as_uri()]
 
     html = file.read_text(encoding="utf-8")
     assert html.count("<body>") == 1
@@ -81,29 +81,29 @@ def test_it_opens_alone_and_runs_nothing_of_others(
     assert len(violations) >= 4
 
 
-def test_a_document_without_the_policy_would_run_them(chromium: Any, tmp_path: Path) -> None:
-    """Or with that of another script."""
+def test_injected_scripts_run_without_the_policy(chromium: Any, tmp_path: Path) -> None:
+    """With another script's policy they do not."""
     for policy, ran in (("", True), (policy_of_viewer("other()"), False)):
         (tmp_path / "bare.html").write_text(f"<head>{policy}</head><body>{INJECTED}</body>")
         _open(chromium, tmp_path / "bare.html", ran=ran)
 
 
 def _open(chromium: Any, file: Path, *, ran: bool = False) -> tuple[list[str], list[str]]:
-    """Open a file; return violations of its policy, and the URLs that were asked for."""
+    """Open a file; return violations of its policy, and the requested URLs."""
     violations: list[str] = []
-    asked: list[str] = []
-    left: list[str] = []
+    requested: list[str] = []
+    external: list[str] = []
     context = chromium.new_context()
     page = context.new_page()
-    page.route("http://**", lambda route: left.append(route.request.url) or route.abort())
+    page.route("http://**", lambda route: external.append(route.request.url) or route.abort())
     page.on("console", lambda message: violations.append(message.text) if "Security Policy" in message.text else None)
-    page.on("request", lambda request: asked.append(request.url))
+    page.on("request", lambda request: requested.append(request.url))
     page.goto(file.as_uri())
     page.wait_for_timeout(500)
     if page.locator("#link").count():
         page.locator("#link").evaluate("link => link.click()")
         page.wait_for_timeout(200)
     assert page.evaluate("window.ran === 1") is ran
-    assert bool(left) is ran, "requests that leave the browser"
+    assert bool(external) is ran, "requests that leave the browser"
     context.close()
-    return violations, asked
+    return violations, requested

@@ -1,4 +1,4 @@
-"""Programs and their children end with the process that started them, however it ends."""
+"""Programs and their children end with the process that started them, even a killed one."""
 
 import os
 import signal
@@ -13,7 +13,7 @@ import pytest
 from trundle.base.supervisor import ProcessTree
 
 TIMEOUT_S = 60.0
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="/proc, which shows who lives, is Linux's")
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="needs /proc, which only Linux has")
 
 PROGRAM = """
 import os, subprocess, sys, time
@@ -23,7 +23,7 @@ own_session = subprocess.Popen(sleep, start_new_session=True)
 print(os.getpid(), child.pid, own_session.pid, flush=True)
 time.sleep(600 * (sys.argv[1] == "stay"))
 """
-"""Starts a child, and one that leaves the process group, as a nested launch or a shell in a window does."""
+"""Starts a child, and one in its own session, like a nested launch or a shell in a window."""
 
 STARTER = """
 import asyncio, os, sys
@@ -40,8 +40,8 @@ asyncio.run(main())
 """
 
 
-def runs(pid: int) -> bool:
-    """Return True if a process lives; a zombie counts as dead."""
+def is_alive(pid: int) -> bool:
+    """Return True if a process is alive; a zombie counts as dead."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except (FileNotFoundError, ProcessLookupError):
@@ -55,7 +55,7 @@ def until(condition: Callable[[], object]) -> None:
         time.sleep(0.01)
 
 
-def test_all_of_it_ends_with_a_starter_that_is_killed() -> None:
+def test_the_tree_ends_with_a_killed_starter() -> None:
     with subprocess.Popen(
         [sys.executable, "-c", STARTER, PROGRAM], stdout=subprocess.PIPE, text=True, start_new_session=True
     ) as starter:
@@ -63,10 +63,10 @@ def test_all_of_it_ends_with_a_starter_that_is_killed() -> None:
         pids = [int(word) for word in starter.stdout.readline().split()]
         assert len(pids) == 3
         os.killpg(starter.pid, signal.SIGKILL)
-    until(lambda: not any(map(runs, pids)))
+    until(lambda: not any(map(is_alive, pids)))
 
 
-def test_what_a_program_leaves_behind_ends_as_the_tree_is_closed() -> None:
+def test_orphans_end_when_the_tree_is_closed() -> None:
     with ProcessTree() as tree:
         tree.watch()
         program = [sys.executable, "-S", "-c", PROGRAM, "leave"]
@@ -76,19 +76,19 @@ def test_what_a_program_leaves_behind_ends_as_the_tree_is_closed() -> None:
         ) as process:
             tree.add(process.pid)
             assert process.stdout is not None
-            _, *left = [int(word) for word in process.stdout.readline().split()]
+            _, *remaining = [int(word) for word in process.stdout.readline().split()]
             process.wait(TIMEOUT_S)
             tree.discard(process.pid)
-        assert all(map(runs, left))
-    until(lambda: not any(map(runs, left)))
+        assert all(map(is_alive, remaining))
+    until(lambda: not any(map(is_alive, remaining)))
 
 
-def test_a_deaf_process_is_killed() -> None:
-    deaf = "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); print(flush=True); time.sleep(600)"
+def test_a_process_that_ignores_sigterm_is_killed() -> None:
+    stubborn = "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); print(flush=True); time.sleep(600)"
     with ProcessTree(terminate_s=0.1) as tree:
         tree.watch()
         with subprocess.Popen(
-            [sys.executable, "-S", "-c", deaf], stdout=subprocess.PIPE, env=tree.environment(os.environ)
+            [sys.executable, "-S", "-c", stubborn], stdout=subprocess.PIPE, env=tree.environment(os.environ)
         ) as process:
             assert process.stdout is not None
             process.stdout.readline()

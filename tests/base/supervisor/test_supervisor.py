@@ -26,20 +26,20 @@ TIMEOUT_S = 60.0
 posix_only = pytest.mark.skipif(os.name != "posix", reason="signals and process groups are POSIX")
 
 
-class Stage:
-    """A supervisor whose events and lines are kept."""
+class Recording:
+    """Supervisor with recorded events and output lines."""
 
     def __init__(self, folder: Path, timeouts: StopTimeouts | None = None) -> None:
         self.events: list[Event] = []
         self.lines: list[tuple[str, str]] = []
         self.folder = folder
-        self.seen = asyncio.Event()
+        self.has_output = asyncio.Event()
         self.supervisor = Supervisor(self.events.append, timeouts=timeouts)
         self.tree = ProcessTree()
 
     def show(self, name: str, line: str) -> None:
         self.lines.append((name, line))
-        self.seen.set()
+        self.has_output.set()
 
     async def python(self, name: str, code: str, *, screen: bool = True, **policy: Any) -> bool:
         command = ProcessCommand(
@@ -54,118 +54,118 @@ class Stage:
 
     async def line(self, text: str) -> None:
         while text not in [line for _, line in self.lines]:
-            self.seen.clear()
-            await asyncio.wait_for(self.seen.wait(), TIMEOUT_S)
+            self.has_output.clear()
+            await asyncio.wait_for(self.has_output.wait(), TIMEOUT_S)
 
     def kinds(self, name: str) -> list[str]:
         return [event.kind for event in self.events if event.name == name]
 
 
-def on_stage(
-    folder: Path, play: Callable[[Stage], Coroutine[Any, Any, None]], timeouts: StopTimeouts | None = None
-) -> Stage:
-    async def run() -> Stage:
-        stage = Stage(folder, timeouts)
+def run_jobs(
+    folder: Path, start_jobs: Callable[[Recording], Coroutine[Any, Any, None]], timeouts: StopTimeouts | None = None
+) -> Recording:
+    async def run() -> Recording:
+        recording = Recording(folder, timeouts)
         try:
-            await asyncio.wait_for(play(stage), TIMEOUT_S)
+            await asyncio.wait_for(start_jobs(recording), TIMEOUT_S)
         finally:
-            await stage.supervisor.stop()
-            stage.tree.close()
-        return stage
+            await recording.supervisor.stop()
+            recording.tree.close()
+        return recording
 
     return asyncio.run(run())
 
 
 def test_lines_go_to_the_screen_with_the_jobs_name(tmp_path: Path) -> None:
-    async def play(stage: Stage) -> None:
-        await stage.python("a", "import os; print('out'); print(os.getcwd())")
-        assert await stage.supervisor.wait() is None
+    async def start_jobs(recording: Recording) -> None:
+        await recording.python("a", "import os; print('out'); print(os.getcwd())")
+        assert await recording.supervisor.wait() is None
 
-    stage = on_stage(tmp_path, play)
-    assert stage.lines == [("a", "out"), ("a", str(tmp_path.resolve()))]
-    assert stage.kinds("a") == ["started", "finished"]
-    assert stage.supervisor.exit_codes() == {"a": 0}
+    recording = run_jobs(tmp_path, start_jobs)
+    assert recording.lines == [("a", "out"), ("a", str(tmp_path.resolve()))]
+    assert recording.kinds("a") == ["started", "finished"]
+    assert recording.supervisor.exit_codes() == {"a": 0}
 
 
 def test_only_errors_go_to_the_screen_when_output_is_log(tmp_path: Path) -> None:
-    async def play(stage: Stage) -> None:
-        await stage.python("a", "import sys; print('out'); print('err', file=sys.stderr)", screen=False)
-        await stage.supervisor.wait()
+    async def start_jobs(recording: Recording) -> None:
+        await recording.python("a", "import sys; print('out'); print('err', file=sys.stderr)", screen=False)
+        await recording.supervisor.wait()
 
-    stage = on_stage(tmp_path, play)
-    assert stage.lines == [("a", "err")]
+    recording = run_jobs(tmp_path, start_jobs)
+    assert recording.lines == [("a", "err")]
     assert (tmp_path / "a.log").read_text() == "out\n"
 
 
-def test_a_death_is_told_with_code_and_last_output(tmp_path: Path) -> None:
-    async def play(stage: Stage) -> None:
-        await stage.python("a", "print('going down'); raise SystemExit(3)")
-        await stage.supervisor.wait()
+def test_a_death_is_reported_with_exit_code_and_last_output(tmp_path: Path) -> None:
+    async def start_jobs(recording: Recording) -> None:
+        await recording.python("a", "print('going down'); raise SystemExit(3)")
+        await recording.supervisor.wait()
 
-    stage = on_stage(tmp_path, play)
-    assert stage.events[-1].text == "has died [exit code 3]; its last output:\n    going down"
+    recording = run_jobs(tmp_path, start_jobs)
+    assert recording.events[-1].text == "has died [exit code 3]; its last output:\n    going down"
 
 
-def test_a_program_that_is_not_there_is_told_and_the_rest_goes_on(tmp_path: Path) -> None:
-    async def play(stage: Stage) -> None:
+def test_a_missing_program_is_reported_and_other_jobs_run(tmp_path: Path) -> None:
+    async def start_jobs(recording: Recording) -> None:
         command = ProcessCommand(name="a", argv=("/no/such/program",), env={})
-        assert not await stage.supervisor.start(ProcessJob(command, stage.show, tree=stage.tree))
-        assert await stage.python("b", "print('hi')")
-        await stage.supervisor.wait()
+        assert not await recording.supervisor.start(ProcessJob(command, recording.show, tree=recording.tree))
+        assert await recording.python("b", "print('hi')")
+        await recording.supervisor.wait()
 
-    stage = on_stage(tmp_path, play)
-    assert stage.events[0].text == "cannot be started: '/no/such/program' does not exist"
-    assert stage.lines == [("b", "hi")]
+    recording = run_jobs(tmp_path, start_jobs)
+    assert recording.events[0].text == "cannot be started: '/no/such/program' does not exist"
+    assert recording.lines == [("b", "hi")]
 
 
-def test_a_job_is_respawned_when_asked_for(tmp_path: Path) -> None:
+def test_a_job_is_respawned_by_its_policy(tmp_path: Path) -> None:
     code = "import os\nn = len(os.listdir('.'))\nopen(str(n), 'w')\nprint(n)\nif n >= 2: import time; time.sleep(600)"
 
-    async def play(stage: Stage) -> None:
-        await stage.python("a", code, respawn=True)
-        await stage.line("2")
+    async def start_jobs(recording: Recording) -> None:
+        await recording.python("a", code, respawn=True)
+        await recording.line("2")
 
-    stage = on_stage(tmp_path, play)
-    assert stage.kinds("a") == ["started", "finished", "respawning"] * 2 + ["started", "stopping"]
-
-
-def test_without_jobs_there_is_nothing_to_wait_for(tmp_path: Path) -> None:
-    async def play(stage: Stage) -> None:
-        assert await stage.supervisor.wait() is None
-
-    on_stage(tmp_path, play)
+    recording = run_jobs(tmp_path, start_jobs)
+    assert recording.kinds("a") == ["started", "finished", "respawning"] * 2 + ["started", "stopping"]
 
 
-def test_a_required_job_ends_everything_however_cleanly_it_ends(tmp_path: Path) -> None:
-    async def play(stage: Stage) -> None:
-        await stage.python("other", "import time; time.sleep(600)")
-        await stage.python("main", "pass", required=True)
-        assert await stage.supervisor.wait() == "main"
+def test_wait_returns_at_once_without_jobs(tmp_path: Path) -> None:
+    async def start_jobs(recording: Recording) -> None:
+        assert await recording.supervisor.wait() is None
 
-    stage = on_stage(tmp_path, play)
-    assert stage.kinds("main") == ["started", "finished", "required"]
+    run_jobs(tmp_path, start_jobs)
+
+
+def test_a_required_job_ends_the_wait_even_with_exit_code_0(tmp_path: Path) -> None:
+    async def start_jobs(recording: Recording) -> None:
+        await recording.python("other", "import time; time.sleep(600)")
+        await recording.python("main", "pass", required=True)
+        assert await recording.supervisor.wait() == "main"
+
+    recording = run_jobs(tmp_path, start_jobs)
+    assert recording.kinds("main") == ["started", "finished", "required"]
 
 
 @posix_only
 def test_jobs_are_stopped_in_reverse_order_by_interrupt(tmp_path: Path) -> None:
-    # Within the try: the interrupt may come right after the print.
+    # In the try block, as the interrupt may arrive right after the print.
     code = "import time\ntry:\n    print('up')\n    time.sleep(600)\nexcept KeyboardInterrupt: print('bye')"
 
-    async def play(stage: Stage) -> None:
+    async def start_jobs(recording: Recording) -> None:
         for name in ("a", "b"):
-            await stage.python(name, code)
-        while len(stage.lines) < 2:
-            stage.seen.clear()
-            await asyncio.wait_for(stage.seen.wait(), TIMEOUT_S)
+            await recording.python(name, code)
+        while len(recording.lines) < 2:
+            recording.has_output.clear()
+            await asyncio.wait_for(recording.has_output.wait(), TIMEOUT_S)
 
-    stage = on_stage(tmp_path, play)
-    assert [event.name for event in stage.events if event.kind == "stopping"] == ["b", "a"]
-    assert sorted(stage.lines) == [("a", "bye"), ("a", "up"), ("b", "bye"), ("b", "up")]
-    assert stage.supervisor.exit_codes() == {"a": 0, "b": 0}
+    recording = run_jobs(tmp_path, start_jobs)
+    assert [event.name for event in recording.events if event.kind == "stopping"] == ["b", "a"]
+    assert sorted(recording.lines) == [("a", "bye"), ("a", "up"), ("b", "bye"), ("b", "up")]
+    assert recording.supervisor.exit_codes() == {"a": 0, "b": 0}
 
 
 @posix_only
-def test_a_deaf_program_and_its_children_are_killed(tmp_path: Path) -> None:
+def test_a_program_that_ignores_signals_is_killed_with_its_children(tmp_path: Path) -> None:
     code = (
         "import os, signal, subprocess, sys, time\n"
         "for s in (signal.SIGINT, signal.SIGTERM): signal.signal(s, signal.SIG_IGN)\n"
@@ -173,13 +173,13 @@ def test_a_deaf_program_and_its_children_are_killed(tmp_path: Path) -> None:
         "print(child.pid)\ntime.sleep(600)"
     )
 
-    async def play(stage: Stage) -> None:
-        await stage.python("a", code)
-        await asyncio.wait_for(stage.seen.wait(), TIMEOUT_S)
+    async def start_jobs(recording: Recording) -> None:
+        await recording.python("a", code)
+        await asyncio.wait_for(recording.has_output.wait(), TIMEOUT_S)
 
-    stage = on_stage(tmp_path, play, StopTimeouts(interrupt_s=0.1, terminate_s=0.1))
-    assert stage.supervisor.exit_codes() == {"a": -9}
-    child = int(stage.lines[0][1])
+    recording = run_jobs(tmp_path, start_jobs, StopTimeouts(interrupt_s=0.1, terminate_s=0.1))
+    assert recording.supervisor.exit_codes() == {"a": -9}
+    child = int(recording.lines[0][1])
     wait_for_end(Path(f"/proc/{child}/stat"))
 
 
@@ -193,34 +193,36 @@ def wait_for_end(status: Path) -> None:
             return
         if state == "Z":
             return
-        assert time.monotonic() < end, f"still there: {state}"
+        assert time.monotonic() < end, f"still alive: {state}"
         time.sleep(0.01)
 
 
 def test_endless_lines_do_not_fill_the_memory(tmp_path: Path) -> None:
-    async def play(stage: Stage) -> None:
-        await stage.python("a", "import sys; sys.stdout.write('x' * 300_000); sys.stdout.flush(); raise SystemExit(1)")
-        await stage.supervisor.wait()
+    async def start_jobs(recording: Recording) -> None:
+        await recording.python(
+            "a", "import sys; sys.stdout.write('x' * 300_000); sys.stdout.flush(); raise SystemExit(1)"
+        )
+        await recording.supervisor.wait()
 
-    stage = on_stage(tmp_path, play)
-    assert len(stage.lines) > 1
-    assert "".join(line for _, line in stage.lines) == "x" * 300_000
+    recording = run_jobs(tmp_path, start_jobs)
+    assert len(recording.lines) > 1
+    assert "".join(line for _, line in recording.lines) == "x" * 300_000
 
 
-def test_a_task_ends_as_a_process_does(tmp_path: Path) -> None:
+def test_tasks_report_the_same_events_as_processes(tmp_path: Path) -> None:
     async def fine() -> int:
         return 0
 
     async def refused() -> int:
         raise UsageError("no such port")
 
-    async def play(stage: Stage) -> None:
-        await stage.supervisor.start(TaskJob("fine", fine))
-        await stage.supervisor.start(TaskJob("refused", refused))
-        await stage.supervisor.wait()
+    async def start_jobs(recording: Recording) -> None:
+        await recording.supervisor.start(TaskJob("fine", fine))
+        await recording.supervisor.start(TaskJob("refused", refused))
+        await recording.supervisor.wait()
 
-    stage = on_stage(tmp_path, play)
-    assert [event.text for event in stage.events if event.kind in ("finished", "died")] == [
+    recording = run_jobs(tmp_path, start_jobs)
+    assert [event.text for event in recording.events if event.kind in ("finished", "died")] == [
         "has finished cleanly",
         "has died [exit code 1]; its last output:\n    no such port",
     ]
@@ -236,19 +238,19 @@ def test_a_task_is_cancelled_on_stop(tmp_path: Path) -> None:
             cleaned.append(True)
         return 0
 
-    async def play(stage: Stage) -> None:
-        await stage.supervisor.start(TaskJob("a", endless))
+    async def start_jobs(recording: Recording) -> None:
+        await recording.supervisor.start(TaskJob("a", endless))
         await asyncio.sleep(0)
 
-    on_stage(tmp_path, play)
+    run_jobs(tmp_path, start_jobs)
     assert cleaned == [True]
 
 
 @pytest.mark.slow
-def test_a_task_that_ignores_its_cancellation_holds_up_nobody(tmp_path: Path) -> None:
+def test_a_task_that_ignores_its_cancellation_does_not_block_stop(tmp_path: Path) -> None:
     release = asyncio.Event()
 
-    async def deaf() -> int:
+    async def stubborn() -> int:
         while not release.is_set():
             try:
                 await release.wait()
@@ -256,10 +258,10 @@ def test_a_task_that_ignores_its_cancellation_holds_up_nobody(tmp_path: Path) ->
                 continue
         return 0
 
-    async def play(stage: Stage) -> None:
-        await stage.supervisor.start(TaskJob("a", deaf))
+    async def start_jobs(recording: Recording) -> None:
+        await recording.supervisor.start(TaskJob("a", stubborn))
         await asyncio.sleep(0)
-        await stage.supervisor.stop()
+        await recording.supervisor.stop()
         release.set()
 
-    on_stage(tmp_path, play, StopTimeouts(terminate_s=0.05))
+    run_jobs(tmp_path, start_jobs, StopTimeouts(terminate_s=0.05))

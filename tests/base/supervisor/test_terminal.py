@@ -1,4 +1,4 @@
-"""Programs run in a terminal of ours: keys reach them, their output is kept within bounds, their end is shown."""
+"""Programs in a `Terminal`: they receive keys, their output is bounded, and their end is shown."""
 
 import asyncio
 import os
@@ -27,8 +27,8 @@ MAX_BYTES = 256 * 1024
 READS_KEYS = "import sys, tty; tty.setcbreak(0); print('ready'); key = sys.stdin.read(1); print(f'<{key}>')"
 
 
-class Stage:
-    """A terminal with a program in it."""
+class Session:
+    """Terminal with a supervised program."""
 
     def __init__(self, folder: Path, argv: tuple[str, ...]) -> None:
         self.terminal = Terminal()
@@ -48,16 +48,18 @@ class Stage:
         await self.until(lambda: text in self.terminal.scrollback)
 
 
-def run_in_terminal(folder: Path, argv: tuple[str, ...], play: Callable[[Stage], Coroutine[Any, Any, None]]) -> Stage:
-    async def run() -> Stage:
-        stage = Stage(folder, argv)
+def run_in_terminal(
+    folder: Path, argv: tuple[str, ...], interact: Callable[[Session], Coroutine[Any, Any, None]]
+) -> Session:
+    async def run() -> Session:
+        session = Session(folder, argv)
         try:
-            await stage.supervisor.start(stage.job)
-            await play(stage)
+            await session.supervisor.start(session.job)
+            await interact(session)
         finally:
-            await stage.supervisor.stop()
-            stage.tree.close()
-        return stage
+            await session.supervisor.stop()
+            session.tree.close()
+        return session
 
     return asyncio.run(run())
 
@@ -67,32 +69,32 @@ def python(code: str) -> tuple[str, ...]:
 
 
 def test_a_program_reads_keys_without_enter(tmp_path: Path) -> None:
-    async def play(stage: Stage) -> None:
-        await stage.sees(b"ready")
-        stage.terminal.type("w")
-        await stage.supervisor.wait()
+    async def interact(session: Session) -> None:
+        await session.sees(b"ready")
+        session.terminal.type("w")
+        await session.supervisor.wait()
 
-    stage = run_in_terminal(tmp_path, python(READS_KEYS), play)
+    session = run_in_terminal(tmp_path, python(READS_KEYS), interact)
 
-    assert stage.terminal.scrollback.endswith(b"ready\r\n<w>\r\n")
-    assert stage.lines == []
-    assert [event.kind for event in stage.events] == ["started", "finished"]
+    assert session.terminal.scrollback.endswith(b"ready\r\n<w>\r\n")
+    assert session.lines == []
+    assert [event.kind for event in session.events] == ["started", "finished"]
 
 
 def test_ctrl_c_interrupts_the_program_alone(tmp_path: Path) -> None:
-    async def play(stage: Stage) -> None:
-        await stage.sees(b"ready")
-        stage.terminal.type("\x03")
-        await stage.supervisor.wait()
+    async def interact(session: Session) -> None:
+        await session.sees(b"ready")
+        session.terminal.type("\x03")
+        await session.supervisor.wait()
 
-    stage = run_in_terminal(tmp_path, python("print('ready', flush=True); import time; time.sleep(1000)"), play)
+    session = run_in_terminal(tmp_path, python("print('ready', flush=True); import time; time.sleep(1000)"), interact)
 
-    assert stage.supervisor.exit_codes() == {"node": -signal.SIGINT}
-    assert stage.events[-1].text.startswith("has died [signal 2]; its last output:")
-    assert "    KeyboardInterrupt" in stage.events[-1].text.splitlines()
+    assert session.supervisor.exit_codes() == {"node": -signal.SIGINT}
+    assert session.events[-1].text.startswith("has died [signal 2]; its last output:")
+    assert "    KeyboardInterrupt" in session.events[-1].text.splitlines()
 
 
-def test_the_program_knows_the_size_and_its_changes(tmp_path: Path) -> None:
+def test_the_program_sees_the_terminal_size_and_its_changes(tmp_path: Path) -> None:
     code = """
 import os, signal
 def show(*_):
@@ -103,49 +105,49 @@ while True:
     signal.pause()
 """
 
-    async def play(stage: Stage) -> None:
-        await stage.sees(b"80 24")
-        stage.terminal.resize(132, 43)
-        await stage.sees(b"132 43")
-        stage.terminal.resize(10**9, 0)
-        await stage.sees(b"500 2")
+    async def interact(session: Session) -> None:
+        await session.sees(b"80 24")
+        session.terminal.resize(132, 43)
+        await session.sees(b"132 43")
+        session.terminal.resize(10**9, 0)
+        await session.sees(b"500 2")
 
-    run_in_terminal(tmp_path, python(code), play)
-
-
-def test_a_program_that_prints_without_end_fills_no_memory_and_stops_nobody(tmp_path: Path) -> None:
-    async def play(stage: Stage) -> None:
-        await stage.until(lambda: stage.terminal.first > 2 * MAX_BYTES)
-        assert len(stage.terminal.scrollback) <= MAX_BYTES
-        assert stage.terminal.scrollback.startswith(b"all work\r\n")
-        stage.terminal.type("\x03")
-        await stage.supervisor.wait()
-
-    stage = run_in_terminal(tmp_path, ("yes", "all work"), play)
-
-    assert stage.supervisor.exit_codes() == {"node": -signal.SIGINT}
+    run_in_terminal(tmp_path, python(code), interact)
 
 
-def test_keys_that_nobody_reads_are_lost_in_the_end(tmp_path: Path) -> None:
-    async def play(stage: Stage) -> None:
-        await stage.sees(b"ready")
+def test_endless_output_is_bounded_and_can_be_interrupted(tmp_path: Path) -> None:
+    async def interact(session: Session) -> None:
+        await session.until(lambda: session.terminal.first > 2 * MAX_BYTES)
+        assert len(session.terminal.scrollback) <= MAX_BYTES
+        assert session.terminal.scrollback.startswith(b"all work\r\n")
+        session.terminal.type("\x03")
+        await session.supervisor.wait()
+
+    session = run_in_terminal(tmp_path, ("yes", "all work"), interact)
+
+    assert session.supervisor.exit_codes() == {"node": -signal.SIGINT}
+
+
+def test_unread_keys_are_bounded(tmp_path: Path) -> None:
+    async def interact(session: Session) -> None:
+        await session.sees(b"ready")
         for _ in range(100):
-            stage.terminal.type("x" * 10_000)
-        assert len(stage.terminal._keys) <= 64 * 1024  # pyright: ignore[reportPrivateUsage]
+            session.terminal.type("x" * 10_000)
+        assert len(session.terminal._keys) <= 64 * 1024  # pyright: ignore[reportPrivateUsage]
 
     code = "import tty, time; tty.setraw(0); print('ready', flush=True); time.sleep(1000)"
-    run_in_terminal(tmp_path, python(code), play)
+    run_in_terminal(tmp_path, python(code), interact)
 
 
-def test_a_program_started_again_prints_below_the_first(tmp_path: Path) -> None:
+def test_a_restarted_program_appends_its_output(tmp_path: Path) -> None:
     async def run() -> Terminal:
-        stage = Stage(tmp_path, python("print('once')"))
+        session = Session(tmp_path, python("print('once')"))
         for _ in range(2):
-            await stage.job.start()
-            assert await stage.job.wait() == 0
-            stage.terminal.end("has finished cleanly")
-        stage.tree.close()
-        return stage.terminal
+            await session.job.start()
+            assert await session.job.wait() == 0
+            session.terminal.end("has finished cleanly")
+        session.tree.close()
+        return session.terminal
 
     terminal = asyncio.run(run())
 
@@ -153,36 +155,36 @@ def test_a_program_started_again_prints_below_the_first(tmp_path: Path) -> None:
     assert terminal.scrollback.count(b"\x1b[?1049l") == 2
 
 
-def test_signals_that_python_ignores_are_not_ignored_by_the_program(tmp_path: Path) -> None:
-    async def play(stage: Stage) -> None:
-        await stage.supervisor.wait()
+def test_the_program_does_not_inherit_pythons_ignored_signals(tmp_path: Path) -> None:
+    async def interact(session: Session) -> None:
+        await session.supervisor.wait()
 
-    stage = run_in_terminal(tmp_path, ("grep", "SigIgn", "/proc/self/status"), play)
+    session = run_in_terminal(tmp_path, ("grep", "SigIgn", "/proc/self/status"), interact)
 
-    ignored = int(stage.terminal.last_lines(1)[0].split()[1], 16)
+    ignored = int(session.terminal.last_lines(1)[0].split()[1], 16)
     assert not ignored & (1 << (signal.SIGPIPE - 1))
 
 
-def test_a_program_that_is_not_there_is_named(tmp_path: Path) -> None:
+def test_a_missing_program_is_named(tmp_path: Path) -> None:
     async def run() -> None:
-        stage = Stage(tmp_path, ("no_such_program",))
+        session = Session(tmp_path, ("no_such_program",))
         try:
             with pytest.raises(JobError, match="'no_such_program' does not exist, or cannot be run"):
-                await stage.job.start()
+                await session.job.start()
         finally:
-            stage.tree.close()
+            session.tree.close()
 
     asyncio.run(run())
 
 
-def test_last_lines_are_without_control_characters() -> None:
+def test_last_lines_have_no_control_characters() -> None:
     terminal = Terminal()
     terminal.write("old\n\x1b]0;title\x07\x1b[1;31mred\x1b[0m\x08 text\n10 %\r20 %\n\n")
 
     assert terminal.last_lines(2) == ["red text", "20 %"]
 
 
-def test_a_listener_gets_the_keys_and_no_process_is_needed() -> None:
+def test_a_listener_receives_keys_without_a_process() -> None:
     terminal = Terminal()
     keys: list[str] = []
     terminal.type("lost")

@@ -1,4 +1,4 @@
-"""Rows run by processes, whatever ends these."""
+"""Rows run by local processes, which may hang, crash or grow."""
 
 import os
 import sys
@@ -44,54 +44,54 @@ def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def _made(folder: Path) -> "Callable[[], Callable[[int], int]]":
+def _make(folder: Path) -> "Callable[[], Callable[[int], int]]":
     import squares_of_rows  # pyright: ignore[reportMissingImports]
 
     return partial(squares_of_rows.make, str(folder))
 
 
 def _run(job: Job[int], rows: range, *, workers: int = 2) -> list[JobResult[int]]:
-    found = run_rows(job, iter(rows), count=len(rows), workers=workers, is_ending=lambda: False)
-    return sorted((each for each in found if each is not None), key=lambda each: each.row)
+    results = run_rows(job, iter(rows), count=len(rows), workers=workers, is_ending=lambda: False)
+    return sorted((result for result in results if result is not None), key=lambda result: result.row)
 
 
-def test_each_row_has_one_outcome_and_each_process_makes_its_work_once(module: Path) -> None:
-    outcomes = _run(Job(make=_made(module)), range(10, 300))
+def test_each_row_has_one_result_and_each_process_makes_its_function_once(module: Path) -> None:
+    results = _run(Job(make=_make(module)), range(10, 300))
 
-    assert [(each.row, each.value) for each in outcomes] == [(row, row * row) for row in range(10, 300)]
+    assert [(result.row, result.value) for result in results] == [(row, row * row) for row in range(10, 300)]
     assert len(list(module.glob("*.made"))) == 2
 
 
 @pytest.mark.slow
-def test_what_hangs_ends_or_grows_is_an_outcome_and_the_rest_goes_on(module: Path) -> None:
-    job = Job(make=_made(module), time_limit_s=10, memory_limit_bytes=400_000_000)
+def test_rows_that_hang_crash_or_grow_fail_and_the_others_succeed(module: Path) -> None:
+    job = Job(make=_make(module), time_limit_s=10, memory_limit_bytes=400_000_000)
 
-    outcomes = _run(job, range(12))
+    results = _run(job, range(12))
 
-    failed = {each.row: (each.failure, each.reason) for each in outcomes if each.failure is not None}
+    failed = {result.row: (result.failure, result.reason) for result in results if result.failure is not None}
     assert failed == {
         3: ("timeout", "longer than the time limit of 10 s"),
         5: ("lost", "its process ended: exit code 7"),
         8: ("memory", "more than the memory limit of 400 MB"),
     }
-    assert {each.row: each.value for each in outcomes if each.failure is None} == {
+    assert {result.row: result.value for result in results if result.failure is None} == {
         row: row * row for row in range(12) if row not in failed
     }
 
 
 def test_ending_kills_the_workers(module: Path) -> None:
     started = time.monotonic()
-    rows = run_rows(Job(make=_made(module)), iter(range(3, 4)), count=1, is_ending=lambda: any(module.glob("*.made")))
+    rows = run_rows(Job(make=_make(module)), iter(range(3, 4)), count=1, is_ending=lambda: any(module.glob("*.made")))
 
     assert not any(rows)
-    (pid,) = (int(each.stem) for each in module.glob("*.made"))
+    (pid,) = (int(file.stem) for file in module.glob("*.made"))
     with pytest.raises(ProcessLookupError):
         os.kill(pid, 0)
     assert time.monotonic() - started < 900, "the row itself sleeps longer"
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="stderr of the process is looked at")
-def test_work_that_cannot_be_made_is_an_error(module: Path, capfd: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.skipif(sys.platform == "win32", reason="the test reads the process's stderr")
+def test_a_function_that_cannot_be_made_is_an_error(module: Path, capfd: pytest.CaptureFixture[str]) -> None:
     import squares_of_rows  # pyright: ignore[reportMissingImports]
 
     with pytest.raises(TrundleError, match="a worker process does not start: exit code 1; its error is above"):

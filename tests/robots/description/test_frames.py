@@ -290,7 +290,7 @@ def test_deeply_nested_elements_are_skipped_as_in_gazebo(tmp_path: Path) -> None
 
 @pytest.mark.parametrize("body", ["<a>" * 100_000, "<a>" * 3000 + "</a>" * 3000])
 def test_elements_nested_too_deeply_are_one_error(tmp_path: Path, body: str) -> None:
-    with pytest.raises(DescriptionError, match=r"x\.sdf:1: error: elements more than 2000 deep in one another"):
+    with pytest.raises(DescriptionError, match=r"x\.sdf:1: error: elements nested more than 2000 deep"):
         model(tmp_path, body)
 
 

@@ -5,7 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from trundle.base.diagnostics import coloured
+from trundle.base.diagnostics import colored
 from trundle.base.garbage import no_garbage
 
 from .options import add_allow_outside, add_lenient
@@ -62,5 +62,5 @@ def _check(args: argparse.Namespace) -> int:
             from trundle.base.drawing.tree import tree_text
 
             print(tree_text(outcome.trees()))
-        print(coloured(outcome.text(), sys.stdout))
+        print(colored(outcome.text(), sys.stdout))
     return 1 if outcome.report.errors or (args.strict and warned) else 0

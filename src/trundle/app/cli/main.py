@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Protocol, cast
 
 from trundle import __version__
-from trundle.base.diagnostics import TrundleError, coloured, nearest
+from trundle.base.diagnostics import TrundleError, colored, nearest
 from trundle.base.shortage import shortage
 from trundle.robots.names import Arguments, parse_arguments
 
@@ -176,7 +176,7 @@ def _run(name: str, arguments: Sequence[str], *, program: str) -> int:
         return int(stop.code or 0)
     except TrundleError as error:
         what = str(error) if _has_location(str(error)) else f"{program}: error: {error}"
-        print(coloured(what, sys.stderr), file=sys.stderr)
+        print(colored(what, sys.stderr), file=sys.stderr)
         if error.missing_packages and name != "pack":
             from .fetching import offer
 

@@ -43,8 +43,8 @@ def node_graph(
         item: Item = ("topic", topic)
         edges.extend((_node(name), item) for name in publishers.get(topic, []))
         edges.extend((item, _node(name)) for name in subscribers.get(topic, []))
-    everybody = {node for table in (publishers, subscribers) for nodes in table.values() for node in nodes}
-    items: list[Item] = [_node(name) for name in sorted(everybody) if name != "/rosout" or with_all]
+    names = {name for table in (publishers, subscribers) for nodes in table.values() for name in nodes}
+    items: list[Item] = [_node(name) for name in sorted(names) if name != "/rosout" or with_all]
     return NodeGraph([*items, *(("topic", topic) for topic in topics)], edges)
 
 
@@ -65,14 +65,14 @@ def graph_svg(drawing: NodeGraph) -> str:
     """Draw the graph as SVG, each item right of its inputs as far as loops allow."""
     placed = layered_layout(drawing.items, drawing.edges, box_gap=_ROW, slot_gap=_SLOT)
     widths: dict[Vertex, float] = {item: len(item[1]) * _CHARACTER + 20 for item in drawing.items}
-    places: dict[Vertex, _Slot] = {}
+    slots: dict[Vertex, _Slot] = {}
     left = float(_MARGIN)
     for column in placed.columns:
         widest = max((widths.get(vertex, 0.0) for vertex in column), default=0.0)
         for vertex in column:
             width = widths.get(vertex, widest)
             middle = _MARGIN + _HEIGHT / 2 + placed.heights[vertex]
-            places[vertex] = _Slot(left + (widest - width) / 2, middle, width, (left - _LEVEL, left + widest + _LEVEL))
+            slots[vertex] = _Slot(left + (widest - width) / 2, middle, width, (left - _LEVEL, left + widest + _LEVEL))
         left += widest + _GAP
     height = max(placed.heights.values(), default=0.0) + _HEIGHT + 2 * _MARGIN
     return "\n".join(
@@ -84,8 +84,8 @@ def graph_svg(drawing: NodeGraph) -> str:
             '<marker id="tip" viewBox="0 0 8 8" refX="8" refY="4" markerWidth="8" markerHeight="8" orient="auto">'
             '<path d="M0 0L8 4L0 8z"/></marker>',
             '<rect width="100%" height="100%" fill="#fff"/>',
-            *(_arrow([places[vertex] for vertex in route]) for route in placed.routes),
-            *(_box(item, places[item]) for item in drawing.items),
+            *(_arrow([slots[vertex] for vertex in route]) for route in placed.routes),
+            *(_box(item, slots[item]) for item in drawing.items),
             "</svg>",
             "",
         ]
@@ -107,7 +107,7 @@ def _arrow(route: Sequence[_Slot]) -> str:
     """Draw an arrow, horizontal through columns and curved between them; a loop-closing one runs from right to left."""
     forwards = route[0].column <= route[-1].column
     start, end = route[0], route[-1]
-    heights = [place.middle for place in route]
+    heights = [slot.middle for slot in route]
     if not forwards:
         heights[0] += _LOWER
         heights[-1] += _LOWER
@@ -119,13 +119,13 @@ def _arrow(route: Sequence[_Slot]) -> str:
     return f'<path d="{path}H{end.left if forwards else end.left + end.width:.1f}" marker-end="url(#tip)"/>'
 
 
-def _box(item: Item, place: _Slot) -> str:
+def _box(item: Item, slot: _Slot) -> str:
     kind, name = item
     radius = _HEIGHT / 2 if kind == "node" else 3
     return (
-        f'<rect class="{kind}" x="{place.left:.1f}" y="{place.middle - _HEIGHT / 2:.1f}" width="{place.width:.1f}" '
+        f'<rect class="{kind}" x="{slot.left:.1f}" y="{slot.middle - _HEIGHT / 2:.1f}" width="{slot.width:.1f}" '
         f'height="{_HEIGHT}" rx="{radius:g}"/>'
-        f'<text x="{place.left + place.width / 2:.1f}" y="{place.middle + 4:.1f}">{escape(name)}</text>'
+        f'<text x="{slot.left + slot.width / 2:.1f}" y="{slot.middle + 4:.1f}">{escape(name)}</text>'
     )
 
 

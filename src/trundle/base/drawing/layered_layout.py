@@ -11,9 +11,9 @@ from typing import TypeAlias
 
 Vertex: TypeAlias = Hashable
 _SWEEPS = 12
-"""Passes of sorting each column by its neighbours, which removes most crossings."""
+"""Passes of sorting each column by its neighbors, which removes most crossings."""
 _STRAIGHT = 8.0
-"""Weight of a straight arrow against a centred box."""
+"""Weight of a straight arrow relative to a centered box."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +23,7 @@ class LayeredLayout:
     columns: list[list[Vertex]]
     """Columns from left to right, each from top to bottom; a slot is (number of the edge, column)."""
     heights: dict[Vertex, float]
-    """Vertical centre of each, from 0 at the topmost."""
+    """Vertical center of each vertex, from 0 at the topmost."""
     routes: list[list[Vertex]]
     """Vertices of each edge from start to end, slots included."""
 
@@ -36,17 +36,17 @@ def layered_layout(
     Args:
         items: boxes.
         edges: pairs of boxes, (from, to).
-        box_gap: distance between the centres of two boxes in a column.
-        slot_gap: distance between the centres of two slots.
+        box_gap: distance between the centers of two boxes in a column.
+        slot_gap: distance between the centers of two slots.
     """
     order = _without_loops(items, edges)
     position = {item: i for i, item in enumerate(order)}
     forwards = [(a, b) if position[a] <= position[b] else (b, a) for a, b in edges]
     depth = _depths(order, forwards)
     columns: list[list[Vertex]] = [[] for _ in range(max(depth.values(), default=-1) + 1)]
-    joined = {item for edge in edges for item in edge}
+    linked = {item for edge in edges for item in edge}
     for item in order:
-        if item in joined:
+        if item in linked:
             columns[depth[item]].append(item)
     links: dict[Vertex, tuple[list[Vertex], list[Vertex]]] = {item: ([], []) for item in order}
     routes: list[list[Vertex]] = []
@@ -64,7 +64,7 @@ def layered_layout(
     _sort(columns, links)
     heights = _heights(columns, links, boxes, box_gap, slot_gap)
     lowest = max(heights.values(), default=-box_gap)
-    for item in (item for item in items if item not in joined):  # boxes without arrows go below all others
+    for item in (item for item in items if item not in linked):  # boxes without arrows go below all others
         lowest += box_gap
         heights[item] = lowest
         columns[0].append(item)
@@ -74,51 +74,51 @@ def layered_layout(
 
 def _without_loops(items: Sequence[Vertex], edges: Sequence[tuple[Vertex, Vertex]]) -> list[Vertex]:
     """Order the boxes so that all arrows point forwards, except those that close a loop."""
-    below: dict[Vertex, list[Vertex]] = {item: [] for item in items}
-    fed = {end for _, end in edges}
+    successors: dict[Vertex, list[Vertex]] = {item: [] for item in items}
+    has_input = {end for _, end in edges}
     for start, end in edges:
-        below[start].append(end)
+        successors[start].append(end)
     done: dict[Vertex, None] = {}
     entered: set[Vertex] = set()
-    for first in sorted(items, key=lambda item: item in fed):  # a loop is cut at its entry
-        waiting = [(first, iter(below[first]))] if first not in entered else []
+    for first in sorted(items, key=lambda item: item in has_input):  # a loop is cut at its entry
+        stack = [(first, iter(successors[first]))] if first not in entered else []
         entered.add(first)
-        while waiting:
-            item, rest = waiting[-1]
-            following = next((other for other in rest if other not in entered), None)
-            if following is None:
+        while stack:
+            item, rest = stack[-1]
+            successor = next((other for other in rest if other not in entered), None)
+            if successor is None:
                 done[item] = None
-                waiting.pop()
+                stack.pop()
             else:
-                entered.add(following)
-                waiting.append((following, iter(below[following])))
+                entered.add(successor)
+                stack.append((successor, iter(successors[successor])))
     return list(done)[::-1]
 
 
 def _depths(order: Sequence[Vertex], forwards: Sequence[tuple[Vertex, Vertex]]) -> dict[Vertex, int]:
     """Return the column of each box: after its last input; without inputs, before its first output."""
-    below: dict[Vertex, list[Vertex]] = {item: [] for item in order}
+    successors: dict[Vertex, list[Vertex]] = {item: [] for item in order}
     for start, end in forwards:
         if start != end:
-            below[start].append(end)
+            successors[start].append(end)
     depth = dict.fromkeys(order, 0)
     for item in order:
-        for other in below[item]:
+        for other in successors[item]:
             depth[other] = max(depth[other], depth[item] + 1)
     for item in order:
-        if depth[item] == 0 and below[item]:
-            depth[item] = min(depth[other] for other in below[item]) - 1
+        if depth[item] == 0 and successors[item]:
+            depth[item] = min(depth[other] for other in successors[item]) - 1
     return depth
 
 
 def _sort(columns: list[list[Vertex]], links: Mapping[Vertex, tuple[list[Vertex], list[Vertex]]]) -> None:
-    """Sort each column by the mean position of its neighbours, alternately left and right."""
+    """Sort each column by the mean position of its neighbors, alternately left and right."""
     row = {vertex: float(i) for column in columns for i, vertex in enumerate(column)}
     for sweep in range(_SWEEPS):
         side = sweep % 2
         for column in columns if side == 0 else reversed(columns):
-            wished = {vertex: _mean([row[other] for other in links[vertex][side]], row[vertex]) for vertex in column}
-            column.sort(key=lambda vertex: (wished[vertex], row[vertex]))
+            preferred = {vertex: _mean([row[other] for other in links[vertex][side]], row[vertex]) for vertex in column}
+            column.sort(key=lambda vertex: (preferred[vertex], row[vertex]))
             row.update((vertex, float(i)) for i, vertex in enumerate(column))
 
 
@@ -129,29 +129,29 @@ def _heights(
     box_gap: float,
     slot_gap: float,
 ) -> dict[Vertex, float]:
-    """Return heights close to those of the neighbours, as far as the column has room."""
-    room = {vertex: box_gap if vertex in boxes else slot_gap for column in columns for vertex in column}
+    """Return heights close to the neighbors', as far as the gaps allow."""
+    gaps = {vertex: box_gap if vertex in boxes else slot_gap for column in columns for vertex in column}
     height = {vertex: 0.0 for column in columns for vertex in column}
     for sweep in range(_SWEEPS):
         for column in columns if sweep % 2 == 0 else reversed(columns):
-            wished = [
+            preferred = [
                 _mean([height[other] for other in (*links[vertex][0], *links[vertex][1])], height[vertex])
                 for vertex in column
             ]
             weights = [1.0 if vertex in boxes else _STRAIGHT for vertex in column]
-            height.update(zip(column, _spread(wished, weights, [room[vertex] for vertex in column]), strict=True))
+            height.update(zip(column, _spread(preferred, weights, [gaps[vertex] for vertex in column]), strict=True))
     return height
 
 
-def _spread(wished: Sequence[float], weights: Sequence[float], room: Sequence[float]) -> list[float]:
-    """Return the heights nearest to the wished ones that keep order and distance (pool adjacent violators)."""
+def _spread(preferred: Sequence[float], weights: Sequence[float], gaps: Sequence[float]) -> list[float]:
+    """Return the heights nearest to the preferred ones that keep order and gaps (pool adjacent violators)."""
     offsets = [0.0]
-    for above, below in pairwise(room):
+    for above, below in pairwise(gaps):
         offsets.append(offsets[-1] + (above + below) / 2)
     pools: list[tuple[float, float, int]] = []
     """Mean, weight, members."""
-    for wish, weight, offset in zip(wished, weights, offsets, strict=False):
-        mean, total, count = wish - offset, weight, 1
+    for height, weight, offset in zip(preferred, weights, offsets, strict=False):
+        mean, total, count = height - offset, weight, 1
         while pools and pools[-1][0] > mean:
             other, other_total, other_count = pools.pop()
             mean = (mean * total + other * other_total) / (total + other_total)
@@ -161,5 +161,5 @@ def _spread(wished: Sequence[float], weights: Sequence[float], room: Sequence[fl
     return [mean + offset for mean, offset in zip(flat, offsets, strict=False)]
 
 
-def _mean(values: Sequence[float], otherwise: float) -> float:
-    return sum(values) / len(values) if values else otherwise
+def _mean(values: Sequence[float], default: float) -> float:
+    return sum(values) / len(values) if values else default

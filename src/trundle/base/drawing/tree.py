@@ -47,16 +47,16 @@ def tree_svg(roots: Sequence[TreeNode], *, title: str) -> str:
         depth = len(lasts) - 1
         del rows_above[depth:]
         x, y = 12 + depth * _INDENT, 12 + row * _ROW
-        box = len(node.label) * _CHARACTER + 16
-        boxes.append(f'<rect x="{x}" y="{y}" width="{box:g}" height="{_HEIGHT}" rx="5"/>')
+        box_width = len(node.label) * _CHARACTER + 16
+        boxes.append(f'<rect x="{x}" y="{y}" width="{box_width:g}" height="{_HEIGHT}" rx="5"/>')
         boxes.append(f'<text x="{x + 8}" y="{y + 15}">{escape(node.label)}</text>')
         if node.edge:
-            boxes.append(f'<text class="edge" x="{x + box + 8:g}" y="{y + 15}">{escape(node.edge)}</text>')
+            boxes.append(f'<text class="edge" x="{x + box_width + 8:g}" y="{y + 15}">{escape(node.edge)}</text>')
         if depth:
             stem, top = x - _INDENT + 14, 12 + rows_above[-1] * _ROW + _HEIGHT
             lines.append(f'<path d="M{stem} {top}V{y + _HEIGHT // 2}H{x}"/>')
         rows_above.append(row)
-        width = max(width, x + box + 8 + len(node.edge) * _CHARACTER)
+        width = max(width, x + box_width + 8 + len(node.edge) * _CHARACTER)
         rows = row + 1
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width + 12:g}" height="{rows * _ROW + 16}">\n'
@@ -71,9 +71,9 @@ def tree_svg(roots: Sequence[TreeNode], *, title: str) -> str:
 
 def _walk(roots: Sequence[TreeNode]) -> Iterator[tuple[TreeNode, tuple[bool, ...]]]:
     """Yield every node in preorder, with a flag per level: True for the last sibling."""
-    waiting = [(root, (i == len(roots) - 1,)) for i, root in enumerate(roots)][::-1]
-    while waiting:
-        node, lasts = waiting.pop()
+    stack = [(root, (i == len(roots) - 1,)) for i, root in enumerate(roots)][::-1]
+    while stack:
+        node, lasts = stack.pop()
         yield node, lasts
-        below = [(child, (*lasts, i == len(node.children) - 1)) for i, child in enumerate(node.children)]
-        waiting += below[::-1]
+        children = [(child, (*lasts, i == len(node.children) - 1)) for i, child in enumerate(node.children)]
+        stack += children[::-1]

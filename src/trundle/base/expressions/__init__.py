@@ -1,4 +1,4 @@
-"""Expression evaluator for files: text and names in, a value out; no Python code of the file runs."""
+"""Expression evaluator for files: text and names in, a value out; it never runs Python code of the file."""
 
 import lazy_loader
 

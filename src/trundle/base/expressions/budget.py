@@ -1,8 +1,8 @@
 """Budget of time and memory for the expressions of one document.
 
-Every operation is charged for its worst case before it is done, so that no single one is long; a clock bounds their
-sum. Text hashes differently in every process. A file can choose all other keys so that their hashes collide, so a
-lookup of such a key is charged a part of a comparison with every key of the dictionary.
+Every operation is charged for its worst case before it runs, so that no single one is long; a clock bounds their
+sum. Hashes of text are randomized per process, but a file can choose other keys so that their hashes collide: the
+lookup of such a key is charged a fraction of a comparison with every key of the dictionary.
 """
 
 import math
@@ -21,8 +21,8 @@ _MAX_OCTETS = 96 * 1024 * 1024
 _MAX_CPU_S = 1.5
 """Processor time of all expressions of one document; the PR2's take some 10 ms."""
 _STEPS_BETWEEN_CHECKS = 2000
-_STEPS_OF_A_CHARGE = 20
-"""Steps by which each charge brings the next look at the clock nearer, whatever it is for."""
+_STEPS_PER_CHARGE = 20
+"""Steps that each charge adds to the count until the next check of the clock."""
 _MAX_DEPTH = 100
 """Nesting depth of iterators."""
 
@@ -33,7 +33,7 @@ _KEYED = (set, frozenset, *VIEWS)
 _GROUPS = (list, tuple, type({}.values()), *_KEYED)
 _SMALL = 1 << 61
 """Bound below which an integer is its own hash."""
-_LENGTH_OF_A_FLOAT = 8
+_FLOAT_LENGTH = 8
 """Usual length; writing one takes as long as traversing three values."""
 
 
@@ -46,16 +46,16 @@ class Budget:
 
     def __init__(self, steps: int = _MAX_STEPS, octets: int = _MAX_OCTETS, cpu_s: float = _MAX_CPU_S) -> None:
         self._steps, self._octets, self._cpu_s = steps, octets, cpu_s
-        self._most_steps, self._most_octets, self._most_cpu_s = steps, octets, cpu_s
+        self._max_steps, self._max_octets, self._max_cpu_s = steps, octets, cpu_s
         self._until_check = 0
-        self._evaluations, self._due_s = 0, math.inf
+        self._evaluations, self._deadline_s = 0, math.inf
         self.depth = 0
         """Nesting depth of iterators in progress."""
 
     @property
     def spent(self) -> tuple[int, int]:
         """Steps and octets used."""
-        return self._most_steps - self._steps, self._most_octets - self._octets
+        return self._max_steps - self._steps, self._max_octets - self._octets
 
     def spend(self, steps: int) -> None:
         """Use steps.
@@ -64,30 +64,30 @@ class Budget:
             ExpressionError: the budget of steps or of time is exhausted.
         """
         self._steps -= steps
-        self._until_check -= steps + _STEPS_OF_A_CHARGE
+        self._until_check -= steps + _STEPS_PER_CHARGE
         if self._until_check < 0:
             self._check()
 
     def _check(self) -> None:
         if self._steps < 0:
-            raise ExpressionError(f"the expressions of one file may take at most {self._most_steps} steps")
-        if time.thread_time() > self._due_s:
+            raise ExpressionError(f"the expressions of one file may take at most {self._max_steps} steps")
+        if time.thread_time() > self._deadline_s:
             raise ExpressionError(
-                f"the expressions of one file may take at most {self._most_cpu_s:g} s of the processor"
+                f"the expressions of one file may take at most {self._max_cpu_s:g} s of the processor"
             )
         self._until_check = min(_STEPS_BETWEEN_CHECKS, self._steps)
 
     def start_clock(self) -> None:
         """Count the processor time of this thread until `stop_clock`; evaluations may nest."""
         if not self._evaluations:
-            self._due_s = time.thread_time() + self._cpu_s
+            self._deadline_s = time.thread_time() + self._cpu_s
         self._evaluations += 1
 
     def stop_clock(self) -> None:
         """End what `start_clock` started."""
         self._evaluations -= 1
         if not self._evaluations:
-            self._cpu_s, self._due_s = self._due_s - time.thread_time(), math.inf
+            self._cpu_s, self._deadline_s = self._deadline_s - time.thread_time(), math.inf
 
     def allocate(self, octets: int) -> None:
         """Use memory, which is never returned, because a property may keep any value.
@@ -98,7 +98,7 @@ class Budget:
         self._octets -= octets
         if self._octets < 0:
             raise ExpressionError(
-                f"the expressions of one file may make at most {self._most_octets >> 20} MiB of values"
+                f"the expressions of one file may make at most {self._max_octets >> 20} MiB of values"
             )
 
     def allocate_generator(self) -> None:
@@ -124,55 +124,55 @@ class Budget:
 
     def collect(self, items: Iterable[_Item]) -> list[_Item]:
         """Return the items of an iterable as a list."""
-        found: list[_Item] = []
+        collected: list[_Item] = []
         for item in items:
             self.spend(1)
             self.allocate(40)
-            found.append(item)
-        bound_length(len(found))
-        return found
+            collected.append(item)
+        bound_length(len(collected))
+        return collected
 
     def spend_traversal(self, value: object) -> int:
-        """Use the steps of traversing a value, shared parts as often as they occur; return its length as text.
+        """Use the steps of traversing a value, counting shared parts each time; return its length as text.
 
         Raises:
-            ExpressionError: it is longer than a value may be, or infinite.
+            ExpressionError: it exceeds the maximum length, or is infinite.
         """
         size, pending = 0, [value]
         while pending:
-            each = pending.pop()
-            if isinstance(each, str):
-                size += len(each) + 2
-            elif isinstance(each, dict):
-                size += 4 * len(each)
+            item = pending.pop()
+            if isinstance(item, str):
+                size += len(item) + 2
+            elif isinstance(item, dict):
+                size += 4 * len(item)
                 if size <= MAX_ITEMS:
-                    self.spend_keys(dict.keys(each))
-                    pending.extend(dict.keys(each))
-                    pending.extend(dict.values(each))
-            elif isinstance(each, _GROUPS):
-                size += 2 * len(each)
+                    self.spend_keys(dict.keys(item))
+                    pending.extend(dict.keys(item))
+                    pending.extend(dict.values(item))
+            elif isinstance(item, _GROUPS):
+                size += 2 * len(item)
                 if size <= MAX_ITEMS:
-                    if isinstance(each, _KEYED):
-                        self.spend_keys(each)
-                    pending.extend(list.__iter__(each) if isinstance(each, list) else each)
-            elif isinstance(each, float | complex):
-                size += _LENGTH_OF_A_FLOAT
+                    if isinstance(item, _KEYED):
+                        self.spend_keys(item)
+                    pending.extend(list.__iter__(item) if isinstance(item, list) else item)
+            elif isinstance(item, float | complex):
+                size += _FLOAT_LENGTH
                 self.spend(2)
-            elif isinstance(each, slice):
+            elif isinstance(item, slice):
                 size += 8
-                pending += [each.start, each.stop, each.step]
+                pending += [item.start, item.stop, item.step]
             else:
-                size += each.bit_length() // 3 + 1 if isinstance(each, int) else 1
+                size += item.bit_length() // 3 + 1 if isinstance(item, int) else 1
             if size > MAX_ITEMS:
                 raise ExpressionError(f"a value of more than {MAX_ITEMS} characters or items")
             self.spend(1)
         self.spend(size >> 6)
         return size
 
-    def spend_lookup(self, key: _Item, among: int) -> _Item:
-        """Use the steps of looking up a key in a dictionary or set of that size."""
+    def spend_lookup(self, key: _Item, size: int) -> _Item:
+        """Use the steps of looking up a key in a dictionary or set of `size` keys."""
         if key.__class__ is not str:
-            self.spend(among * self._weigh(key) >> 5)
+            self.spend(size * self._weigh(key) >> 5)
         return key
 
     def spend_keys(self, *groups: Collection[object]) -> None:
@@ -182,7 +182,7 @@ class Budget:
         self.spend(len(chosen) * sum(map(self._weigh, chosen)) >> 5)
 
     def _weigh(self, key: object) -> int:
-        """Return how many comparisons of numbers, of some 10 ns, comparing a key is worth, at most."""
+        """Return an upper bound of the cost of comparing a key, in comparisons of numbers (about 10 ns)."""
         match key:
             case tuple() | frozenset() | slice():
                 self.spend_traversal(key)
@@ -219,7 +219,7 @@ class LazyIterator:
 def _bound_depth(keys: Iterable[object]) -> None:
     """Refuse deeply nested tuples, which Python hashes with unbounded recursion."""
     for _ in range(_MAX_DEPTH):
-        keys = [part for each in keys for part in _parts(each)]
+        keys = [part for key in keys for part in _parts(key)]
         if not keys:
             return
     raise ExpressionError("an expression or a value nested too deeply")
@@ -237,7 +237,7 @@ def _parts(key: object) -> Iterable[object]:
 
 def _weight(key: object) -> int:
     match key:
-        case frozenset():  # its keys may collide, too
+        case frozenset():  # its keys may collide too
             return 1 + len(cast("frozenset[object]", key)) * sum(map(_weight, _parts(key)))
         case tuple() | slice():
             return 1 + sum(map(_weight, _parts(key)))

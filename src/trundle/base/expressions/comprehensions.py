@@ -22,10 +22,10 @@ class Comprehension(NamedTuple):
     cost: int
     """Operations per iteration."""
 
-    def evaluate(self, running: Evaluator, around: Frame) -> Iterator[list[object]]:
+    def evaluate(self, running: Evaluator, enclosing: Frame) -> Iterator[list[object]]:
         """Evaluate the outermost iterable, and iterate over the elements."""
         running.budget.allocate_generator()
-        return self._iterate(running, {None: around}, 0, iter(self.loops[0].items(running, around)))
+        return self._iterate(running, {None: enclosing}, 0, iter(self.loops[0].items(running, enclosing)))
 
     def _iterate(self, running: Evaluator, frame: Frame, index: int, items: Iterator[Any]) -> Iterator[list[Any]]:
         assert frame is not None

@@ -6,12 +6,12 @@ from typing import Any
 
 from .values import Caller
 
-_KEYS_NAMED = 8
-_LONGEST_KEY = 40
+_MAX_LISTED_KEYS = 8
+_MAX_KEY_LENGTH = 40
 
 
-class _Sentence(str):
-    """Text that a KeyError, which prints the repr of its key, prints as it is."""
+class _Message(str):
+    """Message of a KeyError, which prints the repr of its key."""
 
     __slots__ = ()
 
@@ -20,21 +20,21 @@ class _Sentence(str):
 
 
 def known_keys(owner: dict[object, object]) -> str:
-    """The first keys of a dictionary, to end the sentence on one that is missing; a long key is left out."""
-    first = islice(dict.keys(owner), _KEYS_NAMED)
-    named = [repr(key) for key in first if isinstance(key, str) and len(key) <= _LONGEST_KEY]
-    rest = ["…"] if len(named) < len(owner) else []
-    return f"; it has {', '.join([*named, *rest]) or 'none'}"
+    """List the first keys of a dictionary for the message on a missing key; long keys are left out."""
+    first = islice(dict.keys(owner), _MAX_LISTED_KEYS)
+    listed = [repr(key) for key in first if isinstance(key, str) and len(key) <= _MAX_KEY_LENGTH]
+    rest = ["…"] if len(listed) < len(owner) else []
+    return f"; it has {', '.join([*listed, *rest]) or 'none'}"
 
 
 def set_of(caller: Caller, items: Iterable[object]) -> set[object]:
     """Make a set."""
-    found: set[Any] = set()
+    result: set[Any] = set()
     caller.budget.allocate(200)
     for item in items:
         caller.budget.allocate(60)
-        found.add(caller.budget.spend_lookup(item, len(found)))
-    return found
+        result.add(caller.budget.spend_lookup(item, len(result)))
+    return result
 
 
 def mapping_of(caller: Caller, value: object) -> dict[str, object]:
@@ -59,12 +59,12 @@ def item_of(caller: Caller, owner: Any, index: Any) -> Any:
     if isinstance(owner, dict):
         caller.budget.spend_lookup(index, len(owner))
         if index not in owner:
-            raise KeyError(_Sentence(f"the dictionary has no key {index!r}{known_keys(owner)}"))
+            raise KeyError(_Message(f"the dictionary has no key {index!r}{known_keys(owner)}"))
         return owner[index]
-    found = owner[index]
-    if isinstance(index, slice) and isinstance(found, str):
-        caller.budget.allocate_text(found)
+    result = owner[index]
+    if isinstance(index, slice) and isinstance(result, str):
+        caller.budget.allocate_text(result)
     elif isinstance(index, slice):
-        caller.budget.spend(len(found) >> 5)
-        caller.budget.allocate(60 if isinstance(found, range) else 60 + 8 * len(found))
-    return found
+        caller.budget.spend(len(result) >> 5)
+        caller.budget.allocate(60 if isinstance(result, range) else 60 + 8 * len(result))
+    return result

@@ -8,7 +8,7 @@ from typing import Any, cast
 from .budget import Budget, ExpressionError, bound_length
 
 _NUMBER = re.compile(r"\d+")
-_WIDEST = 9999
+_MAX_WIDTH = 9999
 """Largest width or precision of a format."""
 
 
@@ -38,7 +38,7 @@ def percent_text(budget: Budget, text: str, values: object) -> str:
         raise _unsupported(text)
     count = text.count("%") if isinstance(values, dict) else 1
     bound_length(len(text) + _sum_of_widths(text) + count * budget.spend_traversal(values))
-    values = dict(cast("dict[str, object]", values)) if isinstance(values, dict) else values  # of the plain kind
+    values = dict(cast("dict[str, object]", values)) if isinstance(values, dict) else values  # a plain dictionary
     return budget.allocate_text(text % values)
 
 
@@ -60,7 +60,7 @@ def format_text(budget: Budget, text: str, values: Sequence[object], named: Mapp
 
 def _sum_of_widths(spec: str) -> int:
     widths = [int(digits[:12]) for digits in _NUMBER.findall(spec)]
-    if widths and max(widths) > _WIDEST:
+    if widths and max(widths) > _MAX_WIDTH:
         raise _unsupported(spec)
     return sum(widths)
 

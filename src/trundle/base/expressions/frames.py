@@ -8,7 +8,7 @@ from .budget import ExpressionError
 from .values import Callee, Caller
 
 Frame = dict[Any, Any] | None
-"""Local values of a lambda or comprehension; under None, the enclosing frame."""
+"""Local values of a lambda or comprehension; the key None holds the enclosing frame."""
 Scopes = tuple[frozenset[str], ...]
 """Names of every frame, innermost first."""
 
@@ -67,14 +67,14 @@ def assignment(target: ast.expr) -> Assignment:
         return set_one
     if not isinstance(target, ast.Tuple | ast.List):
         raise ExpressionError(f"{ast.unparse(target)[:100]!r} cannot be set in an expression")
-    stars = [index for index, each in enumerate(target.elts) if isinstance(each, ast.Starred)]
-    parts = [assignment(each.value if isinstance(each, ast.Starred) else each) for each in target.elts]
+    stars = [index for index, element in enumerate(target.elts) if isinstance(element, ast.Starred)]
+    parts = [assignment(elem.value if isinstance(elem, ast.Starred) else elem) for elem in target.elts]
 
     def set_several(running: Evaluator, frame: dict[Any, Any], item: Any) -> None:
         values = running.budget.collect(item)
         if stars and len(values) >= len(parts) - 1:
-            after = len(values) - (len(parts) - 1 - stars[0])
-            values[stars[0] : after] = [values[stars[0] : after]]
+            stop = len(values) - (len(parts) - 1 - stars[0])
+            values[stars[0] : stop] = [values[stars[0] : stop]]
         if len(values) < len(parts):
             raise ValueError(f"not enough values to unpack (expected {len(parts)}, got {len(values)})")
         if len(values) > len(parts):
@@ -85,13 +85,13 @@ def assignment(target: ast.expr) -> Assignment:
     return set_several
 
 
-_STEPS_OF_A_CALL = 15
+_STEPS_PER_CALL = 15
 
 
 class Lambda(Callee):
     """Function created by an expression."""
 
-    __slots__ = ("_around", "_body", "_cost", "_defaults", "_running", "_signature")
+    __slots__ = ("_body", "_cost", "_defaults", "_enclosing", "_running", "_signature")
 
     def __init__(
         self,
@@ -100,33 +100,35 @@ class Lambda(Callee):
         body: Code,
         cost: int,
         running: Evaluator,
-        around: Frame,
+        enclosing: Frame,
     ) -> None:
         self._signature, self._defaults, self._body, self._cost = signature, defaults, body, cost
-        self._running, self._around = running, around
+        self._running, self._enclosing = running, enclosing
 
     def call(self, _caller: Caller, values: Sequence[object], named: Mapping[str, object], /) -> object:
         arguments = self._signature
-        positional = [each.arg for each in (*arguments.posonlyargs, *arguments.args)]
-        held = len(positional) + len(arguments.kwonlyargs) + len(named)
-        self._running.budget.spend(_STEPS_OF_A_CALL + self._cost + len(values) + held)
-        self._running.budget.allocate(100 * held + 8 * len(values))  # a value may keep the frame
-        frame: dict[Any, Any] = {None: self._around, **self._defaults}
+        positional = [argument.arg for argument in (*arguments.posonlyargs, *arguments.args)]
+        count = len(positional) + len(arguments.kwonlyargs) + len(named)
+        self._running.budget.spend(_STEPS_PER_CALL + self._cost + len(values) + count)
+        self._running.budget.allocate(100 * count + 8 * len(values))  # a value may keep the frame
+        frame: dict[Any, Any] = {None: self._enclosing, **self._defaults}
         frame.update(zip(positional, values, strict=False))
-        more = tuple(values[len(positional) :])
+        surplus = tuple(values[len(positional) :])
         if arguments.vararg:
-            frame[arguments.vararg.arg] = more
-        elif more:
+            frame[arguments.vararg.arg] = surplus
+        elif surplus:
             raise TypeError(f"<lambda>() takes {len(positional)} positional arguments but {len(values)} were given")
-        by_name = {each.arg for each in (*arguments.args, *arguments.kwonlyargs)} - set(positional[: len(values)])
-        extra = {name: value for name, value in named.items() if name not in by_name}
+        by_name = {argument.arg for argument in (*arguments.args, *arguments.kwonlyargs)} - set(
+            positional[: len(values)]
+        )
+        unexpected = {name: value for name, value in named.items() if name not in by_name}
         if arguments.kwarg:
-            frame[arguments.kwarg.arg] = extra
-        elif extra:
-            raise TypeError(f"<lambda>() got an unexpected or second argument {min(extra)!r}")
+            frame[arguments.kwarg.arg] = unexpected
+        elif unexpected:
+            raise TypeError(f"<lambda>() got an unexpected or second argument {min(unexpected)!r}")
         frame.update((name, value) for name, value in named.items() if name in by_name)
         if missing := [
-            name for name in (*positional, *(each.arg for each in arguments.kwonlyargs)) if name not in frame
+            name for name in (*positional, *(argument.arg for argument in arguments.kwonlyargs)) if name not in frame
         ]:
             raise TypeError(f"<lambda>() missing the argument {missing[0]!r}")
         return self._body(self._running, frame)

@@ -20,8 +20,8 @@ def _linear_time(function: Callable[..., Any]) -> Guarded:
     """Guard a function whose cost is linear in the length of its arguments, after expanding lazy iterators."""
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
-        given = [each if each.__class__ is float else _iterable(caller.budget, each) for each in values]
-        return allocate_integer(caller.budget, function(*given, **named))
+        arguments = [item if item.__class__ is float else _iterable(caller.budget, item) for item in values]
+        return allocate_integer(caller.budget, function(*arguments, **named))
 
     return call
 
@@ -34,7 +34,7 @@ def _iterable(budget: Budget, value: Any) -> Any:
         case int():
             spend_product(budget, value, value)
         case list() | tuple() | set() | frozenset() | dict() | range() | Iterator():
-            return [_iterable(budget, each) for each in budget.collect(value)]
+            return [_iterable(budget, item) for item in budget.collect(value)]
         case _:
             pass
     return value
@@ -49,9 +49,9 @@ def _converted(kind: type) -> Guarded:
     """Guard the conversion of a text or number to a number."""
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
-        for each in values:
-            if isinstance(each, str):
-                caller.budget.spend(len(each) >> 2)
+        for item in values:
+            if isinstance(item, str):
+                caller.budget.spend(len(item) >> 2)
         return allocate_integer(caller.budget, kind(*values, **named))
 
     return call
@@ -79,37 +79,37 @@ def _sequence(kind: type) -> Guarded:
         if not values and not named:
             return kind()
         (items,) = _only(values, named, kind.__name__, 1)
-        found = caller.budget.collect(items)
-        return found if kind is list else kind(found)
+        result = caller.budget.collect(items)
+        return result if kind is list else kind(result)
 
     return call
 
 
 def _set(kind: type) -> Guarded:
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
-        found: set[Any] = set()
+        result: set[Any] = set()
         for item in caller.budget.collect(_only(values, named, kind.__name__, 1)[0]) if values else ():
-            found.add(caller.budget.spend_lookup(item, len(found)))
+            result.add(caller.budget.spend_lookup(item, len(result)))
             caller.budget.allocate(60)
         caller.budget.allocate(200)
-        return found if kind is set else frozenset(found)
+        return result if kind is set else frozenset(result)
 
     return call
 
 
 def dictionary(caller: Caller, values: Sequence[object], named: Mapping[str, object]) -> dict[object, object]:
     """Create a dictionary from another, or from pairs."""
-    found: dict[Any, Any] = {}
+    result: dict[Any, Any] = {}
     pairs: Iterable[Any] = ()
     if values:
-        (given,) = _only(values, {}, "dict", 1)
-        pairs = dict.items(given) if isinstance(given, dict) else caller.budget.collect(given)
+        (source,) = _only(values, {}, "dict", 1)
+        pairs = dict.items(source) if isinstance(source, dict) else caller.budget.collect(source)
     for pair in (*pairs, *named.items()):
         key, value = caller.budget.collect(pair)
-        found[caller.budget.spend_lookup(key, len(found))] = value
+        result[caller.budget.spend_lookup(key, len(result))] = value
         caller.budget.allocate(100)
     caller.budget.allocate(64)
-    return found
+    return result
 
 
 def _kind(_caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> type:
@@ -128,11 +128,11 @@ def _is_kind(function: Callable[[Any, Any], bool]) -> Guarded:
 
 def _range(_caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> range:
     limits = _only(values, named, "range", max(len(values), 1))
-    if not all(is_short(each) for each in limits if isinstance(each, int)):
+    if not all(is_short(item) for item in limits if isinstance(item, int)):
         bound_length(math.inf)
-    turns = range(*limits)
-    bound_length(len(turns))
-    return turns
+    result = range(*limits)
+    bound_length(len(result))
+    return result
 
 
 def _map(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Iterator[Any]:
@@ -140,17 +140,17 @@ def _map(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Ite
         raise TypeError("map() must have at least two arguments.")
     function, *sequences = values
     _hold_iterators(caller.budget, sequences)
-    turns = zip(*map(iter, sequences), strict=False)
+    tuples = zip(*map(iter, sequences), strict=False)
     return caller.budget.lazy(
-        caller.call(function, items, {}) for items in _turns(caller.budget, turns, len(sequences))
+        caller.call(function, items, {}) for items in _charged_tuples(caller.budget, tuples, len(sequences))
     )
 
 
 def _filter(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Iterator[Any]:
     function, items = _only(values, named, "filter", 2)
-    turns = caller.budget.iterate(iter(items))
+    charged = caller.budget.iterate(iter(items))
     return caller.budget.lazy(
-        item for item in turns if (item if function is None else caller.call(function, [item], {}))
+        item for item in charged if (item if function is None else caller.call(function, [item], {}))
     )
 
 
@@ -159,7 +159,7 @@ def _iterating(function: Callable[..., Iterable[Any]]) -> Guarded:
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Iterator[Any]:
         _hold_iterators(caller.budget, values)
-        return caller.budget.lazy(_turns(caller.budget, function(*values, **named), len(values) + 1))
+        return caller.budget.lazy(_charged_tuples(caller.budget, function(*values, **named), len(values) + 1))
 
     return call
 
@@ -169,8 +169,8 @@ def _hold_iterators(budget: Budget, values: Sequence[object]) -> None:
     budget.allocate(64 * len(values))
 
 
-def _turns(budget: Budget, items: Iterable[Any], width: int) -> Iterator[Any]:
-    """Iterate over tuples of `width` values."""
+def _charged_tuples(budget: Budget, items: Iterable[Any], width: int) -> Iterator[Any]:
+    """Iterate over tuples of `width` values, charging each."""
     for item in items:
         budget.spend(width)
         budget.allocate(40 + 8 * width)
@@ -180,20 +180,20 @@ def _turns(budget: Budget, items: Iterable[Any], width: int) -> Iterator[Any]:
 def sort(caller: Caller, values: Sequence[object], named: Mapping[str, object]) -> list[object]:
     """Sort as sorted() does."""
     (items,) = _only(values, {}, "sorted", 1)
-    found = caller.budget.collect(items)
+    collected = caller.budget.collect(items)
     key, rest = _key_and_rest(named, ("reverse",))
-    keys = found if key is None else [caller.call(key, [item], {}) for item in found]
+    keys = collected if key is None else [caller.call(key, [item], {}) for item in collected]
     _spend_comparisons(caller.budget, keys)
-    order = sorted(range(len(found)), key=keys.__getitem__, **rest)
-    return [found[index] for index in order]
+    order = sorted(range(len(collected)), key=keys.__getitem__, **rest)
+    return [collected[index] for index in order]
 
 
 def _spend_comparisons(budget: Budget, keys: list[Any]) -> None:
     before, _ = budget.spent
     size = budget.spend_traversal(keys)
-    once = budget.spent[0] - before
+    traversal = budget.spent[0] - before
     budget.allocate(size)
-    budget.spend(((once >> 1) + (size >> 4)) * len(keys).bit_length())
+    budget.spend(((traversal >> 1) + (size >> 4)) * len(keys).bit_length())
 
 
 def _key_and_rest(named: Mapping[str, Any], known: Sequence[str]) -> tuple[Any, dict[str, Any]]:
@@ -205,15 +205,15 @@ def _key_and_rest(named: Mapping[str, Any], known: Sequence[str]) -> tuple[Any, 
 
 def _extreme(function: Callable[..., Any]) -> Guarded:
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
-        if not named and len(values) == 2 and all(isinstance(each, int | float) for each in values):
+        if not named and len(values) == 2 and all(isinstance(item, int | float) for item in values):
             return function(*values)
         key, rest = _key_and_rest(named, ("default",))
-        found = caller.budget.collect(values[0]) if len(values) == 1 else list(values)
-        if not found or (rest and len(values) > 1):
-            return function(*([found] if len(values) == 1 else values), **rest)
-        keys = found if key is None else [caller.call(key, [item], {}) for item in found]
+        collected = caller.budget.collect(values[0]) if len(values) == 1 else list(values)
+        if not collected or (rest and len(values) > 1):
+            return function(*([collected] if len(values) == 1 else values), **rest)
+        keys = collected if key is None else [caller.call(key, [item], {}) for item in collected]
         caller.budget.spend_traversal(keys)
-        return found[function(range(len(found)), key=keys.__getitem__)]
+        return collected[function(range(len(collected)), key=keys.__getitem__)]
 
     return call
 
@@ -225,11 +225,11 @@ def _sum(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any
         raise TypeError("sum() takes a sequence and a start")
     if isinstance(start, str):
         raise TypeError("sum() can't sum strings [use ''.join(seq) instead]")
-    found = caller.budget.collect(items)
-    caller.budget.spend_traversal(found)
-    if all(isinstance(each, float | int) for each in found) and isinstance(start, int | float):
-        return allocate_integer(caller.budget, sum(found, start))  # at once: newer Pythons add floats more exactly
-    return reduce(lambda a, b: _add(caller.budget, a, b), found, start)
+    collected = caller.budget.collect(items)
+    caller.budget.spend_traversal(collected)
+    if all(isinstance(item, float | int) for item in collected) and isinstance(start, int | float):
+        return allocate_integer(caller.budget, sum(collected, start))  # Python 3.12 and newer compensate rounding
+    return reduce(lambda a, b: _add(caller.budget, a, b), collected, start)
 
 
 _add, _multiply = BINARY[ast.Add], BINARY[ast.Mult]
@@ -254,7 +254,7 @@ def _of_small_integers(function: Callable[..., int]) -> Guarded:
     """Guard a function whose result has some sixteen bits per unit of its arguments."""
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> int:
-        bits = max((abs(each) * 16 for each in values if isinstance(each, int)), default=0)
+        bits = max((abs(item) * 16 for item in values if isinstance(item, int)), default=0)
         bound_bits(bits)
         caller.budget.spend(bits * bits >> 18)
         return allocate_integer(caller.budget, function(*values, **named))
@@ -263,7 +263,7 @@ def _of_small_integers(function: Callable[..., int]) -> Guarded:
 
 
 def _common_multiple(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> int:
-    bound_bits(sum(each.bit_length() for each in values if isinstance(each, int)))
+    bound_bits(sum(item.bit_length() for item in values if isinstance(item, int)))
     return _linear_time(math.lcm)(caller, values, named)
 
 

@@ -1,14 +1,14 @@
-"""Names that an expression takes from outside."""
+"""Names in an expression."""
 
 import ast
 import warnings
 
 
 def free_names(text: str) -> frozenset[str]:
-    """Return the names of an expression, those that its own loops and lambdas bind among them.
+    """Return all names in an expression, including those that its own loops and lambdas bind.
 
     Raises:
-        SyntaxError: it is no expression.
+        SyntaxError: it is not an expression.
     """
     with warnings.catch_warnings():  # "1or 2" is legal, but Python warns
         warnings.simplefilter("ignore", SyntaxWarning)

@@ -1,8 +1,8 @@
 """Interpreter for expressions in files, restricted to the Python features listed in this room.
 
-simpleeval has neither lambdas nor a time bound and refuses attributes by name; asteval has statements, files and numpy;
-RestrictedPython leaves every bound to its caller. Both lists go by names alone, where the type of the object decides
-what is harmless.
+Why not a library: simpleeval has neither lambdas nor a time limit and filters attributes by name; asteval offers
+statements, files and NumPy; RestrictedPython leaves all limits to its caller. Filters by name are insufficient, since
+the object's type decides what is harmless.
 """
 
 import re
@@ -15,13 +15,13 @@ from .methods import attribute
 from .syntax import Code, compile_expression
 from .values import Callee
 
-_LONGEST = 65_536
-"""Largest length of an expression."""
+_MAX_LENGTH = 65_536
+"""Maximum length of an expression [characters]."""
 _OCTETS_PER_NODE = 250
-"""Memory per syntax node; its parsing costs a tenth of that in steps."""
+"""Memory per syntax node; parsing one costs a tenth of that in steps."""
 _STEPS_PER_CALL = 5
 _OCTETS_PER_CALL = 80
-"""Memory of a call's result that is not counted where it is created, and of an attribute lookup."""
+"""Memory of an attribute lookup, and of a call's result that its function does not count."""
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
 _SHORT = frozenset({str, int, float, bool})
 """Types whose size needs no traversal."""
@@ -52,7 +52,7 @@ class Interpreter:
 
         Args:
             budget: time and memory of the whole document.
-            dotted: returns an attribute of an object of the program's own, or NotImplemented.
+            dotted: returns an attribute of one of the program's objects, or NotImplemented.
         """
         self.budget = budget or Budget()
         self.dotted = dotted
@@ -63,7 +63,7 @@ class Interpreter:
 
         Raises:
             ExpressionError: a forbidden name or attribute, or a value or loop that is too large.
-            Exception: what Python raises for the same: SyntaxError, NameError, TypeError, ZeroDivisionError, …
+            Exception: as Python: SyntaxError, NameError, TypeError, ZeroDivisionError, …
         """
         self.budget.start_clock()
         try:
@@ -75,8 +75,8 @@ class Interpreter:
             elif value.__class__ is str and not value.isprintable():
                 self.budget.spend(len(value) >> 6)
                 value.encode()
-                if found := _FORBIDDEN.search(value):
-                    raise ExpressionError(f"a text with the character {found[0]!a}, which XML forbids")
+                if forbidden := _FORBIDDEN.search(value):
+                    raise ExpressionError(f"a text with the character {forbidden[0]!a}, which XML forbids")
             return value
         except UnicodeEncodeError:
             raise ExpressionError("a text with half of a surrogate pair, which no file can hold") from None
@@ -90,7 +90,7 @@ class Interpreter:
 
         Raises:
             TypeError, ValueError: it is neither.
-            Exception: as `evaluate`.
+            Exception: see `evaluate`.
         """
         value: Any = self.evaluate(text, names)
         return float(value)
@@ -100,13 +100,13 @@ class Interpreter:
 
         Raises:
             ExpressionError: it is too long, or has a forbidden name.
-            SyntaxError: it is no expression.
+            SyntaxError: it is not an expression.
         """
         self._compile(text)
 
     def _compile(self, text: str) -> _Compiled:
-        if len(text) > _LONGEST:
-            raise ExpressionError(f"an expression of more than {_LONGEST} characters")
+        if len(text) > _MAX_LENGTH:
+            raise ExpressionError(f"an expression of more than {_MAX_LENGTH} characters")
         code, cost, hidden = compile_expression(text.strip())
         if hidden:
             raise ExpressionError(f"Use of invalid name(s): {', '.join(hidden)}")
@@ -145,8 +145,8 @@ class Evaluation:
         self.budget.spend(_STEPS_PER_CALL)
         self.budget.allocate(_OCTETS_PER_CALL)
         dotted = self._interpreter.dotted
-        found = NotImplemented if dotted is None else dotted(owner, name)
-        return attribute(owner, name) if found is NotImplemented else found
+        result = NotImplemented if dotted is None else dotted(owner, name)
+        return attribute(owner, name) if result is NotImplemented else result
 
     def call(self, callee: object, values: Sequence[object], named: Mapping[str, object], /) -> Any:
         """Call a value.
@@ -160,6 +160,6 @@ class Evaluation:
             return callee.call(self, values, named)
         guarded = GUARDED.get(callee) if callable(callee) and type(callee).__hash__ is not None else None
         if guarded is None:
-            kept_back = " for an expression" if callable(callee) else ""
-            raise TypeError(f"{type(callee).__name__!r} object is not callable{kept_back}")
+            restriction = " for an expression" if callable(callee) else ""
+            raise TypeError(f"{type(callee).__name__!r} object is not callable{restriction}")
         return guarded(self, values, named)

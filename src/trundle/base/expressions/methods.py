@@ -39,20 +39,20 @@ def attribute(owner: object, name: str) -> object:
     if isinstance(owner, type):
         if name in METHODS_OF.get(owner, ()):
             return Function(name, _of_first(owner, name))
-        what = f"type object {owner.__name__!r}"
+        subject = f"type object {owner.__name__!r}"
     else:
         kind = next((kind for kind in type(owner).__mro__ if kind in METHODS_OF), object)
         if name in METHODS_OF.get(kind, ()):
             return Method(name, owner, METHODS_OF[kind][name])
         if name in _DATA_OF.get(kind, ()):
             return getattr(owner, name)
-        what = f"{type(owner).__name__!r} object"
-    kept_back = " that an expression may use" if name.startswith("_") or hasattr(type(owner), name) else ""
-    raise AttributeError(f"{what} has no attribute {name!r}{kept_back}{_instead(owner, name)}")
+        subject = f"{type(owner).__name__!r} object"
+    restriction = " that an expression may use" if name.startswith("_") or hasattr(type(owner), name) else ""
+    raise AttributeError(f"{subject} has no attribute {name!r}{restriction}{_instead(owner, name)}")
 
 
 def _instead(owner: object, name: str) -> str:
-    """End of the sentence on a missing attribute: the keys of a dictionary, which xacro's own have as attributes."""
+    """End of the message on a missing attribute: a dictionary's keys, which are attributes in xacro's dictionaries."""
     if not isinstance(owner, dict):
         return ""
     keys: dict[object, object] = owner
@@ -79,10 +79,10 @@ def _linear_size(name: str, *, product: bool = False, cost_of_keys: bool = False
     """Guard a method whose result is at most about three times as long as its input.
 
     Args:
-        name: of the method.
-        product: it may traverse its arguments once per character of the text.
-        cost_of_keys: its first argument is looked up as a key.
-        deep: it compares its arguments with the items.
+        name: method's name.
+        product: True: it may traverse its arguments once per character of the text.
+        cost_of_keys: True: it looks up its first argument as a key.
+        deep: True: it compares its arguments with the items.
     """
 
     def call(caller: Caller, owner: Any, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
@@ -101,20 +101,20 @@ def _linear_size(name: str, *, product: bool = False, cost_of_keys: bool = False
         if deep:
             budget.spend_traversal(owner)
             budget.spend_traversal(values)
-        found = getattr(owner, name)(*values, **named)
-        if isinstance(found, str):
-            budget.allocate_text(found)
-        elif isinstance(found, list | tuple | dict | set | frozenset):
-            budget.spend(len(found))
-            budget.allocate(sum(50 + len(each) if isinstance(each, str) else 50 for each in found))
-        return found
+        result = getattr(owner, name)(*values, **named)
+        if isinstance(result, str):
+            budget.allocate_text(result)
+        elif isinstance(result, list | tuple | dict | set | frozenset):
+            budget.spend(len(result))
+            budget.allocate(sum(50 + len(item) if isinstance(item, str) else 50 for item in result))
+        return result
 
     return call
 
 
 def _padded(name: str) -> _Guarded:
     def call(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
-        width = max((each for each in (*values, *named.values()) if isinstance(each, int)), default=8)
+        width = max((value for value in (*values, *named.values()) if isinstance(value, int)), default=8)
         bound_length(width * (owner.count("\t") if name == "expandtabs" else 1))
         return caller.budget.allocate_text(getattr(owner, name)(*values, **named))
 
@@ -134,7 +134,7 @@ def _join(caller: Caller, owner: str, values: Sequence[Any], named: Mapping[str,
     if len(values) != 1 or named:
         raise TypeError(f"str.join() takes exactly one argument ({len(values) + len(named)} given)")
     items = caller.budget.collect(values[0])
-    bound_length(sum(len(each) + len(owner) for each in items if isinstance(each, str)))
+    bound_length(sum(len(item) + len(owner) for item in items if isinstance(item, str)))
     return caller.budget.allocate_text(owner.join(items))
 
 
@@ -145,7 +145,7 @@ def _translate(caller: Caller, owner: str, values: Sequence[Any], named: Mapping
     plain = copied(caller, table)
     chosen = sum(key.__class__ is not str for key in plain)
     caller.budget.spend(len(owner) + (len(owner) * chosen >> 5))
-    bound_length(len(owner) * max((len(each) for each in plain.values() if isinstance(each, str)), default=1))
+    bound_length(len(owner) * max((len(value) for value in plain.values() if isinstance(value, str)), default=1))
     return caller.budget.allocate_text(owner.translate(plain))
 
 
@@ -164,18 +164,18 @@ def _growing(name: str) -> _Guarded:
 
     def call(caller: Caller, owner: Any, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         budget = caller.budget
-        many = name in ("extend", "update")
-        given: list[Any] = [_copied(caller, each) for each in values] if many else list(values)
-        length = sum(map(len, given)) + len(named) if many else 1
+        takes_several = name in ("extend", "update")
+        arguments: list[Any] = [_copied(caller, value) for value in values] if takes_several else list(values)
+        length = sum(map(len, arguments)) + len(named) if takes_several else 1
         if not isinstance(owner, list):
-            keys = [key for each in given for key in each] if many else given[:1]
-            pairs = many and isinstance(owner, dict)
+            keys = [key for argument in arguments for key in argument] if takes_several else arguments[:1]
+            pairs = takes_several and isinstance(owner, dict)
             for count, key in enumerate(keys, len(owner)):
                 budget.spend_lookup(key[0] if pairs and isinstance(key, list | tuple) and key else key, count)
         bound_length(len(owner) + length)
         budget.spend(len(owner) >> 8)
         budget.allocate(100 * length)
-        return getattr(owner, name)(*given, **named)
+        return getattr(owner, name)(*arguments, **named)
 
     return call
 
@@ -192,21 +192,21 @@ def _combined(name: str) -> _Guarded:
     """Guard a set method with sets as arguments."""
 
     def call(caller: Caller, owner: Any, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
-        given: list[set[Any]] = [_set_of(caller, each) for each in values]
-        caller.budget.spend_keys(owner, *given)
+        sets: list[set[Any]] = [_set_of(caller, value) for value in values]
+        caller.budget.spend_keys(owner, *sets)
         caller.budget.spend(len(owner))
         caller.budget.allocate(60 * len(owner))
-        return getattr(owner, name)(*given, **named)
+        return getattr(owner, name)(*sets, **named)
 
     return call
 
 
 def _set_of(caller: Caller, items: Iterable[Any]) -> set[Any]:
-    found: set[Any] = set()
+    result: set[Any] = set()
     for item in caller.budget.collect(items):
-        found.add(caller.budget.spend_lookup(item, len(found)))
-    caller.budget.allocate(60 * len(found))
-    return found
+        result.add(caller.budget.spend_lookup(item, len(result)))
+    caller.budget.allocate(60 * len(result))
+    return result
 
 
 def _named(names: str, make: Callable[[str], _Guarded]) -> dict[str, _Guarded]:
@@ -214,7 +214,7 @@ def _named(names: str, make: Callable[[str], _Guarded]) -> dict[str, _Guarded]:
 
 
 _LENGTH = _named("__len__", _linear_size)
-"""Needed because xacro before 1.13.13 allowed such names: xArm's description has robot_sn.__len__()."""
+"""xacro before 1.13.13 allowed such names: xArm's description has robot_sn.__len__()."""
 _SET = {
     **_LENGTH,
     **_named("difference intersection isdisjoint issubset issuperset symmetric_difference union", _combined),

@@ -17,7 +17,7 @@ _CONTAINERS: Any = (list, tuple, *_KEYED)
 
 
 def is_short(number: int) -> bool:
-    """True if an integer is small enough to be free of cost."""
+    """True if an integer is small enough to cost nothing."""
     return -_MACHINE_WORD < number < _MACHINE_WORD
 
 
@@ -39,9 +39,9 @@ def _add(budget: Budget, left: Any, right: Any) -> Any:
 
 
 def _multiply(budget: Budget, left: Any, right: Any) -> Any:
-    for many, number in ((left, right), (right, left)):
-        if isinstance(number, int) and isinstance(many, _SEQUENCES):
-            _hold_sequence(budget, many, len(many) * max(number, 0))
+    for sequence, number in ((left, right), (right, left)):
+        if isinstance(number, int) and isinstance(sequence, _SEQUENCES):
+            _hold_sequence(budget, sequence, len(sequence) * max(number, 0))
     if isinstance(left, int) and isinstance(right, int):
         bound_bits(left.bit_length() + right.bit_length())
         spend_product(budget, left, right)
@@ -49,7 +49,7 @@ def _multiply(budget: Budget, left: Any, right: Any) -> Any:
 
 
 def _hold_sequence(budget: Budget, example: Any, length: int) -> None:
-    """Use the memory of a text, list or tuple of that length."""
+    """Use the memory of a text, list or tuple of the same type with `length` items."""
     bound_length(length)
     octets = (1 if example.isascii() else 4) if isinstance(example, str) else 8
     budget.allocate(56 + octets * length)
@@ -100,10 +100,10 @@ def _division(function: Callable[[Any, Any], Any]) -> Operation:
 
 def _spend_merge(budget: Budget, left: Any, right: Any) -> None:
     """Use the steps and memory of combining dictionaries, sets and views."""
-    for each in (left, right):
-        if not isinstance(each, _CONTAINERS):
-            raise TypeError(f"a set or dictionary cannot be combined with a {type(each).__name__!r} object")
-        budget.allocate(100 * len(each))
+    for operand in (left, right):
+        if not isinstance(operand, _CONTAINERS):
+            raise TypeError(f"a set or dictionary cannot be combined with a {type(operand).__name__!r} object")
+        budget.allocate(100 * len(operand))
     budget.spend_keys(left, right)
 
 
@@ -168,18 +168,18 @@ def spend_comparison(budget: Budget, left: object, right: object) -> None:
         budget.spend(len(left) >> 6)
 
 
-def contains(budget: Budget, item: Any, among: Any) -> bool:
+def contains(budget: Budget, item: Any, container: Any) -> bool:
     """True if a value is in a container."""
-    if isinstance(among, str):
-        budget.spend(len(among) >> 4)
-    elif isinstance(among, dict | set | frozenset):
-        budget.spend_lookup(item, len(cast("set[object]", among)))
-    elif isinstance(among, list | tuple):
-        spend_comparison(budget, item, among)
-        budget.spend_traversal(cast(object, among))
-    elif not isinstance(among, range) or not isinstance(item, int):
-        return any(item is each or equal(budget, each, item) for each in budget.iterate(among, 3))
-    return operator.contains(among, item)
+    if isinstance(container, str):
+        budget.spend(len(container) >> 4)
+    elif isinstance(container, dict | set | frozenset):
+        budget.spend_lookup(item, len(cast("set[object]", container)))
+    elif isinstance(container, list | tuple):
+        spend_comparison(budget, item, container)
+        budget.spend_traversal(cast(object, container))
+    elif not isinstance(container, range) or not isinstance(item, int):
+        return any(item is element or equal(budget, element, item) for element in budget.iterate(container, 3))
+    return operator.contains(container, item)
 
 
 def equal(budget: Budget, left: object, right: object) -> bool:

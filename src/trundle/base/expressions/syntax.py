@@ -32,7 +32,7 @@ def compile_expression(text: str) -> tuple[Code, int, list[str]]:
 
 
 class _Compiler(ast.NodeVisitor):
-    """Visitor with a method per kind of syntax that is allowed."""
+    """Visitor with a method per allowed kind of syntax."""
 
     def __init__(self) -> None:
         self._scopes: Scopes = ()
@@ -56,7 +56,7 @@ class _Compiler(ast.NodeVisitor):
         return _nothing if node is None else self.visit(node)
 
     def _within(self, names: Iterable[str], compile_part: Callable[[], _Part]) -> tuple[_Part, int]:
-        """Compile a repeated part in its own frame, and count its operations."""
+        """Compile a repeated part in its own frame; return it and its number of operations."""
         scopes, before = self._scopes, self.count
         self._scopes = (frozenset(map(self._visible, names)), *scopes)
         try:
@@ -89,16 +89,16 @@ class _Compiler(ast.NodeVisitor):
 
     def visit_BinOp(self, node: ast.BinOp) -> Code:
         left, right = self.visit(node.left), self.visit(node.right)
-        operation, of_fractions = BINARY.get(type(node.op)), FLOAT_OPERATORS.get(type(node.op))
+        operation, on_floats = BINARY.get(type(node.op)), FLOAT_OPERATORS.get(type(node.op))
         if operation is None:
             raise ExpressionError("products of matrices are not allowed in an expression")
-        if of_fractions is None:
+        if on_floats is None:
             return lambda running, frame: operation(running.budget, left(running, frame), right(running, frame))
 
         def code(running: Evaluator, frame: Frame) -> Any:
             a, b = left(running, frame), right(running, frame)
             if a.__class__ is float or b.__class__ is float:
-                return of_fractions(a, b)
+                return on_floats(a, b)
             return operation(running.budget, a, b)
 
         return code
@@ -159,12 +159,12 @@ class _Compiler(ast.NodeVisitor):
         ]
 
         def code(running: Evaluator, frame: Frame) -> list[Any]:
-            found: list[Any] = []
+            result: list[Any] = []
             for several, part in parts:
                 value = part(running, frame)
-                found += running.budget.collect(value) if several else [value]
-                bound_length(len(found))
-            return found
+                result += running.budget.collect(value) if several else [value]
+                bound_length(len(result))
+            return result
 
         return code
 
@@ -181,9 +181,9 @@ class _Compiler(ast.NodeVisitor):
         items = self._items(nodes)
 
         def code(running: Evaluator, frame: Frame) -> Any:
-            found = items(running, frame)
-            running.budget.allocate(60 + 8 * len(found))
-            return found if kind is list else tuple(found) if kind is tuple else set_of(running, found)
+            result = items(running, frame)
+            running.budget.allocate(60 + 8 * len(result))
+            return result if kind is list else tuple(result) if kind is tuple else set_of(running, result)
 
         return code
 
@@ -194,17 +194,17 @@ class _Compiler(ast.NodeVisitor):
         ]
 
         def code(running: Evaluator, frame: Frame) -> dict[Any, Any]:
-            found: dict[Any, Any] = {}
+            result: dict[Any, Any] = {}
             running.budget.allocate(64 + 100 * len(pairs))
             for single, key, value in pairs:
                 if single:
-                    found[running.budget.spend_lookup(key(running, frame), len(found))] = value(running, frame)
+                    result[running.budget.spend_lookup(key(running, frame), len(result))] = value(running, frame)
                 else:
                     more = mapping_of(running, value(running, frame))
-                    running.budget.spend_keys(found, more)
-                    found.update(more)
-                    bound_length(len(found))
-            return found
+                    running.budget.spend_keys(result, more)
+                    result.update(more)
+                    bound_length(len(result))
+            return result
 
         return code
 
@@ -215,21 +215,27 @@ class _Compiler(ast.NodeVisitor):
         words = [(word.arg, self.visit(word.value)) for word in node.keywords]
 
         def code(running: Evaluator, frame: Frame) -> Any:
-            function, given, named = callee(running, frame), values(running, frame), dict[str, Any]()
+            function, arguments, named = callee(running, frame), values(running, frame), dict[str, Any]()
             for name, word in words:
                 more = {name: word(running, frame)} if name else mapping_of(running, word(running, frame))
-                if twice := named.keys() & more.keys():
-                    raise TypeError(f"got multiple values for keyword argument {min(twice)!r}")
+                if duplicates := named.keys() & more.keys():
+                    raise TypeError(f"got multiple values for keyword argument {min(duplicates)!r}")
                 named.update(more)
-            return running.call(function, given, named)
+            return running.call(function, arguments, named)
 
         return code
 
     def visit_Lambda(self, node: ast.Lambda) -> Code:
         arguments = node.args
-        every = (*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs, arguments.vararg, arguments.kwarg)
-        names = [each.arg for each in every if each]
-        defaults = {each.arg: self.visit(value) for each, value in _defaults(arguments)}
+        all_arguments = (
+            *arguments.posonlyargs,
+            *arguments.args,
+            *arguments.kwonlyargs,
+            arguments.vararg,
+            arguments.kwarg,
+        )
+        names = [argument.arg for argument in all_arguments if argument]
+        defaults = {argument.arg: self.visit(value) for argument, value in _defaults(arguments)}
         body, cost = self._within(names, lambda: self.visit(node.body))
 
         def code(running: Evaluator, frame: Frame) -> Lambda:
@@ -240,44 +246,44 @@ class _Compiler(ast.NodeVisitor):
         return code
 
     def visit_ListComp(self, node: ast.ListComp) -> Code:
-        turns = self._comprehension([node.elt], node.generators)
-        return lambda running, frame: [value for (value,) in turns.evaluate(running, frame)]
+        comprehension = self._comprehension([node.elt], node.generators)
+        return lambda running, frame: [value for (value,) in comprehension.evaluate(running, frame)]
 
     def visit_SetComp(self, node: ast.SetComp) -> Code:
-        turns = self._comprehension([node.elt], node.generators)
-        return lambda running, frame: set_of(running, (value for (value,) in turns.evaluate(running, frame)))
+        comprehension = self._comprehension([node.elt], node.generators)
+        return lambda running, frame: set_of(running, (value for (value,) in comprehension.evaluate(running, frame)))
 
     def visit_GeneratorExp(self, node: ast.GeneratorExp) -> Code:
-        turns = self._comprehension([node.elt], node.generators)
+        comprehension = self._comprehension([node.elt], node.generators)
 
         def code(running: Evaluator, frame: Frame) -> Iterator[Any]:
-            each = turns.evaluate(running, frame)
-            return running.budget.lazy(value for (value,) in each)
+            rows = comprehension.evaluate(running, frame)
+            return running.budget.lazy(value for (value,) in rows)
 
         return code
 
     def visit_DictComp(self, node: ast.DictComp) -> Code:
-        turns = self._comprehension([node.key, node.value], node.generators)
+        comprehension = self._comprehension([node.key, node.value], node.generators)
 
         def code(running: Evaluator, frame: Frame) -> dict[Any, Any]:
-            found: dict[Any, Any] = {}
-            for key, value in turns.evaluate(running, frame):
+            result: dict[Any, Any] = {}
+            for key, value in comprehension.evaluate(running, frame):
                 running.budget.allocate(100)
-                found[running.budget.spend_lookup(key, len(found))] = value
-            return found
+                result[running.budget.spend_lookup(key, len(result))] = value
+            return result
 
         return code
 
     def _comprehension(self, elements: list[ast.expr], generators: list[ast.comprehension]) -> Comprehension:
-        if any(each.is_async for each in generators):
+        if any(generator.is_async for generator in generators):
             raise ExpressionError("'async' is not allowed in an expression")
-        names = {name for each in generators for name in targets(each.target)}
-        first = self.visit(generators[0].iter)  # outside of the frame, as in Python
+        names = {name for generator in generators for name in targets(generator.target)}
+        first = self.visit(generators[0].iter)  # in the enclosing frame, as in Python
 
         def compile_parts() -> tuple[list[Loop], list[Code]]:
             loops = [
-                Loop(self.visit(each.iter) if index else first, assignment(each.target), self._all(each.ifs))
-                for index, each in enumerate(generators)
+                Loop(self.visit(part.iter) if index else first, assignment(part.target), self._all(part.ifs))
+                for index, part in enumerate(generators)
             ]
             return loops, self._all(elements)
 
@@ -299,8 +305,8 @@ class _Compiler(ast.NodeVisitor):
         conversion = None if node.conversion < 0 else chr(node.conversion)
 
         def code(running: Evaluator, frame: Frame) -> str:
-            shown = converted(running.budget, value(running, frame), conversion)
-            return formatted(running.budget, shown, spec(running, frame) or "")
+            converted_value = converted(running.budget, value(running, frame), conversion)
+            return formatted(running.budget, converted_value, spec(running, frame) or "")
 
         return code
 
@@ -315,4 +321,4 @@ def _defaults(arguments: ast.arguments) -> Iterable[tuple[ast.arg, ast.expr]]:
     last = positional[len(positional) - len(arguments.defaults) :]
     by_name = zip(arguments.kwonlyargs, arguments.kw_defaults, strict=True)
     yield from zip(last, arguments.defaults, strict=True)
-    yield from ((each, value) for each, value in by_name if value is not None)
+    yield from ((argument, value) for argument, value in by_name if value is not None)

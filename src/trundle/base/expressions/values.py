@@ -18,7 +18,7 @@ class Caller(Protocol):
         """Call a value.
 
         Raises:
-            Exception: it may not be called, or what the call raises.
+            Exception: it may not be called, or the call raises it.
         """
         ...
 
@@ -38,7 +38,7 @@ class Callee:
 
 
 class Function(Callee):
-    """Function that the program offers to the expressions of a file."""
+    """Function of the program for the expressions of a file."""
 
     __slots__ = ("_body", "name")
 
@@ -54,14 +54,14 @@ class Function(Callee):
 
 
 def wrap_function(function: Callable[..., object], name: str | None = None) -> Function:
-    """Offer a Python function whose cost is linear in the length of its arguments."""
+    """Wrap a Python function whose cost is linear in the length of its arguments."""
 
     def body(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         caller.budget.spend(10)
         caller.budget.spend_traversal([*values, *named.values()])
-        found = function(*values, **named)
-        if isinstance(found, list | tuple | dict):
-            caller.budget.allocate(60 * caller.budget.spend_traversal(found))
-        return found
+        result = function(*values, **named)
+        if isinstance(result, list | tuple | dict):
+            caller.budget.allocate(60 * caller.budget.spend_traversal(result))
+        return result
 
     return Function(name or function.__name__, body)

@@ -1,1 +1,1 @@
-"""HTTP servers: who may enter, what is refused, and how much a slow client may hold."""
+"""HTTP servers: access control, and limits for slow clients."""

@@ -1,8 +1,8 @@
-"""Access control of the page: which requests are served, and the header fields of responses.
+"""Access control of the page: which requests are served, with which response headers.
 
-Every user of the machine reaches loopback, and any web page that a user visits can have the browser send requests
-there; its domain can resolve to it (DNS rebinding). Neither knows the session's token, and a web page cannot choose
-`Origin` and `Host`.
+Every user of the machine can reach loopback, and any web page that a user visits can make the browser send requests
+to it; the page's domain can resolve to loopback (DNS rebinding). Neither has the session's token, and a web page
+cannot choose `Origin` and `Host`.
 """
 
 import re
@@ -28,7 +28,7 @@ class AccessWords:
 _PAGE = AccessWords()
 _TOKEN = re.compile(r"(?<=[?&]token=)[\w-]+")
 VIEW_ONLY = "view_only"
-"""Field of a query: the request looks and changes nothing, whatever its cookies allow."""
+"""Query parameter: the request is view-only, whatever its cookies allow."""
 
 
 class Refusal(NamedTuple):
@@ -37,9 +37,9 @@ class Refusal(NamedTuple):
     text: str
     """The reason, as a sentence."""
     asks_token: bool = False
-    """True if the token is what it lacks."""
+    """True if a token is missing."""
     is_guess: bool = False
-    """True if it came with a wrong token."""
+    """True if its token is wrong."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,7 +52,7 @@ class PageRequest:
     origin: str | None = None
     cookie: str = ""
     is_embedded: bool = False
-    """True if another site's page shows the answer as a part of its own, as an image: it sends no Origin."""
+    """True if another site's page embeds the response, for example as an image: such requests have no Origin."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,14 +64,14 @@ class Access:
     port: int
     allowed: AllowedNames = NONE_ALLOWED
     needs_token: bool = False
-    """True if the token is required on loopback, too; off loopback it always is."""
+    """True if the token is required on loopback too; elsewhere it always is."""
     token: str = field(default_factory=lambda: secrets.token_urlsafe(16))
     view_token: str | None = None
-    """Token of requests that may look and change nothing; None: there is none."""
+    """Token of view-only requests; None: there is none."""
     serves_local_pages: bool = False
-    """True: pages of every port of this machine are served, as for a server without a page of its own."""
+    """True: requests from pages at any port of this machine are served, as by a server without its own page."""
     serves_null_origin: bool = False
-    """True: pages of files are served, whose origin is 'null', as is that of any page's sandboxed frame."""
+    """True: requests from file:// pages are served; their origin is 'null', like any page's sandboxed frame's."""
     is_open: bool = False
     """True: every request is served, as by ROS' own servers."""
     words: AccessWords = _PAGE
@@ -81,8 +81,8 @@ class Access:
         return self._url(address, port, self.token if self.asks_token else None)
 
     def view_url(self, address: str, port: int) -> str:
-        """Return the URL of a page that may look and change nothing."""
-        assert self.view_token is not None, "there is a token for looking"
+        """Return the URL of a view-only page."""
+        assert self.view_token is not None, "the server has a view-only token"
         return self._url(address, port, self.view_token)
 
     def refusal(self, request: PageRequest) -> Refusal | None:
@@ -93,7 +93,7 @@ class Access:
         if self.asks_token and self._right(request) is None:
             text = f"{words.server} asks for its token: {words.token}"
             return Refusal(text, asks_token=True, is_guess=self._has_wrong_token(request))
-        if self._is_let_in(request):
+        if self._is_allowed_origin(request):
             return None
         if is_loopback(self.host) and not self._allows_host(request.host):
             name = (request.host or "")[:100]
@@ -101,24 +101,24 @@ class Access:
         has_token = self._right_of_query(request) is not None
         if not has_token and not _is_own(request) and not self._serves_origin(request.origin or ""):
             pages = f"pages of {request.origin[:100]!r}" if request.origin else "other sites' pages"
-            return Refusal(f"{words.server} does not answer {pages}; {words.origin} to let them in")
+            return Refusal(f"{words.server} does not answer {pages}; {words.origin} to allow them")
         return None
 
     def is_view_only(self, request: PageRequest) -> bool:
-        """True if a request that is served may look and change nothing: its URL says so, or it has no other right."""
-        return VIEW_ONLY in _query(request) or self._right(request) == "look"
+        """True if a served request is view-only, by its URL or by its token."""
+        return VIEW_ONLY in _query(request) or self._right(request) == "view"
 
-    def answer_fields(self, request: PageRequest) -> dict[str, str]:
-        """Return the header fields of a response.
+    def response_fields(self, request: PageRequest) -> dict[str, str]:
+        """Return the headers of a response.
 
-        The cookie carries the token on to the page's own requests; the policy keeps other pages from framing this one,
-        and scripts in this one from contacting other servers.
+        The cookie passes the token on to the page's own requests; the policy stops other pages from framing this one,
+        and scripts of this one from contacting other servers.
         """
         framers = " ".join(("'self'", *self.allowed.origins))
-        here = f" ws://{request.host} wss://{request.host}" if _name(request.host) else ""
+        web_sockets = f" ws://{request.host} wss://{request.host}" if _name(request.host) else ""
         fields = {
             "Content-Security-Policy": (
-                f"connect-src 'self' data: blob:{here}; "
+                f"connect-src 'self' data: blob:{web_sockets}; "
                 f"frame-ancestors {framers}; "
                 "object-src 'none'; base-uri 'none'; form-action 'none'"
             ),
@@ -143,39 +143,39 @@ class Access:
     @property
     def _tokens(self) -> "dict[Right, str]":
         tokens: dict[Right, str] = {"control": self.token}
-        return tokens if self.view_token is None else {**tokens, "look": self.view_token}
+        return tokens if self.view_token is None else {**tokens, "view": self.view_token}
 
     def _cookie(self, right: "Right") -> str:
-        """Cookie name; the port distinguishes pages of one host, and each kind of token has a cookie of its own."""
-        return f"trundle-{self.port}{'-view' if right == 'look' else ''}"
+        """Cookie name; the port distinguishes pages of one host, and each right has its own cookie."""
+        return f"trundle-{self.port}{'-view' if right == 'view' else ''}"
 
     def _right(self, request: PageRequest) -> "Right | None":
-        """Return what a request may do by its tokens: by that in its URL, else by the cookies that our pages send."""
+        """Return the right of a request's token: of its URL, else of the cookies that this server's pages send."""
         if (right := self._right_of_query(request)) is not None:
             return right
-        kept = _cookies(request) if _is_own(request) or self._is_let_in(request) else {}
-        return self._right_of({right: kept.get(self._cookie(right), "") for right in self._tokens})
+        cookies = _cookies(request) if _is_own(request) or self._is_allowed_origin(request) else {}
+        return self._right_of({right: cookies.get(self._cookie(right), "") for right in self._tokens})
 
     def _right_of_query(self, request: PageRequest) -> "Right | None":
-        given = _query(request).get("token", [""])[-1]
-        return self._right_of(dict.fromkeys(self._tokens, given))
+        token = _query(request).get("token", [""])[-1]
+        return self._right_of(dict.fromkeys(self._tokens, token))
 
-    def _right_of(self, given: "dict[Right, str]") -> "Right | None":
-        """Return the right whose token was given; all are compared, in constant time."""
-        rights: list[Right] = [right for right, token in self._tokens.items() if _is_same(given[right], token)]
+    def _right_of(self, candidates: "dict[Right, str]") -> "Right | None":
+        """Return the right whose token matches its candidate; all are compared, in constant time."""
+        rights: list[Right] = [right for right, token in self._tokens.items() if _is_same(candidates[right], token)]
         return rights[0] if rights else None
 
     def _has_wrong_token(self, request: PageRequest) -> bool:
-        """True if a refused request brought a token, in its URL or as a cookie."""
-        kept = _cookies(request)
-        return any(_query(request).get("token", [])) or any(kept.get(self._cookie(right)) for right in self._tokens)
+        """True if a refused request has a token, in its URL or as a cookie."""
+        cookies = _cookies(request)
+        return any(_query(request).get("token", [])) or any(cookies.get(self._cookie(right)) for right in self._tokens)
 
-    def _is_let_in(self, request: PageRequest) -> bool:
-        """True for pages whose origin is allowed by name."""
+    def _is_allowed_origin(self, request: PageRequest) -> bool:
+        """True for pages with an allowed origin."""
         return request.origin is not None and _plain(request.origin) in map(_plain, self.allowed.origins)
 
     def _serves_origin(self, origin: str) -> bool:
-        """True for local pages and files, where they are served."""
+        """True for local pages and files, if they are served."""
         if origin == "null":
             return self.serves_null_origin
         scheme, separator, authority = origin.lower().partition("://")
@@ -189,21 +189,21 @@ class Access:
 
 
 def without_tokens(text: str) -> str:
-    """Return a text for a log: tokens of links in it are replaced by an ellipsis."""
+    """Return a text for a log, with tokens of links replaced by an ellipsis."""
     return _TOKEN.sub("…", text)
 
 
 def without_query(url: str) -> str:
-    """Return the server's part of a link, which opens nothing: `http://127.0.0.1:8080`."""
+    """Return a link without its token: `http://127.0.0.1:8080`."""
     return url.partition("?")[0].rstrip("/")
 
 
-Right = Literal["control", "look"]
-"""Right that a token gives."""
+Right = Literal["control", "view"]
+"""Right that a token grants."""
 
 
 def _is_own(request: PageRequest) -> bool:
-    """True if the request comes from no page or from one of this server."""
+    """True if the request comes from this server's page, or from no page."""
     if request.origin is None:
         return not request.is_embedded
     host = (request.host or "").lower()
@@ -225,8 +225,8 @@ def _is_same(text: str, token: str) -> bool:
 
 def _name(host: str | None) -> str:
     """Return the name or address in a `Host` field; empty if invalid."""
-    found = AUTHORITY.fullmatch((host or "").lower())
-    return "" if found is None else found[1].strip("[]").rstrip(".")
+    match = AUTHORITY.fullmatch((host or "").lower())
+    return "" if match is None else match[1].strip("[]").rstrip(".")
 
 
 def _plain(origin: str) -> str:

@@ -1,6 +1,6 @@
-"""Guard of a web server: what `Access` decides by, and answers to those it refuses.
+"""Guard of a web server: applies `Access` to requests, and answers refused ones.
 
-Answers to wrong tokens come late, so that guessing is slow.
+Responses to wrong tokens are delayed, so that guessing is slow.
 """
 
 import asyncio
@@ -11,7 +11,7 @@ from .access import Access, PageRequest, Refusal
 from .link_request import LINK_REQUEST, POLICY
 
 GUESS_S = 1.0
-"""Delay of the answer to a wrong token; a right one is served at once."""
+"""Delay of the response to a wrong token [s]."""
 _MAX_WAITING = 64
 _FIELDS = {
     "Cache-Control": "no-store",

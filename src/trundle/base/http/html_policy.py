@@ -1,4 +1,4 @@
-"""Content security policy of HTML files that open alone: they load nothing, and run their own script only."""
+"""Content security policy of self-contained HTML files: they load nothing, and run only their own script."""
 
 import base64
 import hashlib
@@ -7,16 +7,16 @@ _COMMON = "default-src 'none'; base-uri 'none'; form-action 'none'; style-src 'u
 
 
 def policy_of_document() -> str:
-    """Return the <meta> of a document without scripts; its pictures are data: URIs."""
+    """Return the <meta> of a document without scripts, whose images are data: URIs."""
     return _meta(f"{_COMMON}; img-src data:")
 
 
 def policy_of_viewer(script: str) -> str:
-    """Return the <meta> of a document whose only script is this one, as written there; what it makes are blob: URIs."""
-    own = "data: blob:"
+    """Return the <meta> of a document with this inline script only, which may create blob: URIs."""
+    sources = "data: blob:"
     return _meta(
-        f"{_COMMON}; script-src {inline_hash(script)}; img-src {own}; media-src {own}; font-src {own}; "
-        f"connect-src {own}; worker-src blob:"
+        f"{_COMMON}; script-src {inline_hash(script)}; img-src {sources}; media-src {sources}; font-src {sources}; "
+        f"connect-src {sources}; worker-src blob:"
     )
 
 

@@ -1,4 +1,4 @@
-"""Document in place of the page for those who have no token: it asks for the link."""
+"""Document that a browser without a token gets in place of the page; it asks for the link."""
 
 from trundle.base.http.html_policy import inline_hash
 

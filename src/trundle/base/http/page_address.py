@@ -45,10 +45,10 @@ class PageAddress:
     port: int | None = None
     """None: 8080 or the next free one."""
     reserved_ports: tuple[int, ...] = ()
-    """Ports that are left to others, unless `port` is one."""
+    """Ports that the page does not use, unless `port` is one."""
     allowed: AllowedNames = NONE_ALLOWED
     view_only: bool = False
-    """True if the link that only allows looking is printed, too."""
+    """True: print the view-only link too."""
 
 
 def is_loopback(host: str) -> bool:

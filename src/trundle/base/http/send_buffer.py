@@ -3,10 +3,10 @@
 import asyncio
 from collections import deque
 
-_FULL_BYTES = 32 * 1024 * 1024
-"""Bytes that wait for a slow client; more are dropped."""
+_MAX_BYTES = 32 * 1024 * 1024
+"""Maximum of queued bytes; further messages are dropped."""
 _BUSY_BYTES = 256 * 1024
-"""Bytes that wait, above which queued topics hold their messages back."""
+"""Queued bytes above which topics with queues hold messages back."""
 _PER_MESSAGE = 64
 
 
@@ -27,7 +27,7 @@ class SendBuffer:
 
     def put(self, message: str | bytes) -> bool:
         """Queue a message; False: the client is too slow, and the message is dropped."""
-        if self._bytes > _FULL_BYTES:
+        if self._bytes > _MAX_BYTES:
             return False
         self._messages.append(message)
         self._bytes += len(message) + _PER_MESSAGE

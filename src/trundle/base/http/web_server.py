@@ -15,14 +15,14 @@ from .guard import Guard
 from .send_buffer import SendBuffer
 
 _MAX_MESSAGE_BYTES = 64 * 1024 * 1024
-"""Longest message of a client."""
+"""Maximum length of a client's message."""
 _SHUTDOWN_S = 0.2
 _NO_SNIFFING = {"X-Content-Type-Options": "nosniff", "Referrer-Policy": "no-referrer"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reply:
-    """Answer to a request: a body, or parts that follow each other for as long as the client listens."""
+    """Response to a request: a body, or a stream of parts until the client disconnects."""
 
     status: int = 200
     content_type: str = "text/plain; charset=utf-8"
@@ -32,11 +32,11 @@ class Reply:
 
 
 Handler = Callable[[Mapping[str, str]], Awaitable[Reply]]
-"""Answers a GET request by its query."""
+"""Answers a GET request from its query."""
 
 
 class SocketClient:
-    """A WebSocket of a client."""
+    """WebSocket of a client."""
 
     def __init__(self, web_socket: web.WebSocketResponse, peer: str) -> None:
         self._web_socket = web_socket
@@ -46,12 +46,12 @@ class SocketClient:
         """Messages to the client."""
 
     async def receive(self) -> str | bytes | None:
-        """Wait for a message; None: the client has left."""
+        """Wait for a message; None: the client has disconnected."""
         message = await self._web_socket.receive()
         return message.data if message.type in (WSMsgType.TEXT, WSMsgType.BINARY) else None
 
     async def send_all(self) -> None:
-        """Send what is put into `outgoing`, until cancelled or the client leaves."""
+        """Send the messages of `outgoing`, until cancelled or the client disconnects."""
         with contextlib.suppress(ClientConnectionError, ConnectionError):
             while True:
                 message = await self.outgoing.get()
@@ -63,17 +63,17 @@ class SocketClient:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SocketOptions:
-    """WebSockets of a server."""
+    """Options of a server's WebSockets."""
 
     serve: Callable[[SocketClient], Awaitable[None]]
-    """Serves one client until it leaves."""
+    """Serves one client until it disconnects."""
     max_clients: int = 100
     ping_s: float | None = None
     compresses: bool = False
 
 
 class WebServer:
-    """Server of a node."""
+    """Web server of a node."""
 
     def __init__(
         self,
@@ -88,8 +88,8 @@ class WebServer:
         Args:
             access: decides which requests are served.
             pages: path → handler.
-            sockets: None: no WebSockets.
-            max_streams: streams served at once.
+            sockets: WebSocket options; None: no WebSockets.
+            max_streams: maximum of simultaneous streams.
         """
         self._access = access
         self._pages = pages
@@ -102,7 +102,7 @@ class WebServer:
 
     async def start(self, listening: socket.socket, certificate: ssl.SSLContext | None = None) -> None:
         """Serve connections of a listening socket."""
-        logging.getLogger("aiohttp").setLevel(logging.CRITICAL)  # it answers nonsense from the net with tracebacks
+        logging.getLogger("aiohttp").setLevel(logging.CRITICAL)  # it logs tracebacks for malformed requests
         app = web.Application()
         app.router.add_get("/{path:.*}", self._answer)
         self._runner = web.AppRunner(
@@ -131,18 +131,18 @@ class WebServer:
             return web.Response(status=reply.status, body=reply.body, headers=headers)
         return await self._stream(request, reply, reply.parts, fields)
 
-    def _fields(self, asked: PageRequest) -> dict[str, str]:
-        """Return fields that let pages of this machine show the answer, and those let in by name read it."""
+    def _fields(self, page_request: PageRequest) -> dict[str, str]:
+        """Return headers that let pages of this machine show the response, and allowed origins read it."""
         access = self._access
         fields = dict(_NO_SNIFFING)
-        if "Set-Cookie" in (given := access.answer_fields(asked)):
-            fields["Set-Cookie"] = given["Set-Cookie"]
+        if "Set-Cookie" in (headers := access.response_fields(page_request)):
+            fields["Set-Cookie"] = headers["Set-Cookie"]
         is_shared = access.is_open or access.allowed.origins or access.serves_null_origin
         fields["Cross-Origin-Resource-Policy"] = "cross-origin" if is_shared else "same-site"
         if access.is_open:
             fields["Access-Control-Allow-Origin"] = "*"
-        elif asked.origin is not None:
-            fields |= {"Access-Control-Allow-Origin": asked.origin, "Vary": "Origin"}
+        elif page_request.origin is not None:
+            fields |= {"Access-Control-Allow-Origin": page_request.origin, "Vary": "Origin"}
         return fields
 
     async def _stream(
@@ -158,7 +158,7 @@ class WebServer:
             async for part in parts:
                 await response.write(part)
         except ConnectionError:
-            pass  # the client has left
+            pass  # the client has disconnected
         finally:
             self._streams -= 1
             await parts.aclose()

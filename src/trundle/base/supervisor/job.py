@@ -14,7 +14,7 @@ class StopTimeouts:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RespawnPolicy:
-    """Consequences of a job's end."""
+    """Reaction to a job's end."""
 
     respawn: bool = False
     respawn_delay_s: float = 0.0
@@ -43,11 +43,11 @@ class Job(Protocol):
         ...
 
     async def stop(self, timeouts: StopTimeouts) -> None:
-        """Stop with escalating signals; afterwards nothing of the job runs. No-op if it is not running."""
+        """Stop with escalating signals until no process of the job is left. No-op if it is not running."""
         ...
 
     def last_output(self) -> list[str]:
-        """Last lines of output, oldest first."""
+        """Return the last lines of output, oldest first."""
         ...
 
 

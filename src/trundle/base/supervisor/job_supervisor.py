@@ -11,10 +11,10 @@ from .job import Job, JobError, RespawnPolicy, StopTimeouts
 
 EventKind: TypeAlias = Literal["started", "failed", "finished", "died", "respawning", "stopping", "required"]
 
-_QUICK_DEATH_S = 2.0
-_LONGEST_BACK_OFF_S = 10.0
-_LAST_WORDS_S = 5.0
-"""Wait for a stopped job's last output [s]."""
+_MIN_RUN_S = 2.0
+_MAX_BACK_OFF_S = 10.0
+_LAST_OUTPUT_S = 5.0
+"""Timeout for a stopped job's last output [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,13 +45,13 @@ class Supervisor:
         self._timeouts = timeouts or StopTimeouts()
         self._watched: dict[str, _WatchedJob] = {}
         self._ended = asyncio.Event()
-        """Set while no job is left; at first there is none."""
+        """Set while no job runs, also initially."""
         self._ended.set()
         self._required: str | None = None
         self._stop = asyncio.Event()
 
     async def start(self, job: Job, policy: RespawnPolicy | None = None) -> bool:
-        """Start a job; True if it runs. Failure to start is reported as an event."""
+        """Start a job; return True if it runs. A failure to start is reported as an event."""
         assert job.name not in self._watched, f"two jobs named {job.name!r}"
         watched = _WatchedJob(job, policy or RespawnPolicy())
         self._watched[job.name] = watched
@@ -65,20 +65,20 @@ class Supervisor:
         return runs
 
     async def wait(self) -> str | None:
-        """Wait until a required job ended (returns its name) or no job is left (None)."""
+        """Wait until a required job has ended (return its name) or no job is left (return None)."""
         await self._ended.wait()
         return self._required
 
     async def stop(self) -> None:
-        """Stop all jobs, the last started first."""
+        """Stop all jobs, the last one first."""
         self._stop.set()
         running = [w for w in reversed(self._watched.values()) if w.watch is not None and not w.watch.done()]
         for watched in running:
             self._notify("stopping", watched, "killing on exit")
         await asyncio.gather(*(watched.job.stop(self._timeouts) for watched in running))
         if watches := [watched.watch for watched in running if watched.watch is not None]:
-            _, deaf = await asyncio.wait(watches, timeout=_LAST_WORDS_S)
-            for watch in deaf:  # a task that ignores its cancellation is abandoned
+            _, unresponsive = await asyncio.wait(watches, timeout=_LAST_OUTPUT_S)
+            for watch in unresponsive:  # a task that ignores its cancellation is abandoned
                 watch.cancel()
         self._ended.set()
 
@@ -88,12 +88,12 @@ class Supervisor:
 
     async def _start(self, watched: _WatchedJob) -> bool:
         try:
-            what = await watched.job.start()
+            description = await watched.job.start()
         except JobError as error:
             self._notify("failed", watched, f"cannot be started: {error}")
             return False
         watched.code = None
-        self._notify("started", watched, f"started {what}")
+        self._notify("started", watched, f"started {description}")
         return True
 
     async def _watch(self, watched: _WatchedJob) -> None:
@@ -108,9 +108,9 @@ class Supervisor:
             if not watched.policy.respawn:
                 self._end(watched, code)
                 return
-            # Back off, or a program that dies at once would start hundreds of times a second.
-            quick_deaths = quick_deaths + 1 if time.monotonic() - since < _QUICK_DEATH_S else 0
-            back_off_s = min(0.1 * 2**quick_deaths, _LONGEST_BACK_OFF_S) if quick_deaths else 0.0
+            # Back off: a program that dies at once would otherwise start hundreds of times a second.
+            quick_deaths = quick_deaths + 1 if time.monotonic() - since < _MIN_RUN_S else 0
+            back_off_s = min(0.1 * 2**quick_deaths, _MAX_BACK_OFF_S) if quick_deaths else 0.0
             delay_s = max(watched.policy.respawn_delay_s, back_off_s)
             self._notify("respawning", watched, f"respawning in {delay_s:.1f} s" if delay_s else "respawning")
             with contextlib.suppress(TimeoutError):
@@ -125,10 +125,10 @@ class Supervisor:
         if code == 0:
             self._notify("finished", watched, "has finished cleanly", code)
             return
-        how = f"exit code {code}" if code > 0 else f"signal {-code}"
+        cause = f"exit code {code}" if code > 0 else f"signal {-code}"
         last = watched.job.last_output()
-        said = "; its last output:\n" + "\n".join(f"    {line}" for line in last) if last else ""
-        self._notify("died", watched, f"has died [{how}]{said}", code)
+        output = "; its last output:\n" + "\n".join(f"    {line}" for line in last) if last else ""
+        self._notify("died", watched, f"has died [{cause}]{output}", code)
 
     def _end(self, watched: _WatchedJob, code: int) -> None:
         watched.code = code

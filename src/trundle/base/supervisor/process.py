@@ -1,4 +1,4 @@
-"""A job in a process of its own, which leads a process group."""
+"""Job in a child process, which leads a process group."""
 
 import asyncio
 import contextlib
@@ -20,10 +20,10 @@ from .terminal import LEADER, Terminal
 _POSIX = os.name == "posix"
 _CHUNK_BYTES = 65536
 _MAX_LINE = 10_000
-"""Characters kept of a line, against programs that never end one."""
-_KEPT_LINES = 10
+"""Maximum length of a line [characters]: some programs never end one."""
+_MAX_LINES = 10
 _EXIT_GRACE_S = 1.0
-"""Wait for the last output after a program's end [s]: its child may hold the pipe open."""
+"""Timeout for the last output after a program's end [s]: its child may hold the pipe open."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,14 +36,14 @@ class ProcessCommand:
     """Complete environment; nothing is inherited."""
     cwd: Path | None = None
     output: "Literal['screen', 'log', 'inherited'] | Terminal" = "log"
-    """Destination of standard output; standard error always goes to the screen, as in roslaunch.
+    """Destination of standard output; standard error goes to the screen, as in roslaunch.
 
-    Of a terminal the program has input and errors, too; 'inherited' are those of this process.
+    A `Terminal` or 'inherited', this process's own streams, is used for all three standard streams.
     """
     log_file: Path | None = None
     """Log file for `output` 'log'; None drops the output."""
     reads_input: bool = False
-    """True: it reads the standard input of this process, as all programs of roslaunch do."""
+    """True: it reads this process's standard input, like all programs of roslaunch."""
 
 
 class ProcessJob:
@@ -53,9 +53,9 @@ class ProcessJob:
         """Create; `start` runs the program.
 
         Args:
-            command: the program.
+            command: program to run.
             show: called with the job's name and each line, without newline.
-            tree: owner of the process and its descendants.
+            tree: process tree that kills the process and its descendants at the end.
         """
         self.name = command.name
         self._command = command
@@ -63,7 +63,7 @@ class ProcessJob:
         self._show = show
         self._process: asyncio.subprocess.Process | None = None
         self._readers: list[asyncio.Task[None]] = []
-        self._last: deque[str] = deque(maxlen=_KEPT_LINES)
+        self._last: deque[str] = deque(maxlen=_MAX_LINES)
 
     async def start(self) -> str:
         command = self._command
@@ -92,17 +92,17 @@ class ProcessJob:
         program = command.argv[0]
         if shutil.which(program, path=command.env.get("PATH", os.defpath)) is None:
             raise JobError(f"{program!r} does not exist, or cannot be run")
-        side = terminal.open()
+        descriptor = terminal.open()
         try:
-            return await self._execute((sys.executable, "-I", "-S", str(LEADER), *command.argv), side, side)
+            return await self._execute((sys.executable, "-I", "-S", str(LEADER), *command.argv), descriptor, descriptor)
         except JobError:
             terminal.close()
             raise
         finally:
-            os.close(side)
+            os.close(descriptor)
 
     async def _execute(self, argv: Sequence[str], stdin: int | None, output: int | None) -> asyncio.subprocess.Process:
-        """Start a program with descriptors as `subprocess` has them."""
+        """Start a program; the descriptors are those of `subprocess`."""
         command = self._command
         try:
             return await asyncio.create_subprocess_exec(
@@ -120,7 +120,7 @@ class ProcessJob:
             raise JobError(f"{argv[0]!r} cannot be run: {error}") from None
 
     async def wait(self) -> int:
-        assert self._process is not None, "a job is started before it is waited for"
+        assert self._process is not None, "start() comes before wait()"
         code = await self._process.wait()
         if self._readers:
             _, late = await asyncio.wait(self._readers, timeout=_EXIT_GRACE_S)
@@ -128,7 +128,7 @@ class ProcessJob:
                 reader.cancel()
         if isinstance(self._command.output, Terminal):
             self._command.output.close()
-            self._last.extend(self._command.output.last_lines(_KEPT_LINES))
+            self._last.extend(self._command.output.last_lines(_MAX_LINES))
         self._tree.discard(self._process.pid)
         return code
 
@@ -145,7 +145,7 @@ class ProcessJob:
             self._signal(process, number)
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(process.wait(), timeout_s)
-        # The group outlives its leader if it left children behind.
+        # Children may have outlived the group's leader.
         self._signal(process, signal.SIGKILL if _POSIX else signal.SIGTERM)
         await process.wait()
 
@@ -161,7 +161,7 @@ class ProcessJob:
                 process.terminate()
 
     async def _read(self, stream: asyncio.StreamReader, *, to_screen: bool) -> None:
-        """Read a stream; a program that writes faster than the screen blocks, so memory stays bounded."""
+        """Read a stream; a program that writes faster than the screen blocks, which bounds the memory."""
         with contextlib.ExitStack() as stack:
             log: IO[str] | None = None
             if not to_screen and self._command.log_file is not None:

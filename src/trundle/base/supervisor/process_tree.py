@@ -1,4 +1,4 @@
-"""Descendants of the supervisor's programs: none outlives the supervisor, even if that is killed."""
+"""Descendants of the supervisor's programs: none outlives the supervisor, even a killed one."""
 
 import contextlib
 import os
@@ -14,7 +14,7 @@ from .windows_job import enter_job_object
 
 _POSIX = os.name == "posix"
 _KILL_S = 2.0
-"""Wait for killed processes to disappear [s]."""
+"""Timeout for killed processes to disappear [s]."""
 
 
 class ProcessTree:
@@ -25,18 +25,18 @@ class ProcessTree:
     """
 
     def __init__(self, *, terminate_s: float = 2.0) -> None:
-        """`terminate_s`: wait after SIGTERM for processes left at `close` [s]."""
+        """`terminate_s`: timeout after SIGTERM for processes left at `close` [s]."""
         self._mark = uuid.uuid4().hex
         self._terminate_s = terminate_s
         self._groups: set[int] = set()
         self._watcher: subprocess.Popen[str] | None = None
 
     def environment(self, env: Mapping[str, str]) -> dict[str, str]:
-        """Environment for a program of the tree."""
+        """Return the environment for a program of the tree."""
         return {**env, tree_watcher.VARIABLE: self._mark}
 
     def watch(self) -> None:
-        """Start the watcher, unless it runs; call before starting a program."""
+        """Start the watcher, unless it runs; to be called before starting a program."""
         if not _POSIX:
             enter_job_object()
         elif self._watcher is None:
@@ -66,7 +66,7 @@ class ProcessTree:
             self._notify_watcher()
 
     def close(self) -> None:
-        """Terminate, then kill, the processes left."""
+        """Terminate, then kill, the remaining processes."""
         if self._watcher is None:
             return
         if not tree_watcher.kill_tree(self._mark, self._groups, signal.SIGTERM, self._terminate_s):

@@ -1,7 +1,7 @@
 """Makes standard input the terminal of its session, then becomes the program of its arguments.
 
-`subprocess` does so only between fork and exec, where a process with threads may run no Python. Uses only the standard
-library, since it runs without Trundle's modules.
+`subprocess` could only do so between fork and exec, where a process with threads must not run Python. Uses only the
+standard library, since it runs without Trundle's modules.
 """
 
 import os
@@ -14,7 +14,7 @@ def _main(words: list[str]) -> None:
     import termios
 
     fcntl.ioctl(0, termios.TIOCSCTTY, 0)
-    for number in (signal.SIGPIPE, signal.SIGXFSZ):  # which Python ignores
+    for number in (signal.SIGPIPE, signal.SIGXFSZ):  # Python ignores these
         signal.signal(number, signal.SIG_DFL)
     try:
         os.execvp(words[0], words)

@@ -1,4 +1,4 @@
-"""A job that runs as a coroutine of this process."""
+"""Job that runs as a coroutine of this process."""
 
 import asyncio
 import traceback
@@ -24,14 +24,14 @@ class TaskJob:
         return "within this process"
 
     async def wait(self) -> int:
-        assert self._task is not None, "a job is started before it is waited for"
+        assert self._task is not None, "start() comes before wait()"
         await asyncio.wait([self._task])
         if self._task.cancelled():
             return 0
         error = self._task.exception()
         if error is None:
             return self._task.result()
-        # A TrundleError is one sentence for the user; anything else is a bug, and needs its traceback.
+        # A TrundleError is a sentence for the user; anything else is a bug and needs its traceback.
         self._last = (str(error) if isinstance(error, TrundleError) else _trace(error)).splitlines()
         return 1
 

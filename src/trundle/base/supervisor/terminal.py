@@ -1,4 +1,4 @@
-"""A terminal of our own: the end of what its program printed, and keys for it; for a process, a pseudo-terminal."""
+"""Terminal of a program: its recent output, and keys for it; for a process, with a pseudo-terminal."""
 
 import asyncio
 import os
@@ -11,21 +11,21 @@ from .job import JobError
 HAS_PSEUDO_TERMINALS = hasattr(os, "openpty")
 """False on Windows."""
 LEADER = Path(__file__).with_name("session_leader.py")
-"""Program that makes its standard input the session's terminal, and becomes the program of its arguments."""
+"""Program that makes standard input its session's terminal, then becomes the program of its arguments."""
 MAX_SIZE = 500
-"""Columns or rows."""
+"""Maximum of columns or rows."""
 
 _SCROLLBACK_BYTES = 256 * 1024
 _CHUNK_BYTES = 64 * 1024
 _PERIOD_S = 1 / 30
-"""Time between two chunks [s]: a program that prints without end waits, as at every terminal."""
+"""Time between two chunks [s]: a program that prints without end blocks, as at every terminal."""
 _KEY_BYTES = 64 * 1024
-"""Keys that wait for a program that reads none; further ones are lost."""
+"""Maximum of queued keys for a program that reads none; further ones are lost."""
 _MIN_SIZE = 2
 _CUT_BYTES = 4096
-"""The oldest output is cut behind a line's end, if one is as near as this: not inside an escape sequence."""
+"""The oldest output is cut at a line end within this distance, so as not to cut an escape sequence."""
 _LEAVE_MODES = "\x18\x1b[?1049l\x1b[?1000l\x1b[?1002l\x1b[?1003l\x1b[?1006l\x1b[?2004l\x1b[!p"
-"""Ends what a program may have left: a sequence, the alternate screen, reports of mouse and paste, attributes."""
+"""Resets the modes that a program may have left: alternate screen, reports of mouse and paste, attributes."""
 _CONTROLS = re.compile(
     r"\x1b\[[0-?]*[ -/]*[@-~]|\x1b[\]P^_X][^\x07\x1b]*(?:\x07|\x1b\\)?|\x1b[ -/]*[0-~]|[\x00-\x08\x0b-\x1f\x7f-\x9f]"
 )
@@ -33,21 +33,21 @@ _CONTROLS = re.compile(
 
 
 class Terminal:
-    """End of the output of one program after another; used on one asyncio loop.
+    """Recent output of consecutive programs; used on one asyncio loop.
 
-    The keys go to the function that listens, else to the process at the pseudo-terminal.
+    Keys go to the listener, else to the process at the pseudo-terminal.
     """
 
     def __init__(self) -> None:
         self.columns, self.rows = 80, 24
         self.ended: str | None = None
-        """Sentence on the end of its program; None: it runs."""
+        """How its program ended; None: it runs."""
         self.changes = 0
-        """Grows with everything that changes what is shown."""
-        self._shown = bytearray()
+        """Number of changes of the displayed state."""
+        self._output = bytearray()
         self._first = 0
         self._descriptor: int | None = None
-        """Our side of the pseudo-terminal; None: there is none."""
+        """This process's side of the pseudo-terminal; None: there is none."""
         self._keys = bytearray()
         self._listener: Callable[[str], None] | None = None
 
@@ -55,47 +55,47 @@ class Terminal:
 
     @property
     def first(self) -> int:
-        """Number of the scrollback's first byte, of all that were printed."""
+        """Offset of the scrollback's first byte in the whole output."""
         return self._first
 
     @property
     def scrollback(self) -> bytes:
-        """Newest output, with its escape sequences."""
-        return bytes(self._shown)
+        """Recent output, with its escape sequences."""
+        return bytes(self._output)
 
     def last_lines(self, count: int) -> list[str]:
         """Return the last lines that are not blank, without control characters."""
-        end = self._shown[-_CUT_BYTES:].decode(errors="replace").replace("\r\n", "\n")
+        end = self._output[-_CUT_BYTES:].decode(errors="replace").replace("\r\n", "\n")
         lines = (line.rpartition("\r")[2].rstrip() for line in _CONTROLS.sub(_keep_return, end).split("\n"))
         return [line for line in lines if line][-count:]
 
     def write(self, text: str) -> None:
-        """Print a text, whose lines end with a newline."""
+        """Print a text with newlines as line ends."""
         self._append(text.replace("\n", "\r\n").encode())
 
     def begin(self) -> None:
-        """Note that the program runs."""
+        """Mark the program as running."""
         self.ended = None
         self.changes += 1
 
     def end(self, sentence: str) -> None:
-        """Note and print how the program ended, after what it left is undone."""
+        """Reset the program's terminal modes, and print how it ended."""
         self.ended = sentence
         self.write(f"{_LEAVE_MODES}\n\x1b[2m{_CONTROLS.sub('', sentence)}\x1b[22m\n")
 
     def _append(self, data: bytes) -> None:
-        self._shown += data
+        self._output += data
         self.changes += 1
-        if (surplus := len(self._shown) - _SCROLLBACK_BYTES) > 0:
-            line_end = self._shown.find(b"\n", surplus, surplus + _CUT_BYTES)
+        if (surplus := len(self._output) - _SCROLLBACK_BYTES) > 0:
+            line_end = self._output.find(b"\n", surplus, surplus + _CUT_BYTES)
             surplus = line_end + 1 if line_end >= 0 else surplus
-            del self._shown[:surplus]
+            del self._output[:surplus]
             self._first += surplus
 
     # -- keys and size
 
     def type(self, text: str) -> None:
-        """Give keys to the program, as the terminal sends them."""
+        """Send keys to the program, encoded as terminals do."""
         if self._listener is not None:
             self._listener(text)
         elif self._descriptor is not None:
@@ -103,11 +103,11 @@ class Terminal:
             self._write_keys()
 
     def listen(self, listener: Callable[[str], None] | None) -> None:
-        """Call a function with the keys; None: they are lost, or go to the process."""
+        """Set the function that receives the keys; None: the process receives them."""
         self._listener = listener
 
     def resize(self, columns: int, rows: int) -> None:
-        """Change the size, within bounds."""
+        """Set the size, clamped to the limits."""
         columns, rows = (min(max(size, _MIN_SIZE), MAX_SIZE) for size in (columns, rows))
         if (columns, rows) != (self.columns, self.rows):
             self.columns, self.rows = columns, rows
@@ -117,22 +117,22 @@ class Terminal:
     # -- a process
 
     def open(self) -> int:
-        """Open a pseudo-terminal for a process; return its descriptor of the other side, which the caller closes.
+        """Open a pseudo-terminal for a process; return the process's descriptor, which the caller closes.
 
         Raises:
-            JobError: the system has none left.
+            JobError: the system has no pseudo-terminal left.
         """
         try:
-            self._descriptor, theirs = os.openpty()
+            self._descriptor, process_descriptor = os.openpty()
         except OSError as error:
             raise JobError(f"no terminal can be opened: {error.strerror}") from None
         os.set_blocking(self._descriptor, False)
         self._set_size()
         asyncio.get_running_loop().add_reader(self._descriptor, self._read)
-        return theirs
+        return process_descriptor
 
     def close(self) -> None:
-        """Show the rest of the output and close the pseudo-terminal; its processes hang up."""
+        """Read the rest of the output and close the pseudo-terminal; its processes get SIGHUP."""
         if (descriptor := self._descriptor) is None:
             return
         for _ in range(_SCROLLBACK_BYTES // _CHUNK_BYTES):
@@ -147,17 +147,17 @@ class Terminal:
 
     def _read(self) -> None:
         descriptor, loop = self._descriptor, asyncio.get_running_loop()
-        assert descriptor is not None, "a closed terminal is not read"
+        assert descriptor is not None, "the pseudo-terminal is open"
         loop.remove_reader(descriptor)
         if self._read_chunk(descriptor):
-            loop.call_later(_PERIOD_S, self._read_on, descriptor)
+            loop.call_later(_PERIOD_S, self._resume_reading, descriptor)
 
-    def _read_on(self, descriptor: int) -> None:
+    def _resume_reading(self, descriptor: int) -> None:
         if self._descriptor == descriptor:
             asyncio.get_running_loop().add_reader(descriptor, self._read)
 
     def _read_chunk(self, descriptor: int) -> bool:
-        """Read what the process printed; False if no process is left."""
+        """Read output of the process; return False if no process is left."""
         data, is_left = b"", True
         try:
             while len(data) < _CHUNK_BYTES and (more := os.read(descriptor, _CHUNK_BYTES - len(data))):
@@ -172,7 +172,7 @@ class Terminal:
 
     def _write_keys(self) -> None:
         loop, descriptor = asyncio.get_running_loop(), self._descriptor
-        assert descriptor is not None, "keys are for a process"
+        assert descriptor is not None, "the pseudo-terminal is open"
         try:
             del self._keys[: os.write(descriptor, self._keys)]
         except BlockingIOError:
@@ -191,5 +191,5 @@ class Terminal:
             termios.tcsetwinsize(self._descriptor, (self.rows, self.columns))
 
 
-def _keep_return(found: re.Match[str]) -> str:
-    return "\r" if found[0] == "\r" else ""
+def _keep_return(match: re.Match[str]) -> str:
+    return "\r" if match[0] == "\r" else ""

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from trundle.base.diagnostics import UsageError
 
 from .job import Job, JobResult, T
-from .local_engine import run_here
+from .local_engine import run_locally
 from .progress import Progress
 
 
@@ -20,14 +20,14 @@ def run_job(
     address: str | None,
     is_ending: Callable[[], bool],
 ) -> None:
-    """Run rows, show their progress, and hand each outcome on.
+    """Run rows, show their progress, and pass on each result.
 
     Args:
-        job: what to do with each row.
+        job: work on each row.
         rows: numbers of the rows.
-        receive: called with each outcome, returns True if it is ok.
-        count: number of the rows; 0: nothing is started.
-        progress: of the whole; it is closed at the end.
+        receive: called with each result; returns True if it is ok.
+        count: number of rows; 0: nothing is started.
+        progress: progress of the whole job; closed at the end.
         workers: see `run_rows`.
         address: see `run_rows`.
         is_ending: see `run_rows`.
@@ -37,9 +37,9 @@ def run_job(
     """
     try:
         if count:
-            for outcome in run_rows(job, rows, count=count, workers=workers, address=address, is_ending=is_ending):
-                if outcome is not None:
-                    progress.add(is_ok=receive(outcome))
+            for result in run_rows(job, rows, count=count, workers=workers, address=address, is_ending=is_ending):
+                if result is not None:
+                    progress.add(is_ok=receive(result))
                 progress.show()
     finally:
         progress.close()
@@ -49,7 +49,7 @@ def check_workers(workers: int | None) -> None:
     """Refuse a number of processes below one.
 
     Raises:
-        UsageError: it is.
+        UsageError: it is below one.
     """
     if workers is not None and workers < 1:
         raise UsageError(f"{workers} workers; give at least 1")
@@ -64,17 +64,17 @@ def run_rows(
     address: str | None = None,
     is_ending: Callable[[], bool],
 ) -> "Iterator[JobResult[T] | None]":
-    """Yield the outcomes of rows as they come, and None in between; end once all have come, or it is ending.
+    """Yield the results of rows as they arrive, and None in between, until all have arrived or `is_ending`.
 
-    What is yielded does not depend on the engine, except for its order.
+    The results do not depend on the engine, except for their order.
 
     Args:
-        job: what to do with each row.
+        job: work on each row.
         rows: numbers of the rows, read as workers become free.
-        count: how many they are.
+        count: number of rows.
         workers: number of processes; None: one for each processor.
-        address: of a Ray cluster, whose nodes have the same files; "auto": the one of this machine; "local": a new one
-            on this machine; None: processes of this machine, without Ray.
+        address: address of a Ray cluster, whose nodes have the same files; "auto": this machine's cluster; "local": a
+            new one on this machine; None: processes of this machine, without Ray.
         is_ending: polled; True ends the workers.
 
     Raises:
@@ -82,7 +82,7 @@ def run_rows(
         TrundleError: a worker does not start.
     """
     if address is None:
-        return run_here(job, rows, count=count, workers=workers, is_ending=is_ending)
+        return run_locally(job, rows, count=count, workers=workers, is_ending=is_ending)
     from .ray_engine import run_on_ray
 
     return run_on_ray(job, rows, count=count, address=address, workers=workers, is_ending=is_ending)

@@ -1,4 +1,4 @@
-"""Job: work on numbered rows, each of which any process can do by itself."""
+"""Job: work on numbered rows, which are independent of each other."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,21 +13,21 @@ class Job(Generic[T]):
     """Work on numbered rows."""
 
     make: Callable[[], Callable[[int], T]]
-    """Makes the function of a row, once in each process; it is pickled, as is what the function returns."""
+    """Makes the function of a row, once in each process; it and the function's values are pickled."""
     time_limit_s: float | None = None
-    """Wall time of one row."""
+    """Wall time limit of one row [s]."""
     memory_limit_bytes: int | None = None
-    """Resident memory of the process that runs a row, and of the programs that it started."""
+    """Limit of the resident memory of the process that runs a row, with its child processes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JobResult(Generic[T]):
-    """End of one row."""
+    """Result of one row."""
 
     row: int
     value: T | None = None
-    """Value that the function returned; None: it returned none."""
+    """Return value of the function; None after a failure."""
     failure: Failure | None = None
-    """Limit that it exceeded; "lost": its process ended twice."""
+    """Exceeded limit; "lost": its process ended twice."""
     reason: str = ""
     """Sentence about the failure."""

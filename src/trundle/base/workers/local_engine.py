@@ -10,14 +10,14 @@ from .job import Job, JobResult, T
 from .worker_process import WorkerProcess
 
 _POLL_S = 0.2
-"""Most time between two looks at whether to end."""
+"""Maximum time between two checks of `is_ending`."""
 
 
-def run_here(
+def run_locally(
     job: Job[T], rows: Iterator[int], *, count: int, workers: int | None, is_ending: Callable[[], bool]
 ) -> "Iterator[JobResult[T] | None]":
     """See `run_rows`."""
-    return _LocalRun(job, rows, min(workers or _processors(), count)).outcomes(is_ending)
+    return _LocalRun(job, rows, min(workers or _processors(), count)).results(is_ending)
 
 
 class _LocalRun(Generic[T]):
@@ -28,29 +28,29 @@ class _LocalRun(Generic[T]):
         self._rows = rows
         self._next = threading.Lock()
         self._is_over = False
-        self._news: SimpleQueue[JobResult[T] | Exception | None] = SimpleQueue()
-        """Outcomes; errors; None: a thread has ended."""
+        self._results: SimpleQueue[JobResult[T] | Exception | None] = SimpleQueue()
+        """Results; errors; None: a thread has ended."""
         self._count = workers
 
-    def outcomes(self, is_ending: Callable[[], bool]) -> "Iterator[JobResult[T] | None]":
+    def results(self, is_ending: Callable[[], bool]) -> "Iterator[JobResult[T] | None]":
         processes = [WorkerProcess(self._job) for _ in range(self._count)]
-        threads = [threading.Thread(target=self._feed, args=(each,), daemon=True) for each in processes]
+        threads = [threading.Thread(target=self._feed, args=(process,), daemon=True) for process in processes]
         try:
             for thread in threads:
                 thread.start()
             running = len(threads)
             while running and not is_ending():
                 try:
-                    news = self._news.get(timeout=_POLL_S)
+                    result = self._results.get(timeout=_POLL_S)
                 except Empty:
                     yield None
                     continue
-                if isinstance(news, Exception):
-                    raise news
-                if news is None:
+                if isinstance(result, Exception):
+                    raise result
+                if result is None:
                     running -= 1
                 else:
-                    yield news
+                    yield result
         finally:
             self._is_over = True
             for process in processes:
@@ -65,12 +65,12 @@ class _LocalRun(Generic[T]):
                     row = None if self._is_over else next(self._rows, None)
                 if row is None:
                     break
-                outcome = process.run(row)
+                result = process.run(row)
                 if not self._is_over:
-                    self._news.put(outcome)
-        except Exception as error:  # the owner's thread raises it
-            self._news.put(error)
-        self._news.put(None)
+                    self._results.put(result)
+        except Exception as error:  # `results` raises it
+            self._results.put(error)
+        self._results.put(None)
 
 
 def _processors() -> int:

@@ -8,18 +8,18 @@ _LOG_S = 30.0
 
 
 class Progress:
-    """Prints the number of rows, their rate and the time left to stderr."""
+    """Prints the number of rows, their rate and the remaining time to stderr."""
 
     def __init__(self, total: int, done: int, *, what: str = "runs") -> None:
         """Start the display.
 
         Args:
             total: rows of the job.
-            done: rows that were there already.
-            what: the rows, in the plural.
+            done: rows that are done already.
+            what: name of the rows, in the plural.
         """
         self._what = what
-        self._total, self._before, self._done = total, done, done
+        self._total, self._initial, self._done = total, done, done
         self._failed = 0
         self._started_s = time.monotonic()
         self._stream = sys.stderr
@@ -33,24 +33,24 @@ class Progress:
         self._failed += not is_ok
 
     @property
-    def left(self) -> int:
-        """Number of rows to come."""
+    def remaining(self) -> int:
+        """Number of remaining rows."""
         return self._total - self._done
 
     @property
     def rate(self) -> float:
         """Rows per second of wall time."""
-        return (self._done - self._before) / max(time.monotonic() - self._started_s, 1e-9)
+        return (self._done - self._initial) / max(time.monotonic() - self._started_s, 1e-9)
 
     def show(self) -> None:
-        """Redraw the line, or print one to a log, if it is time."""
+        """Redraw the line, or print one to a log, if it is due."""
         now_s = time.monotonic()
         if self._stream is None or now_s - self._shown_s < (_REDRAW_S if self._on_terminal else _LOG_S):
             return
         self._shown_s = now_s
         text = f"{self._done} of {self._total} {self._what}, {self._failed} not ok"
-        if self._done > self._before:
-            left_s = self.left / self.rate
+        if self._done > self._initial:
+            left_s = self.remaining / self.rate
             text += f", {self.rate:.3g} a second, about {_format_duration(left_s)} left"
         if self._on_terminal:
             self._stream.write(f"\r{text:<{self._width}}")

@@ -1,6 +1,6 @@
-"""Engine on a Ray cluster: an actor for each processor of it, which owns a worker process as on one machine.
+"""Engine on a Ray cluster: an actor for each of its processors, which owns a worker process as on one machine.
 
-So limits, retries and results are the same; what ends an actor is the end of its node, and its row is run on another.
+So limits, retries and results are the same. An actor ends with its node; another node then runs its row.
 """
 
 import pickle
@@ -16,10 +16,10 @@ from .job import Job, JobResult, T
 from .worker_process import WorkerProcess
 
 _POLL_S = 0.2
-"""Most time between two looks at whether to end."""
+"""Maximum time between two checks of `is_ending`."""
 _CONNECT_S = 10.0
 _MAX_NODES = 5
-"""Nodes that may end with the same row before it counts as lost, or before an actor has started on them."""
+"""Nodes that may end with one row before it counts as lost; also, consecutive actors that may fail to start."""
 
 
 class WorkerActor(Generic[T]):
@@ -29,7 +29,7 @@ class WorkerActor(Generic[T]):
         self._process = WorkerProcess(pickle.loads(job))
 
     def ready(self) -> None:
-        """Return, once the actor has been placed on a node."""
+        """Return once the actor is placed on a node."""
 
     def run(self, row: int) -> JobResult[T]:
         """See `WorkerProcess.run`."""
@@ -41,22 +41,22 @@ def run_on_ray(
 ) -> "Iterator[JobResult[T] | None]":
     """See `run_rows`."""
     ray = import_extra("ray", extra="ray")
-    is_ours = not ray.is_initialized()
-    if is_ours:
+    is_owner = not ray.is_initialized()
+    if is_owner:
         _check_answers(address)
         try:
             ray.init(address=address, include_dashboard=False if address == "local" else None, logging_level="ERROR")
         except (ConnectionError, ValueError, RuntimeError) as error:
             raise _no_cluster(address, error) from None
     try:
-        yield from _RayRun(ray, job, rows, count=count, workers=workers).outcomes(is_ending)
+        yield from _RayRun(ray, job, rows, count=count, workers=workers).results(is_ending)
     finally:
-        if is_ours:
+        if is_owner:
             ray.shutdown()
 
 
 def _check_answers(address: str) -> None:
-    """Raise an error at once if nothing listens at HOST:PORT; Ray itself asks for minutes."""
+    """Raise an error at once if nothing listens at HOST:PORT; Ray itself retries for minutes."""
     host, colon, port = address.rpartition(":")
     if not colon or "/" in host or not port.isdecimal():
         return
@@ -71,7 +71,7 @@ def _no_cluster(address: str, error: Exception) -> UsageError:
 
 
 class _RayRun(Generic[T]):
-    """Actors, and what each of them does."""
+    """Actors and their rows."""
 
     def __init__(self, ray: Any, job: Job[T], rows: Iterator[int], *, count: int, workers: int | None) -> None:
         self._ray = ray
@@ -80,15 +80,15 @@ class _RayRun(Generic[T]):
         self._actor = ray.remote(num_cpus=1, max_restarts=0)(WorkerActor)
         self._count = min(workers or max(int(ray.cluster_resources().get("CPU", 1)), 1), count)
         self._pending: dict[Any, tuple[Any, int | None]] = {}
-        """Future → its actor, and the row that it runs; None: it is being placed."""
-        self._again: deque[int] = deque()
+        """Future → (actor, its row; None: the actor is being placed)."""
+        self._retries: deque[int] = deque()
         """Rows whose node has ended."""
         self._ends: dict[int, int] = {}
-        """Row → number of nodes that ended with it."""
+        """Row → number of nodes that ended while running it."""
         self._failed_starts = 0
-        """Actors in a row that ended before they could run anything."""
+        """Consecutive actors that ended before running a row."""
 
-    def outcomes(self, is_ending: Callable[[], bool]) -> "Iterator[JobResult[T] | None]":
+    def results(self, is_ending: Callable[[], bool]) -> "Iterator[JobResult[T] | None]":
         try:
             for _ in range(self._count):
                 self._add_actor()
@@ -97,7 +97,7 @@ class _RayRun(Generic[T]):
                 while idle and (row := self._next_row()) is not None:
                     actor = idle.pop()
                     self._pending[actor.run.remote(row)] = (actor, row)
-                if not self._again and all(row is None for _, row in self._pending.values()) and idle:
+                if not self._retries and all(row is None for _, row in self._pending.values()) and idle:
                     return
                 done, _ = self._ray.wait(list(self._pending), num_returns=1, timeout=_POLL_S)
                 if not done:
@@ -105,7 +105,7 @@ class _RayRun(Generic[T]):
                 for future in done:
                     actor, row = self._pending.pop(future)
                     try:
-                        outcome = self._ray.get(future)
+                        result = self._ray.get(future)
                     except self._ray.exceptions.RayTaskError as error:
                         raise TrundleError(f"a worker of the cluster failed: {error.cause}") from None
                     except self._ray.exceptions.RayError as error:
@@ -118,14 +118,14 @@ class _RayRun(Generic[T]):
                         continue
                     self._failed_starts = 0
                     idle.append(actor)
-                    if outcome is not None:
-                        yield outcome
+                    if result is not None:
+                        yield result
         finally:
             for actor, _ in self._pending.values():
                 self._ray.kill(actor)
 
     def _add_actor(self) -> None:
-        """Ask for an actor, which is placed when a node has a processor for it."""
+        """Request an actor; it is placed when a node has a free processor."""
         actor = self._actor.remote(self._job)
         self._pending[actor.ready.remote()] = (actor, None)
 
@@ -135,13 +135,13 @@ class _RayRun(Generic[T]):
             raise TrundleError(f"no worker of the cluster starts: {error}") from None
 
     def _next_row(self) -> int | None:
-        return self._again.popleft() if self._again else next(self._rows, None)
+        return self._retries.popleft() if self._retries else next(self._rows, None)
 
     def _end(self, row: int, error: Exception) -> Iterator[JobResult[T]]:
-        """Run a row again, unless too many nodes ended with it."""
+        """Retry a row, unless too many nodes ended with it."""
         self._ends[row] = self._ends.get(row, 0) + 1
         if self._ends[row] < _MAX_NODES:
-            self._again.append(row)
+            self._retries.append(row)
         else:
             reason = f"its node ended: {type(error).__name__}"
             yield JobResult(row=row, failure="lost", reason=reason)

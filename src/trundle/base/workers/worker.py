@@ -1,4 +1,4 @@
-"""Process that runs rows: a pickled job and then row numbers on stdin, a pickled value for each on stdout."""
+"""Process that runs rows: it reads a pickled job, then row numbers on stdin, and writes pickled values to stdout."""
 
 import gc
 import os
@@ -15,9 +15,9 @@ from .job import Job
 
 def main() -> None:
     """Run rows until stdin ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # its owner ends it
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the owner ends it
     output = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what a row prints must not come between the values
+    os.dup2(2, 1)  # output of a row must not mix with the values
     requests: SimpleQueue[Any] = SimpleQueue()
     threading.Thread(target=_read, args=(sys.stdin.buffer, requests), daemon=True).start()
     job: Job[object] = requests.get()
@@ -33,7 +33,7 @@ def _read(file: BinaryIO, requests: SimpleQueue[Any]) -> None:
     try:
         while True:
             requests.put(pickle.load(file))
-    except EOFError:  # its owner has ended, perhaps killed, and the row that runs is not needed
+    except EOFError:  # the owner has ended, so the running row is not needed
         os._exit(0)
 
 

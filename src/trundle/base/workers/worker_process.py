@@ -1,4 +1,4 @@
-"""Worker process, as seen by its owner: a row goes in, its outcome comes out, whatever happens to the process."""
+"""Owner's side of a worker process: a row in, its result out, even if the process ends."""
 
 import os
 import pickle
@@ -16,9 +16,9 @@ from trundle.base.extras import import_extra
 from .job import Job, JobResult, T
 
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-"""Single-threaded: there is one worker per processor."""
+"""Environment of a single-threaded worker: there is one per processor."""
 _ATTEMPTS = 2
-"""Processes that may end with the same row before it counts as lost."""
+"""Processes that may end with one row before it counts as lost."""
 _MEMORY_POLL_S = 0.05
 
 
@@ -27,10 +27,10 @@ class _EndedError(Exception):
 
 
 class WorkerProcess(Generic[T]):
-    """Process that runs rows one after the other, replaced when it ends; one thread uses it, any may close it."""
+    """Process that runs rows in sequence, restarted when it ends; one thread uses it, any thread may close it."""
 
     def __init__(self, job: Job[T]) -> None:
-        """Start the process without waiting for it."""
+        """Start the process without waiting until it is ready."""
         self._job = job
         self._closing = threading.Lock()
         self._is_closed = False
@@ -51,29 +51,29 @@ class WorkerProcess(Generic[T]):
                 stdout=subprocess.PIPE,
                 env={**os.environ, **_ONE_THREAD},
             )
-            self._answers: SimpleQueue[tuple[T] | None] = SimpleQueue()
-            """Values in a tuple each; None: the process has ended."""
-            self._reader = threading.Thread(target=self._read, args=(self._process, self._answers), daemon=True)
+            self._results: SimpleQueue[tuple[T] | None] = SimpleQueue()
+            """1-tuples of values; None: the process has ended."""
+            self._reader = threading.Thread(target=self._read, args=(self._process, self._results), daemon=True)
             self._reader.start()
         self._send(self._job)
 
     @staticmethod
-    def _read(process: "subprocess.Popen[bytes]", answers: "SimpleQueue[tuple[T] | None]") -> None:
+    def _read(process: "subprocess.Popen[bytes]", results: "SimpleQueue[tuple[T] | None]") -> None:
         assert process.stdout is not None
         with suppress(EOFError, OSError, ValueError, pickle.UnpicklingError):
             while True:
-                answers.put((pickle.load(process.stdout),))
+                results.put((pickle.load(process.stdout),))
         process.wait()
-        answers.put(None)
+        results.put(None)
 
-    def _send(self, what: object) -> None:
+    def _send(self, request: object) -> None:
         assert self._process.stdin is not None
-        with suppress(OSError, ValueError):  # it has ended; its reader says so
-            pickle.dump(what, self._process.stdin, protocol=5)
+        with suppress(OSError, ValueError):  # it has ended, as its reader reports
+            pickle.dump(request, self._process.stdin, protocol=5)
             self._process.stdin.flush()
 
     def run(self, row: int) -> JobResult[T]:
-        """Run a row; another process does, once, if this one ends with it.
+        """Run a row; if the process ends, retry it once in a new one.
 
         Raises:
             TrundleError: the process does not start.
@@ -100,7 +100,7 @@ class WorkerProcess(Generic[T]):
     def _wait_ready(self) -> None:
         if self._is_ready:
             return
-        if self._answers.get() is None:
+        if self._results.get() is None:
             if self._is_closed:
                 raise _EndedError
             raise TrundleError(f"a worker process does not start: {self._exit_reason}; its error is above")
@@ -116,32 +116,32 @@ class WorkerProcess(Generic[T]):
         """
         job = self._job
         self._send(row)
-        due_s = None if job.time_limit_s is None else time.monotonic() + job.time_limit_s
+        deadline_s = None if job.time_limit_s is None else time.monotonic() + job.time_limit_s
         while True:
-            wait_s = None if due_s is None else max(due_s - time.monotonic(), 0.0)
+            wait_s = None if deadline_s is None else max(deadline_s - time.monotonic(), 0.0)
             if job.memory_limit_bytes is not None:
                 wait_s = _MEMORY_POLL_S if wait_s is None else min(wait_s, _MEMORY_POLL_S)
             try:
-                answer = self._answers.get(timeout=wait_s)
+                result = self._results.get(timeout=wait_s)
             except Empty:
-                if due_s is not None and time.monotonic() >= due_s:
+                if deadline_s is not None and time.monotonic() >= deadline_s:
                     raise TimeoutError from None
                 if job.memory_limit_bytes is not None and self._memory_bytes() > job.memory_limit_bytes:
                     raise MemoryError from None
             else:
-                if answer is None:
+                if result is None:
                     raise _EndedError
-                return answer[0]
+                return result[0]
 
     def _memory_bytes(self) -> int:
-        """Return the resident memory of the process and of the programs that it started."""
+        """Return the resident memory of the process and its descendants."""
         psutil = import_extra("psutil")
         total = 0
         with suppress(psutil.Error):
             process = psutil.Process(self._process.pid)
-            for each in (process, *process.children(recursive=True)):
+            for member in (process, *process.children(recursive=True)):
                 with suppress(psutil.Error):
-                    total += each.memory_info().rss
+                    total += member.memory_info().rss
         return total
 
     @property
@@ -164,7 +164,7 @@ class WorkerProcess(Generic[T]):
                 pipe.close()
 
     def close(self) -> None:
-        """Kill the process; a row that runs is lost."""
+        """Kill the process; a running row is lost."""
         with self._closing:
             self._is_closed = True
         self._end()

@@ -1,4 +1,4 @@
-"""XML document for editing: comments, instructions and white space stay as they are."""
+"""XML document for editing, which preserves comments, processing instructions and white space."""
 
 from collections.abc import Sequence
 from copy import deepcopy
@@ -20,14 +20,14 @@ class XmlDocument:
     """Document whose elements can be changed."""
 
     def __init__(self, text: str | bytes, *, name: str) -> None:
-        """Parse a text; comments are lost only where Gazebo's parser accepts what is no XML.
+        """Parse a text; comments are lost only if it is not XML but accepted by Gazebo's parser.
 
         Args:
             text: the whole document.
             name: file name in messages.
 
         Raises:
-            DescriptionError: neither XML nor what Gazebo's parser accepts.
+            DescriptionError: neither XML nor accepted by Gazebo's parser.
         """
         whole = text.encode() if isinstance(text, str) else text
         data = whole.lstrip()
@@ -40,14 +40,14 @@ class XmlDocument:
             if root is None:
                 raise DescriptionError(Source(name), f"not well-formed XML: {error}") from None
         self.root = XmlElement(root)
-        """Outermost element."""
+        """Root element."""
 
     @classmethod
     def read(cls, path: Path) -> Self:
         """Read a file.
 
         Raises:
-            DescriptionError: as the constructor, or it cannot be read.
+            DescriptionError: see the constructor; or the file cannot be read.
         """
         try:
             return cls(read_file(path, max_bytes=64 * 1024 * 1024), name=str(path))
@@ -62,8 +62,8 @@ class XmlDocument:
     def text(self) -> bytes:
         """Return the document as UTF-8 with a declaration."""
         root = self.root.raw
-        before = [etree.tostring(each, with_tail=False) for each in root.itersiblings(preceding=True)]
-        after = [etree.tostring(each, with_tail=False) for each in root.itersiblings()]
+        before = [etree.tostring(node, with_tail=False) for node in root.itersiblings(preceding=True)]
+        after = [etree.tostring(node, with_tail=False) for node in root.itersiblings()]
         whole = etree.tostring(root, encoding="utf-8", with_tail=False)
         return b"\n".join([b'<?xml version="1.0"?>', *reversed(before), whole, *after, b""])
 
@@ -128,15 +128,15 @@ class XmlElement:
         return next((child for child in self.children if child.tag == tag), None)
 
     def descendants(self) -> "list[XmlElement]":
-        """Return all elements below, in file order."""
-        return [XmlElement(each) for each in self.raw.iterdescendants("*")]
+        """Return all descendants, in file order."""
+        return [XmlElement(element) for element in self.raw.iterdescendants("*")]
 
     def ancestors(self) -> "list[XmlElement]":
-        """Return the elements around, innermost first."""
-        return [XmlElement(each) for each in self.raw.iterancestors()]
+        """Return the ancestors, innermost first."""
+        return [XmlElement(element) for element in self.raw.iterancestors()]
 
     def put(self, tag: str, text: str | None = None) -> "XmlElement":
-        """Return the first child with a tag, appended if there is none; a text replaces its own."""
+        """Return the first child with a tag, appended if missing; set its text unless None."""
         child = self.find(tag)
         if child is None:
             child = self.insert(XmlElement(etree.Element(tag)))
@@ -145,7 +145,7 @@ class XmlElement:
         return child
 
     def insert(self, child: "XmlElement", *, at: int | None = None) -> "XmlElement":
-        """Insert an element before the child with an index, comments counted; None: as the last. Return it."""
+        """Insert and return an element before the child with an index, counting comments; None: at the end."""
         parent, new = self.raw, child.raw
         depth = 1 + sum(1 for _ in parent.iterancestors())
         outer, inner = f"\n{_INDENT * (depth - 1)}", f"\n{_INDENT * depth}"
@@ -163,19 +163,19 @@ class XmlElement:
         return child
 
     def replace(self, elements: "Sequence[XmlElement]") -> None:
-        """Replace the element by others."""
+        """Replace the element by other elements."""
         parent = self.raw.getparent()
-        assert parent is not None, "a document keeps its outermost element"
-        home, at = XmlElement(parent), parent.index(self.raw)
+        assert parent is not None, "the root element stays"
+        container, at = XmlElement(parent), parent.index(self.raw)
         for offset, element in enumerate(elements):
-            home.insert(element, at=at + offset)
+            container.insert(element, at=at + offset)
         self.remove()
 
     def remove(self) -> None:
         """Remove the element; comments around it stay."""
         parent, before, tail = self.raw.getparent(), self.raw.getprevious(), self.raw.tail
-        assert parent is not None, "a document keeps its outermost element"
-        if self.raw.getnext() is None:  # what follows is the end of the parent
+        assert parent is not None, "the root element stays"
+        if self.raw.getnext() is None:  # it is the last child
             if before is None:
                 parent.text = tail
             else:
@@ -183,7 +183,7 @@ class XmlElement:
         parent.remove(self.raw)
 
     def copy(self) -> "XmlElement":
-        """Return a copy that stands alone."""
+        """Return a copy without a parent."""
         copied = deepcopy(self.raw)
         copied.tail = None
         return XmlElement(copied)

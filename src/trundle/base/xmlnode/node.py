@@ -47,7 +47,7 @@ class XmlNode:
         self.tag = _written_tag(element)
         """Element name as written, with prefix."""
         self.report = report
-        """Takes warnings about values that cannot be read."""
+        """Collects warnings about invalid values."""
         self._file = file
         self._first_line = first_line
         self._read_tags: set[str] = set()
@@ -99,7 +99,7 @@ class XmlNode:
         return self._children
 
     def count_elements(self) -> int:
-        """Count this element and all below."""
+        """Count this element and its descendants."""
         return sum(1 for _ in self._element.iter())
 
     def all(self, tag: str) -> list["XmlNode"]:
@@ -200,15 +200,15 @@ class XmlNode:
         """Return the text as exactly `count` finite numbers up to the limit, or None with a warning."""
         values = parse_numbers(self.text)
         if values is None or len(values) != count:
-            wanted = "one number" if count == 1 else f"{count} numbers"
-            self.report.warn(self.at, f"<{self.tag}> needs {wanted}, got {shorten(self.text)}; {fallback}")
+            expected = "one number" if count == 1 else f"{count} numbers"
+            self.report.warn(self.at, f"<{self.tag}> needs {expected}, got {shorten(self.text)}; {fallback}")
             return None
         if not all(map(math.isfinite, values)):
             self.report.warn(self.at, f"<{self.tag}>: {shorten(self.text)} is not finite; {fallback}")
             return None
         if not is_within(values, limit):
-            what = f"{shorten(self.text)} is not within ±{limit:g}"
-            self.report.warn(self.at, f"<{self.tag}>: {what}; {fallback}")
+            problem = f"{shorten(self.text)} is not within ±{limit:g}"
+            self.report.warn(self.at, f"<{self.tag}>: {problem}; {fallback}")
             return None
         return values
 
@@ -220,10 +220,10 @@ class XmlNode:
         return Pose() if values is None else Pose.from_rpy(*values)
 
     def attributes_to_children(self, kept: frozenset[str], texts: Mapping[str, str]) -> None:
-        """Convert attributes of this element and all below to elements, as in later versions of a format.
+        """Convert attributes of this element and its descendants to elements, as in later versions of a format.
 
         Args:
-            kept: attributes that stay attributes.
+            kept: names of attributes that are not converted.
             texts: element → attribute that becomes its text. Every other attribute becomes a child.
         """
         for element in self._element.iter():
@@ -240,7 +240,7 @@ class XmlNode:
         self._children = None
 
     def rename(self, names: Mapping[str, str]) -> None:
-        """Rename this element and all below."""
+        """Rename elements among this element and its descendants."""
         for old, new in names.items():
             for element in self._element.iter(old):
                 element.tag = new
@@ -279,7 +279,7 @@ class XmlNode:
         return etree.tostring(self._element, encoding="unicode", with_tail=False)
 
     def mark_all_read(self) -> None:
-        """Mark everything below as read, for content kept verbatim, such as a plugin's parameters."""
+        """Mark all descendants as read, for content kept verbatim, such as a plugin's parameters."""
         pending = [self]
         while pending:
             node = pending.pop()
@@ -293,17 +293,17 @@ class XmlNode:
 
     def report_unread(self, report: Diagnostics) -> None:
         """Warn of each child and attribute of this element that was not read, once per tag."""
-        named: set[str] = set()
-        met: set[str] = set()
+        reported: set[str] = set()
+        seen: set[str] = set()
         for child in self.children:
-            is_second = child.tag in met and child.tag in self._read_once and child.text != _PLACEHOLDER
-            if is_second and child.tag not in named:
-                named.add(child.tag)
+            is_second = child.tag in seen and child.tag in self._read_once and child.text != _PLACEHOLDER
+            if is_second and child.tag not in reported:
+                reported.add(child.tag)
                 report.warn(child.at, f"a second <{child.tag}> in <{self.tag}>; the first one is used")
-            met.add(child.tag)
+            seen.add(child.tag)
         for child in self.unread():
-            if child.tag not in named:
-                named.add(child.tag)
+            if child.tag not in reported:
+                reported.add(child.tag)
                 report.warn(child.at, f"<{child.tag}> in <{self.tag}> is not supported; it is ignored")
         for name in sorted(set(map(str, self._element.attrib)) - self._read_attributes):
             report.warn(self.at, f"attribute {name!r} of <{self.tag}> is not supported; it is ignored")

@@ -1,6 +1,6 @@
-"""XML parser with bounds, and optionally as tolerant as Gazebo's and ROS's old parsers.
+"""XML parser with limits, optionally as tolerant as Gazebo's and ROS's old parsers.
 
-Entities are never fetched and never expanded without bound, so a hostile file costs no more than its own size.
+Entities are never fetched nor expanded without limit, so a hostile file costs no more than its own size.
 """
 
 import io
@@ -11,26 +11,28 @@ from lxml import etree
 from trundle.base.diagnostics import DescriptionError, Diagnostics, Source
 from trundle.base.files import read_file
 
-from .faults import place_fault
+from .faults import locate_error
 from .node import XmlNode
 from .read_budget import ReadBudget
 from .tinyxml import rewrite_as_xml
 
 _MAX_BYTES = 64 * 1024 * 1024
-_DEEPEST = 256
-"""libxml2's own limit."""
-_TOO_MUCH = etree.ErrorTypes.ERR_RESOURCE_LIMIT
+_MAX_DEPTH = 256
+"""libxml2's default limit."""
+_RESOURCE_LIMIT = etree.ErrorTypes.ERR_RESOURCE_LIMIT
 
 
-def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None, deepest: int = _DEEPEST) -> XmlNode:
+def parse_xml(
+    text: str | bytes, *, name: str, report: Diagnostics | None = None, max_depth: int = _MAX_DEPTH
+) -> XmlNode:
     """Parse a document.
 
     Args:
         text: the whole document.
         name: file name in messages.
-        report: takes warnings about values, and errors that Gazebo's and ROS's old XML parsers tolerate; None: those
-            raise, and values that cannot be read become their defaults in silence.
-        deepest: largest nesting depth, for readers that do not descend into all of it.
+        report: collects warnings about values, and errors that Gazebo's and ROS's old XML parsers tolerate; None: such
+            errors raise, and invalid values become their defaults silently.
+        max_depth: maximum nesting depth, for readers that do not descend into all of it.
 
     Raises:
         DescriptionError: not XML, empty, or beyond the size or depth limit.
@@ -40,7 +42,7 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
         raise DescriptionError(Source(name), f"{len(data)} bytes; the largest file read is {_MAX_BYTES}")
     if not data.strip():
         raise DescriptionError(Source(name, 1), "the file is empty")
-    if report is not None and not _says_or_is_unicode(data):
+    if report is not None and not _is_declared_or_unicode(data):
         report.warn(Source(name, 1), "not UTF-8, and no encoding is declared; read as Latin-1")
         data = data.decode("latin-1").encode()
     if report is not None and data.startswith(_UTF_16):
@@ -51,19 +53,19 @@ def parse_xml(text: str | bytes, *, name: str, report: Diagnostics | None = None
     try:
         root = etree.fromstring(document, parser)
     except etree.XMLSyntaxError as error:
-        line, what = place_fault(error, before=before)
+        line, message = locate_error(error, before=before)
         at = Source(name, line)
-        if deepest > _DEEPEST and any(entry.type == _TOO_MUCH for entry in parser.error_log):
-            root = _deep(document, deepest)
+        if max_depth > _MAX_DEPTH and any(entry.type == _RESOURCE_LIMIT for entry in parser.error_log):
+            root = _deep(document, max_depth)
             if root is None:
                 raise DescriptionError(
-                    at, f"elements more than {deepest} deep in one another, or entities that multiply"
+                    at, f"elements nested more than {max_depth} deep, or exponential expansion of entities"
                 ) from None
         else:
             root = None if report is None else _recovered(document)
             if root is None or report is None:
-                raise DescriptionError(at, what) from None
-            report.warn(at, f"{what}; read as Gazebo reads it")
+                raise DescriptionError(at, message) from None
+            report.warn(at, f"{message}; read as Gazebo reads it")
     except ValueError as error:  # "Unicode strings with encoding declaration": only bytes come here
         raise DescriptionError(Source(name, 1), f"not readable as XML: {error}") from None
     node = XmlNode(root, file=name, report=report or Diagnostics(), first_line=before.count(b"\n"))
@@ -84,7 +86,7 @@ written.
 """
 
 
-def _says_or_is_unicode(data: bytes) -> bool:
+def _is_declared_or_unicode(data: bytes) -> bool:
     """True if a document declares its encoding or is valid UTF-8."""
     if b"encoding" in data[:200].split(b"?>")[0] or data.startswith(_UTF_16):
         return True
@@ -95,10 +97,8 @@ def _says_or_is_unicode(data: bytes) -> bool:
     return True
 
 
-def _deep(data: bytes, deepest: int) -> etree._Element | None:  # pyright: ignore[reportPrivateUsage]
-    """Return the tree of a deep document; None if it is too deep, or defines entities, whose limits huge_tree lifts as
-    well.
-    """
+def _deep(data: bytes, max_depth: int) -> etree._Element | None:  # pyright: ignore[reportPrivateUsage]
+    """Return the tree of a deep document; None if too deep, or with entities, whose limits huge_tree lifts too."""
     if b"<!DOCTYPE" in data:
         return None
     walk = etree.iterparse(
@@ -113,7 +113,7 @@ def _deep(data: bytes, deepest: int) -> etree._Element | None:  # pyright: ignor
     try:
         for event, _ in walk:
             depth += 1 if event == "start" else -1
-            if depth > deepest:
+            if depth > max_depth:
                 return None
     except etree.XMLSyntaxError:
         return None
@@ -149,18 +149,18 @@ def read_xml(
     path: Path,
     *,
     report: Diagnostics | None = None,
-    deepest: int = _DEEPEST,
+    max_depth: int = _MAX_DEPTH,
     budget: ReadBudget | None = None,
     at: Source | None = None,
 ) -> XmlNode:
-    """Parse a file; `report` and `deepest` as in `parse_xml`.
+    """Parse a file; see `parse_xml` for `report` and `max_depth`.
 
     Args:
         budget: counts the file and its elements.
-        at: the element that includes the file.
+        at: element that includes the file.
 
     Raises:
-        DescriptionError: as `parse_xml`, or the file cannot be read.
+        DescriptionError: see `parse_xml`; or the file cannot be read.
         ReadBudgetError: the budget is exhausted.
     """
     try:
@@ -170,9 +170,9 @@ def read_xml(
     except OSError as error:
         raise DescriptionError(Source(str(path)), f"cannot be read: {error.strerror}") from None
     if budget is None:
-        return parse_xml(data, name=str(path), report=report, deepest=deepest)
+        return parse_xml(data, name=str(path), report=report, max_depth=max_depth)
     at = at or Source(str(path))
     budget.add_file(path, len(data), at)
-    root = parse_xml(data, name=str(path), report=report, deepest=deepest)
+    root = parse_xml(data, name=str(path), report=report, max_depth=max_depth)
     budget.add_nodes(root.count_elements(), at)
     return root

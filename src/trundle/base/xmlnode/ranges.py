@@ -1,6 +1,6 @@
 """Ranges of numbers in files.
 
-What is beyond them is a damaged file or an attack: its square or cube overflows later, where the line is unknown.
+Numbers beyond them mean a damaged file or an attack: their square or cube overflows later, where the line is unknown.
 """
 
 from collections.abc import Iterable

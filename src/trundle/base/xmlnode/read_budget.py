@@ -1,6 +1,6 @@
-"""Budget of one description or launch with everything that it includes.
+"""Budget of one description or launch with all included files.
 
-A few files that include one another twice stand for billions. The largest of the published robots, worlds and launches
+A few files that include one another twice expand to billions. The largest of the published robots, worlds and launches
 has 208 files, 0.85 MB (two worlds) and 23,000 nodes (the PR2), so the limits exceed them by factors of 24, 79 and
 21; one test of macros has 270,000 nodes. Worlds take up to 0.7 s of the processor, that test 3 s.
 """
@@ -16,25 +16,25 @@ _MAX_OCTETS = 64 * 1024 * 1024
 _MAX_NODES = 500_000
 _CPU_S = 4.0
 _CPU_S_PER_OCTET = 10e-6
-"""Processor time that a file allows, however often it is read."""
+"""Additional processor time per octet of a file, counted once per file."""
 _NODES_BETWEEN_CHECKS = 256
-_MAX_NAMED = 8
+_MAX_LISTED = 8
 
 
 class ReadBudgetError(DescriptionError):
-    """Budget that is exhausted; reading cannot go on without the element."""
+    """Exhausted budget; it ends reading."""
 
     def through(self, files: Iterable[str]) -> "ReadBudgetError":
-        """Return the error with the files that include its own, outermost first."""
+        """Return the error with the chain of including files, outermost first."""
         names = [*dict.fromkeys(files)]
         if len(names) == 1:
             return self
-        chain = names if len(names) <= _MAX_NAMED else [*names[: _MAX_NAMED - 1], "…", names[-1]]
-        return ReadBudgetError(self.at, f"{self.what}; files in one another: {' > '.join(chain)}")
+        chain = names if len(names) <= _MAX_LISTED else [*names[: _MAX_LISTED - 1], "…", names[-1]]
+        return ReadBudgetError(self.at, f"{self.what}; included files: {' > '.join(chain)}")
 
 
 class ReadBudget:
-    """Files, octets, nodes and processor time left."""
+    """Remaining files, octets, nodes and processor time."""
 
     def __init__(
         self,
@@ -48,18 +48,18 @@ class ReadBudget:
         self._max_octets, self._octets = octets, octets
         self._max_nodes, self._nodes = nodes, nodes
         self._unchecked = 0
-        self._due_s = time.thread_time() + cpu_s
-        self._known: set[str] = set()
+        self._deadline_s = time.thread_time() + cpu_s
+        self._seen_files: set[str] = set()
 
     def add_file(self, name: str | Path, octets: int, at: Source) -> None:
-        """Count a file that is read, as often as it is.
+        """Count a file, each time it is read.
 
         Raises:
             ReadBudgetError: the budget is exhausted.
         """
-        if str(name) not in self._known:
-            self._known.add(str(name))
-            self._due_s += octets * _CPU_S_PER_OCTET
+        if str(name) not in self._seen_files:
+            self._seen_files.add(str(name))
+            self._deadline_s += octets * _CPU_S_PER_OCTET
         self._files -= 1
         if self._files < 0:
             raise _exhausted(at, f"{self._max_files} files")
@@ -67,7 +67,7 @@ class ReadBudget:
         self.check(at)
 
     def add_octets(self, octets: int, at: Source) -> None:
-        """Count text that is read or made.
+        """Count text that is read or generated.
 
         Raises:
             ReadBudgetError: the budget is exhausted.
@@ -90,17 +90,19 @@ class ReadBudget:
             self.check(at)
 
     def check(self, at: Source) -> None:
-        """Look at the clock.
+        """Check the processor time.
 
         Raises:
             ReadBudgetError: the budget is exhausted.
         """
         self._unchecked = 0
-        if time.thread_time() > self._due_s:
+        if time.thread_time() > self._deadline_s:
             raise _exhausted(at, "the time that files of their size take")
 
 
-def _exhausted(at: Source, what: str) -> ReadBudgetError:
+def _exhausted(at: Source, limit: str) -> ReadBudgetError:
     return ReadBudgetError(
-        at, f"the file, with all that it includes and repeats, takes more than {what}; does something multiply?"
+        at,
+        f"the file, with its included files and repeated macros, takes more than {limit}; "
+        "check for includes or macros that multiply",
     )

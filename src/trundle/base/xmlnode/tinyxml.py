@@ -1,4 +1,4 @@
-"""Conversion to XML of what TinyXML, the parser of Gazebo 11 and urdfdom, accepts beyond XML.
+"""Conversion to XML of documents that TinyXML, the parser of Gazebo 11 and urdfdom, accepts beyond XML.
 
 It accepts a bare `&`, values without quotes or with `<`, `--` in comments, control characters, a declaration anywhere
 and content after the root element. Line breaks are kept, and so are names, including stray colons.
@@ -18,7 +18,7 @@ _CONTROL = re.compile("[\x01-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]|&#(?:[0-8]|1[124
 
 
 class _RefusedError(Exception):
-    """Document that TinyXML refuses, too."""
+    """Document that TinyXML refuses too."""
 
 
 def rewrite_as_xml(data: bytes) -> bytes | None:
@@ -28,7 +28,7 @@ def rewrite_as_xml(data: bytes) -> bytes | None:
         data: the whole document.
 
     Returns:
-        None if TinyXML refuses it, too, or if it defines entities, which TinyXML never expands.
+        None if TinyXML refuses it too, or if it defines entities, which TinyXML never expands.
     """
     text = _decoded(data)
     if "\0" in text or "<!ENTITY" in text:
@@ -86,13 +86,13 @@ def _start_tag(text: str, start: re.Match[str]) -> tuple[str, int, int]:
 
 def _after(text: str, at: int, mark: str) -> int:
     """Return the position after a mark."""
-    found = text.find(mark, at)
-    if found < 0:
+    start = text.find(mark, at)
+    if start < 0:
         raise _RefusedError
-    return found + len(mark)
+    return start + len(mark)
 
 
 def _escaped(text: str) -> str:
-    """Return escaped text without invalid references; TinyXML drops a bare `&`, too."""
+    """Return escaped text without invalid references; TinyXML also drops a bare `&`."""
     text = _CONTROL.sub("", _BARE.sub("", text))
     return text.replace("<", "&lt;").replace(">", "&gt;").replace('"', "&quot;")

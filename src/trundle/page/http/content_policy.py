@@ -11,7 +11,7 @@ def response_fields(access: Access, request: PageRequest, *, path: str) -> dict[
     The document runs the client's own scripts and nothing else; `blob:` is for textures of glTF files. Workers decode
     messages of others and may open no connection.
     """
-    fields = access.answer_fields(request)
+    fields = access.response_fields(request)
     given = fields["Content-Security-Policy"]
     framers = next(part for part in given.split("; ") if part.startswith("frame-ancestors"))
     connect = next(part for part in given.split("; ") if part.startswith("connect-src"))

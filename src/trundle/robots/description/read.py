@@ -73,7 +73,7 @@ def _load(
     if path.suffix == ".xacro":
         text = _expanded(path, packages, report, arguments=arguments)
         return load_urdf(text, f"{path} (expanded)", path, packages, report)
-    root = read_xml(path, report=report, deepest=DEEPEST)
+    root = read_xml(path, report=report, max_depth=DEEPEST)
     text = read_text(path) if root.tag == "robot" else ""
     is_xacro = "xmlns:xacro" in text
     if arguments and not is_xacro:
@@ -113,7 +113,7 @@ def load_text(
     Raises:
         DescriptionError: the description cannot be interpreted.
     """
-    root = parse_xml(text, name=name, report=report, deepest=DEEPEST)
+    root = parse_xml(text, name=name, report=report, max_depth=DEEPEST)
     if root.tag != "robot":
         return load_sdf(root, folder / name, packages, report, seed=seed)
     text = text if isinstance(text, str) else text.decode(errors="replace")

@@ -133,7 +133,7 @@ class GraspFix(Plugin):
         try:
             arm.attach(name, touching[0].object_link, [each for each in touching if each.arm == arm.name])
         except TrundleError as error:
-            self._sim.report.warn_error(error, arm.at, f"{name} is not held", who=f"arm {arm.name!r}")
+            self._sim.report.warn_error(error, arm.at, f"{name} is not held", subject=f"arm {arm.name!r}")
             return
         self._say(f"grasp_fix: {arm.name} holds {name}")
 

@@ -86,7 +86,7 @@ def _with_overrides(part: UnplacedModel, node: XmlNode, context: Context) -> Unp
 def _root(file: Path, node: XmlNode, context: Context) -> tuple[XmlNode, Context]:
     if file.resolve() in context.including or len(context.including) > _DEEPEST_INCLUDE:
         raise DescriptionError(node.at, f"{file} includes itself")
-    root = read_xml(file, report=context.report, deepest=DEEPEST, budget=context.budget, at=node.at)
+    root = read_xml(file, report=context.report, max_depth=DEEPEST, budget=context.budget, at=node.at)
     if root.tag == "robot":
         return root, context.for_include(file.resolve(), context.version)
     if root.tag != "sdf":

@@ -1,7 +1,7 @@
-"""Made-up expressions that an attacker might write, each from its number alone.
+"""Generated hostile expressions, reproducible from their number.
 
-Every function, method and operator of expressions is called with values that are large, deep, shared, or hash alike.
-The largest are made beforehand, as by earlier expressions, so that a small budget is left to what is done with them.
+They call every function, method and operator of expressions with values that are large, deep, shared, or have equal
+hashes. The largest values exist beforehand, as if made by earlier expressions, so that a small budget is enough.
 """
 
 import random
@@ -16,7 +16,7 @@ from trundle.base.expressions.methods import METHODS_OF
 _KEYS = (
     "i",
     "str(i)",
-    "i * (2**61 - 1)",  # integers, complex numbers and tuples that hash alike
+    "i * (2**61 - 1)",  # integers, complex numbers and tuples with equal hashes
     "i * (2**61 - 1) + 233",
     "1j * i - 1000003 * i",
     "(i * (2**61 - 1),)",
@@ -85,7 +85,7 @@ _GROUPS = (
     "(lambda d: d(d, 0, (1,)))(lambda d, n, x: d(d, n + 1, (x, x)) if n < 16 else x)",
     "[frozenset(j * (2**61 - 1) for j in range(i, 300)) for i in range(20)]",
 )
-_ALIKE = (
+_COLLISIONS = (
     "set(i * (2**61 - 1) for i in range(7000))",
     "frozenset(i * (2**61 - 1) for i in range(7000))",
     "dict((i * (2**61 - 1), i) for i in range(7000))",
@@ -104,43 +104,43 @@ _FORMATS = (
 )
 _DISPLAYS = ("{a}[{b}]", "{a}[{b}:]", "[*{a}, *{b}]", "{{*{a}, *{b}}}", "{{**{a}, **{b}}}", "(lambda *x, **k: x)(*{a})")
 _MUTATING = "add append clear discard extend insert pop popitem remove reverse setdefault sort update"
-_FUNCTIONS = sorted(each.__name__ for each in GUARDED)
+_FUNCTIONS = sorted(function.__name__ for function in GUARDED)
 _METHODS = [(kind.__name__, name) for kind, names in METHODS_OF.items() for name in sorted(names)]
 _REPEATS = ("2", "100", "10**6")
 
 
 @cache
 def names() -> dict[str, Any]:
-    """Names of the expressions: functions; texts `t0` …, numbers `n0` …, keys with one hash `a0` …, others `g0` …"""
+    """Return the names of expressions: functions, texts `t0` …, numbers `n0` …, colliding keys `a0` …, others `g0` …"""
     return {**NAMES, **{name: eval(text, {**NAMES}) for name, text in _sources().items()}}
 
 
 @cache
 def _sources() -> dict[str, str]:
-    alike = [each.format(k=key, n=1000) for key in _KEYS for each in _COLLECTIONS]
+    colliding = [collection.format(k=key, n=1000) for key in _KEYS for collection in _COLLECTIONS]
     return {
         **{f"t{i}": text.replace("{{}}", "{}") for i, text in enumerate(_TEXTS)},
         **{f"n{i}": text for i, text in enumerate(_NUMBERS)},
-        **{f"a{i}": text for i, text in enumerate(_ALIKE)},
-        **{f"g{i}": text for i, text in enumerate((*_GROUPS, *alike))},
+        **{f"a{i}": text for i, text in enumerate(_COLLISIONS)},
+        **{f"g{i}": text for i, text in enumerate((*_GROUPS, *colliding))},
     }
 
 
 @cache
 def _named(kind: str) -> list[str]:
-    """Names of values of a type; of all, where none has it."""
+    """Return the names of values of a type, or all names if there are none."""
     values = names()
     return [name for name in _sources() if type(values[name]).__name__ == kind] or list(_sources())
 
 
-def made_up(number: int) -> str:
-    """Return an expression, always the same for a number."""
-    chance = random.Random(number)
-    body = _operation(chance, _value(chance), _value(chance))
-    if chance.random() < 0.4:
-        body = _operation(chance, body, _value(chance))
-    repeats = chance.choice(_REPEATS)
-    return chance.choice(
+def generated_expression(number: int) -> str:
+    """Return the expression of a number."""
+    rng = random.Random(number)
+    body = _operation(rng, _value(rng), _value(rng))
+    if rng.random() < 0.4:
+        body = _operation(rng, body, _value(rng))
+    repeats = rng.choice(_REPEATS)
+    return rng.choice(
         (
             body,
             f"[{body} for _ in range({repeats})]",
@@ -151,29 +151,29 @@ def made_up(number: int) -> str:
     )
 
 
-def _value(chance: random.Random) -> str:
-    kind = chance.choice(("t", "n", "a", "g", "g", "g"))
-    name = chance.choice([name for name in _sources() if name.startswith(kind)])
-    return chance.choice(_VIEWS).format(a=name) if chance.random() < 0.2 and kind == "g" else name
+def _value(rng: random.Random) -> str:
+    kind = rng.choice(("t", "n", "a", "g", "g", "g"))
+    name = rng.choice([name for name in _sources() if name.startswith(kind)])
+    return rng.choice(_VIEWS).format(a=name) if rng.random() < 0.2 and kind == "g" else name
 
 
-def _operation(chance: random.Random, a: str, b: str) -> str:
-    match chance.randrange(6):
+def _operation(rng: random.Random, a: str, b: str) -> str:
+    match rng.randrange(6):
         case 0 | 1:
-            if chance.random() < 0.7:  # mostly of one type, others being refused at once
-                kind = chance.choice(("a", "a", "set", "frozenset", "dict", "str", "list"))
-                a, b = chance.choices(_named(kind) if kind != "a" else ["a0", "a1", "a2", "a3"], k=2)
-                b = chance.choice((a, b))
-                a, b = (chance.choice((each, each, f"{each}.keys()")) for each in (a, b))
-            return f"({a} {chance.choice(_OPERATORS)} {b})"
+            if rng.random() < 0.7:  # mostly of one type, as others are refused at once
+                kind = rng.choice(("a", "a", "set", "frozenset", "dict", "str", "list"))
+                a, b = rng.choices(_named(kind) if kind != "a" else ["a0", "a1", "a2", "a3"], k=2)
+                b = rng.choice((a, b))
+                a, b = (rng.choice((name, name, f"{name}.keys()")) for name in (a, b))
+            return f"({a} {rng.choice(_OPERATORS)} {b})"
         case 2:
-            return chance.choice((*_FORMATS, *_DISPLAYS)).format(a=a, b=b)
+            return rng.choice((*_FORMATS, *_DISPLAYS)).format(a=a, b=b)
         case 3 | 4:
-            kind, name = chance.choice(_METHODS)
-            owner = chance.choice(_named(kind))
-            b = chance.choice((b, chance.choice(_named(kind))))
-            arguments = chance.choice(("", b, b, f"{b}, {a}", f"{b}, 'a', 1", "'a', 'b'", f"({b},) * 999"))
+            kind, name = rng.choice(_METHODS)
+            owner = rng.choice(_named(kind))
+            b = rng.choice((b, rng.choice(_named(kind))))
+            arguments = rng.choice(("", b, b, f"{b}, {a}", f"{b}, 'a', 1", "'a', 'b'", f"({b},) * 999"))
             return f"{owner}{'.copy()' if name in _MUTATING else ''}.{name}({arguments})"
         case _:
-            arguments = chance.choice((a, a, a, f"{a}, {b}", f"*{a}", f"{b}, {a}, 2", f"lambda i: i, {a}"))
-            return f"{chance.choice(_FUNCTIONS)}({arguments})"
+            arguments = rng.choice((a, a, a, f"{a}, {b}", f"*{a}", f"{b}, {a}, 2", f"lambda i: i, {a}"))
+            return f"{rng.choice(_FUNCTIONS)}({arguments})"
