@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from trundle.gazebo.nodes.map_server.occupancy_grid import read_cells
-from trundle.robots.meshes import mean_colour, png_of, read_heights
+from trundle.robots.meshes import mean_color, png_of, read_heights
 from trundle.sim.render import load_texture
 
 from .seeds import picture
@@ -12,7 +12,7 @@ from .target import Open, Target, reads_file, try_each
 
 def _textures(name: str) -> Open:
     def read(file: Path) -> None:
-        mean_colour(file)
+        mean_color(file)
         data = file.read_bytes()
         load_texture(data)
         png_of(data)

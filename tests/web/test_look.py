@@ -157,7 +157,7 @@ def test_sky_and_fog_are_those_of_a_camera(
     world_page: WorldPage, tmp_path: Path, texture: Path, kind: Literal["linear", "exponential", "quadratic"]
 ) -> None:
     """The sky lies behind the fog."""
-    fog = Fog(type=kind, colour=(0.5, 0.5, 0.6, 1), start_m=2.0, end_m=9.0, density=0.2)
+    fog = Fog(type=kind, color=(0.5, 0.5, 0.6, 1), start_m=2.0, end_m=9.0, density=0.2)
     scene = _scene(texture, fog=fog, sky=((0.86, 0.91, 0.96, 1.0), (0.30, 0.52, 0.82, 1.0)), lights=())
     expected, segments = _camera_picture(_still(scene))
 

@@ -16,5 +16,5 @@ def scene_settings(world: World) -> SceneSettings:
         grid=scene.grid,
         fog=None
         if fog.type == "none"
-        else Fog(type=fog.type, color=fog.colour[:3], start=fog.start_m, end=fog.end_m, density=fog.density),
+        else Fog(type=fog.type, color=fog.color[:3], start=fog.start_m, end=fog.end_m, density=fog.density),
     )

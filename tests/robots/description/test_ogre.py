@@ -55,7 +55,7 @@ def sdf(tmp_path: Path, script: str, *, extra: str = "") -> tuple[Material, Diag
     return loaded.world.models[0].links[0].visuals[0].material, report
 
 
-def test_colours_come_from_the_first_pass() -> None:
+def test_colors_come_from_the_first_pass() -> None:
     surface = surfaces(PLAIN)["Box/Plain"]
     assert surface.ambient == (0.1, 0.2, 0.3, 1.0)
     assert surface.diffuse == (0.4, 0.5, 0.6, 0.7)
@@ -111,7 +111,7 @@ def test_any_text_is_read_or_refused(text: str) -> None:
         "<uri>materials/scripts</uri><uri>materials/textures</uri>",
     ],
 )
-def test_a_visual_takes_colours_and_texture_from_the_script_it_names(tmp_path: Path, uris: str) -> None:
+def test_a_visual_takes_colors_and_texture_from_the_script_it_names(tmp_path: Path, uris: str) -> None:
     material, report = sdf(tmp_path, f"{uris}<name>Box/Plain</name>")
 
     assert material.diffuse == (0.4, 0.5, 0.6, 0.7)
@@ -120,7 +120,7 @@ def test_a_visual_takes_colours_and_texture_from_the_script_it_names(tmp_path: P
     assert report.findings == []
 
 
-def test_colours_of_the_visual_override_the_script(tmp_path: Path) -> None:
+def test_colors_of_the_visual_override_the_script(tmp_path: Path) -> None:
     material, _ = sdf(
         tmp_path, "<uri>materials/scripts</uri><name>Box/Plain</name>", extra="<diffuse>1 1 1 1</diffuse>"
     )
@@ -202,7 +202,7 @@ def test_scripts_of_a_resource_folder_are_found_without_a_uri(tmp_path: Path) ->
 
 @pytest.mark.slow
 def test_every_published_script_is_read(shared: Path) -> None:
-    """All 71 scripts of the collection: names, parents and colours; none is refused."""
+    """All 71 scripts of the collection: names, parents and colors; none is refused."""
     count = 0
     for path in sorted((shared / "corpus/repos").rglob("*.material")):
         top = parse_script(path.read_text(errors="replace"), name=str(path))

@@ -13,7 +13,7 @@ from trundle.robots.meshes import Mesh, cache, load, load_mesh
 
 @pytest.fixture
 def large(tmp_path: Path) -> Path:
-    """A ball in colour, large enough to be kept."""
+    """A ball in color, large enough to be kept."""
     ball = trimesh.creation.icosphere(subdivisions=5)
     path = tmp_path / "ball.obj"
     path.write_text("mtllib ball.mtl\nusemtl red\n" + ball.export(file_type="obj", include_normals=False))

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from trundle.robots.meshes import MeshError, load_mesh, mean_colour, read_heights
+from trundle.robots.meshes import MeshError, load_mesh, mean_color, read_heights
 
 from .test_parts import MTL, OBJ, collada
 
@@ -65,7 +65,7 @@ def test_what_pillow_warns_of_is_decoded_without_a_word(tmp_path: Path) -> None:
     Image.new("RGB", (8, 8), (255, 0, 0)).save(path, exif=exif)
     path.write_bytes(path.read_bytes().replace(b"\0\0\0\x1c", b"\x7f\0\0\x1c", 1))  # the length of that name
 
-    assert mean_colour(path) == pytest.approx((1.0, 0.0, 0.0, 1.0), abs=0.02)
+    assert mean_color(path) == pytest.approx((1.0, 0.0, 0.0, 1.0), abs=0.02)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])

@@ -1,4 +1,4 @@
-"""Parts, colours and textures of mesh files, as Gazebo would draw them."""
+"""Parts, colors and textures of mesh files, as Gazebo would draw them."""
 
 import io
 from pathlib import Path
@@ -98,7 +98,7 @@ def test_a_part_is_asked_for_by_its_nodes_name_as_in_gazebo(tmp_path: Path) -> N
         load_mesh(path, submesh="Door")
 
 
-def test_a_textured_part_has_its_image_its_mean_colour_and_where_it_goes(tmp_path: Path) -> None:
+def test_a_textured_part_has_its_image_its_mean_color_and_where_it_goes(tmp_path: Path) -> None:
     folder = tmp_path / "meshes"
     folder.mkdir()
     Image.new("RGB", (4, 4), (255, 51, 0)).save(folder / "paint.png")
@@ -199,7 +199,7 @@ def test_obj_faces_without_normals_are_flat_beside_others_that_have_some(tmp_pat
     assert mesh.normals.tolist() == [[[0, 0, 2], [1, 0, 0], [1, 0, 0]], [[0, 0, 0]] * 3]
 
 
-def test_a_texture_of_a_library_is_tinted_by_its_diffuse_colour(tmp_path: Path) -> None:
+def test_a_texture_of_a_library_is_tinted_by_its_diffuse_color(tmp_path: Path) -> None:
     (tmp_path / "car.obj").write_text(OBJ.replace("3/3 4", "3/3"))
     (tmp_path / "car.mtl").write_text("newmtl red\nmap_Kd paint.png\nKd 1 0.5 0\nd 0.5\n")
     Image.new("RGB", (1, 1), (255, 255, 255)).save(tmp_path / "paint.png")

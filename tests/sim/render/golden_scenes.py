@@ -71,7 +71,7 @@ SCENES = {
         shapes=THINGS,
         lights=(LAMP, SPOT),
         sky=((0.9, 0.9, 0.9, 1.0), (0.2, 0.4, 0.8, 1.0)),
-        fog=Fog(type="exponential", density=0.05, colour=(0.9, 0.9, 0.9, 1.0)),
+        fog=Fog(type="exponential", density=0.05, color=(0.9, 0.9, 0.9, 1.0)),
     ),
 }
 

@@ -176,7 +176,7 @@ def test_ambient_specular_and_emitted_light_add_up() -> None:
     ],
 )
 def test_fog_hides_what_is_far(fog: Fog, clear: float) -> None:
-    rgb = picture(GROUND, fog=replace(fog, colour=(0.0, 0.0, 1.0, 1.0)))
+    rgb = picture(GROUND, fog=replace(fog, color=(0.0, 0.0, 1.0, 1.0)))
     assert at(rgb, 1.0, 1.0) == pytest.approx([127.5 * clear, 127.5 * clear, 127.5 * clear + 255 * (1 - clear)], abs=1)
 
 

@@ -10,7 +10,7 @@ import trundle
 from trundle.base.diagnostics import Diagnostics
 from trundle.robots.description import write_sdf, written_uri
 from trundle.robots.meshes import Mesh
-from trundle.robots.model import TEXTURE_COLOURS
+from trundle.robots.model import TEXTURE_COLORS
 from trundle.sim.render import scene_from_world
 from trundle.sim.render.named_textures import texture_pixels
 from trundle.sim.render.patterns import clouds, noise
@@ -26,16 +26,16 @@ def visual(folder: Path, geometry: str, material: str, more: str = ""):
     return shape
 
 
-@pytest.mark.parametrize("name", TEXTURE_COLOURS)
+@pytest.mark.parametrize("name", TEXTURE_COLORS)
 def test_a_texture_has_its_colour_on_average(name: str) -> None:
     mean = texture_pixels(name).reshape(-1, 3).mean(axis=0) / 255
 
-    assert mean == pytest.approx(TEXTURE_COLOURS[name], abs=0.02)
+    assert mean == pytest.approx(TEXTURE_COLORS[name], abs=0.02)
     assert texture_pixels(name).std() > 1.5
 
 
 def test_textures_are_the_same_on_every_machine() -> None:
-    digest = hashlib.sha256(b"".join(texture_pixels(name).tobytes() for name in TEXTURE_COLOURS)).hexdigest()
+    digest = hashlib.sha256(b"".join(texture_pixels(name).tobytes() for name in TEXTURE_COLORS)).hexdigest()
 
     assert digest == "6f74d12cfe9493ff1d6bc75621db643b43aa135fa75b14f011aa4dd31efd0bbf"
 
@@ -73,7 +73,7 @@ def test_a_mesh_without_coordinates_has_the_colour_alone(tmp_path: Path) -> None
 
     assert isinstance(shape.geometry, Mesh)
     assert shape.texture is None
-    assert shape.rgba == (*TEXTURE_COLOURS["Gazebo/Grass"], 1.0)
+    assert shape.rgba == (*TEXTURE_COLORS["Gazebo/Grass"], 1.0)
 
 
 def test_the_material_is_written_by_its_name(tmp_path: Path) -> None:

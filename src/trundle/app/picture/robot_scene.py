@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from trundle.base.diagnostics import Diagnostics, TrundleError
-from trundle.robots.meshes import Mesh, load_mesh, mean_colour
+from trundle.robots.meshes import Mesh, load_mesh, mean_color
 from trundle.robots.model import Box, Cylinder, Rgba, Sphere
 from trundle.robots.packages import Packages
 from trundle.robots.robot import Robot, RobotBox, RobotCylinder, RobotMesh, RobotShape, RobotSphere
@@ -50,7 +50,7 @@ def _seen_from_afar(shape: RobotShape, packages: Packages, report: Diagnostics) 
     except TrundleError as error:
         report.warn_error(error, shape.at, "the texture is left out")
         return None
-    return mean_colour(image)
+    return mean_color(image)
 
 
 def _geometry(shape: RobotShape, packages: Packages, report: Diagnostics) -> ShapeGeometry | None:

@@ -33,7 +33,7 @@ _INDIGO = re.compile(
 
 
 def load(
-    what: str,
+    source: str,
     report: Diagnostics,
     *,
     packages: Packages,
@@ -43,20 +43,20 @@ def load(
     """Read a description: SDF, URDF or xacro.
 
     Args:
-        what: a path, a folder with model.config, model://NAME, package://NAME/FILE, or the name of a world, such as
+        source: path, folder with model.config, model://NAME, package://NAME/FILE, or the name of a world, such as
             empty.world; relative URIs in a pipe start in the working directory.
-        report: takes warnings and notes.
+        report: receives warnings and notes.
         packages: resolves URIs.
-        seed: of random placement in SDF.
-        arguments: of a xacro file.
+        seed: seed of random placement in SDF.
+        arguments: xacro arguments.
 
     Raises:
         DescriptionError: the description cannot be interpreted.
         UnknownArgumentError: the file has no such argument.
         UsageError: no such model.
     """
-    loaded = _load(_find(what, packages), report, packages=packages, seed=seed, arguments=arguments)
-    packages.warn_passed_over(report, Source(what))
+    loaded = _load(_find(source, packages), report, packages=packages, seed=seed, arguments=arguments)
+    packages.warn_passed_over(report, Source(source))
     return loaded
 
 
@@ -77,8 +77,8 @@ def _load(
     text = read_text(path) if root.tag == "robot" else ""
     is_xacro = "xmlns:xacro" in text
     if arguments and not is_xacro:
-        what = f"not a xacro file, it has no arguments: {', '.join(arguments)}"
-        raise UnknownArgumentError(Source(str(path)), what, name=next(iter(arguments)))
+        message = f"not a xacro file, it has no arguments: {', '.join(arguments)}"
+        raise UnknownArgumentError(Source(str(path)), message, name=next(iter(arguments)))
     if root.tag == "robot":
         if is_xacro:
             text = _expanded(path, packages, report, arguments=arguments)
@@ -107,8 +107,8 @@ def load_text(
         name: file name in messages.
         folder: base of relative URIs.
         packages: resolves URIs.
-        report: takes warnings and notes.
-        seed: of random placement in SDF.
+        report: receives warnings and notes.
+        seed: seed of random placement in SDF.
 
     Raises:
         DescriptionError: the description cannot be interpreted.
@@ -132,7 +132,7 @@ def load_sdf(
     seed: int = 0,
     budget: ReadBudget | None = None,
 ) -> LoadedDescription:
-    """Read a parsed SDF file located at `path`, with `seed` for random placement; `budget` is for what it includes.
+    """Read a parsed SDF file at `path`; `seed` is for random placement, `budget` for included files.
 
     Raises:
         DescriptionError: not an SDF.
@@ -204,22 +204,22 @@ def _expanded(
     return expand_xacro(path, arguments, packages=packages, report=report, data=data, needs_all=True)
 
 
-def _find(what: str, packages: Packages) -> Path:
-    if what.startswith("model://"):
-        return packages.find_model(what.removeprefix("model://").strip("/"))
-    if what.startswith("package://"):
-        return packages.resolve(what, beside=Path.cwd(), at=Source(what))
-    if what.startswith("file://"):
-        return Path(unquote(what.removeprefix("file://")))
-    path = Path(os.path.expanduser(what))
+def _find(source: str, packages: Packages) -> Path:
+    if source.startswith("model://"):
+        return packages.find_model(source.removeprefix("model://").strip("/"))
+    if source.startswith("package://"):
+        return packages.resolve(source, beside=Path.cwd(), at=Source(source))
+    if source.startswith("file://"):
+        return Path(unquote(source.removeprefix("file://")))
+    path = Path(os.path.expanduser(source))
     if os.path.exists(path):
         return path
-    world = None if path.is_absolute() else packages.find_world(what)
+    world = None if path.is_absolute() else packages.find_world(source)
     if world is not None:
         return world
-    known = ", ".join(packages.worlds())
+    bundled = ", ".join(packages.worlds())
     hint = ""
     if path.suffix == ".world":
-        hint = f"; worlds that come with Trundle: {known}; others are searched along GAZEBO_RESOURCE_PATH"
-    near = similar_file(str(path)) or did_you_mean(what, packages.worlds())
-    raise DescriptionError(Source(what), f"no such file or folder{near}{hint}")
+        hint = f"; worlds that come with Trundle: {bundled}; others are searched along GAZEBO_RESOURCE_PATH"
+    suggestion = similar_file(str(path)) or did_you_mean(source, packages.worlds())
+    raise DescriptionError(Source(source), f"no such file or folder{suggestion}{hint}")

@@ -8,14 +8,14 @@ def shape_name(lump: str, source: str, kind: str, number: int) -> str:
 
     Args:
         lump: link that carries the shape.
-        source: the shape's own name, or that of its link.
+        source: name of the shape, or of its link if it has none.
         kind: "collision" or "visual".
-        number: of the shape among those of its kind in the lump, from 0.
+        number: index among the lump's shapes of that kind, from 0.
     """
     name = f"{source}_{kind}_{number}" if number else f"{source}_{kind}"
     return name if name.startswith(lump) else f"{lump}{_LUMPED}{name}"
 
 
 def is_lumped_name(name: str) -> bool:
-    """Return False for the name of a lumped shape that begins like its new link: to Gazebo it is the link's own."""
+    """True if a shape was lumped from another link; False if its name begins like the lump's, as Gazebo decides."""
     return _LUMPED in name

@@ -12,7 +12,7 @@ from .solid_meshes import cone_mesh as cone_mesh, prism_mesh as prism_mesh, terr
 from .texture import (
     ignored_decoder_warnings as ignored_decoder_warnings,
     image_file as image_file,
-    mean_colour as mean_colour,
+    mean_color as mean_color,
     png_of as png_of,
     why_undecoded as why_undecoded,
 )

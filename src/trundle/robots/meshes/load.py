@@ -17,7 +17,7 @@ from trundle.base.xmlnode import MAX_LENGTH
 from . import cache
 from .mesh import Mesh, MeshError, MeshPart, Rgba
 from .raw import MAX_TRIANGLES, RawPart
-from .texture import find_texture, mean_colour
+from .texture import find_texture, mean_color
 
 MAX_BYTES = 256 * 1024 * 1024
 _SLOW = frozenset({".dae", ".glb", ".obj"})
@@ -29,7 +29,7 @@ _LIBRARY = re.compile(rb"^\s*mtllib\s+(.+?)\s*$", re.MULTILINE)
 
 
 def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -> Mesh:
-    """Read a mesh file as one list of triangles, in parts of one colour.
+    """Read a mesh file as one list of triangles, in parts of one color.
 
     Lengths are metres, except for .dae, which states its unit.
 
@@ -189,7 +189,7 @@ def _described(parts: Sequence[RawPart], path: Path) -> tuple[MeshPart, ...]:
     first_face = 0
     for part in parts:
         texture = find_texture(part.texture, path) if isinstance(part.texture, str) else part.texture
-        mean = mean_colour(texture) if texture else None
+        mean = mean_color(texture) if texture else None
         rgba = part.rgba if mean is None else _tinted(mean, part.tint)
         name = part.names[0] if part.names else ""
         described.append(

@@ -1,4 +1,4 @@
-"""Triangle meshes, in parts of one colour."""
+"""Triangle meshes, in parts of one color."""
 
 from functools import lru_cache
 from pathlib import Path
@@ -28,11 +28,11 @@ class MeshPart(Struct, frozen=True, kw_only=True):
     first_face: int
     face_count: int
     rgba: Rgba | None = None
-    """Colour in the file, or the texture's mean colour. None: the file has none."""
+    """Color in the file, or the texture's mean color. None: the file has none."""
     texture: Texture | None = None
     """Texture, mapped by the mesh's `uv`."""
     tint: Rgba = (1.0, 1.0, 1.0, 1.0)
-    """Factor of the texture's colours."""
+    """Factor of the texture's colors."""
     missing_texture: str | None = None
     """Texture named in the file that was not found."""
 
@@ -45,14 +45,14 @@ class Mesh(Struct, frozen=True, eq=False):
     faces: NDArray[np.int32]
     """(M, 3) vertex indices, counter-clockwise from outside."""
     rgba: Rgba | None = None
-    """Colour of the largest part; None if it has none."""
+    """Color of the largest part; None if it has none."""
     uv: NDArray[np.float32] | None = None
     """(M, 3, 2) texture coordinates of each face corner: u to the right, v up, (0, 0) at the lower left of the image,
     repeated beyond 0…1. Zeros for parts without any; None: no part has any. They also map a texture set by the
     description alone.
     """
     parts: tuple[MeshPart, ...] = ()
-    """Parts in the order of the faces; empty: one colour."""
+    """Parts in the order of the faces; empty: one color."""
     normals: NDArray[np.float32] | None = None
     """(M, 3, 3) normals of each face corner, of any length, for smooth shading; zeros, or None, for flat faces."""
 
@@ -75,7 +75,7 @@ class Mesh(Struct, frozen=True, eq=False):
         return replace(self, vertices=vertices, normals=normals)
 
     def split_by_material(self) -> tuple["Mesh", ...]:
-        """Return the mesh split into meshes of one colour and one texture, stored in their first part."""
+        """Return the mesh split into meshes of one color and one texture, stored in their first part."""
         return _split_by_material(self)
 
 

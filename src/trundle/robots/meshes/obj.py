@@ -29,7 +29,7 @@ class _Material(Struct):
     texture: str | None = None
 
     def over(self, r: float, g: float, b: float) -> Rgba:
-        """Return its colour, or the given one if it has none."""
+        """Return its color, or the given one if it has none."""
         return (*(self.diffuse or (r, g, b)), self.opacity)
 
 
@@ -112,7 +112,7 @@ def _part(
 
 
 def read_mtl(data: bytes) -> dict[str, _Material]:
-    """Return the materials of a library: diffuse colour, opacity and diffuse map."""
+    """Return the materials of a library: diffuse color, opacity and diffuse map."""
     looks: dict[str, _Material] = {}
     look = _Material()
     for line in data.decode("utf-8", "replace").splitlines():

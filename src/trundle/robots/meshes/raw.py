@@ -37,7 +37,7 @@ class RawPart(Struct, frozen=True, kw_only=True):
     texture: str | bytes | None = None
     """Path relative to the mesh file, as written, or the embedded image."""
     tint: Rgba = (1.0, 1.0, 1.0, 1.0)
-    """Factor of the texture's colours."""
+    """Factor of the texture's colors."""
     uv: NDArray[np.float32] | None = None
     """(M, 3, 2) texture coordinates of each face corner; v is up."""
     normals: NDArray[np.float32] | None = None

@@ -1,4 +1,4 @@
-"""Textures of meshes: files and mean colours."""
+"""Textures of meshes: files and mean colors."""
 
 import io
 import os
@@ -63,8 +63,8 @@ def why_undecoded(error: Exception) -> str:
     return getattr(error, "strerror", None) or " ".join(str(error).split()) or type(error).__name__
 
 
-def mean_colour(texture: Texture) -> Rgba | None:
-    """Return an image's mean colour, opaque; None if it cannot be read."""
+def mean_color(texture: Texture) -> Rgba | None:
+    """Return an image's mean color, opaque; None if it cannot be read."""
     try:
         return _mean(texture, 0 if isinstance(texture, bytes) else texture.stat().st_mtime_ns)
     except Exception:  # every decoder of Pillow has its own exceptions

@@ -73,6 +73,6 @@ from .plugin import PluginTag as PluginTag
 from .road import Road as Road
 from .sensor import MEASURING as MEASURING, Sensor as Sensor
 from .surface import Surface as Surface
-from .texture_colours import TEXTURE_COLOURS as TEXTURE_COLOURS, with_plain_colour as with_plain_colour
+from .texture_colors import TEXTURE_COLORS as TEXTURE_COLORS, with_plain_color as with_plain_color
 from .visibility import EVERY_BIT as EVERY_BIT
 from .world import World as World

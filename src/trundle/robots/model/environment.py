@@ -48,7 +48,7 @@ class Fog(Struct, frozen=True, kw_only=True):
 
     type: str = "none"
     """none, linear, quadratic or exponential."""
-    colour: Rgba = (1.0, 1.0, 1.0, 1.0)
+    color: Rgba = (1.0, 1.0, 1.0, 1.0)
     start_m: float = 1.0
     end_m: float = 100.0
     density: float = 1.0

@@ -52,13 +52,13 @@ def _moved_joint(joint: Joint, inner: Model) -> Joint:
         name=f"{inner.name}::{joint.name}",
         parent=named(joint.parent),
         child=named(joint.child),
-        axis=_turned(joint.axis, inner.world_from_model, inner.name),
-        axis2=_turned(joint.axis2, inner.world_from_model, inner.name),
+        axis=_rotated_axis(joint.axis, inner.world_from_model, inner.name),
+        axis2=_rotated_axis(joint.axis2, inner.world_from_model, inner.name),
         gearbox_reference_body=None if reference is None else named(reference),
     )
 
 
-def _turned(axis: JointAxis | None, outer_from_inner: Pose, name: str) -> JointAxis | None:
+def _rotated_axis(axis: JointAxis | None, outer_from_inner: Pose, name: str) -> JointAxis | None:
     if axis is None:
         return None
     mimic = axis.mimic

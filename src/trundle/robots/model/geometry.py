@@ -80,7 +80,7 @@ class TerrainLayer(Struct, frozen=True, kw_only=True):
     size: float = 10.0
     """Side of one repetition [m]."""
     diffuse: Path | None = None
-    """Colour image; None if the file was not found; the reader warned."""
+    """Color image; None if the file was not found; the reader warned."""
     normal: Path | None = None
     from_height: float = 0.0
     """Height above the lowest point from which this layer covers the previous one [m]."""

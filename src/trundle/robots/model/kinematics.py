@@ -42,25 +42,25 @@ def model_from_links(model: Model, positions: Mapping[str, float]) -> dict[str, 
     """
     at_zero = {link.name: link.model_from_link for link in model.links}
     parent_joint = {joint.child: joint for joint in reversed(model.joints)}
-    found: dict[str, Pose] = {}
+    result: dict[str, Pose] = {}
 
-    def place(name: str, above: frozenset[str]) -> Pose:
-        if name in found:
-            return found[name]
+    def place_link(name: str, descendants: frozenset[str]) -> Pose:
+        if name in result:
+            return result[name]
         joint = parent_joint.get(name)
-        if joint is None or joint.parent not in at_zero or joint.parent in above:
-            found[name] = at_zero[name]
-            return found[name]
-        parent = place(joint.parent, above | {name})
+        if joint is None or joint.parent not in at_zero or joint.parent in descendants:
+            result[name] = at_zero[name]
+            return result[name]
+        parent = place_link(joint.parent, descendants | {name})
         anchor = model_from_joint(model, joint).position
         motion = joint_motion(joint, positions.get(joint.name, 0.0))
         moved = _about(anchor, motion) @ at_zero[name]
-        found[name] = parent @ at_zero[joint.parent].inverse() @ moved
-        return found[name]
+        result[name] = parent @ at_zero[joint.parent].inverse() @ moved
+        return result[name]
 
     for link in model.links:
-        place(link.name, frozenset())
-    return found
+        place_link(link.name, frozenset())
+    return result
 
 
 def _about(anchor: Vector3, motion: Pose) -> Pose:

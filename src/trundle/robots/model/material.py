@@ -17,11 +17,11 @@ class Material(Struct, frozen=True, kw_only=True):
     specular: Rgba = (0.01, 0.01, 0.01, 1.0)
     emissive: Rgba = (0.0, 0.0, 0.0, 1.0)
     texture: Path | None = None
-    """Colour texture, tinted by `diffuse`. A mesh's `uv` maps it, v up from the lower edge of the image; other shapes
+    """Color texture, tinted by `diffuse`. A mesh's `uv` maps it, v up from the lower edge of the image; other shapes
     are mapped by the renderer.
     """
     named_texture: str | None = None
-    """Name of a Gazebo material in `TEXTURE_COLOURS` whose texture is drawn where `texture` is None."""
+    """Name of a Gazebo material in `TEXTURE_COLORS` whose texture is drawn where `texture` is None."""
     texture_scale: tuple[float, float] = (1.0, 1.0)
     """Texture scale across and up about the image centre, as Ogre's `scale`: uv → (uv − ½) / scale + ½; 0.5 repeats the
     image twice.

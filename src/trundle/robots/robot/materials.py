@@ -1,4 +1,4 @@
-"""Reader of a URDF's <material>: a colour, a texture, or the name of one defined before, by urdfdom's rules."""
+"""Reader of a URDF's <material>: a color, a texture, or the name of one defined before, by urdfdom's rules."""
 
 import math
 from collections.abc import Iterable
@@ -12,10 +12,10 @@ from .urdf_tree import Rgba
 
 @dataclass(frozen=True, slots=True)
 class RobotMaterial:
-    """Colour and texture of a material."""
+    """Color and texture of a material."""
 
     rgba: Rgba | None = None
-    """None without a colour."""
+    """None without a color."""
     texture: str = ""
     """URI of the texture, as written."""
 
@@ -38,22 +38,22 @@ class Materials:
             self._materials[name] = self._read(node)
 
     def find(self, node: XmlNode) -> RobotMaterial:
-        """Return the colour and texture of a visual's <material>."""
+        """Return the color and texture of a visual's <material>."""
         name, look = node.attribute("name") or "", self._read(node)
         if look == RobotMaterial():
             if name not in self._materials:
-                self._report.warn(node.at, f"no material {name!r}; it has no colour")
+                self._report.warn(node.at, f"no material {name!r}; it has no color")
             return self._materials.get(name, look)
         if name:
             self._materials[name] = look
         return look
 
     def _read(self, node: XmlNode) -> RobotMaterial:
-        texture, colour = node.find("texture"), node.find("color")
+        texture, color = node.find("texture"), node.find("color")
         image = "" if texture is None else texture.attribute("filename") or ""
-        return RobotMaterial(None if colour is None else self._colour(colour), image)
+        return RobotMaterial(None if color is None else self._color(color), image)
 
-    def _colour(self, node: XmlNode) -> Rgba | None:
+    def _color(self, node: XmlNode) -> Rgba | None:
         text = node.attribute("rgba")
         values = parse_numbers(text or "")
         if values is None or len(values) != 4 or not all(map(math.isfinite, values)):

@@ -66,7 +66,7 @@ class RobotShape:
     at: Source
     link_from_shape: Pose = Pose()
     rgba: Rgba | None = None
-    """Colour of a visual; None if the file names none."""
+    """Color of a visual; None if the file names none."""
     texture: str = ""
     """Texture URI of a visual, as written; tinted by `rgba`."""
     material: str = ""

@@ -1,7 +1,7 @@
 """Shapes with the materials of a description."""
 
 from trundle.robots.meshes import Mesh
-from trundle.robots.model import Material, with_plain_colour
+from trundle.robots.model import Material, with_plain_color
 
 from .scene import Shape, ShapeGeometry
 
@@ -10,7 +10,7 @@ def material_shape(name: str, body: int, geometry: ShapeGeometry, material: Mate
     """Return a shape with a material; a mesh without texture coordinates has a named texture's colour alone."""
     texture = material.texture
     if isinstance(geometry, Mesh) and geometry.uv is None:
-        material = with_plain_colour(material)
+        material = with_plain_color(material)
     if material.named_texture is not None:
         from .named_textures import named_texture  # most worlds have none
 

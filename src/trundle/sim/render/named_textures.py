@@ -6,7 +6,7 @@ from io import BytesIO
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.robots.model import TEXTURE_COLOURS
+from trundle.robots.model import TEXTURE_COLORS
 
 from .patterns import (
     PAINT,
@@ -62,7 +62,7 @@ NAMED_TEXTURES = (
 
 @lru_cache(maxsize=32)
 def named_texture(name: str) -> bytes:
-    """Return the texture of a material in `TEXTURE_COLOURS`, as PNG; its mean is the material's colour."""
+    """Return the texture of a material in `TEXTURE_COLORS`, as PNG; its mean is the material's colour."""
     from PIL import Image  # slow to load, and most worlds have no such material
 
     png = BytesIO()
@@ -71,10 +71,10 @@ def named_texture(name: str) -> bytes:
 
 
 def texture_pixels(name: str) -> NDArray[np.uint8]:
-    """Return the texture of a material in `TEXTURE_COLOURS`, (256, 256, 3), upper row first."""
+    """Return the texture of a material in `TEXTURE_COLORS`, (256, 256, 3), upper row first."""
     pattern, contrast = _PATTERNS[name]
     field = pattern(sum(name.encode()))
-    colour = np.array([round(255 * value) for value in TEXTURE_COLOURS[name]], dtype=np.int64)
+    colour = np.array([round(255 * value) for value in TEXTURE_COLORS[name]], dtype=np.int64)
     is_paint = field >= PAINT
     paint, rest = field[is_paint] - PAINT, field[~is_paint]
     ground = (colour * field.size - paint.sum()) // rest.size

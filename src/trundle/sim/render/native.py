@@ -238,7 +238,7 @@ def _native_fog(fog: Fog) -> _native.Fog | None:
     kind = _FOGS.get(fog.type)
     if kind is None:
         return None
-    return _native.Fog(kind, colour=fog.colour[:3], start=fog.start_m, end=fog.end_m, density=fog.density)
+    return _native.Fog(kind, colour=fog.color[:3], start=fog.start_m, end=fog.end_m, density=fog.density)
 
 
 def _native_shape(shape: Shape, mesh: int, material: _native.Material) -> _native.Shape:

@@ -31,11 +31,11 @@ class Joint:
         axes: tuple[JointAxis | None, JointAxis | None],
     ) -> None:
         """Validate the type and its axes; see `Model.add_joint`."""
-        known = {kind.value: kind for kind in _BUILT}
-        if type not in known:
-            raise UsageError(f"joint {name!r}: no type {type!r}; there are: {', '.join(known)}")
+        types = {kind.value: kind for kind in _BUILT}
+        if type not in types:
+            raise UsageError(f"joint {name!r}: no type {type!r}; there are: {', '.join(types)}")
         self.name = name
-        self._type = known[type]
+        self._type = types[type]
         self.parent, self.child, self._pose = parent, child, pose
         count = _AXES.get(self._type, 1)
         self._axes = tuple(_unit(axis, name) for axis in axes[:count])
@@ -55,11 +55,11 @@ class Joint:
         """Add a force-torque sensor.
 
         Args:
-            name: of the sensor.
+            name: sensor's name.
             settings: axes, direction and noise.
             update_rate: [Hz]; 0: at every step.
-            always_on: keep the schedule of readings without listeners.
-            topic: to publish on; empty: Gazebo's name.
+            always_on: keep the update schedule without subscribers.
+            topic: topic name; empty: Gazebo's default.
 
         Raises:
             UsageError: the name is taken.
@@ -80,7 +80,7 @@ class Joint:
         return self
 
     def description(self, model_from_child: Pose) -> model.Joint:
-        """Return the description, as a reader would, with axes in the model frame."""
+        """Return the joint as a reader would, with axes in the model frame."""
         turn = (model_from_child @ self._pose).quaternion
         first, second = (*self._axes, None, None)[:2]
         return model.Joint(

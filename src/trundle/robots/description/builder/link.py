@@ -18,7 +18,7 @@ _ORIGIN = Pose()
 class Link(ShapeAdder["Link"]):
     """Rigid body with the mass properties of its shapes, or of `set_inertial`.
 
-    Without either they are SDF's defaults, 1 kg and 1 kg·m². Poses of shapes and sensors are in its frame.
+    Without either, SDF's defaults apply: 1 kg and 1 kg·m². Poses of shapes and sensors are in the link frame.
     """
 
     def __init__(self, name: str, pose: Pose) -> None:
@@ -68,17 +68,18 @@ class Link(ShapeAdder["Link"]):
         """Mount a sensor.
 
         Args:
-            name: of the sensor.
+            name: sensor's name.
             type: SDF's: camera, depth_camera, ray, imu, contact, gps, altimeter, …
-            settings: of its type, from `trundle.robots.model`: `CameraOptics`, `RangeScan`, …; None: SDF's own.
-            pose: in the link's frame.
+            settings: struct of that type from `trundle.robots.model`: `CameraOptics`, `RangeScan`, …; None: SDF's
+                defaults.
+            pose: pose in the link frame.
             update_rate: [Hz]; 0: at every step.
-            always_on: keep the schedule of readings without listeners.
+            always_on: keep the update schedule without subscribers.
             visualize: show its rays.
-            topic: to publish on; empty: Gazebo's name.
+            topic: topic name; empty: Gazebo's default.
 
         Raises:
-            UsageError: there is no such type, its settings are of another kind, or the name is taken.
+            UsageError: unknown type, settings of another type, or a duplicate name.
         """
         check_name(name, self._sensors, f"link {self.name!r}")
         if type == "force_torque":
@@ -104,7 +105,7 @@ class Link(ShapeAdder["Link"]):
         return self
 
     def description(self) -> model.Link:
-        """Return the description, as a reader would."""
+        """Return the link as a reader would."""
         return model.Link(
             name=self.name,
             at=BUILT,
@@ -135,5 +136,5 @@ class Link(ShapeAdder["Link"]):
         return Inertial(mass=mass, link_from_com=Pose(center), moments=(xx, yy, zz), products=(xy, xz, yz))
 
     def __repr__(self) -> str:
-        shapes, sensors = (", ".join(repr(each.name) for each in group) for group in (self._shapes, self._sensors))
+        shapes, sensors = (", ".join(repr(part.name) for part in group) for group in (self._shapes, self._sensors))
         return f"<Link {self.name!r}; shapes: {shapes or 'none'}; sensors: {sensors or 'none'}>"

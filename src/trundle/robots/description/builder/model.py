@@ -21,16 +21,16 @@ _ORIGIN = Pose()
 
 
 class Model(ShapeAdder[Link]):
-    """Links joined by joints. A shape added to it becomes a link of its own, at the shape's pose."""
+    """Links joined by joints; a shape added to the model becomes a link at the shape's pose."""
 
     def __init__(self, name: str, *, pose: Pose = _ORIGIN, static: bool = False, self_collide: bool = False) -> None:
         """Create an empty model.
 
         Args:
-            name: of the model.
-            pose: in the world.
-            static: it never moves.
-            self_collide: its links collide with one another.
+            name: model's name.
+            pose: pose in the world.
+            static: True if the model never moves.
+            self_collide: True if its links collide with one another.
         """
         check_name(name, (), "a model")
         self.name = name
@@ -44,7 +44,7 @@ class Model(ShapeAdder[Link]):
         """Add an empty link, at a pose in the model's frame.
 
         Raises:
-            UsageError: the name is taken; with those there are.
+            UsageError: duplicate name; the message lists the names in use.
         """
         check_name(name, [*self._links, *self._joints], f"model {self.name!r}")
         self._links.append(Link(name, pose))
@@ -68,16 +68,16 @@ class Model(ShapeAdder[Link]):
         """Connect two links, or a link and the "world".
 
         Args:
-            name: of the joint.
+            name: joint's name.
             type: SDF's: revolute, prismatic, fixed, ball, universal, screw or revolute2.
             parent: link or its name, or "world".
             child: link or its name.
-            pose: of the joint in the child's frame.
+            pose: joint frame in the child's frame.
             axis: direction in the joint's frame, without limits, or a `trundle.robots.model.JointAxis`.
             axis2: second axis of universal and revolute2 joints.
 
         Raises:
-            UsageError: there is no such type or link, with those there are; or the name is taken.
+            UsageError: unknown type or link, or a duplicate name; the message lists the valid ones.
         """
         check_name(name, [*self._links, *self._joints], f"model {self.name!r}")
         joint = Joint(
@@ -95,7 +95,7 @@ class Model(ShapeAdder[Link]):
         """Add a plugin to the model, as loaded by `trundle.load(…, plugins=True)`.
 
         Args:
-            name: of the plugin.
+            name: plugin's name.
             filename: Gazebo's library or a Python file.
             parameters: its SDF elements.
         """
@@ -106,14 +106,14 @@ class Model(ShapeAdder[Link]):
 
     def _link_name(self, link: Link | str, joint: str, others: tuple[str, ...]) -> str:
         name = link if isinstance(link, str) else link.name
-        names = [*(each.name for each in self._links), *others]
+        names = [*(existing.name for existing in self._links), *others]
         if name not in names:
-            there = ", ".join(map(repr, names)) or "none"
-            raise UsageError(f"model {self.name!r}, joint {joint!r}: no link {name!r}; there are: {there}")
+            available = ", ".join(map(repr, names)) or "none"
+            raise UsageError(f"model {self.name!r}, joint {joint!r}: no link {name!r}; there are: {available}")
         return name
 
     def description(self) -> model.Model:
-        """Return the description, as a reader would."""
+        """Return the model as a reader would."""
         poses = {link.name: link.pose for link in self._links}
         return model.Model(
             name=self.name,
@@ -140,7 +140,7 @@ class Model(ShapeAdder[Link]):
         save(self.to_sdf(), file)
 
     def __repr__(self) -> str:
-        links, joints = (", ".join(repr(each.name) for each in group) for group in (self._links, self._joints))
+        links, joints = (", ".join(repr(part.name) for part in group) for group in (self._links, self._joints))
         return f"<Model {self.name!r}; links: {links or 'none'}; joints: {joints or 'none'}>"
 
 

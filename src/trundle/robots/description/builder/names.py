@@ -14,25 +14,25 @@ class _Named(Protocol):
     def name(self) -> str: ...
 
 
-def check_name(name: str, there: Iterable[_Named], owner: str) -> str:
+def check_name(name: str, existing: Iterable[_Named], owner: str) -> str:
     """Return the name if it is free.
 
     Raises:
-        UsageError: it is taken, empty, or contains SDF's separator.
+        UsageError: the name is a duplicate, empty, or contains SDF's separator.
     """
     if not name or "::" in name:
         raise UsageError(f"{owner}: {name!r} is no name: it must not be empty or hold '::'")
-    names = [each.name for each in there]
+    names = [part.name for part in existing]
     if name in names:
         raise UsageError(f"{owner} has {name!r} already; there are: {', '.join(map(repr, names))}")
     return name
 
 
-def check_positive(what: str, *values: float) -> None:
-    """Check lengths and masses.
+def check_positive(quantity: str, *values: float) -> None:
+    """Check lengths or masses.
 
     Raises:
-        UsageError: one is not above zero, or not finite.
+        UsageError: a value is not above zero, or not finite.
     """
     if not all(value > 0.0 and math.isfinite(value) for value in values):
-        raise UsageError(f"{what} must be above zero, got {', '.join(f'{value:g}' for value in values)}")
+        raise UsageError(f"{quantity} must be above zero, got {', '.join(f'{value:g}' for value in values)}")

@@ -70,17 +70,17 @@ def make_sensor(
     """Return a sensor with the settings of its type.
 
     Raises:
-        UsageError: there is no such type, or its settings are of another kind.
+        UsageError: unknown type, or settings of another type.
     """
     types = CAMERA_TYPES | MEASURING
     if type_ not in types:
         raise UsageError(f"sensor {name!r}: no type {type_!r}; there are: {', '.join(sorted(types))}")
-    wanted = _SETTINGS.get(type_)
-    if settings is None and wanted is not None:
-        settings = wanted()
-    if settings is not None and (wanted is None or not isinstance(settings, wanted)):
-        takes = "no settings" if wanted is None else f"settings of {wanted.__name__}"
-        raise UsageError(f"sensor {name!r}: type {type_!r} takes {takes}, not {type(settings).__name__}")
+    settings_type = _SETTINGS.get(type_)
+    if settings is None and settings_type is not None:
+        settings = settings_type()
+    if settings is not None and (settings_type is None or not isinstance(settings, settings_type)):
+        expected = "no settings" if settings_type is None else f"settings of {settings_type.__name__}"
+        raise UsageError(f"sensor {name!r}: type {type_!r} takes {expected}, not {type(settings).__name__}")
     return Sensor(
         name=name,
         type=type_,

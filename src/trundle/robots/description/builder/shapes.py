@@ -59,9 +59,9 @@ class ShapeOptions(TypedDict, total=False):
 
 
 class ShapeAdder(Generic[Added]):
-    """Base of builders that shapes are added to, as models, links or parts of a link.
+    """Base of builders to which shapes are added, as models, links or parts of a link.
 
-    The name is that of the result, and of its visual and collision; `ShapeOptions` has the other arguments.
+    A shape's name is also that of its visual and collision; `ShapeOptions` has the optional arguments.
     """
 
     @abstractmethod
@@ -72,7 +72,7 @@ class ShapeAdder(Generic[Added]):
         """Add a box of full lengths `size` along x, y, z [m].
 
         Raises:
-            UsageError: a length, mass or density is not above zero, or the name is taken.
+            UsageError: a length, mass or density is not above zero, or the name is a duplicate.
         """
         x, y, z = size
         check_positive(f"size of box {name!r}", x, y, z)
@@ -82,7 +82,7 @@ class ShapeAdder(Generic[Added]):
         """Add a sphere of a radius [m].
 
         Raises:
-            UsageError: the radius, mass or density is not above zero, or the name is taken.
+            UsageError: the radius, mass or density is not above zero, or the name is a duplicate.
         """
         check_positive(f"radius of sphere {name!r}", radius)
         return self.add_shape(_solid(name, Sphere(radius), options))
@@ -91,16 +91,16 @@ class ShapeAdder(Generic[Added]):
         """Add a cylinder along its z, of a radius and a length [m].
 
         Raises:
-            UsageError: a length, mass or density is not above zero, or the name is taken.
+            UsageError: a length, mass or density is not above zero, or the name is a duplicate.
         """
         check_positive(f"radius and length of cylinder {name!r}", radius, length)
         return self.add_shape(_solid(name, Cylinder(radius, length), options))
 
     def add_capsule(self, name: str, radius: float, length: float, **options: Unpack[ShapeOptions]) -> Added:
-        """Add a capsule along its z; the length is that of the cylindrical part [m], as in SDF.
+        """Add a capsule along its z; `length` is the length of the cylindrical part [m], as in SDF.
 
         Raises:
-            UsageError: a length, mass or density is not above zero, or the name is taken.
+            UsageError: a length, mass or density is not above zero, or the name is a duplicate.
         """
         check_positive(f"radius and length of capsule {name!r}", radius, length)
         return self.add_shape(_solid(name, Capsule(radius, length), options))
@@ -111,7 +111,7 @@ class ShapeAdder(Generic[Added]):
         """Add the closed mesh of a .dae, .stl, .obj or .glb file.
 
         Raises:
-            UsageError: the mesh encloses no volume, a mass or density is not above zero, or the name is taken.
+            UsageError: the mesh encloses no volume, a mass or density is not above zero, or the name is a duplicate.
             MeshError: the file cannot be used.
         """
         path = Path(file).expanduser().resolve()
@@ -121,24 +121,24 @@ class ShapeAdder(Generic[Added]):
 
 
 def _solid(name: str, geometry: Box | Capsule | Cylinder | Sphere, options: ShapeOptions) -> Shape:
-    known = volume_and_moments(geometry)
-    assert known is not None, "a shape with a closed formula"
-    volume, moments = known
+    properties = volume_and_moments(geometry)
+    assert properties is not None, "a shape with a closed formula"
+    volume, moments = properties
     return _shape(name, geometry, volume, (*moments, 0.0, 0.0, 0.0), options)
 
 
 def _shape(
     name: str, geometry: Geometry, volume: float, per_mass: Tensor, options: ShapeOptions, *, center: Vector3 = ZERO
 ) -> Shape:
-    """Return a shape with the mass of its options or of its volume [m³]; inertia per unit of mass [m²]."""
+    """Return a shape with the mass of its options or volume [m³]; `per_mass` is inertia per unit of mass [m²]."""
     unknown = options.keys() - ShapeOptions.__annotations__.keys()
     if unknown:
-        there = ", ".join(ShapeOptions.__annotations__)
-        raise UsageError(f"shape {name!r}: no option {unknown.pop()!r}; there are: {there}")
+        names = ", ".join(ShapeOptions.__annotations__)
+        raise UsageError(f"shape {name!r}: no option {unknown.pop()!r}; there are: {names}")
     mass = options.get("mass", options.get("density", WATER) * volume)
     check_positive(f"mass or density of {name!r}", mass)
     color = options.get("color", GREY.diffuse)
-    a, b, c, d, e, f = (each * mass for each in per_mass)
+    a, b, c, d, e, f = (entry * mass for entry in per_mass)
     return Shape(
         name=name,
         geometry=geometry,
@@ -154,7 +154,7 @@ def _shape(
 
 
 def _enclosed(mesh: Mesh, scale: Vector3, file: str | Path) -> tuple[float, Vector3, Tensor]:
-    """Return volume [m³], centre of mass [m] and inertia about it per unit of mass [m²] of a closed mesh.
+    """Return a closed mesh's volume [m³], centre of mass [m] and inertia about it per unit of mass [m²].
 
     Sums over the tetrahedra of each face with the origin: ∫ x xᵀ dV = Σ det/120 (Σᵢ vᵢ vᵢᵀ + s sᵀ), s = Σᵢ vᵢ.
     """

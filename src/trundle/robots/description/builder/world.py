@@ -19,9 +19,9 @@ _UP: Vector3 = (0.0, 0.0, 1.0)
 
 
 class World(ShapeAdder[Model]):
-    """World, empty and dark like SDF's until something is added.
+    """World, initially empty and without lights, like SDF's.
 
-    A shape added to it becomes a model with one link, "link", at the shape's pose.
+    A shape added to the world becomes a model with one link, "link", at the shape's pose.
     """
 
     def __init__(
@@ -30,7 +30,7 @@ class World(ShapeAdder[Model]):
         """Create an empty world.
 
         Args:
-            name: of the world.
+            name: world's name.
             gravity: [m/s²]
             max_step_size: time step [s].
 
@@ -45,28 +45,28 @@ class World(ShapeAdder[Model]):
         self._has_ground = False
 
     def add_model(self, model: Model | str, *, pose: Pose | None = None) -> Model:
-        """Add a model, or an empty one of this name.
+        """Add a model, or an empty one of that name, and return it.
 
         Args:
-            model: to add; the same object is returned.
-            pose: in the world; None: the model's own.
+            model: model or name.
+            pose: pose in the world; None: the model's own.
 
         Raises:
-            UsageError: the name is taken; with those there are.
+            UsageError: duplicate name; the message lists the names in use.
         """
-        added = Model(model) if isinstance(model, str) else model
-        there = [*self._models, *([Model(_GROUND)] if self._has_ground else [])]
-        check_name(added.name, there, f"world {self.name!r}")
+        new_model = Model(model) if isinstance(model, str) else model
+        existing = [*self._models, *([Model(_GROUND)] if self._has_ground else [])]
+        check_name(new_model.name, existing, f"world {self.name!r}")
         if pose is not None:
-            added.pose = pose
-        self._models.append(added)
-        return added
+            new_model.pose = pose
+        self._models.append(new_model)
+        return new_model
 
     def add_ground_plane(self) -> None:
         """Add Gazebo's ground_plane: infinite at z = 0, drawn 100 m wide.
 
         Raises:
-            UsageError: there is a model of that name.
+            UsageError: the world has a model of that name.
         """
         check_name(_GROUND, self._models, f"world {self.name!r}")
         self._has_ground = True
@@ -85,20 +85,20 @@ class World(ShapeAdder[Model]):
         """Add a light; the defaults are those of Gazebo's sun.
 
         Args:
-            name: of the light.
+            name: light's name.
             type: directional, point or spot.
-            pose: in the world.
-            direction: of the light rays, in the light's frame.
-            diffuse: colour.
-            specular: colour of highlights.
+            pose: pose in the world.
+            direction: direction of the light rays in the light's frame.
+            diffuse: diffuse color.
+            specular: color of highlights.
             cast_shadows: True if it casts shadows.
 
         Raises:
-            UsageError: the name is taken, with those there are; or the direction has zero length.
+            UsageError: duplicate name, or a direction of zero length.
         """
         check_name(name, self._lights, f"world {self.name!r}")
-        along = normalized(direction)
-        if along is None:
+        unit = normalized(direction)
+        if unit is None:
             raise UsageError(f"light {name!r}: {direction} is no direction")
         self._lights.append(
             Light(
@@ -106,7 +106,7 @@ class World(ShapeAdder[Model]):
                 type=type,
                 at=BUILT,
                 world_from_light=pose,
-                direction=along,
+                direction=unit,
                 diffuse=diffuse,
                 specular=specular,
                 cast_shadows=cast_shadows,
@@ -115,17 +115,17 @@ class World(ShapeAdder[Model]):
 
     def add_shape(self, shape: Shape) -> Model:
         """Add a shape as a model of one link."""
-        made = self.add_model(shape.name, pose=shape.pose)
-        made.add_link("link").add_shape(replace(shape, pose=Pose()))
-        return made
+        new_model = self.add_model(shape.name, pose=shape.pose)
+        new_model.add_link("link").add_shape(replace(shape, pose=Pose()))
+        return new_model
 
     def description(self) -> model.World:
-        """Return the description, as a reader would."""
+        """Return the world as a reader would."""
         ground = (_ground_plane(),) if self._has_ground else ()
         return model.World(
             name=self.name,
             at=BUILT,
-            models=(*ground, *(each.description() for each in self._models)),
+            models=(*ground, *(built_model.description() for built_model in self._models)),
             lights=tuple(self._lights),
             physics=self._physics,
         )
@@ -143,7 +143,7 @@ class World(ShapeAdder[Model]):
         save(self.to_sdf(), file)
 
     def __repr__(self) -> str:
-        models, lights = (", ".join(repr(each.name) for each in group) for group in (self._models, self._lights))
+        models, lights = (", ".join(repr(part.name) for part in group) for group in (self._models, self._lights))
         return f"<World {self.name!r}; models: {models or 'none'}; lights: {lights or 'none'}>"
 
 

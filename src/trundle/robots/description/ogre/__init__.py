@@ -1,4 +1,4 @@
-"""Colours and textures of Ogre material scripts, referenced by SDF's <material><script>."""
+"""Colors and textures of Ogre material scripts, referenced by SDF's <material><script>."""
 
 import lazy_loader
 

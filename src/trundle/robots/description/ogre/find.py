@@ -14,25 +14,25 @@ from trundle.robots.packages import Packages, is_stand_in
 from .script import Block, parse_script
 from .surface import name_of, parent_of, read_surface
 
-_LARGEST = 4 * 1024 * 1024
+_MAX_BYTES = 4 * 1024 * 1024
 _DEFAULT = "media/materials/scripts/gazebo.material"
-"""Gazebo's own script, whose colours are built in."""
+"""Gazebo's own script, whose colors are built in."""
 
 
 def find_material(name: str, script: XmlNode, *, packages: Packages, report: Diagnostics) -> Material | None:
     """Return the material of that name, or None if no script has it.
 
     Args:
-        name: as written.
+        name: name of the material.
         script: element whose <uri> children name script files, folders of scripts and folders of textures.
         packages: resolves URIs; scripts in its resource folders are searched too, as in Gazebo.
-        report: takes warnings of unreadable files.
+        report: receives warnings of unreadable files.
     """
-    beside = Path(script.at.file).parent
-    named = [path for uri in script.all("uri") if (path := _resolved(uri, beside, packages, report)) is not None]
-    places = [*named, *packages.material_folders()]
+    folder = Path(script.at.file).parent
+    paths = [path for uri in script.all("uri") if (path := _resolved(uri, folder, packages, report)) is not None]
+    search_paths = [*paths, *packages.material_folders()]
     materials: dict[str, Block] = {}
-    for file in _scripts(places):
+    for file in _scripts(search_paths):
         for material in _read(file, report):
             materials.setdefault(name_of(material), material)
     if name not in materials:
@@ -44,7 +44,7 @@ def find_material(name: str, script: XmlNode, *, packages: Packages, report: Dia
     surface = read_surface(name, materials)
     texture = None
     if surface.texture is not None:
-        texture = _texture(surface.texture, [Path(at.file), *places], at, packages, report)
+        texture = _texture(surface.texture, [Path(at.file), *search_paths], at, packages, report)
     return Material(
         ambient=surface.ambient,
         diffuse=surface.diffuse,
@@ -55,17 +55,17 @@ def find_material(name: str, script: XmlNode, *, packages: Packages, report: Dia
     )
 
 
-def _resolved(uri: XmlNode, beside: Path, packages: Packages, report: Diagnostics) -> Path | None:
+def _resolved(uri: XmlNode, folder: Path, packages: Packages, report: Diagnostics) -> Path | None:
     try:
-        return packages.resolve(uri.text, beside=beside, at=uri.at)
+        return packages.resolve(uri.text, beside=folder, at=uri.at)
     except DescriptionError as error:
-        if not uri.text.endswith(_DEFAULT) and not _is_of_a_stand_in(uri.text, packages):
+        if not uri.text.endswith(_DEFAULT) and not _is_in_stand_in(uri.text, packages):
             report.warn(error.at, f"{error.what}; it is left out")
         return None
 
 
-def _is_of_a_stand_in(uri: str, packages: Packages) -> bool:
-    """True if a model:// URI leads into a substitute, which has no scripts; the unknown material is warning enough."""
+def _is_in_stand_in(uri: str, packages: Packages) -> bool:
+    """True if a model:// URI is in a stand-in, which has no scripts; a warning of the unknown material follows."""
     scheme, _, rest = uri.partition("://")
     try:
         return scheme == "model" and is_stand_in(packages.find_model(rest.partition("/")[0]))
@@ -73,10 +73,10 @@ def _is_of_a_stand_in(uri: str, packages: Packages) -> bool:
         return False
 
 
-def _scripts(places: Iterable[Path]) -> list[Path]:
+def _scripts(paths: Iterable[Path]) -> list[Path]:
     files: list[Path] = []
-    for place in places:
-        files += sorted(place.glob("*.material")) if place.is_dir() else [place] * (place.suffix == ".material")
+    for path in paths:
+        files += sorted(path.glob("*.material")) if path.is_dir() else [path] * (path.suffix == ".material")
     return files
 
 
@@ -92,14 +92,16 @@ def _read(file: Path, report: Diagnostics) -> tuple[Block, ...]:
 
 @lru_cache(maxsize=256)
 def _materials(file: Path, _changed_ns: int) -> tuple[Block, ...]:
-    top = parse_script(read_text(file, max_bytes=_LARGEST), name=str(file))
+    top = parse_script(read_text(file, max_bytes=_MAX_BYTES), name=str(file))
     return tuple(block for block in top.blocks if block.header[0] == "material" and len(block.header) > 1)
 
 
-def _texture(name: str, places: Iterable[Path], at: Source, packages: Packages, report: Diagnostics) -> Path | None:
+def _texture(
+    name: str, search_paths: Iterable[Path], at: Source, packages: Packages, report: Diagnostics
+) -> Path | None:
     """Find a texture file in a named folder, or in `textures` beside the scripts."""
-    for place in places:
-        folder = place if place.is_dir() else place.parent
+    for search_path in search_paths:
+        folder = search_path if search_path.is_dir() else search_path.parent
         for path in (folder / name, folder.parent / "textures" / name):
             if os.path.isfile(path):
                 try:

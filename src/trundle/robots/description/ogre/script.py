@@ -39,7 +39,7 @@ def parse_script(text: str, *, name: str) -> Block:
         DescriptionError: unbalanced braces.
     """
     top = Block(("",), Source(name, 1))
-    inside = [top]
+    open_blocks = [top]
     words: list[str] = []
     line = 1
     for token, line in _tokens(text):
@@ -47,20 +47,20 @@ def parse_script(text: str, *, name: str) -> Block:
             words.append(token)
             continue
         if words:
-            inside[-1].statements.append(tuple(words))
+            open_blocks[-1].statements.append(tuple(words))
             words = []
         if token == "{":
-            if not inside[-1].statements or len(inside) > _DEEPEST:
+            if not open_blocks[-1].statements or len(open_blocks) > _DEEPEST:
                 raise DescriptionError(Source(name, line), "'{' without a word before it, or nested too deeply")
-            block = Block(inside[-1].statements.pop(), Source(name, line))
-            inside[-1].blocks.append(block)
-            inside.append(block)
+            block = Block(open_blocks[-1].statements.pop(), Source(name, line))
+            open_blocks[-1].blocks.append(block)
+            open_blocks.append(block)
         if token == "}":
-            inside.pop()
-            if not inside:
+            open_blocks.pop()
+            if not open_blocks:
                 raise DescriptionError(Source(name, line), "'}' without a '{' before it")
-    if len(inside) > 1:
-        raise DescriptionError(inside[-1].at, f"the '{{' of {inside[-1].header[0]!r} is never closed")
+    if len(open_blocks) > 1:
+        raise DescriptionError(open_blocks[-1].at, f"the '{{' of {open_blocks[-1].header[0]!r} is never closed")
     return top
 
 

@@ -1,4 +1,4 @@
-"""Colours and texture of a material from script blocks."""
+"""Colors and texture of a material from script blocks."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -8,8 +8,8 @@ from trundle.robots.model import Rgba
 
 from .script import Block
 
-_LONGEST_ANCESTRY = 32
-_COLOURS = ("ambient", "diffuse", "specular", "emissive")
+_MAX_ANCESTORS = 32
+_COLORS = ("ambient", "diffuse", "specular", "emissive")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,7 +32,7 @@ def read_surface(name: str, materials: Mapping[str, Block]) -> OgreSurface:
         name: a key of `materials`.
         materials: every material block, by name.
     """
-    colours: dict[str, Rgba] = {}
+    colors: dict[str, Rgba] = {}
     texture: str | None = None
     scale = (1.0, 1.0)
     aliases: dict[str, str] = {}
@@ -41,28 +41,30 @@ def read_surface(name: str, materials: Mapping[str, Block]) -> OgreSurface:
         for words in block.statements:
             if words[0] == "set_texture_alias" and len(words) == 3:
                 aliases[words[1]] = words[2]
-        passes = [each for technique in block.all("technique")[:1] for each in technique.all("pass")]
-        for each in passes[:1]:
-            for keyword in _COLOURS:
-                colour = _colour(each.value(keyword), with_shininess=keyword == "specular")
-                if colour is not None:
-                    colours[keyword] = colour
-        for unit in [unit for each in passes for unit in each.all("texture_unit")][:1]:
+        passes = [
+            technique_pass for technique in block.all("technique")[:1] for technique_pass in technique.all("pass")
+        ]
+        for technique_pass in passes[:1]:
+            for keyword in _COLORS:
+                color = _color(technique_pass.value(keyword), with_shininess=keyword == "specular")
+                if color is not None:
+                    colors[keyword] = color
+        for unit in [unit for technique_pass in passes for unit in technique_pass.all("texture_unit")][:1]:
             alias = unit.value("texture_alias")
             slot = alias[0] if alias else (unit.header[1] if len(unit.header) > 1 else slot)
             file = unit.value("texture")
             texture = file[0] if file else texture
             scale = _scale(unit.value("scale")) or scale
-    return OgreSurface(**colours, texture=aliases.get(slot, texture), texture_scale=scale)
+    return OgreSurface(**colors, texture=aliases.get(slot, texture), texture_scale=scale)
 
 
 def _ancestry(name: str, materials: Mapping[str, Block]) -> Iterator[Block]:
     """Return the material's ancestors, eldest first, and the material itself."""
-    line: list[Block] = []
-    while name in materials and len(line) < _LONGEST_ANCESTRY and materials[name] not in line:
-        line.append(materials[name])
+    ancestors: list[Block] = []
+    while name in materials and len(ancestors) < _MAX_ANCESTORS and materials[name] not in ancestors:
+        ancestors.append(materials[name])
         name = parent_of(materials[name]) or ""
-    return reversed(line)
+    return reversed(ancestors)
 
 
 def name_of(material: Block) -> str:
@@ -83,7 +85,7 @@ def _halves(material: Block) -> tuple[list[str], list[str]]:
     return words[:colon], words[colon + 1 :]
 
 
-def _colour(words: tuple[str, ...] | None, *, with_shininess: bool) -> Rgba | None:
+def _color(words: tuple[str, ...] | None, *, with_shininess: bool) -> Rgba | None:
     try:
         values = [float(word) for word in words or ()]
     except ValueError:  # "vertexcolour"

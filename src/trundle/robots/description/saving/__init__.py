@@ -1,1 +1,1 @@
-"""Saving of a world that was changed while it ran, into the XML that it came from."""
+"""Saving of a world that changed during simulation, as edits of its original XML."""

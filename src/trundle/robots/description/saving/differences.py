@@ -1,4 +1,4 @@
-"""Comparison of what is read back with what was to be saved."""
+"""Comparison of a saved world, read back, with the world to be saved."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -10,36 +10,44 @@ from msgspec import Struct
 from trundle.robots.model import Model, World
 from trundle.spatial import Pose
 
-NEAR = 1e-7
-"""Deviation of a number that counts as none."""
+TOLERANCE = 1e-7
+"""Relative difference of numbers that count as equal."""
 _IGNORED = frozenset({"at", "uri", "node", "added", "sdf_version", "plugins", "canonical_link", "frames"})
-"""Fields without meaning for the state, or that the XML keeps by itself."""
+"""Fields that are no part of the state, or that stay in the XML anyway."""
 
 
 def poses_differ(one: Pose, other: Pose) -> bool:
     """True if poses differ by more than rounding."""
-    apart = math.dist(one.position, other.position)
-    aligned = abs(sum(a * b for a, b in zip(one.quaternion, other.quaternion, strict=True)))
-    return apart > NEAR * max(1.0, *map(abs, one.position)) or 1.0 - aligned > NEAR
+    distance = math.dist(one.position, other.position)
+    alignment = abs(sum(a * b for a, b in zip(one.quaternion, other.quaternion, strict=True)))
+    return distance > TOLERANCE * max(1.0, *map(abs, one.position)) or 1.0 - alignment > TOLERANCE
 
 
-def differences(have: World, want: World) -> list[str]:
-    """Return what differs between two flat worlds, each as `model 'cart': links.base.inertial.mass`."""
-    found: list[str] = []
-    for kind, ours, theirs in (("model", have.models, want.models), ("light", have.lights, want.lights)):
-        there, wanted = {each.name: each for each in ours}, {each.name: each for each in theirs}
-        found += [f"{kind} {name!r}" for name in there.keys() ^ wanted.keys()]
-        for name in there.keys() & wanted.keys():
-            found += [f"{kind} {name!r}: {path}" for path in different_fields(there[name], wanted[name])]
+def differences(current: World, target: World) -> list[str]:
+    """Return the differences between two flat worlds, each as `model 'cart': links.base.inertial.mass`."""
+    differing: list[str] = []
+    for kind, one, other in (
+        ("model", current.models, target.models),
+        ("light", current.lights, target.lights),
+    ):
+        before, after = (
+            {part.name: part for part in one},
+            {part.name: part for part in other},
+        )
+        differing += [f"{kind} {name!r}" for name in before.keys() ^ after.keys()]
+        for name in before.keys() & after.keys():
+            differing += [f"{kind} {name!r}: {path}" for path in different_fields(before[name], after[name])]
     for name in ("physics", "wind", "scene"):
-        found += [".".join([name, path]).rstrip(".") for path in _paths(getattr(have, name), getattr(want, name))]
-    found += [f"joint {name!r}" for name in {j.name for j in have.joints} ^ {j.name for j in want.joints}]
-    return sorted(found)
+        differing += [
+            ".".join([name, path]).rstrip(".") for path in _paths(getattr(current, name), getattr(target, name))
+        ]
+    differing += [f"joint {name!r}" for name in {j.name for j in current.joints} ^ {j.name for j in target.joints}]
+    return sorted(differing)
 
 
-def different_fields(have: Struct, want: Struct) -> list[str]:
-    """Return the dotted names of what differs between two parts of a world."""
-    return list(_paths(have, want))
+def different_fields(current: Struct, target: Struct) -> list[str]:
+    """Return the dotted names of the fields that differ between two parts of a world."""
+    return list(_paths(current, target))
 
 
 def has_joint(model: Model, link: str) -> bool:
@@ -47,31 +55,33 @@ def has_joint(model: Model, link: str) -> bool:
     return any(link in (joint.parent, joint.child) for joint in model.joints)
 
 
-def _paths(have: Any, want: Any) -> Iterable[str]:
-    match have, want:
+def _paths(current: Any, target: Any) -> Iterable[str]:
+    match current, target:
         case Pose(), Pose():
-            different = poses_differ(have, want)
-        case Struct(), Struct() if type(have) is type(want):
-            for name in have.__struct_fields__:
+            different = poses_differ(current, target)
+        case Struct(), Struct() if type(current) is type(target):
+            for name in current.__struct_fields__:
                 if name not in _IGNORED:
-                    for path in _paths(getattr(have, name), getattr(want, name)):
+                    for path in _paths(getattr(current, name), getattr(target, name)):
                         yield f"{name}.{path}".rstrip(".")
             return
         case float() | int(), float() | int():
-            different = not (have == want or math.isclose(have, want, rel_tol=NEAR, abs_tol=NEAR * NEAR))
+            different = not (
+                current == target or math.isclose(current, target, rel_tol=TOLERANCE, abs_tol=TOLERANCE * TOLERANCE)
+            )
         case Path(), Path():
-            different = have.resolve() != want.resolve()
-        case (list() | tuple(), list() | tuple()) if len(have) == len(want):
-            yield from _in_order(have, want)
+            different = current.resolve() != target.resolve()
+        case (list() | tuple(), list() | tuple()) if len(current) == len(target):
+            yield from _in_order(current, target)
             return
         case _:
-            different = have is not want and bool(have != want)
+            different = current is not target and bool(current != target)
     if different:
         yield ""
 
 
-def _in_order(have: Sequence[Any], want: Sequence[Any]) -> Iterable[str]:
-    for number, (one, other) in enumerate(zip(have, want, strict=True)):
+def _in_order(current: Sequence[Any], target: Sequence[Any]) -> Iterable[str]:
+    for number, (one, other) in enumerate(zip(current, target, strict=True)):
         name = getattr(one, "name", str(number))
         for path in _paths(one, other):
             yield f"{name}.{path}".rstrip(".")

@@ -21,15 +21,15 @@ def set_pose(element: XmlElement, pose: Pose) -> None:
         placement.remove()
     child = element.find("pose")
     if child is None:
-        place = next((i + 1 for i, each in enumerate(element.raw) if each.tag in ("name", "uri", "static")), 0)
-        child = element.insert(XmlElement.parse("<pose/>"), at=min(place, len(element.raw)))
+        index = next((i + 1 for i, sibling in enumerate(element.raw) if sibling.tag in ("name", "uri", "static")), 0)
+        child = element.insert(XmlElement.parse("<pose/>"), at=min(index, len(element.raw)))
     for attribute in ("relative_to", "frame", "degrees", "rotation_format"):
         child.set(attribute, None)
     child.text = format_value(pose.as_list())
 
 
 def set_inertial(link: XmlElement, inertial: Inertial) -> None:
-    """Set mass and moments of a <link>; the centre of mass stays where it is written."""
+    """Set mass and moments of a <link>; the centre of mass stays as written."""
     node = link.put("inertial")
     if node.get("auto") is not None:
         node.set("auto", None)
@@ -50,18 +50,18 @@ def set_friction(collision: XmlElement, surface: Surface) -> None:
     put_value(ode, "mu2", surface.mu2)
 
 
-def set_frictions(link: XmlElement, have: Iterable[Collision], want: Iterable[Collision]) -> None:
-    """Set the friction of those collisions of a <link> whose friction is not as wanted."""
-    elements = {each.get("name"): each for each in link.all("collision")}
-    for before, after in zip(have, want, strict=False):
+def set_frictions(link: XmlElement, current: Iterable[Collision], target: Iterable[Collision]) -> None:
+    """Set the friction of the collisions of a <link> that differ in it."""
+    elements = {collision.get("name"): collision for collision in link.all("collision")}
+    for before, after in zip(current, target, strict=False):
         same = (before.surface.mu, before.surface.mu2) == (after.surface.mu, after.surface.mu2)
         if not same and after.name in elements:
             set_friction(elements[after.name], after.surface)
 
 
-def set_light(element: XmlElement, have: Light, want: Light) -> None:
-    """Set colour and intensity of a <light>."""
-    if have.diffuse != want.diffuse:
-        put_value(element, "diffuse", want.diffuse)
-    if have.intensity != want.intensity:
-        put_value(element, "intensity", want.intensity)
+def set_light(element: XmlElement, current: Light, target: Light) -> None:
+    """Set color and intensity of a <light>."""
+    if current.diffuse != target.diffuse:
+        put_value(element, "diffuse", target.diffuse)
+    if current.intensity != target.intensity:
+        put_value(element, "intensity", target.intensity)

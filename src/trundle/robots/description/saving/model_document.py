@@ -1,4 +1,4 @@
-"""SDF of a single model: the text that it was read from, or its description written as SDF."""
+"""SDF of a single model: its original text, or its description written as SDF."""
 
 from pathlib import Path
 
@@ -14,23 +14,23 @@ from .new_elements import Elements
 from .world_document import is_editable
 
 _EMPTY = (1, 7)
-_PLACE = frozenset({"world_from_model", "name", "at"})
+_PLACEMENT = frozenset({"world_from_model", "name", "at"})
 
 
 def copy_model(model: Model, *, packages: Packages, folder: Path) -> bytes:
-    """Return a model as an SDF document with its comments; what was changed since it was read is in it.
+    """Return a model as an SDF document: its original text with comments if unchanged, else written anew.
 
     Args:
-        model: flat, at its joints' zeros.
-        packages: resolve URIs.
-        folder: relative URIs are from there.
+        model: flat model with every joint at zero.
+        packages: resolves URIs.
+        folder: base of relative URIs.
     """
     text = _source_text(model, packages, folder)
     if text is not None and _is_same(text, model, packages, folder):
         return text
     world = World(name="", at=model.at, models=(model,))
     document = XmlDocument(write_sdf(world, is_world=False, uri_of=written_uri, report=Diagnostics()), name=model.name)
-    _forget_place(document)
+    _remove_placement(document)
     return document.text()
 
 
@@ -48,11 +48,11 @@ def _source_text(model: Model, packages: Packages, folder: Path) -> bytes | None
         return None
     document = XmlDocument(f'<sdf version="{version}">\n</sdf>', name=model.name)
     document.root.insert(element)
-    _forget_place(document)
+    _remove_placement(document)
     return document.text()
 
 
-def _forget_place(document: XmlDocument) -> None:
+def _remove_placement(document: XmlDocument) -> None:
     """Remove the pose of a model in its world."""
     model = document.root.find("model")
     pose = None if model is None else model.find("pose")
@@ -68,11 +68,11 @@ def _is_same(text: bytes, model: Model, packages: Packages, folder: Path) -> boo
     except DescriptionError:
         return False
     (read,) = flattened(loaded.world).models
-    return all(path.split(".")[0] in _PLACE for path in different_fields(read, model))
+    return all(path.split(".")[0] in _PLACEMENT for path in different_fields(read, model))
 
 
-def move_uris(text: bytes, *, here: Path, there: Path, packages: Packages) -> bytes:
-    """Return a document whose relative URIs, written for one folder, lead to the same files from another."""
+def move_uris(text: bytes, *, old_folder: Path, new_folder: Path, packages: Packages) -> bytes:
+    """Return a document with its relative URIs rewritten from one folder to another."""
     document = XmlDocument(text, name="model.sdf")
-    Elements(packages, there, _EMPTY).move_uris(document.root, here)
+    Elements(packages, new_folder, _EMPTY).move_uris(document.root, old_folder)
     return document.text()

@@ -1,4 +1,4 @@
-"""A world as it is now, as SDF: the file that it came from with the changes, its comments and unknown elements kept."""
+"""Saving of a world as SDF: edits of its original file, which keep comments and unknown elements."""
 
 import os
 from pathlib import Path
@@ -16,15 +16,15 @@ from .new_elements import Elements
 from .world_document import WorldDocument, is_editable, new_document
 
 _ROUNDS = 5
-"""A change may move what is posed relative to it, which takes another round."""
+"""Most rounds of edits; an edit may move other elements that are posed relative to it."""
 _PATCHED_ROUNDS = 3
-"""Rounds before what still differs is written from the model."""
+"""Rounds of edits before remaining differences are written from the model."""
 _NEWEST = "1.12"
-"""Version by which a file without one is read."""
+"""Version of a file without a version."""
 
 
 class SavedWorld(Struct, frozen=True, kw_only=True):
-    """Text of a world, and what it does not hold."""
+    """World as SDF, and the differences that SDF cannot express."""
 
     sdf: bytes
     lost: tuple[str, ...]
@@ -32,13 +32,13 @@ class SavedWorld(Struct, frozen=True, kw_only=True):
 
 
 def save_world(world: World, *, file: Path, packages: Packages, seed: int = 0) -> SavedWorld:
-    """Return a world as SDF; velocities are not part of it, as everything starts at rest.
+    """Return a world as SDF, without velocities: a loaded world starts at rest.
 
     Args:
-        world: flat, with current poses; links away from their joints' zeros have an initial pose.
-        file: where the text is to be written; relative URIs are from there.
-        packages: resolve URIs.
-        seed: of random placement, as when the world was read.
+        world: flat world at its current poses; links away from their joints' zeros have an initial pose.
+        file: path of the saved file, the base of relative URIs.
+        packages: resolves URIs.
+        seed: seed of random placement with which the world was read.
 
     Raises:
         DescriptionError: the world cannot be read back.
@@ -50,17 +50,17 @@ def save_world(world: World, *, file: Path, packages: Packages, seed: int = 0) -
         document, source = new_document(world), file
     elements = Elements(packages, file.parent, _version(document.root.get("version") or _NEWEST))
     edited = WorldDocument(document, source, elements)
-    have = _read(edited.text(), file, packages, seed)
+    current = _read(edited.text(), file, packages, seed)
     for number in range(_ROUNDS):
-        if not differences(have, world):
+        if not differences(current, world):
             break
-        edited.change(have, world, rewrite=number >= _PATCHED_ROUNDS)
-        have = _read(edited.text(), file, packages, seed)
-    return SavedWorld(sdf=edited.text(), lost=tuple(differences(have, world)))
+        edited.change(current, world, rewrite=number >= _PATCHED_ROUNDS)
+        current = _read(edited.text(), file, packages, seed)
+    return SavedWorld(sdf=edited.text(), lost=tuple(differences(current, world)))
 
 
 def _source_document(source: Path) -> XmlDocument | None:
-    """Return the document of a world's file; None if there is none, or no world in it."""
+    """Return the document of a world's file; None if it cannot be read or has no <world>."""
     if not os.path.isfile(source):
         return None
     try:

@@ -50,8 +50,8 @@ def read_actor(node: XmlNode, context: Context) -> Actor:
     animations = {animation.name for animation in actor.animations}
     for trajectory in actor.trajectories:
         if animations and trajectory.type not in animations:
-            known = ", ".join(map(repr, sorted(animations)))
-            report.warn(node.at, f"actor {name!r}: no animation {trajectory.type!r}; animations here: {known}")
+            available = ", ".join(map(repr, sorted(animations)))
+            report.warn(node.at, f"actor {name!r}: no animation {trajectory.type!r}; animations here: {available}")
     return actor
 
 
@@ -98,23 +98,23 @@ def _file(node: XmlNode, context: Context) -> tuple[Path | None, str]:
 
 def _trajectories(script: XmlNode, context: Context) -> tuple[Trajectory, ...]:
     report = context.report
-    found: list[Trajectory] = []
+    trajectories: list[Trajectory] = []
     for number, node in enumerate(script.all("trajectory")):
-        written = node.attribute("id") or str(number)
-        if not written.isdecimal():
-            report.warn(node.at, f"<trajectory id={written!r}> needs a number; {number} is used")
-            written = str(number)
+        id_text = node.attribute("id") or str(number)
+        if not id_text.isdecimal():
+            report.warn(node.at, f"<trajectory id={id_text!r}> needs a number; {number} is used")
+            id_text = str(number)
         tension = _tension(node, context)
         waypoints = [_waypoint(child, context) for child in node.all("waypoint")]
         trajectory = Trajectory(
-            id=int(written),
+            id=int(id_text),
             type=node.attribute("type") or "",
             tension=tension,
             waypoints=tuple(sorted(waypoints, key=lambda point: point.time_s)),
         )
         node.report_unread(report)
-        found.append(trajectory)
-    return tuple(sorted(found, key=lambda trajectory: trajectory.id))
+        trajectories.append(trajectory)
+    return tuple(sorted(trajectories, key=lambda trajectory: trajectory.id))
 
 
 def _tension(node: XmlNode, context: Context) -> float:

@@ -15,7 +15,7 @@ _WATER = 1000.0
 
 
 def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inertial:
-    """Sum the inertias of a link's collisions; a mass that is given is kept and the inertia scaled to it.
+    """Sum the inertias of a link's collisions, scaled to an explicit mass.
 
     Shapes without a closed formula count as massless, with a warning.
     """
@@ -25,11 +25,11 @@ def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inert
     overall = inertial.number("density", default=_WATER)
     bodies: list[tuple[float, Pose, Vector3]] = []
     for collision, child in zip(link.collisions, node.all("collision"), strict=True):
-        found = volume_and_moments(collision.geometry)
-        if found is None:
+        properties = volume_and_moments(collision.geometry)
+        if properties is None:
             report.warn(collision.at, f"collision {collision.name!r}: no automatic inertia for its shape; it weighs 0")
             continue
-        volume, per_mass = found
+        volume, per_mass = properties
         mass = volume * child.number("density", default=overall)
         bodies.append((mass, _pose(collision), (per_mass[0] * mass, per_mass[1] * mass, per_mass[2] * mass)))
     total = sum(mass for mass, _, _ in bodies)
@@ -42,8 +42,8 @@ def inertial_of_collisions(link: Link, node: XmlNode, context: Context) -> Inert
 def _combined(bodies: Sequence[tuple[float, Pose, Vector3]], mass: float) -> Inertial:
     """Return the inertial of bodies (mass, pose, moments), scaled to a mass [kg]."""
     tensors = [
-        (each, pose.position, rotate_inertia((*moments, 0.0, 0.0, 0.0), pose.quaternion))
-        for each, pose, moments in bodies
+        (body_mass, pose.position, rotate_inertia((*moments, 0.0, 0.0, 0.0), pose.quaternion))
+        for body_mass, pose, moments in bodies
     ]
     total, centre, tensor = sum_inertias(tensors)
     ixx, iyy, izz, ixy, ixz, iyz = (value * mass / total for value in tensor)
@@ -51,13 +51,13 @@ def _combined(bodies: Sequence[tuple[float, Pose, Vector3]], mass: float) -> Ine
 
 
 def enclosed_volume(collisions: Iterable[Collision]) -> float | None:
-    """Return the volume of a link's collisions [m³]; None where a shape has no closed formula."""
-    found = [volume_and_moments(collision.geometry) for collision in collisions]
-    return None if None in found else sum(each[0] for each in found if each is not None)
+    """Return the volume of a link's collisions [m³]; None if a shape has no closed formula."""
+    properties = [volume_and_moments(collision.geometry) for collision in collisions]
+    return None if None in properties else sum(known[0] for known in properties if known is not None)
 
 
 def uniform_inertial(collisions: Sequence[Collision], mass: float) -> Inertial | None:
-    """Return the inertial of a link whose collisions are of one material; None as `enclosed_volume`."""
+    """Return the inertial of a link with collisions of uniform density; None if their volume is 0 or unknown."""
     if not enclosed_volume(collisions):
         return None
     bodies: list[tuple[float, Pose, Vector3]] = []

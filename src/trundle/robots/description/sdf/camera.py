@@ -27,16 +27,16 @@ CAMERA_TYPES = WIDE | {
     "thermal_camera",
 }
 """Sensor types with a <camera>."""
-_LARGEST_PX = 16384
+_MAX_SIDE_PX = 16384
 _MAX_PX = 1 << 25
-"""Most pixels of an image."""
-_NARROWEST, _WIDEST_PINHOLE = 1e-6, 3.1
-"""Limits of a pinhole's field of view [rad]."""
-_FARTHEST_M = 1e30
-_MAX_BENT = 1e6
-_FOCAL_PX = (1e-3, 1e9)
-_BESIDE_PX = 1e6
-"""Largest distance of the principal point from the image, and largest skew [px]."""
+"""Maximum pixels of an image."""
+_MIN_PINHOLE_RAD, _MAX_PINHOLE_RAD = 1e-6, 3.1
+"""Limits of a pinhole's field of view."""
+_MAX_CLIP_M = 1e30
+_MAX_COEFFICIENT = 1e6
+_FOCAL_RANGE_PX = (1e-3, 1e9)
+_MAX_OFFSET_PX = 1e6
+"""Maximum coordinates of the principal point, and maximum skew."""
 _LENSES: Mapping[str, tuple[float, float, str]] = {
     "gnomonical": (1.0, 1.0, "tan"),
     "stereographic": (2.0, 2.0, "tan"),
@@ -103,9 +103,9 @@ def _read(node: XmlNode, type_: str, context: Context) -> CameraOptics:
     if depth is not None:
         warn_ignored(depth, ("output",), "has no effect: depths and points are both published", context)
     optics = _with_lens(_repaired(optics, node, type_, context), node.find("lens"), type_, context)
-    for each in (node, image, clip, depth, depth_clip):
-        if each is not None:
-            each.report_unread(report)
+    for element in (node, image, clip, depth, depth_clip):
+        if element is not None:
+            element.report_unread(report)
     return optics
 
 
@@ -120,13 +120,20 @@ def _distortion(node: XmlNode | None, context: Context) -> Distortion:
     report = context.report
     k1, k2, k3, p1, p2 = (node.number(tag, default=0.0) for tag in ("k1", "k2", "k3", "p1", "p2"))
     center = node.find("center")
-    middle = None if center is None else center.as_numbers(2)
+    point = None if center is None else center.as_numbers(2)
     node.report_unread(report)
-    if max(map(abs, (k1, k2, k3, p1, p2, *(middle or ())))) > _MAX_BENT:
-        report.warn(node.at, f"coefficients and a center beyond {_MAX_BENT:g} are not possible; no distortion is used")
+    if max(map(abs, (k1, k2, k3, p1, p2, *(point or ())))) > _MAX_COEFFICIENT:
+        report.warn(
+            node.at, f"coefficients and a center beyond {_MAX_COEFFICIENT:g} are not possible; no distortion is used"
+        )
         return Distortion()
     return Distortion(
-        k1=k1, k2=k2, k3=k3, p1=p1, p2=p2, center=(0.5, 0.5) if middle is None else (middle[0], middle[1])
+        k1=k1,
+        k2=k2,
+        k3=k3,
+        p1=p1,
+        p2=p2,
+        center=(0.5, 0.5) if point is None else (point[0], point[1]),
     )
 
 
@@ -145,33 +152,33 @@ def _box_type(node: XmlNode, context: Context) -> str:
     return names[_one_of(node, "box_type", tuple(names), context)]
 
 
-def _one_of(node: XmlNode, tag: str, words: tuple[str, ...], context: Context) -> str:
-    """Return a child's word in lower case, or the first valid one with a warning."""
-    word = node.string(tag).lower() or words[0]
-    if word not in words:
-        context.report.warn(node.at, f"no {tag} {word!r}: {', '.join(words)}; {words[0]} is used")
-        return words[0]
-    return word
+def _one_of(node: XmlNode, tag: str, choices: tuple[str, ...], context: Context) -> str:
+    """Return a child's text in lower case, or the first choice with a warning if it is none of them."""
+    value = node.string(tag).lower() or choices[0]
+    if value not in choices:
+        context.report.warn(node.at, f"no {tag} {value!r}: {', '.join(choices)}; {choices[0]} is used")
+        return choices[0]
+    return value
 
 
 def _repaired(optics: CameraOptics, node: XmlNode, type_: str, context: Context) -> CameraOptics:
     """Replace impossible values by SDF's defaults, with a warning."""
     default, report = CameraOptics(), context.report
     width, height, fov = optics.width_px, optics.height_px, optics.horizontal_fov_rad
-    if not (0 < width <= _LARGEST_PX and 0 < height <= _LARGEST_PX and width * height <= _MAX_PX):
+    if not (0 < width <= _MAX_SIDE_PX and 0 < height <= _MAX_SIDE_PX and width * height <= _MAX_PX):
         size = f"{default.width_px} x {default.height_px}"
         report.warn(node.at, f"a camera of {width} x {height} pixels is not possible; {size} is used")
         optics = replace(optics, width_px=default.width_px, height_px=default.height_px)
-    widest = math.tau + 1e-3 if type_ in WIDE else _WIDEST_PINHOLE
-    if not _NARROWEST <= fov <= widest:
-        instead = default.horizontal_fov_rad
-        report.warn(node.at, f"horizontal_fov {fov:g} rad is not possible; {instead:g} is used")
-        optics = replace(optics, horizontal_fov_rad=instead)
-    if not 1.0 / _FARTHEST_M <= optics.near_m < optics.far_m <= _FARTHEST_M:
+    max_fov = math.tau + 1e-3 if type_ in WIDE else _MAX_PINHOLE_RAD
+    if not _MIN_PINHOLE_RAD <= fov <= max_fov:
+        default_fov = default.horizontal_fov_rad
+        report.warn(node.at, f"horizontal_fov {fov:g} rad is not possible; {default_fov:g} is used")
+        optics = replace(optics, horizontal_fov_rad=default_fov)
+    if not 1.0 / _MAX_CLIP_M <= optics.near_m < optics.far_m <= _MAX_CLIP_M:
         report.warn(node.at, f"clip near {optics.near_m:g}, far {optics.far_m:g} shows nothing; 0.1 and 100 are used")
         optics = replace(optics, near_m=default.near_m, far_m=default.far_m)
     near, far = optics.depth_near_m, optics.depth_far_m
-    if near is not None and far is not None and not 0.0 <= near < far <= _FARTHEST_M:
+    if near is not None and far is not None and not 0.0 <= near < far <= _MAX_CLIP_M:
         report.warn(node.at, f"depth clip near {near:g}, far {far:g} shows nothing; the camera's own clip is used")
         optics = replace(optics, depth_near_m=None, depth_far_m=None)
     return optics
@@ -206,16 +213,19 @@ def _lens(node: XmlNode | None, context: Context) -> Lens:
         )
         fun = custom.string("fun").lower() or "tan"
         custom.report_unread(report)
-        is_lens = all(1.0 / _MAX_BENT <= abs(each) <= _MAX_BENT for each in (c1, c2, f)) and abs(c3) <= _MAX_BENT
+        is_lens = (
+            all(1.0 / _MAX_COEFFICIENT <= abs(c) <= _MAX_COEFFICIENT for c in (c1, c2, f))
+            and abs(c3) <= _MAX_COEFFICIENT
+        )
         if fun not in ("tan", "sin", "id") or not is_lens:
-            what = "a lens needs fun tan, sin or id, and c1, c2 and f neither 0 nor huge"
-            report.warn(custom.at, f"{what}; tan is used alone")
+            requirement = "a lens needs fun tan, sin or id, and c1, c2 and f neither 0 nor huge"
+            report.warn(custom.at, f"{requirement}; tan is used alone")
             c1, c2, c3, f, fun = 1.0, 1.0, 0.0, 1.0, "tan"
     elif type_ in _LENSES:
         (c1, c2, fun), c3, f = _LENSES[type_], 0.0, 1.0
     else:
-        known = ", ".join([*_LENSES, "custom"])
-        report.warn(node.at, f"no lens {type_!r}: {known}; stereographic is used")
+        types = ", ".join([*_LENSES, "custom"])
+        report.warn(node.at, f"no lens {type_!r}: {types}; stereographic is used")
         (c1, c2, fun), c3, f = _LENSES["stereographic"], 0.0, 1.0
     face = node.integer("env_texture_size", default=256)
     if not 16 <= face <= 4096:
@@ -242,11 +252,11 @@ def _intrinsics(node: XmlNode | None, context: Context) -> PixelIntrinsics | Non
         for tag, value in (("fx", 277.0), ("fy", 277.0), ("cx", 160.0), ("cy", 120.0), ("s", 0.0))
     )
     node.report_unread(report)
-    least, most = _FOCAL_PX
-    if not (least <= fx <= most and least <= fy <= most):
+    shortest, longest = _FOCAL_RANGE_PX
+    if not (shortest <= fx <= longest and shortest <= fy <= longest):
         report.warn(node.at, f"focal lengths of {fx:g} and {fy:g} pixels are not possible; horizontal_fov is used")
         return None
-    if max(abs(cx), abs(cy), abs(skew)) > _BESIDE_PX:
+    if max(abs(cx), abs(cy), abs(skew)) > _MAX_OFFSET_PX:
         report.warn(node.at, f"cx {cx:g}, cy {cy:g}, s {skew:g} pixels show nothing; horizontal_fov is used")
         return None
     return PixelIntrinsics(fx=fx, fy=fy, cx=cx, cy=cy, skew=skew)

@@ -9,18 +9,18 @@ from trundle.robots.model import Model, PluginTag, Visual
 from .context import Context
 from .sensor import read_plugin
 
-_LARGEST_LABEL = 255
-_HOTTEST = 1e6
-"""Largest temperature [K]."""
+_MAX_LABEL = 255
+_MAX_TEMPERATURE = 1e6
+"""[K]"""
 
 
 def with_plugins(visual: Visual, nodes: list[XmlNode], context: Context) -> Visual:
     """Return a visual with its plugins; Label and Thermal are applied."""
     plugins: list[PluginTag] = []
     for node in nodes:
-        if _is(node, "label"):
+        if _is_system(node, "label"):
             visual = replace(visual, label=_label(node, context.report))
-        elif _is(node, "thermal"):
+        elif _is_system(node, "thermal"):
             visual = replace(visual, temperature=_temperature(node, context.report))
         else:
             plugins.append(read_plugin(node))
@@ -29,7 +29,7 @@ def with_plugins(visual: Visual, nodes: list[XmlNode], context: Context) -> Visu
 
 def _temperature(node: XmlNode, report: Diagnostics) -> float | None:
     temperature = node.number("temperature", default=0.0)
-    if 0.0 <= temperature <= _HOTTEST:
+    if 0.0 <= temperature <= _MAX_TEMPERATURE:
         return temperature
     report.warn(node.at, f"a temperature of {temperature:g} K is not possible; it is as warm as the air")
     return None
@@ -49,17 +49,17 @@ def labelled(model: Model, plugins: list[XmlNode], context: Context) -> Model:
 
 def is_label(node: XmlNode) -> bool:
     """True if a <plugin> is gz's Label."""
-    return _is(node, "label")
+    return _is_system(node, "label")
 
 
-def _is(node: XmlNode, what: str) -> bool:
+def _is_system(node: XmlNode, system: str) -> bool:
     file, name = node.attribute("filename") or "", node.attribute("name") or ""
-    return file.removesuffix(".so").endswith(f"-{what}-system") or name.endswith(f"systems::{what.capitalize()}")
+    return file.removesuffix(".so").endswith(f"-{system}-system") or name.endswith(f"systems::{system.capitalize()}")
 
 
 def _label(node: XmlNode, report: Diagnostics) -> int:
     label = node.integer("label", default=0)
-    if 0 <= label <= _LARGEST_LABEL:
+    if 0 <= label <= _MAX_LABEL:
         return label
-    report.warn(node.at, f"label {label} is not between 0 and {_LARGEST_LABEL}; 0 is used")
+    report.warn(node.at, f"label {label} is not between 0 and {_MAX_LABEL}; 0 is used")
     return 0

@@ -16,7 +16,7 @@ from trundle.spatial import Pose
 from .version import Version
 
 DEEPEST = 2_000
-"""Largest nesting depth; Gazebo has no limit. No reader here recurses to it."""
+"""Maximum nesting depth of elements; Gazebo has no limit. No reader here recurses that deep."""
 
 
 class Context(Struct, frozen=True, kw_only=True):
@@ -30,9 +30,9 @@ class Context(Struct, frozen=True, kw_only=True):
     including: tuple[Path, ...] = ()
     """Including files, outermost first, to detect cycles."""
     budget: ReadBudget = field(default_factory=ReadBudget)
-    """Budget of the file and all that it includes."""
+    """Budget shared with all included files."""
     read_urdf: Callable[[Path, XmlNode], Model] | None = None
-    """Reads a <robot> found by an <include>, given its file."""
+    """Reads the <robot> of an included file."""
     seed: int = 0
     """Seed of random placement."""
     ignored: set[tuple[str, str, str]] = field(default_factory=set[tuple[str, str, str]])
@@ -44,7 +44,7 @@ class Context(Struct, frozen=True, kw_only=True):
 
 
 def warn_ignored(node: XmlNode, tags: Iterable[str], why: str, context: Context) -> None:
-    """Note ignored children, once per file; `why` follows the tag in the sentence."""
+    """Note ignored children, once per file; `why` follows the tag in the message."""
     for tag in tags:
         child, key = node.find(tag), (node.at.file, node.tag, tag)
         if child is not None and key not in context.ignored:

@@ -8,15 +8,15 @@ from trundle.base.xmlnode import XmlNode
 from trundle.robots.model import Atmosphere, Fog, PhysicsSettings, Rgba, SceneSettings, SphericalCoordinates
 
 from .context import Context, warn_ignored
-from .material import read_colour
+from .material import read_color
 
-_COLDEST, _HOTTEST = 1.0, 1e6
-"""Limits of the air temperature at the ground [K]."""
-_HIGHEST_M = 1e9
-_DENSEST = 1e15
-"""Largest air pressure [Pa]."""
+_MIN_TEMPERATURE, _MAX_TEMPERATURE = 1.0, 1e6
+"""Bounds of the air temperature at the ground [K]."""
+_MAX_ELEVATION_M = 1e9
+_MAX_PRESSURE = 1e15
+"""[Pa]"""
 _AMBIENT: Mapping[tuple[int, int], Rgba] = {(1, 3): (0.0, 0.0, 0.0, 1.0), (1, 4): (0.2, 0.2, 0.2, 1.0)}
-"""Default before each version; 0.4 from 1.4 on."""
+"""Version → ambient light of the versions before it; 0.4 from 1.4 on."""
 
 
 def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
@@ -29,10 +29,10 @@ def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:
     for other in profiles:
         if other is not node:
             report.info(other.at, f"physics profile {other.attribute('name')!r} is not the default one; it is not used")
-    gravity_home = node if node is not None and node.find("gravity") is not None else world
+    gravity_parent = node if node is not None and node.find("gravity") is not None else world
     if node is None:
         return PhysicsSettings(gravity=world.vector("gravity", default=default.gravity))
-    gravity = gravity_home.vector("gravity", default=default.gravity)
+    gravity = gravity_parent.vector("gravity", default=default.gravity)
     world.find("gravity")
     step = _step(node, context)
     if not 1e-6 <= step <= 1.0:
@@ -62,9 +62,9 @@ def _step(node: XmlNode, context: Context) -> float:
     if context.version < (1, 4) and node.find("max_step_size") is None:
         ode, bullet = node.find("ode"), node.find("bullet")
         solver = None if ode is None else ode.find("solver")
-        for home in (solver, bullet):
-            if home is not None and home.find("dt") is not None:
-                return home.number("dt", default=default)
+        for engine in (solver, bullet):
+            if engine is not None and engine.find("dt") is not None:
+                return engine.number("dt", default=default)
     return node.number("max_step_size", default=default)
 
 
@@ -77,8 +77,8 @@ def read_scene(world: XmlNode, context: Context) -> SceneSettings:
         return SceneSettings(ambient=ambient)
     default = SceneSettings()
     scene = SceneSettings(
-        ambient=read_colour(node, "ambient", ambient, context),
-        background=read_colour(node, "background", default.background, context),
+        ambient=read_color(node, "ambient", ambient, context),
+        background=read_color(node, "background", default.background, context),
         shadows=node.flag("shadows", default=True),
         sky=_has_sky(node, context),
         grid=node.flag("grid", default=True),
@@ -105,7 +105,7 @@ def _fog(scene: XmlNode, context: Context) -> Fog:
     report, default = context.report, Fog()
     fog = Fog(
         type=node.string("type") or default.type,
-        colour=read_colour(node, "color", default.colour, context),
+        color=read_color(node, "color", default.color, context),
         start_m=node.number("start", default=default.start_m),
         end_m=node.number("end", default=default.end_m),
         density=node.number("density", default=default.density),
@@ -120,7 +120,7 @@ def read_spherical_coordinates(world: XmlNode, context: Context) -> SphericalCoo
     if node is None:
         return SphericalCoordinates()
     report, default = context.report, SphericalCoordinates()
-    place = SphericalCoordinates(
+    coordinates = SphericalCoordinates(
         latitude_deg=node.number("latitude_deg", default=0.0),
         longitude_deg=node.number("longitude_deg", default=0.0),
         elevation=node.number("elevation", default=0.0),
@@ -128,11 +128,11 @@ def read_spherical_coordinates(world: XmlNode, context: Context) -> SphericalCoo
         surface_model=node.string("surface_model") or default.surface_model,
         world_frame_orientation=node.string("world_frame_orientation") or default.world_frame_orientation,
     )
-    if abs(place.elevation) > _HIGHEST_M:
-        report.warn(node.at, f"an elevation of {place.elevation:g} m is not possible; 0 is used")
-        place = replace(place, elevation=0.0)
+    if abs(coordinates.elevation) > _MAX_ELEVATION_M:
+        report.warn(node.at, f"an elevation of {coordinates.elevation:g} m is not possible; 0 is used")
+        coordinates = replace(coordinates, elevation=0.0)
     node.report_unread(report)
-    return place
+    return coordinates
 
 
 def read_atmosphere(world: XmlNode, context: Context) -> Atmosphere:
@@ -149,8 +149,8 @@ def read_atmosphere(world: XmlNode, context: Context) -> Atmosphere:
         temperature_gradient=node.number("temperature_gradient", default=default.temperature_gradient),
     )
     node.report_unread(report)
-    if not _COLDEST <= air.temperature <= _HOTTEST or not 0.0 < air.pressure <= _DENSEST:
-        what = f"air of {air.temperature:g} K and {air.pressure:g} Pa is not possible"
-        report.warn(node.at, f"{what}; {default.temperature:g} K and {default.pressure:g} Pa are used")
+    if not _MIN_TEMPERATURE <= air.temperature <= _MAX_TEMPERATURE or not 0.0 < air.pressure <= _MAX_PRESSURE:
+        fault = f"air of {air.temperature:g} K and {air.pressure:g} Pa is not possible"
+        report.warn(node.at, f"{fault}; {default.temperature:g} K and {default.pressure:g} Pa are used")
         return default
     return air

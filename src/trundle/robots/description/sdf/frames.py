@@ -12,7 +12,7 @@ WORLD = "world"
 
 
 class Scope(Struct, frozen=True):
-    """Frames of a model that has been read, by the names used outside after `model::`."""
+    """Frames of a model, by the names that follow `model::` in the enclosing scope."""
 
     poses: dict[str, Pose]
     """model_from_frame"""
@@ -62,7 +62,7 @@ class FrameGraph(Struct):
 
         Args:
             name: unique among its siblings.
-            raw: as written.
+            raw: pose as written.
             at: source position.
             default: frame of a pose without relative_to; None: the root.
             attached_to: frame it is fixed to; None: itself, for a link.
@@ -103,30 +103,30 @@ class FrameGraph(Struct):
                 break
             chain.append(name)
             name = entry.raw.relative_to or entry.default
-        for each in reversed(chain):
-            base = base @ self._entries[each].raw.pose
-            self._resolved[each] = base
+        for frame in reversed(chain):
+            base = base @ self._entries[frame].raw.pose
+            self._resolved[frame] = base
         return base
 
     def pose_in(self, name: str, raw: RawPose, at: Source) -> Pose:
-        """Return frame_from_thing of something mounted on a frame, whose pose may be relative to another."""
+        """Return the pose in frame `name` of an element mounted on it; the raw pose may be relative to another."""
         if raw.relative_to is None:
             return raw.pose
         if raw.relative_to not in self:
-            what = f"no frame {raw.relative_to!r}; frames here: {self.names()}; the pose is read relative to {name!r}"
-            self.report.warn(raw.at or at, what)
+            message = (
+                f"no frame {raw.relative_to!r}; frames here: {self.names()}; the pose is read relative to {name!r}"
+            )
+            self.report.warn(raw.at or at, message)
             return raw.pose
         return self.pose(name).inverse() @ self.pose(raw.relative_to) @ raw.pose
 
     def link(self, name: str) -> str | None:
-        """Return the link that a frame is attached to; `world` and the root return themselves; None if
-        there is none.
-        """
-        seen: set[str] = set()
+        """Return the link that a frame is attached to; the world and the root for themselves; None if there is none."""
+        visited: set[str] = set()
         while name not in (self.root, WORLD):
-            if name in seen:
+            if name in visited:
                 return None
-            seen.add(name)
+            visited.add(name)
             entry = self._entries.get(name)
             if entry is None or name in self._scopes:
                 return self._scoped_link(name)

@@ -1,4 +1,4 @@
-"""Colours of Gazebo's named materials, from its Ogre scripts."""
+"""Colors of Gazebo's named materials, from its Ogre scripts."""
 
 from trundle.robots.model import Material, Rgba
 
@@ -69,7 +69,7 @@ GAZEBO_MATERIALS: dict[str, Material] = {
     "Gazebo/Editor": _material((1.0, 1.0, 1.0), (1.0, 1.0, 1.0), (0.1, 0.1, 0.1), _NONE),
     "Gazebo/EditorPlane": _material((0.3, 0.3, 0.3), (0.7, 0.7, 0.7), (0.01, 0.01, 0.01), _NONE),
 }
-"""Name → colours. The *Transparent ones have a green overlay in the scripts by mistake, omitted here."""
+"""Name → colors, without the green overlay that the scripts give *Transparent by mistake."""
 
 PLAIN: dict[str, _Rgb] = {
     "Gazebo/CoM": (0.9, 0.9, 0.2),
@@ -78,4 +78,4 @@ PLAIN: dict[str, _Rgb] = {
     "Gazebo/PioneerBody": (1.0, 0.0, 0.0),
     "Gazebo/WindowFrame": (0.5, 0.5, 0.5),
 }
-"""Materials whose texture only Gazebo ships → similar plain colour, chosen for Trundle."""
+"""Materials whose texture only Gazebo ships → similar plain color, chosen for Trundle."""

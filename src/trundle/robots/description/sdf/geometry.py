@@ -29,7 +29,7 @@ _UNSUPPORTED = ("image", "voxel_grid")
 
 
 def read_geometry(owner: XmlNode, context: Context) -> Geometry:
-    """Return the shape of a visual or collision; Empty with a warning if it is unsupported."""
+    """Return the shape of a visual or collision; Empty with a warning if unsupported."""
     node = owner.find("geometry")
     report = context.report
     if node is None:
@@ -147,8 +147,8 @@ def _layers(shape: XmlNode, context: Context) -> tuple[TerrainLayer, ...]:
     for blend in blends:
         blend.report_unread(report)
     if len(blends) > max(len(layers) - 1, 0):
-        what = f"<heightmap> has {len(layers)} <texture> and {len(blends)} <blend>; the last ones are left out"
-        report.warn(blends[-1].at, what)
+        message = f"<heightmap> has {len(layers)} <texture> and {len(blends)} <blend>; the last ones are left out"
+        report.warn(blends[-1].at, message)
     return tuple(layers)
 
 

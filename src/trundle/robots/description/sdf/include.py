@@ -27,7 +27,7 @@ def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | N
     """Return the root element of an included file; None with a warning if it is missing, as in Gazebo.
 
     Raises:
-        ReadBudgetError: too much is included in all.
+        ReadBudgetError: the included files exhaust the budget.
     """
     report = context.report
     uri = node.string("uri") or (node.attribute("filename") or "")

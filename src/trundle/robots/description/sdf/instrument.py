@@ -24,7 +24,7 @@ _Read: TypeAlias = Callable[[XmlNode, Context], Instrument]
 
 
 def read_instrument(sensor: XmlNode, type_: str, context: Context) -> Instrument | None:
-    """Read the settings of a sensor, or SDF's defaults. None for a type without any, such as rfid."""
+    """Read the settings of a sensor, or SDF's defaults; None for a type without settings, such as rfid."""
     if type_ not in _READERS:
         return None
     tag, default, read = _READERS[type_]
@@ -46,8 +46,8 @@ def _logical_camera(node: XmlNode, context: Context) -> LogicalCamera:
         report.warn(node.at, f"near {near:g}, far {far:g} is not possible; 0 and 1 are used")
         near, far = default.near_m, default.far_m
     if not 0.0 < fov < math.pi or not ratio > 0.0:
-        what = f"horizontal_fov {fov:g} rad with aspect_ratio {ratio:g}"
-        report.warn(node.at, f"{what} is not possible; 1 and 1 are used")
+        fault = f"horizontal_fov {fov:g} rad with aspect_ratio {ratio:g}"
+        report.warn(node.at, f"{fault} is not possible; 1 and 1 are used")
         fov, ratio = default.horizontal_fov_rad, default.aspect_ratio
     return LogicalCamera(near_m=near, far_m=far, aspect_ratio=ratio, horizontal_fov_rad=fov)
 
@@ -55,17 +55,17 @@ def _logical_camera(node: XmlNode, context: Context) -> LogicalCamera:
 def _sonar(node: XmlNode, context: Context) -> Sonar:
     report, default = context.report, Sonar()
     geometry = node.string("geometry").lower() or default.geometry
-    low = node.number("min", default=default.min_m)
-    high = node.number("max", default=default.max_m)
+    min_m = node.number("min", default=default.min_m)
+    max_m = node.number("max", default=default.max_m)
     radius = node.number("radius", default=default.radius)
     if geometry not in ("cone", "sphere"):
         report.warn(node.at, f"no sonar geometry {geometry!r}: cone or sphere; cone is used")
         geometry = default.geometry
-    if not (0.0 <= low < high and radius > 0.0):
-        what = f"a sonar from {low:g} to {high:g} m of radius {radius:g} m"
-        report.warn(node.at, f"{what} is not possible; one from 0 to 1 m of radius 0.5 m is used")
+    if not (0.0 <= min_m < max_m and radius > 0.0):
+        fault = f"a sonar from {min_m:g} to {max_m:g} m of radius {radius:g} m"
+        report.warn(node.at, f"{fault} is not possible; one from 0 to 1 m of radius 0.5 m is used")
         return Sonar(geometry=geometry)
-    return Sonar(geometry=geometry, min_m=low, max_m=high, radius=radius)
+    return Sonar(geometry=geometry, min_m=min_m, max_m=max_m, radius=radius)
 
 
 def _transceiver(node: XmlNode, context: Context) -> Transceiver:

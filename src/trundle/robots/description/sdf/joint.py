@@ -14,7 +14,7 @@ from .sensor import read_sensor
 
 _WITHOUT_AXIS = frozenset({JointType.FIXED, JointType.BALL})
 _TWO_AXES = frozenset({JointType.UNIVERSAL, JointType.REVOLUTE2, JointType.GEARBOX})
-TYPES = {"continuous": JointType.REVOLUTE} | {each.value: each for each in JointType if each is not JointType.PLANAR}
+TYPES = {"continuous": JointType.REVOLUTE} | {kind.value: kind for kind in JointType if kind is not JointType.PLANAR}
 """Name in the file → type."""
 FrameOf: TypeAlias = Callable[[str], Pose | None]
 """Returns model_from_frame by name; "" is the joint frame."""
@@ -33,13 +33,13 @@ def read_joint(
     """Read a joint whose links and pose are resolved.
 
     Args:
-        node: the element.
+        node: <joint>.
         parent: link, or "world".
         child: link.
-        child_from_joint: the joint frame.
+        child_from_joint: pose of the joint frame.
         frame: resolves `expressed_in`.
         graph: resolves the poses of its sensors.
-        context: the file.
+        context: context of the file.
     """
     report = context.report
     name = node.required_attribute("name")
@@ -67,7 +67,7 @@ def read_joint(
 
 
 def _thread_pitch(node: XmlNode) -> float:
-    """Return the thread pitch in Gazebo's convention [rad/m]; SDF 1.10 added metres per turn of a right-hand thread."""
+    """Return the thread pitch in Gazebo's convention [rad/m]; SDF 1.10 added a right-hand thread in metres per turn."""
     per_turn = node.number("screw_thread_pitch", default=0.0)
     if per_turn:
         node.find("thread_pitch")
@@ -79,12 +79,12 @@ def _read_axis(node: XmlNode | None, joint: XmlNode, frame: FrameOf, root: str, 
     report, name = context.report, joint.required_attribute("name")
     if node is None:
         report.warn(joint.at, f"joint {name!r} has no <axis>; 0 0 1 is used, without limits")
-        return JointAxis(direction=_seen_from("", (0.0, 0.0, 1.0), frame))
+        return JointAxis(direction=_in_model("", (0.0, 0.0, 1.0), frame))
     unit = _unit(node, name, context)
-    direction = _seen_from(_expressed_in(node, name, frame, root, context), unit, frame)
+    direction = _in_model(_expressed_in(node, name, frame, root, context), unit, frame)
     limit, dynamics = node.find("limit"), node.find("dynamics")
 
-    def of(parent: XmlNode | None, tag: str, default: float) -> float:
+    def number(parent: XmlNode | None, tag: str, default: float) -> float:
         return default if parent is None else _number(parent, tag, default)
 
     def dynamic(tag: str) -> float:
@@ -92,24 +92,24 @@ def _read_axis(node: XmlNode | None, joint: XmlNode, frame: FrameOf, root: str, 
 
     axis = JointAxis(
         direction=direction,
-        lower=_limit(of(limit, "lower", -UNLIMITED)),
-        upper=_limit(of(limit, "upper", UNLIMITED)),
-        effort=_positive(of(limit, "effort", -1.0)),
-        velocity=_positive(of(limit, "velocity", -1.0)),
+        lower=_limit(number(limit, "lower", -UNLIMITED)),
+        upper=_limit(number(limit, "upper", UNLIMITED)),
+        effort=_positive(number(limit, "effort", -1.0)),
+        velocity=_positive(number(limit, "velocity", -1.0)),
         damping=dynamic("damping"),
         friction=dynamic("friction"),
         spring_reference=dynamic("spring_reference"),
         spring_stiffness=dynamic("spring_stiffness"),
-        stop_stiffness=of(limit, "stiffness", 1e8),
-        stop_dissipation=of(limit, "dissipation", 1.0),
+        stop_stiffness=number(limit, "stiffness", 1e8),
+        stop_dissipation=number(limit, "dissipation", 1.0),
         initial_position=node.number("initial_position", default=0.0),
         mimic=_mimic(node, context),
     )
     if axis.initial_position:
         report.info(node.at, f"joint {name!r} starts at its <initial_position>, which Gazebo ignores")
-    for each in (node, limit, dynamics):
-        if each is not None:
-            each.report_unread(report)
+    for element in (node, limit, dynamics):
+        if element is not None:
+            element.report_unread(report)
     return axis
 
 
@@ -159,7 +159,7 @@ def _expressed_in(node: XmlNode, name: str, frame: FrameOf, root: str, context: 
     return written
 
 
-def _seen_from(expressed_in: str, direction: Vector3, frame: FrameOf) -> Vector3:
+def _in_model(expressed_in: str, direction: Vector3, frame: FrameOf) -> Vector3:
     pose = frame(expressed_in)
     assert pose is not None
     return pose.transform_vector(direction)

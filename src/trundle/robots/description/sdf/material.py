@@ -1,4 +1,4 @@
-"""Reader of <material>: explicit colours, a named Gazebo material, or the texture of <pbr>."""
+"""Reader of <material>: explicit colors, a named Gazebo material, or the texture of <pbr>."""
 
 from pathlib import Path
 
@@ -6,7 +6,7 @@ from msgspec.structs import replace
 
 from trundle.base.diagnostics import DescriptionError
 from trundle.base.xmlnode import XmlNode
-from trundle.robots.model import GREY, TEXTURE_COLOURS, Material, Rgba
+from trundle.robots.model import GREY, TEXTURE_COLORS, Material, Rgba
 
 from .context import Context, warn_ignored
 from .gazebo_materials import GAZEBO_MATERIALS, PLAIN
@@ -16,7 +16,7 @@ _WHITE: Rgba = (1.0, 1.0, 1.0, 1.0)
 
 
 def read_material(visual: XmlNode, context: Context) -> Material:
-    """Return the material of a visual; explicit colours override the named script's."""
+    """Return the material of a visual; explicit colors override the named script's."""
     node = visual.find("material")
     if node is None:
         return GREY
@@ -30,10 +30,10 @@ def read_material(visual: XmlNode, context: Context) -> Material:
     if image is not None:
         base = replace(base, ambient=_WHITE, diffuse=_WHITE, texture=image, texture_scale=(1.0, 1.0))
     material = Material(
-        ambient=read_colour(node, "ambient", base.ambient, context),
-        diffuse=read_colour(node, "diffuse", base.diffuse, context),
-        specular=read_colour(node, "specular", base.specular, context),
-        emissive=read_colour(node, "emissive", base.emissive, context),
+        ambient=read_color(node, "ambient", base.ambient, context),
+        diffuse=read_color(node, "diffuse", base.diffuse, context),
+        specular=read_color(node, "specular", base.specular, context),
+        emissive=read_color(node, "emissive", base.emissive, context),
         texture=base.texture,
         texture_scale=base.texture_scale,
         named_texture=base.named_texture if image is None else None,
@@ -74,18 +74,18 @@ def named_material(name: str, node: XmlNode, context: Context) -> Material:
     scripted = find_material(name, node, packages=context.packages, report=context.report)
     if scripted is not None:
         return scripted
-    if name in TEXTURE_COLOURS:
+    if name in TEXTURE_COLORS:
         context.report.info(node.at, f"material {name!r} has a texture that only Gazebo ships; Trundle draws its own")
         return Material(ambient=_WHITE, diffuse=_WHITE, named_texture=name)
     if name in PLAIN:
         r, g, b = PLAIN[name]
-        context.report.info(node.at, f"material {name!r} has a texture that only Gazebo ships; a plain colour is used")
+        context.report.info(node.at, f"material {name!r} has a texture that only Gazebo ships; a plain color is used")
         return Material(ambient=(r, g, b, 1.0), diffuse=(r, g, b, 1.0))
     context.report.warn(node.at, f"no material {name!r}; grey is used")
     return GREY
 
 
-def read_colour(node: XmlNode, tag: str, default: Rgba, context: Context) -> Rgba:
+def read_color(node: XmlNode, tag: str, default: Rgba, context: Context) -> Rgba:
     """Return a child's r g b a, each clamped to 0…1."""
     child = node.find(tag)
     if child is None:

@@ -42,10 +42,10 @@ def merge_model(part: UnplacedModel, graph: FrameGraph) -> MergedModel:
     """Add the frames of a model to the outer graph under their own names, relative to a proxy frame for the model."""
     frame = f"_merged__{part.model.name}__model__"
     graph.add(frame, part.placed(graph), part.model.at, attached_to=part.model.canonical_link or graph.root)
-    for each, pose in part.scope.poses.items():
-        if "::" not in each and each not in graph and each != MODEL:
-            attached = part.scope.links.get(each, frame)
-            graph.add(each, RawPose(pose, frame), part.model.at, attached_to=attached)
+    for frame_name, pose in part.scope.poses.items():
+        if "::" not in frame_name and frame_name not in graph and frame_name != MODEL:
+            attached_to = part.scope.links.get(frame_name, frame)
+            graph.add(frame_name, RawPose(pose, frame), part.model.at, attached_to=attached_to)
     for model in part.model.models:
         graph.add_scope(model.name, part.scope.inside(model.name))
     return MergedModel(part, frame)

@@ -34,9 +34,9 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> UnplacedModel
     name = node.required_attribute("name")
     graph = FrameGraph(MODEL, context.report)
     links = placed_links(node.all("link"), graph, context)
-    nested, dissolved = _nested(node, graph, context, depth)
+    nested, merged = _nested(node, graph, context, depth)
     frames = read_frames(node, graph, context)
-    graph.canonical_link = _canonical(node, links, nested, dissolved, graph)
+    graph.canonical_link = _canonical(node, links, nested, merged, graph)
     joints = [joint for child in node.all("joint") if (joint := JointElement(child, graph, context)).is_sound]
     for joint in joints:
         joint.add_to(graph)
@@ -54,8 +54,8 @@ def read_model(node: XmlNode, context: Context, depth: int = 0) -> UnplacedModel
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin") if not is_label(tag)),
     )
     model = labelled(model, node.all("plugin"), context)
-    for each in dissolved:
-        model = each.merge_into(model, graph)
+    for merged_model in merged:
+        model = merged_model.merge_into(model, graph)
     model = replace(model, canonical_link=graph.canonical_link)
     if model.canonical_link is None and not model.static:
         context.report.warn(node.at, f"model {name!r} has no links and cannot move")
@@ -87,23 +87,23 @@ def _nested(
 ) -> tuple[list[UnplacedModel], list[MergedModel]]:
     """Return the nested models in file order, and those to be merged."""
     parts: list[UnplacedModel] = []
-    dissolved: list[MergedModel] = []
+    merged: list[MergedModel] = []
     for child in node.children:
         if child.tag == "model":
             part = read_model(child, context, depth + 1)
         elif child.tag == "include" and (opened := open_include(child, context)) is not None:
             root, inner = opened
-            found = read_included_model(
+            included = read_included_model(
                 child, root, inner, context, lambda model, within: read_model(model, within, depth + 1)
             )
-            if found is None:
+            if included is None:
                 context.report.warn(child.at, "no <model> in the included file; it is left out")
                 continue
-            part = found
+            part = included
         else:
             continue
         if part.merge:
-            dissolved.append(merge_model(part, graph))
+            merged.append(merge_model(part, graph))
         elif any(part.model.name == other.model.name for other in parts):
             context.report.warn(part.model.at, f"a second nested model {part.model.name!r}; it is left out")
         else:
@@ -111,7 +111,7 @@ def _nested(
             parts.append(part)
     node.all("model")
     node.all("include")
-    return parts, dissolved
+    return parts, merged
 
 
 def read_frames(node: XmlNode, graph: FrameGraph, context: Context) -> list[Frame]:
@@ -133,7 +133,7 @@ def _canonical(
     node: XmlNode,
     links: Iterable[str],
     nested: Iterable[UnplacedModel],
-    dissolved: Iterable[MergedModel],
+    merged: Iterable[MergedModel],
     graph: FrameGraph,
 ) -> str | None:
     """Return the canonical link: the named one, else the first, own links before those of nested models."""
@@ -142,9 +142,9 @@ def _canonical(
         if named in graph and (link := graph.link(named)) not in (None, MODEL):
             return link
         graph.report.warn(node.at, f"canonical_link {named!r}: no such link; the first one is taken")
-    lost = [each.part.model for each in dissolved]
-    inner = [*(part.model for part in nested), *(model for outer in lost for model in outer.models)]
-    first = [*links, *(link.name for model in lost for link in model.links)]
+    merged_models = [merged_model.part.model for merged_model in merged]
+    inner = [*(part.model for part in nested), *(model for outer in merged_models for model in outer.models)]
+    first = [*links, *(link.name for model in merged_models for link in model.links)]
     first += [f"{model.name}::{model.canonical_link}" for model in inner if model.canonical_link]
     return next(iter(first), None)
 
@@ -159,11 +159,11 @@ class JointElement:
         self._ends = [_end(node, tag) for tag in ("parent", "child")]
         # Before SDF 1.7 a joint may have a link's name, and then it is not a frame.
         self._frame = f"joint {self._name}" if self._name in graph else self._name
-        self.is_sound = self._frame not in graph and self._has_known_type(graph) and self._has_two_links(graph)
+        self.is_sound = self._frame not in graph and self._has_valid_type(graph) and self._has_two_links(graph)
         if not self.is_sound:
             node.mark_all_read()
 
-    def _has_known_type(self, graph: FrameGraph) -> bool:
+    def _has_valid_type(self, graph: FrameGraph) -> bool:
         type_ = self._node.required_attribute("type")
         if type_ in TYPES:
             return True
@@ -172,12 +172,12 @@ class JointElement:
         return False
 
     def _has_two_links(self, graph: FrameGraph) -> bool:
-        who = f"joint {self._name!r}"
+        joint = f"joint {self._name!r}"
         for tag, end in zip(("parent", "child"), self._ends, strict=True):
             if not end:
-                why = f"{who} has no <{tag}>; Gazebo refuses the whole file"
+                why = f"{joint} has no <{tag}>; Gazebo refuses the whole file"
             elif end != WORLD and end not in graph:
-                why = f"{who}: no link {end!r}; links here: {graph.names()}"
+                why = f"{joint}: no link {end!r}; links here: {graph.names()}"
                 if "::" not in end:  # otherwise it refers to a model whose <include> was left out
                     raise DescriptionError(self._node.at, why)
             else:
@@ -186,7 +186,7 @@ class JointElement:
             return False
         parent, child = (_link(end, graph) for end in self._ends)
         if parent == child:
-            graph.report.warn(self._node.at, f"{who} connects {parent!r} to itself; the joint is left out")
+            graph.report.warn(self._node.at, f"{joint} connects {parent!r} to itself; the joint is left out")
         return parent != child
 
     def add_to(self, graph: FrameGraph) -> None:

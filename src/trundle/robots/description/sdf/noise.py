@@ -5,13 +5,13 @@ from trundle.robots.model import Noise
 
 from .context import Context
 
-_LOUDEST = 1e15
-"""Largest noise parameter, in any unit."""
+_MAX_PARAMETER = 1e15
+"""Maximum of any noise parameter, in its unit."""
 _TYPES = ("gaussian", "gaussian_quantized", "none")
 
 
 def read_noise(node: XmlNode | None, context: Context) -> Noise:
-    """Read Gaussian noise; other types are none."""
+    """Read Gaussian noise; other types are no noise, with a warning."""
     if node is None:
         return Noise()
     report = context.report
@@ -36,7 +36,7 @@ def read_noise(node: XmlNode | None, context: Context) -> Noise:
 
 def _number(node: XmlNode, tag: str, context: Context) -> float:
     value = node.number(tag, default=0.0)
-    if abs(value) <= _LOUDEST:
+    if abs(value) <= _MAX_PARAMETER:
         return value
     context.report.warn(node.at, f"noise with a {tag} of {value:g} is not possible; 0 is used")
     return 0.0
@@ -44,7 +44,7 @@ def _number(node: XmlNode, tag: str, context: Context) -> float:
 
 def _precision(node: XmlNode, context: Context) -> float:
     precision = node.number("precision", default=0.0)
-    if precision == 0.0 or 1.0 / _LOUDEST <= precision <= _LOUDEST:
+    if precision == 0.0 or 1.0 / _MAX_PARAMETER <= precision <= _MAX_PARAMETER:
         return precision
     context.report.warn(node.at, f"a precision of {precision:g} is not possible; values are not rounded")
     return 0.0

@@ -7,7 +7,7 @@ children: add, modify, remove or replace, by the rules of libsdformat's paramete
 from trundle.base.diagnostics import Diagnostics
 from trundle.base.xmlnode import XmlNode
 
-_OWN = ("element_id", "action")
+_PARAM_ATTRIBUTES = ("element_id", "action")
 _ACTIONS = ("add", "modify", "remove", "replace")
 
 
@@ -29,63 +29,63 @@ def _change(change: XmlNode, model: XmlNode, path: list[str], report: Diagnostic
         if parent is not None:
             _add(parent, change)
             return
-    elif path and (found := _element(model, path, change.tag)) is not None:
+    elif path and (element := _element(model, path, change.tag)) is not None:
         parent = _element(model, path[:-1], None)
         assert parent is not None
         if action is None:
             for part in change.children:
-                _change_part(part, found, report)
+                _change_part(part, element, report)
         else:
-            _act(action, change, found, parent, report)
+            _act(action, change, element, parent, report)
         return
     name = "::".join(path)
     report.warn(change.at, f"<experimental:params>: no <{change.tag}> {name!r} in the included model; it is left out")
 
 
 def _change_part(change: XmlNode, parent: XmlNode, report: Diagnostics) -> None:
-    """Apply one child of a changed element, which has its own action."""
+    """Apply the action of one child of a changed element."""
     action = change.attribute("action") or ""
     if action == "add":
         _add(parent, change)
         return
-    found = _child(parent, change.tag, change.attribute("name"))
-    if found is None:
+    element = _child(parent, change.tag, change.attribute("name"))
+    if element is None:
         report.warn(change.at, f"<experimental:params>: no <{change.tag}> in <{parent.tag}>; it is left out")
     elif action == "remove" and change.children:
-        for each in change.children:
-            if (lost := _child(found, each.tag, each.attribute("name"))) is not None:
-                found.remove(lost)
+        for part in change.children:
+            if (removed := _child(element, part.tag, part.attribute("name"))) is not None:
+                element.remove(removed)
     else:
-        _act(action, change, found, parent, report)
+        _act(action, change, element, parent, report)
 
 
-def _act(action: str, change: XmlNode, found: XmlNode, parent: XmlNode, report: Diagnostics) -> None:
+def _act(action: str, change: XmlNode, element: XmlNode, parent: XmlNode, report: Diagnostics) -> None:
     match action:
         case "remove":
-            parent.remove(found)
+            parent.remove(element)
         case "replace":
-            parent.remove(found)
+            parent.remove(element)
             _add(parent, change)
         case "modify":
-            _modify(found, change, report)
+            _modify(element, change, report)
         case _:
-            known = ", ".join(_ACTIONS)
-            report.warn(change.at, f"<{change.tag}>: action {action!r} is unknown; actions: {known}; it is left out")
+            actions = ", ".join(_ACTIONS)
+            report.warn(change.at, f"<{change.tag}>: action {action!r} is unknown; actions: {actions}; it is left out")
 
 
-def _add(parent: XmlNode, what: XmlNode) -> None:
-    parent.append(what)
-    parent.children[-1].drop_attributes(*_OWN)
+def _add(parent: XmlNode, element: XmlNode) -> None:
+    parent.append(element)
+    parent.children[-1].drop_attributes(*_PARAM_ATTRIBUTES)
 
 
-def _modify(found: XmlNode, change: XmlNode, report: Diagnostics) -> None:
+def _modify(element: XmlNode, change: XmlNode, report: Diagnostics) -> None:
     """Overwrite existing values."""
-    found.merge_values(change)
-    found.drop_attributes(*_OWN)
+    element.merge_values(change)
+    element.drop_attributes(*_PARAM_ATTRIBUTES)
     for part in change.children:
-        inner = _child(found, part.tag, part.attribute("name"))
+        inner = _child(element, part.tag, part.attribute("name"))
         if inner is None:
-            report.warn(part.at, f"<experimental:params>: no <{part.tag}> to modify in <{found.tag}>; it is left out")
+            report.warn(part.at, f"<experimental:params>: no <{part.tag}> to modify in <{element.tag}>; it is left out")
         else:
             _modify(inner, part, report)
 
@@ -108,6 +108,6 @@ def _element(model: XmlNode, path: list[str], tag: str | None) -> XmlNode | None
 
 def _child(parent: XmlNode, tag: str, name: str | None) -> XmlNode | None:
     return next(
-        (each for each in parent.children if each.tag == tag and name in (None, each.attribute("name"))),
+        (child for child in parent.children if child.tag == tag and name in (None, child.attribute("name"))),
         None,
     )

@@ -15,9 +15,9 @@ _REQUIRED = {
     "joint": {"sensor": _NAME_TYPE},
     "gazebo": {"sensor": _NAME_TYPE},
 }
-"""Element → its children and their required attributes, apart from those that are errors here as well."""
+"""Element → children → required attributes; attributes whose absence is an error here too are checked elsewhere."""
 _HOLDERS = {*_REQUIRED, "sensor", "visual", "actor", "population"}
-"""Elements with such children or with plugins."""
+"""Elements that may contain such children or plugins."""
 _PLUGIN, _PLUGIN_FROM_1_10 = ("name", "filename"), ("filename",)
 
 

@@ -36,13 +36,13 @@ def scaled_model(model: Model, scale: Vector3, at: Source, report: Diagnostics) 
 def _scaled_link(link: Link, scale: Vector3) -> Link:
     return replace(
         link,
-        visuals=tuple(replace(each, geometry=scaled(each.geometry, scale)) for each in link.visuals),
-        collisions=tuple(replace(each, geometry=scaled(each.geometry, scale)) for each in link.collisions),
+        visuals=tuple(replace(shape, geometry=scaled(shape.geometry, scale)) for shape in link.visuals),
+        collisions=tuple(replace(shape, geometry=scaled(shape.geometry, scale)) for shape in link.collisions),
     )
 
 
 def scaled(geometry: Geometry, scale: Vector3) -> Geometry:
-    """Return a scaled shape; circles stay circles, by the larger scale."""
+    """Return a scaled shape; a radius is scaled by the largest factor, so that circles stay circles."""
     x, y, z = scale
     match geometry:
         case Box(size):

@@ -1,8 +1,8 @@
-"""Conversion of SDF 1.0, which wrote values as attributes, to the form of 1.2 and later."""
+"""Conversion of SDF 1.0, with values as attributes, to the syntax of SDF 1.2."""
 
 from trundle.base.xmlnode import XmlNode
 
-_KEPT = frozenset({"name", "type", "version", "filename", "default", "id", "world_name"})
+_ATTRIBUTES = frozenset({"name", "type", "version", "filename", "default", "id", "world_name"})
 _TEXTS = {
     "origin": "pose",
     "parent": "link",
@@ -21,10 +21,10 @@ _TEXTS = {
     "shadows": "enabled",
     "grid": "enabled",
 }
-_NAMES = {"origin": "pose"}
+_RENAMED = {"origin": "pose"}
 
 
 def rewrite_old_style(root: XmlNode) -> None:
     """Convert a whole file; attributes without a counterpart stay and are reported as unsupported."""
-    root.attributes_to_children(_KEPT, _TEXTS)
-    root.rename(_NAMES)
+    root.attributes_to_children(_ATTRIBUTES, _TEXTS)
+    root.rename(_RENAMED)

@@ -1,4 +1,4 @@
-"""Reader of <sensor>: simulated types in full, others by name and type."""
+"""Reader of <sensor>: simulated types completely, others by name and type."""
 
 from collections.abc import Iterable
 from itertools import count
@@ -30,7 +30,7 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
     )
     if type_ in MEASURING:
-        from .sensor_elements import with_settings  # a world without any starts without what they are set to
+        from .sensor_elements import with_settings  # loaded only for worlds with such sensors
 
         sensor = with_settings(sensor, node, context)
     if type_ in MEASURING | CAMERA_TYPES:
@@ -42,20 +42,20 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
 
 def with_unique_names(sensors: Iterable[Sensor], link: str, context: Context) -> tuple[Sensor, ...]:
     """Return the sensors of a link; duplicate names get a number, with a warning."""
-    apart: dict[str, Sensor] = {}
+    by_name: dict[str, Sensor] = {}
     for sensor in sensors:
         name = sensor.name
-        if name in apart:
-            number = next(i for i in count(2) if f"{name}_{i}" not in apart)
-            what = f"link {link!r} has a second sensor {name!r}; it is renamed '{name}_{number}'"
-            context.report.warn(sensor.at, what)
+        if name in by_name:
+            number = next(i for i in count(2) if f"{name}_{i}" not in by_name)
+            message = f"link {link!r} has a second sensor {name!r}; it is renamed '{name}_{number}'"
+            context.report.warn(sensor.at, message)
             sensor = replace(sensor, name=f"{name}_{number}")
-        apart[sensor.name] = sensor
-    return tuple(apart.values())
+        by_name[sensor.name] = sensor
+    return tuple(by_name.values())
 
 
 def _topic(node: XmlNode, type_: str) -> str:
-    """Return the topic, which for an IMU or contact sensor may also stand in its settings element."""
+    """Return the topic; an IMU or contact sensor may name it in its settings element."""
     settings = node.find(type_) if type_ in ("imu", "contact") else None
     return node.string("topic") or ("" if settings is None else settings.string("topic"))
 
@@ -69,7 +69,7 @@ def _rate(node: XmlNode, context: Context) -> float:
 
 
 def read_plugin(node: XmlNode) -> PluginTag:
-    """Keep a <plugin> as written."""
+    """Read a <plugin>; its parameters stay XML."""
     return PluginTag(
         name=node.attribute("name") or "", filename=node.attribute("filename") or "", at=node.at, node=node
     )

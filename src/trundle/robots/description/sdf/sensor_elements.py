@@ -103,7 +103,7 @@ def _resolution(node: XmlNode, context: Context) -> float:
 
 
 def read_imu(sensor: XmlNode, context: Context) -> ImuNoise:
-    """Read <imu>: SDF 1.6 has noise per axis, 1.4 and 1.5 one for all rates and one for all accelerations."""
+    """Read <imu>: noise per axis in SDF 1.6, one noise for all rates and one for all accelerations in 1.4 and 1.5."""
     node = sensor.find("imu")
     if node is None:
         return ImuNoise()
@@ -136,8 +136,8 @@ def _reference(node: XmlNode | None, context: Context) -> OrientationReference |
     )
     node.report_unread(report)
     if localization not in _LOCALIZATIONS:
-        known = ", ".join(_LOCALIZATIONS)
-        report.warn(node.at, f"no localization {localization!r}: {known}; the orientation is relative to the start")
+        names = ", ".join(_LOCALIZATIONS)
+        report.warn(node.at, f"no localization {localization!r}: {names}; the orientation is relative to the start")
         return None
     return reference
 
@@ -151,7 +151,7 @@ def _parent(node: XmlNode | None, context: Context) -> str:
 
 
 def read_gps(sensor: XmlNode, context: Context) -> GpsNoise:
-    """Read <gps> or <navsat>; velocities, and so their noise, are not published."""
+    """Read <gps> or <navsat>; velocities are not published, so their noise is ignored."""
     node = sensor.find("gps") or sensor.find("navsat")
     if node is None:
         return GpsNoise()
@@ -160,10 +160,10 @@ def read_gps(sensor: XmlNode, context: Context) -> GpsNoise:
     node.report_unread(context.report)
     if position is None:
         return GpsNoise()
-    across, up = (
-        None if (way := position.find(tag)) is None else way.find("noise") for tag in ("horizontal", "vertical")
+    horizontal, vertical = (
+        None if (axis := position.find(tag)) is None else axis.find("noise") for tag in ("horizontal", "vertical")
     )
-    return GpsNoise(horizontal=read_noise(across, context), vertical=read_noise(up, context))
+    return GpsNoise(horizontal=read_noise(horizontal, context), vertical=read_noise(vertical, context))
 
 
 def read_contact(sensor: XmlNode, context: Context) -> tuple[str, ...]:
@@ -179,26 +179,26 @@ def read_contact(sensor: XmlNode, context: Context) -> tuple[str, ...]:
 def read_force_torque(sensor: XmlNode, context: Context) -> ForceTorque:
     """Read <force_torque>; before SDF 1.5 the default frame is the parent's."""
     node = sensor.find("force_torque") or sensor.find("forcetorque")
-    before = "parent" if context.version < (1, 5) else "child"
+    default = "parent" if context.version < (1, 5) else "child"
     if node is None:
-        return ForceTorque(frame=before)
-    frame = node.string("frame") or before
+        return ForceTorque(frame=default)
+    frame = node.string("frame") or default
     if frame not in ("child", "parent", "sensor"):
         context.report.warn(node.at, f"no frame {frame!r} for forces: child, parent or sensor; child is used")
         frame = "child"
     direction = node.string("measure_direction") or "child_to_parent"
     if direction not in ("child_to_parent", "parent_to_child"):
-        what = f"no measure_direction {direction!r}: child_to_parent or parent_to_child"
-        context.report.warn(node.at, f"{what}; child_to_parent is used")
+        fault = f"no measure_direction {direction!r}: child_to_parent or parent_to_child"
+        context.report.warn(node.at, f"{fault}; child_to_parent is used")
     force, torque = (_axes(node, tag, None, context) for tag in ("force", "torque"))
     node.report_unread(context.report)
     return ForceTorque(frame=frame, parent_to_child=direction == "parent_to_child", force=force, torque=torque)
 
 
-def _axes(imu: XmlNode, tag: str, old: XmlNode | None, context: Context) -> tuple[Noise, Noise, Noise]:
+def _axes(imu: XmlNode, tag: str, shared: XmlNode | None, context: Context) -> tuple[Noise, Noise, Noise]:
     node = imu.find(tag)
     if node is None:
-        every = Noise() if old is None else read_noise(old, context)
-        return every, every, every
+        noise = Noise() if shared is None else read_noise(shared, context)
+        return noise, noise, noise
     x, y, z = (None if (axis := node.find(name)) is None else axis.find("noise") for name in "xyz")
     return read_noise(x, context), read_noise(y, context), read_noise(z, context)

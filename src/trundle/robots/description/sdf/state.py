@@ -11,14 +11,14 @@ from trundle.spatial import Pose
 from .context import Context, read_pose, warn_ignored
 from .scale import scaled_model
 
-_MOVED = 1e-3
-"""Deviation [m, and of a unit quaternion] below which a link's saved pose counts as unchanged."""
+_POSE_TOLERANCE = 1e-3
+"""Difference in position [m] or quaternion below which a link's saved pose counts as unchanged."""
 _AT_REST = ("velocity", "acceleration", "wrench", "linear_velocity", "angular_velocity")
 _ACCELERATED = ("linear_acceleration", "angular_acceleration", "force", "torque")
 
 
 def inserted(world: XmlNode) -> Iterator[XmlNode]:
-    """Yield the models and lights inserted after the world was loaded, in order."""
+    """Yield the elements of models and lights inserted after the world was loaded, in order."""
     for state in world.all("state"):
         insertions = state.find("insertions")
         for child in [] if insertions is None else insertions.children:
@@ -41,9 +41,9 @@ def _applied(
     node: XmlNode, models: Sequence[Model], lights: Sequence[Light], context: Context
 ) -> tuple[Sequence[Model], Sequence[Light]]:
     report = context.report
-    poses = {state.attribute("name"): state for state in _states(node, "model")}
-    lit = {state.attribute("name"): state for state in _states(node, "light")}
-    gone = _deleted(node, {each.name for each in (*models, *lights)}, context)
+    model_states = {state.attribute("name"): state for state in _states(node, "model")}
+    light_states = {state.attribute("name"): state for state in _states(node, "light")}
+    deleted = _deleted(node, {part.name for part in (*models, *lights)}, context)
     warn_ignored(
         node, ("sim_time", "wall_time", "real_time", "iterations", "time"), "has no effect: time starts at 0", context
     )
@@ -54,30 +54,32 @@ def _applied(
         insertions.all("light")
         insertions.report_unread(report)
     node.report_unread(report)
-    for kind, states, there in (("model", poses, models), ("light", lit, lights)):
+    for kind, states, parts in (("model", model_states, models), ("light", light_states, lights)):
         for name, state in states.items():
-            if name not in {each.name for each in there}:
+            if name not in {part.name for part in parts}:
                 report.warn(state.at, f"<state> of unknown {kind} {name!r}; it is ignored")
                 state.mark_all_read()
-    placed = [
-        _model_with_state(model, poses[model.name], Pose(), context) if model.name in poses else model
+    placed_models = [
+        _model_with_state(model, model_states[model.name], Pose(), context) if model.name in model_states else model
         for model in models
-        if model.name not in gone
+        if model.name not in deleted
     ]
-    shone = [_light_with_state(light, lit.get(light.name), context) for light in lights if light.name not in gone]
-    return placed, shone
+    placed_lights = [
+        _light_with_state(light, light_states.get(light.name), context) for light in lights if light.name not in deleted
+    ]
+    return placed_models, placed_lights
 
 
-def _deleted(node: XmlNode, there: set[str], context: Context) -> set[str]:
+def _deleted(node: XmlNode, existing: set[str], context: Context) -> set[str]:
     deletions = node.find("deletions")
     if deletions is None:
         return set()
     names = deletions.all("name")
-    for each in names:
-        if each.text not in there:
-            context.report.warn(each.at, f"<deletions> of a <state>: no model or light {each.text!r} in this world")
+    for name in names:
+        if name.text not in existing:
+            context.report.warn(name.at, f"<deletions> of a <state>: no model or light {name.text!r} in this world")
     deletions.report_unread(context.report)
-    return {each.text for each in names}
+    return {name.text for name in names}
 
 
 def _light_with_state(light: Light, state: XmlNode | None, context: Context) -> Light:
@@ -89,7 +91,7 @@ def _light_with_state(light: Light, state: XmlNode | None, context: Context) -> 
 
 
 def _model_with_state(model: Model, state: XmlNode, world_from_outer: Pose, context: Context) -> Model:
-    """Return a model at its saved pose; states of nested models are in the world frame too."""
+    """Return a model at its saved pose; saved poses of nested models are in the world frame too."""
     report = context.report
     has_pose = state.find("pose") is not None
     nested = {inner.attribute("name"): inner for inner in _states(state, "model")}
@@ -97,14 +99,14 @@ def _model_with_state(model: Model, state: XmlNode, world_from_outer: Pose, cont
     scale = state.vector("scale", default=(1.0, 1.0, 1.0))
     warn_ignored(state, ("joint", "joint_state"), "has no effect, as in Gazebo: the poses of links apply", context)
     state.report_unread(report)
-    for name, each in links.items():
+    for name, link_state in links.items():
         if name not in {link.name for link in model.links}:
-            report.warn(each.at, f"<state> of model {model.name!r}: no link {name!r}; it is ignored")
+            report.warn(link_state.at, f"<state> of model {model.name!r}: no link {name!r}; it is ignored")
     if scale != (1.0, 1.0, 1.0):
         model = scaled_model(model, scale, state.at, report)
     world_from_model = read_pose(state, context).pose if has_pose else world_from_outer @ model.world_from_model
     joined = set[str]() if model.static else {end for joint in model.joints for end in (joint.parent, joint.child)}
-    started = tuple(
+    placed_links = tuple(
         _link_with_state(link, links[link.name], world_from_model, context, is_joined=link.name in joined)
         if link.name in links
         else link
@@ -113,7 +115,7 @@ def _model_with_state(model: Model, state: XmlNode, world_from_outer: Pose, cont
     return replace(
         model,
         world_from_model=world_from_outer.inverse() @ world_from_model,
-        links=started,
+        links=placed_links,
         models=tuple(
             _model_with_state(inner, nested[inner.name], world_from_model, context) if inner.name in nested else inner
             for inner in model.models
@@ -122,9 +124,7 @@ def _model_with_state(model: Model, state: XmlNode, world_from_outer: Pose, cont
 
 
 def _link_with_state(link: Link, state: XmlNode, world_from_model: Pose, context: Context, *, is_joined: bool) -> Link:
-    """Return a link at its saved pose; for a link with a joint this is the initial pose, and the joint's
-    zero is kept.
-    """
+    """Return a link at its saved pose, which for a link with a joint is the initial pose: the joint's zero stays."""
     warn_ignored(state, _AT_REST + _ACCELERATED, "has no effect: everything starts at rest", context)
     warn_ignored(state, ("collision", "collision_state"), "has no effect, as in Gazebo", context)
     has_pose = state.find("pose") is not None
@@ -134,7 +134,7 @@ def _link_with_state(link: Link, state: XmlNode, world_from_model: Pose, context
     model_from_link = world_from_model.inverse() @ read_pose(state, context).pose
     written_from_saved = link.model_from_link.inverse() @ model_from_link
     moved = max(map(abs, (*written_from_saved.position, *written_from_saved.quaternion[1:])))
-    if moved <= _MOVED:
+    if moved <= _POSE_TOLERANCE:
         return link
     return replace(link, initial_pose=model_from_link) if is_joined else replace(link, model_from_link=model_from_link)
 

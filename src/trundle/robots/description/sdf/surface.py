@@ -18,7 +18,7 @@ _TUNING = (
 
 
 def default_surface(context: Context) -> Surface:
-    """Return the surface of a collision without one: before SDF 1.4 friction is infinite, in 1.4 the bitmask is 1."""
+    """Return the default surface: infinite friction before SDF 1.4, bitmask 1 in 1.4."""
     friction = -1.0 if context.version < (1, 4) else 1.0
     return Surface(mu=friction, mu2=friction, collide_bitmask=1 if context.version == (1, 4) else 0xFFFF)
 
@@ -31,11 +31,11 @@ def read_surface(node: XmlNode, context: Context) -> Surface:
     torsional = _find(friction, "torsional")
     torsional_ode = _find(torsional, "ode")
 
-    def number(parent: XmlNode | None, tag: str, otherwise: float) -> float:
-        return otherwise if parent is None else parent.number(tag, default=otherwise)
+    def number(parent: XmlNode | None, tag: str, fallback: float) -> float:
+        return fallback if parent is None else parent.number(tag, default=fallback)
 
-    def integer(tag: str, otherwise: int) -> int:
-        return otherwise if contact is None else contact.integer(tag, default=otherwise)
+    def integer(tag: str, fallback: int) -> int:
+        return fallback if contact is None else contact.integer(tag, default=fallback)
 
     surface = Surface(
         mu=number(ode, "mu", default.mu),
@@ -58,10 +58,10 @@ def read_surface(node: XmlNode, context: Context) -> Surface:
         category_bitmask=integer("category_bitmask", 0xFFFF) if _find(contact, "category_bitmask") else None,
         collide_without_contact=contact is not None and contact.flag("collide_without_contact", default=False),
     )
-    for each in (node, friction, ode, torsional, torsional_ode, contact, contact_ode, bounce):
-        if each is not None:
-            _name_tuning(each, context)
-            each.report_unread(report)
+    for element in (node, friction, ode, torsional, torsional_ode, contact, contact_ode, bounce):
+        if element is not None:
+            _name_tuning(element, context)
+            element.report_unread(report)
     return surface
 
 

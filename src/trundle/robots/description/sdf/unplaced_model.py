@@ -1,4 +1,4 @@
-"""Model that is read but not yet posed."""
+"""Model whose pose is not yet resolved."""
 
 from msgspec import Struct
 
@@ -17,9 +17,9 @@ class UnplacedModel(Struct, frozen=True, kw_only=True):
     raw: RawPose
     """Pose as written."""
     placement_frame: str = ""
-    """Frame of the model that is placed at the pose; empty: the model's own."""
+    """Frame of the model to place at the pose; empty: the model frame."""
     merge: bool = False
-    """True if the model is merged into its parent."""
+    """True to merge the model into its parent."""
 
     def placed(self, graph: FrameGraph) -> RawPose:
         """Return the pose of the model's own frame, relative to the same frame as the pose."""

@@ -1,4 +1,4 @@
-"""SDF version of a file, which selects the rules of reading."""
+"""SDF version of a file."""
 
 from trundle.base.diagnostics import Diagnostics
 from trundle.base.xmlnode import XmlNode
@@ -7,7 +7,7 @@ NEWEST = (1, 12)
 
 
 class Version(tuple[int, int]):
-    """Major and minor version, compared as numbers, so that 1.10 is newer than 1.9."""
+    """Major and minor version; 1.10 is newer than 1.9."""
 
     __slots__ = ()
 
@@ -16,7 +16,7 @@ class Version(tuple[int, int]):
 
 
 def read_version(root: XmlNode, report: Diagnostics) -> Version:
-    """Return the version of a root element; a missing or unknown one is read by the newest rules, with a warning."""
+    """Return the version of a root element; the newest, with a warning, if missing or unknown."""
     text = root.attribute("version")
     newest = Version(NEWEST)
     if text is None:

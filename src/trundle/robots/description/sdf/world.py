@@ -1,4 +1,4 @@
-"""Reader of <world>, and of models and lights alone in a file."""
+"""Reader of <world>, and of files with models and lights only."""
 
 from typing import TYPE_CHECKING
 
@@ -70,8 +70,8 @@ def read_world(node: XmlNode, context: Context) -> World:
         frames=tuple(replace(frame, model_from_frame=contents.graph.pose(frame.name)) for frame in frames),
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
     )
-    for each in contents.dissolved:
-        whole = each.merge_into(whole, contents.graph)
+    for merged_model in contents.merged:
+        whole = merged_model.merge_into(whole, contents.graph)
     models, lights = apply_state(node, name, whole.models, contents.lights, context)
     world = World(
         name=name,
@@ -99,19 +99,19 @@ def _actors(node: XmlNode, context: Context) -> "tuple[Actor, ...]":
     nodes = node.all("actor")
     if not nodes:
         return ()
-    from .actor import read_actor  # a world without actors starts without their modules
+    from .actor import read_actor  # loaded only for worlds with actors
 
     return tuple(read_actor(child, context) for child in nodes)
 
 
 class _Contents:
-    """Models and lights of a world or root element, with included ones in their place."""
+    """Models and lights of a world or root element, included ones in file order."""
 
     def __init__(self, node: XmlNode, context: Context) -> None:
         self.graph = FrameGraph(WORLD, context.report)
         self.parts: list[UnplacedModel] = []
         self.lights: list[Light] = []
-        self.dissolved: list[MergedModel] = []
+        self.merged: list[MergedModel] = []
         """Models to be merged into the world."""
         self._context = context
         for child in node.children:
@@ -147,7 +147,7 @@ class _Contents:
         part = read_included_model(node, root, inner, self._context, read_model)
         if part is not None:
             if part.merge and self._can_merge(part, node):
-                self.dissolved.append(merge_model(part, self.graph))
+                self.merged.append(merge_model(part, self.graph))
             else:
                 self._add(part)
             return
@@ -164,16 +164,16 @@ class _Contents:
             )
 
     def _can_merge(self, part: UnplacedModel, node: XmlNode) -> bool:
-        """True if a model can be merged into the world: without links of its own and with free names."""
-        taken = [inner.name for inner in part.model.models if inner.name in self.graph]
-        why = ""
+        """True if a model can be merged into the world: it has no links, and its model names are free."""
+        duplicates = [inner.name for inner in part.model.models if inner.name in self.graph]
+        reason = ""
         if part.model.links:
-            why = "links of its own, which a world cannot have"
-        elif taken:
-            why = f"a model {taken[0]!r}, whose name is taken"
-        if why:
-            self._context.report.warn(node.at, f"model {part.model.name!r} has {why}; it is not merged")
-        return not why
+            reason = "links of its own, which a world cannot have"
+        elif duplicates:
+            reason = f"a model {duplicates[0]!r}, whose name is taken"
+        if reason:
+            self._context.report.warn(node.at, f"model {part.model.name!r} has {reason}; it is not merged")
+        return not reason
 
     def _add(self, part: UnplacedModel) -> None:
         """Add a model; a duplicate name gets a number, as in Gazebo."""

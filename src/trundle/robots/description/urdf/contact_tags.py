@@ -15,8 +15,8 @@ CONTACT_TAGS = ("collision", "fdir1", "laserRetro", "maxContacts", *_NUMBERS)
 def with_contact_tags(collision: Collision, block: XmlNode, context: Context) -> Collision:
     """Return a collision with the values of its link's block, which apply to every collision of the link.
 
-    Whatever their order, <collision> comes first: its <surface> replaces the whole surface, and the other tags change
-    single values of it (sdformat's InsertSDFExtensionCollision).
+    <collision> is applied first, whatever the order: its <surface> replaces the whole surface, of which the other tags
+    change single values (sdformat's InsertSDFExtensionCollision).
     """
     for node in block.all("collision"):
         from ..sdf.link import with_contact  # lazy: few robots have it

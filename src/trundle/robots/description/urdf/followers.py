@@ -1,4 +1,4 @@
-"""Joints that plugins let follow others, which Gazebo's conversion leaves free."""
+"""Joints that mimic plugins drive; Gazebo's conversion leaves them free."""
 
 from collections.abc import Iterable
 
@@ -6,17 +6,17 @@ from trundle.robots.model import Mimic, PluginTag
 
 
 def plugin_followers(plugins: Iterable[PluginTag]) -> dict[str, Mimic | None]:
-    """Return the joints that <mimicJoint>s name, and what they mimic; None: the plugin drives the joint itself.
+    """Return the mimic of each joint named by a <mimicJoint>; None if the plugin drives the joint by effort.
 
-    libroboticsgroup_gazebo_mimic_joint_plugin.so sets the follower's position, unless <hasPID> limits its effort. That
-    is a coupling of joints, as exact as one of a robot's own <mimic>.
+    libroboticsgroup_gazebo_mimic_joint_plugin.so sets the follower's position, unless <hasPID> limits its effort; this
+    is as exact a coupling as the robot's own <mimic>.
     """
-    found: dict[str, Mimic | None] = {}
+    followers: dict[str, Mimic | None] = {}
     for plugin in plugins:
         for follower in plugin.node.all("mimicJoint"):
             sets_position = "mimic_joint_plugin" in plugin.filename and plugin.node.find("hasPID") is None
-            found[follower.text] = _mimic(plugin) if sets_position else None
-    return found
+            followers[follower.text] = _mimic(plugin) if sets_position else None
+    return followers
 
 
 def _mimic(plugin: PluginTag) -> Mimic:

@@ -39,7 +39,7 @@ _TUNING = frozenset(
         "canonicalBody",
     }
 )
-_ALWAYS = "provideFeedback"
+_IGNORED = "provideFeedback"
 """Ignored tag: joint reactions are always available."""
 _TRUE = frozenset({"true", "yes", "1"})
 
@@ -67,8 +67,8 @@ class GazeboTags:
 
     def lumped_flag(self, lump: Lump, *tags: str) -> bool | None:
         """Return `flag` over all links of a lump; the last one that is set wins (sdformat's AddKeyValue)."""
-        said = [value for name, _ in lump.parts if (value := self.flag(name, *tags)) is not None]
-        return said[-1] if said else None
+        values = [value for name, _ in lump.parts if (value := self.flag(name, *tags)) is not None]
+        return values[-1] if values else None
 
     def material(self, link: str) -> "Material | None":
         """Return <material>Gazebo/Blue</material>, or a <visual> block's <material>, which applies to every visual."""
@@ -131,16 +131,16 @@ class GazeboTags:
 
     def lumped_sensors(self, lump: Lump) -> "tuple[Sensor, ...]":
         """Read the sensors of all links of a lump, in its frame."""
-        found = [
+        sensors = [
             replace(sensor, link_from_sensor=pose @ sensor.link_from_sensor)
             for name, pose in lump.parts
             for sensor in self.sensors(name)
         ]
-        if not found:
+        if not sensors:
             return ()
         from ..sdf.sensor import with_unique_names
 
-        return with_unique_names(found, lump.name, self._context)
+        return with_unique_names(sensors, lump.name, self._context)
 
     def lights(self, link: str) -> "tuple[Light, ...]":
         """Read the <light> elements of a link, which are SDF."""
@@ -191,8 +191,8 @@ class GazeboTags:
                 part.add_to(graph)
                 parts.append(part)
             elif opened:
-                what = f"a second {part.model.name!r} in the robot" if part else "no <model> in the included file"
-                self._context.report.warn(node.at, f"{what}; it is left out")
+                reason = f"a second {part.model.name!r} in the robot" if part else "no <model> in the included file"
+                self._context.report.warn(node.at, f"{reason}; it is left out")
         return tuple(replace(part.model, world_from_model=graph.pose(part.model.name)) for part in parts)
 
     def joints(self, graph: FrameGraph) -> "tuple[Joint, ...]":
@@ -217,9 +217,9 @@ class GazeboTags:
         return tuple(replace(joint.read(graph, self._context), parent_frame=None, child_frame=None) for joint in sound)
 
     def name_tuning(self) -> None:
-        """Note the parameters of Gazebo's engines, which are ignored."""
+        """Note the ignored parameters of Gazebo's engines."""
         for reference, tag in self._nodes:
-            if tag == _ALWAYS:
+            if tag == _IGNORED:
                 self._all(reference, tag)
             if tag in _TUNING:
                 for node in self._all(reference, tag):
@@ -235,17 +235,17 @@ class GazeboTags:
         for (reference, tag), nodes in self._nodes.items():
             if (reference, tag) in self._read and (reference in known or not reference):
                 continue
-            whom = f"{reference!r}" if reference else "the robot"
-            why, then = "is not supported", "it is ignored"
+            target = f"{reference!r}" if reference else "the robot"
+            why, consequence = "is not supported", "it is ignored"
             if tag in _SLIPS:
                 why = "is ignored, as in Gazebo"
-                then = f"<collision><surface><friction><ode><{tag}> is not"
+                consequence = f"<collision><surface><friction><ode><{tag}> is not"
             if reference in lumped:
                 why = "is for a fixed joint that is lumped (<preserveFixedJoint>1</preserveFixedJoint> keeps it)"
             elif reference and reference not in known:
                 why = "names no known link or joint"
             for node in nodes:
-                self._context.report.warn(node.at, f"<{tag}> for {whom} in <gazebo> {why}; {then}")
+                self._context.report.warn(node.at, f"<{tag}> for {target} in <gazebo> {why}; {consequence}")
 
     def _all(self, reference: str, tag: str) -> list[XmlNode]:
         self._read.add((reference, tag))

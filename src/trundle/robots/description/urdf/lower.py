@@ -1,7 +1,7 @@
 """Conversion of URDF to a model, as Gazebo simulates it.
 
 Links at fixed joints are lumped; a massless link and its subtree are dropped; floating joints leave their child free. A
-URDF's colours, which Gazebo drops, are kept.
+URDF's colors, which Gazebo drops, are kept.
 """
 
 import math
@@ -70,11 +70,11 @@ def lower_robot(robot: Robot, root: XmlNode, *, folder: Path, packages: Packages
     """Convert a URDF's tree; `root` is its XML, for the <gazebo> blocks.
 
     Args:
-        robot: the tree as written.
+        robot: URDF tree.
         root: <robot>.
         folder: base of relative mesh paths.
         packages: resolves URIs.
-        report: takes warnings of what is dropped.
+        report: receives a warning for each dropped part.
     """
     # <gazebo> blocks hold SDF by the rules of the version that Gazebo's conversion writes.
     context = Context(version=Version((1, 7)), folder=folder, packages=packages, report=report)
@@ -89,12 +89,12 @@ class _Lowering:
         self.context = context
         self.report = context.report
         self.links = {link.name: link for link in robot.links}
-        kept = frozenset(
+        preserved = frozenset(
             joint.name
             for joint in robot.joints
             if tags.flag(joint.name, "preserveFixedJoint") or tags.flag(joint.name, "disableFixedJointLumping")
         )
-        self.lumps = lump_links(robot, kept)
+        self.lumps = lump_links(robot, preserved)
         self.lump_of = {link: lump.name for lump in self.lumps.values() for link, _ in lump.parts}
 
     def model(self) -> Model:
@@ -148,7 +148,7 @@ class _Lowering:
         )
 
     def _name_missing_meshes(self, dropped: set[str]) -> None:
-        """Warn of meshes of dropped links that are not there, and of shapes on the world."""
+        """Warn of missing meshes of dropped links, and of shapes on the world."""
         for name in sorted(dropped):
             for part, _ in self.lumps[name].parts:
                 for shape in (*self.links[part].visuals, *self.links[part].collisions):
@@ -157,31 +157,31 @@ class _Lowering:
         if WORLD in self.lumps:
             world = self.links[WORLD]
             if world.visuals or world.collisions:
-                what = f"link {WORLD!r} is the world itself: as in Gazebo its shapes are left out"
-                self.report.warn(world.at, f"{what}; a link below it, at a fixed joint, keeps them")
+                reason = f"link {WORLD!r} is the world itself: as in Gazebo its shapes are left out"
+                self.report.warn(world.at, f"{reason}; a link below it, at a fixed joint, keeps them")
 
     def _first(self, names: set[str]) -> str | None:
         """Return the first of some links in Gazebo's order: from the root down, children sorted by joint name.
 
-        It is the canonical link, whatever the file order: Jackal's wheels come before its base there.
+        This is the canonical link whatever the file order: Jackal's file lists the wheels before the base.
         """
-        below: dict[str, list[RobotJoint]] = {}
+        children: dict[str, list[RobotJoint]] = {}
         for joint in sorted(self.robot.joints, key=lambda joint: joint.name, reverse=True):
-            below.setdefault(joint.parent, []).append(joint)
-        waiting = [self.robot.root]
-        while waiting:
-            link = waiting.pop()
+            children.setdefault(joint.parent, []).append(joint)
+        pending = [self.robot.root]
+        while pending:
+            link = pending.pop()
             if link in names:
                 return link
-            waiting += [joint.child for joint in below.get(link, ())]
+            pending += [joint.child for joint in children.get(link, ())]
         return None
 
     def _inertials(self, lump: Lump) -> list[tuple[RobotInertial, Pose]]:
-        found = [(self.links[name].inertial, pose) for name, pose in lump.parts]
-        return [(inertial, pose) for inertial, pose in found if inertial is not None and inertial.mass > 0]
+        inertials = [(self.links[name].inertial, pose) for name, pose in lump.parts]
+        return [(inertial, pose) for inertial, pose in inertials if inertial is not None and inertial.mass > 0]
 
     def _link(self, lump: Lump, root_from_link: Pose) -> Link:
-        own = self.links[lump.name]
+        root_link = self.links[lump.name]
         visuals: list[Visual] = []
         collisions: list[Collision] = []
         for name, pose in lump.parts:
@@ -194,7 +194,7 @@ class _Lowering:
         linear_decay, angular_decay = self.tags.lumped_damping(lump)
         return Link(
             name=lump.name,
-            at=own.at,
+            at=root_link.at,
             model_from_link=root_from_link,
             inertial=self._inertial(lump),
             visuals=tuple(visuals),
@@ -214,8 +214,8 @@ class _Lowering:
         )
 
     def _inertial(self, lump: Lump) -> Inertial:
-        own = self.links[lump.name].inertial
-        orientation = None if own is None or own.mass <= 0 else own.link_from_com.quaternion
+        inertial = self.links[lump.name].inertial
+        orientation = None if inertial is None or inertial.mass <= 0 else inertial.link_from_com.quaternion
         return lumped_inertial(self._inertials(lump), orientation or IDENTITY_QUATERNION)
 
     def _visuals(self, lump: str, part: RobotLink, pose: Pose, gazebo: Material | None, first: int) -> list[Visual]:
@@ -231,8 +231,8 @@ class _Lowering:
             )
             visuals.append(self.tags.with_appearance(visual, part.name))
             if gazebo is None and (shape.rgba is not None or shape.texture):
-                what = "textures" if shape.texture else "colours"
-                self.report.info(shape.at, f"Gazebo draws URDF {what} grey; Trundle keeps them")
+                kind = "textures" if shape.texture else "colors"
+                self.report.info(shape.at, f"Gazebo draws URDF {kind} grey; Trundle keeps them")
         return visuals
 
     def _collisions(self, lump: str, part: RobotLink, pose: Pose, first: int) -> list[Collision]:
@@ -264,15 +264,15 @@ class _Lowering:
     def _material(self, shape: RobotShape) -> Material:
         texture = self._path(shape.texture, shape, "texture") if shape.texture else None
         if shape.rgba is None and texture is None:
-            return GREY  # a mesh then has its own colours
+            return GREY  # a mesh then keeps its own colors
         r, g, b, _ = shape.rgba or (1.0, 1.0, 1.0, 1.0)
         return Material(ambient=(r, g, b, 1.0), diffuse=(r, g, b, 1.0), texture=texture)
 
-    def _path(self, uri: str, shape: RobotShape, what: str = "mesh") -> Path | None:
+    def _path(self, uri: str, shape: RobotShape, kind: str = "mesh") -> Path | None:
         try:
             return self.context.packages.resolve(uri, beside=self.context.folder, at=shape.at)
         except DescriptionError as error:
-            self.report.warn(error.at, f"{error.what}; the {what} is left out")
+            self.report.warn(error.at, f"{error.what}; the {kind} is left out")
             return None
 
     def _joint(
@@ -289,7 +289,7 @@ class _Lowering:
         type_ = _TYPES[joint.type]
         axis = None if type_ is JointType.FIXED else self._axis(joint, poses[joint.child])
         if axis is not None and type_ is not JointType.PLANAR:
-            axis = replace(axis, mimic=followers.get(joint.name, _own_mimic(joint)))
+            axis = replace(axis, mimic=followers.get(joint.name, _mimic(joint)))
         return Joint(
             name=joint.name,
             type=type_,
@@ -306,8 +306,8 @@ class _Lowering:
         lower = limit.lower if limit is not None and bounded and limit.lower > -UNLIMITED else -math.inf
         upper = limit.upper if limit is not None and bounded and limit.upper < UNLIMITED else math.inf
         if lower > upper:
-            what = f"joint {joint.name!r}: lower {lower:g} is above upper {upper:g}; swapped, as in Gazebo"
-            self.report.warn(joint.at, what)
+            message = f"joint {joint.name!r}: lower {lower:g} is above upper {upper:g}; swapped, as in Gazebo"
+            self.report.warn(joint.at, message)
             lower, upper = upper, lower
         return JointAxis(
             direction=root_from_joint.transform_vector(normalized(joint.axis) or (1.0, 0.0, 0.0)),
@@ -327,6 +327,6 @@ def _bound(value: float) -> float:
     return math.inf if value < 0 or value >= UNLIMITED else value
 
 
-def _own_mimic(joint: RobotJoint) -> Mimic | None:
+def _mimic(joint: RobotJoint) -> Mimic | None:
     leader = joint.mimic
     return None if leader is None else Mimic(joint=leader.joint, multiplier=leader.multiplier, offset=leader.offset)

@@ -15,29 +15,29 @@ WORLD = "world"
 
 @dataclass(slots=True)
 class Lump:
-    """Link and everything rigidly fixed to it."""
+    """Link and all links rigidly fixed to it."""
 
     name: str
     parts: list[tuple[str, Pose]] = field(default_factory=list[tuple[str, Pose]])
     """(link, lump_from_link), starting with the lump's own link."""
 
 
-def lump_links(robot: Robot, kept: frozenset[str]) -> dict[str, Lump]:
+def lump_links(robot: Robot, preserved: frozenset[str]) -> dict[str, Lump]:
     """Return every lump by the name of its first link.
 
     The parts of a lump are in sdformat's order, by which their shapes are numbered: each link before those fixed to it,
     which are sorted by the names of their joints (urdfdom's initTree, sdformat's ReduceFixedJoints).
 
     Args:
-        robot: as written.
-        kept: fixed joints that stay joints, by their <gazebo> blocks.
+        robot: URDF tree.
+        preserved: fixed joints that their <gazebo> blocks preserve.
     """
-    holders = [j for j in robot.joints if j.type == "fixed" and j.name not in kept and j.parent != WORLD]
-    held = {joint.child for joint in holders}
+    lumped_joints = [j for j in robot.joints if j.type == "fixed" and j.name not in preserved and j.parent != WORLD]
+    lumped = {joint.child for joint in lumped_joints}
     fixed_to: dict[str, list[RobotJoint]] = {}
-    for joint in sorted(holders, key=lambda joint: joint.name, reverse=True):
+    for joint in sorted(lumped_joints, key=lambda joint: joint.name, reverse=True):
         fixed_to.setdefault(joint.parent, []).append(joint)
-    lumps = {link.name: Lump(link.name) for link in robot.links if link.name not in held}
+    lumps = {link.name: Lump(link.name) for link in robot.links if link.name not in lumped}
     for lump in lumps.values():
         pending = [(lump.name, Pose())]
         while pending:
@@ -50,15 +50,15 @@ def lump_links(robot: Robot, kept: frozenset[str]) -> dict[str, Lump]:
 def follow_lumps(plugin: XmlNode, lumps: Iterable[Lump]) -> None:
     """Replace lumped links in a plugin's <bodyName> and <frameName> by their lump, with an offset.
 
-    As sdformat's conversion does (ReduceSDFExtensionPluginFrameReplace), so that plugins find their link; other names,
-    such as <robotBaseFrame>, which is a tf frame, stay.
+    sdformat's conversion does the same (ReduceSDFExtensionPluginFrameReplace); other names stay, such as
+    <robotBaseFrame>, which is a tf frame.
     """
-    places = {link: (lump.name, pose) for lump in lumps for link, pose in lump.parts[1:]}
+    lump_from_link = {link: (lump.name, pose) for lump in lumps for link, pose in lump.parts[1:]}
     for tag in ("bodyName", "frameName"):
-        found = plugin.find(tag)
-        if found is None or found.text not in places:
+        element = plugin.find(tag)
+        if element is None or element.text not in lump_from_link:
             continue
-        name, pose = places[found.text]
+        name, pose = lump_from_link[element.text]
         if tag == "bodyName":
             offsets = [plugin.vector(offset, default=ZERO) for offset in ("xyzOffset", "rpyOffset")]
             moved = pose @ Pose.from_rpy(*offsets[0], *offsets[1])
@@ -71,8 +71,8 @@ def lumped_inertial(parts: list[tuple[RobotInertial, Pose]], orientation: Quater
     """Return the combined mass properties of several bodies, by the parallel axis theorem.
 
     Args:
-        parts: each with lump_from_link.
-        orientation: of the result's axes, in the lump's frame.
+        parts: (inertial, lump_from_link) of each body.
+        orientation: axes of the result in the lump's frame.
     """
     coms = [(part, pose @ part.link_from_com) for part, pose in parts]
     bodies = [

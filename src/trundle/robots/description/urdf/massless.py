@@ -1,7 +1,7 @@
 """Massless links, which Gazebo's conversion drops together with their subtree.
 
-A lumped massless link counts, too: sdformat stops there on its way down the tree (parser_urdf.cc, CreateSDF), so an arm
-on a mount without <inertial> is lost although the mount's own shapes are part of the body above.
+A lumped massless link counts too: sdformat's traversal of the tree stops at it (parser_urdf.cc, CreateSDF), so an arm
+on a mount without <inertial> is lost, although the mount's own shapes are part of its parent's body.
 """
 
 from collections.abc import Mapping
@@ -22,26 +22,26 @@ def massless_lumps(robot: Robot, lumps: Mapping[str, Lump], report: Diagnostics)
     for link in robot.links:
         if link.name == WORLD or link.name in dropped or tree.mass[link.name] > _NO_MASS:
             continue
-        gone = [name for name in tree.subtree(link.name) if name not in dropped]
-        dropped.update(gone)
-        if gone:
-            report.warn(link.at, _sentence(link, tree.mass[link.name], gone))
+        newly_dropped = [name for name in tree.subtree(link.name) if name not in dropped]
+        dropped.update(newly_dropped)
+        if newly_dropped:
+            report.warn(link.at, _sentence(link, tree.mass[link.name], newly_dropped))
     return dropped
 
 
-def _sentence(link: RobotLink, mass: float, gone: list[str]) -> str:
-    who = f"link {link.name!r}"
+def _sentence(link: RobotLink, mass: float, dropped: list[str]) -> str:
+    subject = f"link {link.name!r}"
     if mass > 0.0:
-        who += f" weighs {mass:g} kg, which Gazebo rounds to zero: "
+        subject += f" weighs {mass:g} kg, which Gazebo rounds to zero: "
     elif mass < 0.0:
-        who += f" weighs {mass:g} kg; "
+        subject += f" weighs {mass:g} kg; "
     else:
-        who += " has no mass; as in Gazebo "
-    below = ", ".join(repr(name) for name in gone if name != link.name)
-    if gone[0] == link.name:
-        with_it = f" with {below} below it" if below else ""
-        return f"{who}it is left out of the simulation{with_it}; give it an <inertial>"
-    return f"{who}its subtree is left out of the simulation: {below}; give it an <inertial>"
+        subject += " has no mass; as in Gazebo "
+    below = ", ".join(repr(name) for name in dropped if name != link.name)
+    if dropped[0] == link.name:
+        subtree = f" with {below} below it" if below else ""
+        return f"{subject}it is left out of the simulation{subtree}; give it an <inertial>"
+    return f"{subject}its subtree is left out of the simulation: {below}; give it an <inertial>"
 
 
 class _Tree:
@@ -49,27 +49,27 @@ class _Tree:
 
     def __init__(self, robot: Robot, lumps: Mapping[str, Lump]) -> None:
         self._lump_of = {link: lump.name for lump in lumps.values() for link, _ in lump.parts}
-        self._below: dict[str, list[str]] = {}
+        self._children: dict[str, list[str]] = {}
         for joint in robot.joints:
-            self._below.setdefault(joint.parent, []).append(joint.child)
+            self._children.setdefault(joint.parent, []).append(joint.child)
         self.mass = {link.name: 0.0 if link.inertial is None else link.inertial.mass for link in robot.links}
-        """Mass of each link with all that is lumped into it [kg]."""
+        """Mass of each link and the links lumped into it [kg]."""
         order = [robot.root]
         for name in order:
-            order += self._below.get(name, [])
+            order += self._children.get(name, [])
         for name in reversed(order):
-            self.mass[name] += sum(self.mass[each] for each in self._lumped(name))
+            self.mass[name] += sum(self.mass[child] for child in self._lumped(name))
 
     def _lumped(self, link: str) -> list[str]:
         lump = self._lump_of[link]
-        return [child for child in self._below.get(link, []) if self._lump_of[child] == lump]
+        return [child for child in self._children.get(link, []) if self._lump_of[child] == lump]
 
     def subtree(self, link: str) -> list[str]:
-        """Return the lumps at and below a link, itself first if it is one."""
-        pending, found = [link], list[str]()
+        """Return the lumps in a link's subtree, starting with the link if it is one."""
+        pending, subtree_lumps = [link], list[str]()
         while pending:
             name = pending.pop(0)
             if self._lump_of[name] == name:
-                found.append(name)
-            pending += self._below.get(name, [])
-        return found
+                subtree_lumps.append(name)
+            pending += self._children.get(name, [])
+        return subtree_lumps

@@ -1,4 +1,4 @@
-"""XML elements for writing, with numbers in the fewest digits that read back the same."""
+"""XML elements for writing, with numbers in the fewest digits that read back exactly."""
 
 import math
 from collections.abc import Iterable, Mapping
@@ -7,8 +7,8 @@ from html import escape
 
 from trundle.spatial import Pose
 
-_NOTHING = 1e-14
-"""Rounding error of an identity pose."""
+_POSE_TOLERANCE = 1e-14
+"""Maximum coordinate of a pose that counts as the identity, up to rounding."""
 Value = str | float | bool | Iterable[float] | None
 
 
@@ -45,7 +45,7 @@ class Tag:
         """Append <pose>, unless it is the identity."""
         attributes = {} if relative_to is None else {"relative_to": relative_to}
         numbers = pose.as_list()
-        if max(map(abs, numbers)) < _NOTHING and not attributes:
+        if max(map(abs, numbers)) < _POSE_TOLERANCE and not attributes:
             return
         self.children.append(Tag("pose", attributes, format_value(numbers)))
 
@@ -92,5 +92,5 @@ def _number(value: float) -> str:
 
 
 def _quoted(text: str) -> str:
-    """Return an attribute's text, with white space escaped that would be read back as blanks."""
+    """Return an attribute's text with tabs and line ends escaped, which a parser would read as spaces."""
     return escape(text).replace("\n", "&#10;").replace("\r", "&#13;").replace("\t", "&#9;")

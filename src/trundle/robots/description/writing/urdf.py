@@ -1,6 +1,6 @@
-"""Writer of one model as URDF, whose link frames are at their joints.
+"""Writer of a model as URDF, in which link frames are at their joints.
 
-SDF's link frames are arbitrary; the contents of a link are moved along, so that everything stays in place.
+SDF's link frames are arbitrary; the contents of each link are transformed to URDF's frame.
 """
 
 import math
@@ -25,7 +25,7 @@ from trundle.robots.model import (
     Surface,
     Visual,
     model_from_joint,
-    with_plain_colour,
+    with_plain_color,
 )
 from trundle.spatial import Pose
 
@@ -60,12 +60,12 @@ def write_urdf(model: Model, *, uri_of: UriOf, report: Diagnostics) -> str:
     """Write a model without nested ones.
 
     Args:
-        model: as read, flattened.
+        model: flattened model.
         uri_of: URIs of meshes.
-        report: takes warnings of what URDF cannot express.
+        report: receives a warning for each part that URDF cannot express.
 
     Raises:
-        DescriptionError: it is not a tree of URDF's joints.
+        DescriptionError: the model is not a tree of URDF's joints.
     """
     return _Writer(model, uri_of, report).robot().document()
 
@@ -80,7 +80,7 @@ class _Writer:
         """Link → URDF's link frame in SDF's."""
 
     def robot(self) -> Tag:
-        """Return <robot>, with <gazebo> blocks for what URDF cannot express."""
+        """Return <robot>, with <gazebo> blocks for properties beyond URDF."""
         root = Tag("robot", {"name": self.model.name})
         if any(joint.parent == _WORLD for joint in self.model.joints):
             root.add("link", name=_WORLD)
@@ -88,38 +88,40 @@ class _Writer:
             self._add_link(root, link)
         for joint in self.model.joints:
             self._add_joint(root, joint)
-        own = Tag("gazebo")
-        own.add_unless("static", self.model.static, default=False)
-        own.add_unless("self_collide", self.model.self_collide, default=False)
-        own.children += [plugin.node.xml() for plugin in self.model.plugins]
-        if own.children:
-            root.children.append(own)
+        robot_tags = Tag("gazebo")
+        robot_tags.add_unless("static", self.model.static, default=False)
+        robot_tags.add_unless("self_collide", self.model.self_collide, default=False)
+        robot_tags.children += [plugin.node.xml() for plugin in self.model.plugins]
+        if robot_tags.children:
+            root.children.append(robot_tags)
         return root
 
     def _check(self) -> None:
         for joint in self.model.joints:
             if joint.type not in _TYPES:
-                what = f"joint {joint.name!r}: URDF has no {joint.type.value} joints; --to sdf has"
-                raise DescriptionError(joint.at, what)
+                message = f"joint {joint.name!r}: URDF has no {joint.type.value} joints; --to sdf has"
+                raise DescriptionError(joint.at, message)
             if joint.child == _WORLD:
                 raise DescriptionError(joint.at, f"joint {joint.name!r}: in a URDF the world cannot be a child")
-        held = Counter(joint.child for joint in self.model.joints)
-        twice = [name for name, count in held.items() if count > 1]
-        if twice:
-            raise DescriptionError(self.model.at, f"link {twice[0]!r} has {held[twice[0]]} parents; URDF is a tree")
-        roots = [link.name for link in self.model.links if link.name not in held]
+        parent_counts = Counter(joint.child for joint in self.model.joints)
+        shared = [name for name, count in parent_counts.items() if count > 1]
+        if shared:
+            raise DescriptionError(
+                self.model.at, f"link {shared[0]!r} has {parent_counts[shared[0]]} parents; URDF is a tree"
+            )
+        roots = [link.name for link in self.model.links if link.name not in parent_counts]
         if any(joint.parent == _WORLD for joint in self.model.joints):
             roots.append(_WORLD)
         if len(roots) != 1:
-            found = ", ".join(map(repr, roots)) or "none"
-            raise DescriptionError(self.model.at, f"a URDF has one root link; here: {found}")
+            names = ", ".join(map(repr, roots)) or "none"
+            raise DescriptionError(self.model.at, f"a URDF has one root link; here: {names}")
         parents = {joint.child: joint.parent for joint in self.model.joints}
         for link in self.model.links:
-            name, above = link.name, set[str]()
-            while name in parents and name not in above:
-                above.add(name)
+            name, ancestors = link.name, set[str]()
+            while name in parents and name not in ancestors:
+                ancestors.add(name)
                 name = parents[name]
-            if name in above:
+            if name in ancestors:
                 raise DescriptionError(link.at, f"link {link.name!r} is its own ancestor; URDF is a tree")
         if self.model.world_from_model != Pose():
             self.report.info(self.model.at, "a URDF has no pose in the world; the model's pose is left out")
@@ -137,7 +139,7 @@ class _Writer:
             shape = self._add_shape(tag, "visual", visual, frame_from_link @ visual.link_from_visual)
             if shape is not None and visual.material is not GREY:
                 material = shape.add("material", name=f"{link.name}_{visual.name}")
-                r, g, b, a = with_plain_colour(visual.material).diffuse
+                r, g, b, a = with_plain_color(visual.material).diffuse
                 material.add("color", rgba=format_value((r, g, b, a * (1.0 - visual.transparency))))
                 if visual.material.texture is not None:
                     material.add("texture", filename=self.uri_of(visual.material.texture, ""))
@@ -149,8 +151,8 @@ class _Writer:
         """Append <visual> or <collision>; None with a warning for an unsupported shape."""
         geometry = self._geometry(item.geometry)
         if geometry is None:
-            what = type(item.geometry).__name__.lower()
-            self.report.warn(item.at, f"{kind} {item.name!r}: URDF has no {what}; it is left out")
+            shape_kind = type(item.geometry).__name__.lower()
+            self.report.warn(item.at, f"{kind} {item.name!r}: URDF has no {shape_kind}; it is left out")
             return None
         shape = link.add(kind, name=item.name)
         _add_origin(shape, frame_from_shape)
@@ -234,10 +236,10 @@ class _Writer:
             root.children.append(extra)
 
     def _with_contacts(self, sensor: Sensor, link: Link) -> Sensor:
-        """Return a contact sensor that names its collisions as the conversion of the URDF will."""
+        """Return a contact sensor with the names that conversion of the URDF gives its collisions."""
         if not sensor.contact_collisions:
             return sensor
-        written = [each.name for each in link.collisions if self._geometry(each.geometry) is not None]
+        written = [collision.name for collision in link.collisions if self._geometry(collision.geometry) is not None]
         names = {name: shape_name(link.name, name, "collision", number) for number, name in enumerate(written)}
         return replace(sensor, contact_collisions=tuple(names.get(name, name) for name in sensor.contact_collisions))
 

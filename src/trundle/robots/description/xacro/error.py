@@ -1,4 +1,4 @@
-"""Conversion of the xacro package's errors to a sentence and a source position."""
+"""Conversion of the xacro package's errors to a message with a source position."""
 
 import contextlib
 import html
@@ -12,64 +12,64 @@ from trundle.base.files import read_text
 from .missing_packages import missing_package
 
 _REPEATED = r"<class '[\w.]+'>: (.*?) \1"
-"""Pattern of an error in $(…): the class and the message twice."""
+"""Pattern of an error in $(…), which repeats the message after the class."""
 _EXPRESSION = re.compile(r"\s*when evaluating expression '(.*)'\Z", re.DOTALL)
 _UNDEFINED = re.compile(r"name '\w+' is not defined\b")
-_LONGEST = 400
-"""Longest error message: it quotes the expression and all that contain it."""
-_LONGEST_NAME = 200
-"""Longest file name in a message."""
+_MAX_MESSAGE = 400
+"""Maximum length of a message, which quotes the expression and all that contain it."""
+_MAX_NAME = 200
+"""Maximum length of a file name in a message."""
 _MAX_BYTES = 4_000_000
-"""Largest file searched for the line of an error."""
+"""Maximum size of a file searched for the line of an error."""
 
 
 def description_error(error: Exception, at: Source, top: Path, files: Iterable[str]) -> DescriptionError:
     """Return the error with its position in a file.
 
     Args:
-        error: raised by the package; may wrap others.
-        at: the element that was expanded.
-        top: the file that was expanded.
-        files: every file read, one of which contains the expression.
+        error: exception of the package; may wrap others.
+        at: position of the element being expanded.
+        top: file to expand.
+        files: every file read; one of them contains the expression.
     """
     inner: object = error
     expression = None
-    what = ""
+    message = ""
     missing = missing_package(error)
     names = () if missing is None else (missing.name,)
     while inner is not None:
         if isinstance(inner, DescriptionError):  # refused within an expression
-            at, what, names = inner.at, inner.what, inner.missing_packages
+            at, message, names = inner.at, inner.what, inner.missing_packages
         elif isinstance(inner, OSError):
-            what = _why_unreadable(inner)
-        elif found := _EXPRESSION.match(str(getattr(inner, "suffix", ""))):
-            expression = found[1]
+            message = _why_unreadable(inner)
+        elif match := _EXPRESSION.match(str(getattr(inner, "suffix", ""))):
+            expression = match[1]
         inner = getattr(inner, "exc", None)
-    what = what or re.sub(_REPEATED, r"\1", " ".join(str(error).split())) or type(error).__name__
-    what = what if len(what) <= _LONGEST else f"{what[:_LONGEST]} …"
-    place = None if expression is None else _find_place(f"${{{expression}}}", {at.file, *files})
-    place = place or at
-    if _UNDEFINED.match(what) and place.file == str(top):
-        what = f"{what}; is the file a part to include, not a robot? what includes it defines the name"
-    return DescriptionError(place, what, missing_packages=names)
+    message = message or re.sub(_REPEATED, r"\1", " ".join(str(error).split())) or type(error).__name__
+    message = message if len(message) <= _MAX_MESSAGE else f"{message[:_MAX_MESSAGE]} …"
+    source = None if expression is None else _find_text(f"${{{expression}}}", {at.file, *files})
+    source = source or at
+    if _UNDEFINED.match(message) and source.file == str(top):
+        message = f"{message}; is the file a part to include, not a robot? what includes it defines the name"
+    return DescriptionError(source, message, missing_packages=names)
 
 
 def _why_unreadable(error: OSError) -> str:
     name = str(error.filename)
-    name = name if len(name) <= _LONGEST_NAME else f"{name[:_LONGEST_NAME]}…"
+    name = name if len(name) <= _MAX_NAME else f"{name[:_MAX_NAME]}…"
     return f"no such file {name!r}" if isinstance(error, FileNotFoundError) else f"{name}: {error.strerror}"
 
 
-def _find_place(text: str, files: Iterable[str]) -> Source | None:
+def _find_text(text: str, files: Iterable[str]) -> Source | None:
     """Return the position of a text if it occurs exactly once."""
-    places: list[Source] = []
+    sources: list[Source] = []
     for name in files:
         with contextlib.suppress(OSError):
-            written = html.unescape(read_text(name, max_bytes=_MAX_BYTES))
-            places += [Source(name, written.count("\n", 0, found) + 1) for found in _all(text, written)]
-    return places[0] if len(places) == 1 else None
+            content = html.unescape(read_text(name, max_bytes=_MAX_BYTES))
+            sources += [Source(name, content.count("\n", 0, index) + 1) for index in _all(text, content)]
+    return sources[0] if len(sources) == 1 else None
 
 
-def _all(text: str, written: str) -> list[int]:
-    first = written.find(text)
-    return [] if first < 0 else [first] if written.find(text, first + 1) < 0 else [first, first]
+def _all(text: str, content: str) -> list[int]:
+    first = content.find(text)
+    return [] if first < 0 else [first] if content.find(text, first + 1) < 0 else [first, first]

@@ -23,7 +23,7 @@ from trundle.base.files import read_file
 from trundle.base.xmlnode import ReadBudget, ReadBudgetError
 from trundle.robots.packages import Packages, refuse_ros2_language
 
-from ..xacro_places import Cursor, parse_with_lines, place_of
+from ..xacro_sources import Cursor, parse_with_lines, source_of
 from .dom import replace_node
 from .missing_packages import MissingPackageError, skip_missing_packages
 from .symbols import SubstitutedNames, install_symbols, new_interpreter
@@ -43,7 +43,7 @@ class _CommandLine(ModuleType):
 
 
 def _import_xacro() -> tuple[Any, Any]:
-    stand_ins = {each.__name__: each for each in (_Yaml("yaml"), _CommandLine("xacro.cli"))}
+    stand_ins = {module.__name__: module for module in (_Yaml("yaml"), _CommandLine("xacro.cli"))}
     absent = stand_ins.keys() - sys.modules.keys()
     sys.modules.update({name: stand_ins[name] for name in absent})
     try:
@@ -72,15 +72,15 @@ substitution_args._collect_args = _collect_args_for(substitution_args._collect_a
 
 
 _MAX_ELEMENTS = 50_000
-"""Most elements after expansion; the largest published file makes 45,667, the PR2 3,000."""
+"""Maximum elements after expansion; the largest published file has 45,667, the PR2 3,000."""
 _CPU_S = 10.0
-"""Processor time, more than other formats have: macros make much of little, as in one file published that takes 3 s."""
+"""Processor time; more than for other formats, as a small file may expand to a large one: one published takes 3 s."""
 _NODES_OF_A_CALL = 10
-"""Elements that take as long as a call of a macro."""
-_LONG = 200
-"""Length from which a text counts against the memory budget each time it is inserted."""
+"""Elements that count for a macro call in the reading budget."""
+_LONG_TEXT = 200
+"""Length above which a text counts against the memory budget at each insertion."""
 _LOCK = threading.Lock()
-"""Lock, because the package keeps its state in module globals."""
+"""Lock of the package's state, which it keeps in module globals."""
 _CORE = {
     "include": "filename",
     "property": "name",
@@ -112,15 +112,15 @@ def expand_xacro(
     """Expand a file; return the XML text.
 
     Args:
-        path: the top file.
+        path: top file.
         arguments: `name:=value` of the command line.
         packages: resolves `$(find …)`.
-        report: takes rewrites and xacro's warnings.
-        data: contents of the top file if it is a pipe; relative paths then start beside `path`.
-        needs_all: an argument that the file does not have is an error; xacro itself ignores it.
+        report: receives notes of rewrites and xacro's warnings.
+        data: contents of the top file if it is a pipe; relative paths then start in `path`'s folder.
+        needs_all: raise an error for an argument that the file does not have; xacro itself ignores it.
 
     Raises:
-        DescriptionError: it cannot be expanded; the message is xacro's, with its file.
+        DescriptionError: the file cannot be expanded; the message is xacro's, with its source.
     """
     if data is None:
         if not os.path.exists(path):
@@ -152,10 +152,10 @@ def expand_xacro(
 
 
 class _Arguments(dict[str, str]):
-    """Arguments of a file, which notes those that it declares or uses."""
+    """Arguments of a file; records which ones the file declares or uses."""
 
-    def __init__(self, given: Mapping[str, str]) -> None:
-        super().__init__(given)
+    def __init__(self, arguments: Mapping[str, str]) -> None:
+        super().__init__(arguments)
         self._used: set[str] = set()
 
     def __contains__(self, name: object) -> bool:
@@ -166,18 +166,18 @@ class _Arguments(dict[str, str]):
         self._used.add(name)
         return super().__getitem__(name)
 
-    def check_used(self, given: Mapping[str, str], path: Path) -> None:
+    def check_used(self, arguments: Mapping[str, str], path: Path) -> None:
         """Raise an error for an argument that the file does not have."""
-        if unknown := sorted(set(given) - self._used):
-            there = ", ".join(repr(name) for name in sorted(self._used)) or "none"
-            near = nearest(unknown[0], self._used) if len(self._used) > 1 else None
-            said = f"; the nearest is {near!r}" if near else ""
-            what = f"no argument {unknown[0]!r}{said}; arguments here: {there}"
-            raise UnknownArgumentError(Source(str(path)), what, name=unknown[0])
+        if unknown := sorted(set(arguments) - self._used):
+            names = ", ".join(repr(name) for name in sorted(self._used)) or "none"
+            suggestion = nearest(unknown[0], self._used) if len(self._used) > 1 else None
+            hint = f"; the nearest is {suggestion!r}" if suggestion else ""
+            message = f"no argument {unknown[0]!r}{hint}; arguments here: {names}"
+            raise UnknownArgumentError(Source(str(path)), message, name=unknown[0])
 
 
 def _set_commands(functions: Mapping[str, Callable[..., str]]) -> None:
-    """Set what the package calls for $(find …), $(env …) and the like, in attributes and in $(eval …)."""
+    """Set the package's functions for $(find …), $(env …), …, in attributes and in $(eval …)."""
     for command, function in functions.items():
         setattr(substitution_args, f"_eval_{command}", function)
         substitution_args._eval_dict[command] = function
@@ -188,16 +188,16 @@ def _patched(
     packages: Packages, report: Diagnostics, path: Path, data: bytes, cursor: Cursor, budget: ReadBudget
 ) -> Generator[None]:
     """Replace functions of the official package while one file is expanded."""
-    stood_in: set[str] = set()
+    warned: set[str] = set()
 
     def find(name: str) -> str:
         folder = packages.find_folder(name)
         if folder is None:
             raise MissingPackageError(name, f"$(find {name}): {packages.why_not_found(name)}")
-        if packages.stand_in_package(folder) is not None and name not in stood_in:
-            stood_in.add(name)
-            what = f"no package {name!r}: a stand-in of boxes is used; put the original on ROS_PACKAGE_PATH"
-            report.warn(cursor.at, what)
+        if packages.stand_in_package(folder) is not None and name not in warned:
+            warned.add(name)
+            message = f"no package {name!r}: a stand-in of boxes is used; put the original on ROS_PACKAGE_PATH"
+            report.warn(cursor.at, message)
         return str(folder)
 
     def warn(*words: object) -> None:
@@ -228,18 +228,18 @@ def _patched(
         "parse", "eval_all", "handle_macro_call", "reqd_attrs", "warning", "print_location", "safe_eval", "eval_text",
         "process_doc", "process_include", "get_include_files", "replace_node",
     )  # fmt: skip
-    kept = {name: getattr(package, name) for name in names}
+    originals = {name: getattr(package, name) for name in names}
     replaced = {"find": find, "env": env, "optenv": optenv}
-    own = {command: getattr(arguments, f"_eval_{command}") for command in replaced}
-    package.parse = _parse_for(kept["parse"], packages, report, {str(path): data}, cursor, budget)
-    package.eval_all = _eval_all_for(kept["eval_all"], cursor, budget)
-    package.handle_macro_call = _call_for(kept["handle_macro_call"], report, cursor, budget)
+    commands = {command: getattr(arguments, f"_eval_{command}") for command in replaced}
+    package.parse = _parse_for(originals["parse"], packages, report, {str(path): data}, cursor, budget)
+    package.eval_all = _eval_all_for(originals["eval_all"], cursor, budget)
+    package.handle_macro_call = _call_for(originals["handle_macro_call"], report, cursor, budget)
     if packages.is_lenient:
         skip_missing_packages(package, packages, report)
     cursor.follow(package)
     package.replace_node = replace_node
     package.safe_eval = interpreter.evaluate
-    package.eval_text = _eval_text_for(kept["eval_text"], interpreter.budget)
+    package.eval_text = _eval_text_for(originals["eval_text"], interpreter.budget)
     package.warning = warn
     package.open = open_readable  # shadows the builtin, with which its load_yaml would open any file
     package.print_location = lambda: None  # it prints to stderr at a warning; the cursor has the position
@@ -249,22 +249,22 @@ def _patched(
     try:
         yield
     finally:
-        for name, function in kept.items():
+        for name, function in originals.items():
             setattr(package, name, function)
-        _set_commands(own)
+        _set_commands(commands)
         del arguments.eval
         package.filestack = package.macrostack = None
         del package.open
 
 
 def _eval_text_for(original: Callable[..., object], budget: Budget) -> Callable[..., object]:
-    """Skip the package's lexer, which costs as much as all the rest, for text without `$`."""
+    """Skip the package's lexer, half of the total time, for text without `$`."""
 
     def eval_text(text: str, symbols: object) -> object:
-        found = original(text, symbols) if "$" in text else text
-        if isinstance(found, str) and len(found) > _LONG:
-            budget.allocate(len(found))  # a thousand elements may contain it, and the output repeats it
-        return found
+        result = original(text, symbols) if "$" in text else text
+        if isinstance(result, str) and len(result) > _LONG_TEXT:
+            budget.allocate(len(result))  # a thousand elements may contain it, and the output repeats it
+        return result
 
     return eval_text
 
@@ -273,19 +273,19 @@ def _parse_for(
     original: Callable[..., Any],
     packages: Packages,
     report: Diagnostics,
-    known: Mapping[str, bytes],
+    contents: Mapping[str, bytes],
     cursor: Cursor,
     budget: ReadBudget,
 ) -> Callable[..., Any]:
-    """Return a parser with our checks; contents of `known` files are given by name."""
+    """Return a parser with our checks; `contents` maps file names to contents that need no reading."""
 
     def parse(inp: object, filename: str | None = None) -> Any:
         if filename is None:
             return original(inp, filename)
-        if filename not in known:
+        if filename not in contents:
             packages.check_readable(Path(filename), cursor.at, name="xacro:include")
             _expect_stand_in(Path(filename), packages, cursor.at)
-        data = known[filename] if filename in known else _data(filename)
+        data = contents[filename] if filename in contents else _data(filename)
         budget.add_file(filename, len(data), cursor.at)
         document = _parsed(data, filename, report, budget)
         if any(start in data for start in _BARE):
@@ -307,19 +307,19 @@ def _parsed(data: bytes, filename: str, report: Diagnostics, budget: ReadBudget)
         from trundle.base.xmlnode import parse_xml  # slow to load, and most files are well-formed
 
         parse_xml(data, name=filename)  # raises with a sentence
-        what = f"not well-formed XML: {ErrorString(error.code)}"
-        raise DescriptionError(Source(filename, error.lineno), what) from None
+        message = f"not well-formed XML: {ErrorString(error.code)}"
+        raise DescriptionError(Source(filename, error.lineno), message) from None
 
 
 def _expect_stand_in(file: Path, packages: Packages, at: Source) -> None:
     package = packages.absent_package(file)
     if package is not None:
-        what = f"{packages.why_not_found(package)}; its stand-in has no {file.name}"
-        raise DescriptionError(at, what, missing_packages=(package,))
+        message = f"{packages.why_not_found(package)}; its stand-in has no {file.name}"
+        raise DescriptionError(at, message, missing_packages=(package,))
 
 
 def _data(name: str) -> bytes:
-    """Return the contents of a referenced file; an include may be optional."""
+    """Return the contents of a referenced file; a missing one is xacro's error, as an include may be optional."""
     try:
         return read_file(name)
     except OSError as error:
@@ -335,22 +335,22 @@ def _prefix_core_tags(document: Any, report: Diagnostics) -> None:
             has_elements = any(child.nodeType == child.ELEMENT_NODE for child in element.childNodes)
             if not (tag == "include" and has_elements):
                 element.tagName = element.nodeName = f"xacro:{tag}"
-                rewritten.setdefault(tag, place_of(element))
+                rewritten.setdefault(tag, source_of(element))
     for tag, at in sorted(rewritten.items()):
         report.warn(at, f"<{tag}> without the prefix xacro: is Indigo's syntax; read as <xacro:{tag}>")
 
 
 def _drop_unnamed(document: Any, report: Diagnostics) -> None:
-    """Drop properties that no expression can reference; Indigo's xacro kept them, today's refuses the file."""
+    """Drop properties that no expression can reference; Indigo's xacro ignored them, today's refuses the file."""
     for element in document.getElementsByTagName("xacro:property"):
         name = str(element.getAttribute("name"))
         if element.hasAttribute("name") and not name.isidentifier():
             element.parentNode.removeChild(element)
-            report.warn(place_of(element), f"a property named {name!r} cannot be referenced; it is left out")
+            report.warn(source_of(element), f"a property named {name!r} cannot be referenced; it is left out")
 
 
 def _eval_all_for(original: Callable[..., None], cursor: Cursor, budget: ReadBudget) -> Callable[..., None]:
-    """Count every element, macro and block each time it is expanded."""
+    """Count every expansion of an element, macro or block."""
     elements = itertools.count()
 
     def eval_all(node: Any, macros: Any, symbols: Any) -> None:

@@ -1,4 +1,4 @@
-"""Handling of missing packages: their includes and macro calls are left out, with a warning each."""
+"""Handling of missing packages: their includes and macro calls are left out, each with a warning."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -7,7 +7,7 @@ from typing import Any
 from trundle.base.diagnostics import Diagnostics
 from trundle.robots.packages import Packages
 
-from ..xacro_places import place_of
+from ..xacro_sources import source_of
 
 _DYNAMIC_CALL = "xacro:call"
 
@@ -15,19 +15,19 @@ _DYNAMIC_CALL = "xacro:call"
 class MissingPackageError(LookupError):
     """`$(find …)` of a missing package."""
 
-    def __init__(self, name: str, what: str) -> None:
-        """State the error; `name` is the package's."""
+    def __init__(self, name: str, message: str) -> None:
+        """Create an error for the package `name`."""
         self.name = name
-        super().__init__(what)
+        super().__init__(message)
 
 
 def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics) -> None:
-    """Let the xacro package skip includes of missing packages, and then calls of unknown macros.
+    """Patch the xacro package to skip includes of missing packages, and then calls of unknown macros.
 
     Args:
         package: xacro's module; the caller restores its functions.
         packages: resolves packages.
-        report: takes a warning for each.
+        report: receives a warning for each.
     """
     process_include, get_include_files = package.process_include, package.get_include_files
     handle_macro_call, resolve_macro = package.handle_macro_call, package.resolve_macro
@@ -39,7 +39,7 @@ def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics)
         included.append(node)
         process_include(node, *rest)
 
-    def found_files(spec: str, symbols: Any) -> Iterator[str]:
+    def find_included_files(spec: str, symbols: Any) -> Iterator[str]:
         node = included.pop()
         try:
             files = list(get_include_files(spec, symbols))
@@ -48,12 +48,12 @@ def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics)
             if missing is None:
                 raise
             left_out.append(spec)
-            report.warn(place_of(node), f"{missing}; the include is left out")
+            report.warn(source_of(node), f"{missing}; the include is left out")
             return iter(())
         if files and packages.absent_package(Path(files[0])) is not None:
             left_out.append(spec)
             report.warn(
-                place_of(node),
+                source_of(node),
                 f"{spec}: no such package, and its stand-in has no such file; the include is left out",
             )
             return iter(())
@@ -68,11 +68,11 @@ def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics)
             return True
         return False
 
-    def call_known(node: Any, macros: Any, symbols: Any) -> bool:
+    def call_macro(node: Any, macros: Any, symbols: Any) -> bool:
         if not is_unknown(node, macros, symbols):
             return bool(handle_macro_call(node, macros, symbols))
         report.warn(
-            place_of(node),
+            source_of(node),
             f"no macro <{node.tagName}>: the call is left out; it may come from an include left out",
         )
         package.replace_node(node, by=None)
@@ -85,24 +85,24 @@ def skip_missing_packages(package: Any, packages: Packages, report: Diagnostics)
 
     package.process_doc = process_doc
     package.process_include = note_include
-    package.get_include_files = found_files
-    package.handle_macro_call = call_known
+    package.get_include_files = find_included_files
+    package.handle_macro_call = call_macro
 
 
 def _drop_loose(robot: Any, report: Diagnostics) -> None:
     """Remove joints to missing links, and the children of such links."""
     links = {link.getAttribute("name"): link for link in _children(robot, "link")}
     joints = [(joint, _end(joint, "parent"), _end(joint, "child")) for joint in _children(robot, "joint")]
-    loose = [each for each in joints if each[1] not in links or each[2] not in links]
+    loose = [joint_ends for joint_ends in joints if joint_ends[1] not in links or joint_ends[2] not in links]
     while loose:
         joint, parent, child = loose.pop()
-        joints = [each for each in joints if each[0] is not joint]
-        what = f"joint {joint.getAttribute('name')!r} is left out: no link"
-        report.warn(place_of(joint), f"{what} {(child if parent in links else parent)!r}")
+        joints = [joint_ends for joint_ends in joints if joint_ends[0] is not joint]
+        message = f"joint {joint.getAttribute('name')!r} is left out: no link"
+        report.warn(source_of(joint), f"{message} {(child if parent in links else parent)!r}")
         robot.removeChild(joint)
         if parent not in links and child in links:
             robot.removeChild(links.pop(child))
-            loose = [each for each in joints if each[1] not in links or each[2] not in links]
+            loose = [joint_ends for joint_ends in joints if joint_ends[1] not in links or joint_ends[2] not in links]
 
 
 def _children(node: Any, tag: str) -> list[Any]:
@@ -114,7 +114,7 @@ def _end(joint: Any, role: str) -> str:
 
 
 def missing_package(error: BaseException | None) -> MissingPackageError | None:
-    """Return the missing package that caused an error; None for another cause."""
+    """Return the missing package that caused an error; None if another cause."""
     while error is not None and not isinstance(error, MissingPackageError):
         error = getattr(error, "exc", None) or error.__context__
     return error

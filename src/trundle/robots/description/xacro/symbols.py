@@ -1,4 +1,4 @@
-"""xacro's global symbols, as functions for our interpreter."""
+"""xacro's global symbols as functions of our interpreter."""
 
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -13,7 +13,7 @@ _STEPS_OF_A_YAML_VALUE = 20
 
 
 def install_symbols(package: Any) -> None:
-    """Replace the package's functions for expressions, some of which have unlimited access."""
+    """Replace the package's functions for expressions, some of which have unrestricted access."""
 
     def dotify(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> Any:
         return package.YamlDictWrapper(caller.call(dict, values, named))
@@ -33,7 +33,7 @@ def install_symbols(package: Any) -> None:
             dict.__setitem__(functions, name, wrap_function(value, name))
     for name, space in _DEPRECATED.items():
         symbols[name] = Function(name, _deprecated(package, name, space, symbols[space][name]))
-    package.Table.__repr__ = package.Table.__str__ = _namespace_text  # otherwise the contents of it and its parents
+    package.Table.__repr__ = package.Table.__str__ = _namespace_text  # the package's own prints all contents
 
 
 def new_interpreter(package: Any) -> Interpreter:
@@ -105,7 +105,7 @@ def _yaml_reader(package: Any) -> Callable[[Caller, Sequence[Any], Mapping[str, 
 
 
 class SubstitutedNames:
-    """Names of a `$(eval …)`, with functions from the package; the original has every builtin."""
+    """Names in a `$(eval …)`, with functions from the package; the package itself allows every builtin."""
 
     def __init__(self, symbols: Any, others: Mapping[str, object]) -> None:
         self._symbols, self._others = symbols, others

@@ -155,7 +155,7 @@ def _corners(
 
 
 def _material(material: Any) -> _Material:
-    """Return the visible colour and the texture's path."""
+    """Return the visible color and the texture's path."""
     effect = getattr(material, "effect", None)
     if effect is None:
         return None, None

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 
 from trundle.base.diagnostics import Diagnostics
-from trundle.robots.meshes import Mesh, Texture, mean_colour
+from trundle.robots.meshes import Mesh, Texture, mean_color
 from trundle.robots.model import Box, Capsule, Cylinder, Ellipsoid, Plane, Rgba, Sphere, World, flattened
 from trundle.spatial import Pose, rotation_from_z
 
@@ -182,7 +182,7 @@ class _VisualWriter:
 
     def _material(self, shape: "Shape") -> str:
         rgba, picture = shape.rgba, self._picture(shape)
-        mean = None if shape.texture is None or picture is not None else mean_colour(shape.texture)
+        mean = None if shape.texture is None or picture is not None else mean_color(shape.texture)
         if mean is not None:
             r, g, b, a = (value * by for value, by in zip(rgba, mean, strict=True))
             rgba = (r, g, b, a)

@@ -5,7 +5,7 @@ from trundle.spatial import ZERO
 
 from ..tag import Tag
 
-_PLACE = ("surface_model", "world_frame_orientation", "latitude_deg", "longitude_deg", "elevation", "heading_deg")
+_SPHERICAL = ("surface_model", "world_frame_orientation", "latitude_deg", "longitude_deg", "elevation", "heading_deg")
 
 
 def add_light(home: Tag, light: Light) -> None:
@@ -44,17 +44,9 @@ def add_environment(home: Tag, world: World) -> None:
         for name in ("temperature", "temperature_gradient", "pressure"):
             air.add(name, getattr(world.atmosphere, name))
     if world.spherical_coordinates != SphericalCoordinates():
-        place = home.add("spherical_coordinates")
-        names = (
-            "surface_model",
-            "world_frame_orientation",
-            "latitude_deg",
-            "longitude_deg",
-            "elevation",
-            "heading_deg",
-        )
-        for name in names:
-            place.add(name, getattr(world.spherical_coordinates, name))
+        coordinates = home.add("spherical_coordinates")
+        for name in _SPHERICAL:
+            coordinates.add(name, getattr(world.spherical_coordinates, name))
     _add_scene(home.add("scene"), world.scene)
 
 
@@ -69,7 +61,7 @@ def _add_scene(tag: Tag, scene: SceneSettings) -> None:
     if scene.fog != Fog():
         fog = tag.add("fog")
         fog.add("type", scene.fog.type)
-        fog.add("color", scene.fog.colour)
+        fog.add("color", scene.fog.color)
         fog.add("start", scene.fog.start_m)
         fog.add("end", scene.fog.end_m)
         fog.add("density", scene.fog.density)

@@ -12,7 +12,7 @@ _WITHOUT = frozenset({"rfid", "rfidtag"})
 
 
 def add_sensor(home: Tag, sensor: Sensor, report: Diagnostics) -> None:
-    """Append <sensor>; settings that the model does not hold give a warning."""
+    """Append <sensor>; warn of settings that the model does not hold."""
     tag = home.add("sensor", name=sensor.name, type=sensor.type)
     tag.add_pose(sensor.link_from_sensor)
     tag.add_unless("update_rate", sensor.update_rate_hz, default=0.0)

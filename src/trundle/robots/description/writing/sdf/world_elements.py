@@ -26,18 +26,20 @@ def add_actor(home: Tag, actor: Actor, uri_of: UriOf) -> Tag:
         skin.add("filename", uri_of(actor.skin.path, actor.skin.uri))
         skin.add("scale", actor.skin.scale)
     for animation in actor.animations:
-        moves = tag.add("animation", name=animation.name)
-        moves.add("filename", uri_of(animation.path, animation.uri))
-        moves.add("scale", animation.scale)
-        moves.add("interpolate_x", animation.interpolate_x)
+        animation_tag = tag.add("animation", name=animation.name)
+        animation_tag.add("filename", uri_of(animation.path, animation.uri))
+        animation_tag.add("scale", animation.scale)
+        animation_tag.add("interpolate_x", animation.interpolate_x)
     script = tag.add("script")
     script.add("loop", actor.loop)
     script.add("delay_start", actor.delay_start_s)
     script.add("auto_start", actor.auto_start)
     for trajectory in actor.trajectories:
-        way = script.add("trajectory", id=str(trajectory.id), type=trajectory.type, tension=repr(trajectory.tension))
+        trajectory_tag = script.add(
+            "trajectory", id=str(trajectory.id), type=trajectory.type, tension=repr(trajectory.tension)
+        )
         for point in trajectory.waypoints:
-            waypoint = way.add("waypoint")
+            waypoint = trajectory_tag.add("waypoint")
             waypoint.add("time", point.time_s)
             waypoint.add_pose(point.pose)
     return tag

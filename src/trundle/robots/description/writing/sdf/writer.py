@@ -24,10 +24,10 @@ def write_sdf(world: World, *, is_world: bool, uri_of: UriOf, report: Diagnostic
     """Write a world, or the models and lights alone.
 
     Args:
-        world: as read.
+        world: world to write.
         is_world: write <world>, not only its contents.
         uri_of: URIs of meshes, terrains and textures.
-        report: takes warnings of what the model does not hold.
+        report: receives warnings of settings that the model does not hold.
     """
     scoped = any(_has_scoped_names(model) for model in world.models)
     root = Tag("sdf", {"version": _SCOPED_NAMES if scoped else _VERSION})
@@ -75,10 +75,10 @@ class _Writer:
             self.add_model(tag, nested)
         for frame in model.frames:
             _add_frame(tag, frame, "__model__")
-        taken = {link.name for link in model.links}
+        link_names = {link.name for link in model.links}
         for joint in model.joints:
             # Before SDF 1.7 a joint could have a link's name.
-            name = f"{joint.name}_joint" if joint.name in taken else joint.name
+            name = f"{joint.name}_joint" if joint.name in link_names else joint.name
             self.add_joint(tag, joint, name, model, "__model__")
         tag.children += [plugin.node.xml() for plugin in model.plugins]
 
@@ -127,9 +127,9 @@ class _Writer:
 
         Args:
             home: element of the model or world.
-            joint: to write.
-            name: to write it with.
-            model: with its links.
+            joint: joint to write.
+            name: name in the file.
+            model: model with its links.
             root: frame of `home`.
         """
         if joint.type is JointType.PLANAR:
@@ -183,5 +183,5 @@ def _add_axis(tag: Tag, axis: JointAxis, root: str) -> None:
 
 
 def _has_scoped_names(model: Model) -> bool:
-    names = (each.name for group in (model.links, model.joints, model.frames, model.models) for each in group)
+    names = (part.name for group in (model.links, model.joints, model.frames, model.models) for part in group)
     return any("::" in name for name in names) or any(map(_has_scoped_names, model.models))

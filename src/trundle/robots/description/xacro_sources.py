@@ -10,14 +10,14 @@ from trundle.base.xmlnode import ReadBudget
 _AT = "at"
 
 
-class _Kept:
+class _SourceCopier:
     """Copies an element's position to its clones, and counts them."""
 
     def __init__(self, budget: ReadBudget) -> None:
         self._budget = budget
 
     def handle(self, operation: int, key: str, data: Any, src: Any, dst: Any) -> None:
-        """See the DOM's UserDataHandler; there is no target when an element is deleted."""
+        """Implement the DOM's UserDataHandler; `dst` is None when an element is deleted."""
         del operation
         if dst is not None:
             dst.setUserData(key, data, self)
@@ -29,7 +29,7 @@ class _SourceBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
 
     def __init__(self, file: str, first_line: int, budget: ReadBudget) -> None:
         super().__init__()
-        self._budget, self._kept = budget, _Kept(budget)
+        self._budget, self._copier = budget, _SourceCopier(budget)
         self._file = file
         self._first_line = first_line
 
@@ -37,7 +37,7 @@ class _SourceBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
         super().start_element_handler(name, attributes)
         line = self.getParser().CurrentLineNumber + self._first_line
         at = Source(self._file, line)
-        self.curNode.setUserData(_AT, at, self._kept)
+        self.curNode.setUserData(_AT, at, self._copier)
         self._budget.add_nodes(1 + len(attributes) // 2, at)
 
     def comment_handler(self, data: Any) -> None:
@@ -54,7 +54,7 @@ class _SourceBuilder(xml.dom.expatbuilder.ExpatBuilderNS):
 
 
 def parse_with_lines(data: bytes, file: str, budget: ReadBudget) -> object:
-    """Parse a file, which may start with blank lines; `place_of` returns the position of its elements.
+    """Parse a file, which may start with blank lines; `source_of` returns the position of its elements.
 
     Raises:
         ExpatError: it is not well-formed.
@@ -64,7 +64,7 @@ def parse_with_lines(data: bytes, file: str, budget: ReadBudget) -> object:
     return _SourceBuilder(file, data[: len(data) - len(document)].count(b"\n"), budget).parseString(document)
 
 
-def place_of(element: Any) -> Source:
+def source_of(element: Any) -> Source:
     """Return the source position of an element, or of its original."""
     return element.getUserData(_AT)
 
@@ -76,27 +76,27 @@ class Cursor:
         self.at = at
 
     def follow(self, package: Any) -> None:
-        """Update the position in the functions that process elements; the caller restores them."""
+        """Patch the functions that process elements to update the position; the caller restores them."""
         package.eval_all = self._within(package.eval_all)
         package.handle_macro_call = self._within(package.handle_macro_call)
         package.reqd_attrs = self._at(package.reqd_attrs)
 
     def _within(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """Wrap a function so that the position is restored after an element; an error leaves it there."""
+        """Wrap a function to restore the position after an element; an error leaves it at the element."""
 
-        def go_through(element: Any, *rest: Any) -> Any:
-            around, self.at = self.at, place_of(element)
-            found = original(element, *rest)
-            self.at = around
-            return found
+        def process(element: Any, *rest: Any) -> Any:
+            previous, self.at = self.at, source_of(element)
+            result = original(element, *rest)
+            self.at = previous
+            return result
 
-        return go_through
+        return process
 
     def _at(self, original: Callable[..., Any]) -> Callable[..., Any]:
-        """Wrap a function so that the element it reads becomes the current position."""
+        """Wrap a function to make the element that it reads the current position."""
 
         def read(element: Any, *rest: Any) -> Any:
-            self.at = place_of(element)
+            self.at = source_of(element)
             return original(element, *rest)
 
         return read

@@ -1,10 +1,10 @@
-"""Colours of Gazebo's named materials whose textures are made by `render`."""
+"""Colors of Gazebo's named materials whose textures are made by `render`."""
 
 from msgspec.structs import replace
 
 from .material import Material, Rgba
 
-TEXTURE_COLOURS: dict[str, tuple[float, float, float]] = {
+TEXTURE_COLORS: dict[str, tuple[float, float, float]] = {
     "Gazebo/Wood": (0.55, 0.35, 0.2),
     "Gazebo/WoodFloor": (0.55, 0.35, 0.2),
     "Gazebo/WoodPallet": (0.6, 0.45, 0.28),
@@ -29,16 +29,16 @@ TEXTURE_COLOURS: dict[str, tuple[float, float, float]] = {
     "Gazebo/Runway": (0.3, 0.3, 0.3),
     "Gazebo/Grass": (0.25, 0.45, 0.2),
 }
-"""Name → mean colour of the texture, chosen for Trundle."""
+"""Name → mean color of the texture, chosen for Trundle."""
 
 
-def with_plain_colour(material: Material) -> Material:
-    """Return a material without its named texture, in the texture's colour."""
+def with_plain_color(material: Material) -> Material:
+    """Return a material without its named texture, in the texture's color."""
     if material.named_texture is None:
         return material
-    r, g, b = TEXTURE_COLOURS[material.named_texture]
+    r, g, b = TEXTURE_COLORS[material.named_texture]
 
-    def tinted(colour: Rgba) -> Rgba:
-        return (colour[0] * r, colour[1] * g, colour[2] * b, colour[3])
+    def tinted(color: Rgba) -> Rgba:
+        return (color[0] * r, color[1] * g, color[2] * b, color[3])
 
     return replace(material, ambient=tinted(material.ambient), diffuse=tinted(material.diffuse), named_texture=None)
