@@ -23,7 +23,7 @@ def save_draft(draft: Draft, request: SaveDraft, root: Path, packages: Packages)
         UsageError: the folder is outside `root`, or the files cannot be written.
     """
     folder = find_target(root, request.folder, example="models/cart")
-    text = with_upload_uris(move_uris(draft.text, here=root, there=folder, packages=packages), packages)
+    text = with_upload_uris(move_uris(draft.text, old_folder=root, new_folder=folder, packages=packages), packages)
     written = dict(zip(target_files(folder), (text, model_config(text, draft.name)), strict=True))
     files = {**copies(needed_uploads(text, packages), folder.parent), **written}
     exists = save_files(root, files, replace=request.replace)
