@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.ros.bags.bags_of_rosrecord import rosrecord_bag
+from tests.ros.bags.rosrecord_bags import rosrecord_bag
 
 from trundle.ros import BagConnection, BagMessage, Messages, open_bag
 

@@ -1,4 +1,4 @@
-"""Bags with old types."""
+"""Bags with outdated message types."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -6,11 +6,11 @@ from typing import Any
 
 from trundle.ros import BagConnection, BagMessage, Messages, create_bag
 
-BETWEEN = "\n" + "=" * 80 + "\nMSG: "
+SEPARATOR = "\n" + "=" * 80 + "\nMSG: "
 OLD_POINT = "float64 x\nfloat64 y\n"
-OLD_HEADER = f"{BETWEEN}std_msgs/Header\ntime stamp\nstring frame\n"
+OLD_HEADER = f"{SEPARATOR}std_msgs/Header\ntime stamp\nstring frame\n"
 Content = Sequence[tuple[str, str, str, Sequence[Mapping[str, Any]]]]
-"""Topic, type, its text, fields of each message."""
+"""Topic, type, its definition, fields of each message."""
 
 
 def write_old_bag(path: Path, content: Content) -> Path:

@@ -1,4 +1,4 @@
-"""Bags of format 1.2, byte by byte as rosrecord wrote them."""
+"""Bags of format 1.2, identical to the byte to rosrecord's."""
 
 import struct
 from collections.abc import Sequence
@@ -10,26 +10,26 @@ _HEADER = 4096
 
 
 def rosrecord_bag(messages: Sequence[BagMessage], *, has_index: bool = True, is_closed: bool = True) -> bytes:
-    """Write a bag; one that is not closed lacks the index that it should have."""
+    """Return the bytes of a bag; `is_closed=False` omits the index that the file header announces."""
     start = b"#ROSRECORD V1.2\n"
     body = b""
     index: dict[str, list[tuple[int, int]]] = {}
     for message in messages:
         topic = message.connection.topic
-        at = len(start) + len(body) + (_HEADER if has_index else 0)
+        offset = len(start) + len(body) + (_HEADER if has_index else 0)
         kind = {"topic": topic, "md5": message.connection.md5sum, "type": message.connection.type}
         if topic not in index:
             body += record({"op": b"\x01", **kind, "def": message.connection.definition})
         sec, nsec = divmod(message.stamp_ns, 10**9)
         body += record({"op": b"\x02", **kind, "sec": _u32(sec), "nsec": _u32(nsec)}, message.data)
-        index.setdefault(topic, []).append((message.stamp_ns, at))
+        index.setdefault(topic, []).append((message.stamp_ns, offset))
     if not has_index:
         return start + body
-    index_at = len(start) + _HEADER + len(body)
+    index_offset = len(start) + _HEADER + len(body)
     for topic, entries in index.items() if is_closed else ():
-        places = b"".join(struct.pack("<IIQ", *divmod(stamp_ns, 10**9), at) for stamp_ns, at in entries)
-        body += record({"op": b"\x04", "topic": topic, "ver": _u32(0), "count": _u32(len(entries))}, places)
-    return start + _file_header(index_at if is_closed else 0) + body
+        positions = b"".join(struct.pack("<IIQ", *divmod(stamp_ns, 10**9), offset) for stamp_ns, offset in entries)
+        body += record({"op": b"\x04", "topic": topic, "ver": _u32(0), "count": _u32(len(entries))}, positions)
+    return start + _file_header(index_offset if is_closed else 0) + body
 
 
 def record(fields: dict[str, str | bytes], data: bytes = b"") -> bytes:
@@ -41,8 +41,8 @@ def record(fields: dict[str, str | bytes], data: bytes = b"") -> bytes:
     return _u32(len(header)) + header + _u32(len(data)) + data
 
 
-def _file_header(index_at: int) -> bytes:
-    empty = record({"op": b"\x03", "index_pos": struct.pack("<Q", index_at)})
+def _file_header(index_offset: int) -> bytes:
+    empty = record({"op": b"\x03", "index_pos": struct.pack("<Q", index_offset)})
     padding = _HEADER - len(empty)
     return empty[:-4] + _u32(padding) + b" " * padding
 

@@ -1,4 +1,4 @@
-"""Bags: both formats there and back, cut off anywhere, recorded and played."""
+"""Bags in both formats: written, read, truncated, damaged, recorded and played."""
 
 import os
 import struct
@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from mcap.reader import SeekingReader
-from mcap.writer import IndexType
+from mcap.writer import IndexType, Writer
 from tests.ros.conftest import PATIENCE_S
 
 from trundle.app.cli import main
@@ -31,7 +31,6 @@ from trundle.ros import (
     open_bag,
     recover_messages,
 )
-from trundle.ros.bags import mcap
 
 FORMATS = [
     *[("x.bag", compression) for compression in ("none", "bz2", "lz4")],
@@ -59,7 +58,7 @@ def _stream(messages: Messages, count: int) -> Iterator[BagMessage]:
 
 
 @pytest.mark.parametrize(("name", "compression"), FORMATS)
-def test_what_is_written_is_read(messages: Messages, tmp_path: Path, name: str, compression: str) -> None:
+def test_written_messages_are_read_back(messages: Messages, tmp_path: Path, name: str, compression: str) -> None:
     written = list(_stream(messages, 200))
     with create_bag(tmp_path / name, compression=compression, chunk_bytes=2000) as out:
         for message in written:
@@ -79,7 +78,7 @@ def test_what_is_written_is_read(messages: Messages, tmp_path: Path, name: str, 
 def test_times_are_read_from_the_index(
     messages: Messages, tmp_path: Path, name: str, compression: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Without reading a message."""
+    """No message is read."""
     written = list(_stream(messages, 200))
     with create_bag(tmp_path / name, compression=compression, chunk_bytes=2000) as out:
         for message in written:
@@ -89,11 +88,11 @@ def test_times_are_read_from_the_index(
         assert bag.stamps_ns() == _times_of(written)
 
 
-def test_times_of_a_file_without_message_indexes_are_those_of_its_messages(
+def test_times_are_read_from_the_messages_of_a_file_without_message_indexes(
     messages: Messages, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     kinds = IndexType.CHUNK | IndexType.ATTACHMENT | IndexType.METADATA
-    monkeypatch.setattr(mcap, "Writer", partial(mcap.Writer, index_types=kinds))
+    monkeypatch.setattr("trundle.ros.bags.mcap.Writer", partial(Writer, index_types=kinds))
     written = list(_stream(messages, 20))
     with create_bag(tmp_path / "x.mcap") as out:
         for message in written:
@@ -102,8 +101,8 @@ def test_times_of_a_file_without_message_indexes_are_those_of_its_messages(
         assert bag.stamps_ns() == _times_of(written)
 
 
-def test_indexes_that_overlap_are_damaged(messages: Messages, tmp_path: Path) -> None:
-    """Each could have the rest of the file as its entries: a small file would have more times than memory has room."""
+def test_overlapping_indexes_are_refused(messages: Messages, tmp_path: Path) -> None:
+    """Each could claim the rest of the file as entries, so that a small file had more times than fit into memory."""
     path = tmp_path / "x.mcap"
     with create_bag(path) as out:
         for message in _stream(messages, 20):
@@ -118,7 +117,7 @@ def test_indexes_that_overlap_are_damaged(messages: Messages, tmp_path: Path) ->
         bag.stamps_ns()
 
 
-def test_times_after_all_calendars_are_damaged(messages: Messages, tmp_path: Path) -> None:
+def test_times_beyond_the_year_2262_are_refused(messages: Messages, tmp_path: Path) -> None:
     path = tmp_path / "x.mcap"
     with create_bag(path) as writer:
         writer.write(BagMessage(_connection(messages, "/a"), 2**63, b"\0\0\0\0"))
@@ -131,7 +130,7 @@ def _times_of(written: list[BagMessage]) -> dict[str, list[int]]:
 
 
 @pytest.mark.parametrize(("name", "compression"), FORMATS)
-def test_a_bag_cut_off_anywhere_gives_what_was_flushed(
+def test_flushed_messages_are_recovered_from_a_bag_truncated_anywhere(
     messages: Messages, tmp_path: Path, name: str, compression: str
 ) -> None:
     written = list(_stream(messages, 30))
@@ -149,19 +148,21 @@ def test_a_bag_cut_off_anywhere_gives_what_was_flushed(
     for size in range(0, len(whole), 7):
         cut.write_bytes(whole[:size])
         try:
-            found = list(recover_messages(cut))
+            recovered = list(recover_messages(cut))
         except BagError:
             assert size < 13  # not even the format is known
             continue
-        assert found == written[: len(found)]
-        assert len(found) >= 10 * sum(size >= end for end in flushed)
+        assert recovered == written[: len(recovered)]
+        assert len(recovered) >= 10 * sum(size >= end for end in flushed)
         if size < flushed[-1]:
             with pytest.raises(BagError):
                 open_bag(cut)
 
 
 @pytest.mark.parametrize(("name", "compression"), FORMATS)
-def test_one_wrong_byte_is_never_a_traceback(messages: Messages, tmp_path: Path, name: str, compression: str) -> None:
+def test_a_bag_with_a_damaged_byte_raises_only_bag_errors(
+    messages: Messages, tmp_path: Path, name: str, compression: str
+) -> None:
     path = tmp_path / name
     with create_bag(path, compression=compression) as out:
         for message in _stream(messages, 6):
@@ -169,12 +170,12 @@ def test_one_wrong_byte_is_never_a_traceback(messages: Messages, tmp_path: Path,
     whole = path.read_bytes()
     for at in [*range(120), *range(max(120, len(whole) - 900), len(whole), 5)]:
         path.write_bytes(whole[:at] + bytes([whole[at] ^ 0xFF]) + whole[at + 1 :])
-        for read in (lambda: list(recover_messages(path)), lambda: _all_of(path), lambda: _times_in(path)):
+        for read in (lambda: list(recover_messages(path)), lambda: _messages_in(path), lambda: _times_in(path)):
             with suppress(BagError):
                 read()
 
 
-def _all_of(path: Path) -> list[BagMessage]:
+def _messages_in(path: Path) -> list[BagMessage]:
     with open_bag(path) as bag:
         return list(bag.messages())
 
@@ -184,7 +185,7 @@ def _times_in(path: Path) -> dict[str, list[int]]:
         return bag.stamps_ns()
 
 
-def test_what_is_no_bag_is_said(tmp_path: Path) -> None:
+def test_files_that_are_not_bags_are_reported(tmp_path: Path) -> None:
     with pytest.raises(BagError, match="cannot be read: No such file"):
         open_bag(tmp_path / "none.bag")
     (tmp_path / "text.bag").write_text("hello")
@@ -202,7 +203,7 @@ def test_a_graph_is_recorded_and_played(graph: Any, tmp_path: Path, name: str) -
     publisher = talker.advertise("/a", STRING, queue_size=None)
     fixed = talker.advertise("/fixed", "geometry_msgs/Point", latch=True)
     fixed.publish({"x": 1.5})
-    recorder = Recorder(node, RecorderOptions(all_topics=True, path=tmp_path / name), say=lambda _: None)
+    recorder = Recorder(node, RecorderOptions(all_topics=True, path=tmp_path / name), log=lambda _: None)
     recorder.start()
     graph.until(lambda: publisher.has_subscribers and fixed.has_subscribers)
     for i in range(100):
@@ -235,7 +236,7 @@ def test_a_recording_splits_and_keeps_the_newest(graph: Any, tmp_path: Path) -> 
     options = RecorderOptions(
         topics=("/a",), path=tmp_path / "x.bag", splits=True, max_bytes=100_000, max_splits=2, chunk_bytes=10_000
     )
-    recorder = Recorder(graph.node("record"), options, say=lambda _: None)
+    recorder = Recorder(graph.node("record"), options, log=lambda _: None)
     recorder.start()
     graph.until(lambda: publisher.has_subscribers)
     for i in range(50):
@@ -247,10 +248,10 @@ def test_a_recording_splits_and_keeps_the_newest(graph: Any, tmp_path: Path) -> 
     assert all(path.name.startswith("x_") for path in recorder.files)
 
 
-def test_what_does_not_fit_the_buffer_is_dropped_and_said(graph: Any, tmp_path: Path, capfd: Any) -> None:
+def test_messages_beyond_the_buffer_are_dropped_with_a_warning(graph: Any, tmp_path: Path, capfd: Any) -> None:
     publisher = graph.node("talker").advertise("/a", "std_msgs/UInt8MultiArray", queue_size=None)
     options = RecorderOptions(topics=("/a",), path=tmp_path / "x.bag", buffer_bytes=5_000)
-    recorder = Recorder(graph.node("record"), options, say=lambda _: None)
+    recorder = Recorder(graph.node("record"), options, log=lambda _: None)
     recorder.start()
     graph.until(lambda: publisher.has_subscribers)
     for size in (10_000, 10_000, 100):
@@ -261,10 +262,10 @@ def test_what_does_not_fit_the_buffer_is_dropped_and_said(graph: Any, tmp_path: 
     assert capfd.readouterr().err.count("rosbag record buffer exceeded.  Dropping oldest queued message.") == 1
 
 
-def test_a_limit_ends_a_recording(graph: Any, tmp_path: Path) -> None:
+def test_a_recording_ends_at_its_limit(graph: Any, tmp_path: Path) -> None:
     publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
     recorder = Recorder(
-        graph.node("record"), RecorderOptions(topics=("/a",), path=tmp_path / "x.bag", limit=3), say=lambda _: None
+        graph.node("record"), RecorderOptions(topics=("/a",), path=tmp_path / "x.bag", limit=3), log=lambda _: None
     )
     recorder.start()
     graph.until(lambda: publisher.has_subscribers)
@@ -276,12 +277,12 @@ def test_a_limit_ends_a_recording(graph: Any, tmp_path: Path) -> None:
         assert bag.counts == [3]
 
 
-def test_a_limit_counts_latched_messages_and_takes_no_more_than_it_says(graph: Any, tmp_path: Path) -> None:
-    """Several publishers each hand over their latched message as soon as they are connected."""
+def test_latched_messages_count_towards_the_limit(graph: Any, tmp_path: Path) -> None:
+    """Several publishers each send their latched message once connected."""
     for number in range(5):
         graph.node(f"n{number}").advertise("/a", STRING, latch=True).publish({"data": str(number)})
     recorder = Recorder(
-        graph.node("record"), RecorderOptions(topics=("/a",), path=tmp_path / "x.bag", limit=2), say=lambda _: None
+        graph.node("record"), RecorderOptions(topics=("/a",), path=tmp_path / "x.bag", limit=2), log=lambda _: None
     )
     recorder.start()
     assert recorder.done.wait(PATIENCE_S)
@@ -306,7 +307,7 @@ def test_latched_messages_are_repeated_in_each_new_file(graph: Any, tmp_path: Pa
     files: list[str] = []
     node = graph.node("record")
     graph.node("listener").subscribe("/begin_write", STRING, lambda m: files.append(m.data))
-    recorder = Recorder(node, options, say=lambda _: None)
+    recorder = Recorder(node, options, log=lambda _: None)
     recorder.start()
     graph.until(lambda: publisher.has_subscribers and fixed.has_subscribers and files)
     for i in range(20):
@@ -335,12 +336,18 @@ def test_messages_published_too_fast_for_their_queue_are_counted(graph: Any, far
     assert publisher.dropped == 7
 
 
-def test_playing_from_within_begins_with_a_message_and_with_what_was_latched(graph: Any, tmp_path: Path) -> None:
-    """As rosbag: no silence first, and latched messages from before the start, such as a map, are published."""
-    made = BagConnection(topic="/a", type=STRING, md5sum=Messages().md5(STRING), definition="string data\n")
-    held = replace(made, topic="/map", latching=True)
+def test_playing_from_an_offset_starts_with_a_message_and_the_latched_ones(graph: Any, tmp_path: Path) -> None:
+    """As in rosbag: no initial gap, and latched messages from before the start, such as a map, are published."""
+    plain = BagConnection(topic="/a", type=STRING, md5sum=Messages().md5(STRING), definition="string data\n")
+    latched = replace(plain, topic="/map", latching=True)
     with create_bag(tmp_path / "x.bag") as out:
-        for connection, second in [(held, 1), (held, 2), (made, 3), (made, 500), (made, 501)]:
+        for connection, second in [
+            (latched, 1),
+            (latched, 2),
+            (plain, 3),
+            (plain, 500),
+            (plain, 501),
+        ]:
             out.write(BagMessage(connection, second * 10**9, b"\x01\0\0\0%c" % (second % 100)))
     got: list[str] = []
     clock: list[int] = []
@@ -359,8 +366,8 @@ def test_playing_from_within_begins_with_a_message_and_with_what_was_latched(gra
     assert clock[0] == 500
 
 
-def test_an_older_type_is_played_as_it_was_recorded(graph: Any, tmp_path: Path) -> None:
-    """A bag is played by the definition in it, not by the installed one of that name."""
+def test_an_older_type_is_played_with_its_recorded_definition(graph: Any, tmp_path: Path) -> None:
+    """A bag is played with its own definitions, not with installed ones of the same name."""
     old = BagConnection(topic="/a", type=STRING, md5sum="0123", definition="uint8 number\n")
     with create_bag(tmp_path / "x.bag") as out:
         out.write(BagMessage(old, 10**9, b"\x07"))
@@ -375,7 +382,7 @@ def test_an_older_type_is_played_as_it_was_recorded(graph: Any, tmp_path: Path) 
     assert (got[0].md5sum, got[0].definition, got[0].data) == ("0123", "uint8 number\n", b"\x07")
 
 
-def test_a_pause_lets_single_messages_through_and_time_stands_still(
+def test_steps_in_a_pause_play_single_messages_while_time_is_paused(
     graph: Any, messages: Messages, tmp_path: Path
 ) -> None:
     with create_bag(tmp_path / "x.bag") as out:
@@ -388,22 +395,22 @@ def test_a_pause_lets_single_messages_through_and_time_stands_still(
         player.advertise()
         graph.until(lambda: subscription.publishers)
         player.is_paused = True
-        attended = 0
+        polls = 0
 
-        def attend() -> None:
-            nonlocal attended
-            attended += 1
+        def poll() -> None:
+            nonlocal polls
+            polls += 1
             if player.steps == 0:
                 player.steps = 1
 
-        player.play(attend)
+        player.play(poll)
     assert player.played == 5
-    assert attended == 5
+    assert polls == 5
     graph.until(lambda: clock and clock[-1] == 40_000_000)
     assert player.now_ns == 1_700_000_000_040_000_000
 
 
-def test_an_unindexed_bag_says_what_to_do(messages: Messages, tmp_path: Path) -> None:
+def test_an_unindexed_bag_is_refused_with_the_command_that_recovers_it(messages: Messages, tmp_path: Path) -> None:
     for name in ("x.bag", "x.mcap"):
         out = create_bag(tmp_path / name)
         for message in _stream(messages, 5):
@@ -420,9 +427,9 @@ def test_an_unindexed_bag_says_what_to_do(messages: Messages, tmp_path: Path) ->
         open_bag(tmp_path / "y.bag")
 
 
-def test_expressions_written_for_rospy_are_understood(messages: Messages) -> None:
+def test_message_views_have_rospys_attributes(messages: Messages) -> None:
     odom = messages.new("nav_msgs/Odometry", {"header": {"stamp": {"secs": 5, "nsecs": 500_000_000}}})
-    m = MessageView(odom)
+    m: Any = MessageView(odom)
     assert m.header.stamp.to_sec() == 5.5
     assert m.header.stamp.secs == 5
     assert m.header.stamp.nsecs == 500_000_000
@@ -430,18 +437,18 @@ def test_expressions_written_for_rospy_are_understood(messages: Messages) -> Non
     assert (m.header.stamp - MessageView(messages.stamp(6_000_000_000))).to_sec() == -0.5
     assert str(m.header.stamp) == "5500000000"
     assert str(MessageView(messages.new("geometry_msgs/Point", {"x": 1}), messages)) == "x: 1.0\ny: 0.0\nz: 0.0"
-    tree = MessageView(messages.new("tf2_msgs/TFMessage", {"transforms": [{"child_frame_id": "a"}]}))
+    tree: Any = MessageView(messages.new("tf2_msgs/TFMessage", {"transforms": [{"child_frame_id": "a"}]}))
     assert tree.transforms[0].child_frame_id == "a"
 
 
 @pytest.mark.parametrize("name", ["x.bag", "x.mcap"])
-def test_a_publishers_own_definition_is_recorded_to_the_letter(graph: Any, far: Any, tmp_path: Path, name: str) -> None:
-    """`rosbag check` compares it with the one that is installed, comments included."""
+def test_a_publishers_definition_is_recorded_verbatim(graph: Any, far: Any, tmp_path: Path, name: str) -> None:
+    """`rosbag check` compares it with the installed one, comments included."""
     text = "# what it says\n\nstring   data # [ ]\n"
     node = far.node("talker")
     publisher = node.advertise("/a", STRING, raw_type=(node.messages.md5(STRING), text), latch=True)
     publisher.publish(bytes(4))
-    recorder = Recorder(graph.node("record"), RecorderOptions(topics=("/a",), path=tmp_path / name), say=lambda _: None)
+    recorder = Recorder(graph.node("record"), RecorderOptions(topics=("/a",), path=tmp_path / name), log=lambda _: None)
     recorder.start()
     graph.until(lambda: recorder.recorded == 1)
     recorder.stop()
@@ -450,9 +457,9 @@ def test_a_publishers_own_definition_is_recorded_to_the_letter(graph: Any, far: 
 
 
 @contextmanager
-def _largest_file(size: int) -> Iterator[None]:
-    """No file can grow beyond this [bytes], as if the disk were full."""
-    resource = pytest.importorskip("resource", reason="this system limits no files")
+def _limited_file_size(size: int) -> Iterator[None]:
+    """Limit file sizes [bytes], as if the disk were full."""
+    resource = pytest.importorskip("resource", reason="this system does not limit file sizes")
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
     try:
@@ -462,13 +469,13 @@ def _largest_file(size: int) -> Iterator[None]:
 
 
 @pytest.mark.parametrize("name", ["x.bag", "x.mcap"])
-def test_a_disk_that_fills_up_costs_nothing_that_is_on_it(graph: Any, tmp_path: Path, name: str) -> None:
-    """Chunks written after the gap, once there was room again, made the bag unreadable."""
-    complaints: list[str] = []
+def test_messages_written_before_the_disk_is_full_are_recoverable(graph: Any, tmp_path: Path, name: str) -> None:
+    """Chunks written after a gap, once there is space again, would make the bag unreadable."""
+    failures: list[str] = []
     publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
     options = RecorderOptions(topics=("/a",), path=tmp_path / name, chunk_bytes=10_000)
-    recorder = Recorder(graph.node("record"), options, say=lambda _: None, complain=complaints.append)
-    with _largest_file(100_000):
+    recorder = Recorder(graph.node("record"), options, log=lambda _: None, on_failure=failures.append)
+    with _limited_file_size(100_000):
         recorder.start()
         graph.until(lambda: publisher.has_subscribers)
         for i in range(300):
@@ -477,48 +484,48 @@ def test_a_disk_that_fills_up_costs_nothing_that_is_on_it(graph: Any, tmp_path: 
     recorder.stop()
 
     active = tmp_path / f"{name}.active"
-    why = f"{active}: File too large; trundle bag reindex --output-dir=FOLDER recovers its messages"
-    assert (recorder.error, complaints) == (why, [f"recording failed: {why}"])
+    reason = f"{active}: File too large; trundle bag reindex --output-dir=FOLDER recovers its messages"
+    assert (recorder.error, failures) == (reason, [f"recording failed: {reason}"])
     assert not (tmp_path / name).exists()
-    kept = [message.data[4:].partition(b".")[0] for message in recover_messages(active)]
-    assert kept == [b"%d" % i for i in range(len(kept))]
-    assert len(kept) > 80
+    recovered = [message.data[4:].partition(b".")[0] for message in recover_messages(active)]
+    assert recovered == [b"%d" % i for i in range(len(recovered))]
+    assert len(recovered) > 80
 
 
 @pytest.mark.parametrize("name", ["x.bag", "x.mcap"])
-def test_a_second_recording_to_one_name_is_refused(
+def test_a_second_recording_to_the_same_name_is_refused(
     graph: Any, tmp_path: Path, name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """It took the first one's file away, and the first put the second's beginning in place of its own bag."""
+    """It would take over the first one's file."""
     publisher = graph.node("talker").advertise("/a", STRING, latch=True)
     publisher.publish({"data": "kept"})
     options = RecorderOptions(topics=("/a",), path=tmp_path / name)
-    recorder = Recorder(graph.node("record"), options, say=lambda _: None)
+    recorder = Recorder(graph.node("record"), options, log=lambda _: None)
     recorder.start()
     graph.until(lambda: recorder.recorded == 1)
     refused = rf"{name} cannot be written: .* writes it: end that, or choose another name"
     with pytest.raises(BagError, match=refused):
-        Recorder(graph.node("second"), options, say=lambda _: None).start()
+        Recorder(graph.node("second"), options, log=lambda _: None).start()
     with pytest.raises(BagError, match=refused):
-        StepRecorder(graph.loop, tmp_path / name, complain=lambda _: None)
+        StepRecorder(graph.loop, tmp_path / name, on_failure=lambda _: None)
     assert main(["bag", "reindex", str(tmp_path / f"{name}.active")]) == 1
     assert "writes it: end that" in capsys.readouterr().err
     recorder.stop()
 
     assert [path.name for path in tmp_path.iterdir()] == [name]
     assert [message.data[4:] for message in recover_messages(tmp_path / name)] == [b"kept"]
-    StepRecorder(graph.loop, tmp_path / name, complain=lambda _: None).close()
+    StepRecorder(graph.loop, tmp_path / name, on_failure=lambda _: None).close()
 
 
 @pytest.mark.parametrize("name", ["x.bag", "x.mcap"])
-def test_a_bag_that_cannot_be_finished_is_said_to_be_not(graph: Any, tmp_path: Path, name: str) -> None:
-    """All messages were in memory when the disk was full, and no error was reported."""
+def test_a_bag_that_cannot_be_finished_is_reported(graph: Any, tmp_path: Path, name: str) -> None:
+    """All messages are still in memory when the disk is full."""
     publisher = graph.node("talker").advertise("/a", STRING, latch=True)
-    recorder = Recorder(graph.node("record"), RecorderOptions(topics=("/a",), path=tmp_path / name), say=lambda _: None)
+    recorder = Recorder(graph.node("record"), RecorderOptions(topics=("/a",), path=tmp_path / name), log=lambda _: None)
     recorder.start()
     publisher.publish({"data": 20_000 * "."})
     graph.until(lambda: recorder.recorded == 1)
-    with _largest_file(10_000):
+    with _limited_file_size(10_000):
         recorder.stop()
 
     assert recorder.error is not None
@@ -526,11 +533,11 @@ def test_a_bag_that_cannot_be_finished_is_said_to_be_not(graph: Any, tmp_path: P
     assert not (tmp_path / name).exists()
 
 
-def test_a_recording_in_step_that_broke_off_writes_no_more(graph: Any, tmp_path: Path) -> None:
-    complaints: list[str] = []
-    recorder = StepRecorder(graph.loop, tmp_path / "x.bag", complain=complaints.append)
+def test_a_step_recorder_writes_no_more_after_a_failure(graph: Any, tmp_path: Path) -> None:
+    failures: list[str] = []
+    recorder = StepRecorder(graph.loop, tmp_path / "x.bag", on_failure=failures.append)
     publisher = graph.node("talker").advertise("/a", STRING)
-    with _largest_file(100_000):
+    with _limited_file_size(100_000):
         for step in range(9):
             publisher.publish({"data": f"{step}" + 400_000 * "."})
             graph.loop.flush_deliveries()
@@ -538,20 +545,20 @@ def test_a_recording_in_step_that_broke_off_writes_no_more(graph: Any, tmp_path:
     recorder.write(2 * 10**18)
     recorder.close()
 
-    assert len(complaints) == 1
-    assert complaints[0].startswith(f"recording failed: {tmp_path}/x.bag.active: File too large; ")
+    assert len(failures) == 1
+    assert failures[0].startswith(f"recording failed: {tmp_path}/x.bag.active: File too large; ")
     assert [path.name for path in tmp_path.iterdir()] == ["x.bag.active"]
     assert (tmp_path / "x.bag.active").stat().st_size == 100_000
 
 
 @pytest.mark.parametrize("count", [0, 3])
-def test_the_first_record_is_as_long_as_rosbags(messages: Messages, tmp_path: Path, count: int) -> None:
-    """`rosbag reindex` looks for the first chunk at a fixed place."""
+def test_the_bag_header_is_as_long_as_rosbags(messages: Messages, tmp_path: Path, count: int) -> None:
+    """`rosbag reindex` expects the first chunk at a fixed offset."""
     path = tmp_path / "x.bag"
-    made = BagConnection(topic="/a", type="std_msgs/Empty", md5sum=messages.md5("std_msgs/Empty"), definition="")
+    connection = BagConnection(topic="/a", type="std_msgs/Empty", md5sum=messages.md5("std_msgs/Empty"), definition="")
     with create_bag(path) as out:
         for i in range(count):
-            out.write(BagMessage(made, 10**18 + i, b""))
+            out.write(BagMessage(connection, 10**18 + i, b""))
     data = path.read_bytes()
     (header,) = struct.unpack_from("<I", data, 13)
     (padding,) = struct.unpack_from("<I", data, 17 + header)
@@ -560,14 +567,14 @@ def test_the_first_record_is_as_long_as_rosbags(messages: Messages, tmp_path: Pa
     assert sum(1 for _ in recover_messages(path)) == count
 
 
-def test_a_connection_that_is_named_twice_is_counted_twice(messages: Messages, tmp_path: Path) -> None:
-    """As one wrong byte in the index makes of two."""
+def test_a_repeated_connection_id_is_counted_twice(messages: Messages, tmp_path: Path) -> None:
+    """One damaged byte in the index gives two connections the same ID."""
     path = tmp_path / "x.bag"
     with create_bag(path) as out:
         for topic in ("/a", "/b"):
             md5sum = messages.md5("std_msgs/Empty")
-            made = BagConnection(topic=topic, type="std_msgs/Empty", md5sum=md5sum, definition="")
-            out.write(BagMessage(made, 10**18, b""))
+            connection = BagConnection(topic=topic, type="std_msgs/Empty", md5sum=md5sum, definition="")
+            out.write(BagMessage(connection, 10**18, b""))
     head, _, tail = path.read_bytes().rpartition(b"conn=\1\0\0\0")
     path.write_bytes(head + b"conn=\0\0\0\0" + tail)
     with open_bag(path) as bag:

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.ros.bags.bags_of_old import BETWEEN, OLD_HEADER, OLD_POINT, rule
+from tests.ros.bags.old_bags import OLD_HEADER, OLD_POINT, SEPARATOR, rule
 
 from trundle.ros import (
     GeneratedRule,
@@ -20,7 +20,7 @@ from trundle.ros.migration.times import Duration, Time
 
 POINT = "geometry_msgs/Point"
 STAMPED = "geometry_msgs/PointStamped"
-OLD_STAMPED = f"Header header\nPoint point{OLD_HEADER}{BETWEEN}{POINT}\n{OLD_POINT}"
+OLD_STAMPED = f"Header header\nPoint point{OLD_HEADER}{SEPARATOR}{POINT}\n{OLD_POINT}"
 
 
 def _class(kind: str, text: str) -> MessageClass:
@@ -94,8 +94,8 @@ def test_force_follows_what_nobody_completed(migrator: Any) -> None:
 
 
 def test_rules_follow_one_another_and_rename(migrator: Any) -> None:
-    parts = f"old/Part[] parts\ntime t\n{BETWEEN.lstrip()}old/Part\nstring name\n"
-    pieces = f"old/Piece[] parts\ntime t\n{BETWEEN.lstrip()}old/Piece\nstring label\n"
+    parts = f"old/Part[] parts\ntime t\n{SEPARATOR.lstrip()}old/Part\nstring name\n"
+    pieces = f"old/Piece[] parts\ntime t\n{SEPARATOR.lstrip()}old/Piece\nstring label\n"
     text = (
         rule("a", ("old/A", "int32 x\n"), ("old/A", "int32 x\nint32 y\n"), "new_msg.x, new_msg.y = old_msg.x, 2")
         + rule(
@@ -222,7 +222,7 @@ def test_what_a_rule_does_wrong_is_one_sentence(migrator: Any, line: str, compla
 
 def test_messages_are_as_genpy_has_them() -> None:
     text = "int32 ONE=1\nstring WORD=a b\nuint8[] raw\nfloat32[2] pair\nbool[] flags\nstring[] names\ntime[] times\n"
-    made = _class("old/A", f"{text}old/B[] within\nduration long\nint32 class\n{BETWEEN.lstrip()}old/B\nint8 x\n")
+    made = _class("old/A", f"{text}old/B[] within\nduration long\nint32 class\n{SEPARATOR.lstrip()}old/B\nint8 x\n")
     data = made.classes.write(
         "old/A",
         {"raw": b"ab", "pair": [1, 2], "flags": [True], "names": ["n"], "times": [{"secs": 1}], "within": [{"x": 3}]},
@@ -243,7 +243,7 @@ def test_messages_are_as_genpy_has_them() -> None:
 
 def test_the_header_of_before_2010_is_todays() -> None:
     """REP 100 moved roslib/Header to std_msgs."""
-    text = f"Header header\n{BETWEEN.lstrip()}roslib/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
+    text = f"Header header\n{SEPARATOR.lstrip()}roslib/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
     assert _class("old/A", text).kinds == {"header": "std_msgs/Header"}
 
 

@@ -179,7 +179,7 @@ class LaunchSession:
             steps = StepRecorder(
                 graph.loop,
                 file,
-                complain=self._report_recording_failure,
+                on_failure=self._report_recording_failure,
                 from_ns=round(self._options.record_from_s * NS_PER_S),
                 without_types=self._options.record_without,
             )
@@ -199,7 +199,7 @@ class LaunchSession:
         self._resources.callback(lambda: graph.loop.run(node.shutdown()))
         graph.loop.run(follow_time(node))
         options = RecorderOptions(all_topics=True, path=file, without_types=self._options.record_without)
-        recorder = Recorder(node, options, say=node.log.debug, complain=self._report_recording_failure)
+        recorder = Recorder(node, options, log=node.log.debug, on_failure=self._report_recording_failure)
         recorder.start()
         self._resources.callback(recorder.stop)
         return None

@@ -1,4 +1,4 @@
-"""Bag contents, and the protocols of bag readers and writers, whatever the format."""
+"""Bag contents, and the protocols of readers and writers of every bag format."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ def recording_failure(path: Path, error: OSError) -> str:
 
 
 class UnindexedBagError(BagError):
-    """A bag without an index, since its recording was cut off."""
+    """A bag without an index, since its recording was interrupted."""
 
     def __init__(self, path: Path) -> None:
         super().__init__(f"bag unindexed: {path}.  Run trundle bag reindex.")
@@ -74,9 +74,9 @@ class BagReader(Protocol):
     """Times of the first and last message [ns]; both 0 in an empty bag."""
 
     def messages(
-        self, wanted: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
+        self, select: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
     ) -> Iterator[BagMessage]:
-        """Yield messages in order of `stamp_ns`, from `start_ns` to `end_ns` inclusive.
+        """Yield messages of selected connections in order of `stamp_ns`, from `start_ns` to `end_ns` inclusive.
 
         Raises:
             BagError: the file is damaged.

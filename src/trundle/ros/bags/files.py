@@ -12,7 +12,7 @@ from .bag import BagError, BagMessage, BagReader, BagWriter
 
 _MCAP_MAGIC = b"\x89MCAP0\r\n"
 _VERSION = re.compile(rb"#ROS.* V(\d\.\d)")
-_LONGEST = 64
+_MAX_LINE_BYTES = 64
 """Maximum length of the version line [bytes]."""
 
 
@@ -42,7 +42,7 @@ def create_bag(path: Path, *, compression: str = "none", chunk_bytes: int = 768 
     """Create a bag: MCAP if `.mcap` is among the name's suffixes, else ROS 1.
 
     Args:
-        path: must not exist.
+        path: new file.
         compression: none, bz2 (.bag only), lz4, or zstd (.mcap only).
         chunk_bytes: chunk size.
 
@@ -61,10 +61,10 @@ def create_bag(path: Path, *, compression: str = "none", chunk_bytes: int = 768 
 
 
 def lock_bag(path: Path) -> FileLock:
-    """Lock the name of a bag that is written, `NAME.active` until it is complete.
+    """Lock a bag's name for writing, with or without the suffix `.active` of an incomplete bag.
 
     Raises:
-        BagError: another program writes it, or nothing can be written there.
+        BagError: another program writes the bag, or its folder is not writable.
     """
     try:
         return FileLock(path.with_name(path.name.removesuffix(".active")))
@@ -74,31 +74,31 @@ def lock_bag(path: Path) -> FileLock:
 
 @contextmanager
 def replaced_bag(path: Path, *, compression: str = "none", backup: Path | None = None) -> Generator[BagWriter]:
-    """Yield a writer of a bag that replaces the one at `path` at the end, but not after an error.
+    """Yield a writer of a new bag, which replaces the one at `path` at the end unless an error occurs.
 
     Args:
-        path: of the bag.
-        compression: as of `create_bag`.
-        backup: new name of the bag that is replaced; None: it is removed.
+        path: bag to replace.
+        compression: see `create_bag`.
+        backup: new name of the replaced bag; None: it is deleted.
 
     Raises:
         BagError: the bag cannot be written, or another program writes it.
     """
-    half = path.with_name(f"{path.name}.part")
+    part = path.with_name(f"{path.name}.part")
     with lock_bag(path):
-        half.unlink(missing_ok=True)
+        part.unlink(missing_ok=True)
         writer = None
         try:
-            writer = create_bag(half, compression=compression)
+            writer = create_bag(part, compression=compression)
             yield writer
             writer.close()
             if backup is not None:
                 path.replace(backup)
-            half.replace(path)
+            part.replace(path)
         except BaseException as error:
             if writer is not None:
                 writer.abandon()
-            half.unlink(missing_ok=True)
+            part.unlink(missing_ok=True)
             if isinstance(error, OSError):
                 raise BagError(f"{path} cannot be written: {error.strerror}") from None
             raise
@@ -129,7 +129,7 @@ def _format(path: Path) -> str:
     """`mcap`, or the version in the first line of a ROS 1 bag; '' if there is none."""
     try:
         with open_file(path) as file:
-            start = file.readline(_LONGEST)
+            start = file.readline(_MAX_LINE_BYTES)
     except OSError as error:
         raise BagError(f"bag file [{path}] cannot be read: {error.strerror}") from None
     if start.startswith(_MCAP_MAGIC):

@@ -19,11 +19,11 @@ from ..messages.message_library import Messages
 from .bag import BagConnection, BagError, BagMessage, Chunk, ConnectionFilter, UnindexedBagError
 
 _MAGIC = b"\x89MCAP0\r\n"
-"""Start of a file, and its end unless recording was cut off."""
-_LARGEST = 2**30
+"""Start of a file, and its end unless recording was interrupted."""
+_MAX_RECORD_BYTES = 2**30
 """Maximum record length [bytes]."""
 _END_NS = 2**63
-"""Times are below this one [ns], in the year 2262."""
+"""Upper limit of times [ns], in the year 2262."""
 _INDEX_HEAD = struct.Struct("<BQHI")
 """Opcode and length of a message index, its channel, the length of its entries: time [ns] and offset, 8 bytes each."""
 
@@ -47,7 +47,7 @@ class McapReader:
             raise UnindexedBagError(self.path)
         self._file.seek(0)
         with _library_errors(self.path):
-            self._reader = SeekingReader(self._file, record_size_limit=_LARGEST)
+            self._reader = SeekingReader(self._file, record_size_limit=_MAX_RECORD_BYTES)
             summary = self._reader.get_summary()
         if summary is None or summary.statistics is None:
             raise UnindexedBagError(self.path)
@@ -69,18 +69,18 @@ class McapReader:
         ]
 
     def messages(
-        self, wanted: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
+        self, select: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
     ) -> Iterator[BagMessage]:
         """See `BagReader`."""
         stop = None if end_ns is None else end_ns + 1
         with _library_errors(self.path):
             for _, channel, message in self._reader.iter_messages(starting_at=start_ns, ending_before=stop):
                 connection = self._by_id[channel.id]
-                if wanted is None or wanted(connection):
+                if select is None or select(connection):
                     yield BagMessage(connection, message.log_time, message.data)
 
     def stamps_ns(self) -> dict[str, list[int]]:
-        """See `BagReader`; read from the index, or from the messages where it lacks some."""
+        """See `BagReader`; read from the index, or from the messages if the index is incomplete."""
         with _library_errors(self.path):
             indexed = self._indexed_ns()
         if sum(map(len, indexed.values())) == self._message_count:
@@ -94,12 +94,14 @@ class McapReader:
         """Topic → times in the index [ns], in the order of the file."""
         stamps: dict[str, list[int]] = {}
         end, size = 0, os.fstat(self._file.fileno()).st_size
-        for offset in sorted({at for chunk in self._chunk_indexes for at in chunk.message_index_offsets.values()}):
+        for offset in sorted(
+            {position for chunk in self._chunk_indexes for position in chunk.message_index_offsets.values()}
+        ):
             self._file.seek(offset)
             head = self._file.read(_INDEX_HEAD.size)
             opcode, _, channel_id, length = _INDEX_HEAD.unpack(head)
-            is_behind_the_last, end = offset >= end, offset + _INDEX_HEAD.size + length
-            if opcode != Opcode.MESSAGE_INDEX or not is_behind_the_last or end > size:
+            is_after_previous, end = offset >= end, offset + _INDEX_HEAD.size + length
+            if opcode != Opcode.MESSAGE_INDEX or not is_after_previous or end > size:
                 raise BagError(f"{self.path} is damaged: no index at byte {offset}")
             entries = struct.iter_unpack("<QQ", self._file.read(length))
             stamps.setdefault(self._by_id[channel_id].topic, []).extend(time_ns for time_ns, _ in entries)
@@ -131,23 +133,23 @@ class McapWriter:
         self._writer.start(profile="ros1", library="trundle")
         self._schemas: dict[tuple[str, str], int] = {}
         self._channels: dict[BagConnection, int] = {}
-        self._waiting = 0
+        self._buffered_bytes = 0
 
     def write(self, message: BagMessage) -> None:
         """Append a message."""
         channel = self._channels.get(message.connection) or self._add(message.connection)
         self._writer.add_message(channel, message.stamp_ns, message.data, message.stamp_ns)
-        self._waiting += len(message.data)
+        self._buffered_bytes += len(message.data)
 
     def flush(self) -> None:
         """Write all buffered data to the operating system."""
         self._writer.flush()
-        self._waiting = 0
+        self._buffered_bytes = 0
 
     @property
     def size(self) -> int:
         """Approximate file size [bytes]."""
-        return self._file.tell() + self._waiting
+        return self._file.tell() + self._buffered_bytes
 
     def close(self) -> None:
         """Write the index and close the file."""
@@ -194,7 +196,7 @@ def scan_mcap(path: Path) -> Iterator[BagMessage]:
     connections: dict[int, BagConnection] = {}
     with path.open("rb") as file:
         try:
-            for record in StreamReader(file, record_size_limit=_LARGEST).records:
+            for record in StreamReader(file, record_size_limit=_MAX_RECORD_BYTES).records:
                 if isinstance(record, Schema):
                     schemas[record.id] = record
                 elif isinstance(record, Channel) and record.id not in connections:
@@ -203,7 +205,7 @@ def scan_mcap(path: Path) -> Iterator[BagMessage]:
                     yield BagMessage(connections[record.channel_id], record.log_time, record.data)
         except BagError:
             raise
-        except Exception:  # cut off, or arbitrary bytes
+        except Exception:  # truncated or damaged
             return
 
 

@@ -31,14 +31,14 @@ class PlayerOptions:
     pause_topics: frozenset[str] = frozenset()
     """Topics before whose messages playback pauses."""
     prefix: str = ""
-    """Prepended to each topic's text: `foo` makes /foo/scan of /scan, and fooscan of scan."""
+    """Prepended to each topic as written: `foo` turns /scan into /foo/scan, and scan into fooscan."""
     clock_hz: float | None = None
     """Rate of /clock in wall time."""
     immediate: bool = False
     queue_size: int = 100
     """Queue size per publisher; 0: unlimited."""
     skip_empty_s: float | None = None
-    """Silences longer than this are skipped [s]."""
+    """Gaps without messages longer than this are skipped [s]."""
     rate_control_topic: str | None = None
     """Playback waits for the header stamps of this topic."""
     rate_control_s: float = 1.0
@@ -53,8 +53,8 @@ class Player:
         self._bags = bags
         self._options = options
         self._publishers: dict[BagConnection, Publisher] = {}
-        self._held: dict[Publisher, dict[str, bytes]] = {}
-        """Latched messages of a topic, by original caller."""
+        self._latched: dict[Publisher, dict[str, bytes]] = {}
+        """Latched messages of a topic, by the node that published them when recorded."""
         self._clock: Publisher | None = None
         self._clock_due_s = 0.0
         self._pace = _PlaybackClock(options.rate, 0)
@@ -131,7 +131,7 @@ class Player:
             self.is_paused = True
         if options.skip_empty_s is not None and message.stamp_ns - self.now_ns > options.skip_empty_s * 1e9:
             self._pace.jump(message.stamp_ns)
-        # Decided once: the rate control topic receives nothing in a silence, so its lag cannot shrink.
+        # Decided once: the rate control topic receives nothing in a gap, so its lag cannot shrink.
         is_ahead = self._is_ahead()
         while True:
             poll()
@@ -150,11 +150,11 @@ class Player:
             self.now_ns = self._pace.now_ns()
             self._sleep(wait_s)
 
-    def _sleep(self, longest_s: float) -> None:
+    def _sleep(self, max_s: float) -> None:
         """Publish /clock if due, and sleep briefly."""
         self._tick()
         due_s = _SLEEP_S if self._clock is None else max(0.0, self._clock_due_s - time.monotonic())
-        time.sleep(min(longest_s, due_s, _SLEEP_S))
+        time.sleep(min(max_s, due_s, _SLEEP_S))
 
     def _tick(self, *, at_once: bool = False) -> None:
         """Publish /clock if due, or always with `at_once`."""
@@ -165,14 +165,14 @@ class Player:
         self._clock_due_s = time.monotonic() + 1.0 / self._options.clock_hz
 
     def _publish(self, message: BagMessage) -> None:
-        """Publish a message; late subscribers to a latched topic get the last message of each original caller."""
+        """Publish a message; late subscribers to a latched topic get the last message of each recorded publisher."""
         connection = message.connection
         publisher = self._publishers[connection]
         if connection.latching:
-            held = self._held.setdefault(publisher, {})
-            held.pop(connection.caller, None)
-            publisher.latched_for_others = tuple(held.values())
-            held[connection.caller] = message.data
+            latched = self._latched.setdefault(publisher, {})
+            latched.pop(connection.caller, None)
+            publisher.latched_for_others = tuple(latched.values())
+            latched[connection.caller] = message.data
         publisher.publish(message.data)
 
     def _is_ahead(self) -> bool:

@@ -22,11 +22,11 @@ from .files import create_bag, lock_bag
 
 _FLUSH_S = 1.0
 """Flush interval: the maximum loss at SIGKILL."""
-_LOOK_S = 0.25
-"""Poll interval for time limits without messages."""
+_LIMIT_POLL_S = 0.25
+"""Poll interval of time limits while no messages arrive."""
 _POLL_S = 0.5
 """Poll interval for new topics."""
-_FULL_S = 5.0
+_WARN_S = 5.0
 """Minimum interval of warnings about dropped messages."""
 
 
@@ -39,9 +39,9 @@ class RecorderOptions:
     is_regex: bool = False
     all_topics: bool = False
     exclude: str = ""
-    """Regular expression of topics to leave out."""
+    """Regular expression of topics to exclude."""
     without_types: frozenset[str] = frozenset()
-    """Message types to leave out of topics that are not named one by one."""
+    """Message types to exclude, except of topics listed by name."""
     of_node: str | None = None
     """Record all topics this node subscribes to."""
     path: Path | None = None
@@ -75,35 +75,35 @@ class Recorder:
         node: Node,
         options: RecorderOptions,
         *,
-        say: Callable[[str], None],
-        complain: Callable[[str], None] = lambda _: None,
+        log: Callable[[str], None],
+        on_failure: Callable[[str], None] = lambda _: None,
     ) -> None:
         """Create; `start` subscribes.
 
         Args:
-            node: subscribes.
+            node: node that subscribes.
             options: topics and files.
-            say: called with progress messages, in the original's words.
-            complain: called with the reason as soon as recording fails.
+            log: called with progress messages, in rosbag's words.
+            on_failure: called with the reason as soon as recording fails.
         """
         self._node = node
         self._options = options
-        self._say = say
-        self._complain = complain
-        self._wanted = [re.compile(topic) for topic in options.topics] if options.is_regex else []
+        self._log = log
+        self._on_failure = on_failure
+        self._patterns = [re.compile(topic) for topic in options.topics] if options.is_regex else []
         self._excluded = re.compile(options.exclude) if options.exclude else None
         self._subscriptions: dict[str, Subscription] = {}
-        self._left: dict[str, int] = {}
+        self._remaining: dict[str, int] = {}
         self._connections: dict[tuple[str, str, str, bool], BagConnection] = {}
         self._latched: dict[BagConnection, BagMessage] = {}
         self._queue: deque[BagMessage] = deque()
         self._queued_bytes = 0
         self._wake = threading.Condition()
-        self._warned = 0.0
+        self._warned_s = 0.0
         self._is_ending = False
         self._files: list[Path] = []
-        self._names = 0
-        self._begins = node.advertise("begin_write", "std_msgs/String", latch=True) if options.announces else None
+        self._file_count = 0
+        self._begin_write = node.advertise("begin_write", "std_msgs/String", latch=True) if options.announces else None
         self._thread = threading.Thread(target=self._write_all, name="trundle-record", daemon=True)
         self.error: str | None = None
         """Reason why recording failed, if it did."""
@@ -114,7 +114,7 @@ class Recorder:
 
     @property
     def files(self) -> list[Path]:
-        """Files complete and closed."""
+        """Completed files."""
         return list(self._files)
 
     @property
@@ -169,23 +169,23 @@ class Recorder:
         node = self._options.of_node
         if node is not None:
             uri = await self._node.master.call("lookupNode", self._node.resolve(node))
-            found = await call_value(uri, "getSubscriptions", self._node.name)
+            topics = await call_value(uri, "getSubscriptions", self._node.name)
         else:
-            found = await self._node.master.call("getPublishedTopics", "")
-        return [topic for topic, kind in found if kind not in self._options.without_types]
+            topics = await self._node.master.call("getPublishedTopics", "")
+        return [topic for topic, kind in topics if kind not in self._options.without_types]
 
     def _is_selected(self, topic: str) -> bool:
         if topic in self._subscriptions or (self._excluded is not None and self._excluded.fullmatch(topic)):
             return False
         if self._options.all_topics or self._options.of_node is not None:
             return True
-        return any(pattern.fullmatch(topic) for pattern in self._wanted)
+        return any(pattern.fullmatch(topic) for pattern in self._patterns)
 
     def _subscribe(self, topic: str) -> None:
         if topic in self._subscriptions:
             return
-        self._say(f"Subscribing to {topic}")
-        self._left[topic] = self._options.limit
+        self._log(f"Subscribing to {topic}")
+        self._remaining[topic] = self._options.limit
         self._subscriptions[topic] = self._node.subscribe(
             topic,
             "*",
@@ -199,7 +199,7 @@ class Recorder:
         stamp_ns = self.clock.now_ns()
         if stamp_ns == 0 or self.done.is_set():  # simulated time has not begun, or a limit is reached
             return
-        if self._options.limit and self._left[topic] == 0:  # received before unsubscribing took effect
+        if self._options.limit and self._remaining[topic] == 0:  # received before unsubscribing took effect
             return
         if "/" not in message.type or not message.md5sum:  # a publisher without type or md5 sum
             self.dropped += 1
@@ -227,15 +227,15 @@ class Recorder:
             self._count_down(topic)
 
     def _count_down(self, topic: str) -> None:
-        self._left[topic] -= 1
-        if self._left[topic] == 0:
+        self._remaining[topic] -= 1
+        if self._remaining[topic] == 0:
             self._subscriptions[topic].unregister()
-            if not any(self._left.values()):
+            if not any(self._remaining.values()):
                 self.done.set()
 
     def _warn_of_drops(self) -> None:
-        if time.monotonic() - self._warned > _FULL_S:
-            self._warned = time.monotonic()
+        if time.monotonic() - self._warned_s > _WARN_S:
+            self._warned_s = time.monotonic()
             self._node.log.warn("rosbag record buffer exceeded.  Dropping oldest queued message.")
 
     # in the writer thread
@@ -253,16 +253,16 @@ class Recorder:
             self._lock.release()
             self._abort(recording_failure(self._active, error))
 
-    def _abort(self, why: str) -> None:
-        self.error = why
-        self._complain(f"recording failed: {why}")
+    def _abort(self, reason: str) -> None:
+        self.error = reason
+        self._on_failure(f"recording failed: {reason}")
         self.done.set()
 
     def _write_loop(self) -> None:
         flushed = time.monotonic()
         while True:
             with self._wake:
-                self._wake.wait_for(lambda: self._queue or self._is_ending, timeout=_LOOK_S)
+                self._wake.wait_for(lambda: self._queue or self._is_ending, timeout=_LIMIT_POLL_S)
                 batch, self._queue = self._queue, deque()
                 self._queued_bytes = 0
                 is_last = self._is_ending
@@ -271,7 +271,7 @@ class Recorder:
                 if self.done.is_set() and not self._options.limit:
                     return
                 self._write(message)
-            if not batch:  # limits of time hold without messages, too
+            if not batch:  # time limits apply without messages, too
                 self._next_file_if_due(self.clock.now_ns(), by_size=False)
                 if self.done.is_set() and not self._options.limit:
                     return
@@ -300,7 +300,7 @@ class Recorder:
             return
         if is_long:
             self._start_ns += (stamp_ns - self._start_ns) // options.max_ns * options.max_ns
-        self._say(f"Closing '{self._path}'.")
+        self._log(f"Closing '{self._path}'.")
         self._close()
         while options.max_splits and len(self._files) >= options.max_splits:
             self._files.pop(0).unlink(missing_ok=True)
@@ -316,9 +316,9 @@ class Recorder:
         self._active.unlink(missing_ok=True)
         writer = create_bag(self._active, compression=self._options.compression, chunk_bytes=self._options.chunk_bytes)
         self._is_open = True
-        self._say(f"Recording to '{self._path}'.")
-        if self._begins is not None:
-            self._begins.publish({"data": str(self._path)})
+        self._log(f"Recording to '{self._path}'.")
+        if self._begin_write is not None:
+            self._begin_write.publish({"data": str(self._path)})
         return writer
 
     def _close(self) -> None:
@@ -328,10 +328,10 @@ class Recorder:
         self._files.append(self._path)
 
     def _name(self) -> Path:
-        """File name as in the original: NAME.bag or PREFIX_date.bag, numbered if splitting."""
+        """File name as in rosbag: NAME.bag or PREFIX_date.bag, numbered if splitting."""
         options = self._options
-        number = f"_{self._names}" if options.splits else ""
-        self._names += 1
+        number = f"_{self._file_count}" if options.splits else ""
+        self._file_count += 1
         if options.path is not None:
             suffix = options.path.suffix if options.path.suffix in (".bag", ".mcap") else ""
             stem = str(options.path)[: len(str(options.path)) - len(suffix)]

@@ -35,15 +35,15 @@ class Ros1Reader:
             self.chunks: list[Chunk] = [chunk_at(file, info.pos) for info in infos]
 
     def messages(
-        self, wanted: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
+        self, select: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
     ) -> Iterator[BagMessage]:
         """See `BagReader`."""
-        chosen = [c for c in self._reader.connections if wanted is None or wanted(self._by_id[c.id])]
-        if not chosen:
+        selected = [c for c in self._reader.connections if select is None or select(self._by_id[c.id])]
+        if not selected:
             return
         stop = None if end_ns is None else end_ns + 1
         with _library_errors(self.path):
-            for connection, stamp_ns, data in self._reader.messages(chosen, start_ns, stop):
+            for connection, stamp_ns, data in self._reader.messages(selected, start_ns, stop):
                 yield BagMessage(self._by_id[connection.id], stamp_ns, data)
 
     def stamps_ns(self) -> dict[str, list[int]]:
@@ -79,8 +79,8 @@ class Ros1Writer:
             self._writer.open()
         except (WriterError, OSError) as error:
             self._writer.abandon()
-            why = error.strerror if isinstance(error, OSError) else error
-            raise BagError(f"{path} cannot be written: {why}") from None
+            reason = error.strerror if isinstance(error, OSError) else error
+            raise BagError(f"{path} cannot be written: {reason}") from None
         self._connections: dict[BagConnection, Any] = {}
 
     def write(self, message: BagMessage) -> None:
@@ -132,7 +132,7 @@ def _lz4(data: bytes) -> bytes:
 _PADDING_AT = 13 + 4 + 69
 """Offset of the bag header's padding length: after the magic line and the fixed-size header."""
 _PADDING = 4096 - 69
-_PADDING_LACKING = 8
+_MISSING_PADDING = 8
 """`rosbag reindex` expects 4096 bytes without the two lengths; rosbags pads to 4096 with them."""
 
 
@@ -143,7 +143,7 @@ class _FlushingWriter(Writer):
         """Open the file, and pad the bag header as rosbag does."""
         super().open()
         assert self.bio is not None
-        self.bio.write(b" " * _PADDING_LACKING)
+        self.bio.write(b" " * _MISSING_PADDING)
         _write_padding(self.bio)
         self.bio.seek(0, SEEK_END)
 
@@ -160,7 +160,7 @@ class _FlushingWriter(Writer):
                 self.bio.close()
 
     def write_chunk(self, chunk: WriteChunk) -> None:
-        """Write a chunk; of its index keep only the counts, which closing needs."""
+        """Write a chunk; keep only the counts of its index, which closing needs."""
         super().write_chunk(chunk)
         if chunk.pos != -1:
             counts = {id_: cast("list[tuple[int, int]]", range(len(items))) for id_, items in chunk.connections.items()}

@@ -18,29 +18,31 @@ _Entry = tuple[int, BagConnection, int, int]
 
 
 class RosrecordReader:
-    """Reader of a 1.2 bag; scans all records, as the optional index adds nothing."""
+    """Reader of a 1.2 bag; scans all records, since the optional index adds nothing."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        walk = _RecordScan(path)
-        if walk.is_truncated or walk.index_at == 0:
+        scan = _RecordScan(path)
+        if scan.is_truncated or scan.index_offset == 0:
             raise UnindexedBagError(path)
-        self.version = "1.2 (unindexed)" if walk.index_at is None else "1.2"
-        self.connections = list(walk.connections.values())
-        counts = Counter(connection.topic for _, connection, *_ in walk.entries)
+        self.version = "1.2 (unindexed)" if scan.index_offset is None else "1.2"
+        self.connections = list(scan.connections.values())
+        counts = Counter(connection.topic for _, connection, *_ in scan.entries)
         self.counts = [counts[connection.topic] for connection in self.connections]
         self.chunks: list[Chunk] = []
-        self._entries = sorted(walk.entries, key=itemgetter(0))
+        self._entries = sorted(scan.entries, key=itemgetter(0))
         self.start_ns, self.end_ns = (self._entries[i][0] if self._entries else 0 for i in (0, -1))
 
     def messages(
-        self, wanted: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
+        self, select: ConnectionFilter | None = None, *, start_ns: int | None = None, end_ns: int | None = None
     ) -> Iterator[BagMessage]:
         """See `BagReader`."""
-        chosen = {connection for connection in self.connections if wanted is None or wanted(connection)}
+        selected = {connection for connection in self.connections if select is None or select(connection)}
         first = self.start_ns if start_ns is None else start_ns
         last = self.end_ns if end_ns is None else end_ns
-        return _read(self.path, (entry for entry in self._entries if first <= entry[0] <= last and entry[1] in chosen))
+        return _read(
+            self.path, (entry for entry in self._entries if first <= entry[0] <= last and entry[1] in selected)
+        )
 
     def stamps_ns(self) -> dict[str, list[int]]:
         """See `BagReader`."""
@@ -71,32 +73,32 @@ class _RecordScan:
         self.connections: dict[bytes, BagConnection] = {}
         """Topic → its first definition."""
         self.entries: list[_Entry] = []
-        self.index_at: int | None = None
+        self.index_offset: int | None = None
         """Offset of the index; 0: never written; None: the bag has none."""
         self.is_truncated = False
-        with path.open("rb") as opened:
-            version = opened.readline()
-            file = BoundedFile(opened, path.stat().st_size - len(version))
+        with path.open("rb") as stream:
+            version = stream.readline()
+            file = BoundedFile(stream, path.stat().st_size - len(version))
             try:
                 while head := read_head(file):
                     self._read_record(head[0], file.skip(head[1]), head[1])
             except (TruncatedError, KeyError, struct.error):
                 self.is_truncated = True
 
-    def _read_record(self, fields: dict[str, bytes], at: int, size: int) -> None:
+    def _read_record(self, fields: dict[str, bytes], offset: int, size: int) -> None:
         kind = operation(fields)
         if kind == _FILE_HEADER:
-            (self.index_at,) = struct.unpack("<Q", fields["index_pos"])
+            (self.index_offset,) = struct.unpack("<Q", fields["index_pos"])
         elif kind == _DEFINITION:
             topic, type_, md5sum, definition = (
                 fields[name].decode("utf-8", "replace") for name in ("topic", "type", "md5", "def")
             )
-            made = BagConnection(topic=topic, type=type_, md5sum=md5sum, definition=definition)
-            self.connections.setdefault(fields["topic"], made)
+            connection = BagConnection(topic=topic, type=type_, md5sum=md5sum, definition=definition)
+            self.connections.setdefault(fields["topic"], connection)
         elif kind == _MESSAGE:
             seconds, nanoseconds = struct.unpack("<II", fields["sec"] + fields["nsec"])
             connection = self.connections.get(fields["topic"]) or self._find_definition(fields)
-            self.entries.append((seconds * 10**9 + nanoseconds, connection, at, size))
+            self.entries.append((seconds * 10**9 + nanoseconds, connection, offset, size))
 
     def _find_definition(self, fields: dict[str, bytes]) -> BagConnection:
         """Use another topic's definition of the same type."""
@@ -110,8 +112,8 @@ class _RecordScan:
 
 def _read(path: Path, entries: Iterable[_Entry]) -> Iterator[BagMessage]:
     with path.open("rb") as file:
-        for stamp_ns, connection, at, size in entries:
-            file.seek(at)
+        for stamp_ns, connection, offset, size in entries:
+            file.seek(offset)
             data = file.read(size)
             if len(data) != size:
                 raise BagError(f"{path} was truncated while it was read")

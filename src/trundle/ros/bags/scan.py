@@ -27,8 +27,8 @@ def scan_bag(path: Path) -> Iterator[BagMessage]:
         BagError: the file is not a ROS 1 bag.
     """
     connections: dict[int, BagConnection] = {}
-    with path.open("rb") as opened:
-        file = BoundedFile(opened, path.stat().st_size)
+    with path.open("rb") as stream:
+        file = BoundedFile(stream, path.stat().st_size)
         if file.read(len(_MAGIC)) != _MAGIC:
             raise BagError(f"{path} is not a ROS 1 bag of format 2.0")
         try:
@@ -47,10 +47,10 @@ def _chunk(
 ) -> Iterator[BagMessage]:
     data = file.read(size)
     try:
-        (most,) = _LENGTH.unpack(fields["size"])
+        (size_limit,) = _LENGTH.unpack(fields["size"])
     except (KeyError, struct.error):
         raise TruncatedError from None
-    inner = _ByteReader(_decompressed(fields.get("compression", b"none").decode("ascii", "replace"), data, most))
+    inner = _ByteReader(_decompressed(fields.get("compression", b"none").decode("ascii", "replace"), data, size_limit))
     while head := read_head(inner):
         yield from _record(head[0], _read_exactly(inner, head[1]), connections)
     if len(data) != size:
@@ -89,16 +89,16 @@ def chunk_at(file: BinaryIO, position: int) -> Chunk:
 
 
 class BoundedFile:
-    """File reader that never requests more than the file's size, whatever a length field says."""
+    """File reader that never requests more bytes than the file has, whatever a length field claims."""
 
     def __init__(self, file: BinaryIO, size: int) -> None:
         self._file = file
-        self._left = size
+        self._remaining = size
 
     def read(self, size: int) -> bytes:
         """Read at most `size` bytes."""
-        piece = self._file.read(min(size, self._left))
-        self._left -= len(piece)
+        piece = self._file.read(min(size, self._remaining))
+        self._remaining -= len(piece)
         return piece
 
     def skip(self, size: int) -> int:
@@ -107,9 +107,9 @@ class BoundedFile:
         Raises:
             TruncatedError: the file is shorter.
         """
-        if size > self._left:
+        if size > self._remaining:
             raise TruncatedError
-        self._left -= size
+        self._remaining -= size
         return self._file.seek(size, os.SEEK_CUR) - size
 
 
@@ -118,12 +118,12 @@ class _ByteReader:
 
     def __init__(self, data: bytes) -> None:
         self._data = data
-        self._at = 0
+        self._offset = 0
 
     def read(self, size: int) -> bytes:
         """Read at most `size` bytes."""
-        piece = self._data[self._at : self._at + size]
-        self._at += len(piece)
+        piece = self._data[self._offset : self._offset + size]
+        self._offset += len(piece)
         return piece
 
 
@@ -147,16 +147,16 @@ def _read_exactly(file: "BoundedFile | _ByteReader", size: int) -> bytes:
 
 def _fields(data: bytes) -> dict[str, bytes]:
     fields: dict[str, bytes] = {}
-    at = 0
-    while at < len(data):
-        if at + 4 > len(data):
+    offset = 0
+    while offset < len(data):
+        if offset + 4 > len(data):
             raise TruncatedError
-        (size,) = _LENGTH.unpack_from(data, at)
-        name, equals, value = data[at + 4 : at + 4 + size].partition(b"=")
-        if not equals or at + 4 + size > len(data):
+        (size,) = _LENGTH.unpack_from(data, offset)
+        name, equals, value = data[offset + 4 : offset + 4 + size].partition(b"=")
+        if not equals or offset + 4 + size > len(data):
             raise TruncatedError
         fields[name.decode("ascii", "replace")] = value
-        at += 4 + size
+        offset += 4 + size
     return fields
 
 
@@ -178,15 +178,15 @@ def _connection(topic: bytes, fields: dict[str, bytes]) -> BagConnection:
     )
 
 
-def _decompressed(compression: str, data: bytes, most: int) -> bytes:
+def _decompressed(compression: str, data: bytes, size_limit: int) -> bytes:
     """Decompress a chunk as far as possible, up to its declared size."""
     if compression == "none":
         return data
     try:
         if compression == "bz2":
-            return bz2.BZ2Decompressor().decompress(data, most)
+            return bz2.BZ2Decompressor().decompress(data, size_limit)
         if compression == "lz4":
-            return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data, most))  # pyright: ignore[reportUnknownMemberType, reportUnknownArgumentType]
+            return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data, size_limit))  # pyright: ignore[reportUnknownMemberType, reportUnknownArgumentType]
     except (OSError, RuntimeError):
         pass
     raise TruncatedError

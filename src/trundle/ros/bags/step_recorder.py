@@ -10,8 +10,8 @@ from .bag import BagConnection, BagError, BagMessage, recording_failure
 from .files import create_bag, lock_bag
 
 _NAME = "/record"
-_BY_THE_WALL = ("/rosout", "/rosout_agg")
-"""Excluded topics: messages at node start carry wall time."""
+_WALL_TIME_TOPICS = ("/rosout", "/rosout_agg")
+"""Excluded topics: their messages at node start have wall time."""
 
 
 class StepRecorder:
@@ -19,25 +19,25 @@ class StepRecorder:
 
     is_raw = True
     needs_every_message = False
-    """Attaching does not make publishers publish more often."""
+    """Publishers do not publish more often for the recorder."""
 
     def __init__(
         self,
         loop: GraphLoop,
         path: Path,
         *,
-        complain: Callable[[str], None],
+        on_failure: Callable[[str], None],
         from_ns: int = 0,
         without_types: frozenset[str] = frozenset(),
     ) -> None:
         """Create the file and attach.
 
         Args:
-            loop: its publishers are recorded.
+            loop: loop whose publishers are recorded.
             path: bag to write.
             complain: called with the reason if recording fails.
-            from_ns: time of the first step in the bag [ns]; of those before, only latched messages are there.
-            without_types: message types to leave out; what publishes them is not made to.
+            from_ns: time of the first step in the bag [ns]; earlier steps contribute only latched messages.
+            without_types: message types to exclude; their publishers get no subscriber.
 
         Raises:
             BagError: the file cannot be written, or another program writes it.
@@ -48,14 +48,14 @@ class StepRecorder:
         self._active.unlink(missing_ok=True)
         self._writer = create_bag(self._active)
         self._received: list[tuple[LocalPublisher, bytes]] = []
-        self._complain = complain
+        self._on_failure = on_failure
         self._without_types = without_types
         self._from_ns = from_ns
         self._latched: dict[tuple[str, str], tuple[LocalPublisher, bytes]] = {}
-        """Last message before the bag begins of each (topic, caller)."""
+        """(topic, caller) → last latched message before `from_ns`."""
         self._has_failed = False
         self._is_abandoned = False
-        loop.local.on_publisher.append(self._follow)
+        loop.local.on_publisher.append(self._attach)
 
     def receive(self, message: Message, *, from_outside: bool) -> None:
         """Never called, since `is_raw`."""
@@ -67,18 +67,18 @@ class StepRecorder:
 
     def write(self, stamp_ns: int) -> None:
         """Write messages received since the last call; called while the loop is idle."""
-        heard, self._received = self._received, []
+        received, self._received = self._received, []
         if self._has_failed:
             return
         if stamp_ns < self._from_ns:
-            self._latched |= {(each[0].topic, each[0].caller): each for each in heard if each[0].latch}
+            self._latched |= {(entry[0].topic, entry[0].caller): entry for entry in received if entry[0].latch}
             return
-        heard = [*self._latched.values(), *heard]
+        received = [*self._latched.values(), *received]
         self._latched.clear()
         # A stable sort keeps each publisher's order.
-        heard.sort(key=lambda each: (each[0].topic, each[0].caller))
+        received.sort(key=lambda entry: (entry[0].topic, entry[0].caller))
         try:
-            for publisher, data in heard:
+            for publisher, data in received:
                 self._writer.write(BagMessage(_connection(publisher), max(stamp_ns, 1), data))
         except BagError as error:
             self._fail(str(error))
@@ -86,7 +86,7 @@ class StepRecorder:
             self._abandon(error)
 
     def close(self) -> None:
-        """Finish the file; messages not yet written came after the end."""
+        """Finish the file; messages not yet written came after the last step."""
         if self._is_abandoned:
             return
         try:
@@ -97,18 +97,18 @@ class StepRecorder:
         self._lock.release()
 
     def _abandon(self, error: OSError) -> None:
-        """Leave the file as it is, since later messages would leave a gap."""
+        """Abandon the file, since later messages would leave a gap."""
         self._is_abandoned = True
         self._writer.abandon()
         self._lock.release()
         self._fail(recording_failure(self._active, error))
 
-    def _fail(self, why: str) -> None:
+    def _fail(self, reason: str) -> None:
         self._has_failed = True
-        self._complain(f"recording failed: {why}")
+        self._on_failure(f"recording failed: {reason}")
 
-    def _follow(self, publisher: LocalPublisher) -> None:
-        if publisher.topic not in _BY_THE_WALL and publisher.type not in self._without_types:
+    def _attach(self, publisher: LocalPublisher) -> None:
+        if publisher.topic not in _WALL_TIME_TOPICS and publisher.type not in self._without_types:
             publisher.attach(self, _NAME)
 
 

@@ -32,9 +32,9 @@ class BagSummary:
         self._types = sorted({(c.type, c.md5sum) for c in bag.connections})
         self._topics: list[_Topic] = []
         for topic in sorted({c.topic for c in bag.connections}):
-            own = [(c, count) for c, count in zip(bag.connections, bag.counts, strict=True) if c.topic == topic]
-            count = sum(count for _, count in own)
-            self._topics.append(_Topic(topic, own[0][0].type, count, len(own), rates.get(topic)))
+            of_topic = [(c, count) for c, count in zip(bag.connections, bag.counts, strict=True) if c.topic == topic]
+            count = sum(count for _, count in of_topic)
+            self._topics.append(_Topic(topic, of_topic[0][0].type, count, len(of_topic), rates.get(topic)))
 
     def text(self) -> str:
         """Summary as a table."""
@@ -87,39 +87,40 @@ class BagSummary:
                 lines.append(f"      frequency: {topic.rate_hz:.4f}")
         return "\n".join([*lines, ""])
 
-    def _sum(self, of: Callable[[Any], int]) -> int:
-        return sum(of(chunk) for chunk in self._bag.chunks)
+    def _sum(self, size: Callable[[Any], int]) -> int:
+        return sum(size(chunk) for chunk in self._bag.chunks)
 
     def _compressions(self) -> list[tuple[str, int, int, int]]:
         """(name, chunks, size, compressed size) by number of chunks, descending."""
-        found: dict[str, tuple[int, int, int]] = {}
+        totals: dict[str, tuple[int, int, int]] = {}
         for chunk in self._bag.chunks:
-            count, size, compressed = found.get(chunk.compression, (0, 0, 0))
-            found[chunk.compression] = (count + 1, size + chunk.size, compressed + chunk.compressed)
-        rows = [(kind, *numbers) for kind, numbers in found.items()]
+            count, size, compressed = totals.get(chunk.compression, (0, 0, 0))
+            totals[chunk.compression] = (count + 1, size + chunk.size, compressed + chunk.compressed)
+        rows = [(kind, *numbers) for kind, numbers in totals.items()]
         return sorted(rows, key=lambda row: (row[1], row[0]), reverse=True) or [("none", 0, 0, 0)]
 
     def _compression_rows(self) -> list[tuple[str, str]]:
-        kinds, all_ = self._compressions(), len(self._bag.chunks)
-        if not all_:
+        kinds, chunk_count = self._compressions(), len(self._bag.chunks)
+        if not chunk_count:
             return [("compression", "none")]
         texts = [
-            f"{kind} [{count}/{all_} chunks" + ("]" if kind == "none" else f"; {100.0 * compressed / size:.2f}%]")
+            f"{kind} [{count}/{chunk_count} chunks"
+            + ("]" if kind == "none" else f"; {100.0 * compressed / size:.2f}%]")
             for kind, count, size, compressed in kinds
         ]
         rows = [("compression", ", ".join(texts))]
         if all(kind == "none" for kind, *_ in kinds):
             return rows
         size, compressed = self._sum(lambda c: c.size), self._sum(lambda c: c.compressed)
-        share = f" ({100.0 * compressed / size:.2f}%)"
+        ratio = f" ({100.0 * compressed / size:.2f}%)"
         sizes = _aligned([byte_text(size), byte_text(compressed)])
         duration = self._end - self._start
         if duration > 0:
             rates = _aligned([byte_text(size / duration), byte_text(compressed / duration)])
             sizes = [f"{text} @ {rate}/s" for text, rate in zip(sizes, rates, strict=True)]
         else:
-            share = ""
-        return [*rows, ("uncompressed", sizes[0]), ("compressed", sizes[1] + share)]
+            ratio = ""
+        return [*rows, ("uncompressed", sizes[0]), ("compressed", sizes[1] + ratio)]
 
     def _type_lines(self) -> list[str]:
         width = max(len(kind) for kind, _ in self._types)

@@ -164,7 +164,7 @@ class RowRunner:
         def start_bag(loop: GraphLoop) -> None:
             if record is not None:
                 kept_out = self._plan.bag_without
-                recorder = StepRecorder(loop, record, complain=_leave_out, from_ns=from_ns, without_types=kept_out)
+                recorder = StepRecorder(loop, record, on_failure=_leave_out, from_ns=from_ns, without_types=kept_out)
                 recorders.append(recorder)
 
         try:

@@ -6,16 +6,17 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.ros.bags.bags_of_old import BETWEEN, OLD_HEADER, OLD_POINT, Content, rule, write_old_bag
+from tests.ros.bags.old_bags import OLD_HEADER, OLD_POINT, SEPARATOR, Content, rule, write_old_bag
 
 from trundle.ros import BagConnection, BagMessage, Messages, create_bag, open_bag
 
 POINT = "geometry_msgs/Point"
 NEW_POINT = "float64 x\nfloat64 y\nfloat64 z\n"
 RULE = rule("a", (POINT, OLD_POINT), (POINT, NEW_POINT), "new_msg.z = old_msg.x + 1")
-STAMPED = f"Header header\nPoint point{OLD_HEADER}{BETWEEN}{POINT}\n{NEW_POINT}"
+STAMPED = f"Header header\nPoint point{OLD_HEADER}{SEPARATOR}{POINT}\n{NEW_POINT}"
 POSES = (
-    f"Header header\nPose[] poses{OLD_HEADER}{BETWEEN}geometry_msgs/Pose\nPoint position\n{BETWEEN}{POINT}\n{NEW_POINT}"
+    f"Header header\nPose[] poses{OLD_HEADER}{SEPARATOR}geometry_msgs/Pose\nPoint position\n"
+    f"{SEPARATOR}{POINT}\n{NEW_POINT}"
 )
 JOINTS = "Header header\nstring[] name\nfloat64[] position\nfloat64[3] velocity\nfloat32[] effort"
 PACKAGE = """<package format="2"><name>old_rules</name><version>1.0.0</version><description>Rules.</description>

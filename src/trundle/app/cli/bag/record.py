@@ -25,7 +25,7 @@ def main(args: argparse.Namespace) -> int:
         print(f"Recording from: {args.node}", flush=True)
     with running_node("record", args.words) as (loop, node):
         loop.run(follow_time(node), None)
-        recorder = Recorder(node, options, say=(lambda _: None) if args.quiet else _say)
+        recorder = Recorder(node, options, log=(lambda _: None) if args.quiet else _say)
         recorder.start()
         try:
             while not recorder.done.wait(0.5):
