@@ -31,20 +31,20 @@ DYNPARAM = Path("/usr/lib/dynamic_reconfigure/dynparam")
 
 @pytest.fixture
 def camera(graph: Any) -> list[Options]:
-    """A node with options, and the values that it was set to."""
+    """A node with options; the values that were set on it."""
     node: Node = graph.node("camera")
-    heard: list[Options] = []
+    received: list[Options] = []
 
     def apply(values: Options) -> Options:
-        heard.append(values)
-        return {**values, "rows": min(int(values["rows"]), 7)}  # a node may know better
+        received.append(values)
+        return {**values, "rows": min(int(values["rows"]), 7)}  # a node may change values
 
     ReconfigureServer(node, OPTIONS, apply)
     graph.ready(node)
-    return heard
+    return received
 
 
-def test_a_client_reads_what_a_server_offers(graph: Any, camera: list[Options]) -> None:
+def test_a_client_reads_the_options_of_a_server(graph: Any, camera: list[Options]) -> None:
     client = graph.node("client")
     assert graph.loop.run(find_reconfigurable(client), PATIENCE_S) == ["/camera"]
     assert tuple(graph.loop.run(read_options(client, "camera"), PATIENCE_S)) == tuple(
@@ -55,31 +55,33 @@ def test_a_client_reads_what_a_server_offers(graph: Any, camera: list[Options]) 
     )  # fmt: skip
 
 
-def test_values_are_kept_within_bounds_told_and_written(graph: Any, camera: list[Options]) -> None:
+def test_set_values_are_clamped_published_and_stored_as_parameters(graph: Any, camera: list[Options]) -> None:
     client = graph.node("client")
-    told: list[Any] = []
-    subscription = client.subscribe("/camera/parameter_updates", "dynamic_reconfigure/Config", told.append)
-    graph.until(lambda: told and subscription.publishers)
-    asked = {"rate": "99", "rows": 9, "on": "false", "frame": "head"}
-    now = graph.loop.run(set_options(client, "/camera", asked), PATIENCE_S)
+    updates: list[Any] = []
+    subscription = client.subscribe("/camera/parameter_updates", "dynamic_reconfigure/Config", updates.append)
+    graph.until(lambda: updates and subscription.publishers)
+    requested = {"rate": "99", "rows": 9, "on": "false", "frame": "head"}
+    values = graph.loop.run(set_options(client, "/camera", requested), PATIENCE_S)
 
     assert camera == [{"rate": 50.0, "rows": 9, "on": False, "frame": "head"}]
-    assert now == {"rate": 50.0, "rows": 7, "on": False, "frame": "head"}
-    assert graph.loop.run(client.params.get("/camera"), PATIENCE_S) == now
-    graph.until(lambda: [item.value for item in told[-1].doubles] == [50.0])
+    assert values == {"rate": 50.0, "rows": 7, "on": False, "frame": "head"}
+    assert graph.loop.run(client.params.get("/camera"), PATIENCE_S) == values
+    graph.until(lambda: [item.value for item in updates[-1].doubles] == [50.0])
 
 
 @pytest.mark.parametrize(
-    ("values", "said"),
+    ("values", "reason"),
     [({"speed": 1}, "don't know parameter: speed; there are: rate"), ({"rows": "x"}, "is not of type int")],
 )
-def test_what_cannot_be_set_is_refused(graph: Any, camera: list[Options], values: Any, said: str) -> None:
-    with pytest.raises(ServiceError, match=said):
+def test_unknown_options_and_invalid_values_are_refused(
+    graph: Any, camera: list[Options], values: Any, reason: str
+) -> None:
+    with pytest.raises(ServiceError, match=reason):
         graph.loop.run(set_options(graph.node("client"), "camera", values), PATIENCE_S)
     assert camera == []
 
 
-def test_a_server_heeds_what_it_can_of_a_careless_request(graph: Any, camera: list[Options]) -> None:
+def test_valid_values_of_a_partly_invalid_request_are_set(graph: Any, camera: list[Options]) -> None:
     client = graph.node("client")
     graph.loop.run(client.wait_for_service("/camera/set_parameters"), PATIENCE_S)
     config = {"doubles": [{"name": "rate", "value": float("nan")}, {"name": "x", "value": 1.0}], "ints": []}
@@ -94,7 +96,7 @@ def test_a_server_heeds_what_it_can_of_a_careless_request(graph: Any, camera: li
 def test_the_real_dynparam_lists_gets_and_sets(graph: Any, camera: list[Options], tmp_path: Path) -> None:
     if not DYNPARAM.exists():
         pytest.skip("Debian's dynamic_reconfigure is not installed")
-    package = tmp_path / "dynamic_reconfigure"  # Debian's has no manifest, which it looks for
+    package = tmp_path / "dynamic_reconfigure"  # Debian's has no manifest, which dynparam requires
     package.mkdir()
     (package / "package.xml").write_text(_MANIFEST)
     env = {

@@ -71,12 +71,12 @@ def _from_bag(names: Sequence[str], path: Path) -> list[Curve]:
                 raise UsageError(f"no topic of {name} in {path}; topics there: {', '.join(sorted(types))}")
             traces.append(TopicSeries(name, TopicField(topic=found[0], type=types[found[0]], path=found[1])))
         checked: set[str] = set()
-        for message in bag.messages(lambda c: any(c.topic == trace.where.topic for trace in traces)):
+        for message in bag.messages(lambda c: any(c.topic == trace.source.topic for trace in traces)):
             kind = message.connection.type
             messages.add_definition(kind, message.connection.definition)
             value = messages.deserialize(message.data, kind)
             for trace in traces:
-                if trace.where.topic == message.connection.topic:
+                if trace.source.topic == message.connection.topic:
                     if trace.name not in checked:
                         trace.check(messages)
                         checked.add(trace.name)

@@ -56,9 +56,9 @@ class ActionServer:
         """Advertise and subscribe the action's topics.
 
         Args:
-            node: owner of the topics.
-            name: the action's namespace, resolved like a topic.
-            type_name: without the suffix Action: 'control_msgs/FollowJointTrajectory'.
+            node: node that publishes and subscribes.
+            name: action's namespace, resolved like a topic.
+            type_name: action type, such as 'control_msgs/FollowJointTrajectory'.
             work: coroutine function of the goal and of `accept`, to be called on the loop when the goal is accepted;
                 cancelled when the goal is.
             side_by_side: True: goals run concurrently; `work` may preempt them.
@@ -84,19 +84,19 @@ class ActionServer:
         return any(goal.status == _ACTIVE for goal in self._goals.values())
 
     def publish_feedback(self, feedback: dict[str, object], *, goal: Message | None = None) -> None:
-        """Publish feedback for all active goals, or for that of one message; thread-safe."""
+        """Publish feedback for all active goals, or for the one of the message `goal`; thread-safe."""
         if not self._feedback.has_subscribers:
             return
-        active = [each for each in list(self._goals.values()) if each.status == _ACTIVE]
-        for each in active if goal is None else [each for each in active if each.message is goal]:
-            header = {"stamp": self._node.clock.now_ns()}
-            self._feedback.publish({"header": header, "status": _status(each), "feedback": feedback})
+        for active in [active for active in list(self._goals.values()) if active.status == _ACTIVE]:
+            if goal is None or active.message is goal:
+                header = {"stamp": self._node.clock.now_ns()}
+                self._feedback.publish({"header": header, "status": _status(active), "feedback": feedback})
 
     def close(self) -> None:
         """Unregister; thread-safe."""
         self._status_task.cancel()
-        for end in self._endpoints:
-            end.unregister()
+        for endpoint in self._endpoints:
+            endpoint.unregister()
 
     def _on_goal(self, message: Message) -> None:
         now = self._node.clock.now_ns()
@@ -126,14 +126,14 @@ class ActionServer:
         if goal.task is not None and goal.status in (_PENDING, _ACTIVE):
             goal.task.cancel()
 
-    async def _run(self, goal: _Goal, asked: Message) -> None:
+    async def _run(self, goal: _Goal, message: Message) -> None:
         def accept() -> None:
             if goal.status == _PENDING:  # unless cancelled meanwhile
                 goal.status = _ACTIVE
                 self._publish_status()
 
         try:
-            outcome = await self._work(asked, accept)
+            outcome = await self._work(message, accept)
         except asyncio.CancelledError:
             outcome = ActionOutcome(status="preempted")
         goal.status, goal.text = _NUMBERS[outcome.status], outcome.text

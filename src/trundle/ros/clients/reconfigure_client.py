@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 _DESCRIPTIONS = "/parameter_descriptions"
 _KIND = "dynamic_reconfigure"
-_TRUTHS = {"true": True, "1": True, "yes": True, "on": True, "false": False, "0": False, "no": False, "off": False}
+_BOOLS = {"true": True, "1": True, "yes": True, "on": True, "false": False, "0": False, "no": False, "off": False}
 
 
 async def find_reconfigurable(node: Node) -> list[str]:
@@ -40,9 +40,9 @@ async def read_options(node: Node, name: str, *, timeout_s: float | None = None)
             )
     except TimeoutError:
         raise ServiceError(f"{space} sent no options within {timeout_s:g} s") from None
-    lower, upper, now = config_values(description.min), config_values(description.max), config_values(config)
-    found = [parameter for group in description.groups for parameter in group.parameters if parameter.name in now]
-    return [_option(parameter, now[parameter.name], lower, upper) for parameter in found]
+    lower, upper, values = config_values(description.min), config_values(description.max), config_values(config)
+    parameters = [parameter for group in description.groups for parameter in group.parameters]
+    return [_option(p, values[p.name], lower, upper) for p in parameters if p.name in values]
 
 
 async def set_options(
@@ -53,14 +53,14 @@ async def set_options(
     Raises:
         ServiceError: there is no such node or option, a value does not fit, or the node refuses.
     """
-    there = {option.name: option for option in await read_options(node, name, timeout_s=timeout_s)}
-    asked: Options = {}
+    options = {option.name: option for option in await read_options(node, name, timeout_s=timeout_s)}
+    requested: Options = {}
     for key, value in values.items():
-        if key not in there:
-            raise ServiceError(f"don't know parameter: {key}; there are: {', '.join(there)}")
-        asked[key] = _converted(key, value, type(there[key].value))
+        if key not in options:
+            raise ServiceError(f"don't know parameter: {key}; there are: {', '.join(options)}")
+        requested[key] = _converted(key, value, type(options[key].value))
     service = f"{node.resolve(name).rstrip('/')}/set_parameters"
-    answer = await node.call_service(service, f"{_KIND}/Reconfigure", {"config": config_message(asked)})
+    answer = await node.call_service(service, f"{_KIND}/Reconfigure", {"config": config_message(requested)})
     return config_values(answer.config)
 
 
@@ -89,7 +89,7 @@ def _option(parameter: Message, value: OptionValue, lower: Options, upper: Optio
 def _converted(name: str, value: object, kind: type[OptionValue]) -> OptionValue:
     """Convert a value from text or YAML to the option's type."""
     if kind is bool and isinstance(value, str):
-        value = _TRUTHS.get(value.lower(), value)
+        value = _BOOLS.get(value.lower(), value)
     if kind is bool:
         if isinstance(value, bool | int):
             return bool(value)

@@ -23,7 +23,7 @@ _GROUP = "Default"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Option:
-    """One option; its type is that of `value`."""
+    """One option, of the type of its `value`."""
 
     name: str
     value: OptionValue
@@ -54,10 +54,10 @@ class ReconfigureServer:
         """Advertise the options; thread-safe.
 
         Args:
-            node: owner of the options.
-            options: in display order.
+            node: node with the options.
+            options: options in display order.
             apply: called with all values on the node's callback thread; returns the values in effect.
-            namespace: for topics, service and parameters: '~' or '/robot/camera'.
+            namespace: namespace of topics, service and parameters: '~' or '/robot/camera'.
         """
         self._node = node
         self._options = {option.name: option for option in options}
@@ -78,34 +78,34 @@ class ReconfigureServer:
 
     def unregister(self) -> None:
         """Unregister topics and service; thread-safe."""
-        for end in self._endpoints:
-            end.unregister()
+        for endpoint in self._endpoints:
+            endpoint.unregister()
 
     async def _set(self, request: "dynamic_reconfigure.ReconfigureRequest") -> dict[str, Any]:
-        asked = {**self._values, **self._read(request.config)}
+        requested = {**self._values, **self._read(request.config)}
         node = self._node
-        self._values = await run_on_callback_thread(node.deliver, node.loop, lambda: self._apply(asked))
+        self._values = await run_on_callback_thread(node.deliver, node.loop, lambda: self._apply(requested))
         await self._write(self._values)
         self._updates.publish(config_message(self._values))
         return {"config": config_message(self._values)}
 
     def _read(self, config: "dynamic_reconfigure.Config") -> Options:
         """Requested values, clamped; unknown options and wrong types are logged."""
-        taken: Options = {}
+        values: Options = {}
         for item in (item for field in _FIELDS.values() for item in getattr(config, field)):
             option = self._options.get(item.name)
             value = None if option is None else option.read(item.value)
             if option is None:
-                there = ", ".join(self._options)
-                self._node.log.warn(f"no option {item.name!r} in {self._node.resolve(self._space)}; there are: {there}")
+                names = ", ".join(self._options)
+                self._node.log.warn(f"no option {item.name!r} in {self._node.resolve(self._space)}; there are: {names}")
             elif value is None:
                 kind = _TYPES[type(option.value)]
                 self._node.log.warn(
                     f"option {item.name!r} is unchanged: {item.value!r} is not a finite value of type {kind}"
                 )
             else:
-                taken[item.name] = value
-        return taken
+                values[item.name] = value
+        return values
 
     async def _write(self, values: Mapping[str, OptionValue]) -> None:
         with contextlib.suppress(MasterUnreachableError):  # the graph is ending

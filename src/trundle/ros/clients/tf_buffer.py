@@ -74,7 +74,9 @@ class TransformBuffer:
     def frames(self) -> dict[str, str | None]:
         """All frames with transforms → parent; None for roots."""
         latest = [history.latest for history in self._tree.histories.values()]
-        parents: dict[str, str | None] = {each.child: each.parent for each in latest if each is not None}
+        parents: dict[str, str | None] = {
+            transform.child: transform.parent for transform in latest if transform is not None
+        }
         return parents | {parent: None for parent in parents.values() if parent is not None and parent not in parents}
 
     def latest(self, child: str) -> Transform | None:
@@ -91,7 +93,7 @@ class TransformBuffer:
         self._tree.clear()
 
     def _checked(self, target: str, source: str) -> tuple[str, str]:
-        """Names without leading slashes, of frames that exist."""
+        """Strip leading slashes, and check that the frames exist."""
         target, source = _frame_name(target), _frame_name(source)
         self._tree.check_frame(target, "lookupTransform", "target_frame")
         self._tree.check_frame(source, "lookupTransform", "source_frame")

@@ -55,8 +55,8 @@ class TransformListener:
         """Subscribe.
 
         Args:
-            node: subscribes; the buffer belongs to its loop's thread.
-            buffer: to fill; a new one by default. Cleared when simulated time jumps back.
+            node: node that subscribes; the buffer is used on its loop only.
+            buffer: buffer to fill, a new one by default; cleared when simulated time jumps back.
         """
         self.buffer = buffer or TransformBuffer()
         node.subscribe("/tf", _TYPE, lambda m: self._on_message(m, static=False), queue_size=_QUEUE, on_loop=True)

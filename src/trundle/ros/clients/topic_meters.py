@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, Protocol
 from ..node.clock import to_nsec
 
 _MAX_WINDOW = 50_000
-"""Default window of averages [messages]; rostopic's number."""
+"""Default window of averages [messages], as in rostopic."""
 
 
 class RosTime(Protocol):
@@ -82,8 +82,10 @@ class _TimeMeter(ABC):
 
     def text(self) -> str | None:
         """Statistics since the last call, in rostopic's format; None: nothing to print."""
-        found = self.statistics()
-        return "no new messages" if found is None else f"{self._average_text(found)}\n{_spread_text(found)}"
+        statistics = self.statistics()
+        if statistics is None:
+            return "no new messages"
+        return f"{self._average_text(statistics)}\n{_spread_text(statistics)}"
 
     @abstractmethod
     def _measure(self, message: Any, now_s: float) -> float:
@@ -142,10 +144,10 @@ class BandwidthMeter:
 
     def text(self) -> str | None:
         """Statistics in rostopic's format; None before the second message."""
-        found = self.statistics()
-        if found is None:
+        statistics = self.statistics()
+        if statistics is None:
             return None
-        rate, sizes = found
+        rate, sizes = statistics
         unit, factor = ("B", 1) if rate < 1e3 else ("KB", 1e3) if rate < 1e6 else ("MB", 1e6)
         total, mean, smallest, largest = (f"{v / factor:.2f}{unit}" for v in (rate, sizes.mean, sizes.min, sizes.max))
         return f"average: {total}/s\n\tmean: {mean} min: {smallest} max: {largest} window: {sizes.window}"

@@ -32,7 +32,7 @@ class TopicSeries:
     """A field, and a curve for each number in it."""
 
     name: str
-    where: TopicField
+    source: TopicField
     curves: dict[str, "deque[tuple[float, float]]"] = field(default_factory=dict[str, "deque[tuple[float, float]]"])
 
     def check(self, messages: Messages) -> None:
@@ -41,17 +41,17 @@ class TopicSeries:
         Raises:
             UsageError: the field is not numeric; the text names its type.
         """
-        kind = field_type(self.where.type, self.where.path, messages)
+        kind = field_type(self.source.type, self.source.path, messages)
         base = kind.partition("[")[0]
         if not base.startswith(_NUMBERS) or base in messages.type_names():
             inner = messages.fields(base) if messages.has(base) else {}
-            below = f"; fields here: {', '.join(inner)}" if inner else ""
-            raise UsageError(f"{self.name} is a {kind}, not a number{below}")
+            hint = f"; fields here: {', '.join(inner)}" if inner else ""
+            raise UsageError(f"{self.name} is a {kind}, not a number{hint}")
 
     def add_message(self, message: Any, time_s: float) -> None:
-        """Append a message's numbers; an array that is too short adds none."""
+        """Append a message's numbers; none if an array is too short."""
         try:
-            value = value_at(message, self.where.steps)
+            value = value_at(message, self.source.steps)
         except IndexError:
             return
         if hasattr(value, "nanosec"):
@@ -64,10 +64,10 @@ class TopicSeries:
 
 def recent_curves(traces: Sequence[TopicSeries], *, last_s: float = math.inf) -> list[Curve]:
     """Curves of the last `last_s` seconds; time starts at the first message."""
-    found = [(name, list(points)) for trace in traces for name, points in trace.curves.items()]
-    start = min((points[0][0] for _, points in found), default=0.0)
-    since = max((points[-1][0] for _, points in found), default=0.0) - last_s
-    return [Curve(name, [(t - start, value) for t, value in points if t >= since]) for name, points in found]
+    curves = [(name, list(points)) for trace in traces for name, points in trace.curves.items()]
+    start = min((points[0][0] for _, points in curves), default=0.0)
+    since = max((points[-1][0] for _, points in curves), default=0.0) - last_s
+    return [Curve(name, [(t - start, value) for t, value in points if t >= since]) for name, points in curves]
 
 
 def subscribe_series(trace: TopicSeries, node: Node, clock: Clock) -> None:
@@ -77,8 +77,8 @@ def subscribe_series(trace: TopicSeries, node: Node, clock: Clock) -> None:
         UsageError: the field is not numeric.
     """
     messages = node.messages
-    known = messages.has(trace.where.type)
-    if known:
+    is_known = messages.has(trace.source.type)
+    if is_known:
         trace.check(messages)
 
     def on_message(message: Any) -> None:
@@ -87,4 +87,4 @@ def subscribe_series(trace: TopicSeries, node: Node, clock: Clock) -> None:
             message = messages.deserialize(message.data, message.type)
         trace.add_message(message, clock.now_ns() / 1e9)
 
-    node.subscribe(trace.where.topic, trace.where.type if known else "*", on_message, queue_size=None)
+    node.subscribe(trace.source.topic, trace.source.type if is_known else "*", on_message, queue_size=None)

@@ -126,7 +126,7 @@ class StaticTransform:
         return self.latest
 
     def __len__(self) -> int:
-        """Return 1 as soon as the frame is set."""
+        """Return 1 once the transform is set."""
         return int(self.latest is not None)
 
     def clear(self) -> None:
@@ -146,10 +146,10 @@ def _interpolate(before: Transform, after: Transform, stamp_ns: int) -> Transfor
     )
 
 
-def _outside(stamp_ns: int, nearest_ns: int, where: str, which: str) -> ExtrapolationError:
+def _outside(stamp_ns: int, bound_ns: int, direction: str, bound: str) -> ExtrapolationError:
     return ExtrapolationError(
-        f"Lookup would require extrapolation {_seconds(abs(stamp_ns - nearest_ns))}s into the {where}.  "
-        f"Requested time {_seconds(stamp_ns)} but the {which} data is at time {_seconds(nearest_ns)}"
+        f"Lookup would require extrapolation {_seconds(abs(stamp_ns - bound_ns))}s into the {direction}.  "
+        f"Requested time {_seconds(stamp_ns)} but the {bound} data is at time {_seconds(bound_ns)}"
     )
 
 

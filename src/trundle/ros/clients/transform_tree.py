@@ -1,4 +1,4 @@
-"""The tree of frames: walks from frame to frame at one time, as tf2's buffer does."""
+"""The tree of frames, traversed from frame to frame at one time as in tf2's buffer."""
 
 from collections.abc import Iterable
 
@@ -37,7 +37,7 @@ class TransformTree:
             history.clear()
 
     def check_frame(self, name: str, function: str, argument: str) -> None:
-        """Check a frame that a caller of `function` named.
+        """Check the name of a frame passed to `function`, and that the frame exists.
 
         Raises:
             FrameNameError: the name is empty or starts with a slash.
@@ -59,7 +59,7 @@ class TransformTree:
             stamp_ns = self.latest_common_time(target, source)
         if target not in self.histories and source not in self.histories:
             raise _unconnected(target, source)
-        top, top_from_source, gap = self._climb(source, target, stamp_ns)
+        top, top_from_source, extrapolation = self._climb(source, target, stamp_ns)
         if top == target:
             return stamp_ns, top_from_source
         frame, frame_from_target = target, Pose()
@@ -77,7 +77,7 @@ class TransformTree:
                 return stamp_ns, frame_from_target.inverse()
         else:
             raise _loop(target)
-        raise _between(gap, target, source) if gap else _unconnected(target, source)
+        raise _between(extrapolation, target, source) if extrapolation else _unconnected(target, source)
 
     def latest_common_time(self, target: str, source: str) -> int:
         """Newest time at which all frames between the two have data [ns]; 0 if all are static.
@@ -114,7 +114,7 @@ class TransformTree:
                 return frame, frame_from_source, None
             try:
                 step = self._transform_at(frame, stamp_ns)
-            except ExtrapolationError as error:  # a common ancestor may still be below
+            except ExtrapolationError as error:  # a common ancestor may be below
                 return frame, frame_from_source, error
             if step is None:
                 return frame, frame_from_source, None
@@ -155,7 +155,7 @@ class TransformTree:
 
 
 def check_frame_name(name: str, function: str, argument: str) -> None:
-    """Check a frame name that a caller of `function` gave.
+    """Check the name of a frame passed to `function`.
 
     Raises:
         FrameNameError: it is empty or starts with a slash.
