@@ -166,7 +166,7 @@ print(decode_description(encode_description(c))["groups"]["limits"]["parameters"
     [
         ('gen.add("flow", double_t, 1, "twice", "much")', "cfg/Pump.cfg:10: error: TypeError: 'flow' has type double"),
         ("gen.add(", "cfg/Pump.cfg:10: error: SyntaxError"),
-        ('gen.add("1st", int_t, 1, "bad")', "'1st' is no name of a parameter"),
+        ('gen.add("1st", int_t, 1, "bad")', "'1st' is not a parameter's name"),
     ],
 )
 def test_a_faulty_cfg_file_is_named_with_its_line(package: Path, line: str, said: str) -> None:

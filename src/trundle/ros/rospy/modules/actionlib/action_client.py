@@ -1,9 +1,12 @@
 """Client of an action, with any number of goals."""
 
 import time
+from collections.abc import Callable
+from typing import Any
 
 from actionlib_msgs.msg import GoalID, GoalStatus, GoalStatusArray
 
+import genpy
 import rospy
 
 from .action_types import ActionTypes
@@ -29,19 +32,19 @@ _FOREVER = rospy.Duration(0.0)
 class ActionClient(ActionTypes):
     """Sends goals to an action server."""
 
-    def __init__(self, ns, ActionSpec):
+    def __init__(self, ns: str, ActionSpec: type) -> None:
         """Connect to the action `ns`.
 
         Args:
-            ns: name of the action.
-            ActionSpec: its XAction class.
+            ns: action's name.
+            ActionSpec: XAction class.
 
         Raises:
             ActionException: the class is not an action.
         """
         super().__init__(ActionSpec)
         self.ns = ns
-        self.last_status_msg = None
+        self.last_status_msg: Any = None
         name = rospy.remap_name(ns)
         pub_queue = rospy.get_param("actionlib_client_pub_queue_size", 10)
         self.pub_queue_size = pub_queue if pub_queue >= 0 else 10
@@ -52,7 +55,7 @@ class ActionClient(ActionTypes):
         self.manager.register_cancel_fn(self.pub_cancel.publish)
         sub_queue = rospy.get_param("actionlib_client_sub_queue_size", -1)
         self.sub_queue_size = sub_queue if sub_queue >= 0 else None
-        options = {"queue_size": self.sub_queue_size}
+        options: dict[str, Any] = {"queue_size": self.sub_queue_size}
         self.status_sub = rospy.Subscriber(f"{name}/status", GoalStatusArray, callback=self._status_cb, **options)
         self.result_sub = rospy.Subscriber(
             f"{name}/result", self.ActionResult, callback=self.manager.update_results, **options
@@ -61,12 +64,17 @@ class ActionClient(ActionTypes):
             f"{name}/feedback", self.ActionFeedback, callback=self.manager.update_feedbacks, **options
         )
 
-    def stop(self):
-        """Leave the action's topics."""
+    def stop(self) -> None:
+        """Unregister from the action's topics."""
         for endpoint in (self.pub_goal, self.pub_cancel, self.status_sub, self.result_sub, self.feedback_sub):
             endpoint.unregister()
 
-    def send_goal(self, goal, transition_cb=None, feedback_cb=None):
+    def send_goal(
+        self,
+        goal: Any,
+        transition_cb: Callable[..., object] | None = None,
+        feedback_cb: Callable[..., object] | None = None,
+    ) -> ClientGoalHandle:
         """Send a goal; returns its ClientGoalHandle.
 
         Args:
@@ -76,19 +84,19 @@ class ActionClient(ActionTypes):
         """
         return self.manager.init_goal(goal, transition_cb, feedback_cb)
 
-    def cancel_all_goals(self):
+    def cancel_all_goals(self) -> None:
         """Ask the server to cancel every goal, of all clients."""
         self.pub_cancel.publish(GoalID(stamp=rospy.Time(0), id=""))
 
-    def cancel_goals_at_and_before_time(self, time):
+    def cancel_goals_at_and_before_time(self, time: genpy.Time) -> None:
         """Ask the server to cancel every goal that is not newer than a rospy.Time."""
         self.pub_cancel.publish(GoalID(stamp=time, id=""))
 
-    def wait_for_action_server_to_start(self, timeout=_FOREVER):
+    def wait_for_action_server_to_start(self, timeout: genpy.Duration = _FOREVER) -> bool:
         """Old name of `wait_for_server`."""
         return self.wait_for_server(timeout)
 
-    def wait_for_server(self, timeout=_FOREVER):
+    def wait_for_server(self, timeout: genpy.Duration = _FOREVER) -> bool:
         """Wait until the server is connected; False if that takes longer than the timeout (0: no limit)."""
         end = rospy.get_rostime() + timeout
         while not rospy.is_shutdown():
@@ -99,10 +107,10 @@ class ActionClient(ActionTypes):
             time.sleep(0.01)
         return False
 
-    def _is_connected(self):
+    def _is_connected(self) -> bool:
         endpoints = (self.pub_goal, self.pub_cancel, self.result_sub, self.feedback_sub)
-        return self.last_status_msg is not None and all(each.get_num_connections() for each in endpoints)
+        return self.last_status_msg is not None and all(endpoint.get_num_connections() for endpoint in endpoints)
 
-    def _status_cb(self, msg):
+    def _status_cb(self, msg: Any) -> None:
         self.last_status_msg = msg
         self.manager.update_statuses(msg)

@@ -1,6 +1,8 @@
 """Server of an action, with any number of goals."""
 
 import threading
+from collections.abc import Callable
+from typing import Any
 
 from actionlib_msgs.msg import GoalID, GoalStatus, GoalStatusArray
 
@@ -13,22 +15,29 @@ from .server_goal_handle import ServerGoalHandle
 from .status_tracker import StatusTracker
 
 
-def nop_cb(goal_handle):
+def nop_cb(goal_handle: object) -> None:
     """Ignore a goal."""
 
 
 class ActionServer(ActionTypes):
     """Receives goals, and reports their status to their clients."""
 
-    def __init__(self, ns, ActionSpec, goal_cb, cancel_cb=nop_cb, auto_start=True):
+    def __init__(
+        self,
+        ns: str,
+        ActionSpec: type,
+        goal_cb: Callable[..., object],
+        cancel_cb: Callable[..., object] = nop_cb,
+        auto_start: bool = True,
+    ) -> None:
         """Prepare the action `ns`.
 
         Args:
-            ns: name of the action.
-            ActionSpec: its XAction class.
+            ns: action's name.
+            ActionSpec: XAction class.
             goal_cb: called with the ServerGoalHandle of each new goal.
             cancel_cb: called with the ServerGoalHandle of each goal to cancel.
-            auto_start: start at once, which may call back before the constructor's end; call `start` instead.
+            auto_start: start at once; callbacks may then run before the constructor ends. Better call `start`.
 
         Raises:
             ActionException: the class is not an action.
@@ -39,11 +48,14 @@ class ActionServer(ActionTypes):
         assert self.goal_callback
         self.cancel_callback = cancel_cb
         self.auto_start = auto_start
-        self.goal_sub = self.cancel_sub = None
-        self.status_pub = self.result_pub = self.feedback_pub = None
-        self.status_timer = None
+        self.goal_sub: Any = None
+        self.cancel_sub: Any = None
+        self.status_pub: Any = None
+        self.result_pub: Any = None
+        self.feedback_pub: Any = None
+        self.status_timer: rospy.Timer | None = None
         self.lock = threading.RLock()
-        self.status_list = []
+        self.status_list: list[StatusTracker] = []
         self.last_cancel = rospy.Time()
         self.status_list_timeout = rospy.Duration()
         self.id_generator = GoalIDGenerator()
@@ -52,23 +64,23 @@ class ActionServer(ActionTypes):
             rospy.logwarn(f"action {ns}: auto_start=True may call back too early; pass False, and call start()")
             self.start()
 
-    def register_goal_callback(self, cb):
+    def register_goal_callback(self, cb: Callable[..., object]) -> None:
         """Replace the goal callback."""
         self.goal_callback = cb
 
-    def register_cancel_callback(self, cancel_cb):
+    def register_cancel_callback(self, cancel_cb: Callable[..., object]) -> None:
         """Replace the cancel callback."""
         self.cancel_callback = cancel_cb
 
-    def start(self):
-        """Go on the graph."""
+    def start(self) -> None:
+        """Advertise and subscribe to the action's topics."""
         with self.lock:
             self.initialize()
             self.started = True
             self.publish_status()
 
-    def stop(self):
-        """Leave the graph; no goal should be running."""
+    def stop(self) -> None:
+        """Unregister from the action's topics; no goal should be running."""
         with self.lock:
             self.started = False
             if self.status_timer:
@@ -76,12 +88,12 @@ class ActionServer(ActionTypes):
             for endpoint in (self.goal_sub, self.cancel_sub, self.status_pub, self.feedback_pub, self.result_pub):
                 endpoint.unregister()
 
-    def initialize(self):
+    def initialize(self) -> None:
         """Advertise, subscribe, and start the timer of the status."""
         name = rospy.remap_name(self.ns)
         pub_queue = rospy.get_param("actionlib_server_pub_queue_size", 50)
         self.pub_queue_size = pub_queue if pub_queue >= 0 else 50
-        options = {"queue_size": self.pub_queue_size}
+        options: dict[str, Any] = {"queue_size": self.pub_queue_size}
         self.status_pub = rospy.Publisher(f"{name}/status", GoalStatusArray, latch=True, **options)
         self.result_pub = rospy.Publisher(f"{name}/result", self.ActionResult, **options)
         self.feedback_pub = rospy.Publisher(f"{name}/feedback", self.ActionFeedback, **options)
@@ -98,34 +110,34 @@ class ActionServer(ActionTypes):
             period = rospy.Duration(1.0 / self.status_frequency)
             self.status_timer = rospy.Timer(period, self.publish_status_async)
 
-    def _status_frequency(self, name):
+    def _status_frequency(self, name: str) -> float:
         """Rate of the status [Hz], from the parameters."""
         old = f"{name}/status_frequency"
         if rospy.has_param(old):
             rospy.logwarn(f"the parameter {old} is deprecated; use actionlib_status_frequency")
             return rospy.get_param(old, 5.0)
-        found = rospy.search_param("actionlib_status_frequency")
-        return 5.0 if found is None else rospy.get_param(found, 5.0)
+        param = rospy.search_param("actionlib_status_frequency")
+        return 5.0 if param is None else rospy.get_param(param, 5.0)
 
-    def publish_result(self, status, result):
+    def publish_result(self, status: Any, result: Any) -> None:
         """Send a result, then the status."""
         with self.lock:
             self._publish(self.result_pub, self.ActionResult(status=status, result=result))
             self.publish_status()
 
-    def publish_feedback(self, status, feedback):
+    def publish_feedback(self, status: Any, feedback: Any) -> None:
         """Send feedback."""
         with self.lock:
             self._publish(self.feedback_pub, self.ActionFeedback(status=status, feedback=feedback))
 
-    def publish_status_async(self, event):
-        """Send the status, as the timer asks."""
+    def publish_status_async(self, event: object) -> None:
+        """Send the status; called by the timer."""
         with self.lock:
             if self.started:
                 self.publish_status()
 
-    def publish_status(self):
-        """Send the status of all goals, and forget those that ended long ago."""
+    def publish_status(self) -> None:
+        """Send the status of all goals, and forget those that ended over `status_list_timeout` ago."""
         with self.lock:
             oldest = rospy.Time.now()
             self.status_list = [
@@ -134,19 +146,21 @@ class ActionServer(ActionTypes):
                 if tracker.handle_destruction_time == rospy.Time()
                 or tracker.handle_destruction_time + self.status_list_timeout >= oldest
             ]
-            self._publish(self.status_pub, GoalStatusArray(status_list=[each.status for each in self.status_list]))
+            self._publish(
+                self.status_pub, GoalStatusArray(status_list=[tracker.status for tracker in self.status_list])
+            )
 
-    def _publish(self, publisher, message):
+    def _publish(self, publisher: rospy.Publisher, message: Any) -> None:
         message.header.stamp = rospy.Time.now()
         if not rospy.is_shutdown():
             publisher.publish(message)
 
-    def internal_goal_callback(self, goal):
-        """Take a goal from the topic."""
+    def internal_goal_callback(self, goal: Any) -> None:
+        """Handle a goal of the topic."""
         with self.lock:
             if not self.started:
                 return
-            known = next((each for each in self.status_list if each.status.goal_id.id == goal.goal_id.id), None)
+            known = self._find_tracker(goal.goal_id.id)
             if known is not None:
                 self._repeat_goal(known)
                 return
@@ -158,16 +172,19 @@ class ActionServer(ActionTypes):
             else:
                 self.goal_callback(handle)
 
-    def _repeat_goal(self, tracker):
-        """A goal whose ID is known: sent twice, or canceled before it came."""
+    def _find_tracker(self, goal_id: str) -> StatusTracker | None:
+        return next((tracker for tracker in self.status_list if tracker.status.goal_id.id == goal_id), None)
+
+    def _repeat_goal(self, tracker: StatusTracker) -> None:
+        """Handle a goal with a known ID: sent twice, or canceled before it arrived."""
         if tracker.status.status == GoalStatus.RECALLING:
             tracker.status.status = GoalStatus.RECALLED
             self.publish_result(tracker.status, self.ActionResultType())
         if tracker.handle_tracker is None:
             tracker.handle_destruction_time = rospy.Time.now()
 
-    def internal_cancel_callback(self, goal_id):
-        """Take a cancel request from the topic: of one ID, of all up to a time, or (both zero) of all."""
+    def internal_cancel_callback(self, goal_id: Any) -> None:
+        """Handle a cancel request of the topic: of one ID, of all up to a time, or (both zero) of all."""
         with self.lock:
             if not self.started:
                 return
@@ -182,13 +199,13 @@ class ActionServer(ActionTypes):
                     handle = self._handle(tracker)
                     if handle.set_cancel_requested():
                         self.cancel_callback(handle)
-            if goal_id.id and not any(each.status.goal_id.id == goal_id.id for each in self.status_list):
-                tracker = StatusTracker(goal_id, GoalStatus.RECALLING)  # its goal may still come
+            if goal_id.id and self._find_tracker(goal_id.id) is None:
+                tracker = StatusTracker(goal_id, GoalStatus.RECALLING)  # its goal may still arrive
                 tracker.handle_destruction_time = rospy.Time.now()
                 self.status_list.append(tracker)
             self.last_cancel = max(self.last_cancel, goal_id.stamp)
 
-    def _handle(self, tracker):
+    def _handle(self, tracker: StatusTracker) -> ServerGoalHandle:
         if tracker.handle_tracker is None:
             tracker.handle_tracker = HandleTrackerDeleter(self, tracker)
         return ServerGoalHandle(tracker, self, tracker.handle_tracker)

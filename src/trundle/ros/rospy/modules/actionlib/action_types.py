@@ -1,4 +1,4 @@
-"""The message types that an action is made of."""
+"""Message types of an action."""
 
 from .exceptions import ActionException
 
@@ -6,8 +6,8 @@ from .exceptions import ActionException
 class ActionTypes:
     """Types of the messages of one action, from its XAction class."""
 
-    def __init__(self, action_spec):
-        """Look at an XAction.
+    def __init__(self, action_spec: type) -> None:
+        """Read the types from an XAction class.
 
         Raises:
             ActionException: the class is not an action.

@@ -1,10 +1,15 @@
-"""A goal that was sent, in the hand of its client."""
+"""Client's handle of a sent goal."""
+
+from typing import TYPE_CHECKING, Any
 
 from actionlib_msgs.msg import GoalID, GoalStatus
 
 import rospy
 
 from .comm_state import CommState
+
+if TYPE_CHECKING:
+    from .comm_state_machine import CommStateMachine
 
 _TERMINAL = (
     GoalStatus.PREEMPTED,
@@ -17,49 +22,49 @@ _TERMINAL = (
 
 
 class ClientGoalHandle:
-    """Asks for, and cancels, one goal. The client forgets the goal with its last handle."""
+    """Reads the state of one goal, and cancels it. The client forgets the goal with its last handle."""
 
-    def __init__(self, comm_state_machine):
+    def __init__(self, comm_state_machine: "CommStateMachine") -> None:
         self.comm_state_machine = comm_state_machine
 
-    def __eq__(self, o):
+    def __eq__(self, o: Any) -> bool:
         return bool(o) and self.comm_state_machine == o.comm_state_machine
 
-    def __ne__(self, o):
+    def __ne__(self, o: object) -> bool:
         return not self == o
 
-    def __hash__(self):
+    def __hash__(self) -> int:
         return hash(self.comm_state_machine)
 
-    def cancel(self):
-        """Ask the server to cancel the goal."""
+    def cancel(self) -> None:
+        """Send a cancel request for the goal."""
         machine = self.comm_state_machine
         with machine.mutex:
             machine.send_cancel_fn(GoalID(stamp=rospy.Time(0), id=machine.action_goal.goal_id.id))
             machine.state = CommState.WAITING_FOR_CANCEL_ACK
 
-    def get_comm_state(self):
+    def get_comm_state(self) -> int:
         """CommState of the goal; LOST if the handle is empty."""
         if not self.comm_state_machine:
             rospy.logerr("get_comm_state of an empty ClientGoalHandle")
             return CommState.LOST
         return self.comm_state_machine.state
 
-    def get_goal_status(self):
-        """Newest GoalStatus number of the server."""
+    def get_goal_status(self) -> int:
+        """Number of the server's latest GoalStatus."""
         if not self.comm_state_machine:
             rospy.logerr("get_goal_status of an empty ClientGoalHandle")
             return GoalStatus.PENDING
         return self.comm_state_machine.latest_goal_status.status
 
-    def get_goal_status_text(self):
-        """Newest text of the server."""
+    def get_goal_status_text(self) -> str:
+        """Latest status text of the server."""
         if not self.comm_state_machine:
             rospy.logerr("get_goal_status_text of an empty ClientGoalHandle")
             return "ERROR: the handle has no goal"
         return self.comm_state_machine.latest_goal_status.text
 
-    def get_result(self):
+    def get_result(self) -> Any:
         """The result, or None if there is none yet."""
         if not self.comm_state_machine:
             rospy.logerr("get_result of an empty ClientGoalHandle")
@@ -67,7 +72,7 @@ class ClientGoalHandle:
         latest = self.comm_state_machine.latest_result
         return latest.result if latest else None
 
-    def get_terminal_state(self):
+    def get_terminal_state(self) -> int:
         """TerminalState of a goal that is DONE."""
         if not self.comm_state_machine:
             rospy.logerr("get_terminal_state of an empty ClientGoalHandle")
@@ -79,5 +84,5 @@ class ClientGoalHandle:
             status = machine.latest_goal_status.status
             if status in _TERMINAL:
                 return status
-            rospy.logerr(f"get_terminal_state: {GoalStatus.to_string(status)} is no end of a goal")
+            rospy.logerr(f"get_terminal_state: {GoalStatus.to_string(status)} is not a terminal state")
             return GoalStatus.LOST

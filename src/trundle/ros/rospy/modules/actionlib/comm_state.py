@@ -1,9 +1,9 @@
-"""States of a goal as its client sees them, and how a server's status changes them."""
+"""States of a goal at its client, and the transitions that a server's status causes."""
 
 from actionlib_msgs.msg import GoalStatus
 
 
-def get_name_of_constant(C, n):
+def get_name_of_constant(C: type, n: int) -> str:
     """Name of the constant of class `C` that has the value `n`."""
     for name, value in C.__dict__.items():
         if isinstance(value, int) and value == n:
@@ -23,6 +23,7 @@ class CommState:
     PREEMPTING = 6
     DONE = 7
     LOST = 8
+    to_string = classmethod(get_name_of_constant)
 
 
 class TerminalState:
@@ -34,10 +35,10 @@ class TerminalState:
     ABORTED = GoalStatus.ABORTED
     SUCCEEDED = GoalStatus.SUCCEEDED
     LOST = GoalStatus.LOST
+    to_string = classmethod(get_name_of_constant)
 
 
-for _states in (GoalStatus, CommState, TerminalState):
-    _states.to_string = classmethod(get_name_of_constant)
+GoalStatus.to_string = classmethod(get_name_of_constant)
 
 _LETTERS = {
     "P": CommState.PENDING,
@@ -57,7 +58,7 @@ _STATUSES = (
     GoalStatus.SUCCEEDED,
     GoalStatus.ABORTED,
 )
-# A column for each status above: the states passed through, "-" to stay, "!" if the server must not say so.
+# A column for each status above: the states passed through, "-" for no change, "!" for a status that is not allowed.
 _TABLE = {
     CommState.WAITING_FOR_GOAL_ACK: "P  A  PW PR PW AE AEW AW AW",
     CommState.PENDING: "-  A  W  R  RW AE AEW AW AW",
@@ -71,8 +72,8 @@ _TABLE = {
 _TRANSITIONS = {state: dict(zip(_STATUSES, cells.split(), strict=True)) for state, cells in _TABLE.items()}
 
 
-def next_states(state, status):
-    """States that a goal passes through when the server says `status`; None if that is against the protocol.
+def next_states(state: int, status: int) -> list[int] | None:
+    """States that a goal passes through when the server reports `status`; None if the protocol does not allow it.
 
     Raises:
         KeyError: no such status.

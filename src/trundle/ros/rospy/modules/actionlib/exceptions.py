@@ -1,4 +1,4 @@
-"""Error of this package."""
+"""Exception of this package."""
 
 
 class ActionException(Exception):

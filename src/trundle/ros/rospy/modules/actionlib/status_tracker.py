@@ -1,21 +1,26 @@
 """Status of one goal at its server."""
 
+from typing import TYPE_CHECKING, Any
+
 from actionlib_msgs.msg import GoalStatus
 
 import rospy
 
 from .goal_id_generator import GoalIDGenerator
 
+if TYPE_CHECKING:
+    from .handle_tracker_deleter import HandleTrackerDeleter
+
 
 class StatusTracker:
-    """Status of a goal, and how long to go on saying it."""
+    """Status of a goal, and the time from which its report expires."""
 
-    def __init__(self, goal_id=None, status=None, goal=None):
-        """Track a goal, or a cancel request (goal_id, status) whose goal has not come yet."""
+    def __init__(self, goal_id: Any = None, status: int | None = None, goal: Any = None) -> None:
+        """Track a goal, or a cancel request (goal_id, status) whose goal has not arrived yet."""
         self.goal = goal
-        self.handle_tracker = None
+        self.handle_tracker: HandleTrackerDeleter | None = None
         self.handle_destruction_time = rospy.Time()
-        """Time at which the last handle went, or the goal ended; 0 before."""
+        """Time when the last handle was deleted, or the goal ended; 0 before."""
         self.status = GoalStatus()
         if goal is None:
             self.status.goal_id = goal_id

@@ -6,8 +6,8 @@ from .display import cvtColorForDisplay
 __all__ = ["CvBridge", "CvBridgeError", "cvtColorForDisplay", "getCvType"]
 
 
-def getCvType(encoding):
-    """Number of OpenCV's type of an encoding.
+def getCvType(encoding: str) -> int:
+    """OpenCV's type number of an encoding.
 
     Raises:
         CvBridgeError: no such encoding.

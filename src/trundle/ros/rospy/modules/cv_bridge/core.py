@@ -1,4 +1,4 @@
-"""`cv_bridge.bridge`, by its old name."""
+"""`cv_bridge.bridge`, under its old name."""
 
 from .bridge import CvBridge, CvBridgeError
 

@@ -1,19 +1,27 @@
 """Diagnostics of topics."""
 
+from typing import TYPE_CHECKING, Any
+
 from .tasks import CompositeDiagnosticTask
-from .topic_status import FrequencyStatus, TimeStampStatus
+from .topic_status import FrequencyStatus, FrequencyStatusParam, TimeStampStatus, TimeStampStatusParam
+
+if TYPE_CHECKING:
+    import genpy
+    import rospy
+
+    from .updater import Updater
 
 
 class HeaderlessTopicDiagnostic(CompositeDiagnosticTask):
-    """Watches how often `tick` is called."""
+    """Checks the frequency of messages."""
 
-    def __init__(self, name, diag, freq):
+    def __init__(self, name: str, diag: "Updater", freq: FrequencyStatusParam) -> None:
         """Add itself to an Updater.
 
         Args:
             name: topic's name.
-            diag: the Updater.
-            freq: FrequencyStatusParam.
+            diag: updater that runs the task.
+            freq: limits of the frequency.
         """
         super().__init__(f"{name} topic status")
         self.diag = diag
@@ -21,39 +29,41 @@ class HeaderlessTopicDiagnostic(CompositeDiagnosticTask):
         self.addTask(self.freq)
         self.diag.add(self)
 
-    def tick(self):
+    def tick(self) -> None:
         """Count a message."""
         self.freq.tick()
 
-    def clear_window(self):
-        """Start to count again."""
+    def clear_window(self) -> None:
+        """Restart counting."""
         self.freq.clear()
 
 
 class TopicDiagnostic(HeaderlessTopicDiagnostic):
-    """Watches stamps too."""
+    """Checks the frequency and the stamps of messages."""
 
-    def __init__(self, name, diag, freq, stamp):
+    def __init__(self, name: str, diag: "Updater", freq: FrequencyStatusParam, stamp: TimeStampStatusParam) -> None:
         """Add itself to an Updater; `stamp` is a TimeStampStatusParam."""
         super().__init__(name, diag, freq)
         self.stamp = TimeStampStatus(stamp)
         self.addTask(self.stamp)
 
-    def tick(self, stamp):
+    def tick(self, stamp: "genpy.Time | float") -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
         """Count a message with a stamp."""
         self.stamp.tick(stamp)
         super().tick()
 
 
 class DiagnosedPublisher(TopicDiagnostic):
-    """Publishes and watches."""
+    """Publishes messages, and checks their frequency and stamps."""
 
-    def __init__(self, pub, diag, freq, stamp):
+    def __init__(
+        self, pub: "rospy.Publisher", diag: "Updater", freq: FrequencyStatusParam, stamp: TimeStampStatusParam
+    ) -> None:
         """Wrap a rospy.Publisher of messages with a header."""
         super().__init__(pub.name, diag, freq, stamp)
         self.publisher = pub
 
-    def publish(self, message):
+    def publish(self, message: Any) -> None:
         """Publish a message."""
         self.tick(message.header.stamp)
         self.publisher.publish(message)

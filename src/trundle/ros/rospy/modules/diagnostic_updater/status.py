@@ -1,5 +1,7 @@
 """DiagnosticStatus with the methods to fill it."""
 
+from typing import Any
+
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 OK = DiagnosticStatus.OK
@@ -8,19 +10,19 @@ ERROR = DiagnosticStatus.ERROR
 
 
 class DiagnosticStatusWrapper(DiagnosticStatus):
-    """A status that tasks write into."""
+    """A status that tasks fill."""
 
-    def summary(self, *args):
+    def summary(self, *args: Any) -> None:
         """Set level and message: two arguments, or another status."""
         level, message = _summary(args)
         self.level, self.message = level, str(message)
 
-    def clearSummary(self):
+    def clearSummary(self) -> None:
         """OK, without a message."""
         self.summary(OK, "")
 
-    def mergeSummary(self, *args):
-        """Take the worse level; messages are joined, but those of OK beside something worse are dropped."""
+    def mergeSummary(self, *args: Any) -> None:
+        """Set the worse level; messages are joined, but messages of OK are dropped where the other level is worse."""
         level, message = _summary(args)
         if (level > OK) == (self.level > OK):
             self.message = f"{self.message}; {message}" if self.message else message
@@ -28,10 +30,11 @@ class DiagnosticStatusWrapper(DiagnosticStatus):
             self.message = message
         self.level = max(self.level, level)
 
-    def add(self, key, val):
+    def add(self, key: str, val: object) -> None:
         """Add a value, as text."""
         self.values.append(KeyValue(key, str(val)))
 
 
-def _summary(args):
-    return (args[0].level, args[0].message) if len(args) == 1 else args
+def _summary(args: tuple[Any, ...]) -> tuple[int, str]:
+    level, message = (args[0].level, args[0].message) if len(args) == 1 else args
+    return level, message

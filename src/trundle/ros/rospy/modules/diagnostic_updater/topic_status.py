@@ -1,7 +1,10 @@
-"""Tasks that watch how often something happens, and how old its stamps are."""
+"""Tasks that check the frequency of events, and the age of their stamps."""
 
 import threading
+from collections.abc import Mapping
+from typing import Any
 
+import genpy
 import rospy
 
 from .status import ERROR, OK, WARN
@@ -11,13 +14,13 @@ from .tasks import DiagnosticTask
 class FrequencyStatusParam:
     """Limits of a frequency."""
 
-    def __init__(self, freq_bound, tolerance=0.1, window_size=5):
+    def __init__(self, freq_bound: Mapping[str, float], tolerance: float = 0.1, window_size: int = 5) -> None:
         """Set the limits.
 
         Args:
             freq_bound: {'min': [Hz], 'max': [Hz]}; 'max' may be missing.
-            tolerance: share by which they may be exceeded.
-            window_size: number of updates that the frequency is measured over.
+            tolerance: ratio by which they may be exceeded.
+            window_size: number of updates over which the frequency is measured.
         """
         self.freq_bound = freq_bound
         self.tolerance = tolerance
@@ -27,42 +30,42 @@ class FrequencyStatusParam:
 class FrequencyStatus(DiagnosticTask):
     """Compares the frequency of `tick` with its limits."""
 
-    def __init__(self, params, name="FrequencyStatus"):
+    def __init__(self, params: FrequencyStatusParam, name: str = "FrequencyStatus") -> None:
         super().__init__(name)
         self.params = params
         self.lock = threading.Lock()
         self.clear()
 
-    def clear(self):
-        """Start again."""
+    def clear(self) -> None:
+        """Restart counting."""
         with self.lock:
             self.count = 0
-            self.times = [rospy.Time.now()] * self.params.window_size
+            self.times: list[genpy.Time] = [rospy.Time.now()] * self.params.window_size
             self.seq_nums = [0] * self.params.window_size
             self.hist_indx = 0
 
-    def tick(self):
+    def tick(self) -> None:
         """Count an event."""
         with self.lock:
             self.count += 1
 
-    def run(self, stat):
+    def run(self, stat: Any) -> Any:
         """Fill a status."""
         with self.lock:
-            now, at = rospy.Time.now(), self.hist_indx
-            events = self.count - self.seq_nums[at]
-            window = (now - self.times[at]).to_sec()
+            now, index = rospy.Time.now(), self.hist_indx
+            events = self.count - self.seq_nums[index]
+            window = (now - self.times[index]).to_sec()
             frequency = events / window if window else 0.0
-            self.seq_nums[at], self.times[at] = self.count, now
-            self.hist_indx = (at + 1) % self.params.window_size
+            self.seq_nums[index], self.times[index] = self.count, now
+            self.hist_indx = (index + 1) % self.params.window_size
         bounds, tolerance = self.params.freq_bound, self.params.tolerance
-        lowest = bounds["min"] * (1 - tolerance)
-        highest = bounds["max"] * (1 + tolerance) if "max" in bounds else None
+        min_frequency = bounds["min"] * (1 - tolerance)
+        max_frequency = bounds["max"] * (1 + tolerance) if "max" in bounds else None
         if events == 0:
             stat.summary(ERROR, "No events recorded.")
-        elif frequency < lowest:
+        elif frequency < min_frequency:
             stat.summary(WARN, "Frequency too low.")
-        elif highest is not None and frequency > highest:
+        elif max_frequency is not None and frequency > max_frequency:
             stat.summary(WARN, "Frequency too high.")
         else:
             stat.summary(OK, "Desired frequency met")
@@ -73,52 +76,53 @@ class FrequencyStatus(DiagnosticTask):
         if bounds.get("max") == bounds["min"]:
             stat.add("Target frequency (Hz)", f"{bounds['min']:f}")
         if bounds["min"] > 0:
-            stat.add("Minimum acceptable frequency (Hz)", f"{lowest:f}")
-        if highest is not None:
-            stat.add("Maximum acceptable frequency (Hz)", f"{highest:f}")
+            stat.add("Minimum acceptable frequency (Hz)", f"{min_frequency:f}")
+        if max_frequency is not None:
+            stat.add("Maximum acceptable frequency (Hz)", f"{max_frequency:f}")
         return stat
 
 
 class TimeStampStatusParam:
     """Limits of the age of stamps [s]."""
 
-    def __init__(self, min_acceptable=-1, max_acceptable=5):
+    def __init__(self, min_acceptable: float = -1, max_acceptable: float = 5) -> None:
         self.max_acceptable = max_acceptable
         self.min_acceptable = min_acceptable
 
 
-_USUAL = TimeStampStatusParam()
+_DEFAULT_LIMITS = TimeStampStatusParam()
 
 
 class TimeStampStatus(DiagnosticTask):
     """Compares the age of stamps with its limits."""
 
-    def __init__(self, params=_USUAL, name="Timestamp Status"):
+    def __init__(self, params: TimeStampStatusParam = _DEFAULT_LIMITS, name: str = "Timestamp Status") -> None:
         super().__init__(name)
         self.params = params
         self.lock = threading.Lock()
         self.early_count = self.late_count = self.zero_count = 0
-        self._forget()
+        self._clear_deltas()
 
-    def _forget(self):
+    def _clear_deltas(self) -> None:
         self.zero_seen = False
-        self.min_delta = self.max_delta = 0
+        self.min_delta: float = 0
+        self.max_delta: float = 0
         self.deltas_valid = False
 
-    def tick(self, stamp):
-        """Note a stamp, a rospy.Time or seconds."""
-        stamp = stamp if isinstance(stamp, float) else stamp.to_sec()
+    def tick(self, stamp: genpy.Time | float) -> None:
+        """Record a stamp, a rospy.Time or seconds."""
+        stamp_s = stamp.to_sec() if isinstance(stamp, genpy.TVal) else stamp
         with self.lock:
-            if stamp == 0:
+            if stamp_s == 0:
                 self.zero_seen = True
                 return
-            delta = rospy.Time.now().to_sec() - stamp
+            delta = rospy.Time.now().to_sec() - stamp_s
             self.max_delta = max(delta, self.max_delta) if self.deltas_valid else delta
             self.min_delta = min(delta, self.min_delta) if self.deltas_valid else delta
             self.deltas_valid = True
 
-    def run(self, stat):
-        """Fill a status, of the stamps since the last one."""
+    def run(self, stat: Any) -> Any:
+        """Fill a status from the stamps since the last one."""
         with self.lock:
             stat.summary(OK, "Timestamps are reasonable.")
             if not self.deltas_valid:
@@ -140,17 +144,17 @@ class TimeStampStatus(DiagnosticTask):
             stat.add("Late diagnostic update count:", f"{self.late_count}")
             stat.add("Early diagnostic update count:", f"{self.early_count}")
             stat.add("Zero seen diagnostic update count:", f"{self.zero_count}")
-            self._forget()
+            self._clear_deltas()
         return stat
 
 
 class Heartbeat(DiagnosticTask):
-    """Always OK, as long as the node lives."""
+    """Always OK while the node runs."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__("Heartbeat")
 
-    def run(self, stat):
+    def run(self, stat: Any) -> Any:
         """Fill a status."""
         stat.summary(OK, "Alive")
         return stat

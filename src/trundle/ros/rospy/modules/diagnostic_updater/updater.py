@@ -1,4 +1,6 @@
-"""Runs a node's tasks from time to time and publishes their statuses."""
+"""Runs a node's tasks periodically and publishes their statuses."""
+
+from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 
@@ -14,7 +16,7 @@ _PARAMETER_PERIOD = rospy.Duration(0.25)
 class Updater(DiagnosticTaskVector):
     """Publisher of /diagnostics; call `update` often."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__()
         self.publisher = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=10)
         self.last_time = rospy.Time.now()
@@ -24,7 +26,7 @@ class Updater(DiagnosticTaskVector):
         self.hwid = ""
         self.warn_nohwid_done = False
 
-    def update(self):
+    def update(self) -> None:
         """Publish, if ~diagnostic_period (1 s) has passed."""
         now = rospy.Time.now()
         if now >= self.last_time_period_checked + _PARAMETER_PERIOD:
@@ -33,7 +35,7 @@ class Updater(DiagnosticTaskVector):
         if now >= self.last_time + rospy.Duration(self.period):
             self.force_update()
 
-    def force_update(self):
+    def force_update(self) -> None:
         """Run all tasks and publish now."""
         self.last_time = rospy.Time.now()
         with self.lock:
@@ -43,20 +45,20 @@ class Updater(DiagnosticTaskVector):
             self.warn_nohwid_done = True
         self.publish(statuses)
 
-    def broadcast(self, lvl, msg):
+    def broadcast(self, lvl: int, msg: str) -> None:
         """Publish one level and message for all tasks."""
-        statuses = []
+        statuses: list[Any] = []
         for task in self.tasks:
             statuses.append(DiagnosticStatusWrapper(name=task.name))
             statuses[-1].summary(lvl, msg)
         self.publish(statuses)
 
-    def setHardwareID(self, hwid):
-        """Name the device that the statuses are of."""
+    def setHardwareID(self, hwid: str) -> None:
+        """Set the name of the device that the statuses describe."""
         self.hwid = hwid
 
-    def publish(self, msg):
-        """Publish one status or a list of them; the node's name is put before theirs."""
+    def publish(self, msg: Any) -> None:
+        """Publish one status or a list of them; each name is prefixed with the node's."""
         statuses = msg if isinstance(msg, list) else [msg]
         for status in statuses:
             status.name = f"{rospy.get_name()[1:]}: {status.name}"
@@ -64,13 +66,13 @@ class Updater(DiagnosticTaskVector):
         array.header.stamp = rospy.Time.now()
         self.publisher.publish(array)
 
-    def addedTaskCallback(self, task):
+    def addedTaskCallback(self, task: DiagnosticTaskVector.DiagnosticTaskInternal) -> None:
         """Publish that a task starts."""
         status = DiagnosticStatusWrapper(name=task.name)
         status.summary(0, "Node starting up")
         self.publish(status)
 
-    def _run(self, task):
+    def _run(self, task: DiagnosticTaskVector.DiagnosticTaskInternal) -> Any:
         status = DiagnosticStatusWrapper(
             name=task.name, level=ERROR, message="No message was set", hardware_id=self.hwid
         )

@@ -1,8 +1,13 @@
-"""Parameters of running nodes that others may change."""
+"""Parameters of running nodes that other nodes may change."""
+
+TYPE_CHECKING = False  # not from `typing`, whose import takes longer than this module's
+if TYPE_CHECKING:
+    from collections.abc import KeysView
+    from typing import Any
 
 
 class DynamicReconfigureException(Exception):
-    """Base of this package's errors."""
+    """Base class of this package's exceptions."""
 
 
 class DynamicReconfigureParameterException(DynamicReconfigureException):
@@ -13,7 +18,7 @@ class DynamicReconfigureCallbackException(DynamicReconfigureException):
     """The server's callback failed."""
 
 
-def find_reconfigure_services():
+def find_reconfigure_services() -> list[str]:
     """Names of all nodes (with namespace) that can be reconfigured."""
     import rosservice
 
@@ -21,6 +26,6 @@ def find_reconfigure_services():
     return sorted(name.removesuffix(ending) for name in rosservice.get_service_list() if name.endswith(ending))
 
 
-def get_parameter_names(descr):
+def get_parameter_names(descr: "Any") -> "KeysView[str]":
     """Names of the parameters of an XConfig module."""
     return descr.defaults.keys()

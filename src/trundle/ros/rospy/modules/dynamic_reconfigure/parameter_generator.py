@@ -1,13 +1,17 @@
-"""Generator that .cfg files describe a node's parameters with.
+"""Generator by which .cfg files describe a node's parameters.
 
-`generate` only hands the description over: `dynamic_reconfigure.config_reader` makes the module XConfig of it when a
-program imports that, so nothing is built.
+`generate` only collects the description: `dynamic_reconfigure.config_reader` creates the module XConfig from it when a
+program imports that, without a build.
 """
 
 import inspect
 import itertools
 import re
 import sys
+
+TYPE_CHECKING = False  # not from `typing`, whose import takes longer than this module's
+if TYPE_CHECKING:
+    from typing import Any
 
 str_t = "str"
 bool_t = "bool"
@@ -20,12 +24,12 @@ _PYTHON = {"str": str, "int": int, "double": float, "bool": bool}
 _C = {"str": "std::string", "int": "int", "double": "double", "bool": "bool"}
 _NAME = re.compile(r"[a-zA-Z][a-zA-Z0-9_]*")
 
-collected = []
-"""Generators whose `generate` was called, since a reader emptied it."""
+collected: "list[ParameterGenerator]" = []
+"""Generators whose `generate` was called since a reader cleared the list."""
 
 
-def check_description(description):
-    """Check a description, which is quoted in generated code.
+def check_description(description: str) -> None:
+    """Check a description, which generated code contains in quotes.
 
     Raises:
         ValueError: it has quotes.
@@ -34,14 +38,14 @@ def check_description(description):
         raise ValueError(f"quotes are not allowed in a description: {description}")
 
 
-def check_name(name):
+def check_name(name: str) -> None:
     """Check a parameter's name.
 
     Raises:
-        ValueError: it is not made of letters, digits and underscores.
+        ValueError: it has other characters than letters, digits and underscores.
     """
     if not _NAME.fullmatch(name):
-        raise ValueError(f"'{name}' is no name of a parameter: use letters, digits and _, and begin with a letter")
+        raise ValueError(f"'{name}' is not a parameter's name: use letters, digits and _, and begin with a letter")
 
 
 class ParameterGenerator:
@@ -52,35 +56,45 @@ class ParameterGenerator:
     defval = {"int": 0, "double": 0.0, "str": "", "bool": False}
 
     class Group:
-        """Parameters that are shown together."""
+        """Group of parameters that are shown together."""
 
-        def __init__(self, gen, name, type, state, id, parent):
+        def __init__(self, gen: "ParameterGenerator", name: str, type: str, state: bool, id: int, parent: int) -> None:
             self.gen = gen
             self.name = name.replace(" ", "_")
             self.type = type
             self.state = state
             self.id = id
             self.parent = parent
-            self.groups = []
-            self.parameters = []
+            self.groups: list[ParameterGenerator.Group] = []
+            self.parameters: list[dict[str, Any]] = []
 
-        def add_group(self, name, type="", state=True):
+        def add_group(self, name: str, type: str = "", state: bool = True) -> "ParameterGenerator.Group":
             """Add a group inside this one, and return it.
 
             Args:
-                name: of the group.
-                type: how rqt_reconfigure shows it: "", "tab", "collapse", "hide", "apply".
+                name: group's name.
+                type: display in rqt_reconfigure: "", "tab", "collapse", "hide", "apply".
                 state: open or not.
             """
             group = self.gen.Group(self.gen, name, type, state, next(self.gen.group_ids), self.id)
             self.groups.append(group)
             return group
 
-        def add(self, name, paramtype, level, description, default=None, min=None, max=None, edit_method=""):
+        def add(
+            self,
+            name: str,
+            paramtype: str,
+            level: int,
+            description: str,
+            default: "Any" = None,
+            min: "Any" = None,
+            max: "Any" = None,
+            edit_method: str = "",
+        ) -> None:
             """Add a parameter; see `ParameterGenerator.add`."""
             check_name(name)
             check_description(description)
-            parameter = {
+            parameter: dict[str, Any] = {
                 "name": name,
                 "type": paramtype,
                 "default": default,
@@ -89,7 +103,7 @@ class ParameterGenerator:
                 "min": min,
                 "max": max,
                 "edit_method": edit_method,
-                **_place(),
+                **_source_location(),
                 **_c_types(paramtype),
             }
             for field, values in (("default", self.gen.defval), ("max", self.gen.maxval), ("min", self.gen.minval)):
@@ -99,12 +113,12 @@ class ParameterGenerator:
                     _check_type(parameter, field)
             self.parameters.append(parameter)
 
-        def get_parameters(self):
-            """Parameters of this group and those inside."""
-            return [*self.parameters, *(each for group in self.groups for each in group.get_parameters())]
+        def get_parameters(self) -> "list[dict[str, Any]]":
+            """Parameters of this group and its subgroups."""
+            return [*self.parameters, *(parameter for group in self.groups for parameter in group.get_parameters())]
 
-        def to_dict(self):
-            """Description, as `config_description` has it."""
+        def to_dict(self) -> "dict[str, Any]":
+            """Description, as in `config_description`."""
             return {
                 "name": self.name,
                 "type": self.type,
@@ -116,22 +130,29 @@ class ParameterGenerator:
                 "groups": [group.to_dict() for group in self.groups],
             }
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.group_ids = itertools.count(1)
         self.group = self.Group(self, "Default", "", True, 0, 0)
-        self.constants = []
+        self.constants: list[dict[str, Any]] = []
         self.name = ""
 
-    def const(self, name, type, value, descr):
+    def const(self, name: str, type: str, value: "Any", descr: str) -> "dict[str, Any]":
         """Constant, for `enum`."""
         check_description(descr)
-        constant = {"name": name, "type": type, "value": value, **_place(), "description": descr, **_c_types(type)}
+        constant: dict[str, Any] = {
+            "name": name,
+            "type": type,
+            "value": value,
+            **_source_location(),
+            "description": descr,
+            **_c_types(type),
+        }
         _check_type(constant, "value")
         self.constants.append(constant)
         return constant
 
-    def enum(self, constants, description):
-        """`edit_method` of a parameter whose values have names.
+    def enum(self, constants: "list[dict[str, Any]]", description: str) -> str:
+        """`edit_method` of a parameter with named values.
 
         Raises:
             ValueError: the constants differ in type.
@@ -141,45 +162,55 @@ class ParameterGenerator:
         check_description(description)
         return repr({"enum": constants, "enum_description": description})
 
-    def add(self, name, paramtype, level, description, default=None, min=None, max=None, edit_method=""):
+    def add(
+        self,
+        name: str,
+        paramtype: str,
+        level: int,
+        description: str,
+        default: "Any" = None,
+        min: "Any" = None,
+        max: "Any" = None,
+        edit_method: str = "",
+    ) -> None:
         """Add a parameter.
 
         Args:
-            name: of the parameter.
+            name: parameter's name.
             paramtype: int_t, double_t, str_t or bool_t.
-            level: bits that the server's callback gets when it changes.
+            level: bits passed to the server's callback when the parameter changes.
             description: one sentence.
-            default: value at first.
-            min: lowest value.
-            max: highest value.
-            edit_method: of `enum`.
+            default: initial value.
+            min: minimum value.
+            max: maximum value.
+            edit_method: result of `enum`.
         """
         self.group.add(name, paramtype, level, description, default, min, max, edit_method)
 
-    def add_group(self, name, type="", state=True):
+    def add_group(self, name: str, type: str = "", state: bool = True) -> "ParameterGenerator.Group":
         """Add a group, and return it; see `Group.add_group`."""
         return self.group.add_group(name, type=type, state=state)
 
-    def generate(self, pkgname, nodename, name):
-        """Hand the description over to programs that import `pkgname.cfg.nameConfig`; returns 0, for exit()."""
+    def generate(self, pkgname: str, nodename: str, name: str) -> int:
+        """Publish the description for programs that import `pkgname.cfg.nameConfig`; returns 0, for exit()."""
         self.pkgname, self.nodename, self.name = pkgname, nodename, name
         collected.append(self)
         return 0
 
 
-def _check_type(parameter, field):
+def _check_type(parameter: "dict[str, Any]", field: str) -> None:
     kind, value = _PYTHON[parameter["type"]], parameter[field]
     if type(value) is not kind and not (kind is float and type(value) is int):
         raise TypeError(f"'{parameter['name']}' has type {parameter['type']}, but {field} is {value!r}")
     parameter[field] = kind(value)
 
 
-def _c_types(kind):
+def _c_types(kind: str) -> dict[str, str]:
     return {"ctype": _C[kind], "cconsttype": "const char * const" if kind == "str" else f"const {_C[kind]}"}
 
 
-def _place():
-    """File and line of the .cfg that calls."""
+def _source_location() -> "dict[str, Any]":
+    """File and line of the calling .cfg file."""
     frame = sys._getframe(1)
     while frame.f_back is not None and frame.f_code.co_filename == __file__:
         frame = frame.f_back

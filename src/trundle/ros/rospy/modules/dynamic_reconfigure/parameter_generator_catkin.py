@@ -1,4 +1,4 @@
-"""`dynamic_reconfigure.parameter_generator`, by the name that catkin packages use."""
+"""`dynamic_reconfigure.parameter_generator`, under the name that catkin packages import."""
 
 from .parameter_generator import ParameterGenerator, bool_t, check_description, check_name, double_t, int_t, str_t
 

@@ -2,6 +2,8 @@
 
 import copy
 import threading
+from collections.abc import Callable
+from typing import Any
 
 import rospy
 from dynamic_reconfigure.msg import Config as ConfigMsg, ConfigDescription as ConfigDescrMsg
@@ -21,16 +23,16 @@ _EVERY_LEVEL = ~0
 
 
 class Server:
-    """Lets others change parameters, within their limits, and calls the node back."""
+    """Lets other nodes change parameters within their limits, and calls the node back."""
 
-    def __init__(self, type, callback, namespace=""):
+    def __init__(self, type: Any, callback: Callable[[Any, int], Any], namespace: str = "") -> None:
         """Read the parameters, and call the callback with them for the first time.
 
         Args:
             type: XConfig module.
             callback: called with the new Config and the level of the change (or of its bits); returns the Config,
-                possibly corrected.
-            namespace: of the parameters, below the node's name.
+                which it may have corrected.
+            namespace: parameters' namespace, below the node's name.
 
         Raises:
             DynamicReconfigureCallbackException: the callback returned None.
@@ -55,7 +57,7 @@ class Server:
         self._change_config(self.config, _EVERY_LEVEL)
         self.set_service = rospy.Service(f"{self.ns}set_parameters", ReconfigureSrv, self._set_callback)
 
-    def update_configuration(self, changes):
+    def update_configuration(self, changes: "dict[str, Any]") -> Any:
         """Change parameters from within the node; returns the new Config."""
         with self.mutex:
             config = copy.deepcopy(self.config)
@@ -63,20 +65,20 @@ class Server:
             self._clamp(config)
             return self._change_config(config, self._calc_level(config, self.config))
 
-    def _parameters(self):
+    def _parameters(self) -> list[dict[str, Any]]:
         return extract_params(self.type.config_description)
 
-    def _copy_from_parameter_server(self):
+    def _copy_from_parameter_server(self) -> None:
         for parameter in self._parameters():
             name = parameter["name"]
             if rospy.has_param(self.ns + name):
                 self.config[name] = rospy.get_param(self.ns + name)
 
-    def _copy_to_parameter_server(self):
+    def _copy_to_parameter_server(self) -> None:
         for parameter in self._parameters():
             rospy.set_param(self.ns + parameter["name"], self.config[parameter["name"]])
 
-    def _change_config(self, config, level):
+    def _change_config(self, config: Any, level: int) -> Any:
         self.config = self.callback(config, level)
         if self.config is None:
             message = "Reconfigure callback should return a possibly updated configuration."
@@ -86,21 +88,21 @@ class Server:
         self.update_topic.publish(encode_config(self.config))
         return self.config
 
-    def _calc_level(self, config1, config2):
+    def _calc_level(self, config1: Any, config2: Any) -> int:
         level = 0
         for parameter in self._parameters():
             if config1[parameter["name"]] != config2[parameter["name"]]:
                 level |= parameter["level"]
         return level
 
-    def _clamp(self, config):
+    def _clamp(self, config: Any) -> None:
         for parameter in self._parameters():
             name = parameter["name"]
-            highest, lowest = self.type.max[name], self.type.min[name]
-            if highest != "" and config[name] > highest:
-                config[name] = highest
-            elif lowest != "" and config[name] < lowest:
-                config[name] = lowest
+            maximum, minimum = self.type.max[name], self.type.min[name]
+            if maximum != "" and config[name] > maximum:
+                config[name] = maximum
+            elif minimum != "" and config[name] < minimum:
+                config[name] = minimum
 
-    def _set_callback(self, req):
+    def _set_callback(self, req: Any) -> Any:
         return encode_config(self.update_configuration(decode_config(req.config, self.type.config_description)))

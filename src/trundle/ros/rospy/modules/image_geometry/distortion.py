@@ -1,13 +1,23 @@
 """Lens distortion by the plumb bob and rational models (D. C. Brown, 1966; OpenCV's camera calibration)."""
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from .cameramodels import PinholeCameraModel
+
+    _Array = NDArray[np.float64]
+
 _ROUNDS = 20
-"""Fixed-point iterations of the inverse; it converges in a few where lenses are usual."""
+"""Fixed-point iterations of the inverse; a few suffice for usual lenses."""
 
 
-def distort(x, y, coefficients):
-    """Distorted normalized coordinates of ideal ones; coefficients k1 k2 p1 p2 [k3 [k4 k5 k6]]."""
+def distort(x: "_Array", y: "_Array", coefficients: Sequence[float]) -> "tuple[_Array, _Array]":
+    """Distorted normalized coordinates of ideal ones; coefficients k1 k2 p1 p2 k3 k4 k5 k6."""
     k1, k2, p1, p2, k3, k4, k5, k6 = coefficients
     r2 = x * x + y * y
     radial = (1 + r2 * (k1 + r2 * (k2 + r2 * k3))) / (1 + r2 * (k4 + r2 * (k5 + r2 * k6)))
@@ -16,38 +26,42 @@ def distort(x, y, coefficients):
     return x * radial + tangential_x, y * radial + tangential_y
 
 
-def eight_coefficients(D):
-    """Coefficients of a model's D, filled up with zeros."""
-    given = [] if D is None else np.asarray(D, dtype=float).ravel().tolist()[:8]
-    return given + [0.0] * (8 - len(given))
+def eight_coefficients(D: "ArrayLike | None") -> list[float]:
+    """Coefficients of a model's D, padded with zeros."""
+    coefficients = [] if D is None else np.asarray(D, dtype=float).ravel().tolist()[:8]
+    return coefficients + [0.0] * (8 - len(coefficients))
 
 
-def undistort_point(uv, K, D, R, P):
+def undistort_point(
+    uv: Sequence[float], K: "ArrayLike", D: "ArrayLike | None", R: "ArrayLike", P: "ArrayLike"
+) -> "_Array":
     """Rectified pixel, (2,), of a raw one."""
-    K, R, P = (np.asarray(matrix, dtype=float) for matrix in (K, R, P))
+    k, r, p = (np.asarray(matrix, dtype=float) for matrix in (K, R, P))
     coefficients = eight_coefficients(D)
-    raw = np.array([(uv[0] - K[0, 2]) / K[0, 0], (uv[1] - K[1, 2]) / K[1, 1]])
+    raw = np.array([(uv[0] - k[0, 2]) / k[0, 0], (uv[1] - k[1, 2]) / k[1, 1]])
     ideal = raw.copy()
     for _ in range(_ROUNDS):
-        ideal += raw - distort(*ideal, coefficients)
-    u, v, w = P[:, :3] @ R @ (*ideal, 1.0)
+        ideal += raw - np.array(distort(ideal[0], ideal[1], coefficients))
+    u, v, w = p[:, :3] @ r @ (*ideal, 1.0)
     return np.array([u / w, v / w])
 
 
-def rectify_maps(model):
+def rectify_maps(model: "PinholeCameraModel") -> "tuple[NDArray[np.float32], NDArray[np.float32]]":
     """Raw pixel x and y, each (height, width), of every rectified pixel."""
-    K, R, P = (np.asarray(matrix, dtype=float) for matrix in (model.K, model.R, model.P))
+    k, r, p = (np.asarray(matrix, dtype=float) for matrix in (model.K, model.R, model.P))
     v, u = np.mgrid[0 : model.height, 0 : model.width].astype(float)
-    rays = np.linalg.inv(P[:, :3] @ R) @ np.stack([u.ravel(), v.ravel(), np.ones(u.size)])
+    rays = np.linalg.inv(p[:, :3] @ r) @ np.stack([u.ravel(), v.ravel(), np.ones(u.size)])
     x, y = distort(rays[0] / rays[2], rays[1] / rays[2], eight_coefficients(model.D))
     shape = (model.height, model.width)
     return (
-        (x * K[0, 0] + K[0, 2]).reshape(shape).astype(np.float32),
-        (y * K[1, 1] + K[1, 2]).reshape(shape).astype(np.float32),
+        (x * k[0, 0] + k[0, 2]).reshape(shape).astype(np.float32),
+        (y * k[1, 1] + k[1, 2]).reshape(shape).astype(np.float32),
     )
 
 
-def rectify_image(model, raw, rectified):
+def rectify_image(
+    model: "PinholeCameraModel", raw: "NDArray[Any]", rectified: "NDArray[Any]"
+) -> "tuple[NDArray[np.float32], NDArray[np.float32]]":
     """Write the rectified image; returns the maps. Bicubic with OpenCV, else bilinear; black outside."""
     map_x, map_y = rectify_maps(model)
     try:
@@ -59,7 +73,7 @@ def rectify_image(model, raw, rectified):
     return map_x, map_y
 
 
-def _sample(image, map_x, map_y):
+def _sample(image: "NDArray[Any]", map_x: "NDArray[np.float32]", map_y: "NDArray[np.float32]") -> "_Array":
     """Bilinear interpolation of an image, (height, width[, channels])."""
     height, width = image.shape[:2]
     left, top = np.floor(map_x).astype(int), np.floor(map_y).astype(int)

@@ -9,6 +9,11 @@ from .exceptions import (
     ROSBagUnindexedException,
 )
 
+TYPE_CHECKING = False  # not from `typing`, whose import takes longer than this package's
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import NoReturn
+
 __all__ = [
     "Bag",
     "BagMessage",
@@ -23,7 +28,7 @@ __all__ = [
 ]
 
 
-def rosbagmain(argv=None):
+def rosbagmain(argv: "Sequence[str] | None" = None) -> "NoReturn":
     """Run the command rosbag with its arguments; default: those of this process."""
     import sys
 

@@ -1,4 +1,4 @@
-"""Errors of bags.
+"""Exceptions of bags.
 
 ROSBagException
 ├── ROSBagFormatException
@@ -11,11 +11,11 @@ ROSBagException
 class ROSBagException(Exception):
     """A bag that cannot be read or written."""
 
-    def __init__(self, value=None):
+    def __init__(self, value: object = None) -> None:
         self.value = value
         self.args = (value,)
 
-    def __str__(self):
+    def __str__(self) -> str:
         return str(self.value)
 
 
@@ -24,9 +24,9 @@ class ROSBagFormatException(ROSBagException):
 
 
 class ROSBagUnindexedException(ROSBagException):
-    """A bag without an index, as its recording was cut off."""
+    """A bag without an index, such as one whose recording was interrupted."""
 
-    def __init__(self, *args):
+    def __init__(self, *args: object) -> None:
         super().__init__("Unindexed bag")
 
 

@@ -1,6 +1,7 @@
 """Message classes of a bag's connections."""
 
 import functools
+from typing import Any
 
 import genpy.dynamic
 import genpy.message
@@ -9,8 +10,8 @@ from .exceptions import ROSBagException
 
 
 @functools.lru_cache(maxsize=512)
-def message_class(type_name, md5sum, definition):
-    """Class of a connection's messages: the installed one if its MD5 is the same, else one made of the definition.
+def message_class(type_name: str, md5sum: str, definition: str) -> Any:
+    """Class of a connection's messages: the installed one if its MD5 matches, else one generated from the definition.
 
     Raises:
         ROSBagException: the definition is invalid.

@@ -1,14 +1,15 @@
-"""Bags in binary streams, by way of a temporary file."""
+"""Bags in binary streams, through a temporary file."""
 
 import shutil
 import tempfile
 from pathlib import Path
+from typing import BinaryIO
 
 
 class SpooledStream:
-    """Temporary file with a stream's content; what is written to it goes to the stream on close."""
+    """Temporary file with a stream's content; a changed file is copied to the stream on close."""
 
-    def __init__(self, stream, mode):
+    def __init__(self, stream: BinaryIO, mode: str) -> None:
         self._stream = stream
         self._mode = mode
         self._folder = tempfile.TemporaryDirectory(prefix="rosbag_")
@@ -18,7 +19,7 @@ class SpooledStream:
             with self.path.open("wb") as file:
                 shutil.copyfileobj(stream, file)
 
-    def close(self):
+    def close(self) -> None:
         """Copy to the stream, and remove the file."""
         if self._mode != "r":
             self._stream.seek(0)
