@@ -1,1 +1,1 @@
-"""Markers that can be moved and clicked in rviz."""
+"""Markers that users of rviz can move and click."""

@@ -1,44 +1,63 @@
 """Context menus of interactive markers."""
 
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
 from visualization_msgs.msg import InteractiveMarkerFeedback, MenuEntry
 
 import rospy
 
+if TYPE_CHECKING:
+    from .interactive_marker_server import InteractiveMarkerServer
+
 
 class EntryContext:
-    """One entry of a menu."""
+    """Entry of a menu."""
 
-    def __init__(self, title="", command_type=0, command="", feedback_cb=None):
+    def __init__(
+        self,
+        title: str = "",
+        command_type: int = 0,
+        command: str = "",
+        feedback_cb: Callable[[Any], object] | None = None,
+    ) -> None:
         self.title = title
         self.command = command
         self.command_type = command_type
-        self.sub_entries = []
+        self.sub_entries: list[int] = []
         self.visible = True
         self.check_state = MenuHandler.NO_CHECKBOX
         self.feedback_cb = feedback_cb
 
 
 class MenuHandler:
-    """A menu, which several markers may share."""
+    """Menu that several markers may share."""
 
     NO_CHECKBOX = 0
     CHECKED = 1
     UNCHECKED = 2
 
-    def __init__(self):
-        self.top_level_handles_ = []
-        self.entry_contexts_ = {}
+    def __init__(self) -> None:
+        self.top_level_handles_: list[int] = []
+        self.entry_contexts_: dict[int, EntryContext] = {}
         self.current_handle_ = 1
-        self.managed_markers_ = set()
+        self.managed_markers_: set[str] = set()
 
-    def insert(self, title, parent=None, command_type=MenuEntry.FEEDBACK, command="", callback=None):
+    def insert(
+        self,
+        title: str,
+        parent: int | None = None,
+        command_type: int = MenuEntry.FEEDBACK,
+        command: str = "",
+        callback: Callable[[Any], object] | None = None,
+    ) -> int | None:
         """Add an entry and return its handle; None if there is no such parent.
 
         Args:
-            title: its text.
-            parent: handle of the entry it is below.
-            command_type: what rviz does on a click; by default it sends feedback.
-            command: for rosrun and roslaunch.
+            title: entry's text.
+            parent: parent entry's handle; None: top level.
+            command_type: rviz's action on a click; default: feedback.
+            command: arguments for rosrun and roslaunch.
             callback: called with the InteractiveMarkerFeedback of a click.
         """
         if parent is not None and parent not in self.entry_contexts_:
@@ -49,24 +68,24 @@ class MenuHandler:
         siblings.append(handle)
         return handle
 
-    def setVisible(self, handle, visible):
-        """Show or hide an entry; False if there is no such."""
+    def setVisible(self, handle: int, visible: bool) -> bool:
+        """Show or hide an entry; False if there is no such entry."""
         return self._set(handle, "visible", visible)
 
-    def setCheckState(self, handle, check_state):
-        """Set an entry's box: NO_CHECKBOX, CHECKED or UNCHECKED; False if there is no such entry."""
+    def setCheckState(self, handle: int, check_state: int) -> bool:
+        """Set an entry's check check_box: NO_CHECKBOX, CHECKED or UNCHECKED; False if there is no such entry."""
         return self._set(handle, "check_state", check_state)
 
-    def getCheckState(self, handle):
-        """State of an entry's box; None if there is no such entry."""
+    def getCheckState(self, handle: int) -> int | None:
+        """State of an entry's check check_box; None if there is no such entry."""
         return self.entry_contexts_[handle].check_state if handle in self.entry_contexts_ else None
 
-    def getTitle(self, handle):
-        """Text of an entry; None if there is no such."""
+    def getTitle(self, handle: int) -> str | None:
+        """Text of an entry; None if there is no such entry."""
         return self.entry_contexts_[handle].title if handle in self.entry_contexts_ else None
 
-    def apply(self, server, marker_name):
-        """Give a marker this menu; False if there is no such marker."""
+    def apply(self, server: "InteractiveMarkerServer", marker_name: str) -> bool:
+        """Set a marker's menu to this one; False if there is no such marker."""
         marker = server.get(marker_name)
         if not marker:
             self.managed_markers_.discard(marker_name)
@@ -77,18 +96,18 @@ class MenuHandler:
         self.managed_markers_.add(marker_name)
         return True
 
-    def reApply(self, server):
-        """Give all its markers the menu as it is now; False if one is gone."""
+    def reApply(self, server: "InteractiveMarkerServer") -> bool:
+        """Update the menu of all its markers; False if a marker no longer exists."""
         return not [name for name in list(self.managed_markers_) if not self.apply(server, name)]
 
-    def processFeedback(self, feedback):
-        """Take a click."""
+    def processFeedback(self, feedback: Any) -> None:
+        """Handle a click."""
         entry = self.entry_contexts_.get(feedback.menu_entry_id)
         if entry is not None and entry.feedback_cb:
             entry.feedback_cb(feedback)
 
-    def pushMenuEntries(self, handles_in, entries_out, parent_handle):
-        """Append the MenuEntry messages of visible entries and those below them; always True."""
+    def pushMenuEntries(self, handles_in: Iterable[int], entries_out: list[Any], parent_handle: int) -> bool:
+        """Append the MenuEntry messages of visible entries and their descendants; always True."""
         for handle in handles_in:
             entry = self.entry_contexts_[handle]
             if entry.visible:
@@ -96,25 +115,25 @@ class MenuHandler:
                 self.pushMenuEntries(entry.sub_entries, entries_out, handle)
         return True
 
-    def makeEntry(self, context, handle, parent_handle):
+    def makeEntry(self, context: EntryContext, handle: int, parent_handle: int) -> Any:
         """MenuEntry message of an entry."""
-        box = {self.CHECKED: "[x] ", self.UNCHECKED: "[ ] "}.get(context.check_state, "")
+        check_box = {self.CHECKED: "[x] ", self.UNCHECKED: "[ ] "}.get(context.check_state, "")
         return MenuEntry(
             id=handle,
             parent_id=parent_handle,
-            title=box + context.title,
+            title=check_box + context.title,
             command=context.command,
             command_type=context.command_type,
         )
 
-    def doInsert(self, title, command_type, command, feedback_cb):
-        """Make an entry that is in no menu yet; returns its handle."""
+    def doInsert(self, title: str, command_type: int, command: str, feedback_cb: Callable[[Any], object] | None) -> int:
+        """Create an entry outside of any menu; returns its handle."""
         handle = self.current_handle_
         self.current_handle_ += 1
         self.entry_contexts_[handle] = EntryContext(title, command_type, command, feedback_cb)
         return handle
 
-    def _set(self, handle, attribute, value):
+    def _set(self, handle: int, attribute: str, value: object) -> bool:
         if handle not in self.entry_contexts_:
             return False
         setattr(self.entry_contexts_[handle], attribute, value)

@@ -1,4 +1,4 @@
-"""Not here: moveit_commander is a door to MoveIt's C++ libraries."""
+"""Not available: moveit_commander wraps MoveIt's C++ libraries."""
 
 raise ImportError(
     "moveit_commander needs MoveIt, which is compiled for one Linux release and cannot come with Trundle. Ways out: "

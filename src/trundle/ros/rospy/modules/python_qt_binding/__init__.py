@@ -1,12 +1,17 @@
-"""Qt's Python binding under the names of ROS: PyQt5, else PySide6, whichever is installed.
+"""Qt's Python binding under ROS' names: PyQt5 if installed, else PySide6.
 
-`python_qt_binding.QtWidgets` and the others are the modules of the binding. In both, QtCore has `Signal`, `Slot` and
-`Property`, and QtGui has the widgets, where programs of Qt 4 look for them.
+`python_qt_binding.QtWidgets` and the others are the binding's modules. With both bindings, QtCore has `Signal`, `Slot`
+and `Property`, and QtGui has the widgets, for programs of Qt 4.
 """
 
 import sys
 from importlib import import_module
 from importlib.util import find_spec
+
+TYPE_CHECKING = False  # not from `typing`, whose import takes longer than this package's
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from typing import Any
 
 __all__ = ["QT_BINDING", "QT_BINDING_MODULES", "QT_BINDING_VERSION", "loadUi"]
 
@@ -19,11 +24,11 @@ if _package is None:
     raise ImportError("python_qt_binding needs Qt for Python: pip install PyQt5 (or PySide6)")
 
 QT_BINDING = _BINDINGS[_package]
-QT_BINDING_MODULES = {name: import_module(f"{_package}.{name}") for name in _REQUIRED}
+QT_BINDING_MODULES: "dict[str, Any]" = {name: import_module(f"{_package}.{name}") for name in _REQUIRED}
 for _name in _OPTIONAL:
     try:
         QT_BINDING_MODULES[_name] = import_module(f"{_package}.{_name}")
-    except ImportError:  # not in this build of Qt, or without a library of the system
+    except ImportError:  # not in this build of Qt, or a library of the system is missing
         continue
 
 _core, _gui, _widgets = (QT_BINDING_MODULES[name] for name in _REQUIRED)
@@ -31,20 +36,20 @@ if QT_BINDING == "pyqt":
     _core.Signal, _core.Slot, _core.Property = _core.pyqtSignal, _core.pyqtSlot, _core.pyqtProperty
 QT_BINDING_VERSION = _core.PYQT_VERSION_STR if QT_BINDING == "pyqt" else _core.__version__
 for _from, _to in ((_widgets, _gui), (_gui, _widgets)):  # Qt 6 moved QAction and QShortcut to QtGui
-    for _name in (each for each in dir(_from) if each.startswith("Q") and not hasattr(_to, each)):
+    for _name in (name for name in dir(_from) if name.startswith("Q") and not hasattr(_to, name)):
         setattr(_to, _name, getattr(_from, _name))
 
 for _name, _module in QT_BINDING_MODULES.items():
     sys.modules[f"{__name__}.{_name}"] = globals()[_name] = _module
 
 
-def loadUi(uifile, baseinstance=None, custom_widgets=None):
+def loadUi(uifile: "Any", baseinstance: "Any" = None, custom_widgets: "Mapping[str, type] | None" = None) -> "Any":
     """Load a file of Qt Designer.
 
     Args:
-        uifile: its path.
-        baseinstance: widget that becomes the file's top-level one; None: a new one.
-        custom_widgets: class name in the file → class, where the file does not say the module.
+        uifile: path of the file.
+        baseinstance: widget to use as the file's top-level one; None: a new one.
+        custom_widgets: class name in the file → class, if the file does not name the class's module.
 
     Returns:
         The top-level widget, with the others as attributes.

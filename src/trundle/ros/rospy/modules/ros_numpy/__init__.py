@@ -1,4 +1,4 @@
-"""Messages as numpy arrays, and back."""
+"""Conversion of messages to numpy arrays and back."""
 
 from . import geometry, image, occupancy_grid, point_cloud2
 from .numpy_msg import numpy_msg

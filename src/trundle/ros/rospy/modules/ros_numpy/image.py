@@ -1,6 +1,7 @@
 """Image messages."""
 
 import sys
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from sensor_msgs.msg import Image
@@ -9,9 +10,12 @@ from cv_bridge.encodings import element_type
 
 from .registry import converts_from_numpy, converts_to_numpy
 
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
 
 @converts_to_numpy(Image)
-def image_to_numpy(msg):
+def image_to_numpy(msg: Any) -> "NDArray[Any]":
     """(height, width) or (height, width, channels).
 
     Raises:
@@ -25,8 +29,8 @@ def image_to_numpy(msg):
 
 
 @converts_from_numpy(Image)
-def numpy_to_image(arr, encoding):
-    """Image of such an array.
+def numpy_to_image(arr: "NDArray[Any]", encoding: str) -> Any:
+    """Image message from an array (height, width) or (height, width, channels).
 
     Raises:
         TypeError: no such encoding, or the array does not fit it.
@@ -51,8 +55,9 @@ def numpy_to_image(arr, encoding):
     )
 
 
-def _element_type(encoding):
-    found = element_type(encoding)
-    if found is None:
+def _element_type(encoding: str) -> "tuple[np.dtype[Any], int]":
+    elements = element_type(encoding)
+    if elements is None:
         raise TypeError(f"Unrecognized encoding {encoding}")
-    return np.dtype(found[0]), found[1]
+    name, channels = elements
+    return np.dtype(name), channels

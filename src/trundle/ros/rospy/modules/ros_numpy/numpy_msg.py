@@ -1,3 +1,3 @@
-"""Message classes whose arrays are numpy's."""
+"""Message classes with numpy arrays."""
 
 from rospy.numpy_msg import numpy_msg as numpy_msg

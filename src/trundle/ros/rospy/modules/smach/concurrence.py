@@ -7,8 +7,14 @@ import traceback
 from .container import Container
 from .exceptions import InvalidStateError, InvalidTransitionError, InvalidUserCodeError
 from .log import logerr, loginfo, logwarn
+from .state import State
 from .user_data import Remapper
 from .util import is_shutdown
+
+TYPE_CHECKING = False  # not from `typing`, whose import takes longer than this package's
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Iterable, Mapping
+    from typing import Any
 
 _POLL_S = 0.1
 
@@ -18,63 +24,65 @@ class Concurrence(Container):
 
     def __init__(
         self,
-        outcomes,
-        default_outcome,
-        input_keys=(),
-        output_keys=(),
-        outcome_map=None,
-        outcome_cb=None,
-        child_termination_cb=None,
-    ):
-        """Declare how the outcome comes about.
+        outcomes: "Collection[str]",
+        default_outcome: str,
+        input_keys: "Iterable[str]" = (),
+        output_keys: "Iterable[str]" = (),
+        outcome_map: "Mapping[str, Mapping[str, str]] | None" = None,
+        outcome_cb: "Callable[[Any], Any] | None" = None,
+        child_termination_cb: "Callable[[Any], Any] | None" = None,
+    ) -> None:
+        """Declare the outcomes, and the conditions of each.
 
         Args:
-            outcomes: of the container.
-            default_outcome: if nothing else holds.
+            outcomes: container's outcomes.
+            default_outcome: outcome if no condition holds.
             input_keys: keys that are read.
             output_keys: keys that are written.
-            outcome_map: outcome → {label: outcome} that all must hold; the one with the most conditions wins.
+            outcome_map: outcome → {label: outcome}, conditions that must all hold; the outcome with most of them wins.
             outcome_cb: called with {label: outcome}; returns the outcome, or None.
-            child_termination_cb: called with {label: outcome or None} as states end; True ends the others.
+            child_termination_cb: called with {label: outcome or None} when a state ends; True ends the others.
 
         Raises:
-            InvalidStateError: one of these is not declared, or not callable.
+            InvalidStateError: an outcome is not declared, or a callback not callable.
         """
         super().__init__(outcomes, input_keys, output_keys)
-        self._states, self._threads, self._remappings = {}, {}, {}
+        self._states: dict[str, State] = {}
+        self._threads: dict[str, threading.Thread] = {}
+        self._remappings: dict[str, Mapping[str, str]] = {}
         self._default_outcome = default_outcome
         self._outcome_map = outcome_map or {}
         self._outcome_cb = outcome_cb
         self._child_termination_cb = child_termination_cb
-        self._child_outcomes = {}
+        self._child_outcomes: dict[str, str | None] = {}
         self._user_code_exception = False
         self._done_cond = threading.Condition()
         self._is_over = False
         errors = [
             *(
-                f"the outcome '{each}' is not declared"
-                for each in (default_outcome, *self._outcome_map)
-                if each not in outcomes
+                f"the outcome '{outcome}' is not declared"
+                for outcome in (default_outcome, *self._outcome_map)
+                if outcome not in outcomes
             ),
-            *(f"{each} is not callable" for each in (outcome_cb, child_termination_cb) if each and not callable(each)),
+            *(f"{cb} is not callable" for cb in (outcome_cb, child_termination_cb) if cb and not callable(cb)),
         ]
         if errors:
             raise InvalidStateError("Errors specifying outcome policy of concurrence: " + "; ".join(errors))
 
     @staticmethod
-    def add(label, state, remapping=None):
+    def add(label: str, state: State, remapping: "Mapping[str, str] | None" = None) -> State:
         """Add a state to the open concurrence, and return it; remapping as in `StateMachine.add`."""
         self = Concurrence._currently_opened_container()
         self._states[label] = state
         self._remappings[label] = remapping or {}
         return state
 
-    def execute(self, parent_ud=None):
+    def execute(self, parent_ud: "Any" = None) -> str:  # pyright: ignore[reportIncompatibleMethodOverride]
         """Run all states; returns an outcome.
 
         Raises:
-            InvalidStateError: there is no state, or one raised an exception.
-            InvalidUserCodeError: a callback raised one.
+            InvalidStateError: there is no state, or a state raised an exception.
+            InvalidUserCodeError: a callback raised an exception.
         """
         if not self._states:
             raise InvalidStateError("No states was added to concurrence")
@@ -100,8 +108,8 @@ class Concurrence(Container):
         self._copy_output_keys(self.userdata, parent_ud)
         return outcome
 
-    def _wait_for_end(self):
-        """Wait until one end ends all; then preempt those that still run, and wait for them."""
+    def _wait_for_end(self) -> None:
+        """Wait for the container's end; then preempt the states that still run, and wait for them."""
         with self._done_cond:
             while not self._is_over and not self.preempt_requested() and not is_shutdown():
                 self._done_cond.wait(_POLL_S)
@@ -112,26 +120,26 @@ class Concurrence(Container):
             while thread.is_alive() and not is_shutdown():
                 thread.join(_POLL_S)
 
-    def _is_preempted(self):
-        """True if a preempt was requested and every state answered it."""
+    def _is_preempted(self) -> bool:
+        """True if a preempt was requested and every state serviced it."""
         if not self.preempt_requested():
             return False
-        deaf = [label for label, state in self._states.items() if state.preempt_requested()]
-        for label in deaf:
+        unserviced = [label for label, state in self._states.items() if state.preempt_requested()]
+        for label in unserviced:
             logwarn(f"State '{label}' in concurrence did not service preempt.")
             self._states[label].recall_preempt()
-        if not deaf:
+        if not unserviced:
             loginfo("Concurrence serviced preempt.")
             self.service_preempt()
-        return not deaf
+        return not unserviced
 
-    def _find_outcome(self):
-        held = [
-            (len(wanted), outcome)
-            for outcome, wanted in self._outcome_map.items()
-            if all(self._child_outcomes[label] == each for label, each in wanted.items())
+    def _find_outcome(self) -> str:
+        matches = [
+            (len(conditions), outcome)
+            for outcome, conditions in self._outcome_map.items()
+            if all(self._child_outcomes[label] == required for label, required in conditions.items())
         ]
-        outcome = max(held, key=lambda pair: pair[0])[1] if held else self._default_outcome
+        outcome = max(matches, key=lambda match: match[0])[1] if matches else self._default_outcome
         if not self._outcome_cb:
             return outcome
         try:
@@ -143,12 +151,12 @@ class Concurrence(Container):
         if isinstance(chosen, str) and chosen:
             return chosen
         if chosen:
-            logerr(f"the outcome callback returned {chosen!r}, which is no text; the outcome is '{outcome}'")
+            logerr(f"the outcome callback returned {chosen!r}, which is not a string; the outcome is '{outcome}'")
         else:
             logwarn(f"Outcome callback returned None, using outcome '{outcome}'")
         return outcome
 
-    def _state_runner(self, label):
+    def _state_runner(self, label: str) -> None:
         """Run one state, on its thread."""
         self.call_transition_cbs()
         state = self._states[label]
@@ -169,50 +177,50 @@ class Concurrence(Container):
             self._end()
             logerr(f"Could not execute child state '{label}': {traceback.format_exc()}")
 
-    def _end(self):
+    def _end(self) -> None:
         with self._done_cond:
             self._is_over = True
             self._done_cond.notify_all()
 
-    def request_preempt(self):
-        """Ask the container, and all its states, to end soon."""
+    def request_preempt(self) -> None:
+        """Request preemption of the container and all its states."""
         super().request_preempt()
         with self._done_cond:
             self._done_cond.notify_all()
 
-    def get_children(self):
+    def get_children(self) -> dict[str, State]:
         """Label → state."""
         return self._states
 
-    def __getitem__(self, key):
+    def __getitem__(self, key: str) -> State:
         return self._states[key]
 
-    def get_initial_states(self):
+    def get_initial_states(self) -> list[str]:
         """All labels."""
         return list(self._states)
 
-    def set_initial_state(self, initial_states, userdata):
+    def set_initial_state(self, initial_states: "Any", userdata: "Any") -> None:
         """Set userdata; all states are initial ones."""
         if initial_states and len(initial_states) < len(self._states):
             logwarn("every state of a Concurrence is an initial state; the choice is ignored")
         self.userdata.update(userdata)
 
-    def get_active_states(self):
+    def get_active_states(self) -> list[str]:
         """Labels that run."""
         return [label for label, outcome in self._child_outcomes.items() if outcome is None]
 
-    def get_internal_edges(self):
+    def get_internal_edges(self) -> list[tuple[str, str, str | None]]:
         """List of (outcome, label, outcome of the container)."""
         return [
             (outcome, label, container_outcome)
-            for container_outcome, wanted in self._outcome_map.items()
-            for label, outcome in wanted.items()
+            for container_outcome, conditions in self._outcome_map.items()
+            for label, outcome in conditions.items()
         ]
 
-    def check_consistency(self):
-        """Raise InvalidTransitionError if the outcome map names an outcome that a state has not."""
-        for wanted in self._outcome_map.values():
-            for label, outcome in wanted.items():
+    def check_consistency(self) -> None:
+        """Raise InvalidTransitionError if the outcome map names an outcome that a state does not have."""
+        for conditions in self._outcome_map.values():
+            for label, outcome in conditions.items():
                 outcomes = self._states[label].get_registered_outcomes()
                 if outcome not in outcomes:
                     raise InvalidTransitionError(

@@ -1,12 +1,12 @@
-"""Errors of state machines; each is logged when it is made."""
+"""Exceptions of state machines; each is logged when it is created."""
 
 from .log import logerr
 
 
 class SmachError(Exception):
-    """Base of this package's errors."""
+    """Base class of this package's exceptions."""
 
-    def __init__(self, message):
+    def __init__(self, message: str) -> None:
         logerr(f"{type(self).__name__}: {message}")
         super().__init__(message)
 
@@ -16,7 +16,7 @@ class InvalidTransitionError(SmachError):
 
 
 class InvalidStateError(SmachError):
-    """A state that does not exist, or is wrong here."""
+    """A state that does not exist, or is not allowed."""
 
 
 class InvalidConstructionError(SmachError):

@@ -6,45 +6,65 @@ import traceback
 from .container import Container
 from .exceptions import InvalidStateError, InvalidTransitionError, InvalidUserCodeError
 from .log import logerr, loginfo, logwarn
+from .state import State
 from .user_data import Remapper, UserData
 from .util import is_shutdown
 
+TYPE_CHECKING = False  # not from `typing`, whose import takes longer than this package's
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+    from typing import Any
+
 
 class StateMachine(Container):
-    """Runs a state, and then the one that its outcome leads to."""
+    """Runs a state, then the target of its outcome's transition."""
 
-    def __init__(self, outcomes, input_keys=(), output_keys=()):
+    def __init__(
+        self, outcomes: "Iterable[str]", input_keys: "Iterable[str]" = (), output_keys: "Iterable[str]" = ()
+    ) -> None:
         super().__init__(outcomes, input_keys, output_keys)
         self._state_transitioning_lock = threading.Lock()
         self._is_running = False
-        self._initial_state_label = None
-        self._current_label = self._current_state = self._current_transitions = None
-        self._preempted_label = self._preempted_state = None
-        self._states, self._transitions, self._remappings, self._constants = {}, {}, {}, {}
-        self._last_added_label = None
-        self._connector_outcomes = []
+        self._initial_state_label: str | None = None
+        self._current_label: str | None = None
+        self._current_state: State | None = None
+        self._current_transitions: dict[str, str | None] | None = None
+        self._preempted_label: str | None = None
+        self._preempted_state: State | None = None
+        self._states: dict[str, State] = {}
+        self._transitions: dict[str, dict[str, str | None]] = {}
+        self._remappings: dict[str, Mapping[str, str]] = {}
+        self._constants: dict[str, Mapping[str, Any]] = {}
+        self._last_added_label: str | None = None
+        self._connector_outcomes: Iterable[str] = []
 
-    def __getstate__(self):
+    def __getstate__(self) -> "dict[str, Any]":
         return {name: value for name, value in self.__dict__.items() if name != "_state_transitioning_lock"}
 
-    def __setstate__(self, d):
+    def __setstate__(self, d: "dict[str, Any]") -> None:
         self.__dict__ = d
         self._state_transitioning_lock = threading.Lock()
 
     @staticmethod
-    def add(label, state, transitions=None, remapping=None, constants=None):
+    def add(
+        label: str,
+        state: State,
+        transitions: "Mapping[str, str | None] | None" = None,
+        remapping: "Mapping[str, str] | None" = None,
+        constants: "Mapping[str, Any] | None" = None,
+    ) -> State:
         """Add a state to the open machine, and return it; the first one is the initial one.
 
         Args:
-            label: its name.
-            state: the state.
-            transitions: outcome → label, or outcome of the machine; missing ones lead to the machine's of that name.
+            label: state's name.
+            state: state to add.
+            transitions: outcome → label, or outcome of the machine; default: the machine's outcome of the same name.
             remapping: the state's key → key of the machine's userdata.
             constants: key → value, set in the userdata before the state runs.
 
         Raises:
             InvalidTransitionError: the state has no such outcome.
-            InvalidStateError: the label is taken, or no machine is open.
+            InvalidStateError: duplicate label, or no machine is open.
         """
         self = StateMachine._currently_opened_container()
         transitions = dict(transitions or {})
@@ -66,7 +86,14 @@ class StateMachine(Container):
         return state
 
     @staticmethod
-    def add_auto(label, state, connector_outcomes, transitions=None, remapping=None, constants=None):
+    def add_auto(
+        label: str,
+        state: State,
+        connector_outcomes: "Iterable[str]",
+        transitions: "Mapping[str, str | None] | None" = None,
+        remapping: "Mapping[str, str] | None" = None,
+        constants: "Mapping[str, Any] | None" = None,
+    ) -> State:
         """Add a state whose `connector_outcomes` lead to the state that is added next; see `add`."""
         self = StateMachine._currently_opened_container()
         StateMachine.add(label, state, transitions, remapping, constants)
@@ -77,8 +104,8 @@ class StateMachine(Container):
         self._connector_outcomes = connector_outcomes
         return state
 
-    def execute(self, parent_ud=None):
-        """Run from the initial state to an outcome; None if it is inconsistent or the program ends.
+    def execute(self, parent_ud: "Any" = None) -> str | None:  # pyright: ignore[reportIncompatibleMethodOverride]
+        """Run from the initial state to an outcome; None if the machine is inconsistent or the program ends.
 
         Raises:
             InvalidUserCodeError: a state raised an exception.
@@ -108,20 +135,20 @@ class StateMachine(Container):
                 self._is_running = False
         return outcome
 
-    def _update_once(self):
-        """Run the current state; returns the machine's outcome, or None if it goes on."""
-        label, state = self._current_label, self._current_state
-        if label not in self._states:
+    def _update_once(self) -> str | None:
+        """Run the current state; returns the machine's outcome, or None if the machine continues."""
+        label, state, transitions = self._current_label, self._current_state, self._current_transitions
+        if label is None or state is None or transitions is None:
             raise InvalidStateError(f"State '{label}' does not exist. Available states are: {list(self._states)}")
         if self.preempt_requested():
-            self._pass_preempt_on()
+            self._forward_preempt()
         outcome = self._run(label, state)
-        if outcome not in self._current_transitions or outcome not in state.get_registered_outcomes():
+        if outcome not in transitions or outcome not in state.get_registered_outcomes():
             raise InvalidTransitionError(
                 f"Attempted to return outcome '{outcome}' from state '{label}' of type '{state}' which only has "
                 f"registered outcomes: {state.get_registered_outcomes()}"
             )
-        target = self._current_transitions[outcome]
+        target = transitions[outcome]
         if target in self._states:
             self._set_current_state(target)
             loginfo(f"State machine transitioning '{label}':'{outcome}'-->'{target}'")
@@ -141,7 +168,7 @@ class StateMachine(Container):
         self.call_termination_cbs([label], target)
         return target
 
-    def _run(self, label, state):
+    def _run(self, label: str, state: State) -> "Any":
         self._state_transitioning_lock.release()
         try:
             for key, value in self._constants[label].items():
@@ -158,33 +185,33 @@ class StateMachine(Container):
         finally:
             self._state_transitioning_lock.acquire()
 
-    def _set_current_state(self, label):
+    def _set_current_state(self, label: str | None) -> None:
         self._current_label = label
-        self._current_state = self._states.get(label)
-        self._current_transitions = self._transitions.get(label)
+        self._current_state = None if label is None else self._states.get(label)
+        self._current_transitions = None if label is None else self._transitions.get(label)
 
-    def is_running(self):
-        """True while it is executed."""
+    def is_running(self) -> bool:
+        """True while the machine is executed."""
         return self._is_running
 
-    def request_preempt(self):
-        """Ask the machine, and the state that runs, to end soon."""
+    def request_preempt(self) -> None:
+        """Request preemption of the machine and its current state."""
         with self._state_transitioning_lock:
             self._preempt_requested = True
             if self._current_state is not None:
                 self._preempt_current_state()
 
-    def _pass_preempt_on(self):
-        """A request that came before the next state runs."""
+    def _forward_preempt(self) -> None:
+        """Forward a preempt request that arrived between two states."""
         loginfo("Preempt requested on state machine before executing the next state.")
         if self._preempted_state is not None and not self._preempted_state.preempt_requested():
-            self._preempt_requested = False  # the state before answered it
+            self._preempt_requested = False  # the previous state serviced it
             self._preempted_state = None
         else:
             self._preempt_current_state()
 
-    def _preempt_current_state(self):
-        if self._preempted_state is self._current_state:
+    def _preempt_current_state(self) -> None:
+        if self._preempted_state is self._current_state or self._current_state is None:
             return
         if self._preempted_state is not None:
             self._preempted_state.recall_preempt()
@@ -194,11 +221,11 @@ class StateMachine(Container):
         except Exception:
             logerr(f"Failed to preempt contained state '{self._preempted_label}': {traceback.format_exc()}")
 
-    def get_children(self):
+    def get_children(self) -> dict[str, State]:
         """Label → state."""
         return self._states
 
-    def __getitem__(self, key):
+    def __getitem__(self, key: str) -> State:
         if key not in self._states:
             logerr(
                 f"Attempting to get state '{key}' from StateMachine container. "
@@ -207,23 +234,23 @@ class StateMachine(Container):
             raise KeyError(key)
         return self._states[key]
 
-    def set_initial_state(self, initial_states, userdata=None):
+    def set_initial_state(self, initial_states: "Any", userdata: "Any" = None) -> None:
         """Set the label to start with (the first of a list), and userdata."""
         if len(initial_states) > 1:
-            logwarn("a StateMachine has one initial state; the first of several is taken")
+            logwarn("a StateMachine has one initial state; the first of several is used")
         if initial_states:
             self._initial_state_label = initial_states[0]
         self.userdata.update(userdata or UserData())
 
-    def get_active_states(self):
-        """Label that runs, in a list."""
+    def get_active_states(self) -> list[str]:
+        """Label of the current state, in a list."""
         return [str(self._current_label)]
 
-    def get_initial_states(self):
-        """Label to start with, in a list."""
+    def get_initial_states(self) -> list[str]:
+        """Label of the initial state, in a list."""
         return [str(self._initial_state_label)]
 
-    def get_internal_edges(self):
+    def get_internal_edges(self) -> list[tuple[str, str, str | None]]:
         """List of (outcome, from label, to label)."""
         return [
             (outcome, label, target)
@@ -231,8 +258,8 @@ class StateMachine(Container):
             for outcome, target in transitions.items()
         ]
 
-    def check_state_spec(self, label, state, transitions):
-        """Raise InvalidTransitionError if a transition is of an outcome that the state has not."""
+    def check_state_spec(self, label: str, state: State, transitions: "Mapping[str, str | None]") -> None:
+        """Raise InvalidTransitionError if a transition names an outcome that the state does not have."""
         outcomes = state.get_registered_outcomes()
         for outcome in transitions:
             if outcome not in outcomes:
@@ -241,11 +268,11 @@ class StateMachine(Container):
                     f"{outcomes}"
                 )
 
-    def check_consistency(self):
+    def check_consistency(self) -> None:
         """Raise InvalidTransitionError if a state or an outcome is missing."""
         outcomes = self.get_registered_outcomes()
         available = {*self._states, *outcomes}
-        errors = []
+        errors: list[str] = []
         if self._initial_state_label is None:
             errors.append("No initial state set.")
         elif self._initial_state_label not in self._states:

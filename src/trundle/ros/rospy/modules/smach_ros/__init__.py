@@ -1,4 +1,4 @@
-"""States for actions, services and topics, and a view into running state machines."""
+"""States for actions, services and topics, and introspection of running state machines."""
 
 import rospy
 import smach

@@ -2,6 +2,8 @@
 
 import copy
 import traceback
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import rospy
 import smach
@@ -13,38 +15,38 @@ class ActionServerWrapper:
 
     def __init__(
         self,
-        server_name,
-        action_spec,
-        wrapped_container,
-        succeeded_outcomes=(),
-        aborted_outcomes=(),
-        preempted_outcomes=(),
-        goal_key="action_goal",
-        feedback_key="action_feedback",
-        result_key="action_result",
-        goal_slots_map=None,
-        feedback_slots_map=None,
-        result_slots_map=None,
-        expand_goal_slots=False,
-        pack_result_slots=False,
-    ):
+        server_name: str,
+        action_spec: type,
+        wrapped_container: smach.Container,
+        succeeded_outcomes: Sequence[str] = (),
+        aborted_outcomes: Sequence[str] = (),
+        preempted_outcomes: Sequence[str] = (),
+        goal_key: str = "action_goal",
+        feedback_key: str = "action_feedback",
+        result_key: str = "action_result",
+        goal_slots_map: Mapping[str, str] | None = None,
+        feedback_slots_map: object = None,
+        result_slots_map: Mapping[str, str] | None = None,
+        expand_goal_slots: bool = False,
+        pack_result_slots: bool = False,
+    ) -> None:
         """Set the action.
 
         Args:
             server_name: action's name.
-            action_spec: its XAction class.
-            wrapped_container: the container.
-            succeeded_outcomes: its outcomes that are a success.
-            aborted_outcomes: those that are a failure, as all others.
-            preempted_outcomes: those of a preempted container.
-            goal_key: key of the goal in its userdata.
-            feedback_key: key of the feedback, which is published at each transition.
-            result_key: key of the result.
+            action_spec: XAction class.
+            wrapped_container: container to run.
+            succeeded_outcomes: container's outcomes that are a success.
+            aborted_outcomes: outcomes that are a failure, like all outcomes that are not listed.
+            preempted_outcomes: outcomes of a preempted container.
+            goal_key: goal's key in the userdata.
+            feedback_key: feedback's key; the feedback is published at each transition.
+            result_key: result's key.
             goal_slots_map: field of the goal → key.
-            feedback_slots_map: has no effect.
+            feedback_slots_map: no effect.
             result_slots_map: field of the result → key.
-            expand_goal_slots: every field of the goal is a key.
-            pack_result_slots: every key of a field's name goes into the result.
+            expand_goal_slots: copy every field of the goal to a key of its name.
+            pack_result_slots: copy every key that is a field of the result.
         """
         del feedback_slots_map
         self.wrapped_container = wrapped_container
@@ -55,8 +57,8 @@ class ActionServerWrapper:
         self._expand_goal_slots, self._pack_result_slots = expand_goal_slots, pack_result_slots
         self._server_name = server_name
         self._succeeded, self._preempted = set(succeeded_outcomes), set(preempted_outcomes)
-        every = [*succeeded_outcomes, *aborted_outcomes, *preempted_outcomes]
-        if len(every) != len(set(every)):
+        listed = [*succeeded_outcomes, *aborted_outcomes, *preempted_outcomes]
+        if len(listed) != len(set(listed)):
             rospy.logerr(f"action {server_name}: an outcome is in more than one of succeeded, aborted and preempted")
         action = action_spec()
         self.userdata = smach.UserData()
@@ -65,25 +67,25 @@ class ActionServerWrapper:
         self.userdata[result_key] = copy.copy(action.action_result.result)
         self._action_server = SimpleActionServer(server_name, action_spec, execute_cb=self.execute_cb, auto_start=False)
 
-    def run_server(self):
+    def run_server(self) -> None:
         """Start the action server."""
         self._action_server.register_preempt_callback(self.preempt_cb)
         self._action_server.start()
         rospy.loginfo(f"Started SMACH action server wrapper, advertising as '{self._server_name}'")
 
-    def transition_cb(self, userdata, active_states):
+    def transition_cb(self, userdata: Any, active_states: object) -> None:
         """Publish feedback."""
         self.publish_feedback(userdata)
 
-    def termination_cb(self, userdata, terminal_states, container_outcome):
-        """Overridden by those who want to know of the end."""
+    def termination_cb(self, userdata: Any, terminal_states: object, container_outcome: str) -> None:
+        """Hook for subclasses, called at the container's end."""
 
-    def publish_feedback(self, userdata):
+    def publish_feedback(self, userdata: Any) -> None:
         """Publish the feedback in the userdata."""
         if self._keys[1] in userdata:
             self._action_server.publish_feedback(userdata[self._keys[1]])
 
-    def execute_cb(self, goal):
+    def execute_cb(self, goal: Any) -> None:
         """Run the container for a goal."""
         if self._expand_goal_slots:
             for slot in goal.__slots__:
@@ -107,7 +109,7 @@ class ActionServerWrapper:
         else:
             self._action_server.set_aborted(result)
 
-    def _result(self):
+    def _result(self) -> Any:
         result = self.userdata[self._keys[2]]
         for slot, key in self._result_slots_map.items():
             setattr(result, slot, self.userdata[key])
@@ -117,7 +119,7 @@ class ActionServerWrapper:
                     setattr(result, slot, self.userdata[slot])
         return result
 
-    def preempt_cb(self):
+    def preempt_cb(self) -> None:
         """Preempt the container."""
         rospy.loginfo("Preempt on state machine requested!")
         self.wrapped_container.request_preempt()

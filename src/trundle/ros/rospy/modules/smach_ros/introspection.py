@@ -1,10 +1,13 @@
-"""Structure and state of running containers on topics, for smach_viewer; and their initial state set from there."""
+"""Topics of running containers' structure and state, for smach_viewer, which may also set their initial states."""
 
 import threading
+from collections.abc import Sequence
+from typing import Any
 
 from smach_msgs.msg import SmachContainerInitialStatusCmd, SmachContainerStatus, SmachContainerStructure
 from std_msgs.msg import Header
 
+import genpy
 import rospy
 import smach
 
@@ -20,36 +23,43 @@ _PERIOD = rospy.Duration(2.0)
 class IntrospectionClient:
     """Finds servers and sets initial states."""
 
-    def get_servers(self):
+    def get_servers(self) -> list[str]:
         """Names of all servers."""
         import rostopic
 
         return [topic[: topic.rfind(STATUS_TOPIC)] for topic in rostopic.find_by_type(SmachContainerStatus._type)]
 
-    def set_initial_state(self, server, path, initial_states, initial_userdata=None, timeout=None):
-        """Set where a container starts.
+    def set_initial_state(
+        self,
+        server: str,
+        path: str,
+        initial_states: Sequence[str],
+        initial_userdata: smach.UserData | None = None,
+        timeout: genpy.Duration | None = None,
+    ) -> bool | None:
+        """Set the initial states of a container.
 
         Args:
-            server: its server's name.
-            path: its path.
-            initial_states: labels.
+            server: container's server.
+            path: container's path.
+            initial_states: labels of the states.
             initial_userdata: UserData of plain values.
             timeout: rospy.Duration to wait for the answer; None: do not wait.
 
         Returns:
-            True if the container took it; None without a timeout.
+            True if the container reports these states and values; None without a timeout.
         """
-        wanted = initial_userdata._data if initial_userdata is not None else {}
+        values = initial_userdata._data if initial_userdata is not None else {}
         command = SmachContainerInitialStatusCmd(
-            path=path, initial_states=initial_states, local_data=local_data.encode(wanted)
+            path=path, initial_states=initial_states, local_data=local_data.encode(values)
         )
-        answered = threading.Event()
+        is_applied = threading.Event()
 
-        def on_status(status):
+        def on_status(status: Any) -> None:
             if status.path == path and all(state in status.initial_states for state in initial_states):
                 data = local_data.decode(status.local_data)
-                if all(data.get(key) == value for key, value in wanted.items()):
-                    answered.set()
+                if all(data.get(key) == value for key, value in values.items()):
+                    is_applied.set()
 
         subscriber = rospy.Subscriber(server + STATUS_TOPIC, SmachContainerStatus, on_status)
         publisher = rospy.Publisher(server + INIT_TOPIC, SmachContainerInitialStatusCmd, queue_size=1)
@@ -57,39 +67,41 @@ class IntrospectionClient:
         if timeout is None:
             return None
         end = rospy.Time.now() + timeout
-        while not answered.wait(0.3) and rospy.Time.now() < end and not rospy.is_shutdown():
+        while not is_applied.wait(0.3) and rospy.Time.now() < end and not rospy.is_shutdown():
             publisher.publish(command)
         subscriber.unregister()
-        return answered.is_set()
+        return is_applied.is_set()
 
 
 class ContainerProxy:
     """Topics of one container."""
 
-    def __init__(self, server_name, container, path, update_rate=_PERIOD):
+    def __init__(
+        self, server_name: str, container: smach.Container, path: str, update_rate: genpy.Duration = _PERIOD
+    ) -> None:
         self._path = path
         self._container = container
         self._update_rate = update_rate
         self._lock = threading.Lock()
-        self._timer = None
+        self._timer: rospy.Timer | None = None
         self._init_cmd = rospy.Subscriber(server_name + INIT_TOPIC, SmachContainerInitialStatusCmd, self._init_cmd_cb)
         self._structure_pub = rospy.Publisher(server_name + STRUCTURE_TOPIC, SmachContainerStructure, queue_size=1)
         self._status_pub = rospy.Publisher(server_name + STATUS_TOPIC, SmachContainerStatus, queue_size=1)
         container.register_transition_cb(lambda *args: self.publish_status(str(args)))
 
-    def start(self):
-        """Publish now and from time to time."""
+    def start(self) -> None:
+        """Publish now and periodically."""
         self._publish()
         self._timer = rospy.Timer(self._update_rate, self._publish)
 
-    def stop(self):
-        """Publish no more, and take no commands."""
+    def stop(self) -> None:
+        """Stop publishing, and ignore commands."""
         if self._timer is not None:
             self._timer.shutdown()
         for endpoint in (self._init_cmd, self._structure_pub, self._status_pub):
             endpoint.unregister()
 
-    def _publish(self, _event=None):
+    def _publish(self, _event: object = None) -> None:
         self.publish_status("HEARTBEAT")
         edges = self._container.get_internal_edges()
         structure = SmachContainerStructure(
@@ -103,7 +115,7 @@ class ContainerProxy:
         )
         self._send(self._structure_pub, structure)
 
-    def publish_status(self, info=""):
+    def publish_status(self, info: str = "") -> None:
         """Publish the state now."""
         with self._lock:
             status = SmachContainerStatus(
@@ -116,14 +128,14 @@ class ContainerProxy:
             )
             self._send(self._status_pub, status)
 
-    def _send(self, publisher, message):
+    def _send(self, publisher: rospy.Publisher, message: Any) -> None:
         try:
             publisher.publish(message)
         except rospy.ROSException as error:
             if not rospy.is_shutdown():
                 rospy.logerr(f"smach introspection of {self._path}: {error}")
 
-    def _init_cmd_cb(self, msg):
+    def _init_cmd_cb(self, msg: Any) -> None:
         if msg.path != self._path:
             return
         children = self._container.get_children()
@@ -144,30 +156,30 @@ class ContainerProxy:
 class IntrospectionServer:
     """Topics of a container and all containers in it."""
 
-    def __init__(self, server_name, state, path):
-        """Prepare.
+    def __init__(self, server_name: str, state: smach.Container, path: str) -> None:
+        """Create; see `start`.
 
         Args:
-            server_name: its name, before those of the topics.
-            state: the outermost container.
-            path: its path, often /SM_ROOT.
+            server_name: server's name, the prefix of its topics.
+            state: outermost container.
+            path: container's path, often /SM_ROOT.
         """
-        self._proxies = []
+        self._proxies: list[ContainerProxy] = []
         self._server_name = server_name
         self._state = state
         self._path = path
 
-    def start(self):
+    def start(self) -> None:
         """Publish."""
         self.construct(self._server_name, self._state, self._path)
 
-    def stop(self):
-        """Publish no more."""
+    def stop(self) -> None:
+        """Stop publishing."""
         for proxy in self._proxies:
             proxy.stop()
 
-    def construct(self, server_name, state, path):
-        """Publish a container and all in it."""
+    def construct(self, server_name: str, state: smach.Container, path: str) -> None:
+        """Publish a container and all containers in it."""
         proxy = ContainerProxy(server_name, state, path)
         for label, child in state.get_children().items():
             if isinstance(child, smach.Container):
@@ -176,6 +188,6 @@ class IntrospectionServer:
         proxy.start()
         self._proxies.append(proxy)
 
-    def clear(self):
+    def clear(self) -> None:
         """Forget all containers."""
         self._proxies = []

@@ -3,35 +3,37 @@
 import base64
 import io
 import pickle
+from collections.abc import Mapping
+from typing import Any, NoReturn
 
 
 class _PlainUnpickler(pickle.Unpickler):
-    """Reads numbers, text, lists and dictionaries only: a pickle of a class would run its sender's code."""
+    """Reads only numbers, strings, lists and dictionaries: a pickle of a class would run its sender's code."""
 
-    def find_class(self, module, name):
-        raise pickle.UnpicklingError(f"userdata of the type {module}.{name} is not taken from the network")
+    def find_class(self, module: str, name: str) -> "NoReturn":
+        raise pickle.UnpicklingError(f"userdata of the type {module}.{name} is not accepted from the network")
 
 
-def encode(data):
-    """Text of a dictionary; values that cannot be pickled are left out."""
-    kept = {}
+def encode(data: Mapping[str, Any]) -> str:
+    """Encode a dictionary; values that cannot be pickled are omitted."""
+    plain: dict[str, Any] = {}
     for key, value in data.items():
         try:
             pickle.dumps(value, 2)
-        except Exception:  # whatever a class of the user raises
+        except Exception:  # a class of the user may raise anything
             continue
-        kept[key] = value
-    return base64.b64encode(pickle.dumps(kept, 2)).decode()
+        plain[key] = value
+    return base64.b64encode(pickle.dumps(plain, 2)).decode()
 
 
-def decode(text):
-    """Dictionary of such a text.
+def decode(text: str) -> dict[str, Any]:
+    """Decode a dictionary that `encode` encoded.
 
     Raises:
-        ValueError: it is damaged, or has values that are not plain data.
+        ValueError: the text is damaged, or contains other values than plain data.
     """
     try:
-        data = _PlainUnpickler(io.BytesIO(base64.b64decode(text, validate=True))).load()
+        data: Any = _PlainUnpickler(io.BytesIO(base64.b64decode(text, validate=True))).load()
     except Exception as error:  # hostile bytes raise anything
         raise ValueError(f"userdata cannot be read: {error}") from None
     if not isinstance(data, dict):

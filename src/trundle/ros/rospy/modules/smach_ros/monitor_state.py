@@ -1,24 +1,34 @@
-"""State that watches a topic."""
+"""State that monitors a topic."""
 
 import threading
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import rospy
 import smach
 
 
 class MonitorState(smach.State):
-    """Asks a function about each message; outcomes valid, invalid, preempted."""
+    """Checks each message by a function; outcomes valid, invalid, preempted."""
 
-    def __init__(self, topic, msg_type, cond_cb, max_checks=-1, input_keys=(), output_keys=()):
+    def __init__(
+        self,
+        topic: str,
+        msg_type: Any,
+        cond_cb: Callable[[Any, Any], Any],
+        max_checks: int = -1,
+        input_keys: Iterable[str] = (),
+        output_keys: Iterable[str] = (),
+    ) -> None:
         """Set the topic.
 
         Args:
-            topic: its name.
-            msg_type: its message class.
-            cond_cb: called with (userdata, message); False ends with invalid.
-            max_checks: number of True that ends with valid, -1: no limit.
-            input_keys: keys that it reads.
-            output_keys: keys that it writes.
+            topic: topic's name.
+            msg_type: class of its messages.
+            cond_cb: called with (userdata, message); on False the outcome is invalid.
+            max_checks: count of True results after which the outcome is valid; -1: no limit.
+            input_keys: keys that cond_cb reads.
+            output_keys: keys that cond_cb writes.
         """
         super().__init__(outcomes=["valid", "invalid", "preempted"], input_keys=input_keys, output_keys=output_keys)
         self._topic = topic
@@ -28,8 +38,8 @@ class MonitorState(smach.State):
         self._n_checks = 0
         self._trigger_event = threading.Event()
 
-    def execute(self, ud):
-        """Watch."""
+    def execute(self, ud: Any) -> str:
+        """Monitor the topic."""
         if self.preempt_requested():
             self.service_preempt()
             return "preempted"
@@ -44,19 +54,19 @@ class MonitorState(smach.State):
             return "preempted"
         return "valid" if 0 < self._max_checks <= self._n_checks else "invalid"
 
-    def _cb(self, msg, ud):
+    def _cb(self, msg: Any, ud: Any) -> None:
         if self._trigger_event.is_set():
             return
         try:
-            is_good = self._cond_cb(ud, msg)
+            is_valid = self._cond_cb(ud, msg)
         except Exception as error:
             rospy.logerr(f"Error thrown while executing condition callback {self._cond_cb}: {error}")
-            is_good = False
-        self._n_checks += bool(is_good)
-        if not is_good or 0 < self._max_checks <= self._n_checks:
+            is_valid = False
+        self._n_checks += bool(is_valid)
+        if not is_valid or 0 < self._max_checks <= self._n_checks:
             self._trigger_event.set()
 
-    def request_preempt(self):
-        """End soon."""
+    def request_preempt(self) -> None:
+        """Request that the state end soon."""
         super().request_preempt()
         self._trigger_event.set()

@@ -1,6 +1,8 @@
 """State that calls a service."""
 
 import traceback
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from typing import Any
 
 import rospy
 import smach
@@ -13,47 +15,47 @@ class ServiceState(smach.State):
 
     def __init__(
         self,
-        service_name,
-        service_spec,
-        request=None,
-        request_cb=None,
-        request_cb_args=(),
-        request_cb_kwargs=None,
-        request_key=None,
-        request_slots=(),
-        response_cb=None,
-        response_cb_args=(),
-        response_cb_kwargs=None,
-        response_key=None,
-        response_slots=(),
-        input_keys=(),
-        output_keys=(),
-        outcomes=(),
-    ):
+        service_name: str,
+        service_spec: Any,
+        request: Any = None,
+        request_cb: Callable[..., Any] | None = None,
+        request_cb_args: Iterable[Any] = (),
+        request_cb_kwargs: Mapping[str, Any] | None = None,
+        request_key: str | None = None,
+        request_slots: Sequence[str] = (),
+        response_cb: Callable[..., Any] | None = None,
+        response_cb_args: Iterable[Any] = (),
+        response_cb_kwargs: Mapping[str, Any] | None = None,
+        response_key: str | None = None,
+        response_slots: Sequence[str] = (),
+        input_keys: Collection[str] = (),
+        output_keys: Collection[str] = (),
+        outcomes: Iterable[str] = (),
+    ) -> None:
         """Set the service.
 
         Args:
-            service_name: its name.
-            service_spec: its class.
-            request: the request; default: an empty one.
+            service_name: service's name.
+            service_spec: service's class.
+            request: request; default: an empty one.
             request_cb: called with (userdata, request); changes the request or returns one.
-            request_cb_args: more arguments for it.
-            request_cb_kwargs: more named arguments for it.
-            request_key: key of the request in the userdata.
-            request_slots: fields of the request that are taken from keys of the same name.
+            request_cb_args: more arguments for request_cb.
+            request_cb_kwargs: more named arguments for request_cb.
+            request_key: request's key in the userdata.
+            request_slots: fields of the request that are copied from keys of the same name.
             response_cb: called with (userdata, response); may return an outcome.
-            response_cb_args: more arguments for it.
-            response_cb_kwargs: more named arguments for it.
+            response_cb_args: more arguments for response_cb.
+            response_cb_kwargs: more named arguments for response_cb.
             response_key: key that the response is written to.
             response_slots: fields of the response that are written to keys of the same name.
             input_keys: keys that the callbacks read.
-            output_keys: keys that they write.
+            output_keys: keys that the callbacks write.
             outcomes: outcomes that response_cb may return.
         """
         super().__init__(outcomes=["succeeded", "aborted", "preempted"])
         self._service_name = service_name
         self._service_spec = service_spec
-        self._proxy = None
+        self._proxy: Any = None
         self._request = service_spec._request_class() if request is None else request
         self._request_cb = StateCallback(
             self, request_cb, request_cb_args, request_cb_kwargs, input_keys, output_keys, declares_outcomes=False
@@ -67,8 +69,8 @@ class ServiceState(smach.State):
         self.register_output_keys([*response_slots, *([response_key] if response_key is not None else [])])
         self.register_outcomes(outcomes)
 
-    def execute(self, ud):
-        """Call."""
+    def execute(self, ud: Any) -> str:
+        """Call the service."""
         if self.preempt_requested():
             self.service_preempt()
             return "preempted"
@@ -99,8 +101,8 @@ class ServiceState(smach.State):
             ud[key] = getattr(response, key)
         return outcome
 
-    def _connect(self):
-        """Wait for the service; returns an outcome if that is over before."""
+    def _connect(self) -> str | None:
+        """Wait for the service; returns an outcome if the state ends before."""
         while self._proxy is None:
             if self.preempt_requested():
                 self.service_preempt()
@@ -116,8 +118,8 @@ class ServiceState(smach.State):
                 rospy.logwarn(f"Still waiting for service '{self._service_name}'...")
         return None
 
-    def _fill(self, ud):
-        """Make the request of the userdata; returns an outcome if that fails."""
+    def _fill(self, ud: Any) -> str | None:
+        """Fill the request from the userdata; returns an outcome if that fails."""
         for key in (self._request_key, *self._request_slots):
             if key is not None and key not in ud:
                 rospy.logerr(f"the userdata has no '{key}' for service {self._service_name}; it has {ud.keys()}")

@@ -3,10 +3,15 @@
 import copy
 import threading
 import traceback
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from typing import Any
 
+from actionlib_msgs.msg import GoalStatus
+
+import genpy
 import rospy
 import smach
-from actionlib import GoalStatus, SimpleActionClient
+from actionlib import SimpleActionClient
 
 from .callbacks import StateCallback
 
@@ -25,47 +30,47 @@ class SimpleActionState(smach.State):
 
     def __init__(
         self,
-        action_name,
-        action_spec,
-        goal=None,
-        goal_key=None,
-        goal_slots=(),
-        goal_cb=None,
-        goal_cb_args=(),
-        goal_cb_kwargs=None,
-        result_key=None,
-        result_slots=(),
-        result_cb=None,
-        result_cb_args=(),
-        result_cb_kwargs=None,
-        input_keys=(),
-        output_keys=(),
-        outcomes=(),
-        exec_timeout=None,
-        preempt_timeout=_MINUTE,
-        server_wait_timeout=_MINUTE,
-    ):
+        action_name: str,
+        action_spec: type,
+        goal: Any = None,
+        goal_key: str | None = None,
+        goal_slots: Sequence[str] = (),
+        goal_cb: Callable[..., Any] | None = None,
+        goal_cb_args: Iterable[Any] = (),
+        goal_cb_kwargs: Mapping[str, Any] | None = None,
+        result_key: str | None = None,
+        result_slots: Sequence[str] = (),
+        result_cb: Callable[..., Any] | None = None,
+        result_cb_args: Iterable[Any] = (),
+        result_cb_kwargs: Mapping[str, Any] | None = None,
+        input_keys: Collection[str] = (),
+        output_keys: Collection[str] = (),
+        outcomes: Iterable[str] = (),
+        exec_timeout: genpy.Duration | None = None,
+        preempt_timeout: genpy.Duration = _MINUTE,
+        server_wait_timeout: genpy.Duration = _MINUTE,
+    ) -> None:
         """Set the action.
 
         Args:
-            action_name: its name.
-            action_spec: its XAction class.
-            goal: the XGoal; default: an empty one.
-            goal_key: key of the goal in the userdata.
-            goal_slots: fields of the goal that are taken from keys of the same name.
+            action_name: action's name.
+            action_spec: XAction class.
+            goal: XGoal; default: an empty one.
+            goal_key: goal's key in the userdata.
+            goal_slots: fields of the goal that are copied from keys of the same name.
             goal_cb: called with (userdata, goal); changes the goal or returns one.
-            goal_cb_args: more arguments for it.
-            goal_cb_kwargs: more named arguments for it.
+            goal_cb_args: more arguments for goal_cb.
+            goal_cb_kwargs: more named arguments for goal_cb.
             result_key: key that the result is written to.
             result_slots: fields of the result that are written to keys of the same name.
             result_cb: called with (userdata, GoalStatus number, result); may return an outcome.
-            result_cb_args: more arguments for it.
-            result_cb_kwargs: more named arguments for it.
+            result_cb_args: more arguments for result_cb.
+            result_cb_kwargs: more named arguments for result_cb.
             input_keys: keys that the callbacks read.
-            output_keys: keys that they write.
+            output_keys: keys that the callbacks write.
             outcomes: outcomes that result_cb may return.
             exec_timeout: rospy.Duration after which the goal is canceled.
-            preempt_timeout: has no effect.
+            preempt_timeout: no effect.
             server_wait_timeout: rospy.Duration to wait for the server.
 
         Raises:
@@ -74,7 +79,7 @@ class SimpleActionState(smach.State):
         super().__init__(outcomes=["succeeded", "aborted", "preempted"])
         action = action_spec()
         if callable(goal):
-            raise smach.InvalidStateError("the goal of a SimpleActionState is a function; give it as goal_cb")
+            raise smach.InvalidStateError("the goal of a SimpleActionState is a function; pass it as goal_cb")
         _check_slots("goal", goal_slots, action.action_goal.goal)
         _check_slots("result", result_slots, action.action_result.result)
         self._action_name, self._action_spec = action_name, action_spec
@@ -83,7 +88,8 @@ class SimpleActionState(smach.State):
         self._result_key, self._result_slots = result_key, result_slots
         self._exec_timeout, self._preempt_timeout = exec_timeout, preempt_timeout
         self._server_wait_timeout = server_wait_timeout
-        self._goal_status, self._goal_result = 0, None
+        self._goal_status = 0
+        self._goal_result: Any = None
         self._goal_cb = StateCallback(
             self, goal_cb, goal_cb_args, goal_cb_kwargs, input_keys, output_keys, declares_outcomes=False
         )
@@ -97,13 +103,13 @@ class SimpleActionState(smach.State):
         self._action_client = SimpleActionClient(action_name, action_spec)
         self._done = threading.Event()
 
-    def request_preempt(self):
-        """Cancel the goal, if it runs."""
+    def request_preempt(self) -> None:
+        """Cancel the goal, if it is active."""
         super().request_preempt()
         if self._status == SimpleActionState.ACTIVE:
             self._action_client.cancel_goal()
 
-    def execute(self, ud):
+    def execute(self, ud: Any) -> str:
         """Send the goal and wait for its end."""
         self._wait_for_server()
         if self.preempt_requested():
@@ -135,7 +141,7 @@ class SimpleActionState(smach.State):
                 ud[key] = getattr(self._goal_result, key)
         return outcome
 
-    def _wait_for_server(self):
+    def _wait_for_server(self) -> None:
         end = rospy.get_rostime() + self._server_wait_timeout
         while self._status == SimpleActionState.WAITING_FOR_SERVER and not rospy.is_shutdown():
             if self._action_client.wait_for_server(rospy.Duration(_POLL_S)):
@@ -143,8 +149,8 @@ class SimpleActionState(smach.State):
             elif self.preempt_requested() or rospy.get_rostime() >= end:
                 return
 
-    def _fill(self, ud):
-        """Make the goal of the userdata; False if that fails."""
+    def _fill(self, ud: Any) -> bool:
+        """Fill the goal from the userdata; False if that fails."""
         if self._goal_key is not None:
             goal = ud[self._goal_key]
             self._goal = getattr(goal, "_obj", goal)
@@ -159,8 +165,8 @@ class SimpleActionState(smach.State):
                 return False
         return True
 
-    def _run(self):
-        """Send the goal and wait; cancel it after its time."""
+    def _run(self) -> None:
+        """Send the goal and wait; cancel it after the timeout."""
         start = rospy.Time.now()
         is_canceled = False
         self._done.clear()
@@ -172,7 +178,7 @@ class SimpleActionState(smach.State):
                 self._action_client.cancel_goal()
                 is_canceled = True
 
-    def _outcome(self):
+    def _outcome(self) -> str:
         if self._status != SimpleActionState.INACTIVE:  # shut down before the end
             return "aborted"
         if self._goal_status == GoalStatus.SUCCEEDED:
@@ -182,13 +188,13 @@ class SimpleActionState(smach.State):
             return "preempted"
         return "aborted"
 
-    def _goal_done_cb(self, result_state, result):
+    def _goal_done_cb(self, result_state: int, result: Any) -> None:
         self._goal_status, self._goal_result = result_state, result
         self._status = SimpleActionState.INACTIVE
         self._done.set()
 
 
-def _check_slots(kind, slots, message):
+def _check_slots(kind: str, slots: Iterable[str], message: Any) -> None:
     unknown = [slot for slot in slots if slot not in message.__slots__]
     if unknown:
         raise smach.InvalidStateError(f"the {kind} has no {', '.join(unknown)}; its fields are {message.__slots__}")

@@ -2,12 +2,13 @@
 
 import rospy
 import rospy.core
+import smach
 
 
-def set_preempt_handler(sc):
+def set_preempt_handler(sc: smach.StateMachine) -> None:
     """Preempt a state machine when the node shuts down, and wait for its end."""
 
-    def handler():
+    def handler() -> None:
         sc.request_preempt()
         while sc.is_running():
             rospy.loginfo("shutting down: waiting for the state machine to end")
