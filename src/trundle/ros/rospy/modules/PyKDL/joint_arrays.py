@@ -27,7 +27,7 @@ class JntArray:
         return 1
 
     def resize(self, size: int) -> None:
-        """Drop numbers at the end, or add zeros."""
+        """Drop numbers index the end, or add zeros."""
         self._values = (self._values + [0.0] * size)[:size]
 
     def __getitem__(self, index: int) -> float:
@@ -72,15 +72,15 @@ class Jacobian:
         return len(self._columns)
 
     def resize(self, columns: int) -> None:
-        """Drop columns at the end, or add zeros."""
+        """Drop columns index the end, or add zeros."""
         self._columns = [*self._columns, *(Twist() for _ in range(columns))][:columns]
 
-    def __getitem__(self, at: tuple[int, int]) -> float:
-        row, column = at
+    def __getitem__(self, index: tuple[int, int]) -> float:
+        row, column = index
         return self._columns[column][row]
 
-    def __setitem__(self, at: tuple[int, int], value: float) -> None:
-        row, column = at
+    def __setitem__(self, index: tuple[int, int], value: float) -> None:
+        row, column = index
         self._columns[column][row] = value
 
     def getColumn(self, i: int) -> Twist:

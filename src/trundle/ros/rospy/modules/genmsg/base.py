@@ -17,7 +17,7 @@ class MsgGenerationException(Exception):
 
 
 def log_verbose(value: bool) -> None:
-    """Let `log` print."""
+    """Switch the output of `log` on or off."""
     global _verbose
     _verbose = value
 

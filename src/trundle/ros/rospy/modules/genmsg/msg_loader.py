@@ -22,7 +22,7 @@ class MsgContext:
 
     @staticmethod
     def create_default() -> "MsgContext":
-        """Create an empty one."""
+        """Create an empty context."""
         return MsgContext()
 
     def register(self, full_msg_type: str, msgspec: MsgSpec) -> None:
@@ -103,7 +103,7 @@ def load_srv_by_type(msg_context: MsgContext, srv_type: str, search_path: Any = 
 
 
 def load_depends(msg_context: MsgContext, spec: MsgSpec | SrvSpec, search_path: Any = None) -> None:
-    """Add the definitions of all types that one contains.
+    """Add the definitions of all types that a definition contains.
 
     Raises:
         MsgNotFound: there is no such type.
@@ -119,6 +119,6 @@ def load_depends(msg_context: MsgContext, spec: MsgSpec | SrvSpec, search_path: 
 
 
 def _converted(spec: Any) -> MsgSpec:
-    constants = [Constant(each.type, each.name, each.value, each.text) for each in spec.constants]
+    constants = [Constant(constant.type, constant.name, constant.value, constant.text) for constant in spec.constants]
     types, names = [field.type for field in spec.fields], [field.name for field in spec.fields]
     return MsgSpec(types, names, constants, spec.text, spec.type)

@@ -52,7 +52,7 @@ def is_header_type(msg_type: str) -> bool:
 
 
 def is_valid_msg_type(msg_type: str) -> bool:
-    """True if a text can be a type."""
+    """True if a string can be a type."""
     base, bracket, rest = msg_type.partition("[")
     return is_legal_resource_name(base) and _DIMENSIONS.fullmatch(bracket + rest) is not None
 

@@ -1,4 +1,4 @@
-"""Diagnosis of fields whose values do not fit their types, in genpy's words."""
+"""Diagnosis of fields whose values do not fit their types, with genpy's messages."""
 
 from typing import Any
 
@@ -27,9 +27,9 @@ def check_type(field_name: str, field_type: str, field_val: Any) -> None:
     elif field_type == "string":
         _check_text(field_name, field_val)
     elif field_type in ("time", "duration"):
-        wanted = Time if field_type == "time" else Duration
-        if not isinstance(field_val, wanted):
-            raise SerializationError(f"field {field_name} must be of type {wanted.__name__}")
+        expected = Time if field_type == "time" else Duration
+        if not isinstance(field_val, expected):
+            raise SerializationError(f"field {field_name} must be of type {expected.__name__}")
     elif field_type.endswith("]"):
         _check_array(field_name, field_type[: field_type.index("[")], field_val)
     else:
@@ -38,8 +38,8 @@ def check_type(field_name: str, field_type: str, field_val: Any) -> None:
 
 def _check_number(name: str, kind: str, value: Any) -> None:
     if kind in ("float32", "float64"):
-        made = type(value)
-        if made not in (float, int) and not (made.__module__ == "numpy" and made.__name__ in _NUMPY_NUMBERS):
+        cls = type(value)
+        if cls not in (float, int) and not (cls.__module__ == "numpy" and cls.__name__ in _NUMPY_NUMBERS):
             raise SerializationError(f"field {name} must be float type")
     elif kind == "bool":
         if value not in [True, False, 0, 1]:

@@ -71,42 +71,42 @@ def _fill(msg: Any, values: Any, keys: dict[str, Any], prefix: str) -> None:
 def _fill_field(msg: Any, slots: list[str], name: str, value: Any, keys: dict[str, Any], prefix: str) -> None:
     if name not in slots:
         raise MessageException(f"No field name [{prefix}{name}]")
-    there = getattr(msg, name)
-    if hasattr(there, "_slot_types"):
+    current = getattr(msg, name)
+    if hasattr(current, "_slot_types"):
         if isinstance(value, str):
             if value not in keys:
                 raise MessageException(f"No key named [{value}]")
             setattr(msg, name, keys[value])
-        elif isinstance(there, TVal) and type(value) is int:
-            setattr(msg, name, type(there).from_sec(value / 1e9))
+        elif isinstance(current, TVal) and type(value) is int:
+            setattr(msg, name, type(current).from_sec(value / 1e9))
         else:
-            _fill(there, value, keys, f"{prefix}{name}.")
-    elif isinstance(there, list):
+            _fill(current, value, keys, f"{prefix}{name}.")
+    elif isinstance(current, list):
         setattr(msg, name, _items(msg._slot_types[slots.index(name)], value, keys, f"{prefix}{name}"))
     else:
         setattr(msg, name, value)
 
 
-def _items(type_name: str, values: Any, keys: dict[str, Any], where: str) -> list[Any]:
+def _items(type_name: str, values: Any, keys: dict[str, Any], path: str) -> list[Any]:
     if not isinstance(values, list | tuple):
-        raise MessageException(f"Field [{where}] must be a list or tuple instead of: {type(values).__name__}")
+        raise MessageException(f"Field [{path}] must be a list or tuple instead of: {type(values).__name__}")
     match = _TYPE.fullmatch(type_name)
     assert match is not None
     if match["length"] and len(values) != int(match["length"]):
-        raise MessageException(f"Field [{where}] has incorrect number of elements: {len(values)} != {match['length']}")
+        raise MessageException(f"Field [{path}] has incorrect number of elements: {len(values)} != {match['length']}")
     if match["base"] in _PRIMITIVES:
         return list(values)
-    made = get_message_class(match["base"])
-    if made is None:
-        raise MessageException(f"Cannot instantiate messages for field [{where}] : cannot load class {match['base']}")
-    return [_item(made, value, keys, where) for value in values]
+    message_class = get_message_class(match["base"])
+    if message_class is None:
+        raise MessageException(f"Cannot instantiate messages for field [{path}] : cannot load class {match['base']}")
+    return [_item(message_class, value, keys, path) for value in values]
 
 
-def _item(made: Any, value: Any, keys: dict[str, Any], where: str) -> Any:
-    item = made()
+def _item(message_class: Any, value: Any, keys: dict[str, Any], path: str) -> Any:
+    item = message_class()
     if isinstance(item, TVal) and type(value) is int:
         return type(item).from_sec(value / 1e9)
     if isinstance(item, Time) and isinstance(value, str) and value in keys:
         return keys[value]
-    _fill(item, value, keys, f"{where}.")
+    _fill(item, value, keys, f"{path}.")
     return item

@@ -44,12 +44,12 @@ class TVal:
         return self.secs == 0 and self.nsecs == 0
 
     def set(self, secs: int, nsecs: int) -> None:
-        """Set both fields as given."""
+        """Set both fields without normalizing."""
         self.secs = secs
         self.nsecs = nsecs
 
     def canon(self) -> None:
-        """Bring nanoseconds set by hand into 0 to 1e9."""
+        """Normalize nanoseconds into 0 to 1e9."""
         self.secs, self.nsecs = _canon(self.secs, self.nsecs)
 
     def to_sec(self) -> float:
@@ -108,7 +108,7 @@ class TVal:
         return (ours > theirs) - (ours < theirs)
 
     def _compares(self, other: "TVal") -> bool:
-        """True if the other value is of a kind that this one compares with."""
+        """True if the other value has a type that this one compares with."""
         del other
         return True
 

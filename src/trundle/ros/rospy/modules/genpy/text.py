@@ -70,12 +70,12 @@ def _list(values: Any, indent: str, options: tuple[Any, ...]) -> str:
 
 
 def _fields(message: Any, indent: str, options: tuple[Any, ...]) -> str:
-    shown = options[2]
-    wanted = message.__slots__ if shown is None else list(shown(message))
+    field_filter = options[2]
+    names = message.__slots__ if field_filter is None else list(field_filter(message))
     lines = [
         f"{indent}{name}: {strify_message(_value(message, name, kind), '  ' + indent, *options)}"
         for name, kind in zip(message.__slots__, message._slot_types, strict=True)
-        if name in wanted
+        if name in names
     ]
     return ("\n" if indent else "") + "\n".join(lines)
 

@@ -5,7 +5,7 @@ from typing import Any
 
 
 def wrap_bytes(value: Any) -> Any:
-    """Copy of a value with each bytes as a Binary."""
+    """Copy of a value with each `bytes` wrapped in a Binary."""
     if isinstance(value, bytes):
         from xmlrpc.client import Binary  # takes long to import, and few values are binary
 
@@ -14,9 +14,9 @@ def wrap_bytes(value: Any) -> Any:
 
 
 def unwrap_bytes(value: Any) -> Any:
-    """Copy of a value with each Binary as bytes."""
+    """Copy of a value with each Binary replaced by its bytes."""
     client = sys.modules.get("xmlrpc.client")
-    if client is None:  # a Binary is made of that module
+    if client is None:  # without the module there is no Binary
         return value
     return value.data if isinstance(value, client.Binary) else _rebuilt(value, unwrap_bytes)
 

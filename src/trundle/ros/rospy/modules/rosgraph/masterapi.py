@@ -1,4 +1,4 @@
-"""The master's API, with checked answers."""
+"""The master's API, with checked responses."""
 
 from typing import Any
 
@@ -17,7 +17,7 @@ class MasterFailure(MasterException):
 
 
 class MasterError(MasterException):
-    """The arguments were wrong, or what is asked for does not exist."""
+    """Invalid arguments, or an unknown name."""
 
 
 ROSMasterException = MasterException
@@ -38,9 +38,9 @@ def is_online(master_uri: str | None = None) -> bool:
 
 
 class Master:
-    """Client of the master; each method of its API returns the value of the answer.
+    """Client of the master; each method of its API returns the response's value.
 
-    Methods raise MasterError or MasterFailure by the answer's code, and OSError if no master answers.
+    Methods raise MasterError or MasterFailure by the response's code, and OSError if no master responds.
     """
 
     def __init__(self, caller_id: str, master_uri: str | None = None) -> None:

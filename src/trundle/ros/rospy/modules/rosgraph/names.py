@@ -82,7 +82,7 @@ def ns_join(ns: str, name: str) -> str:
 
 
 def load_mappings(argv: Sequence[str]) -> dict[str, str]:
-    """Remappings on a command line; private parameters (`_name:=value`) are left out."""
+    """Remappings on a command line; private parameters (`_name:=value`) are skipped."""
     mappings: dict[str, str] = {}
     for argument in argv:
         if not is_legal_remap(argument):
@@ -127,8 +127,8 @@ def resolve_name(name: str, namespace_: str, remappings: Mapping[str, str] | Non
     """Resolve a name to a global one.
 
     Args:
-        name: as written; '' is the parent of `namespace_`.
-        namespace_: name of the node.
+        name: relative, private or global name; '' is the parent of `namespace_`.
+        namespace_: node's name.
         remappings: global name → global name.
     """
     if not name:

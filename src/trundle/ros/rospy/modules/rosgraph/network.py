@@ -34,7 +34,7 @@ def parse_http_host_and_port(url: str) -> tuple[str, int]:
 
 
 def get_host_name() -> str:
-    """Host that this machine's URIs name."""
+    """Host in this machine's URIs."""
     return server_address().advertise
 
 
@@ -53,10 +53,10 @@ def get_local_address() -> str:
 def get_local_addresses() -> list[str]:
     """Addresses of this machine."""
     try:
-        found = {str(info[4][0]) for info in socket.getaddrinfo(socket.gethostname(), None)}
+        addresses = {str(info[4][0]) for info in socket.getaddrinfo(socket.gethostname(), None)}
     except OSError:
-        found = set[str]()
-    return sorted({*found, "127.0.0.1"})
+        addresses = set[str]()
+    return sorted({*addresses, "127.0.0.1"})
 
 
 def get_bind_address(address: str | None = None) -> str:
@@ -67,10 +67,11 @@ def get_bind_address(address: str | None = None) -> str:
 def is_local_address(hostname: str) -> bool:
     """True if a host is this machine."""
     try:
-        found = {str(info[4][0]) for info in socket.getaddrinfo(hostname, None)}
+        addresses = {str(info[4][0]) for info in socket.getaddrinfo(hostname, None)}
     except OSError:
         return False
-    return any(address.startswith("127.") for address in found) or bool(found & set(get_local_addresses()))
+    is_loopback = any(address.startswith("127.") for address in addresses)
+    return is_loopback or bool(addresses & set(get_local_addresses()))
 
 
 def use_ipv6() -> bool:
@@ -86,7 +87,7 @@ def create_local_xmlrpc_uri(port: int) -> str:
 
 
 def decode_ros_handshake_header(header_str: bytes) -> dict[str, str]:
-    """Decode a header, its length first; spaces around names are dropped.
+    """Decode a header after its length; spaces around names are removed.
 
     Raises:
         ROSHandshakeException: it is invalid.
@@ -101,7 +102,7 @@ def decode_ros_handshake_header(header_str: bytes) -> dict[str, str]:
 
 
 def encode_ros_handshake_header(header: Mapping[Any, Any]) -> bytes:
-    """Encode a header, its length first; its fields are in the order of their names."""
+    """Encode a header after its length, with fields sorted by name."""
     fields = {_as_text(name): _as_text(value) for name, value in header.items()}
     return encode_header(dict(sorted(fields.items())))
 
@@ -111,7 +112,7 @@ def _as_text(value: Any) -> str:
 
 
 def read_ros_handshake_header(sock: socket.socket, b: BytesIO, buff_size: int) -> dict[str, str]:
-    """Read a header from a socket; `b` holds what came before and after it.
+    """Read a header from a socket; `b` holds data received before and after it.
 
     Raises:
         ROSHandshakeException: the peer closed the connection, or its header is invalid.

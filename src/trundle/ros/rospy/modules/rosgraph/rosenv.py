@@ -17,7 +17,7 @@ def get_master_uri(env: Mapping[str, str] | None = None, argv: Sequence[str] | N
     """URI of the master: `__master:=` on the command line, else ROS_MASTER_URI.
 
     Raises:
-        ValueError: `__master` has no value, or two.
+        ValueError: `__master` has no value, or more than one.
     """
     for argument in sys.argv if argv is None else argv:
         if argument.startswith("__master:="):

@@ -1,4 +1,4 @@
-"""Python's logging set up as rospy does: everything to a file, the logger `rosout` to the terminal, too."""
+"""Python's logging configured as by rospy: all records to a file, those of the logger `rosout` to the terminal, too."""
 
 import logging
 import os
@@ -12,7 +12,7 @@ from typing import Any, TextIO
 
 _FILE_BYTES, _FILES = 50_000_000, 4
 _FILE_FORMAT = "[%(name)s][%(levelname)s] %(asctime)s: %(message)s"
-_SHOWN = {
+_LEVELS = {
     "DEBUG": ("DEBUG", "\033[32m"),
     "INFO": ("INFO", None),
     "WARNING": ("WARN", "\033[33m"),
@@ -88,19 +88,19 @@ class RosStreamHandler(logging.Handler):
         self._colorize = colorize
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Write a record; a reader that has gone is no error."""
-        level, colour = _SHOWN.get(record.levelname, (record.levelname, None))
+        """Write a record."""
+        level, color = _LEVELS.get(record.levelname, (record.levelname, None))
         text = formatted(record, level)
         quiet = record.levelno < logging.WARNING
         stream = self._stdout if quiet else self._stderr
-        if self._colorize and colour and stream.isatty():
-            text = f"{colour}{text}\033[0m"
+        if self._colorize and color and stream.isatty():
+            text = f"{color}{text}\033[0m"
         stream.write(text + "\n")
         stream.flush()
 
 
 def formatted(record: logging.LogRecord, level: str) -> str:
-    """Text of a record as ROSCONSOLE_FORMAT asks."""
+    """Text of a record, by ROSCONSOLE_FORMAT."""
     template = os.environ.get("ROSCONSOLE_FORMAT", _DEFAULT_FORMAT)
     values = {
         "severity": level,
@@ -157,11 +157,11 @@ def configure_logging(
     path = os.path.join(get_log_dir(env), name)
     os.environ["ROS_LOG_FILENAME"] = path
     root, rosout = logging.getLogger(), logging.getLogger("rosout")
-    for old in [each for each in root.handlers if isinstance(each, _LazyFileHandler)]:
-        root.removeHandler(old)
+    for handler in [handler for handler in root.handlers if isinstance(handler, _LazyFileHandler)]:
+        root.removeHandler(handler)
     root.setLevel(level)
     root.addHandler(_LazyFileHandler(path))
-    if not any(isinstance(each, RosStreamHandler) for each in rosout.handlers):
+    if not any(isinstance(handler, RosStreamHandler) for handler in rosout.handlers):
         rosout.addHandler(RosStreamHandler())
     rosout.setLevel(logging.INFO)
     return path

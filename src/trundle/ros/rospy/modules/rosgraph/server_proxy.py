@@ -10,7 +10,7 @@ from .binary import unwrap_bytes, wrap_bytes
 
 
 class ServerProxy:
-    """Calls a server's methods as its own."""
+    """Client whose methods call the server's."""
 
     def __init__(self, uri: str, *, timeout_s: float | None = None) -> None:
         self._uri = uri
@@ -22,13 +22,13 @@ class ServerProxy:
 
         def call(*arguments: Any) -> Any:
             try:
-                given = [unwrap_bytes(each) for each in arguments]
-                return wrap_bytes(blocking_call(self._uri, name, *given, timeout_s=self._timeout_s))
+                values = [unwrap_bytes(argument) for argument in arguments]
+                return wrap_bytes(blocking_call(self._uri, name, *values, timeout_s=self._timeout_s))
             except FaultError as error:
                 from xmlrpc.client import Fault
 
                 raise Fault(error.code, error.text) from None
-            except ValueError as error:  # as of xmlrpc.client, for None and for long integers
+            except ValueError as error:  # as xmlrpc.client, for None and for long integers
                 raise (OverflowError if "does not fit" in str(error) else TypeError)(str(error)) from None
             except WireError as error:
                 raise OSError(str(error)) from None

@@ -1,3 +1,3 @@
-"""XML-RPC clients, where programs import them from."""
+"""XML-RPC clients, at the path that programs import them from."""
 
 from .server_proxy import ServerProxy as ServerProxy

@@ -18,5 +18,5 @@ __all__ = ["DEFAULT_MASTER_PORT", "NAME", "Master", "Node", "Process", "RLExcept
 
 
 def configure_logging(uuid: str) -> None:
-    """Nothing to set up: launches log by themselves."""
+    """Do nothing: launches configure their logs themselves."""
     del uuid

@@ -1,4 +1,4 @@
-"""Loading of launch files; their contents by their old place."""
+"""Loading of launch files; `ROSLaunchConfig` at its old path."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -25,12 +25,12 @@ def load_config_default(
 
     Args:
         roslaunch_files: paths, or pairs of a path and its arguments ('name:=value').
-        port: of the master; None or 0: the environment's master.
+        port: master's port; None or 0: the environment's master.
         roslaunch_strs: XML texts, read after the files.
-        loader: an XmlLoader.
-        verbose: print what is added.
-        assign_machines: give each node its machine.
-        ignore_unset_args: arguments without a value are no error.
+        loader: XmlLoader to use.
+        verbose: print each added item.
+        assign_machines: set each node's machine.
+        ignore_unset_args: accept arguments without a value.
 
     Raises:
         RLException: a file is invalid.
@@ -41,8 +41,8 @@ def load_config_default(
     loader = loader or XmlLoader()
     loader.ignore_unset_args = ignore_unset_args
     load_roscore(loader, config, verbose)
-    for given in roslaunch_files:
-        path, arguments = given if isinstance(given, tuple) else (given, None)
+    for file in roslaunch_files:
+        path, arguments = file if isinstance(file, tuple) else (file, None)
         loader.load(path, config, argv=arguments, verbose=verbose)
     for text in roslaunch_strs or ():
         try:

@@ -9,15 +9,15 @@ from .core import Master, Param, RLException
 from .machine import Machine, is_machine_local, local_machine
 from .node import Node, Test
 
-_SHOWN = 20
-"""Length of a value in the summary."""
+_MAX_VALUE = 20
+"""Maximum length of a value in the summary."""
 
 
 def namespaces_of(name: str) -> list[str]:
-    """Namespaces that a name lies in, the outermost first; names are taken as global.
+    """Namespaces that contain a name, the outermost first; names are treated as global.
 
     Raises:
-        ValueError: there is no name.
+        ValueError: the name is None.
     """
     if name is None:  # pyright: ignore[reportUnnecessaryComparison]
         raise ValueError("name")
@@ -44,22 +44,22 @@ class ROSLaunchConfig:
         self._has_remote_nodes: bool | None = None
 
     def add_roslaunch_file(self, f: str) -> None:
-        """Note a file that was read."""
+        """Add the path of a file that was read."""
         self.roslaunch_files.append(f)
 
     def add_config_error(self, msg: str) -> None:
-        """Note a fault that is survived."""
+        """Add a fault that does not prevent the launch."""
         self.config_errors.append(msg)
 
     def set_master(self, m: Master) -> None:
-        """Choose the master."""
+        """Set the master."""
         self.master = m
 
     def add_executable(self, exe: Any) -> None:
         """Add a command.
 
         Raises:
-            ValueError: there is none.
+            ValueError: the command is None.
         """
         if not exe:
             raise ValueError("exe is None")
@@ -70,7 +70,7 @@ class ROSLaunchConfig:
         self.clear_params.append(param)
 
     def add_param(self, p: Param, filename: str | None = None, verbose: bool = True) -> None:
-        """Add a parameter; the last of a name wins."""
+        """Add a parameter; it replaces one of the same name."""
         del filename
         for parent in namespaces_of(p.key):
             if parent in self.params:
@@ -83,7 +83,7 @@ class ROSLaunchConfig:
         """Add a machine; False if it was added before.
 
         Raises:
-            RLException: another of its name was.
+            RLException: another machine has the same name.
         """
         if m.name in self.machines:
             if m != self.machines[m.name]:
@@ -103,7 +103,7 @@ class ROSLaunchConfig:
         """Add a node.
 
         Raises:
-            RLException: another has its name, or one of the core has none.
+            RLException: duplicate name, or a node of the core without a name.
         """
         if node.name:
             name = ns_join(node.namespace, node.name)
@@ -122,10 +122,10 @@ class ROSLaunchConfig:
             print(f"Added {kind} of type [{node.package}/{node.type}] in namespace [{node.namespace}]")
 
     def assign_machines(self) -> None:
-        """Give each node its machine.
+        """Set each node's machine.
 
         Raises:
-            RLException: a node names one that is not known.
+            RLException: a node names an unknown machine.
         """
         for node in self.nodes_core:
             node.machine = self.machines[""]
@@ -152,7 +152,7 @@ class ROSLaunchConfig:
         if self.clear_params:
             parts.append("\n\nCLEAR PARAMETERS\n" + "\n".join(sorted(f" * {name}" for name in self.clear_params)))
         if self.params:
-            lines = sorted(f" * {name}: {_shown(param.value)}" for name, param in self.params.items())
+            lines = sorted(f" * {name}: {_value_text(param.value)}" for name, param in self.params.items())
             parts.append("\n\nPARAMETERS\n" + "\n".join(lines))
         if not local:
             parts.append("\n\nMACHINES\n" + "\n".join(sorted(f" * {name}" for name in self.machines if name)))
@@ -168,9 +168,9 @@ def _label(node: Node) -> str:
     return f"{node.name} ({node.package}/{node.type})" if node.name else f"{node.package}/{node.type}"
 
 
-def _shown(value: object) -> str:
+def _value_text(value: object) -> str:
     text = str(value)
-    text = text if len(text) <= _SHOWN else f"{text[: _SHOWN - 3]}..."
+    text = text if len(text) <= _MAX_VALUE else f"{text[: _MAX_VALUE - 3]}..."
     if all(" " <= character <= "~" for character in text):
         return text
     text = text.rstrip()

@@ -1,4 +1,4 @@
-"""Masters, parameters and processes; nodes and machines by their old place."""
+"""Masters, parameters and processes; nodes and machines at their old path."""
 
 import os
 import signal
@@ -17,7 +17,7 @@ from .node import Node as Node, Test as Test
 
 DEFAULT_MASTER_PORT = 11311
 _STOP_S = (15.0, 2.0)
-"""Waits after SIGINT and SIGTERM."""
+"""Waits after SIGINT and SIGTERM [s]."""
 
 
 class RLException(Exception):
@@ -25,7 +25,7 @@ class RLException(Exception):
 
 
 class Master:
-    """The master that launches use."""
+    """Master of a launch."""
 
     def __init__(self, type_: str | None = None, uri: str | None = None) -> None:
         self.type = type_ or "rosmaster"
@@ -40,7 +40,7 @@ class Master:
         return parse_http_host_and_port(self.uri)[1]
 
     def is_running(self) -> bool:
-        """True if it answers."""
+        """True if the master responds."""
         return rosgraph.is_master_online(self.uri)
 
 
@@ -61,10 +61,10 @@ class Param:
 
 
 class Process:
-    """A `trundle` command that runs."""
+    """Running `trundle` command."""
 
     def __init__(self, name: str, arguments: Sequence[str], env: dict[str, str] | None = None) -> None:
-        """Start it."""
+        """Start the command."""
         self.name = name
         self.args = [sys.executable, "-m", "trundle", *arguments]
         self.package: str | None = None
@@ -73,15 +73,15 @@ class Process:
 
     @property
     def exit_code(self) -> int | None:
-        """Exit code; None while it runs."""
+        """Exit code; None while the process runs."""
         return self._process.poll()
 
     def is_alive(self) -> bool:
-        """True while it runs."""
+        """True while the process runs."""
         return self._process.poll() is None
 
     def stop(self, errors: list[str] | None = None) -> None:
-        """Stop it as Ctrl-C does, then by force."""
+        """Interrupt the process as Ctrl-C does, then terminate and kill it."""
         del errors
         for number, wait_s in zip((signal.SIGINT, signal.SIGTERM), _STOP_S, strict=True):
             if not self.is_alive():
@@ -95,6 +95,6 @@ class Process:
         self._process.wait()
 
     def wait(self) -> None:
-        """Wait for its end."""
+        """Wait for the end of the process."""
         while self.is_alive():
             time.sleep(0.1)

@@ -30,14 +30,14 @@ class Machine:
         self.timeout = timeout or _TIMEOUT_S
 
     def config_key(self) -> str:
-        """Text that two equally configured machines share."""
+        """Configuration as text; equal for equally configured machines."""
         return (
             f"Machine(address[{self.address}] env_loader[{self.env_loader}] ssh_port[{self.ssh_port}] "
             f"user[{self.user or ''}] password[{self.password or ''}] timeout[{self.timeout}])"
         )
 
     def config_equals(self, m2: object) -> bool:
-        """True if the other is configured equally."""
+        """True if another machine has the same configuration."""
         return isinstance(m2, Machine) and self.config_key() == m2.config_key()
 
     __hash__ = None  # pyright: ignore[reportAssignmentType] - it changes

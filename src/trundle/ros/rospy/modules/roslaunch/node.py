@@ -10,7 +10,7 @@ _TIME_LIMIT_S = 60.0
 
 
 class Node:
-    """A node to start."""
+    """Node of a launch file."""
 
     def __init__(
         self,
@@ -30,7 +30,7 @@ class Node:
         required: bool = False,
         filename: str = "<unknown>",
     ) -> None:
-        """Describe it.
+        """Set the attributes.
 
         Raises:
             ValueError: a value that roslaunch refuses.
@@ -66,7 +66,7 @@ class Node:
 
 
 class Test(Node):
-    """A node that tests."""
+    """Test of a launch file: a node."""
 
     def __init__(
         self,
@@ -85,7 +85,7 @@ class Test(Node):
         retry: int | None = None,
         filename: str = "<unknown>",
     ) -> None:
-        """Describe it.
+        """Set the attributes.
 
         Raises:
             ValueError: a value that roslaunch refuses.

@@ -1,4 +1,4 @@
-"""Launch files started from a program."""
+"""Launching of launch files from a program."""
 
 import time
 from collections.abc import Sequence
@@ -24,19 +24,19 @@ class ROSLaunchParent:
         force_required: bool = False,
         **options: Any,
     ) -> None:
-        """Prepare.
+        """Create; see `start`.
 
         Args:
             run_id: identifier of the run.
             roslaunch_files: paths, or pairs of a path and its arguments ('name:=value').
-            is_core: start a master alone.
-            port: of the master.
+            is_core: start only a master.
+            port: master's port.
             local_only: no effect; nothing is started on other machines.
             process_listeners: no effect.
-            verbose: print more.
+            verbose: print details.
             force_screen: show the nodes' output.
-            force_log: write it to files.
-            force_required: end with the first node that ends.
+            force_log: write the nodes' output to files.
+            force_required: end when the first node ends.
             options: no effect.
         """
         del local_only, process_listeners, options
@@ -60,13 +60,13 @@ class ROSLaunchParent:
         port = [] if self.port is None else ["-p", str(self.port)]
         if self.is_core:
             self._processes.append(Process("core", ["core", *port]))
-        for given in self.roslaunch_files:
-            path, arguments = (given, []) if isinstance(given, str) else given
+        for file in self.roslaunch_files:
+            path, arguments = (file, []) if isinstance(file, str) else file
             words = ["launch", *self._flags, *port, path, *arguments]
             self._processes.append(Process(str(path), words))
 
     def spin_once(self) -> None:
-        """Let the launch run on."""
+        """Wait for a short time."""
         time.sleep(0.1)
 
     def spin(self) -> None:

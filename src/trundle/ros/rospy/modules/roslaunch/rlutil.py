@@ -22,25 +22,25 @@ def get_or_generate_uuid(options_runid: str | None, options_wait_for_master: boo
 
 
 def resolve_launch_arguments(args: Sequence[str]) -> list[str]:
-    """Path of the launch file that a command line names: FILE, or PACKAGE FILE.
+    """Path of the launch file on a command line: FILE, or PACKAGE FILE.
 
     Raises:
-        RLException: there is none.
+        RLException: no such launch file.
     """
     from roslib.packages import InvalidROSPkgException, find_resource
 
-    names = [each for each in args if ":=" not in each]
+    names = [argument for argument in args if ":=" not in argument]
     if len(names) == 1 and os.path.isfile(names[0]):
         return [os.path.abspath(names[0])]
     if len(names) < 2:
         raise RLException(f"[{' '.join(names)}] is not a launch file name")
     try:
-        found = find_resource(names[0], names[1])
+        paths = find_resource(names[0], names[1])
     except InvalidROSPkgException as error:
         raise RLException(f"[{names[0]}] is not a package: {error}") from None
-    if not found:
+    if not paths:
         raise RLException(f"[{names[1]}] is neither a launch file in package [{names[0]}] nor is [{names[0]}] one")
-    return found[:1]
+    return paths[:1]
 
 
 def check_roslaunch(f: str, use_test_depends: bool = False, ignore_unset_args: bool = False) -> Any:

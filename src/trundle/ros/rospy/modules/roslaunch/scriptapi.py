@@ -1,4 +1,4 @@
-"""Nodes started from a program."""
+"""Launching of nodes from a program."""
 
 import shlex
 import time
@@ -19,11 +19,11 @@ class ROSLaunch:
         self._processes: list[Process] = []
 
     def load(self, f: str) -> None:
-        """Choose a launch file, which `start` starts."""
+        """Set the launch file that `start` launches."""
         self.parent = ROSLaunchParent("", [f])
 
     def start(self) -> None:
-        """Start a master if none answers, and the chosen launch file."""
+        """Start a master if none responds, and launch the file."""
         if not rosgraph.is_master_online():
             self._core = Process("core", ["core"])
             while not rosgraph.is_master_online():
@@ -44,7 +44,7 @@ class ROSLaunch:
             raise RLException("please start ROSLaunch first")
         prefix = ["--prefix", node.launch_prefix] if node.launch_prefix else []
         words = ["exec", *prefix, node.package, node.type, *shlex.split(node.args)]
-        words += [f"{here}:={there}" for here, there in node.remap_args]
+        words += [f"{old}:={new}" for old, new in node.remap_args]
         words += [f"__name:={node.name}"] if node.name else []
         env = dict(node.env_args)
         if node.namespace != "/":
@@ -55,7 +55,7 @@ class ROSLaunch:
         return process
 
     def stop(self) -> None:
-        """Stop all."""
+        """Stop all nodes and the master."""
         for process in reversed(self._processes):
             process.stop()
         if self.parent is not None:
@@ -76,5 +76,5 @@ class ROSLaunch:
             self.stop()
 
     def spin_once(self) -> None:
-        """Let the nodes run on."""
+        """Wait for a short time."""
         time.sleep(0.1)

@@ -19,7 +19,7 @@ _NAMES: Mapping[str, Any] = {"true": True, "false": False, **PYTHON_NAMES, **MAT
 
 
 class SubstitutionException(Exception):
-    """A substitution cannot be made."""
+    """A substitution cannot be resolved."""
 
 
 class ArgException(SubstitutionException):
@@ -29,11 +29,11 @@ class ArgException(SubstitutionException):
 def resolve_args(
     arg_str: Any, context: dict[str, Any] | None = None, resolve_anon: bool = True, filename: str | None = None
 ) -> Any:
-    """Text with its substitutions made; None and '' as they are.
+    """Text with its substitutions resolved; None and '' unchanged.
 
     Args:
-        arg_str: text.
-        context: `arg`: values of arguments; `anon`: names made so far, which grow; `filename`: for `$(dirname)`.
+        arg_str: text with substitutions.
+        context: `arg`: values of arguments; `anon`: generated names, which it updates; `filename`: for `$(dirname)`.
         resolve_anon: no effect, as in roslaunch.
         filename: no effect, as in roslaunch.
 
@@ -47,7 +47,7 @@ def resolve_args(
     values: dict[str, Any] = {} if context is None else context
     if arg_str.startswith(_EVAL) and arg_str.endswith(")"):
         return _eval(arg_str[len(_EVAL) : -1], values)
-    for is_find in (False, True):  # a package's path may hold what the others stand for
+    for is_find in (False, True):  # `$(find)` last, as a package's path may contain substitutions
         arg_str = _SUBSTITUTION.sub(lambda match, is_find=is_find: _replaced(match, is_find, values), arg_str)
     return arg_str
 
@@ -71,8 +71,8 @@ def _replaced(match: "re.Match[str]", is_find: bool, context: dict[str, Any]) ->
     if command == "optenv":
         return dollars + os.environ.get(words[0], " ".join(words[1:]))
     if command == "find":
-        follows = match.string[match.end() : match.end() + 1]
-        return dollars + _find(words[0]) + ("" if follows in ("", " ", "/", "\\") else "/")
+        following = match.string[match.end() : match.end() + 1]
+        return dollars + _find(words[0]) + ("" if following in ("", " ", "/", "\\") else "/")
     return dollars + str(_FUNCTIONS[command](words[0], context))
 
 

@@ -18,7 +18,7 @@ from .machine import Machine
 from .node import Node, Test
 
 _TEXT = "string"
-"""Name of a text that is no file."""
+"""File name of a text that was not read from a file."""
 
 
 class XmlParseException(RLException):
@@ -29,7 +29,7 @@ class XmlLoader:
     """Reads launch files into a ROSLaunchConfig."""
 
     def __init__(self, resolve_anon: bool = True, args_only: bool = False) -> None:
-        """Create one; the arguments have no effect."""
+        """Create a loader; the arguments have no effect."""
         del resolve_anon, args_only
         self.ignore_unset_args = False
 
@@ -44,14 +44,14 @@ class XmlLoader:
         """Read a file.
 
         Args:
-            filename: its path.
-            ros_config: what is read is added to it.
-            core: its nodes belong to the master.
-            argv: arguments ('name:=value'); sys.argv by default.
-            verbose: print what is added.
+            filename: file's path.
+            ros_config: configuration to which the contents are added.
+            core: add the nodes as the master's nodes.
+            argv: arguments ('name:=value'); default: sys.argv.
+            verbose: print each added item.
 
         Raises:
-            XmlParseException: it is invalid.
+            XmlParseException: the file is invalid.
         """
         if verbose:
             print(f"... loading XML file [{filename}]")
@@ -64,7 +64,7 @@ class XmlLoader:
         """Read a text.
 
         Raises:
-            XmlParseException: it is invalid.
+            XmlParseException: the text is invalid.
         """
         if verbose:
             print("... loading XML")
@@ -81,17 +81,17 @@ class XmlLoader:
         file: Path | None = None,
         text: str = "",
     ) -> None:
-        given = parse_arguments(sys.argv[1:] if argv is None else argv)
+        options = parse_arguments(sys.argv[1:] if argv is None else argv)
         packages, report = Packages(os.environ, start=file or Path.cwd()), Diagnostics()
         try:
             plan = read_launch(
                 [] if file is None else [file],
                 packages=packages,
                 report=report,
-                arguments=dict(given.remappings),
+                arguments=dict(options.remappings),
                 env=os.environ,
                 texts=[] if file is not None else [(_TEXT, text)],
-                namespace=given.namespace or os.environ.get("ROS_NAMESPACE") or "/",
+                namespace=options.namespace or os.environ.get("ROS_NAMESPACE") or "/",
             )
             params = resolve_params(
                 plan,
@@ -121,17 +121,18 @@ def _add(plan: LaunchPlan, config: ROSLaunchConfig, *, core: bool, verbose: bool
         if node.machine and node.address:
             config.add_machine(Machine(node.machine, node.address), verbose=verbose)
     for node in plan.nodes:
-        made = Node(
+        launched = Node(
             respawn=node.respawn,
             respawn_delay=node.respawn_delay_s,
             output="screen" if node.output == "screen" else None,
             required=node.required,
             **_common(node),
         )
-        config.add_node(made, core=core, verbose=verbose)
+        config.add_node(launched, core=core, verbose=verbose)
     for test in plan.tests:
-        made = Test(test.name, time_limit=test.time_limit_s, retry=test.retries, **_common(test.node))
-        config.add_test(made, verbose=verbose)
+        config.add_test(
+            Test(test.name, time_limit=test.time_limit_s, retry=test.retries, **_common(test.node)), verbose=verbose
+        )
 
 
 def _common(node: LaunchNode) -> dict[str, Any]:
@@ -142,7 +143,7 @@ def _common(node: LaunchNode) -> dict[str, Any]:
         "namespace": node.namespace,
         "machine_name": node.machine,
         "args": node.arguments,
-        "remap_args": [[here, there] for here, there in node.remappings],
+        "remap_args": [[old, new] for old, new in node.remappings],
         "env_args": node.env,
         "cwd": "node" if node.cwd == "node" else None,
         "launch_prefix": node.launch_prefix,

@@ -1,4 +1,4 @@
-"""Old base library: `load_manifest`, and where packages are."""
+"""Old base library: `load_manifest`, and locations of packages."""
 
 from importlib import import_module
 from types import ModuleType

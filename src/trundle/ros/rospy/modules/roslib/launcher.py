@@ -15,9 +15,9 @@ _loaded: set[str] = set()
 
 
 def load_manifest(package_name: str, bootstrap_version: str = "0.7") -> None:
-    """Put `src` and `lib` of a rosbuild package, and of those it depends on, in front of the Python path.
+    """Prepend `src` and `lib` of a rosbuild package, and of its dependencies, to the Python path.
 
-    Packages of catkin, and packages that are not found, need nothing: their modules are found as they are.
+    Modules of catkin packages are importable without it; packages that are not found are ignored.
     """
     del bootstrap_version
     waiting, folders = [package_name], list[str]()

@@ -1,4 +1,4 @@
-"""Messages, by the names that programs before 2012 import."""
+"""Messages, under the names that programs before 2012 import."""
 
 from genpy import (
     DeserializationError as DeserializationError,

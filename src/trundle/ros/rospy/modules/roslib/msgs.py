@@ -1,4 +1,4 @@
-"""Parsed definitions of messages, by the names that programs before 2013 use; genmsg replaced them."""
+"""Parsed definitions of messages, under the names that programs before 2013 import; genmsg replaced them."""
 
 from pathlib import Path
 from typing import Any
@@ -38,7 +38,7 @@ class MsgSpecException(Exception):
 
 
 class MsgSpec(genmsg.msgs.MsgSpec):
-    """A parsed definition; as text it has those of its fields' types that were added."""
+    """A parsed definition, whose text contains the added definitions of its fields' types."""
 
     def __str__(self) -> str:
         return _listed(self)
@@ -85,7 +85,7 @@ def msg_file(package: str, type_: str) -> str:
 
 
 def load_from_string(text: str, package_context: str = "", full_name: str = "", short_name: str = "") -> MsgSpec:
-    """Parse a definition; types of the same package get its name, if it is given.
+    """Parse a definition; types of the same package get `package_context` as their package.
 
     Raises:
         MsgSpecException: it cannot be parsed.
@@ -96,7 +96,7 @@ def load_from_string(text: str, package_context: str = "", full_name: str = "", 
         raise MsgSpecException(str(error)) from None
     header = "std_msgs/Header" if "std_msgs/Header" in text else HEADER
     types = [field.type.removeprefix(SEP).replace("std_msgs/Header", header) for field in spec.fields]
-    constants = [Constant(each.type, each.name, each.value, each.text) for each in spec.constants]
+    constants = [Constant(constant.type, constant.name, constant.value, constant.text) for constant in spec.constants]
     return MsgSpec(
         types, [field.name for field in spec.fields], constants, text, full_name, package_context, short_name
     )
@@ -124,11 +124,11 @@ def load_by_type(msgtype: str, package_context: str = "") -> tuple[str, MsgSpec]
     text = find_definitions(package).message(name)
     if text is None:
         raise MsgSpecException(f"Cannot locate message type [{msgtype}], package [{package}] does not define it")
-    return _load(package, name, text.replace("std_msgs/Header ", f"{HEADER} "))  # as packages write it, shipped or not
+    return _load(package, name, text.replace("std_msgs/Header ", f"{HEADER} "))  # as in the package's file
 
 
 def get_pkg_msg_specs(package: str) -> tuple[list[tuple[str, MsgSpec]], list[str]]:
-    """Definitions of a package with their types' names, and the names of those that cannot be parsed."""
+    """Pairs (name, definition) of a package's types, and the names of types that cannot be parsed."""
     specs: list[tuple[str, MsgSpec]] = []
     failures: list[str] = []
     for name in list_msg_types(package, include_depends=False):
@@ -168,12 +168,12 @@ def load_package(package: str) -> None:
 
 
 def _listed(spec: MsgSpec, indent: str = "") -> str:
-    """Constants and fields, a line each."""
-    lines = [f"{indent}{each.type} {each.name}={each.val_text}\n" for each in spec.constants]
+    """Constants and fields, one per line."""
+    lines = [f"{indent}{constant.type} {constant.name}={constant.val_text}\n" for constant in spec.constants]
     for type_, name in spec.fields():
         lines.append(f"{indent}{type_} {name}\n")
-        inner = REGISTERED_TYPES.get(base_msg_type(type_))
-        lines += [] if inner is None else [_listed(inner, f"{indent}  ")]
+        nested = REGISTERED_TYPES.get(base_msg_type(type_))
+        lines += [] if nested is None else [_listed(nested, f"{indent}  ")]
     return "".join(lines)
 
 

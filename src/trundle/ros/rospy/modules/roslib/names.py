@@ -29,7 +29,7 @@ _LEGAL_RESOURCE = re.compile(r"^[A-Za-z][\w_\/]*$")
 
 
 def resource_name(res_pkg_name: str, name: str, my_pkg: str | None = None) -> str:
-    """Name of a resource with its package, unless that is one's own."""
+    """Name of a resource with its package, unless the package is `my_pkg`."""
     return f"{res_pkg_name}/{name}" if res_pkg_name and res_pkg_name != my_pkg else name
 
 

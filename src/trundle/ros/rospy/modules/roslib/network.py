@@ -1,4 +1,4 @@
-"""Addresses, by the name that older programs import."""
+"""Addresses, under the name that older programs import."""
 
 from rosgraph.network import (
     ROS_HOSTNAME as ROS_HOSTNAME,

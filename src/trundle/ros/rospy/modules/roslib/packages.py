@@ -20,7 +20,7 @@ class InvalidROSPkgException(ROSPkgException):
 
 
 class MultipleNodesException(ROSPkgException):
-    """Several programs have the name."""
+    """Several programs have the same name."""
 
 
 def get_pkg_dir(
@@ -49,7 +49,7 @@ def get_dir_pkg(d: str) -> tuple[str | None, str | None]:
 def get_pkg_subdir(
     package: str, subdir: str, required: bool = True, env: Mapping[str, str] | None = None
 ) -> str | None:
-    """Folder within a package, made if it is missing.
+    """Folder within a package, created if it is missing.
 
     Raises:
         InvalidROSPkgException: the package is not found, and required.
@@ -71,17 +71,17 @@ def resource_file(package: str, subdir: str, resource_name: str) -> str:
 def find_resource(
     pkg: str, resource_name: str, filter_fn: Callable[[str], bool] | None = None, rospack: Any = None
 ) -> list[str]:
-    """Paths of the files of a name anywhere in a package."""
+    """Paths of all files of a name in a package."""
     del rospack
-    found: list[str] = []
+    paths: list[str] = []
     for root, folders, files in os.walk(str(get_pkg_dir(pkg))):
-        folders[:] = sorted(each for each in folders if not each.startswith(".") and each not in _NOT_SEARCHED)
+        folders[:] = sorted(name for name in folders if not name.startswith(".") and name not in _NOT_SEARCHED)
         path = os.path.join(root, resource_name)
         if resource_name in files and (filter_fn is None or filter_fn(path)):
-            found.append(path)
-    return found
+            paths.append(path)
+    return paths
 
 
 def find_node(pkg: str, node_type: str, rospack: Any = None) -> list[str]:
-    """Paths of a package's programs of a name."""
+    """Paths of all programs of a name in a package."""
     return find_resource(pkg, node_type, lambda path: os.access(path, os.X_OK), rospack)

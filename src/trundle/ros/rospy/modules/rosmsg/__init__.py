@@ -64,7 +64,7 @@ def rosmsg_md5(mode: str, type_: str) -> str:
 
 
 def _text(spec: Any, indent: str) -> str:
-    lines = [f"{indent}{each.type} {each.name}={each.text}\n" for each in spec.constants]
+    lines = [f"{indent}{constant.type} {constant.name}={constant.text}\n" for constant in spec.constants]
     for field in spec.fields:
         lines.append(f"{indent}{field.type} {field.name}\n")
         if field.is_message:

@@ -16,7 +16,7 @@ class ROSNodeException(Exception):
 
 
 class ROSNodeIOException(ROSNodeException):
-    """The master does not answer."""
+    """The master does not respond."""
 
 
 def get_api_uri(master: Any, caller_id: str, skip_cache: bool = False) -> str | None:
@@ -35,7 +35,7 @@ def get_api_uri(master: Any, caller_id: str, skip_cache: bool = False) -> str | 
 
 
 def get_node_names(namespace: str | None = None) -> list[str]:
-    """Names of the nodes, of all or in a namespace.
+    """Names of all nodes, or of those in a namespace.
 
     Raises:
         ROSNodeIOException: the master does not answer.
@@ -44,11 +44,11 @@ def get_node_names(namespace: str | None = None) -> list[str]:
         state = rosgraph.Master(ID).getSystemState()
     except OSError:
         raise ROSNodeIOException("Unable to communicate with master!") from None
-    found = {node for kind in state for _, nodes in kind for node in nodes}
+    names = {node for kind in state for _, nodes in kind for node in nodes}
     if namespace:
         prefix = rosgraph.names.make_global_ns(namespace)
-        found = {node for node in found if node == namespace or node.startswith(prefix)}
-    return sorted(found)
+        names = {node for node in names if node == namespace or node.startswith(prefix)}
+    return sorted(names)
 
 
 def get_machines_by_nodes() -> list[str]:
@@ -67,20 +67,20 @@ def _host(node: str) -> str | None:
 
 
 def kill_nodes(node_names: list[str]) -> tuple[list[str], list[str]]:
-    """Shut nodes down; returns those that were asked to, and those that are unknown."""
+    """Shut nodes down; returns the names of known and of unknown nodes."""
     master = rosgraph.Master(ID)
-    found = {name: get_api_uri(master, name) for name in node_names}
-    for uri in found.values():
+    uris = {name: get_api_uri(master, name) for name in node_names}
+    for uri in uris.values():
         if uri is not None:
             try:
                 ServerProxy(uri).shutdown(ID, "user request")
-            except Exception:  # it may end before it answers
+            except Exception:  # the node may end before it responds
                 continue
-    return [name for name, uri in found.items() if uri], [name for name, uri in found.items() if not uri]
+    return [name for name, uri in uris.items() if uri], [name for name, uri in uris.items() if not uri]
 
 
 def rosnode_ping(node_name: str, max_count: int | None = None, verbose: bool = False, skip_cache: bool = False) -> bool:
-    """Call a node's API once per second; True if it answers."""
+    """Call a node's API once per second; True if it responds."""
     uri = get_api_uri(rosgraph.Master(ID), node_name, skip_cache)
     if not uri:
         print(f"cannot ping [{node_name}]: unknown node", file=sys.stderr)
@@ -104,11 +104,14 @@ def rosnode_ping(node_name: str, max_count: int | None = None, verbose: bool = F
 
 
 def rosnode_ping_all(verbose: bool = False, skip_cache: bool = False) -> tuple[list[str], list[str]]:
-    """Names of the nodes that answer, and of those that do not."""
-    answers = {
+    """Names of the nodes that respond, and of those that do not."""
+    responses = {
         name: rosnode_ping(name, max_count=1, verbose=verbose, skip_cache=skip_cache) for name in get_node_names()
     }
-    return [name for name, good in answers.items() if good], [name for name, good in answers.items() if not good]
+    return (
+        [name for name, is_alive in responses.items() if is_alive],
+        [name for name, is_alive in responses.items() if not is_alive],
+    )
 
 
 def rosnode_listnodes(namespace: str | None = None, list_uri: bool = False, list_all: bool = False) -> None:

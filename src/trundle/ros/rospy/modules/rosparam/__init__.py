@@ -22,7 +22,7 @@ class RosParamException(Exception):
 
 
 class RosParamIOException(RosParamException):
-    """The master does not answer."""
+    """The master does not respond."""
 
 
 def get_param_server() -> rosgraph.Master:
@@ -54,20 +54,20 @@ def load_str(
     """Parameters of YAML text, with their namespaces."""
     del filename
     default = default_namespace or get_ros_namespace()
-    found: list[tuple[Any, Any]] = []
+    documents: list[tuple[Any, Any]] = []
     for document in yaml.load_all(str, _Loader):
         namespace = default
         if isinstance(document, dict) and NS in document:
             namespace = ns_join(default, document.pop(NS))
             if verbose:
                 print(f"reading parameters into namespace [{namespace}]")
-        found.append((document, namespace))
-    return found
+        documents.append((document, namespace))
+    return documents
 
 
 def get_param(param: str) -> Any:
     """Value of a parameter, or a namespace as a dictionary."""
-    return _asked(lambda: get_param_server().getParam(param))
+    return _call(lambda: get_param_server().getParam(param))
 
 
 def dump_params(filename: str | None, param: str, verbose: bool = False) -> None:
@@ -85,15 +85,15 @@ def dump_params(filename: str | None, param: str, verbose: bool = False) -> None
 def delete_param(param: str, verbose: bool = False) -> None:
     """Delete a parameter, or all below '/'."""
     master = get_param_server()
-    names = [f"/{name}" for name in _asked(lambda: master.getParam("/"))] if param in ("/", "//") else [param]
+    names = [f"/{name}" for name in _call(lambda: master.getParam("/"))] if param in ("/", "//") else [param]
     for name in names:
-        _asked(lambda name=name: master.deleteParam(name))
+        _call(lambda name=name: master.deleteParam(name))
         if verbose:
             print(f"deleted parameter [{name}]")
 
 
 def set_param_raw(param: str, value: Any, verbose: bool = False) -> None:
-    """Set a parameter; a dictionary is merged into what is there.
+    """Set a parameter; a dictionary is merged into an existing one.
 
     Raises:
         RosParamException: a key that is not text, or an integer of more than 32 bits.
@@ -105,9 +105,9 @@ def set_param_raw(param: str, value: Any, verbose: bool = False) -> None:
             set_param_raw(ns_join(param, name), part, verbose)
         return
     if type(value) is int and not -_MAX_INT - 1 <= value <= _MAX_INT:
-        what = "Overflow: Parameter Server integers must be 32-bit signed integers:"
-        raise RosParamException(f"{what}\n\t-{_MAX_INT - 1} <= value <= {_MAX_INT}")
-    _asked(lambda: get_param_server().setParam(param, value))
+        text = "Overflow: Parameter Server integers must be 32-bit signed integers:"
+        raise RosParamException(f"{text}\n\t-{_MAX_INT - 1} <= value <= {_MAX_INT}")
+    _call(lambda: get_param_server().setParam(param, value))
     if verbose:
         print(f"set parameter [{param}] to [{value}]")
 
@@ -121,7 +121,7 @@ def upload_params(ns: str, values: Any, verbose: bool = False) -> None:
     """Set the parameters of a namespace.
 
     Raises:
-        RosParamException: '/' is set to something else than a dictionary.
+        RosParamException: the namespace is '/', and the value not a dictionary.
     """
     if ns == "/" and type(values) is not dict:
         raise RosParamException("global / can only be set to a dictionary")
@@ -132,7 +132,7 @@ def upload_params(ns: str, values: Any, verbose: bool = False) -> None:
 
 def list_params(ns: str) -> list[str]:
     """Names of the parameters in a namespace."""
-    names = sorted(_asked(lambda: get_param_server().getParamNames()))
+    names = sorted(_call(lambda: get_param_server().getParamNames()))
     return [name for name in names if name.startswith(make_global_ns(ns))]
 
 
@@ -148,7 +148,7 @@ def print_params(params: Any, ns: str) -> None:
             print(f"{ns_join(ns, name)}={value}")
 
 
-def _asked(call: Any) -> Any:
+def _call(call: Any) -> Any:
     try:
         return call()
     except OSError:

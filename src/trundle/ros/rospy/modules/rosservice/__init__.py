@@ -18,7 +18,7 @@ class ROSServiceException(Exception):
 
 
 class ROSServiceIOException(ROSServiceException):
-    """The master or a service does not answer."""
+    """The master or a service does not respond."""
 
 
 def get_service_headers(service_name: str, service_uri: str) -> dict[str, str]:
@@ -40,12 +40,13 @@ def get_service_headers(service_name: str, service_uri: str) -> dict[str, str]:
             rosgraph.network.write_ros_handshake_header(connection, header)
             return rosgraph.network.read_ros_handshake_header(connection, BytesIO(), 2048)
     except OSError:
-        what = f"Unable to communicate with service [{service_name}], address [{service_uri}]"
-        raise ROSServiceIOException(what) from None
+        raise ROSServiceIOException(
+            f"Unable to communicate with service [{service_name}], address [{service_uri}]"
+        ) from None
 
 
 def get_service_uri(service_name: str) -> str | None:
-    """URI of a service; None for an unknown one.
+    """URI of a service; None for an unknown service.
 
     Raises:
         ROSServiceIOException: the master does not answer.
@@ -59,27 +60,27 @@ def get_service_uri(service_name: str) -> str | None:
 
 
 def get_service_type(service_name: str) -> str | None:
-    """Type of a service; None for an unknown one."""
+    """Type of a service; None for an unknown service."""
     uri = get_service_uri(service_name)
     return None if uri is None else get_service_headers(service_name, uri).get("type")
 
 
 def get_service_node(service_name: str) -> str | None:
-    """Node that provides a service; None for an unknown one."""
+    """Node that provides a service; None for an unknown service."""
     return next((nodes[0] for name, nodes in get_service_list(include_nodes=True) if name == service_name), None)
 
 
 def get_service_list(node: str | None = None, namespace: str | None = None, include_nodes: bool = False) -> list[Any]:
-    """Names of services, with their nodes if asked: of all, of a node, or in a namespace."""
+    """Names of all services, or of those of a node or in a namespace; pairs (name, nodes) with `include_nodes`."""
     try:
         services = rosgraph.Master(f"/{NAME}").getSystemState()[2]
     except OSError:
         raise ROSServiceIOException("Unable to communicate with master!") from None
     if namespace:
         prefix = rosgraph.names.make_global_ns(namespace)
-        services = [each for each in services if each[0] == namespace or each[0].startswith(prefix)]
+        services = [entry for entry in services if entry[0] == namespace or entry[0].startswith(prefix)]
     if node is not None:
-        services = [each for each in services if node in each[1]]
+        services = [entry for entry in services if node in entry[1]]
     return services if include_nodes else [name for name, _ in services]
 
 
@@ -97,10 +98,10 @@ def get_service_class_by_name(service_name: str) -> Any:
     type_name = get_service_type(service_name)
     if not type_name:
         raise ROSServiceException(f"Service [{service_name}] is not available.")
-    made = get_service_class(type_name)
-    if made is None:
+    service_class = get_service_class(type_name)
+    if service_class is None:
         raise ROSServiceException(f"Unable to load type [{type_name}].")
-    return made
+    return service_class
 
 
 def get_service_args(service_name: str) -> str:
@@ -110,8 +111,8 @@ def get_service_args(service_name: str) -> str:
 
 def has_service_args(service_name: str, service_class: Any = None) -> bool:
     """True if a service takes arguments."""
-    made = service_class or get_service_class_by_name(service_name)
-    return bool(made._request_class.__slots__)
+    service_class = service_class or get_service_class_by_name(service_name)
+    return bool(service_class._request_class.__slots__)
 
 
 def call_service(service_name: str, service_args: list[Any], service_class: Any = None) -> tuple[Any, Any]:
@@ -122,17 +123,17 @@ def call_service(service_name: str, service_args: list[Any], service_class: Any 
     """
     import rospy
 
-    made = service_class or get_service_class_by_name(service_name)
-    request = made._request_class()
+    service_class = service_class or get_service_class_by_name(service_name)
+    request = service_class._request_class()
     try:
         now = rospy.get_rostime() if rospy.core.is_initialized() else genpy.Time()
         fill_message_args(request, service_args, {"now": now, "auto": rospy.Header(stamp=now)})
     except genpy.MessageException as error:
         names = get_printable_message_args(request)
-        what = f"Incompatible arguments to call service:\n{error}\nProvided arguments are:\n * {service_args}"
-        raise ROSServiceException(f"{what}\n\nService arguments are: [{names}]") from None
+        text = f"Incompatible arguments to call service:\n{error}\nProvided arguments are:\n * {service_args}"
+        raise ROSServiceException(f"{text}\n\nService arguments are: [{names}]") from None
     try:
-        return request, rospy.ServiceProxy(service_name, made)(request)
+        return request, rospy.ServiceProxy(service_name, service_class)(request)
     except rospy.ServiceException as error:
         raise ROSServiceException(str(error)) from None
 

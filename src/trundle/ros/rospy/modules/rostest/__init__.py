@@ -14,10 +14,10 @@ def rosrun(package: str, test_name: str, test: Any, sysargs: Sequence[str] | Non
     """Run a unittest and write its results where `trundle test` reads them; exits with 1 if it fails.
 
     Args:
-        package: that the test belongs to.
+        package: test's package.
         test_name: name of the results.
-        test: a TestCase, or the name of a suite.
-        sysargs: command line; sys.argv by default.
+        test: TestCase, or a suite's name.
+        sysargs: command line; default: sys.argv.
     """
     unitrun(package, test_name, test, sysargs=rosgraph.myargv(list(sys.argv if sysargs is None else sysargs)))
 
@@ -38,4 +38,4 @@ def is_publisher(topic: str, publisher_id: str) -> bool:
 def _has(kind: int, topic: str, node: str) -> bool:
     state = rosgraph.Master("/rostest").getSystemState()[kind]
     name = rosgraph.names.script_resolve_name("rostest", topic)
-    return any(node in nodes for each, nodes in state if each == name)
+    return any(node in nodes for entry, nodes in state if entry == name)

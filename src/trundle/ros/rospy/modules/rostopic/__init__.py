@@ -18,7 +18,7 @@ class ROSTopicException(Exception):
 
 
 class ROSTopicIOException(ROSTopicException):
-    """The master does not answer."""
+    """The master does not respond."""
 
 
 _Evaluate = Callable[[Any], Any]
@@ -41,16 +41,16 @@ def create_field_filter(echo_nostr: bool, echo_noarr: bool) -> Callable[[Any], l
     """Function for `strify_message` that returns the fields of a message to be shown.
 
     Args:
-        echo_nostr: leave strings out.
-        echo_noarr: leave arrays out.
+        echo_nostr: omit strings.
+        echo_noarr: omit arrays.
     """
-    left_out = [mark for mark, is_left_out in (("string", echo_nostr), ("[", echo_noarr)) if is_left_out]
+    omitted = [mark for mark, is_omitted in (("string", echo_nostr), ("[", echo_noarr)) if is_omitted]
 
-    def shown(message: Any) -> list[str]:
+    def field_names(message: Any) -> list[str]:
         pairs = zip(message.__slots__, message._slot_types, strict=True)
-        return [name for name, kind in pairs if not any(mark in kind for mark in left_out)]
+        return [name for name, kind in pairs if not any(mark in kind for mark in omitted)]
 
-    return shown
+    return field_names
 
 
 def _index(text: str) -> int | slice:
@@ -86,19 +86,19 @@ def get_topic_type(topic: str, blocking: bool = False) -> tuple[str | None, str 
     """Type and name of a topic, and the function that returns the field if `topic` names one.
 
     Args:
-        topic: global name, possibly with a field's path behind it.
+        topic: global name, possibly followed by a field's path.
         blocking: wait until there is such a topic.
 
     Raises:
         ROSTopicIOException: the master does not answer.
     """
-    found = _find_type(topic)
-    if found[0] is None and blocking:
+    result = _find_type(topic)
+    if result[0] is None and blocking:
         sys.stderr.write(f"WARNING: topic [{topic}] does not appear to be published yet\n")
-    while found[0] is None and blocking and not _is_shutdown():
+    while result[0] is None and blocking and not _is_shutdown():
         time.sleep(0.1)
-        found = _find_type(topic)
-    return found
+        result = _find_type(topic)
+    return result
 
 
 def get_topic_class(topic: str, blocking: bool = False) -> tuple[Any, str | None, _Evaluate | None]:
@@ -110,10 +110,10 @@ def get_topic_class(topic: str, blocking: bool = False) -> tuple[Any, str | None
     type_name, name, evaluate = get_topic_type(topic, blocking)
     if type_name is None:
         return None, None, None
-    made = get_message_class(type_name)
-    if made is None:
+    message_class = get_message_class(type_name)
+    if message_class is None:
         raise ROSTopicException(f"Cannot load message class for [{type_name}]. Are your messages built?")
-    return made, name, evaluate
+    return message_class, name, evaluate
 
 
 def find_by_type(topic_type: str) -> list[str]:
@@ -123,9 +123,9 @@ def find_by_type(topic_type: str) -> list[str]:
 
 def get_topic_list(master: Any = None) -> tuple[list[tuple[str, str, list[str]]], list[tuple[str, str, list[str]]]]:
     """Published and subscribed topics: (name, type, nodes)."""
-    asked = master or rosgraph.Master(f"/{NAME}")
-    types = dict(asked.getTopicTypes())
-    pubs, subs, _ = asked.getSystemState()
+    master = master or rosgraph.Master(f"/{NAME}")
+    types = dict(master.getTopicTypes())
+    pubs, subs, _ = master.getSystemState()
 
     def typed(topics: Any) -> list[tuple[str, str, list[str]]]:
         return [(topic, types.get(topic, "unknown type"), nodes) for topic, nodes in topics]
@@ -149,26 +149,26 @@ def create_publisher(topic_name: str, topic_type: str, latch: bool, disable_rost
     """
     import rospy
 
-    made = get_message_class(topic_type)
-    if made is None:
+    message_class = get_message_class(topic_type)
+    if message_class is None:
         raise ROSTopicException(f"invalid message type: {topic_type}")
     rospy.init_node(NAME, anonymous=True, disable_rosout=True, disable_rostime=disable_rostime)
-    return rospy.Publisher(topic_name, made, latch=latch, queue_size=100), made
+    return rospy.Publisher(topic_name, message_class, latch=latch, queue_size=100), message_class
 
 
 def _find_type(topic: str) -> tuple[str | None, str | None, _Evaluate | None]:
     types = _topic_types()
     exact = [(name, kind) for name, kind in types if name == topic]
-    above = [(name, kind) for name, kind in types if topic.startswith(f"{name}/")]
-    for name, kind in exact or sorted(above, reverse=True):
+    prefixes = [(name, kind) for name, kind in types if topic.startswith(f"{name}/")]
+    for name, kind in exact or sorted(prefixes, reverse=True):
         if kind != "*" and (name == topic or _has_field(kind, topic[len(name) + 1 :])):
             return kind, name, msgevalgen(topic[len(name) :])
     return None, None, None
 
 
 def _has_field(type_name: str, path: str) -> bool:
-    made = get_message_class(type_name)
-    value = None if made is None else made()
+    message_class = get_message_class(type_name)
+    value = None if message_class is None else message_class()
     for part in path.partition("[")[0].rstrip("/").split("/"):
         if value is not None and part:
             if not hasattr(value, part):

@@ -14,7 +14,7 @@ class ROSTopicHz:
 
         Args:
             window_size: messages to average over; -1: all.
-            filter_expr: takes a message; False for those that do not count.
+            filter_expr: called with a message; False: do not count it.
             use_wtime: wall time instead of ROS time.
         """
         self.use_wtime = use_wtime
@@ -28,10 +28,10 @@ class ROSTopicHz:
             self._meter.add_message(m)
 
     def get_hz(self, topic: str | None = None) -> tuple[float, float, float, float, int] | None:
-        """Rate [Hz], shortest and longest interval and their standard deviation [s], number; None if nothing is new."""
+        """Rate [Hz], minimum, maximum and standard deviation of intervals [s], count; None without new messages."""
         del topic
-        found = self._meter.statistics()
-        return None if found is None else (found.rate_hz, found.min, found.max, found.deviation, found.window)
+        rate = self._meter.statistics()
+        return None if rate is None else (rate.rate_hz, rate.min, rate.max, rate.deviation, rate.window)
 
     def print_hz(self, topics: Any = None) -> None:
         """Print the rate."""
@@ -48,7 +48,7 @@ class ROSTopicHz:
 
 
 class ROSTopicBandwidth:
-    """Bandwidth of messages: a callback that takes AnyMsg."""
+    """Bandwidth of messages: a callback for AnyMsg."""
 
     def __init__(self, window_size: int = 100) -> None:
         self._meter = BandwidthMeter(window_size)
@@ -58,9 +58,9 @@ class ROSTopicBandwidth:
         self._meter.add_bytes(len(data._buff))
 
     def get_bw(self) -> tuple[float, float, int, int, int] | None:
-        """Bandwidth [B/s], mean, smallest and largest message [B], number; None without messages."""
-        found = self._meter.statistics()
-        if found is None:
+        """Bandwidth [B/s], mean, minimum and maximum size of messages [B], count; None without messages."""
+        statistics = self._meter.statistics()
+        if statistics is None:
             return None
-        rate, sizes = found
+        rate, sizes = statistics
         return rate, sizes.mean, int(sizes.min), int(sizes.max), sizes.window

@@ -14,7 +14,7 @@ _NOT_IN_NAMES = str.maketrans(dict.fromkeys(" \"'&$!`/\\", "_"))
 def xml_results_file(
     test_pkg: str, test_name: str, is_rostest: bool = False, env: dict[str, str] | None = None
 ) -> str:  # fmt: skip
-    """Path of a test's results, whose folder is made."""
+    """Path of a test's results; its folder is created."""
     folder = os.path.join(rospkg.get_test_results_dir(env=env), test_pkg)
     os.makedirs(folder, exist_ok=True)
     kind = "rostest" if is_rostest else "rosunit"
@@ -22,10 +22,10 @@ def xml_results_file(
 
 
 def rostest_name_from_path(pkg_dir: str, test_file: str) -> str:
-    """Name of a test by its file's path in its package."""
+    """Name of a test, from its file's path in its package."""
     path = os.path.abspath(test_file)
-    inside = path.removeprefix(pkg_dir).removeprefix(os.sep) if path.startswith(pkg_dir) else test_file
-    name = inside.replace(os.sep, "_")
+    relative = path.removeprefix(pkg_dir).removeprefix(os.sep) if path.startswith(pkg_dir) else test_file
+    name = relative.replace(os.sep, "_")
     return name.rpartition(".")[0] if "." in name else name
 
 

@@ -15,18 +15,18 @@ def unitrun(
     """Run a TestCase or a suite's name; writes results to `--gtest_output=xml:FILE`, and exits with 1 on failure.
 
     Args:
-        package: that the test belongs to.
+        package: test's package.
         test_name: name of the results.
-        test: a TestCase, or the name of a suite.
-        sysargs: command line; sys.argv by default. `--text` prints results as unittest does, without a file.
+        test: TestCase, or a suite's name.
+        sysargs: command line; default: sys.argv. `--text` prints results as unittest does, without a file.
         coverage_packages: no effect.
     """
     del coverage_packages
-    given = sys.argv if sysargs is None else sysargs
+    arguments = sys.argv if sysargs is None else sysargs
     loader = unittest.TestLoader()
     suite = loader.loadTestsFromName(test) if isinstance(test, str) else loader.loadTestsFromTestCase(test)
-    files = [argument.removeprefix(XML_OUTPUT_FLAG) for argument in given if argument.startswith(XML_OUTPUT_FLAG)]
-    if "--text" in given:
+    files = [argument.removeprefix(XML_OUTPUT_FLAG) for argument in arguments if argument.startswith(XML_OUTPUT_FLAG)]
+    if "--text" in arguments:
         result = unittest.TextTestRunner(verbosity=2).run(suite)
     else:
         result = create_xml_runner(package, test_name, files[-1] if files else None).run(suite)

@@ -17,7 +17,7 @@ _Error = tuple[type[BaseException], BaseException, TracebackType] | tuple[None, 
 
 
 class XMLTestRunner:
-    """Runs a suite; what its tests print goes into the file."""
+    """Runs a suite; the tests' output goes into the file."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -36,7 +36,7 @@ class XMLTestRunner:
 
 
 class XMLTestResult(unittest.TestResult):
-    """Result that keeps each test's time and failure."""
+    """Result that stores each test's duration and failure."""
 
     def __init__(self, name: str) -> None:
         super().__init__()
@@ -46,22 +46,22 @@ class XMLTestResult(unittest.TestResult):
         self._failed: tuple[str, _Error | None] = "", None
 
     def startTest(self, test: unittest.TestCase) -> None:
-        """Note the begin of a test."""
+        """Record the start of a test."""
         super().startTest(test)
         self._begin, self._failed = time.monotonic(), ("", None)
 
     def stopTest(self, test: unittest.TestCase) -> None:
-        """Note the end of a test."""
+        """Record the end of a test."""
         super().stopTest(test)
         self._cases.append((test, time.monotonic() - self._begin, *self._failed))
 
     def addError(self, test: Any, err: Any) -> None:
-        """Note an error."""
+        """Record an error."""
         super().addError(test, err)
         self._failed = "error", err
 
     def addFailure(self, test: Any, err: Any) -> None:
-        """Note a failure."""
+        """Record a failure."""
         super().addFailure(test, err)
         self._failed = "failure", err
 
@@ -72,27 +72,27 @@ class XMLTestResult(unittest.TestResult):
             if error is None or error[0] is None:
                 stream.write(f"[Testcase: {name}] ... ok\n")
                 continue
-            said = escape(f"{kind.upper()}: {error[1]}\n{_lines(error)}")
-            stream.write(f"[Testcase: {name}] ... {kind.upper()}!\n{said}{'-' * 80}\n\n")
+            text = escape(f"{kind.upper()}: {error[1]}\n{_lines(error)}")
+            stream.write(f"[Testcase: {name}] ... {kind.upper()}!\n{text}{'-' * 80}\n\n")
 
     def xml(self, seconds: float, out: str, err: str) -> str:
-        """JUnit's XML, with what the tests printed."""
+        """JUnit's XML, with the tests' output."""
         head = f"errors={quoteattr(str(len(self.errors)))} failures={quoteattr(str(len(self.failures)))}"
         lines = [
             '<?xml version="1.0" encoding="utf-8"?>',
             f'<testsuite {head} name={quoteattr(self._name)} tests="{self.testsRun}" time="{seconds:.3f}">',
         ]
-        for test, took, kind, error in self._cases:
-            place, _, name = test.id().rpartition(".")
-            lines.append(f'<testcase classname={quoteattr(place)} name={quoteattr(name)} time="{took:.4f}">')
+        for test, duration_s, kind, error in self._cases:
+            class_name, _, name = test.id().rpartition(".")
+            lines.append(f'<testcase classname={quoteattr(class_name)} name={quoteattr(name)} time="{duration_s:.4f}">')
             if error is not None and error[0] is not None:
-                said = escape(_printable(f"{error[1]}\n{_lines(error)}"))
-                lines.append(f"<{kind} type={quoteattr(error[0].__name__)}>{said}</{kind}>")
+                text = escape(_printable(f"{error[1]}\n{_lines(error)}"))
+                lines.append(f"<{kind} type={quoteattr(error[0].__name__)}>{text}</{kind}>")
             lines.append("</testcase>")
-        printed = [
+        output = [
             f"<{tag}>{escape(_printable(text))}</{tag}>" for tag, text in (("system-out", out), ("system-err", err))
         ]
-        return "\n".join([*lines, *printed, "</testsuite>", ""])
+        return "\n".join([*lines, *output, "</testsuite>", ""])
 
 
 def _lines(error: _Error) -> str:
@@ -100,5 +100,5 @@ def _lines(error: _Error) -> str:
 
 
 def _printable(text: str) -> str:
-    """Text without the characters that XML does not have."""
+    """Text without the characters that XML does not allow."""
     return _NOT_IN_XML.sub("?", text)

@@ -1,4 +1,4 @@
-"""Base class of nodes that subscribe only while they have subscribers themselves."""
+"""Base class of nodes that subscribe to their inputs only while their outputs have subscribers."""
 
 from collections.abc import Callable
 from typing import Any
@@ -10,7 +10,7 @@ _NOTICE_S = 5.0
 
 
 class _SubscribedAtOnce(type):
-    """Metaclass that subscribes a node which is not lazy once its constructors are done."""
+    """Metaclass that subscribes a node that is not lazy after its constructor."""
 
     def __call__(cls, *args: Any, **kwargs: Any) -> Any:
         node = super().__call__(*args, **kwargs)
@@ -23,7 +23,7 @@ class LazyTransport(rospy.SubscribeListener, metaclass=_SubscribedAtOnce):
     """Node that subscribes to its inputs while its outputs have subscribers; always, if `~lazy` is false."""
 
     subscribe: Callable[[], None]
-    """Subscribes to the inputs; for subclasses to define, as `unsubscribe`."""
+    """Subscribes to the inputs; subclasses define it, and `unsubscribe`."""
     unsubscribe: Callable[[], None]
 
     def __init__(self) -> None:
@@ -45,8 +45,8 @@ class LazyTransport(rospy.SubscribeListener, metaclass=_SubscribedAtOnce):
 
     def peer_unsubscribe(self, *args: Any, **kwargs: Any) -> None:
         del args, kwargs
-        is_heard = any(publisher.get_num_connections() > 0 for publisher in self._publishers)
-        if self._connection_status and not is_heard and self._is_lazy():
+        has_subscribers = any(publisher.get_num_connections() > 0 for publisher in self._publishers)
+        if self._connection_status and not has_subscribers and self._is_lazy():
             self.unsubscribe()
             self._connection_status = False
 

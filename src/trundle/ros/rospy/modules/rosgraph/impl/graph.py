@@ -1,4 +1,4 @@
-"""Graph of nodes, topics and connections, asked of the master and the nodes; for programs that draw it."""
+"""Graph of nodes, topics and connections, queried from the master and the nodes; for programs that draw it."""
 
 import itertools
 import logging
@@ -32,7 +32,7 @@ def node_topic(node: str) -> str:
 
 
 class BadNode:
-    """A node that did not answer."""
+    """A node that did not respond."""
 
     DEAD, WONKY = 0, 1
 
@@ -58,13 +58,13 @@ class Edge:
 
 
 def edge_args(start: str, dest: str, direction: str, label: str) -> list[tuple[str, str, str]]:
-    """Arguments of the edges between two names.
+    """Arguments of `Edge` for the edges between two names.
 
     Args:
-        start: name.
-        dest: other name.
+        start: first name.
+        dest: second name.
         direction: 'o': from start, 'i': to it, 'b': both.
-        label: of the edges.
+        label: label of the edges.
     """
     out = [(start, dest, label)] if direction in ("o", "b") else []
     return [*out, (dest, start, label)] if direction in ("i", "b") else out
@@ -86,11 +86,11 @@ class EdgeList:
         return edge in self.edges_by_start.get(edge.key, ())
 
     def has(self, edge: Edge) -> bool:
-        """True if it is among them."""
+        """True if the list contains the edge."""
         return edge in self
 
     def add(self, edge: Edge) -> bool:
-        """Add an edge; False if it is among them."""
+        """Add an edge; False if the list contains it already."""
         is_new = False
         for edges in (
             self.edges_by_start.setdefault(edge.key, []),
@@ -117,19 +117,19 @@ class EdgeList:
 
     def delete_all(self, node: str) -> None:
         """Remove the edges that start or end at a name."""
-        for edge in [each for each in self if node in (each.start, each.end)]:
+        for edge in [edge for edge in self if node in (edge.start, edge.end)]:
             self.delete(edge)
 
 
 class Graph:
-    """State of the graph, as far as it was asked for."""
+    """State of the graph, as of the last queries."""
 
     def __init__(self, node_ns: str = "/", topic_ns: str = "/") -> None:
-        """Know nothing yet.
+        """Create an empty graph.
 
         Args:
-            node_ns: only nodes whose names begin so.
-            topic_ns: only topics whose names begin so.
+            node_ns: prefix of the nodes to include.
+            topic_ns: prefix of the topics to include.
         """
         self.master = Master(_CALLER)
         self.node_ns, self.topic_ns = node_ns or "/", topic_ns or "/"
@@ -146,41 +146,41 @@ class Graph:
         self.last_node_refresh: dict[str, float] = {}
 
     def set_master_stale(self, stale_secs: float) -> None:
-        """Set the age [s] from which on the master is asked again."""
+        """Set the age [s] after which the master is queried again."""
         self.master_stale = stale_secs
 
     def set_node_stale(self, stale_secs: float) -> None:
-        """Set the age [s] from which on a node is asked again."""
+        """Set the age [s] after which a node is queried again."""
         self.node_stale = stale_secs
 
     def update(self) -> bool:
-        """Ask the master and the nodes whose state is stale; True if anything changed."""
+        """Query the master and the nodes whose state is stale; True if anything changed."""
         updated = False
         if time.time() > self.last_master_refresh + self.master_stale:
-            updated = self._ask_master()
+            updated = self._query_master()
             if not self.last_master_refresh:
                 for node in self.nn_nodes:
                     self._find_uri(node)
             self.last_master_refresh = time.time()
-        return self._ask_nodes(list(self.nn_nodes), self._ask_node) or updated
+        return self._query_nodes(list(self.nn_nodes), self._query_node) or updated
 
     def bad_update(self) -> bool:
-        """Ask the nodes again that did not answer; True if anything changed."""
+        """Query the nodes again that did not respond; True if anything changed."""
         with self.bad_nodes_lock:
             names = list(self.bad_nodes)
-        return self._ask_nodes(names, self._ask_bad_node)
+        return self._query_nodes(names, self._query_bad_node)
 
-    def _ask_nodes(self, names: Iterable[str], ask: Callable[[str], bool]) -> bool:
+    def _query_nodes(self, names: Iterable[str], query: Callable[[str], bool]) -> bool:
         updated = False
         for node in names:
             if time.time() > self.last_node_refresh.get(node, 0.0) + self.node_stale:
-                updated = ask(node) or updated
-                # at different times, so that not all nodes are asked in one update
+                updated = query(node) or updated
+                # at different times, so that one update does not query all nodes
                 self.last_node_refresh[node] = time.time() + random.random() * self.node_stale / 5.0
             time.sleep(_PAUSE_S)
         return updated
 
-    def _ask_master(self) -> bool:
+    def _query_master(self) -> bool:
         try:
             publishers, subscribers, services = self.master.getSystemState()
         except (MasterException, OSError) as error:
@@ -195,9 +195,9 @@ class Graph:
                     self.nt_nodes.add(topic_node(topic))
                     for name in names:
                         updated = self.nt_all_edges.add_edges(name, topic_node(topic), direction) or updated
-        for gone in self.nn_nodes - nodes:
+        for removed in self.nn_nodes - nodes:
             for edges in (self.nn_edges, self.nt_edges, self.nt_all_edges):
-                edges.delete_all(gone)
+                edges.delete_all(removed)
         names = {name for name, _ in services}
         updated = updated or (nodes, names) != (self.nn_nodes, self.srvs)
         self.nn_nodes, self.srvs = nodes, names
@@ -212,13 +212,13 @@ class Graph:
         self.node_uri_map[node], self.uri_node_map[uri] = uri, node
         return uri
 
-    def _ask_bad_node(self, node: str) -> bool:
+    def _query_bad_node(self, node: str) -> bool:
         with self.bad_nodes_lock:
             self.bad_nodes[node].type = BadNode.WONKY
-        return self._ask_node(node)
+        return self._query_node(node)
 
-    def _ask_node(self, node: str) -> bool:
-        """Ask a node for its connections; one that does not answer becomes a bad one."""
+    def _query_node(self, node: str) -> bool:
+        """Query a node for its connections; a node that does not respond becomes a BadNode."""
         uri = self._find_uri(node)
         if uri is None:
             return False
@@ -228,7 +228,7 @@ class Graph:
                 entries = [entry for entry in connections if len(entry) > _TOPIC_FIELD]
                 changed = [self._add_connection(node, *entry) for entry in entries]
                 return any(changed)
-        except (OSError, TypeError, ValueError, AttributeError) as error:  # silent, or not as nodes answer
+        except (OSError, TypeError, ValueError, AttributeError) as error:  # no response, or an invalid one
             text = str(error)
         with self.bad_nodes_lock:
             self.bad_nodes[node] = BadNode(node, BadNode.DEAD, text)
