@@ -152,7 +152,7 @@ def _controlled_arm(folder: Path, loop: GraphLoop) -> tuple[Simulation, Node]:
     node = Node("/gazebo", loop=loop, master_uri=core.uri, deliver=sim.inputs.post_callback, rosout=False)
     for name, value in {"robot_description": urdf, **_CONTROLLERS}.items():
         loop.run(node.params.set(f"/{name}", value), _PATIENCE_S)
-    load_plugins(sim, lambda _: node, {}, say=lambda _: None)
+    load_plugins(sim, lambda _: node, {}, log=lambda _: None)
     client = Node("/client", loop=loop, master_uri=core.uri, rosout=False)
 
     def ask(service: str, **fields: Any) -> None:

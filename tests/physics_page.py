@@ -89,7 +89,7 @@ def measure(row: Row) -> float:
 
 def _run(row: Row) -> Trace:
     sim = trundle.load(str(WORLDS / f"{row.world}.world"))
-    load_plugins(sim, None, os.environ, say=print)
+    load_plugins(sim, None, os.environ, log=print)
     steps = round(row.duration * 1e3)
     stride = max(1, steps // 10_000)
     sim.run(row.start)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:  # a run without ROS or sensors starts without their modules, 
     from trundle.sim.simulation import LinkHandle, ModelHandle, Simulation
 
 _Kind = TypeVar("_Kind")
-_TOPICS_WITHOUT = "the sensor has topics without"
+_FALLBACK = "the sensor has topics without"
 
 
 def load_plugins(
@@ -36,33 +36,33 @@ def load_plugins(
     make_node: "Callable[[str], Node] | None",
     environment: Mapping[str, str],
     *,
-    say: Callable[[str], None],
+    log: Callable[[str], None],
     models: "Sequence[ModelHandle] | None" = None,
 ) -> list[Plugin]:
-    """Load the models' plugins and hook them in; warn of one that fails to load and go on, as Gazebo does.
+    """Load the models' plugins and add their hooks; warn of plugins that fail to load and go on, as Gazebo does.
 
     Args:
-        simulation: the plugins act on it.
-        make_node: makes each plugin's node; None: without ROS.
+        simulation: running simulation.
+        make_node: creates a plugin's node from its name; None: without ROS.
         environment: variables that locate plugins.
-        say: prints which plugins are loaded.
-        models: of the plugins; None: all.
+        log: prints the origin of each plugin.
+        models: models whose plugins are loaded; None: all.
     """
     loaded: list[Plugin] = []
     for model in simulation.models if models is None else models:
-        for tag, node_name in _named(f"/{ros_name(model.name)}", model.model.plugins):
+        for tag, node_name in _unique_node_names(f"/{ros_name(model.name)}", model.model.plugins):
 
             def load(tag: PluginTag = tag, model: "ModelHandle" = model, node_name: str = node_name) -> Plugin:
                 plugin_class, origin = find_plugin(tag, environment)
-                say(f"plugin {tag.name!r} of {model.name}: {origin}")
+                log(f"plugin {tag.name!r} of {model.name}: {origin}")
                 node = None if make_node is None else make_node(node_name)
                 return plugin_class.load(simulation, model, node, tag)
 
-            plugin = _loaded(tag, load, simulation.report)
+            plugin = _load_or_warn(tag, load, simulation.report)
             if plugin is not None:
-                _hook_in(simulation, plugin, model, f"{model.name}::{tag.name}")
+                _add_hooks(simulation, plugin, model, f"{model.name}::{tag.name}")
                 loaded.append(plugin)
-        _load_visual_plugins(simulation, model, make_node, environment, say)
+        _load_visual_plugins(simulation, model, make_node, environment, log)
     return loaded
 
 
@@ -71,30 +71,30 @@ def _load_visual_plugins(
     model: "ModelHandle",
     make_node: "Callable[[str], Node] | None",
     environment: Mapping[str, str],
-    say: Callable[[str], None],
+    log: Callable[[str], None],
 ) -> None:
     """Load the plugins of a model's visuals; see `load_plugins`."""
     report = simulation.report
     for link in model.links:
-        asked = [(visual, tag) for visual in link.link.visuals for tag in visual.plugins]
-        named = _named(f"/{ros_name(model.name)}/{ros_name(link.name)}", [tag for _, tag in asked])
-        for (visual, tag), (_, node_name) in zip(asked, named, strict=True):
+        tags = [(visual, tag) for visual in link.link.visuals for tag in visual.plugins]
+        named_tags = _unique_node_names(f"/{ros_name(model.name)}/{ros_name(link.name)}", [tag for _, tag in tags])
+        for (visual, tag), (_, node_name) in zip(tags, named_tags, strict=True):
             if is_cosmetic(tag):
-                what = f"plugin {tag.name!r}: {tag.filename} alters only how Gazebo draws a visual; it is not run"
-                report.info(tag.at, what)
+                message = f"plugin {tag.name!r}: {tag.filename} alters only how Gazebo draws a visual; it is not run"
+                report.info(tag.at, message)
                 continue
 
             def load(
                 tag: PluginTag = tag, link: "LinkHandle" = link, visual: Visual = visual, node_name: str = node_name
             ) -> VisualPlugin:
                 plugin_class, origin = find_visual_plugin(tag, environment)
-                say(f"plugin {tag.name!r} of {model.name}::{link.name}::{visual.name}: {origin}")
+                log(f"plugin {tag.name!r} of {model.name}::{link.name}::{visual.name}: {origin}")
                 node = None if make_node is None else make_node(node_name)
                 return plugin_class.load(simulation, model, link, visual, node, tag)
 
-            plugin = _loaded(tag, load, report)
+            plugin = _load_or_warn(tag, load, report)
             if plugin is not None:
-                _hook_in(simulation, plugin, model, f"{model.name}::{link.name}::{visual.name}::{tag.name}")
+                _add_hooks(simulation, plugin, model, f"{model.name}::{link.name}::{visual.name}::{tag.name}")
 
 
 def load_world_plugins(
@@ -102,24 +102,24 @@ def load_world_plugins(
     make_node: "Callable[[str], Node] | None",
     environment: Mapping[str, str],
     *,
-    say: Callable[[str], None],
+    log: Callable[[str], None],
 ) -> None:
     """Load the plugins of the world itself; see `load_plugins`."""
     world = simulation.world
-    for tag, node_name in _named(f"/{ros_name(world.name)}", world.plugins):
+    for tag, node_name in _unique_node_names(f"/{ros_name(world.name)}", world.plugins):
 
         def load(tag: PluginTag = tag, node_name: str = node_name) -> Hooks:
             plugin_class, origin = find_world_plugin(tag, environment)
-            say(f"plugin {tag.name!r} of the world: {origin}")
+            log(f"plugin {tag.name!r} of the world: {origin}")
             node = None if make_node is None else make_node(node_name)
             return plugin_class.load(simulation, node, tag)
 
-        plugin = _loaded(tag, load, simulation.report)
+        plugin = _load_or_warn(tag, load, simulation.report)
         if plugin is not None:
-            _hook_in(simulation, plugin, None, tag.name)
+            _add_hooks(simulation, plugin, None, tag.name)
     if any(world.wind) and not any(tag.filename.endswith("libWindPlugin.so") for tag in world.plugins):
         report = simulation.report
-        report.info(world.at, "there is no wind force: as in Gazebo, that takes libWindPlugin.so in the world")
+        report.info(world.at, "there is no wind force: as in Gazebo, it needs libWindPlugin.so in the world")
 
 
 _Sensor = TypeVar("_Sensor", "CameraSensor", "InstrumentSensor")
@@ -130,35 +130,37 @@ def attach_sensor_plugins(sensors: Sequence[_Sensor], node: "Node", simulation: 
     from trundle.gazebo.plugins import PluginNames
     from trundle.ros import Publisher
 
-    report, models = simulation.report, [each.model for each in simulation.models]
+    report, models = simulation.report, [model.model for model in simulation.models]
 
     silent: list[_Sensor] = []
     for sensor in sensors:
-        attached = 0
-        finds = [(tag, find_sensor_plugin(tag)) for tag in sensor.sensor.plugins]
-        by_model = [(tag, find_model_sensor_plugin(tag, sensor.sensor.name)) for tag in sensor.model.plugins]
-        for tag, attach in (*finds, *(each for each in by_model if each[1] is not None)):
+        attached_count = 0
+        plugins = [(tag, find_sensor_plugin(tag)) for tag in sensor.sensor.plugins]
+        model_plugins = [(tag, find_model_sensor_plugin(tag, sensor.sensor.name)) for tag in sensor.model.plugins]
+        for tag, attach in (*plugins, *(pair for pair in model_plugins if pair[1] is not None)):
             if attach is None:
                 _warn_unsupported(sensor.name, tag, report)
                 continue
             try:
                 parameters = TagParameters(tag.node, report)
-                with node.endpoints.record() as ends:
+                with node.endpoints.record() as endpoints:
                     attach(sensor, parameters, PluginNames(node, parameters, sensor.model, models))
-                sensor.topics |= {end.topic: end.type for end in ends if isinstance(end, Publisher)}
-                attached += 1
+                sensor.topics |= {
+                    endpoint.topic: endpoint.type for endpoint in endpoints if isinstance(endpoint, Publisher)
+                }
+                attached_count += 1
             except TrundleError as error:
-                report.warn_error(error, tag.at, _TOPICS_WITHOUT, subject=_sensor_plugin(sensor.name, tag))
-        if not attached:
+                report.warn_error(error, tag.at, _FALLBACK, subject=_sensor_plugin(sensor.name, tag))
+        if not attached_count:
             silent.append(sensor)
     return silent
 
 
 def report_missing_plugins(world: World, environment: Mapping[str, str], report: Diagnostics) -> None:
-    """Warn of the plugins that a run would not find; none is loaded."""
+    """Warn of the plugins that a run would not find, without loading any."""
 
     def require(tag: PluginTag) -> None:
-        _loaded(tag, lambda: require_plugin(tag, environment), report)
+        _load_or_warn(tag, lambda: require_plugin(tag, environment), report)
 
     for tag in (*world.plugins, *(tag for model in world.models for tag in model.plugins)):
         require(tag)
@@ -171,41 +173,41 @@ def report_missing_plugins(world: World, environment: Mapping[str, str], report:
 
 
 def _warn_unsupported(sensor: str, tag: PluginTag, report: Diagnostics) -> None:
-    report.warn(tag.at, f"{_sensor_plugin(sensor, tag)} is not supported yet; {_TOPICS_WITHOUT}")
+    report.warn(tag.at, f"{_sensor_plugin(sensor, tag)} is not supported yet; {_FALLBACK}")
 
 
 def _sensor_plugin(sensor: str, tag: PluginTag) -> str:
     return f"sensor {sensor!r}: plugin {tag.filename}"
 
 
-def _named(namespace: str, tags: Sequence[PluginTag]) -> list[tuple[PluginTag, str]]:
-    """Each plugin with a unique node name: a second node of one name would shut the first down."""
+def _unique_node_names(namespace: str, tags: Sequence[PluginTag]) -> list[tuple[PluginTag, str]]:
+    """Return each plugin with a unique node name: a second node with the same name would shut down the first."""
     names: list[str] = []
     for tag in tags:
         name = f"{namespace}/{ros_name(tag.name)}"
         numbered = (f"{name}_{i}" for i in count(2))
-        names.append(next(free for free in chain([name], numbered) if free not in names))
+        names.append(next(candidate for candidate in chain([name], numbered) if candidate not in names))
     return list(zip(tags, names, strict=True))
 
 
-def _loaded(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _Kind | None:
+def _load_or_warn(tag: PluginTag, load: Callable[[], _Kind], report: Diagnostics) -> _Kind | None:
     try:
         return load()
     except TrundleError as error:
-        who = "" if isinstance(error, DescriptionError) else f"plugin {tag.name!r}"
-        report.warn_error(error, tag.at, "the run goes on without it", subject=who)
+        subject = "" if isinstance(error, DescriptionError) else f"plugin {tag.name!r}"
+        report.warn_error(error, tag.at, "the run goes on without it", subject=subject)
     except Exception as error:  # user code may raise anything
         report.warn(tag.at, f"plugin {tag.name!r}: {type(error).__name__}: {error}; the run goes on without it")
     return None
 
 
-def _hook_in(simulation: "Simulation", plugin: Hooks, model: "ModelHandle | None", name: str) -> None:
+def _add_hooks(simulation: "Simulation", plugin: Hooks, model: "ModelHandle | None", name: str) -> None:
     """Register a plugin's hooks; they run until its model is deleted."""
 
-    def is_there() -> bool:
+    def model_exists() -> bool:
         return model is None or any(handle is model for handle in simulation.models)
 
     simulation.add_hook(
-        plugin, period_ns=plugin.period_ns, enabled=lambda: is_there() and plugin.is_wanted(), name=name
+        plugin, period_ns=plugin.period_ns, enabled=lambda: model_exists() and plugin.is_active(), name=name
     )
     simulation.on_reset(plugin.reset, model=model)

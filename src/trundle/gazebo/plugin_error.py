@@ -1,4 +1,4 @@
-"""Errors in the code of a user's plugins, as a sentence and the lines of that code."""
+"""Errors in the code of user plugins, as a sentence and the traceback of that code."""
 
 import traceback
 from itertools import dropwhile
@@ -8,35 +8,35 @@ from types import FrameType
 from trundle.base.diagnostics import TrundleError
 from trundle.gazebo.plugins import Hooks
 
-_OURS = "trundle."
+_OWN_PACKAGE = "trundle."
 
 
 def plugin_error(error: Exception) -> TrundleError | None:
-    """Error of a user's plugin that names its file and hook; None: it did not come out of one.
+    """Return an error with the file and hook of the user plugin that raised it; None: no plugin raised it.
 
     Args:
-        error: raised while hooks and callbacks ran.
+        error: exception from a hook or callback.
     """
     modules = _plugin_modules()
-    frames = dropwhile(lambda each: _module(each[0]) not in modules, traceback.walk_tb(error.__traceback__))
-    theirs = [each for each in frames if not _module(each[0]).startswith(_OURS)]
-    if not theirs:
+    frames = dropwhile(lambda frame: _module(frame[0]) not in modules, traceback.walk_tb(error.__traceback__))
+    plugin_frames = [frame for frame in frames if not _module(frame[0]).startswith(_OWN_PACKAGE)]
+    if not plugin_frames:
         return None
-    code = theirs[0][0].f_code
-    lines = "".join(traceback.StackSummary.extract(iter(theirs)).format()).rstrip()
-    what = "".join(traceback.format_exception_only(error)).strip()
-    return TrundleError(f"plugin {Path(code.co_filename).name}: {code.co_name}: {what}\n{lines}")
+    code = plugin_frames[0][0].f_code
+    lines = "".join(traceback.StackSummary.extract(iter(plugin_frames)).format()).rstrip()
+    message = "".join(traceback.format_exception_only(error)).strip()
+    return TrundleError(f"plugin {Path(code.co_filename).name}: {code.co_name}: {message}\n{lines}")
 
 
 def _plugin_modules() -> set[str]:
-    """Names of the modules that define plugins that are not Trundle's."""
-    found: set[str] = set()
+    """Return the names of the modules that define user plugins."""
+    modules: set[str] = set()
     kinds = Hooks.__subclasses__()
     while kinds:
         kind = kinds.pop()
         kinds += kind.__subclasses__()
-        found.add(kind.__module__)
-    return {name for name in found if not name.startswith(_OURS)}
+        modules.add(kind.__module__)
+    return {name for name in modules if not name.startswith(_OWN_PACKAGE)}
 
 
 def _module(frame: FrameType) -> str:

@@ -110,7 +110,7 @@ class LiveWorld:
         for model in self.simulation.models:
             self._load_plugins_of(model)
         make_node = None if self._interfaces is None else self._interfaces.node_maker(None)
-        load_world_plugins(self.simulation, make_node, self.environment, say=self._say)
+        load_world_plugins(self.simulation, make_node, self.environment, log=self._say)
 
     def keep_timeline(self, limit_bytes: int) -> None:
         """Record the last minutes, for seeking; `limit_bytes` is the memory of the saved states."""
@@ -233,7 +233,7 @@ class LiveWorld:
 
     def _load_plugins_of(self, model: ModelHandle) -> None:
         make_node = None if self._interfaces is None else self._interfaces.node_maker(model)
-        plugins = load_plugins(self.simulation, make_node, self.environment, say=self._say, models=[model])
+        plugins = load_plugins(self.simulation, make_node, self.environment, log=self._say, models=[model])
         if plugins:
             self._plugins[model] = plugins
 

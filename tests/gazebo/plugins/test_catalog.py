@@ -1,4 +1,4 @@
-"""Finding a user's plugin by the file name of the machine code it replaces."""
+"""User plugins found by the file name of the compiled plugin that they replace."""
 
 from pathlib import Path
 
@@ -21,41 +21,41 @@ def tag(folder: Path, filename: str = "/home/larry/gazebo_plugin/libspin.so") ->
     )
 
 
-def test_a_python_file_beside_the_model_replaces_the_machine_code(tmp_path: Path) -> None:
+def test_a_python_file_beside_the_model_replaces_the_compiled_plugin(tmp_path: Path) -> None:
     (tmp_path / "spin.py").write_text(PLUGIN)
 
-    found, origin = find_plugin(tag(tmp_path), {})
+    plugin, origin = find_plugin(tag(tmp_path), {})
 
-    assert found.__name__ == "Spin"
+    assert plugin.__name__ == "Spin"
     assert origin == str(tmp_path / "spin.py")
 
 
 def test_the_plugin_paths_are_searched_in_order(tmp_path: Path) -> None:
-    for name in ("ours", "gazebos"):
+    for name in ("trundle", "gazebo"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "spin.py").write_text(PLUGIN)
     environment = {
-        "GAZEBO_PLUGIN_PATH": str(tmp_path / "gazebos"),
-        "TRUNDLE_PLUGIN_PATH": f"{tmp_path / 'missing'}:{tmp_path / 'ours'}",
+        "GAZEBO_PLUGIN_PATH": str(tmp_path / "gazebo"),
+        "TRUNDLE_PLUGIN_PATH": f"{tmp_path / 'missing'}:{tmp_path / 'trundle'}",
     }
 
     _, origin = find_plugin(tag(tmp_path), environment)
 
-    assert origin == str(tmp_path / "ours" / "spin.py")
+    assert origin == str(tmp_path / "trundle" / "spin.py")
 
 
-def test_a_missing_plugin_says_where_was_looked(tmp_path: Path) -> None:
+def test_a_missing_plugin_error_lists_the_searched_folders(tmp_path: Path) -> None:
     with pytest.raises(DescriptionError) as error:
         find_plugin(tag(tmp_path), {"GAZEBO_PLUGIN_PATH": "/opt/plugins"})
 
-    said = (
+    message = (
         f"{tmp_path}/model.sdf:7: error: plugin 'spin': no libspin.so; Trundle runs Python plugins: "
         f"looked for spin.py in {tmp_path}, /opt/plugins"
     )
-    assert str(error.value).startswith(said)
+    assert str(error.value).startswith(message)
 
 
-def test_a_missing_plugin_of_a_package_names_its_source(tmp_path: Path) -> None:
+def test_a_missing_plugin_built_by_a_package_names_its_source(tmp_path: Path) -> None:
     (tmp_path / "package.xml").write_text("<package><name>spinning</name></package>")
     cmake = tmp_path / "CMakeLists.txt"
     cmake.write_text("project(spinning)\nadd_library(spin SHARED src/spin.cc)\nadd_library(other src/other.cc)\n")
@@ -63,15 +63,15 @@ def test_a_missing_plugin_of_a_package_names_its_source(tmp_path: Path) -> None:
     with pytest.raises(DescriptionError) as error:
         find_plugin(tag(tmp_path), {"ROS_MASTER_URI": "http://here:1"})
 
-    place, _, command = str(error.value).partition("; it is C++ that ")[2].partition(" in place of `trundle run`: ")
-    assert place == f"{cmake}:2 builds from src/spin.cc; Gazebo itself, with it, in a container"
+    source, _, command = str(error.value).partition("; it is C++ that ")[2].partition(" in place of `trundle run`: ")
+    assert source == f"{cmake}:2 builds from src/spin.cc; Gazebo itself, with it, in a container"
     assert command.startswith(f"docker run --rm -it --network host -v {tmp_path}:/ws/src/{tmp_path.name}:ro ")
     assert command.endswith("catkin_make && . devel/setup.sh && rosrun gazebo_ros gzserver'")
     assert "ROS_MASTER_URI=http://here:1 " in command
     assert " ros-noetic-gazebo-ros " in command
 
 
-def test_a_plugin_of_sensors_that_a_model_has_says_where_it_belongs(tmp_path: Path) -> None:
+def test_a_sensor_plugin_in_a_model_is_refused_with_its_element(tmp_path: Path) -> None:
     with pytest.raises(DescriptionError) as error:
         find_plugin(tag(tmp_path, "libgazebo_ros_laser.so"), {})
 
@@ -81,12 +81,12 @@ def test_a_plugin_of_sensors_that_a_model_has_says_where_it_belongs(tmp_path: Pa
     )
 
 
-def test_a_user_s_file_called_like_a_plugin_of_sensors_runs(tmp_path: Path) -> None:
+def test_a_user_file_named_like_a_sensor_plugin_runs(tmp_path: Path) -> None:
     (tmp_path / "gazebo_ros_laser.py").write_text(PLUGIN)
 
-    found, _ = find_plugin(tag(tmp_path, "libgazebo_ros_laser.so"), {})
+    plugin, _ = find_plugin(tag(tmp_path, "libgazebo_ros_laser.so"), {})
 
-    assert found.__name__ == "Spin"
+    assert plugin.__name__ == "Spin"
 
 
 @pytest.mark.parametrize(
@@ -97,7 +97,7 @@ def test_a_user_s_file_called_like_a_plugin_of_sensors_runs(tmp_path: Path) -> N
         ("x = 1\n", None, "one subclass of Plugin; here: none"),
     ],
 )
-def test_a_broken_plugin_is_one_sentence_with_its_own_line(
+def test_a_broken_plugin_file_is_reported_with_its_line(
     tmp_path: Path, text: str, line: int | None, words: str
 ) -> None:
     (tmp_path / "spin.py").write_text(text)

@@ -1,10 +1,10 @@
-"""A joint that mimics another one, in C++ within the step."""
+"""A mimic joint, driven in C++ within the step."""
 
 from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.gazebo.plugins.stage import load
+from tests.gazebo.plugins.plugin_world import load
 
 import trundle
 from trundle.gazebo.plugins.mimic_joint import MimicJoint
@@ -22,14 +22,14 @@ def _no_action(_: MimicJoint) -> None:
 
 
 def _pair(folder: Path, extra: str, monkeypatch: pytest.MonkeyPatch | None = None) -> Simulation:
-    """Return a world with two joints that move by themselves; with `monkeypatch`, Python mimics at every step."""
+    """Return a world with a leader and a mimic joint; with `monkeypatch`, Python drives it at every step."""
     if monkeypatch is not None:
         monkeypatch.setattr(MimicJoint, "step_action", _no_action)
     body = _LINK.format("a", "lead", "world") + _LINK.format("b", "tip", "world")
     return load(folder, body + _PLUGIN.format(extra))
 
 
-def _numbers(sim: Simulation) -> bytes:
+def _state_bytes(sim: Simulation) -> bytes:
     saved = sim.save().engine
     return saved.data.qpos.tobytes() + saved.data.qvel.tobytes() + saved.motors.states.tobytes()
 
@@ -37,13 +37,13 @@ def _numbers(sim: Simulation) -> bytes:
 @pytest.mark.parametrize(
     "extra",
     ["", "<hasPID/><maxEffort>0.5</maxEffort>", "<sensitiveness>0.05</sensitiveness>"],
-    ids=["", "pid", "rough"],
+    ids=["unlimited", "pid", "tolerance"],
 )
-def test_it_writes_the_same_bytes_as_in_python_at_every_step(
+def test_the_step_action_writes_the_same_bytes_as_python(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, extra: str
 ) -> None:
-    ours = _pair(tmp_path, extra)
-    moments: list[bytes] = []
+    sim = _pair(tmp_path, extra)
+    states: list[bytes] = []
 
     def run(sim: Simulation) -> None:
         lead, tip = sim["m"].joint("lead"), sim["m"].joint("tip")
@@ -54,29 +54,29 @@ def test_it_writes_the_same_bytes_as_in_python_at_every_step(
             if number == 3:
                 sim.spawn(sim["m"].model, allow_renaming=True)
             sim.step(steps)
-            moments.append(_numbers(sim))
+            states.append(_state_bytes(sim))
 
-    run(ours)
-    strides = _count_strides(ours)
-    ours.step(200)
+    run(sim)
+    strides = _count_strides(sim, monkeypatch)
+    sim.step(200)
     assert strides == [200]
-    in_step, moments = moments, []
+    in_step_states, states = states, []
     run(_pair(tmp_path, extra, monkeypatch))
 
-    assert in_step == moments
-    assert len(set(moments)) == len(moments)
-    tip, lead = (ours["m"].joint(name).position for name in ("tip", "lead"))
+    assert in_step_states == states
+    assert len(set(states)) == len(states)
+    tip, lead = (sim["m"].joint(name).position for name in ("tip", "lead"))
     assert tip == pytest.approx(0.1 - 2 * lead, abs=0.1)
 
 
-def _count_strides(sim: Simulation) -> list[int]:
+def _count_strides(sim: Simulation, monkeypatch: pytest.MonkeyPatch) -> list[int]:
     strides, step = list[int](), sim.engine.step
 
-    def counted(count: int, each: Any) -> int:
+    def counted_step(count: int, recorders: Any) -> int:
         strides.append(count)
-        return step(count, each)
+        return step(count, recorders)
 
-    sim.engine.step = counted
+    monkeypatch.setattr(sim.engine, "step", counted_step)
     return strides
 
 
@@ -88,8 +88,8 @@ _COUPLED = """<gazebo><plugin name="{0}" filename="libroboticsgroup_gazebo_mimic
 <mimicJoint>{0}</mimicJoint><multiplier>{1}</multiplier></plugin></gazebo>"""
 
 
-def test_light_followers_of_a_gripper_move_as_one_with_its_finger(tmp_path: Path) -> None:
-    """A finger of four bars: the tip turns back on a follower, each with an effort limit that its motor would have."""
+def test_light_mimic_joints_of_a_gripper_follow_its_finger(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A four-bar finger: the tip turns back on a mimic joint; each has its motor's effort limit."""
     file = tmp_path / "gripper.urdf"
     file.write_text(
         '<robot name="gripper"><link name="world"/>'
@@ -111,10 +111,10 @@ def test_light_followers_of_a_gripper_move_as_one_with_its_finger(tmp_path: Path
 
     assert lead.position == pytest.approx(0.8, abs=0.01)
     assert abs(tip.velocity) < 0.05
-    assert _count_strides_of(sim, 100) == [100], "no plugin acts between the steps"
+    assert _count_strides_of(sim, 100, monkeypatch) == [100], "no plugin acts between the steps"
 
 
-def _count_strides_of(sim: Simulation, steps: int) -> list[int]:
-    strides = _count_strides(sim)
+def _count_strides_of(sim: Simulation, steps: int, monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    strides = _count_strides(sim, monkeypatch)
     sim.step(steps)
     return strides

@@ -1,4 +1,4 @@
-"""Mecanum and omni drives by plugin, with random numbers, against the motion of a body with such a twist."""
+"""Plugins that drive in the plane, with random parameters, against the motion of a body with the commanded twist."""
 
 import math
 from pathlib import Path
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from tests.gazebo.plugins.stage import Wires, load
+from tests.gazebo.plugins.plugin_world import FakeNode, load
 
 from trundle.sim.simulation import Simulation
 
@@ -16,18 +16,18 @@ SECONDS = 2.0
 
 
 def _driven(folder: Path, rng: np.random.Generator, plugin: str) -> tuple[Simulation, tuple[float, float, float]]:
-    """Return a robot after two seconds of a random command, at any place and heading, and the command."""
+    """Return a robot after two seconds of a random command from a random pose, and the command."""
     mass, moment = 10 ** rng.uniform(0, 2.5), 10 ** rng.uniform(-1, 1)
     moments = "".join(f"<i{axis}>{moment}</i{axis}>" for axis in ("xx", "yy", "zz"))
     inertial = f"<inertial><mass>{mass}</mass><inertia>{moments}</inertia></inertial>"
     body = (
         f'<pose>{rng.uniform(-9, 9)} {rng.uniform(-9, 9)} 1 0 0 {rng.uniform(-3, 3)}</pose><link name="base_footprint">'
     )
-    wires: Any = Wires()
-    wires.clock = SimpleNamespace(now_ns=lambda: sim.time_ns)
-    sim = load(folder, f"{body}{inertial}</link>{plugin}", wires=wires)
+    node: Any = FakeNode()
+    node.clock = SimpleNamespace(now_ns=lambda: sim.time_ns)
+    sim = load(folder, f"{body}{inertial}</link>{plugin}", node=node)
     x, y, turn = (float(value) for value in rng.uniform((-2, -2, -3), (2, 2, 3)))
-    wires.tell("/cmd_vel", linear={"x": x, "y": y}, angular={"z": turn})
+    node.receive("/cmd_vel", linear={"x": x, "y": y}, angular={"z": turn})
     sim.run(SECONDS)
     return sim, (x, y, turn)
 
@@ -36,15 +36,15 @@ def _driven(folder: Path, rng: np.random.Generator, plugin: str) -> tuple[Simula
 def test_planar_move_drives_arcs(tmp_path: Path, seed: int) -> None:
     rng = np.random.default_rng(seed)
     sim, (x, y, turn) = _driven(tmp_path, rng, '<plugin name="p" filename="libgazebo_ros_planar_move.so"/>')
-    start, here = sim.world.models[0].world_from_model, sim["m"].pose
+    start, end_pose = sim.world.models[0].world_from_model, sim["m"].pose
     along, across = math.sin(turn * SECONDS) / turn, (1.0 - math.cos(turn * SECONDS)) / turn
     end = start.transform_point((along * x - across * y, across * x + along * y, 0.0))
-    assert here.position == pytest.approx(end, abs=2e-3 * math.hypot(x, y) * SECONDS)
-    assert math.remainder(here.rpy[2] - start.rpy[2] - turn * SECONDS, math.tau) == pytest.approx(0.0, abs=1e-4)
+    assert end_pose.position == pytest.approx(end, abs=2e-3 * math.hypot(x, y) * SECONDS)
+    assert math.remainder(end_pose.rpy[2] - start.rpy[2] - turn * SECONDS, math.tau) == pytest.approx(0.0, abs=1e-4)
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_force_based_move_follows_by_its_gains(tmp_path: Path, seed: int) -> None:
+def test_force_based_move_follows_the_command_with_its_gains(tmp_path: Path, seed: int) -> None:
     """m (v' + ω × v) = gain (command − v), for gains up to a third of what a step can follow."""
     rng = np.random.default_rng(seed)
     state = rng.bit_generator.state
@@ -58,7 +58,7 @@ def test_force_based_move_follows_by_its_gains(tmp_path: Path, seed: int) -> Non
     )
     plugin = f'<plugin name="p" filename="libgazebo_ros_force_based_move.so">{tags}</plugin>'
     sim, command = _driven(tmp_path, rng, plugin)
-    start, here = sim.world.models[0].world_from_model, sim["m"].pose
+    start, end_pose = sim.world.models[0].world_from_model, sim["m"].pose
 
     def motion(_time: float, state: Any) -> Any:
         yaw, vx, vy, turn = state[2:]
@@ -68,5 +68,5 @@ def test_force_based_move_follows_by_its_gains(tmp_path: Path, seed: int) -> Non
 
     truth = solve_ivp(motion, (0.0, SECONDS), np.zeros(6), method="DOP853", rtol=1e-9, atol=1e-10).y[:, -1]
     end = start.transform_point((float(truth[0]), float(truth[1]), 0.0))
-    assert here.position == pytest.approx(end, abs=5e-3)
-    assert math.remainder(here.rpy[2] - start.rpy[2] - truth[2], math.tau) == pytest.approx(0.0, abs=5e-3)
+    assert end_pose.position == pytest.approx(end, abs=5e-3)
+    assert math.remainder(end_pose.rpy[2] - start.rpy[2] - truth[2], math.tau) == pytest.approx(0.0, abs=5e-3)

@@ -1,4 +1,4 @@
-"""A RealSense that looks at a wall two metres ahead."""
+"""A RealSense in front of a wall at 2 m."""
 
 import math
 from pathlib import Path
@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.gazebo.plugins.stage import BODY, Wires, load
+from tests.gazebo.plugins.plugin_world import BODY, FakeNode, load
 
 from trundle.gazebo.model_plugins import attach_sensor_plugins
 from trundle.sim.renderers import RENDERERS
@@ -34,24 +34,24 @@ def sensor(name: str, kind: str = "camera", format_: str = "RGB_INT8") -> str:
     return f'<sensor name="{name}" type="{kind}">{update}{CAMERA.format(format_)}</sensor>'
 
 
-def see(folder: Path, parameters: str = "") -> tuple[Simulation, Wires, list[str]]:
-    """Messages within a quarter of a second, and the sensors with default topics."""
-    eyes = sensor("d_color") + sensor("d_depth", "depth") + sensor("d_ired1", format_="L_INT8") + sensor("other")
+def run_realsense(folder: Path, parameters: str = "") -> tuple[Simulation, FakeNode, list[str]]:
+    """Return the world after 0.25 s, the node and the sensors with default topics."""
+    sensors = sensor("d_color") + sensor("d_depth", "depth") + sensor("d_ired1", format_="L_INT8") + sensor("other")
     plugin = f'<plugin name="camera" filename="librealsense_gazebo_plugin.so"><prefix>d_</prefix>{STREAMS}{parameters}'
-    wires: Any = Wires()
-    sim = load(folder, f'<link name="eyes">{BODY.format(1)}{eyes}</link>{WALL}{plugin}</plugin>', wires=wires)
+    node: Any = FakeNode()
+    sim = load(folder, f'<link name="head">{BODY.format(1)}{sensors}</link>{WALL}{plugin}</plugin>', node=node)
     cameras = mount_cameras(sim, RENDERERS["cpu"])
-    silent = attach_sensor_plugins(cameras, wires, sim)
+    silent = attach_sensor_plugins(cameras, node, sim)
     for camera in cameras:
         camera.start(sim)
     sim.run(0.25)
-    return sim, wires, [camera.name for camera in silent]
+    return sim, node, [camera.name for camera in silent]
 
 
 def test_each_stream_has_its_topic_and_frame(tmp_path: Path) -> None:
-    sim, wires, silent = see(tmp_path, "<rangeMaxDepth>10</rangeMaxDepth>")
-    color, grey = wires.said["/camera/color/image_raw"][-1], wires.said["/camera/infra1/image_raw"][-1]
-    depth, info = wires.said["/camera/depth/image_raw"][-1], wires.said["/camera/depth/camera_info"][-1]
+    sim, node, silent = run_realsense(tmp_path, "<rangeMaxDepth>10</rangeMaxDepth>")
+    color, grey = node.published["/camera/color/image_raw"][-1], node.published["/camera/infra1/image_raw"][-1]
+    depth, info = node.published["/camera/depth/image_raw"][-1], node.published["/camera/depth/camera_info"][-1]
 
     assert (color.header.frame_id, color.encoding, color.width) == ("color_optical", "rgb8", WIDTH)
     assert (grey.header.frame_id, grey.encoding) == ("infrared1_optical", "8UC1")
@@ -64,11 +64,13 @@ def test_each_stream_has_its_topic_and_frame(tmp_path: Path) -> None:
     assert "no sensor 'd_ired2'; sensors here: 'd_color', 'd_depth', 'd_ired1', 'other'" in sim.report.warnings[0]
 
 
-def test_what_is_out_of_range_is_zero_and_no_point(tmp_path: Path) -> None:
+def test_depths_out_of_range_are_zero_and_nan_points(tmp_path: Path) -> None:
     points = "<pointCloud>true</pointCloud><pointCloudTopicName>depth/points</pointCloudTopicName>"
-    _, wires, _ = see(tmp_path, f"<rangeMaxDepth>1</rangeMaxDepth>{points}<pointCloudCutoff>2.5</pointCloudCutoff>")
+    _, node, _ = run_realsense(
+        tmp_path, f"<rangeMaxDepth>1</rangeMaxDepth>{points}<pointCloudCutoff>2.5</pointCloudCutoff>"
+    )
 
-    assert not any(bytes(wires.said["/camera/depth/image_raw"][-1].data))
-    cloud = wires.said["/camera/depth/points"][-1]
+    assert not any(bytes(node.published["/camera/depth/image_raw"][-1].data))
+    cloud = node.published["/camera/depth/points"][-1]
     assert (cloud.header.frame_id, cloud.width, cloud.height) == ("depth_optical", WIDTH, HEIGHT)
     assert np.isnan(np.frombuffer(bytes(cloud.data), "<f4").reshape(-1, cloud.point_step // 4)[:, :3]).all()

@@ -1,10 +1,10 @@
-"""Plugins of visuals are started like those of models."""
+"""Visual plugins are loaded like model plugins."""
 
 from pathlib import Path
 
-from tests.gazebo.plugins.stage import BODY, Wires, load
+from tests.gazebo.plugins.plugin_world import BODY, FakeNode, load
 
-SEEN = "<geometry><sphere><radius>0.1</radius></sphere></geometry>"
+GEOMETRY = "<geometry><sphere><radius>0.1</radius></sphere></geometry>"
 MARK = """from trundle.gazebo.plugins import VisualPlugin
 
 class Mark(VisualPlugin):
@@ -21,13 +21,13 @@ class Mark(VisualPlugin):
 
 def visual(name: str, filename: str) -> str:
     tag = f'<plugin name="p" filename="{filename}"><says>{name}</says></plugin>'
-    return f'<visual name="{name}">{SEEN}{tag}</visual>'
+    return f'<visual name="{name}">{GEOMETRY}{tag}</visual>'
 
 
-def test_a_user_s_visual_plugin_runs_for_each_visual_that_names_it(tmp_path: Path) -> None:
+def test_a_user_visual_plugin_runs_for_each_of_its_visuals(tmp_path: Path) -> None:
     (tmp_path / "mark.py").write_text(MARK)
     body = f'<link name="l">{BODY.format(1)}{visual("a", "libmark.so")}{visual("b", "libmark.so")}</link>'
-    sim = load(tmp_path, body, wires=Wires())
+    sim = load(tmp_path, body, node=FakeNode())
     sim.step()
 
     assert list(sim.lines) == ["m l a a", "m l b b"]
@@ -37,12 +37,12 @@ def test_a_user_s_visual_plugin_runs_for_each_visual_that_names_it(tmp_path: Pat
     assert sim.lines == {}
 
 
-def test_one_that_is_not_there_is_named_and_one_for_looks_alone_is_noted(tmp_path: Path) -> None:
-    known = visual("b", "libBlinkVisualPlugin.so")
-    model = visual("c", "libWindPlugin.so")
-    sim = load(tmp_path, f'<link name="l">{BODY.format(1)}{visual("a", "libx.so")}{known}{model}</link>')
+def test_missing_misplaced_and_cosmetic_visual_plugins_are_reported(tmp_path: Path) -> None:
+    cosmetic = visual("b", "libBlinkVisualPlugin.so")
+    misplaced = visual("c", "libWindPlugin.so")
+    sim = load(tmp_path, f'<link name="l">{BODY.format(1)}{visual("a", "libx.so")}{cosmetic}{misplaced}</link>')
 
-    assert [(found.severity, found.what) for found in sim.report.findings] == [
+    assert [(finding.severity, finding.what) for finding in sim.report.findings] == [
         (
             "warning",
             f"plugin 'p': no libx.so; Trundle runs Python plugins: looked for x.py in {tmp_path}; "

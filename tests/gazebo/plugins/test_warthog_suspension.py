@@ -1,10 +1,10 @@
-"""The Warthog's suspension, against the oscillator that a spring and a damper make of an inertia."""
+"""The Warthog's suspension against a damped harmonic oscillator."""
 
 import math
 from pathlib import Path
 
 import pytest
-from tests.gazebo.plugins.stage import BODY, load
+from tests.gazebo.plugins.plugin_world import BODY, load
 
 UNIT = (
     f'<link name="{{0}}">{BODY.format(1)}</link><joint name="{{0}}_diff_unit_joint" type="revolute">'
@@ -34,7 +34,7 @@ def test_units_swing_as_damped_oscillators(tmp_path: Path) -> None:
     assert sim.report.warnings == []
 
 
-def test_a_model_without_the_units_is_named(tmp_path: Path) -> None:
+def test_a_missing_suspension_joint_is_reported(tmp_path: Path) -> None:
     sim = load(tmp_path, BASE + UNIT.format("left") + PLUGIN.format(""))
 
     assert "no joint 'right_diff_unit_joint'" in " ".join(sim.report.warnings)

@@ -4,7 +4,7 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from tests.gazebo.plugins.ros_control.controlled import Robot, driven, standing
+from tests.gazebo.plugins.ros_control.controlled import Robot, driven, fixed_robot
 from tests.gazebo_server import PATIENCE_S, Gazebo, until
 
 from trundle.ros import Option, find_reconfigurable, read_options, set_options, to_nsec
@@ -130,7 +130,7 @@ def test_wheel_slip_follows_the_reconfigured_compliance(gazebo: Gazebo) -> None:
 def test_pid_gains_change_while_the_controller_runs(gazebo: Gazebo) -> None:
     pid = {"p": 300.0, "i": 0.0, "d": 60.0}
     controller = {"type": "effort_controllers/JointPositionController", "joint": "lift", "pid": pid}
-    robot = Robot(gazebo, standing(LIFT), {"lift": controller})
+    robot = Robot(gazebo, fixed_robot(LIFT), {"lift": controller})
     try:
         robot.spawn("lift")
         robot.command("lift", 0.5)

@@ -1,7 +1,7 @@
 """Finder of the plugin of a <plugin filename="…">.
 
-In this order: Trundle's own by Gazebo's file name; installed ones (entry points of the group
-"trundle.plugins", named by file name); a Python file of the user's: `librp2w.so` means `rp2w.py` beside the
+Searched in this order: Trundle's own by Gazebo's file name; installed ones (entry points of the group
+"trundle.plugins", named by file name); a user's Python file: `librp2w.so` means `rp2w.py` beside the
 model, else on TRUNDLE_PLUGIN_PATH, else on GAZEBO_PLUGIN_PATH.
 """
 
@@ -110,7 +110,7 @@ SENSOR_PLUGINS: dict[str, str] = {
 }
 """File name → "module:function" of sensor plugins, which publish a sensor's readings."""
 
-_OF_MODELS = {"librealsense_gazebo_plugin.so": "trundle.gazebo.plugins.realsense:find_attach"}
+_MODEL_SENSOR_PLUGINS = {"librealsense_gazebo_plugin.so": "trundle.gazebo.plugins.realsense:find_attach"}
 """File name → "module:function" of model plugins that publish the readings of the model's sensors."""
 
 _COSMETIC = frozenset(
@@ -149,16 +149,16 @@ def require_plugin(tag: PluginTag, environment: Mapping[str, str]) -> None:
     """Look for the plugin of a model, a visual or the world, and load nothing.
 
     Raises:
-        DescriptionError: as of `find_plugin`: not found, with the folders searched.
+        DescriptionError: not found, with the folders searched.
     """
     filename = _base_name(tag)
-    if filename not in BUILTIN and not _installed(filename):
+    if filename not in BUILTIN and not _entry_points(filename):
         _python_file(tag, environment)
 
 
 def find_user_file(tag: PluginTag, environment: Mapping[str, str]) -> Path | None:
     """Return the user's Python file that a plugin would run; None for Trundle's, installed and missing ones."""
-    if _base_name(tag) in BUILTIN or _installed(_base_name(tag)):
+    if _base_name(tag) in BUILTIN or _entry_points(_base_name(tag)):
         return None
     try:
         return _python_file(tag, environment)
@@ -167,15 +167,15 @@ def find_user_file(tag: PluginTag, environment: Mapping[str, str]) -> Path | Non
 
 
 def find_held_file(tag: PluginTag, environment: Mapping[str, str]) -> Path | None:
-    """Return the uploaded file of code that a plugin would run if a person agreed to that; None: there is none."""
-    if _base_name(tag) in BUILTIN or _installed(_base_name(tag)):
+    """Return the uploaded code file that a plugin would run once a user approves it; None: no such file."""
+    if _base_name(tag) in BUILTIN or _entry_points(_base_name(tag)):
         return None
     name = f"{python_file_name(_base_name(tag))}{HELD}"
     return next((file for folder in _folders(tag, environment) if (file := folder / name).is_file()), None)
 
 
 def is_cosmetic(tag: PluginTag) -> bool:
-    """True if a visual's plugin is one of Gazebo's that change only how it is drawn, and so is not run."""
+    """True for Gazebo's visual plugins that change only how a visual is drawn; Trundle does not run them."""
     return _base_name(tag) in _COSMETIC
 
 
@@ -190,11 +190,11 @@ def is_sensor_plugin(tag: PluginTag) -> bool:
 
 
 def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, TagParameters, PluginNames], None] | None":
-    """Function that publishes a sensor's readings as its plugin does; None: no such plugin."""
+    """Return the function that publishes a sensor's readings as its plugin does; None: no such plugin."""
     target = SENSOR_PLUGINS.get(_base_name(tag))
     if target is None:
         return None
-    publish = _imported(target)
+    publish = _import_object(target)
 
     def attach(sensor: Any, parameters: TagParameters, names: "PluginNames") -> None:
         publish(sensor, parameters, names)
@@ -205,9 +205,9 @@ def find_sensor_plugin(tag: PluginTag) -> "Callable[[Any, TagParameters, PluginN
 
 
 def find_model_sensor_plugin(tag: PluginTag, sensor: str) -> "Callable[[Any, TagParameters, PluginNames], None] | None":
-    """Function that publishes a sensor's readings as a plugin of its model does; None: the plugin does not."""
-    target = _OF_MODELS.get(_base_name(tag))
-    return None if target is None else _imported(target)(tag, sensor)
+    """Return the function by which a model's plugin publishes a sensor's readings; None: it does not publish them."""
+    target = _MODEL_SENSOR_PLUGINS.get(_base_name(tag))
+    return None if target is None else _import_object(target)(tag, sensor)
 
 
 def _base_name(tag: PluginTag) -> str:
@@ -217,14 +217,15 @@ def _base_name(tag: PluginTag) -> str:
 def _find(tag: PluginTag, environment: Mapping[str, str], kind: type[_Kind]) -> tuple[type[_Kind], str]:
     filename = _base_name(tag)
     if filename in BUILTIN:
-        return _of_kind(_imported(BUILTIN[filename]), kind, tag), f"Trundle's own {filename}"
-    for guest in _installed(filename):
-        return _of_kind(guest.load(), kind, tag), f"{guest.value} ({guest.dist.name if guest.dist else 'installed'})"
+        return _check_kind(_import_object(BUILTIN[filename]), kind, tag), f"Trundle's own {filename}"
+    for entry_point in _entry_points(filename):
+        package = entry_point.dist.name if entry_point.dist else "installed"
+        return _check_kind(entry_point.load(), kind, tag), f"{entry_point.value} ({package})"
     path = _python_file(tag, environment)
     return _load_file(path, kind), str(path)
 
 
-def _installed(filename: str) -> "EntryPoints":
+def _entry_points(filename: str) -> "EntryPoints":
     from importlib.metadata import entry_points  # slow to load, and most robots have only Trundle's own
 
     return entry_points(group=GROUP, name=filename)
@@ -240,35 +241,35 @@ def _python_file(tag: PluginTag, environment: Mapping[str, str]) -> Path:
             return path
     if filename in SENSOR_PLUGINS:
         raise _misplaced(tag, "sensor")
-    what = f"plugin {tag.name!r}: no {filename}; Trundle runs Python plugins"
+    missing = f"plugin {tag.name!r}: no {filename}; Trundle runs Python plugins"
     if "ros2_control" in filename:
         raise DescriptionError(
             tag.at,
             f"plugin {tag.name!r}: {filename} is ROS 2's; ROS 1's is libgazebo_ros_control.so, with <transmission>",
         )
-    looked = f"looked for {python_file_name(filename)} in {', '.join(map(str, folders))}"
-    raise DescriptionError(tag.at, f"{what}: {looked}{_compiled(tag, environment)}")
+    searched = f"looked for {python_file_name(filename)} in {', '.join(map(str, folders))}"
+    raise DescriptionError(tag.at, f"{missing}: {searched}{_compiled_hint(tag, environment)}")
 
 
-def _compiled(tag: PluginTag, environment: Mapping[str, str]) -> str:
+def _compiled_hint(tag: PluginTag, environment: Mapping[str, str]) -> str:
     from .compiled import compiled_plugin  # lazy: only for what is missing
 
     return compiled_plugin(_base_name(tag), Path(tag.at.file), environment)
 
 
-def _of_kind(found: type[Hooks], kind: type[_Kind], tag: PluginTag) -> type[_Kind]:
-    if not issubclass(found, kind):
-        raise _misplaced(tag, next(name for base, name in _OWNERS.items() if issubclass(found, base)))
-    return found
+def _check_kind(plugin_class: type[Hooks], kind: type[_Kind], tag: PluginTag) -> type[_Kind]:
+    if not issubclass(plugin_class, kind):
+        raise _misplaced(tag, next(name for base, name in _OWNERS.items() if issubclass(plugin_class, base)))
+    return plugin_class
 
 
 def _misplaced(tag: PluginTag, owner: str) -> DescriptionError:
-    what = f"plugin {tag.name!r} ({tag.filename}) is a {owner}'s; it belongs into a <{owner}>"
-    return DescriptionError(tag.at, what)
+    message = f"plugin {tag.name!r} ({tag.filename}) is a {owner}'s; it belongs into a <{owner}>"
+    return DescriptionError(tag.at, message)
 
 
 def python_file_name(filename: str) -> str:
-    """`librp2w.so` → `rp2w.py`, the file of a user's Python plugin in its place."""
+    """`librp2w.so` → `rp2w.py`, the file name of a user's Python plugin that replaces it."""
     stem = PurePosixPath(filename).stem
     if filename.endswith(".so"):
         stem = stem.removeprefix("lib")
@@ -282,7 +283,7 @@ def _folders(tag: PluginTag, environment: Mapping[str, str]) -> list[Path]:
     return folders
 
 
-def _imported(path: str) -> Any:
+def _import_object(path: str) -> Any:
     module, _, name = path.partition(":")
     return getattr(importlib.import_module(module), name)
 
@@ -298,18 +299,18 @@ def _load_file(path: Path, kind: type[_Kind]) -> type[_Kind]:
         spec.loader.exec_module(module)
     except Exception as error:
         del sys.modules[name]
-        raise DescriptionError(_culprit(path, error), f"plugin not loaded: {describe(error)}") from error
-    found = [
+        raise DescriptionError(_error_source(path, error), f"plugin not loaded: {describe(error)}") from error
+    classes = [
         value
         for value in vars(module).values()
         if isinstance(value, type) and issubclass(value, kind) and value.__module__ == name
     ]
-    if len(found) != 1:
-        names = ", ".join(repr(c.__name__) for c in found) or "none"
+    if len(classes) != 1:
+        names = ", ".join(repr(c.__name__) for c in classes) or "none"
         raise DescriptionError(
             Source(str(path)), f"a plugin file defines one subclass of {kind.__name__}; here: {names}"
         )
-    return found[0]
+    return classes[0]
 
 
 def describe(error: Exception) -> str:
@@ -317,8 +318,8 @@ def describe(error: Exception) -> str:
     return f"{type(error).__name__}: {error}"
 
 
-def _culprit(path: Path, error: Exception) -> Source:
-    """Deepest line of the user's own file in the traceback."""
+def _error_source(path: Path, error: Exception) -> Source:
+    """Deepest line of the user's file in the traceback."""
     if isinstance(error, SyntaxError):
         return Source(str(path), error.lineno)
     line: int | None = None

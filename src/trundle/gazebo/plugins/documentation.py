@@ -13,7 +13,7 @@ from .catalog import BUILTIN, SENSOR_PLUGINS
 _VALUE = r"[−-]?\d[\d.e/−-]*(?: [−-]?\d[\d.]*)*|[\w/]+"
 _PARAMETER = re.compile(rf"(?<![/\w])<(\w+)>(?:\s+\(({_VALUE})\)|\s+({_VALUE})(?=[,;)]|\.(?:\s|$)|\s[\[(]))?")
 """Element with its default: "<topic> scan," or "<topic> (scan)"."""
-_WORDS = frozenset({"required", "none", "and", "or"})
+_NOT_DEFAULTS = frozenset({"required", "none", "and", "or"})
 
 
 class PluginParameter(Struct, frozen=True):
@@ -21,11 +21,11 @@ class PluginParameter(Struct, frozen=True):
 
     name: str
     default: str
-    """As documented; empty: none is."""
+    """As documented; empty: no default."""
 
 
 class PluginDocumentation(Struct, frozen=True):
-    """Docstring of a plugin, taken apart."""
+    """Parsed docstring of a plugin."""
 
     about: str
     """First sentence."""
@@ -34,18 +34,18 @@ class PluginDocumentation(Struct, frozen=True):
 
 @cache
 def plugin_documentation(filename: str) -> PluginDocumentation | None:
-    """Return the documentation of a built-in plugin by its file name; None: it is not built in, or not documented."""
+    """Return the documentation of a built-in plugin by its file name; None: not built in, or not documented."""
     target = BUILTIN.get(filename) or SENSOR_PLUGINS.get(filename)
     text = None if target is None else _docstring(*target.split(":"))
     if text is None:
         return None
     first = " ".join(text.split("\n\n")[0].split())
     about = re.sub(r"<(\w+)>", r"\1", first.split(". ")[0].rstrip("."))
-    found: dict[str, str] = {}
+    defaults: dict[str, str] = {}
     for match in _PARAMETER.finditer(text):
         default = (match[2] or match[3] or "").replace("−", "-")
-        found.setdefault(match[1], "" if default in _WORDS else default)
-    return PluginDocumentation(about, tuple(PluginParameter(name, default) for name, default in found.items()))
+        defaults.setdefault(match[1], "" if default in _NOT_DEFAULTS else default)
+    return PluginDocumentation(about, tuple(PluginParameter(name, default) for name, default in defaults.items()))
 
 
 def _docstring(module: str, name: str) -> str | None:
@@ -54,6 +54,10 @@ def _docstring(module: str, name: str) -> str | None:
     if spec is None or spec.origin is None:
         return None
     tree = ast.parse(Path(spec.origin).read_text(encoding="utf-8"))
-    named = (each for each in tree.body if isinstance(each, ast.ClassDef | ast.FunctionDef) and each.name == name)
-    found = next(named, None)
-    return (None if found is None else ast.get_docstring(found)) or ast.get_docstring(tree)
+    definitions = (
+        definition
+        for definition in tree.body
+        if isinstance(definition, ast.ClassDef | ast.FunctionDef) and definition.name == name
+    )
+    definition = next(definitions, None)
+    return (None if definition is None else ast.get_docstring(definition)) or ast.get_docstring(tree)

@@ -24,7 +24,7 @@ class LinkAttacher(WorldPlugin):
 
     def __init__(self, sim: Simulation, node: Node, tag: PluginTag) -> None:
         self._sim, self._node, self._at = sim, node, tag.at
-        self._known: set[str] = set()
+        self._attached: set[str] = set()
         node.advertise_service(f"{_NODE}/attach", _KIND, self._attach)
         node.advertise_service(f"{_NODE}/detach", _KIND, self._detach)
         tag.node.report_unread(sim.report)
@@ -45,16 +45,16 @@ class LinkAttacher(WorldPlugin):
         except TrundleError as error:
             self._node.log.error(f"attach: {error}")
             return {"ok": False}
-        self._known.add(name)
+        self._attached.add(name)
         self._node.log.info(f"attached {'::'.join(parent)} to {'::'.join(child)}")
         return {"ok": True}
 
     def _detach(self, request: Message) -> dict[str, object]:
         parent, child = _requested_links(request)
         name = _joint_name(parent, child)
-        if name not in self._known:
-            both = f"{'::'.join(parent)} to {'::'.join(child)}"
-            self._node.log.error(f"detach: nothing was attached from {both}; the order counts")
+        if name not in self._attached:
+            links = f"{'::'.join(parent)} to {'::'.join(child)}"
+            self._node.log.error(f"detach: nothing was attached from {links}; the order counts")
             return {"ok": False}
         if any(joint.name == name for joint in self._sim.joints):
             self._sim.detach(name)
@@ -72,7 +72,7 @@ class LinkAttacher(WorldPlugin):
 
 
 def _requested_links(request: Message) -> tuple[tuple[str, str], tuple[str, str]]:
-    """Both as (model, link); a link's name may have its model's as prefix."""
+    """Return both links as (model, link); a link's name may have its model's name as prefix."""
     one, other = str(request.model_name_1), str(request.model_name_2)
     links = str(request.link_name_1).removeprefix(f"{one}::"), str(request.link_name_2).removeprefix(f"{other}::")
     return (one, links[0]), (other, links[1])

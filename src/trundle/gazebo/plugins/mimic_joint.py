@@ -47,7 +47,7 @@ class MimicJoint(Plugin):
         del node
         return cls(sim, model, tag)
 
-    def is_wanted(self) -> bool:
+    def is_active(self) -> bool:
         """Return False where the engine couples the joints."""
         return not self._is_coupled
 
@@ -59,7 +59,7 @@ class MimicJoint(Plugin):
             self._follower.command_velocity(speed, max_effort=self._max_effort)
 
     def step_action(self) -> tuple[MimicAction, float] | None:
-        """Return what sets the follower's velocity at every step; None beside a timed effort, which that would end."""
+        """Return the action that sets the follower's velocity at every step; None while a timed effort acts on it."""
         has_timed_effort = (self._follower, 0) in self._sim.loads.expiries.efforts
         if not self._leader.is_driven or has_timed_effort:
             return None

@@ -53,7 +53,7 @@ class Hooks:
     def after_step(self, snapshot: "Snapshot") -> None:
         """Read the state and publish; called when due, after the physics step."""
 
-    def is_wanted(self) -> bool:
+    def is_active(self) -> bool:
         """True if the two hooks have work to do; else they are not called and cost nothing."""
         return True
 
@@ -70,7 +70,7 @@ class Plugin(Hooks):
 
         Args:
             sim: the running simulation.
-            model: the one that names the plugin.
+            model: model with the <plugin> element.
             node: advertises and subscribes; callbacks run between steps. None under `--no-ros`.
             tag: the <plugin> element; `TagParameters(tag.node, sim.report)` reads its parameters.
         """

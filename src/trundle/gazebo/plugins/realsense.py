@@ -1,4 +1,4 @@
-"""librealsense_gazebo_plugin.so: colour, infrared and depth of a RealSense, on the topics of its driver."""
+"""librealsense_gazebo_plugin.so: color, infrared and depth of a RealSense, on the topics of its driver."""
 
 import math
 from collections.abc import Callable
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 
 _STREAMS = {"color": "color", "ired1": "infrared1", "ired2": "infrared2", "depth": "depth"}
 """Suffix of a sensor's name → prefix of its parameters."""
-_UNUSED = ("depthUpdateRate", "colorUpdateRate", "infraredUpdateRate")
+_IGNORED = ("depthUpdateRate", "colorUpdateRate", "infraredUpdateRate")
 _PARAMETERS = ("TopicName", "CameraInfoTopicName", "OpticalframeName")
-_OF_POINTS = ("rangeMinDepth", "rangeMaxDepth", "pointCloud", "pointCloudTopicName", "pointCloudCutoff",
+_POINT_PARAMETERS = ("rangeMinDepth", "rangeMaxDepth", "pointCloud", "pointCloudTopicName", "pointCloudCutoff",
               "pointCloudCutoffMax")  # fmt: skip
-_FARTHEST_MM = 65535
+_MAX_DEPTH_MM = 65535
 
 
 class RealSense(Plugin):
@@ -37,30 +37,30 @@ class RealSense(Plugin):
     name, and <…OpticalframeName>; <rangeMinDepth> 0 and <rangeMaxDepth> (none) [m] of the depth image, 16UC1 in
     millimetres, 0 elsewhere; <pointCloud> false, <pointCloudTopicName>, <pointCloudCutoff> 0 and <pointCloudCutoffMax>
     5 [m]. As in the original, camera_info is beside each image, and <…CameraInfoTopicName> and <…UpdateRate> are
-    ignored. Points have the depth camera's colours.
+    ignored. Points have the depth camera's colors.
     """
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
-        """Report missing sensors; those there are publish by `attach`."""
+        """Report missing sensors; `attach` publishes the others."""
         del node
         parameters = TagParameters(tag.node, sim.report)
-        there = {sensor.name for link in model.model.links for sensor in link.sensors}
-        wanted = [f"{parameters.text('prefix', '')}{end}" for end in _STREAMS]
-        missing = [name for name in wanted if name not in there]
+        sensors = {sensor.name for link in model.model.links for sensor in link.sensors}
+        expected = [f"{parameters.text('prefix', '')}{suffix}" for suffix in _STREAMS]
+        missing = [name for name in expected if name not in sensors]
         if missing:
-            names = ", ".join(map(repr, sorted(there))) or "none"
+            names = ", ".join(map(repr, sorted(sensors))) or "none"
             parameters.warn(f"plugin {tag.name!r}: no sensor {missing[0]!r}; sensors here: {names}")
-        names = [f"{start}{what}" for start in _STREAMS.values() for what in _PARAMETERS]
-        parameters.ignore(*_UNUSED, *_OF_POINTS, *names)
+        names = [f"{prefix}{parameter}" for prefix in _STREAMS.values() for parameter in _PARAMETERS]
+        parameters.ignore(*_IGNORED, *_POINT_PARAMETERS, *names)
         parameters.report_unread()
         return cls()
 
 
 def find_attach(tag: PluginTag, sensor: str) -> "Callable[[CameraSensor, TagParameters, PluginNames], None] | None":
-    """Return `attach` if the name is that of one of the RealSense's sensors, else None."""
-    ends = {f"{tag.node.string('prefix')}{end}" for end in _STREAMS}
-    return attach if sensor in ends else None
+    """Return `attach` if the sensor is one of the RealSense's, else None."""
+    names = {f"{tag.node.string('prefix')}{suffix}" for suffix in _STREAMS}
+    return attach if sensor in names else None
 
 
 def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) -> None:
@@ -70,7 +70,7 @@ def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) 
     if stream == "depth":
         if not isinstance(sensor, DepthCameraSensor):
             raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a depth sensor is needed")
-        image = _depth_maker(parameters)
+        image = _depth_encoder(parameters)
     topic, frame = (
         _topic(parameters, parameters.text(f"{stream}TopicName", "")),
         parameters.text(f"{stream}OpticalframeName", ""),
@@ -78,13 +78,13 @@ def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) 
     images = SensorPublisher(names.advertise("sensor_msgs/Image", topic), frame)
     info_topic = f"{topic.rpartition('/')[0]}/camera_info"
     infos = SensorPublisher(names.advertise("sensor_msgs/CameraInfo", info_topic), frame)
-    outlets, calibration = [images, infos], _calibration(sensor)
+    publishers, calibration = [images, infos], _calibration(sensor)
 
     def publish(reading: CameraReading) -> None:
         images.publish(reading, lambda: _as_bytes(image(reading)))
         infos.publish(reading, lambda: calibration)
 
-    sensor.listen(publish, enabled=lambda: any(outlet.has_subscribers() for outlet in outlets))
+    sensor.listen(publish, enabled=lambda: any(publisher.has_subscribers() for publisher in publishers))
     if stream == "depth" and parameters.flag("pointCloud", default=False):
         _publish_points(sensor, names, parameters, frame)
 
@@ -105,19 +105,19 @@ def _publish_points(sensor: CameraSensor, names: PluginNames, parameters: TagPar
     points = SensorPublisher(names.advertise("sensor_msgs/PointCloud2", topic), frame)
     cloud = point_cloud_encoder(sensor)
 
-    def cut(reading: CameraReading) -> CameraReading:
+    def clip(reading: CameraReading) -> CameraReading:
         depth = _depth(reading)
         with np.errstate(invalid="ignore"):
-            kept = np.where((depth > near) & (depth < far), depth, np.float32(np.nan))
-        return CameraReading(time_ns=reading.time_ns, rgb=reading.rgb, depth=kept)
+            clipped = np.where((depth > near) & (depth < far), depth, np.float32(np.nan))
+        return CameraReading(time_ns=reading.time_ns, rgb=reading.rgb, depth=clipped)
 
     def publish(reading: CameraReading) -> None:
-        points.publish(reading, lambda: cloud(cut(reading)))
+        points.publish(reading, lambda: cloud(clip(reading)))
 
     sensor.listen(publish, enabled=points.has_subscribers)
 
 
-def _depth_maker(parameters: TagParameters) -> Callable[[CameraReading], dict[str, object]]:
+def _depth_encoder(parameters: TagParameters) -> Callable[[CameraReading], dict[str, object]]:
     near = parameters.number("rangeMinDepth", 0.0)
     far = parameters.number("rangeMaxDepth", math.inf)
 
@@ -125,8 +125,8 @@ def _depth_maker(parameters: TagParameters) -> Callable[[CameraReading], dict[st
         depth = _depth(reading)
         millimetres = depth * 1000.0
         with np.errstate(invalid="ignore"):
-            is_seen = (depth >= near) & (depth <= far) & (millimetres <= _FARTHEST_MM)
-        counts = np.where(is_seen, millimetres, 0.0).astype("<u2")
+            in_range = (depth >= near) & (depth <= far) & (millimetres <= _MAX_DEPTH_MM)
+        counts = np.where(in_range, millimetres, 0.0).astype("<u2")
         height, width = counts.shape
         data = np.ascontiguousarray(counts).reshape(-1).view(np.uint8)
         return {"height": height, "width": width, "encoding": "16UC1", "step": 2 * width, "data": data}

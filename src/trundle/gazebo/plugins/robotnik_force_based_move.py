@@ -17,15 +17,15 @@ class RobotnikForceBasedMove(ForceBasedMove):
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
         super().__init__(sim, model, node, parameters)
         self._watchdog_s = parameters.number("commandWatchdog", 2.0)
-        self._held = model.pose
+        self._held_pose = model.pose
 
     def before_step(self, sim: Simulation) -> None:
         """Apply the force and torque, or hold the pose."""
         if self._expired(sim.time_ns):
             self.model.set_twist(Twist())
-            self.model.set_pose(self._held)
+            self.model.set_pose(self._held_pose)
             return
-        self._held = self.model.pose
+        self._held_pose = self.model.pose
         super().before_step(sim)
 
     def after_step(self, snapshot: Snapshot) -> None:
@@ -36,7 +36,7 @@ class RobotnikForceBasedMove(ForceBasedMove):
     def reset(self) -> None:
         """Hold the model's current pose."""
         super().reset()
-        self._held = self.model.pose
+        self._held_pose = self.model.pose
 
     def _expired(self, time_ns: int) -> bool:
         return (time_ns - self.command.stamp_ns) / 1e9 > self._watchdog_s

@@ -12,7 +12,7 @@ import yaml
 from trundle.base.diagnostics import DescriptionError, Diagnostics
 from trundle.base.supervisor import Job, ProcessCommand, ProcessJob, ProcessTree, RespawnPolicy, TaskJob, Terminal
 from trundle.base.yaml_loader import load_yaml
-from trundle.gazebo.missing_nodes import find_launch_node, is_here, report_missing_node
+from trundle.gazebo.missing_nodes import find_launch_node, is_local, report_missing_node
 from trundle.gazebo.nodes import (
     KEYBOARDS,
     ROSCPP,
@@ -87,7 +87,7 @@ class NodeStarter:
             DescriptionError: a required node that nothing can run.
         """
         assert node.address is not None, "a node without a machine is refused before"
-        if not is_here(node.address, self.env):
+        if not is_local(node.address, self.env):
             reason = f"{node.address} is another machine, and nothing is started there; run trundle launch on it, too"
             return self._missing(node, f"{reason}, with ROS_MASTER_URI={self.graph.master_uri}")
         env = {**self.env, "ROS_NAMESPACE": node.namespace, "ROS_MASTER_URI": self.graph.master_uri, **dict(node.env)}

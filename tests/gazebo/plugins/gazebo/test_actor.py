@@ -19,11 +19,11 @@ def load(folder: Path, more: str = "", models: str = "") -> Simulation:
     file = folder / "w.sdf"
     file.write_text(ACTOR.format(more=more, models=models))
     sim = trundle.load(str(file))
-    load_plugins(sim, None, {}, say=lambda _: None)
+    load_plugins(sim, None, {}, log=lambda _: None)
     return sim
 
 
-def test_it_walks_to_its_target_at_its_pace_and_on_to_others(tmp_path: Path) -> None:
+def test_an_actor_walks_to_its_target_at_its_speed_and_then_to_others(tmp_path: Path) -> None:
     sim = load(tmp_path)
     walker = sim["walker"]
     sim.run(1.0)
@@ -42,32 +42,32 @@ def test_it_walks_to_its_target_at_its_pace_and_on_to_others(tmp_path: Path) -> 
     assert targets > 0
 
 
-def test_it_keeps_away_from_models_but_those_it_ignores(tmp_path: Path) -> None:
+def test_an_actor_avoids_models_except_ignored_ones(tmp_path: Path) -> None:
     post = '<model name="post"><static>1</static><pose>0.5 -1 1.2138 0 0 0</pose><link name="l"/></model>'
-    ends = [
+    sims = [
         load(tmp_path, more, models=post) for more in ("", "<ignore_obstacles><model>post</model></ignore_obstacles>")
     ]
     nearest = [9.0, 9.0]
     for _ in range(20):
-        for i, sim in enumerate(ends):
+        for i, sim in enumerate(sims):
             sim.run(0.1)
             nearest[i] = min(nearest[i], math.dist(sim["walker"].pose.position, (0.5, -1, 1.2138)))
 
-    shy, bold = nearest
-    assert bold == pytest.approx(0.5, abs=5e-3), "it passes beside it"
-    assert shy > 0.9, "which is where it turns away from it"
+    avoiding, ignoring = nearest
+    assert ignoring == pytest.approx(0.5, abs=5e-3), "an ignored model is passed closely"
+    assert avoiding > 0.9, "the actor turns away from the model"
 
 
-def test_its_bones_keep_step_with_what_it_covers(tmp_path: Path) -> None:
+def test_the_animation_advances_with_the_walked_distance(tmp_path: Path) -> None:
     """2 s of the animation per metre; a reset restarts it."""
     sim = load(tmp_path, more="<animation_factor>2</animation_factor>")
     start = sim["walker"].pose.position
 
     sim.run(1.0)
-    moment = sim.animation_state("walker")
+    state = sim.animation_state("walker")
 
-    assert moment.animation == "walking"
-    assert not moment.placed
-    assert moment.time_s == pytest.approx(2.0 * math.dist(start, sim["walker"].pose.position), rel=1e-3)
+    assert state.animation == "walking"
+    assert not state.placed
+    assert state.time_s == pytest.approx(2.0 * math.dist(start, sim["walker"].pose.position), rel=1e-3)
     sim.reset()
     assert sim.animation_state("walker").time_s == 0.0

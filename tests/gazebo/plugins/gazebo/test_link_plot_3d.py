@@ -1,10 +1,10 @@
-"""The way of a link as a line."""
+"""The path of a link as a line."""
 
 import math
 from pathlib import Path
 
 import pytest
-from tests.gazebo.plugins.stage import BODY, Wires, load
+from tests.gazebo.plugins.plugin_world import BODY, FakeNode, load
 
 from trundle.page.simulated_world.lines import plugin_lines
 from trundle.spatial import Twist
@@ -14,9 +14,9 @@ PLOT = """<link name="l">{body}</link><plugin name="p" filename="libLinkPlot3DPl
 <plot><link>l</link></plot><plot><link>elsewhere</link></plot></plugin>"""
 
 
-def test_a_pen_beside_a_turning_link_draws_a_circle(tmp_path: Path) -> None:
-    wires = Wires()
-    sim = load(tmp_path, PLOT.format(body=BODY.format(1)), wires=wires)
+def test_a_point_of_a_rotating_link_draws_a_circle(tmp_path: Path) -> None:
+    node = FakeNode()
+    sim = load(tmp_path, PLOT.format(body=BODY.format(1)), node=node)
     sim["m"].set_twist(Twist(angular=(0.0, 0.0, 1.0)))
     sim.run(3.0)
 
@@ -27,7 +27,7 @@ def test_a_pen_beside_a_turning_link_draws_a_circle(tmp_path: Path) -> None:
     gaps = [math.dist(a, b) for a, b in zip(pen.points, pen.points[1:], strict=False)]
     assert all(0.05 < gap < 0.06 for gap in gaps)
     assert len(pen.points) == pytest.approx(3.0 * 0.5 / 0.055, rel=0.1)
-    marker = wires.said["/marker"][-1]
+    marker = node.published["/marker"][-1]
     assert (marker.ns, marker.type, len(marker.points)) == ("plot_l", 4, len(pen.points))
     assert [warning.split(": ", 2)[2] for warning in sim.report.warnings] == [
         "<plot>: model 'm' has no link 'elsewhere'; there are: 'l'; it is left out"

@@ -1,4 +1,4 @@
-"""Gazebo's own plugins, each moving a small model as it would there."""
+"""Gazebo's own plugins, each on a small model."""
 
 import math
 from pathlib import Path
@@ -10,6 +10,8 @@ from scipy.integrate import solve_ivp
 import trundle
 from trundle.gazebo.model_plugins import load_plugins
 from trundle.gazebo.plugins.gazebo.bounding_box import bounding_box
+from trundle.gazebo.plugins.gazebo.diff_drive import DiffDrive
+from trundle.gazebo.plugins.gazebo.skid_steer_drive import SkidSteerDrive
 from trundle.robots.model import Box, Cylinder, Link
 from trundle.sim.simulation import Simulation
 from trundle.spatial import Twist, Vector3
@@ -29,21 +31,21 @@ def load(folder: Path, body: str, *, gravity: str = "0 0 -9.8", ground: bool = F
         f'<model name="m">{body}</model></world></sdf>'
     )
     sim = trundle.load(str(file))
-    load_plugins(sim, None, {}, say=lambda _: None)
+    load_plugins(sim, None, {}, log=lambda _: None)
     assert not [finding for finding in sim.report.warnings if "plugin" in finding]
     return sim
 
 
-def test_what_displaces_its_own_weight_of_water_hangs_still(tmp_path: Path) -> None:
-    """A 0.1 m cube displaces 0.9991 kg; a second one given twice that volume rises with g."""
+def test_a_neutrally_buoyant_body_stays_still(tmp_path: Path) -> None:
+    """A 0.1 m cube displaces 0.9991 kg; a second cube with twice that volume rises with g."""
     cube = '<collision name="c"><geometry><box><size>0.1 0.1 0.1</size></box></geometry></collision>'
     links = "".join(
         f'<link name="{name}"><pose>0 {y} 0 0 0 0</pose>{BODY.format(0.9991026)}{cube}</link>'
         for y, name in enumerate(("hangs", "rises"))
     )
-    given = '<link name="rises"><center_of_volume>0 0 0</center_of_volume><volume>0.002</volume></link>'
+    declared = '<link name="rises"><center_of_volume>0 0 0</center_of_volume><volume>0.002</volume></link>'
 
-    sim = load(tmp_path, f'{links}<plugin name="p" filename="libBuoyancyPlugin.so">{given}</plugin>')
+    sim = load(tmp_path, f'{links}<plugin name="p" filename="libBuoyancyPlugin.so">{declared}</plugin>')
     sim.run(1.0)
 
     assert sim["m"].link("hangs").pose.position[2] == pytest.approx(0.0, abs=1e-6)
@@ -94,7 +96,7 @@ def test_a_body_rises_and_rights_itself_in_any_fluid(tmp_path: Path, seed: int) 
     assert body.twist.angular[1] == pytest.approx(truth[1], rel=0.01, abs=0.01)
 
 
-def test_a_model_starts_with_the_velocity_it_is_given(tmp_path: Path) -> None:
+def test_a_model_starts_with_its_initial_velocity(tmp_path: Path) -> None:
     motion = "<linear>1 0 0</linear><angular>0 0 2</angular>"
     plugin = f'<plugin name="p" filename="libInitialVelocityPlugin.so">{motion}</plugin>'
 
@@ -105,7 +107,7 @@ def test_a_model_starts_with_the_velocity_it_is_given(tmp_path: Path) -> None:
     assert sim["m"].pose.rpy[2] == pytest.approx(2.0, abs=2e-3)
 
 
-def test_a_start_with_a_spin_moves_every_link_at_its_own_origin_as_written(tmp_path: Path) -> None:
+def test_initial_velocity_applies_to_each_link_at_its_origin(tmp_path: Path) -> None:
     motion = "<linear>1 0 0</linear><angular>0 0 2</angular>"
     plugin = f'<plugin name="p" filename="libInitialVelocityPlugin.so">{motion}</plugin>'
     links = f'<link name="a">{BODY.format(1)}</link><link name="b"><pose>0 3 0 0 0 0.5</pose>{BODY.format(2)}</link>'
@@ -125,7 +127,7 @@ def test_a_start_with_a_spin_moves_every_link_at_its_own_origin_as_written(tmp_p
         (0.005, 0.1, 0.0, 0.0),
     ],
 )
-def test_a_wing_lifts_by_its_angle_and_the_square_of_its_speed(tmp_path: Path, speed, alpha0, lift, drag) -> None:
+def test_lift_grows_with_the_angle_of_attack_and_the_squared_speed(tmp_path: Path, speed, alpha0, lift, drag) -> None:
     """Half ρ v² times area, cla·α upwards and cda·α backwards."""
     plugin = f"""<plugin name="p" filename="libLiftDragPlugin.so"><link_name>a</link_name><a0>{alpha0}</a0><cla>4</cla>
     <cda>0.01</cda><area>1</area></plugin>"""
@@ -147,7 +149,7 @@ def degrees(angle: float) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize(
-    ("more", "way", "force"),
+    ("parameters", "direction", "force"),
     [
         # Sinking at 30 degrees: beyond a stall at 0.3 rad, lift 4 · 0.3 − (0.5236 − 0.3), drag 0.1 · 0.3 + 0.2236.
         (
@@ -159,11 +161,11 @@ def degrees(angle: float) -> tuple[float, float]:
                 0.9764 * degrees(30)[0] + 0.2536 * degrees(30)[1],
             ),
         ),
-        # Climbing as steeply, it is pushed down.
+        # Climbing at 30 degrees, the wing is pushed down.
         ("<cda>0</cda>", (degrees(30)[0], 0.0, degrees(30)[1]), (2.0944 * 0.5, 0.0, -2.0944 * degrees(30)[0])),
-        # Half of it from the side: half the pressure, and half of that for the sweep.
+        # Flow at 45 degrees from the side: half the pressure, and a sweep factor of one half.
         ("<a0>0.1</a0><cda>0</cda>", (*degrees(45), 0.0), (0.0, 0.0, 0.4 * 0.5 * 0.5)),
-        # Backwards, α is none but a0.
+        # Backwards, α is a0.
         ("<a0>0.1</a0><cda>0</cda>", (-1.0, 0.0, 0.0), (0.0, 0.0, -0.4)),
         # A flap that is down by 0.2 rad.
         (
@@ -172,30 +174,34 @@ def degrees(angle: float) -> tuple[float, float]:
             (1.0, 0.0, 0.0),
             (0.0, 0.0, -0.4),
         ),
-        # A rod that is blown on from its left side, aslant.
+        # A rod in oblique flow from its left.
         (
             "<cda>0</cda><radial_symmetry>true</radial_symmetry>",
             (degrees(30)[0], degrees(30)[1], 0.0),
             (2.0944 * 0.5, -2.0944 * degrees(30)[0], 0.0),
         ),
     ],
-    ids=["stalled", "climbing", "swept", "backwards", "flap", "round"],
+    ids=["stalled", "climbing", "swept", "backwards", "flap", "radial_symmetry"],
 )
-def test_a_wing_in_every_wind(tmp_path: Path, more: str, way: Vector3, force: Vector3) -> None:
+def test_forces_on_a_wing_for_flow_from_all_directions(
+    tmp_path: Path, parameters: str, direction: Vector3, force: Vector3
+) -> None:
     """Forces over the pressure of air, in the world; area 1 m², cla 4."""
     flap = (
         f'<link name="flap">{BODY.format(0.001)}</link><joint name="flap" type="revolute"><parent>a</parent>'
         "<child>flap</child><axis><xyz>0 1 0</xyz></axis></joint>"
     )
-    plugin = f'<plugin name="p" filename="libLiftDragPlugin.so"><link_name>a</link_name><cla>4</cla>{more}</plugin>'
+    plugin = (
+        f'<plugin name="p" filename="libLiftDragPlugin.so"><link_name>a</link_name><cla>4</cla>{parameters}</plugin>'
+    )
     sim = load(tmp_path, f'<link name="a">{BODY.format(1e6)}</link>{flap}{plugin}', gravity="0 0 0")
-    x, y, z = (10.0 * each for each in way)
+    x, y, z = (10.0 * component for component in direction)
     sim["m"].set_twist(Twist((x, y, z)))
     sim["m"].joint("flap").set_position(0.2)
     sim.run(0.01)
 
-    there = sim["m"].link("a").twist.linear
-    measured = [(after - before) * 1e6 / 0.01 / PRESSURE for after, before in zip(there, (x, y, z), strict=True)]
+    velocity = sim["m"].link("a").twist.linear
+    measured = [(after - before) * 1e6 / 0.01 / PRESSURE for after, before in zip(velocity, (x, y, z), strict=True)]
     assert measured == pytest.approx(force, rel=2e-3, abs=2e-3)
 
 
@@ -216,14 +222,13 @@ def wheels(names: tuple[tuple[str, float, float], ...]) -> str:
     return "".join(WHEEL.format(name=name, x=x, y=y) for name, x, y in names)
 
 
-def command(sim: Simulation, speed: float, turning: float) -> None:
-    """Do what the topic's callback does."""
-    hooks = sim._schedule.enabled(sim.steps)
-    (plugin,) = (hook.before.__self__ for hook in hooks if hook.before is not None)
-    plugin._command.speed, plugin._command.yaw_rate = speed, turning
+def command(sim: Simulation, speed: float, yaw_rate: float) -> None:
+    """Set the command as the topic's callback does."""
+    (plugin,) = (hook for hook in sim.hooks if isinstance(hook, DiffDrive | SkidSteerDrive))
+    plugin._command.speed, plugin._command.yaw_rate = speed, yaw_rate
 
 
-def test_diff_drive_turns_against_ross_sense_as_in_gazebo(tmp_path: Path) -> None:
+def test_diff_drive_turns_opposite_to_ros_as_in_gazebo(tmp_path: Path) -> None:
     base = f'<link name="base"><pose>0 0 0.1 0 0 0</pose>{BODY.format(5)}'
     base += '<collision name="ball"><pose>-0.2 0 -0.05 0 0 0</pose>'
     base += "<geometry><sphere><radius>0.05</radius></sphere></geometry><surface><friction><ode><mu>0</mu><mu2>0</mu2>"
@@ -255,7 +260,7 @@ def test_skid_steer_drives_all_four_wheels(tmp_path: Path) -> None:
     assert sim["m"].link("base").twist.angular[2] > 0.1
 
 
-def test_a_bounding_box_goes_round_all_collisions_turned_as_they_are() -> None:
+def test_a_bounding_box_contains_all_rotated_collisions() -> None:
     from trundle.base.diagnostics import Source
     from trundle.robots.model import Collision
     from trundle.spatial import Pose

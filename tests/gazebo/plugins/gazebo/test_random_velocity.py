@@ -4,12 +4,12 @@ import math
 from pathlib import Path
 
 import pytest
-from tests.gazebo.plugins.stage import BODY, load
+from tests.gazebo.plugins.plugin_world import BODY, load
 
 PLUGIN = '<link name="l">{}</link><plugin name="p" filename="libRandomVelocityPlugin.so"><link>l</link>{}</plugin>'
 
 
-def test_it_keeps_one_velocity_for_a_period_and_draws_the_same_after_a_reset(tmp_path: Path) -> None:
+def test_a_velocity_holds_for_its_period_and_repeats_after_a_reset(tmp_path: Path) -> None:
     parameters = "<initial_velocity>0.5 0 0</initial_velocity><velocity_factor>2</velocity_factor>"
     parameters += "<update_period>0.5</update_period><min_z>0</min_z><max_z>0.1</max_z>"
     sim = load(tmp_path, PLUGIN.format(BODY.format(1), parameters))
@@ -32,7 +32,7 @@ def test_it_keeps_one_velocity_for_a_period_and_draws_the_same_after_a_reset(tmp
     assert any(math.hypot(x, y) > 0.5 for x, y, _ in runs[0])
 
 
-def test_a_link_that_hangs_from_something_is_left_alone_aloud(tmp_path: Path) -> None:
+def test_a_link_with_a_parent_joint_is_not_moved_but_reported(tmp_path: Path) -> None:
     fixed = '<joint name="j" type="fixed"><parent>world</parent><child>l</child></joint>'
     sim = load(tmp_path, PLUGIN.format(BODY.format(1), "") + fixed)
     sim.run(0.1)

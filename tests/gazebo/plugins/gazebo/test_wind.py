@@ -10,12 +10,12 @@ from trundle.gazebo.model_plugins import load_plugins, load_world_plugins
 from trundle.sim.simulation import Simulation
 
 BODY = "<inertial><mass>{}</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
-AT_ONCE = """<horizontal><magnitude><time_for_rise>0</time_for_rise>{}</magnitude><direction>
+NO_LAG = """<horizontal><magnitude><time_for_rise>0</time_for_rise>{}</magnitude><direction>
 <time_for_rise>0</time_for_rise></direction></horizontal><vertical><time_for_rise>0</time_for_rise></vertical>"""
 
 
-def blow(folder: Path, plugin: str, *, wind: str = "6 8 1", filename: str = "libWindPlugin.so") -> Simulation:
-    """A light and a heavy body with <enable_wind>, one of them in a nested model, and a body without."""
+def load_wind(folder: Path, plugin: str, *, wind: str = "6 8 1", filename: str = "libWindPlugin.so") -> Simulation:
+    """Return a world with light, heavy and nested bodies with <enable_wind>, and bodies without."""
     file = folder / "w.sdf"
     windy = "<enable_wind>1</enable_wind>"
     file.write_text(
@@ -28,31 +28,31 @@ def blow(folder: Path, plugin: str, *, wind: str = "6 8 1", filename: str = "lib
         f'<plugin name="p" filename="{filename}">{plugin}</plugin></world></sdf>'
     )
     sim = trundle.load(str(file))
-    load_plugins(sim, None, {}, say=lambda _: None)
-    load_world_plugins(sim, None, {}, say=lambda _: None)
+    load_plugins(sim, None, {}, log=lambda _: None)
+    load_world_plugins(sim, None, {}, log=lambda _: None)
     return sim
 
 
-def speed(sim: Simulation, model: str, link: str = "l") -> tuple[float, float, float]:
+def velocity(sim: Simulation, model: str, link: str = "l") -> tuple[float, float, float]:
     return sim[model].link(link).twist.linear
 
 
-def test_a_body_in_steady_wind_catches_up_with_it_whatever_its_mass(tmp_path: Path) -> None:
+def test_a_body_of_any_mass_approaches_the_wind_speed(tmp_path: Path) -> None:
     factor = "<force_approximation_scaling_factor>0.5</force_approximation_scaling_factor>"
-    sim = blow(tmp_path, factor + AT_ONCE.format(""))
+    sim = load_wind(tmp_path, factor + NO_LAG.format(""))
     sim.run(2.0)
 
     expected = [w * (1 - math.exp(-0.5 * 2.0)) for w in (6, 8, 1)]
     for model, link in (("light", "l"), ("heavy", "l"), ("outer", "inner::l")):
-        assert speed(sim, model, link) == pytest.approx(expected, rel=1e-3)
-    assert speed(sim, "calm") == speed(sim, "outer") == (0.0, 0.0, 0.0)
+        assert velocity(sim, model, link) == pytest.approx(expected, rel=1e-3)
+    assert velocity(sim, "calm") == velocity(sim, "outer") == (0.0, 0.0, 0.0)
     assert not sim.report.warnings
 
 
-def test_wind_rises_with_a_lag_and_after_a_reset_anew(tmp_path: Path) -> None:
-    """With a lag of 2 s and k = 0.5/s both poles meet: v = w (1 − (1 + k t) e^(−k t))."""
+def test_wind_rises_with_a_lag_also_after_a_reset(tmp_path: Path) -> None:
+    """With a lag of 2 s and k = 0.5/s both poles are equal: v = w (1 − (1 + k t) e^(−k t))."""
     rise = "<time_for_rise>2</time_for_rise>"
-    sim = blow(
+    sim = load_wind(
         tmp_path,
         "<force_approximation_scaling_factor>0.5</force_approximation_scaling_factor>"
         f"<horizontal><magnitude>{rise}</magnitude></horizontal><vertical>{rise}</vertical>",
@@ -60,46 +60,46 @@ def test_wind_rises_with_a_lag_and_after_a_reset_anew(tmp_path: Path) -> None:
     )
     for _ in range(2):
         sim.run(3.0)
-        grown = 1 - (1 + 0.5 * 3.0) * math.exp(-0.5 * 3.0)
-        assert speed(sim, "light") == pytest.approx((10 * grown, 0, 4 * grown), rel=2e-3)
+        ratio = 1 - (1 + 0.5 * 3.0) * math.exp(-0.5 * 3.0)
+        assert velocity(sim, "light") == pytest.approx((10 * ratio, 0, 4 * ratio), rel=2e-3)
         sim.reset()
 
 
-def test_wind_swings_about_its_mean(tmp_path: Path) -> None:
-    """Light bodies follow a strong push at once: half a swing of 20 % after a quarter of its period."""
+def test_a_sine_varies_the_wind_about_its_mean(tmp_path: Path) -> None:
+    """A light body follows a strong force at once: the amplitude of 20 % after a quarter of the period."""
     swing = "<sin><amplitude_percent>0.2</amplitude_percent><period>40</period></sin>"
     factor = "<force_approximation_scaling_factor>100</force_approximation_scaling_factor>"
-    sim = blow(tmp_path, factor + AT_ONCE.format(swing), wind="10 0 0")
+    sim = load_wind(tmp_path, factor + NO_LAG.format(swing), wind="10 0 0")
     sim.run(10.0)
 
-    assert speed(sim, "light")[0] == pytest.approx(12.0, rel=1e-3)
+    assert velocity(sim, "light")[0] == pytest.approx(12.0, rel=1e-3)
 
 
-def test_noise_shakes_the_wind_the_same_for_the_same_seed(tmp_path: Path) -> None:
+def test_wind_noise_repeats_for_the_same_seed(tmp_path: Path) -> None:
     noise = '<noise type="gaussian"><mean>0</mean><stddev>3</stddev></noise>'
     factor = "<force_approximation_scaling_factor>1</force_approximation_scaling_factor>"
-    runs = [blow(tmp_path, factor + AT_ONCE.format(each)) for each in (noise, noise, "")]
+    runs = [load_wind(tmp_path, factor + NO_LAG.format(noise_tag)) for noise_tag in (noise, noise, "")]
     for sim in runs:
         sim.run(0.1)
 
-    first, second, calm = (speed(sim, "light") for sim in runs)
+    first, second, calm = (velocity(sim, "light") for sim in runs)
     assert first == second != calm
 
 
-def test_without_a_factor_nothing_is_pushed_and_that_is_said(tmp_path: Path) -> None:
-    sim = blow(tmp_path, "")
+def test_wind_without_a_scaling_factor_is_reported(tmp_path: Path) -> None:
+    sim = load_wind(tmp_path, "")
     sim.run(0.1)
 
-    assert speed(sim, "light") == (0.0, 0.0, 0.0)
+    assert velocity(sim, "light") == (0.0, 0.0, 0.0)
     (warning,) = sim.report.warnings
     assert warning.endswith("needs a <force_approximation_scaling_factor> above 0; there is no wind force")
 
 
-def test_wind_that_no_plugin_blows_and_plugins_in_the_wrong_place_are_named(tmp_path: Path) -> None:
-    sim = blow(tmp_path, "", filename="libBuoyancyPlugin.so")
+def test_wind_without_its_plugin_and_misplaced_plugins_are_reported(tmp_path: Path) -> None:
+    sim = load_wind(tmp_path, "", filename="libBuoyancyPlugin.so")
 
     (warning,) = sim.report.warnings
     assert warning.endswith(
         "plugin 'p' (libBuoyancyPlugin.so) is a model's; it belongs into a <model>; the run goes on without it"
     )
-    assert any("that takes libWindPlugin.so" in finding.what for finding in sim.report.findings)
+    assert any("it needs libWindPlugin.so" in finding.what for finding in sim.report.findings)

@@ -1,4 +1,4 @@
-"""Model plugins of gazebo_ros: spawned, commanded and read by topics."""
+"""Model plugins of gazebo_ros: spawned, and commanded and read by topics."""
 
 import math
 from typing import Any
@@ -42,12 +42,12 @@ _DIFF = """<leftJoint>left_joint</leftJoint><rightJoint>right_joint</rightJoint>
 
 
 def _yaw(message: Any) -> float:
-    turn = message.pose.pose.orientation
-    return 2.0 * math.atan2(turn.z, turn.w)
+    orientation = message.pose.pose.orientation
+    return 2.0 * math.atan2(orientation.z, orientation.w)
 
 
 @pytest.mark.parametrize("source", ["world", "encoder"])
-def test_two_wheels_drive_and_tell_where_to(gazebo: Gazebo, source: str) -> None:
+def test_a_differential_drive_drives_and_publishes_odometry(gazebo: Gazebo, source: str) -> None:
     parameters = f"{_DIFF}<odometrySource>{source}</odometrySource>"
     assert gazebo.spawn(_car(_plugin("diff_drive", parameters), _TWO), "car").success
     gazebo.call("unpause_physics")
@@ -67,8 +67,8 @@ def test_two_wheels_drive_and_tell_where_to(gazebo: Gazebo, source: str) -> None
     assert list(states[-1].name) == ["left_joint", "right_joint"]
     drive({})
     until(lambda: abs(odometry[-1].twist.twist.linear.x) < 1e-3)
-    told, true = odometry[-1].pose.pose.position, gazebo.state("car").pose.position
-    assert (told.x, told.y) == (pytest.approx(true.x, abs=0.03), pytest.approx(true.y, abs=0.03))
+    estimate, truth = odometry[-1].pose.pose.position, gazebo.state("car").pose.position
+    assert (estimate.x, estimate.y) == (pytest.approx(truth.x, abs=0.03), pytest.approx(truth.y, abs=0.03))
     assert {"base_footprint", "left", "right"} <= {t.child_frame_id for m in frames for t in m.transforms}
 
 
@@ -76,7 +76,7 @@ def test_two_wheels_drive_and_tell_where_to(gazebo: Gazebo, source: str) -> None
     ("distro", "legacy", "sign"),
     [("noetic", "<legacyMode>true</legacyMode>", -1), ("kinetic", "", -1), ("melodic", "", 1)],
 )
-def test_an_old_package_has_its_sides_swapped(gazebo: Gazebo, distro: str, legacy: str, sign: int) -> None:
+def test_old_packages_mirror_the_turn(gazebo: Gazebo, distro: str, legacy: str, sign: int) -> None:
     gazebo.server.profile = DISTROS[distro]
     gazebo.spawn(_car(_plugin("diff_drive", f"{_DIFF}{legacy}"), _TWO), "car")
     gazebo.call("unpause_physics")
@@ -114,7 +114,7 @@ _TRICYCLE = """<steeringJoint>steer</steeringJoint><actuatedWheelJoint>front_joi
 
 
 @pytest.mark.parametrize("source", ["world", "encoder"])
-def test_a_tricycle_turns_about_the_point_its_wheels_point_at(gazebo: Gazebo, source: str) -> None:
+def test_a_tricycle_turns_about_the_intersection_of_its_axles(gazebo: Gazebo, source: str) -> None:
     """With 0.5 m between the axles, a steered wheel at 0.3 m/s and 0.4 rad turns the car at 0.3 sin(0.4)/0.5 rad/s."""
     parameters = f"{_TRICYCLE}<odometrySource>{source}</odometrySource>"
     feet = '<collision name="f-0.15">'
@@ -135,7 +135,7 @@ _BOX = f"""<sdf version="1.6"><model name="box"><pose>0 0 2 0 0 0</pose><link na
 <inertial><mass>2</mass>{_INERTIA}</inertial></link>{{plugin}}</model></sdf>"""
 
 
-def test_a_model_slides_as_it_is_told_and_does_not_fall(gazebo: Gazebo) -> None:
+def test_planar_move_follows_commands_without_falling(gazebo: Gazebo) -> None:
     parameters = "<robotNamespace>box</robotNamespace><cmdTimeout>0.3</cmdTimeout>"
     gazebo.spawn(_BOX.format(plugin=_plugin("planar_move", parameters)), "box")
     gazebo.call("unpause_physics")
@@ -153,7 +153,7 @@ def test_a_model_slides_as_it_is_told_and_does_not_fall(gazebo: Gazebo) -> None:
     assert 0.0 <= 2.0 - position.z < 0.01 * gazebo.time_s, "a step of gravity moves it by g·dt² before it is set again"
 
 
-def test_a_model_without_its_y_axis_moves_only_ahead(gazebo: Gazebo) -> None:
+def test_planar_move_without_the_y_axis_moves_only_forward(gazebo: Gazebo) -> None:
     gazebo.spawn(_BOX.format(plugin=_plugin("planar_move", "<enableYAxis>false</enableYAxis>")), "box")
     gazebo.call("unpause_physics")
     odometry = gazebo.hear("/odom", ODOMETRY)
@@ -171,71 +171,72 @@ _ARM = f"""<sdf version="1.6"><model name="arm"><pose>0 0 2 0 0 0</pose><link na
 {{plugin}}</model></sdf>"""
 
 
-def test_joints_are_put_where_a_trajectory_says_and_told_of(gazebo: Gazebo) -> None:
+def test_joints_take_the_positions_of_a_trajectory_and_are_published(gazebo: Gazebo) -> None:
     plugins = _plugin("joint_state_publisher", "<jointName>turn</jointName>").replace('"p"', '"q"')
     gazebo.spawn(_ARM.format(plugin=plugins + _plugin("joint_pose_trajectory")), "arm")
     gazebo.call("unpause_physics")
     states = gazebo.hear("/joint_states", "sensor_msgs/JointState")
     points = [{"positions": [1.0]}, {"positions": [0.5], "time_from_start": {"nanosec": 200_000_000}}]
-    put = gazebo.speak("/set_joint_trajectory", "trajectory_msgs/JointTrajectory")
-    put({"joint_names": ["turn"], "points": points})
+    publish = gazebo.speak("/set_joint_trajectory", "trajectory_msgs/JointTrajectory")
+    publish({"joint_names": ["turn"], "points": points})
     until(lambda: any(m.position[0] == pytest.approx(1.0, abs=1e-6) for m in states))
     until(lambda: states[-1].position[0] == pytest.approx(0.5, abs=1e-6))
 
     kind = "gazebo_msgs/SetJointTrajectory"
-    bad = {"joint_names": ["turn"], "points": [{"positions": []}]}
-    call = gazebo.client.call_service("/set_joint_trajectory", kind, {"joint_trajectory": bad})
-    answer = gazebo.loop.run(call)
-    assert (answer.success, answer.status_message) == (False, "each point needs 1 positions")
+    invalid = {"joint_names": ["turn"], "points": [{"positions": []}]}
+    call = gazebo.client.call_service("/set_joint_trajectory", kind, {"joint_trajectory": invalid})
+    response = gazebo.loop.run(call)
+    assert (response.success, response.status_message) == (False, "each point needs 1 positions")
 
 
-def test_a_joint_follows_another_one(gazebo: Gazebo) -> None:
+def test_a_mimic_joint_follows_its_leader(gazebo: Gazebo) -> None:
     mimic = """<plugin name="m" filename="libroboticsgroup_gazebo_mimic_joint_plugin.so"><joint>turn</joint>
 <mimicJoint>tip</mimicJoint><multiplier>-2</multiplier><offset>0.1</offset></plugin>"""
     tip = f"""<link name="end"><pose>1 0 0 0 0 0</pose><inertial><mass>0.1</mass>{_INERTIA}</inertial></link>
 <joint name="tip" type="revolute"><parent>rod</parent><child>end</child><axis><xyz>0 0 1</xyz></axis></joint>"""
-    states = _plugin("joint_state_publisher", "<jointName>turn tip</jointName>").replace('"p"', '"q"')
-    gazebo.spawn(_ARM.format(plugin=tip + mimic + states + _plugin("joint_pose_trajectory")), "arm")
+    publisher = _plugin("joint_state_publisher", "<jointName>turn tip</jointName>").replace('"p"', '"q"')
+    gazebo.spawn(_ARM.format(plugin=tip + mimic + publisher + _plugin("joint_pose_trajectory")), "arm")
     gazebo.call("unpause_physics")
-    heard = gazebo.hear("/joint_states", "sensor_msgs/JointState")
-    put = gazebo.speak("/set_joint_trajectory", "trajectory_msgs/JointTrajectory")
-    put({"joint_names": ["turn"], "points": [{"positions": [0.5]}]})
+    states = gazebo.hear("/joint_states", "sensor_msgs/JointState")
+    publish = gazebo.speak("/set_joint_trajectory", "trajectory_msgs/JointTrajectory")
+    publish({"joint_names": ["turn"], "points": [{"positions": [0.5]}]})
 
     def follows() -> bool:
-        turn, tip = heard[-1].position
+        turn, tip = states[-1].position
         return abs(turn) > 0.1 and tip == pytest.approx(0.1 - 2 * turn, abs=0.02)
 
-    until(lambda: heard and follows())
+    until(lambda: states and follows())
 
 
-def test_the_truth_about_a_link(gazebo: Gazebo) -> None:
+def test_p3d_publishes_the_true_pose_of_a_link(gazebo: Gazebo) -> None:
     parameters = "<bodyName>rod</bodyName><topicName>truth</topicName><xyzOffset>0 0 1</xyzOffset>"
     relative = "<bodyName>rod</bodyName><topicName>arm_truth</topicName><frameName>base</frameName>"
     plugins = _plugin("p3d", parameters) + _plugin("p3d", relative).replace('"p"', '"q"')
     assert gazebo.spawn(_ARM.format(plugin=plugins), "arm", x=1.0).success
     gazebo.call("unpause_physics")
-    truth, seen = gazebo.hear("/truth", ODOMETRY), gazebo.hear("/arm_truth", ODOMETRY)
-    until(lambda: truth and seen)
+    truth, relative_truth = gazebo.hear("/truth", ODOMETRY), gazebo.hear("/arm_truth", ODOMETRY)
+    until(lambda: truth and relative_truth)
 
     position = truth[-1].pose.pose.position
     assert (position.x, position.z) == (pytest.approx(1.5), pytest.approx(3.0))
     assert (truth[-1].header.frame_id, truth[-1].child_frame_id) == ("world", "rod")
-    assert seen[-1].pose.pose.position.x == pytest.approx(0.5)
-    assert seen[-1].header.frame_id == "base"
+    assert relative_truth[-1].pose.pose.position.x == pytest.approx(0.5)
+    assert relative_truth[-1].header.frame_id == "base"
 
 
-def test_plugins_of_one_name_are_all_heard(gazebo: Gazebo) -> None:
-    eyes = [f"<bodyName>body</bodyName><topicName>truth{i}</topicName>" for i in range(3)]
-    gazebo.spawn(_BOX.format(plugin="".join(_plugin("p3d", eye) for eye in eyes)), "box")
+def test_plugins_with_one_name_all_publish(gazebo: Gazebo) -> None:
+    parameters = [f"<bodyName>body</bodyName><topicName>truth{i}</topicName>" for i in range(3)]
+    gazebo.spawn(_BOX.format(plugin="".join(_plugin("p3d", parameter) for parameter in parameters)), "box")
     gazebo.call("unpause_physics")
-    heard = [gazebo.hear(f"/truth{i}", ODOMETRY) for i in range(3)]
+    topics = [gazebo.hear(f"/truth{i}", ODOMETRY) for i in range(3)]
 
-    def are_heard_for_a_second() -> bool:
+    def all_publish_for_a_second() -> bool:
         return all(
-            len(truths) > 1 and (truths[-1].header.stamp.sec - truths[0].header.stamp.sec) > 1 for truths in heard
+            len(messages) > 1 and (messages[-1].header.stamp.sec - messages[0].header.stamp.sec) > 1
+            for messages in topics
         )
 
-    until(are_heard_for_a_second)
+    until(all_publish_for_a_second)
 
 
 def test_a_wrench_from_a_topic_pushes(gazebo: Gazebo) -> None:
@@ -247,16 +248,16 @@ def test_a_wrench_from_a_topic_pushes(gazebo: Gazebo) -> None:
     assert gazebo.state("box").pose.position.z == pytest.approx(2.0, abs=0.05)
 
 
-def test_what_pushes_a_link_is_told(gazebo: Gazebo) -> None:
+def test_the_applied_wrench_of_a_link_is_published(gazebo: Gazebo) -> None:
     plugins = _plugin("force", "<bodyName>body</bodyName><topicName>push</topicName>")
     plugins += _plugin("f3d", "<bodyName>body</bodyName><topicName>felt</topicName>").replace('"p"', '"q"')
     gazebo.spawn(_BOX.format(plugin=plugins), "box")
-    felt = gazebo.hear("/felt", "geometry_msgs/WrenchStamped")
+    wrenches = gazebo.hear("/felt", "geometry_msgs/WrenchStamped")
     gazebo.speak("/push", "geometry_msgs/Wrench")({"force": {"x": 1.5}, "torque": {"z": 0.25}})
     gazebo.call("unpause_physics")
-    until(lambda: felt and felt[-1].wrench.force.x == 1.5)
-    assert (felt[-1].wrench.force.z, felt[-1].wrench.torque.z) == (0.0, 0.25)
-    assert felt[-1].header.frame_id == "world"
+    until(lambda: wrenches and wrenches[-1].wrench.force.x == 1.5)
+    assert (wrenches[-1].wrench.force.z, wrenches[-1].wrench.torque.z) == (0.0, 0.25)
+    assert wrenches[-1].header.frame_id == "world"
 
 
 @pytest.mark.parametrize(
@@ -267,6 +268,6 @@ def test_what_pushes_a_link_is_told(gazebo: Gazebo) -> None:
         ("diff_drive", "", "no joint 'left_joint'"),
     ],
 )
-def test_what_cannot_be_loaded_is_named(gazebo: Gazebo, name: str, parameters: str, reason: str) -> None:
+def test_a_plugin_that_cannot_be_loaded_is_reported(gazebo: Gazebo, name: str, parameters: str, reason: str) -> None:
     assert gazebo.spawn(_BOX.format(plugin=_plugin(name, parameters)), "box").success
     until(lambda: any(reason in warning for warning in gazebo.report.warnings))

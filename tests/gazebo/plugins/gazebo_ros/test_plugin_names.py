@@ -1,7 +1,7 @@
-"""Topics and frames of each plugin of gazebo_ros where <robotNamespace> is missing, empty and present.
+"""Topics and frames of each plugin of gazebo_ros with a missing, empty and set <robotNamespace>.
 
 The expected values are those of the sources: gazebo_plugins (branches indigo-devel to noetic-devel),
-hector_gazebo_plugins and velodyne_gazebo_plugins; docs/decisions/0014 has what differs.
+hector_gazebo_plugins and velodyne_gazebo_plugins; docs/decisions/0014 lists the differences.
 """
 
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.gazebo.plugins.stage import ARM, BODY, Wires, load
+from tests.gazebo.plugins.plugin_world import ARM, BODY, FakeNode, load
 
 from trundle.gazebo.model_plugins import attach_sensor_plugins
 from trundle.ros import DISTROS
@@ -23,34 +23,34 @@ RAY = """<ray><scan><horizontal><samples>3</samples><min_angle>-1</min_angle><ma
 
 @dataclass(frozen=True, kw_only=True)
 class Row:
-    """One plugin, with the tags that it needs."""
+    """One plugin with its parameters, and the names expected of it."""
 
     file: str
     tags: str = ""
     topics: str = ""
     """Topics and services in its namespace."""
     absolute: str = ""
-    """Topics outside of it."""
+    """Topics outside of its namespace."""
     frames: str = ""
-    """Frames that get a prefix."""
+    """Frames with the prefix."""
     plain: str = ""
-    """Frames that never do."""
+    """Frames without a prefix."""
     missing: str = ROOT
     """Namespace if <robotNamespace> is missing."""
     empty: str = ROOT
     """Namespace if it is empty."""
     prefix: str = "tf_prefix"
-    """What precedes a frame: the parameter; or without it, up to Melodic, the namespace; or always the namespace."""
+    """Rule for the prefix of frames; see `NameRule.prefix`."""
     sensor: str = ""
-    """Type of the sensor that has the plugin."""
+    """Type of the sensor with the plugin; empty: a model plugin."""
 
 
-def _of_model(file: str, tags: str, topics: str, frames: str = "", **more: str) -> Row:
-    return Row(file=f"libgazebo_ros_{file}.so", tags=tags, topics=topics, frames=frames, **more)
+def _model_row(file: str, tags: str, topics: str, frames: str = "", **fields: str) -> Row:
+    return Row(file=f"libgazebo_ros_{file}.so", tags=tags, topics=topics, frames=frames, **fields)
 
 
-def _of_sensor(file: str, sensor: str, topics: str, **more: str) -> Row:
-    return Row(file=f"libgazebo_ros_{file}.so", sensor=sensor, topics=topics, **more)
+def _sensor_row(file: str, sensor: str, topics: str, **fields: str) -> Row:
+    return Row(file=f"libgazebo_ros_{file}.so", sensor=sensor, topics=topics, **fields)
 
 
 GAZEBO_ROS: dict[str, str] = {"missing": MODEL, "empty": MODEL, "prefix": "else_namespace"}
@@ -67,34 +67,34 @@ DRIVEN = "cmd_vel odom"
 SCANS: dict[str, str] = {"empty": MODEL, "prefix": "else_namespace"}
 
 ROWS = [
-    _of_model("diff_drive", WHEELS + EXTRAS, f"{DRIVEN} joint_states", "odom base_footprint base arm", **GAZEBO_ROS),
-    _of_model("tricycle_drive", THREE + EXTRAS, f"{DRIVEN} joint_states", "odom base_link base hinge", **GAZEBO_ROS),
-    _of_model("joint_state_publisher", "", "joint_states", **GAZEBO_ROS),
-    _of_model("skid_steer_drive", f"{FOUR}<broadcastTF>true</broadcastTF>", DRIVEN, "odom base_footprint"),
-    _of_model("planar_move", "", DRIVEN, "odom base_footprint"),
-    _of_model("force_based_move", "<robotBaseFrame>arm</robotBaseFrame>", DRIVEN, "odom arm"),
-    _of_model("imu", ON_ARM, "", "arm", absolute="/default_imu"),
-    _of_model("imu", f"{ON_ARM}<topicName>imu</topicName><serviceName>tare</serviceName>", "imu tare", "arm"),
-    _of_model("p3d", f"{ON_ARM}<topicName>truth</topicName>", "truth", "world arm"),
-    _of_model("p3d", f"{ON_ARM}<topicName>truth</topicName><frameName>/map</frameName>", "truth", "arm", plain="map"),
-    _of_model("f3d", f"{ON_ARM}<topicName>felt</topicName>", "felt", "world"),
-    _of_model("force", f"{ON_ARM}<topicName>push</topicName>", "push"),
-    _of_model("ft_sensor", "<jointName>hinge</jointName><topicName>ft</topicName>", "ft", "arm"),
-    _of_model("joint_pose_trajectory", "", "set_joint_trajectory"),
-    _of_model("vacuum_gripper", f"{ON_ARM}<topicName>grasps</topicName>", "grasps on off"),
+    _model_row("diff_drive", WHEELS + EXTRAS, f"{DRIVEN} joint_states", "odom base_footprint base arm", **GAZEBO_ROS),
+    _model_row("tricycle_drive", THREE + EXTRAS, f"{DRIVEN} joint_states", "odom base_link base hinge", **GAZEBO_ROS),
+    _model_row("joint_state_publisher", "", "joint_states", **GAZEBO_ROS),
+    _model_row("skid_steer_drive", f"{FOUR}<broadcastTF>true</broadcastTF>", DRIVEN, "odom base_footprint"),
+    _model_row("planar_move", "", DRIVEN, "odom base_footprint"),
+    _model_row("force_based_move", "<robotBaseFrame>arm</robotBaseFrame>", DRIVEN, "odom arm"),
+    _model_row("imu", ON_ARM, "", "arm", absolute="/default_imu"),
+    _model_row("imu", f"{ON_ARM}<topicName>imu</topicName><serviceName>tare</serviceName>", "imu tare", "arm"),
+    _model_row("p3d", f"{ON_ARM}<topicName>truth</topicName>", "truth", "world arm"),
+    _model_row("p3d", f"{ON_ARM}<topicName>truth</topicName><frameName>/map</frameName>", "truth", "arm", plain="map"),
+    _model_row("f3d", f"{ON_ARM}<topicName>felt</topicName>", "felt", "world"),
+    _model_row("force", f"{ON_ARM}<topicName>push</topicName>", "push"),
+    _model_row("ft_sensor", "<jointName>hinge</jointName><topicName>ft</topicName>", "ft", "arm"),
+    _model_row("joint_pose_trajectory", "", "set_joint_trajectory"),
+    _model_row("vacuum_gripper", f"{ON_ARM}<topicName>grasps</topicName>", "grasps on off"),
     Row(file=f"{HECTOR}imu.so", tags=ON_ARM, topics="imu imu/calibrate", frames="arm"),
     Row(file=f"{HECTOR}gps.so", tags=ON_ARM, topics="fix fix_velocity", plain="world"),
     Row(file=f"{HECTOR}magnetic.so", tags=ON_ARM, topics="magnetic", frames="arm"),
     Row(file=f"{HECTOR}baro.so", tags=ON_ARM, topics="pressure_height altimeter", frames="arm"),
     Row(file=f"{HECTOR}sonar.so", sensor="ray", topics="sonar", plain="sonar_link"),
     Row(file=f"{HECTOR}sonar.so", sensor="ray", tags="<frameId>s</frameId>", topics="sonar", frames="s"),
-    _of_sensor("laser", "ray", "scan", absolute="/world", plain="world", **SCANS),
-    _of_sensor("laser", "ray", "s", tags="<topicName>s</topicName><frameName>f</frameName>", frames="f", **SCANS),
-    _of_sensor("gpu_laser", "gpu_ray", "s", tags="<topicName>s</topicName>", plain="world", **SCANS),
-    _of_sensor("block_laser", "ray", "points", absolute="/world", plain="world"),
-    _of_sensor("block_laser", "ray", "s", tags="<topicName>s</topicName><frameName>f</frameName>", frames="f"),
-    _of_sensor("velodyne_laser", "ray", "", absolute="/points", plain="world", prefix="namespace"),
-    _of_sensor(
+    _sensor_row("laser", "ray", "scan", absolute="/world", plain="world", **SCANS),
+    _sensor_row("laser", "ray", "s", tags="<topicName>s</topicName><frameName>f</frameName>", frames="f", **SCANS),
+    _sensor_row("gpu_laser", "gpu_ray", "s", tags="<topicName>s</topicName>", plain="world", **SCANS),
+    _sensor_row("block_laser", "ray", "points", absolute="/world", plain="world"),
+    _sensor_row("block_laser", "ray", "s", tags="<topicName>s</topicName><frameName>f</frameName>", frames="f"),
+    _sensor_row("velodyne_laser", "ray", "", absolute="/points", plain="world", prefix="namespace"),
+    _sensor_row(
         "velodyne_laser",
         "ray",
         "s",
@@ -102,60 +102,59 @@ ROWS = [
         frames="f",
         prefix="namespace",
     ),
-    _of_sensor("range", "ray", "", absolute="/range", plain="world"),
-    _of_sensor("range", "ray", "s", tags="<topicName>s</topicName><frameName>f</frameName>", frames="f"),
-    _of_sensor("imu_sensor", "imu", "imu_data", tags="<updateRateHZ>50</updateRateHZ>", frames="arm", missing=MODEL),
-    _of_sensor("bumper", "contact", "bumper_states", frames="world"),
-    _of_sensor(
+    _sensor_row("range", "ray", "", absolute="/range", plain="world"),
+    _sensor_row("range", "ray", "s", tags="<topicName>s</topicName><frameName>f</frameName>", frames="f"),
+    _sensor_row("imu_sensor", "imu", "imu_data", tags="<updateRateHZ>50</updateRateHZ>", frames="arm", missing=MODEL),
+    _sensor_row("bumper", "contact", "bumper_states", frames="world"),
+    _sensor_row(
         "bumper", "contact", "b", tags="<bumperTopicName>b</bumperTopicName><frameName>f</frameName>", frames="f"
     ),
 ]
 
 
-def _play(folder: Path, row: Row, namespace: str, wires: Wires) -> None:
-    """Load the row's plugin in a world and run it until each has published."""
+def _run_plugin(folder: Path, row: Row, namespace: str, node: Any) -> None:
+    """Load the row's plugin in a world and run it until it has published."""
     plugin = f'<plugin name="p" filename="{row.file}">{row.tags}{namespace}</plugin>'
     inside = {"contact": "<contact><collision>ball</collision></contact>", "imu": ""}.get(row.sensor, RAY)
     start = f'<sensor name="s" type="{row.sensor}"><update_rate>50</update_rate>'
     sensor = f"{start}{inside}{plugin}</sensor>" if row.sensor else ""
     body = ARM.replace('<link name="arm">', f'<link name="arm">{BALL}{sensor}') + ("" if row.sensor else plugin)
-    node: Any = wires
-    sim = load(folder, body, wires=node)
+    sim = load(folder, body, node=node)
     sensors = mount_sensors(sim)
     attach_sensor_plugins(sensors, node, sim)
-    for each in sensors:
-        each.start(sim)
+    for sensor in sensors:
+        sensor.start(sim)
     sim.run(0.26)
     assert sim.report.warnings == []
 
 
-def _names(wires: Wires) -> tuple[set[str], set[str]]:
-    """All topics and services, and all frames that were published."""
+def _published_names(node: FakeNode) -> tuple[set[str], set[str]]:
+    """Return all topics and services, and all published frames."""
     frames: set[str] = set()
-    for topic, messages in wires.said.items():
+    for topic, messages in node.published.items():
         headers = [message for message in messages if topic != "/tf"]
         headers += [transform for message in messages if topic == "/tf" for transform in message.transforms]
         for message in headers:
             frames |= {message.header.frame_id} if hasattr(message, "header") else set[str]()
             frames |= {message.child_frame_id} if hasattr(message, "child_frame_id") else set[str]()
-    return ({*wires.said, *wires.heard_by, *wires.services} - {"/tf"}), frames - {""}
+    return ({*node.published, *node.subscribers, *node.services} - {"/tf"}), frames - {""}
 
 
-@pytest.mark.parametrize("written", ["missing", "", "/", "/r/"])
+@pytest.mark.parametrize("tag_text", ["missing", "", "/", "/r/"])
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.file}{row.tags[:24]}")
-def test_topics_and_frames_are_the_originals(tmp_path: Path, row: Row, written: str) -> None:
-    """One robot, with the parameter tf_prefix of its namespace, as spawn_model's <group ns> gives it."""
-    wires = Wires({"/r/tf_prefix": "/p", "/m/tf_prefix": "q"})
-    tag = "" if written == "missing" else f"<robotNamespace>{written}</robotNamespace>"
-    _play(tmp_path, row, tag, wires)
+def test_topics_and_frames_are_the_originals(tmp_path: Path, row: Row, tag_text: str) -> None:
+    """One robot, with the parameter tf_prefix in its namespace."""
+    node = FakeNode({"/r/tf_prefix": "/p", "/m/tf_prefix": "q"})
+    tag = "" if tag_text == "missing" else f"<robotNamespace>{tag_text}</robotNamespace>"
+    _run_plugin(tmp_path, row, tag, node)
 
-    namespace = {"missing": row.missing, "": row.empty}.get(written, written.strip("/"))
-    places = [namespace, ROOT] if written == "missing" else [namespace]
-    expected = {f"/{place}/{topic}".replace("//", "/") for place in places for topic in row.topics.split()}
+    namespace = {"missing": row.missing, "": row.empty}.get(tag_text, tag_text.strip("/"))
+    namespaces = [namespace, ROOT] if tag_text == "missing" else [namespace]
+    expected = {f"/{prefix_}/{topic}".replace("//", "/") for prefix_ in namespaces for topic in row.topics.split()}
     prefix = {"r": "p/", "m": "q/", "": ""}[namespace]
     if row.prefix == "namespace" and namespace:
         prefix = f"{namespace}/"
-    topics, frames = _names(wires)
+    topics, frames = _published_names(node)
     assert topics == expected | set(row.absolute.split())
     assert frames == {f"{prefix}{name}" for name in row.frames.split()} | set(row.plain.split())
 
@@ -169,23 +168,23 @@ def test_topics_and_frames_are_the_originals(tmp_path: Path, row: Row, written: 
         if row.frames
     ],
 )
-def test_without_tf_prefix_the_namespace_takes_its_place_up_to_melodic(tmp_path: Path, row: Row, distro: str) -> None:
-    wires = Wires(profile=DISTROS[distro])
-    _play(tmp_path, row, "<robotNamespace>r</robotNamespace>", wires)
+def test_without_tf_prefix_the_namespace_is_the_prefix_up_to_melodic(tmp_path: Path, row: Row, distro: str) -> None:
+    node = FakeNode(profile=DISTROS[distro])
+    _run_plugin(tmp_path, row, "<robotNamespace>r</robotNamespace>", node)
 
-    in_place = row.prefix == "namespace" or (row.prefix == "else_namespace" and distro != "noetic")
-    frames = _names(wires)[1]
-    assert frames == {f"{'r/' if in_place else ''}{name}" for name in row.frames.split()} | set(row.plain.split())
+    has_prefix = row.prefix == "namespace" or (row.prefix == "else_namespace" and distro != "noetic")
+    frames = _published_names(node)[1]
+    assert frames == {f"{'r/' if has_prefix else ''}{name}" for name in row.frames.split()} | set(row.plain.split())
 
 
-def test_tf_prefix_is_looked_for_upwards_and_an_absolute_frame_has_none(tmp_path: Path) -> None:
-    wires = Wires({"/a/tf_prefix": "near", "/tf_prefix": "far"})
+def test_tf_prefix_is_inherited_and_absolute_frames_have_none(tmp_path: Path) -> None:
+    node = FakeNode({"/a/tf_prefix": "near", "/tf_prefix": "far"})
     tags = f"{WHEELS}<odometryFrame>/map</odometryFrame>"
-    row = _of_model("diff_drive", tags, "")
+    row = _model_row("diff_drive", tags, "")
 
-    _play(tmp_path, row, "<robotNamespace>a/b</robotNamespace>", wires)
+    _run_plugin(tmp_path, row, "<robotNamespace>a/b</robotNamespace>", node)
 
-    assert _names(wires)[1] == {"map", "near/base_footprint"}
+    assert _published_names(node)[1] == {"map", "near/base_footprint"}
 
 
 def _drive(file: str, tags: str = "") -> str:
@@ -196,40 +195,39 @@ def _other(plugin: str) -> str:
     return f'<model name="n"><pose>5 0 0 0 0 0</pose>{ARM}{plugin}</model>'
 
 
-def test_with_a_second_robot_neither_has_topics_at_the_root(tmp_path: Path) -> None:
-    wires: Any = Wires()
+def test_two_robots_have_no_topics_at_the_root(tmp_path: Path) -> None:
+    node: Any = FakeNode()
 
-    sim = load(tmp_path, ARM + _drive("diff_drive"), others=_other(_drive("diff_drive")), wires=wires)
+    sim = load(tmp_path, ARM + _drive("diff_drive"), other_models=_other(_drive("diff_drive")), node=node)
 
-    assert sorted(wires.heard_by) == ["/m/cmd_vel", "/n/cmd_vel"]
-    assert {"/m/odom", "/n/odom"} <= {*wires.said}
-    assert "/odom" not in wires.said
+    assert sorted(node.subscribers) == ["/m/cmd_vel", "/n/cmd_vel"]
+    assert {"/m/odom", "/n/odom"} <= {*node.published}
+    assert "/odom" not in node.published
     (warning,) = (line.partition("warning: ")[2] for line in sim.report.warnings if "'m'" in line)
     assert warning == (
-        "this model and 'm' both send odom -> base_footprint; a parameter tf_prefix in the namespace of each keeps "
-        "them apart"
+        "this model and 'm' both send odom -> base_footprint; a parameter tf_prefix in each namespace separates them"
     )
 
 
 @pytest.mark.parametrize("other", ["skid_steer_drive", "planar_move"])
-def test_a_lone_drive_gives_the_root_up_to_one_that_listens_there(tmp_path: Path, other: str) -> None:
-    wires: Any = Wires()
+def test_a_drive_leaves_the_root_topic_to_a_drive_that_subscribes_there(tmp_path: Path, other: str) -> None:
+    node: Any = FakeNode()
 
-    load(tmp_path, ARM + _drive("diff_drive"), others=_other(_drive(other)), wires=wires)
+    load(tmp_path, ARM + _drive("diff_drive"), other_models=_other(_drive(other)), node=node)
 
-    assert {topic: len(calls) for topic, calls in wires.heard_by.items()} == {"/m/cmd_vel": 1, "/cmd_vel": 1}
+    assert {topic: len(calls) for topic, calls in node.subscribers.items()} == {"/m/cmd_vel": 1, "/cmd_vel": 1}
 
 
-def test_two_robots_on_one_command_topic_are_named(tmp_path: Path) -> None:
-    """As in the original both obey it."""
-    wires: Any = Wires()
+def test_two_robots_on_one_command_topic_are_reported(tmp_path: Path) -> None:
+    """As in the original, the command moves both."""
+    node: Any = FakeNode()
     fields = "<odometryFrame>{0}</odometryFrame>"
 
     sim = load(
         tmp_path,
         ARM + _drive("skid_steer_drive", fields.format("a")),
-        others=_other(_drive("planar_move", fields.format("b"))),
-        wires=wires,
+        other_models=_other(_drive("planar_move", fields.format("b"))),
+        node=node,
     )
 
     assert [line.partition("warning: ")[2] for line in sim.report.warnings if "one command" in line] == [
@@ -238,11 +236,11 @@ def test_two_robots_on_one_command_topic_are_named(tmp_path: Path) -> None:
     assert not [line for line in sim.report.warnings if "both send" in line]
 
 
-def test_scenery_with_a_camera_leaves_the_root_to_the_robot(tmp_path: Path) -> None:
-    wires: Any = Wires()
+def test_a_camera_of_a_static_model_leaves_the_root_to_the_robot(tmp_path: Path) -> None:
+    node: Any = FakeNode()
     camera = f"""<link name="post">{BODY.format(1)}<sensor name="s" type="camera"><camera/>
 <plugin name="p" filename="libgazebo_ros_camera.so"/></sensor></link>"""
 
-    load(tmp_path, ARM + _drive("diff_drive"), others=f'<model name="n">{camera}</model>', wires=wires)
+    load(tmp_path, ARM + _drive("diff_drive"), other_models=f'<model name="n">{camera}</model>', node=node)
 
-    assert sorted(wires.heard_by) == ["/cmd_vel", "/m/cmd_vel"]
+    assert sorted(node.subscribers) == ["/cmd_vel", "/m/cmd_vel"]

@@ -1,4 +1,4 @@
-"""Points of ray sensors in front of a wall: velodyne_gazebo_plugins' and gazebo_ros' block laser."""
+"""Points of ray sensors in front of a wall: the plugins of velodyne_gazebo_plugins, and gazebo_ros' block laser."""
 
 import math
 from pathlib import Path
@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.gazebo.plugins.stage import BODY, Wires, load
+from tests.gazebo.plugins.plugin_world import BODY, FakeNode, load
 
 from trundle.gazebo.model_plugins import attach_sensor_plugins
 from trundle.sim.sensors import mount_sensors
@@ -20,19 +20,19 @@ _POINT = np.dtype([("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("intensity", "<f4"
 
 
 def _message(folder: Path, plugin: str, tags: str, *, wall_y: float = 0.0) -> Any:
-    """The first message; at y = 5 the wall is met by the rays to the left and ahead."""
+    """Return the first message; with the wall at y = 5 the rays to the left and ahead hit it."""
     sensor = f"""<sensor name="s" type="ray"><update_rate>50</update_rate>{_RAYS}
 <plugin name="p" filename="libgazebo_ros_{plugin}.so"><topicName>points</topicName>{tags}</plugin></sensor>"""
-    wires: Any = Wires()
+    node: Any = FakeNode()
     body = f'<link name="head">{BODY.format(1)}{sensor}</link>'
-    sim = load(folder, body, others=_WALL.format(wall_y))
+    sim = load(folder, body, other_models=_WALL.format(wall_y))
     sensors = mount_sensors(sim)
-    assert attach_sensor_plugins(sensors, wires, sim) == []
-    for each in sensors:
-        each.start(sim)
+    assert attach_sensor_plugins(sensors, node, sim) == []
+    for sensor in sensors:
+        sensor.start(sim)
     sim.run(0.05)
     assert sim.report.warnings == []
-    return wires.said["/points"][0]
+    return node.published["/points"][0]
 
 
 def _points(cloud: Any) -> np.ndarray[Any, Any]:
@@ -45,7 +45,7 @@ def _points(cloud: Any) -> np.ndarray[Any, Any]:
     return np.frombuffer(bytes(cloud.data), _POINT)
 
 
-def test_a_velodynes_points_have_rings_column_by_column(tmp_path: Path) -> None:
+def test_velodyne_points_have_rings_in_column_order(tmp_path: Path) -> None:
     cloud = _message(tmp_path, "velodyne_laser", "")
     points = _points(cloud)
 
@@ -66,8 +66,8 @@ def test_a_velodynes_points_have_rings_column_by_column(tmp_path: Path) -> None:
         ("<min_intensity>7</min_intensity>", 6),
     ],
 )
-def test_a_velodyne_leaves_out_what_is_too_near_far_or_faint(tmp_path: Path, tags: str, width: int) -> None:
-    """The rays ahead meet the wall at 2.01 m, the others at 2.05 m."""
+def test_a_velodyne_drops_points_out_of_range_or_intensity(tmp_path: Path, tags: str, width: int) -> None:
+    """The rays ahead hit the wall at 2.01 m, the others at 2.05 m."""
     assert _message(tmp_path, "velodyne_laser", tags).width == width
 
 
@@ -79,16 +79,16 @@ def test_an_organized_cloud_has_a_row_for_each_column_of_rays(tmp_path: Path) ->
     assert np.isnan(_points(cloud)["x"]).tolist() == [True, True, False, False, True, True]
 
 
-def test_a_velodynes_noise_is_along_its_rays(tmp_path: Path) -> None:
+def test_velodyne_noise_is_along_the_rays(tmp_path: Path) -> None:
     points = _points(_message(tmp_path, "velodyne_laser", "<gaussianNoise>0.1</gaussianNoise>"))
-    places = np.column_stack([points["x"], points["y"], points["z"]])
+    points_xyz = np.column_stack([points["x"], points["y"], points["z"]])
 
-    assert np.linalg.norm(places, axis=1).std() > 0.03
-    assert np.arctan2(places[:, 1], places[:, 0]) == pytest.approx(np.repeat([-0.2, 0.0, 0.2], 2), abs=1e-4)
+    assert np.linalg.norm(points_xyz, axis=1).std() > 0.03
+    assert np.arctan2(points_xyz[:, 1], points_xyz[:, 0]) == pytest.approx(np.repeat([-0.2, 0.0, 0.2], 2), abs=1e-4)
 
 
 def test_a_block_laser_has_a_point_for_each_ray(tmp_path: Path) -> None:
-    """Rays that meet nothing have the largest range, as Gazebo's."""
+    """Rays without a hit have the maximum range, as in Gazebo."""
     cloud = _message(tmp_path, "block_laser", "", wall_y=5.0)
 
     ranges = [math.hypot(point.x, point.y, point.z) for point in cloud.points]

@@ -1,4 +1,4 @@
-"""Sensor plugins of gazebo_ros: the sensors' readings on the topics and in the frames that they name."""
+"""Sensor plugins of gazebo_ros: their topics, frames and readings."""
 
 import math
 from itertools import pairwise
@@ -24,82 +24,82 @@ def _sensor(kind: str, inside: str, plugin: str, parameters: str, *, name: str =
 
 
 def _mast(sensors: str, plugin: str = "") -> str:
-    """Model with sensors, 1 m up, fixed to the world."""
+    """Return a model with sensors, fixed to the world at 1 m height."""
     return f"""<sdf version="1.6"><model name="mast"><link name="head"><pose>0 0 1 0 0 0</pose>
 <inertial><mass>2</mass>{_INERTIA}</inertial>{sensors}</link>
 <joint name="fix" type="fixed"><parent>world</parent><child>head</child></joint>{plugin}</model></sdf>"""
 
 
-def _seeing(gazebo: Gazebo, sensors: str, plugin: str = "") -> None:
+def _spawn_sensors(gazebo: Gazebo, sensors: str, plugin: str = "") -> None:
     assert gazebo.spawn(_WALL, "wall").success
-    answer = gazebo.spawn(_mast(sensors, plugin), "mast")
-    assert answer.success, answer.status_message
+    response = gazebo.spawn(_mast(sensors, plugin), "mast")
+    assert response.success, response.status_message
     gazebo.call("unpause_physics")
 
 
-def _first(gazebo: Gazebo, topic: str, kind: str) -> Any:
-    heard = gazebo.hear(topic, kind)
-    until(lambda: heard)
-    return heard[-1]
+def _first_message(gazebo: Gazebo, topic: str, kind: str) -> Any:
+    messages = gazebo.hear(topic, kind)
+    until(lambda: messages)
+    return messages[-1]
 
 
 @pytest.mark.parametrize("plugin", ["laser", "gpu_laser"])
 def test_a_laser_scans_on_its_topic_in_its_frame(gazebo: Gazebo, plugin: str) -> None:
     kind = "gpu_ray" if plugin == "gpu_laser" else "ray"
     parameters = "<topicName>/bot/scan</topicName><frameName>/hokuyo_link</frameName>"
-    _seeing(gazebo, _sensor(kind, _RAYS, plugin, parameters))
-    scan = _first(gazebo, "/bot/scan", "sensor_msgs/LaserScan")
+    _spawn_sensors(gazebo, _sensor(kind, _RAYS, plugin, parameters))
+    scan = _first_message(gazebo, "/bot/scan", "sensor_msgs/LaserScan")
 
     assert scan.header.frame_id == "hokuyo_link"
     assert len(scan.ranges) == 5
     assert scan.ranges[2] == pytest.approx(2.0, abs=1e-3)
     topics = dict(gazebo.loop.run(gazebo.client.master.call("getTopicTypes")))
-    assert "/mast/head/eye/scan" not in topics  # the plugin's topic takes its place
+    assert "/mast/head/eye/scan" not in topics  # the plugin's topic replaces it
 
 
-def test_without_a_plugin_a_sensor_hangs_in_the_tree_of_its_urdf(gazebo: Gazebo) -> None:
+def test_a_sensor_without_a_plugin_has_a_frame_below_its_urdf_link(gazebo: Gazebo) -> None:
     """The sensor is on a lumped link, whose frame only robot_state_publisher sends."""
     inertia = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
     joint = '<joint name="j" type="fixed"><parent link="base"/><child link="mast"/><origin xyz="0 0 1"/></joint>'
     sensor = '<gazebo reference="mast"><sensor name="mast" type="imu"><always_on>1</always_on></sensor></gazebo>'
     gazebo.spawn(f'<robot name="bot"><link name="base">{inertia}</link><link name="mast"/>{joint}{sensor}</robot>', "b")
     gazebo.call("unpause_physics")
-    imu = _first(gazebo, "/b/base/mast/imu", "sensor_msgs/Imu")
-    (placed,) = _first(gazebo, "/tf_static", "tf2_msgs/TFMessage").transforms
+    imu = _first_message(gazebo, "/b/base/mast/imu", "sensor_msgs/Imu")
+    (mounting,) = _first_message(gazebo, "/tf_static", "tf2_msgs/TFMessage").transforms
 
-    assert imu.header.frame_id == placed.child_frame_id == "mast_sensor"
-    assert placed.header.frame_id == "base"
-    assert placed.transform.translation.z == pytest.approx(1.0)
+    assert imu.header.frame_id == mounting.child_frame_id == "mast_sensor"
+    assert mounting.header.frame_id == "base"
+    assert mounting.transform.translation.z == pytest.approx(1.0)
 
 
-def test_points_of_velodynes_and_of_files_for_ros_2(gazebo: Gazebo) -> None:
+def test_velodyne_and_ros_2_ray_plugins_publish_point_clouds(gazebo: Gazebo) -> None:
     ros = "<ros><namespace>/lidar</namespace><remapping>~/out:=cloud</remapping></ros>"
     sensors = _sensor("ray", _RAYS, "velodyne_laser", "<topicName>/velodyne</topicName><frameName>v</frameName>")
     sensors += _sensor("ray", _RAYS, "ray_sensor", f"{ros}<frame_name>f</frame_name>", name="second")
-    _seeing(gazebo, sensors)
+    _spawn_sensors(gazebo, sensors)
     for topic, frame in (("/velodyne", "v"), ("/lidar/cloud", "f")):
-        cloud = _first(gazebo, topic, "sensor_msgs/PointCloud2")
+        cloud = _first_message(gazebo, topic, "sensor_msgs/PointCloud2")
         assert (cloud.header.frame_id, cloud.width) == (frame, 5)
 
 
-def test_a_sonar_tells_the_nearest(gazebo: Gazebo) -> None:
+def test_a_sonar_publishes_the_nearest_range(gazebo: Gazebo) -> None:
     parameters = "<topicName>sonar</topicName><frameName>sonar_link</frameName><fov>0.4</fov>"
-    _seeing(gazebo, _sensor("ray", _RAYS, "range", f"{parameters}<radiation>infrared</radiation>"))
-    told = _first(gazebo, "/sonar", "sensor_msgs/Range")
+    _spawn_sensors(gazebo, _sensor("ray", _RAYS, "range", f"{parameters}<radiation>infrared</radiation>"))
+    message = _first_message(gazebo, "/sonar", "sensor_msgs/Range")
 
-    assert told.range == pytest.approx(2.0, abs=1e-3)
-    assert (told.radiation_type, told.header.frame_id) == (1, "sonar_link")
-    assert told.field_of_view == pytest.approx(0.4)
-    assert (told.min_range, told.max_range) == (pytest.approx(0.1), pytest.approx(10.0))
+    assert message.range == pytest.approx(2.0, abs=1e-3)
+    assert (message.radiation_type, message.header.frame_id) == (1, "sonar_link")
+    assert message.field_of_view == pytest.approx(0.4)
+    assert (message.min_range, message.max_range) == (pytest.approx(0.1), pytest.approx(10.0))
 
 
-def test_a_camera_is_where_its_plugin_says(gazebo: Gazebo) -> None:
+def test_a_camera_has_the_topics_frame_and_calibration_of_its_plugin(gazebo: Gazebo) -> None:
     parameters = """<robotNamespace>r</robotNamespace><cameraName>front</cameraName><frameName>camera_link</frameName>
 <imageTopicName>image_raw</imageTopicName><hackBaseline>0.07</hackBaseline><distortionK1>0.01</distortionK1>
 <CxPrime>9</CxPrime><Cy>9</Cy>"""
-    _seeing(gazebo, _sensor("camera", _CAMERA, "camera", parameters))
-    image = _first(gazebo, "/r/front/image_raw", "sensor_msgs/Image")
-    info = _first(gazebo, "/r/front/camera_info", "sensor_msgs/CameraInfo")
+    _spawn_sensors(gazebo, _sensor("camera", _CAMERA, "camera", parameters))
+    image = _first_message(gazebo, "/r/front/image_raw", "sensor_msgs/Image")
+    info = _first_message(gazebo, "/r/front/camera_info", "sensor_msgs/CameraInfo")
 
     assert (image.width, image.height, image.encoding) == (32, 24, "rgb8")
     assert image.header.frame_id == info.header.frame_id == "camera_link"
@@ -111,41 +111,41 @@ def test_a_camera_is_where_its_plugin_says(gazebo: Gazebo) -> None:
 
 
 @pytest.mark.parametrize(
-    ("sensor", "trigger", "kind", "pictures"),
+    ("sensor", "trigger", "kind", "image_topic"),
     [
         (_CAMERA.replace("<camera>", "<camera><triggered>1</triggered>"), "/mast/head/eye/trigger", "Bool", None),
         (_CAMERA, "/front/image_trigger", "Empty", "/front/image_raw"),
     ],
     ids=["sdf", "plugin"],
 )
-def test_a_triggered_camera_waits_to_be_told(
-    gazebo: Gazebo, sensor: str, trigger: str, kind: str, pictures: str | None
+def test_a_triggered_camera_waits_for_its_trigger(
+    gazebo: Gazebo, sensor: str, trigger: str, kind: str, image_topic: str | None
 ) -> None:
-    """The camera runs, as its neighbour shows, and takes one image for one trigger."""
-    if pictures is None:
+    """One trigger gives one image, while an untriggered camera shows that cameras run."""
+    if image_topic is None:
         eye = f'<sensor name="eye" type="camera"><update_rate>50</update_rate>{sensor}</sensor>'
     else:
         eye = _sensor("camera", sensor, "triggered_camera", "<cameraName>front</cameraName>")
-    _seeing(gazebo, eye + f'<sensor name="other" type="camera"><update_rate>50</update_rate>{_CAMERA}</sensor>')
-    told = gazebo.client.advertise(trigger, f"std_msgs/{kind}")
-    heard = gazebo.hear(pictures or "/mast/head/eye/image_raw", "sensor_msgs/Image")
-    others = gazebo.hear("/mast/head/other/image_raw", "sensor_msgs/Image")
-    until(lambda: told.has_subscribers and len(others) > 5)
-    assert not heard
-    told.publish({"data": True} if kind == "Bool" else {})
-    until(lambda: heard)
-    seen = len(others)
-    until(lambda: len(others) > seen + 5)
-    assert len(heard) == 1
+    _spawn_sensors(gazebo, eye + f'<sensor name="other" type="camera"><update_rate>50</update_rate>{_CAMERA}</sensor>')
+    trigger_publisher = gazebo.client.advertise(trigger, f"std_msgs/{kind}")
+    messages = gazebo.hear(image_topic or "/mast/head/eye/image_raw", "sensor_msgs/Image")
+    other_messages = gazebo.hear("/mast/head/other/image_raw", "sensor_msgs/Image")
+    until(lambda: trigger_publisher.has_subscribers and len(other_messages) > 5)
+    assert not messages
+    trigger_publisher.publish({"data": True} if kind == "Bool" else {})
+    until(lambda: messages)
+    count = len(other_messages)
+    until(lambda: len(other_messages) > count + 5)
+    assert len(messages) == 1
 
 
-def test_a_kinect_sees_depths_and_points_within_its_reach(gazebo: Gazebo) -> None:
+def test_a_kinect_publishes_depths_and_points_within_its_cutoff(gazebo: Gazebo) -> None:
     parameters = (
         "<cameraName>kinect</cameraName><frameName>optical</frameName><pointCloudCutoffMax>2.05</pointCloudCutoffMax>"
     )
-    _seeing(gazebo, _sensor("depth", _CAMERA, "openni_kinect", parameters))
-    depths = _first(gazebo, "/kinect/depth/image_raw", "sensor_msgs/Image")
-    cloud = _first(gazebo, "/kinect/points", "sensor_msgs/PointCloud2")
+    _spawn_sensors(gazebo, _sensor("depth", _CAMERA, "openni_kinect", parameters))
+    depths = _first_message(gazebo, "/kinect/depth/image_raw", "sensor_msgs/Image")
+    cloud = _first_message(gazebo, "/kinect/points", "sensor_msgs/PointCloud2")
 
     assert (depths.encoding, depths.header.frame_id) == ("32FC1", "optical")
     values = memoryview(bytes(depths.data)).cast("f")
@@ -154,38 +154,38 @@ def test_a_kinect_sees_depths_and_points_within_its_reach(gazebo: Gazebo) -> Non
     assert (cloud.width, cloud.height) == (32, 24)
 
 
-@pytest.mark.parametrize(("plugin", "is_seen"), [("depth_camera", True), ("openni_kinect", False)])
-def test_only_a_kinect_has_a_largest_depth_by_default(gazebo: Gazebo, plugin: str, is_seen: bool) -> None:
-    """The wall is at 7 m; a Kinect sees 5 m."""
+@pytest.mark.parametrize(("plugin", "has_depth"), [("depth_camera", True), ("openni_kinect", False)])
+def test_only_a_kinect_has_a_maximum_depth_by_default(gazebo: Gazebo, plugin: str, has_depth: bool) -> None:
+    """The wall is at 7 m; a Kinect's range is 5 m."""
     assert gazebo.spawn(_WALL.replace("2.5 0 1", "7.5 0 1"), "wall").success
-    eye = _sensor("depth", _CAMERA, plugin, "<cameraName>eye</cameraName><frameName>f</frameName>")
-    assert gazebo.spawn(_mast(eye), "mast").success
+    sensor = _sensor("depth", _CAMERA, plugin, "<cameraName>eye</cameraName><frameName>f</frameName>")
+    assert gazebo.spawn(_mast(sensor), "mast").success
     gazebo.call("unpause_physics")
-    depth = _first(gazebo, "/eye/depth/image_raw", "sensor_msgs/Image")
+    depth = _first_message(gazebo, "/eye/depth/image_raw", "sensor_msgs/Image")
 
     middle = np.frombuffer(bytes(depth.data), "<f4").reshape(depth.height, depth.width)[12, 16]
-    assert (middle == pytest.approx(7.0, abs=0.05)) if is_seen else np.isnan(middle)
+    assert (middle == pytest.approx(7.0, abs=0.05)) if has_depth else np.isnan(middle)
 
 
-def test_an_imu_feels_its_weight_at_its_plugins_rate(gazebo: Gazebo) -> None:
+def test_an_imu_measures_gravity_at_the_rate_of_its_plugin(gazebo: Gazebo) -> None:
     parameters = "<topicName>imu</topicName><frameName>imu_link</frameName><updateRateHZ>20</updateRateHZ>"
     parameters += "<gaussianNoise>0.01</gaussianNoise><xyzOffset>0 0 0</xyzOffset><rpyOffset>0 0 1</rpyOffset>"
     parameters += "<robotNamespace>/</robotNamespace>"
-    _seeing(gazebo, _sensor("imu", "", "imu_sensor", parameters))
-    heard = gazebo.hear("/imu", "sensor_msgs/Imu")
-    until(lambda: len(heard) > 5)
+    _spawn_sensors(gazebo, _sensor("imu", "", "imu_sensor", parameters))
+    messages = gazebo.hear("/imu", "sensor_msgs/Imu")
+    until(lambda: len(messages) > 5)
 
-    stamps = [m.header.stamp.sec + m.header.stamp.nanosec * 1e-9 for m in heard]
+    stamps = [m.header.stamp.sec + m.header.stamp.nanosec * 1e-9 for m in messages]
     assert min(b - a for a, b in pairwise(stamps[1:])) > 0.035  # the sensor has 50 Hz
-    assert heard[-1].linear_acceleration.z == pytest.approx(9.8, abs=0.2)
-    assert heard[-1].orientation_covariance[0] == pytest.approx(1e-4)
-    assert heard[-1].header.frame_id == "imu_link"
-    turn = heard[-1].orientation
+    assert messages[-1].linear_acceleration.z == pytest.approx(9.8, abs=0.2)
+    assert messages[-1].orientation_covariance[0] == pytest.approx(1e-4)
+    assert messages[-1].header.frame_id == "imu_link"
+    turn = messages[-1].orientation
     assert 2.0 * math.atan2(turn.z, turn.w) == pytest.approx(1.0, abs=0.1)
     assert not gazebo.report.warnings
 
 
-def test_a_bumper_tells_what_it_touches(gazebo: Gazebo) -> None:
+def test_a_bumper_publishes_its_contacts(gazebo: Gazebo) -> None:
     contact = "<contact><collision>c</collision></contact>"
     bumper = _sensor("contact", contact, "bumper", "<bumperTopicName>bumps</bumperTopicName>")
     ball = f"""<sdf version="1.6"><model name="ball"><pose>0 0 0.1 0 0 0</pose><link name="l">
@@ -193,15 +193,15 @@ def test_a_bumper_tells_what_it_touches(gazebo: Gazebo) -> None:
 </geometry></collision>{bumper}</link></model></sdf>"""
     assert gazebo.spawn(ball, "ball").success
     gazebo.call("unpause_physics")
-    heard = gazebo.hear("/bumps", "gazebo_msgs/ContactsState")
-    until(lambda: any(message.states for message in heard))
-    state = next(message for message in heard if message.states).states[0]
+    messages = gazebo.hear("/bumps", "gazebo_msgs/ContactsState")
+    until(lambda: any(message.states for message in messages))
+    state = next(message for message in messages if message.states).states[0]
     assert "ball" in state.collision1_name
     assert "ground_plane" in state.collision2_name
 
 
-def test_a_bumper_on_a_lumped_link_tells_its_own_collision_by_gazebos_name(gazebo: Gazebo) -> None:
-    """Two links are lumped one after the other into the massless root; both stand on the ground."""
+def test_a_bumper_on_a_lumped_link_publishes_gazebos_collision_name(gazebo: Gazebo) -> None:
+    """Two links are lumped into the massless root; both touch the ground."""
 
     def link(name: str, mass: str, size: str) -> str:
         inertia = '<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/>'
@@ -217,36 +217,36 @@ def test_a_bumper_on_a_lumped_link_tells_its_own_collision_by_gazebos_name(gazeb
 {link("hull", "3", "0.4 0.4 0.2")}{weld("root", "hull", "0 0 0.1")}
 {link("bumper", "0.2", "0.05 0.4 0.1")}{weld("hull", "bumper", "0.25 0 -0.05")}<gazebo reference="bumper">
 {_sensor("contact", contact, "bumper", "<bumperTopicName>bumps</bumperTopicName>")}</gazebo></robot>"""
-    answer = gazebo.spawn(robot, "plover")
-    assert answer.success, answer.status_message
+    response = gazebo.spawn(robot, "plover")
+    assert response.success, response.status_message
     gazebo.call("unpause_physics")
-    heard = gazebo.hear("/bumps", "gazebo_msgs/ContactsState")
-    until(lambda: any(message.states for message in heard))
+    messages = gazebo.hear("/bumps", "gazebo_msgs/ContactsState")
+    until(lambda: any(message.states for message in messages))
 
-    names = {state.collision1_name for message in heard for state in message.states}
+    names = {state.collision1_name for message in messages for state in message.states}
     assert names == {"plover::root::root_fixed_joint_lump__bumper_collision_1"}
     assert not gazebo.report.warnings
 
 
-def test_a_joint_tells_what_it_carries(gazebo: Gazebo) -> None:
-    """The head weighs 2 kg: it pulls the world down with 19.6 N."""
+def test_a_force_torque_plugin_measures_the_load_of_a_joint(gazebo: Gazebo) -> None:
+    """The head of 2 kg loads the joint with 19.6 N."""
     parameters = "<jointName>fix</jointName><topicName>ft</topicName>"
     plugin = f'<plugin name="ft" filename="libgazebo_ros_ft_sensor.so">{parameters}</plugin>'
-    _seeing(gazebo, "", plugin)
-    told = _first(gazebo, "/ft", "geometry_msgs/WrenchStamped")
-    assert told.wrench.force.z == pytest.approx(-19.6, rel=1e-3)
-    assert told.header.frame_id == "head"
+    _spawn_sensors(gazebo, "", plugin)
+    message = _first_message(gazebo, "/ft", "geometry_msgs/WrenchStamped")
+    assert message.wrench.force.z == pytest.approx(-19.6, rel=1e-3)
+    assert message.header.frame_id == "head"
 
 
-def test_sensors_go_on_when_other_models_come_and_what_is_unknown_is_named(gazebo: Gazebo) -> None:
+def test_sensors_survive_a_spawn_and_unknown_plugins_are_reported(gazebo: Gazebo) -> None:
     sensors = _sensor("ray", _RAYS, "laser", "<topicName>scan</topicName>")
     sensors += _sensor("ray", _RAYS, "sparkle", "", name="other")
     sensors += _sensor("imu", "", "laser", "", name="wrong")
-    _seeing(gazebo, sensors)
-    heard = gazebo.hear("/scan", "sensor_msgs/LaserScan")
-    until(lambda: heard)
+    _spawn_sensors(gazebo, sensors)
+    messages = gazebo.hear("/scan", "sensor_msgs/LaserScan")
+    until(lambda: messages)
     gazebo.spawn(_WALL.replace("2.5 0 1", "1.5 0 1"), "nearer")
-    until(lambda: heard[-1].ranges[2] == pytest.approx(1.0, abs=1e-3))
+    until(lambda: messages[-1].ranges[2] == pytest.approx(1.0, abs=1e-3))
 
     warnings = "\n".join(gazebo.report.warnings)
     assert "plugin libgazebo_ros_sparkle.so is not supported yet; the sensor has topics without" in warnings

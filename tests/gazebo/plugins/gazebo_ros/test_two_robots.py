@@ -1,4 +1,4 @@
-"""Two robots of one URDF, spawned into two namespaces: topics, frames and commands of each are its own."""
+"""Two robots of one URDF in two namespaces: separate topics, frames and commands."""
 
 import math
 from typing import Any
@@ -42,7 +42,7 @@ _ROBOT = f"""<robot name="bot"><link name="base_link"><inertial><mass value="3"/
 def _spawn_both(gazebo: Gazebo) -> None:
     for number, name in enumerate(("alpha", "beta"), 1):
         pose = {"position": {"y": 3.0 * number, "z": 0.1}}
-        answer = gazebo.call(
+        response = gazebo.call(
             "spawn_urdf_model",
             "gazebo_msgs/SpawnModel",
             model_name=name,
@@ -50,20 +50,24 @@ def _spawn_both(gazebo: Gazebo) -> None:
             robot_namespace=f"/r{number}/",
             initial_pose=pose,
         )
-        assert answer.success, answer.status_message
+        assert response.success, response.status_message
     gazebo.call("unpause_physics")
 
 
 def _frames(gazebo: Gazebo) -> tuple[set[tuple[str, str]], dict[str, str]]:
-    """Edges on /tf, and the frame in the header of each topic."""
-    heard: dict[str, list[Any]] = {"tf": gazebo.hear("/tf", "tf2_msgs/TFMessage")}
+    """Return the edges on /tf, and the header's frame of each topic."""
+    messages: dict[str, list[Any]] = {"tf": gazebo.hear("/tf", "tf2_msgs/TFMessage")}
     kinds = {"odom": "nav_msgs/Odometry", "scan": "sensor_msgs/LaserScan", "imu": "sensor_msgs/Imu"}
     kinds["cam/camera_info"] = "sensor_msgs/CameraInfo"
     for number in (1, 2):
-        heard |= {f"/r{number}/{name}": gazebo.hear(f"/r{number}/{name}", kind) for name, kind in kinds.items()}
-    until(lambda: all(heard.values()) and len(heard["tf"]) > 10)
-    edges = {(each.header.frame_id, each.child_frame_id) for message in heard.pop("tf") for each in message.transforms}
-    return edges, {topic: messages[-1].header.frame_id for topic, messages in heard.items()}
+        messages |= {f"/r{number}/{name}": gazebo.hear(f"/r{number}/{name}", kind) for name, kind in kinds.items()}
+    until(lambda: all(messages.values()) and len(messages["tf"]) > 10)
+    edges = {
+        (transform.header.frame_id, transform.child_frame_id)
+        for message in messages.pop("tf")
+        for transform in message.transforms
+    }
+    return edges, {topic: received[-1].header.frame_id for topic, received in messages.items()}
 
 
 @pytest.mark.parametrize(
@@ -77,7 +81,7 @@ def _frames(gazebo: Gazebo) -> tuple[set[tuple[str, str]], dict[str, str]]:
 def test_frames_have_the_tf_prefix_of_their_namespace(
     bare_gazebo: Gazebo, distro: str, params: dict[str, str], prefixes: tuple[str, str]
 ) -> None:
-    """The imu's, which the original leaves as it is, has only the parameter."""
+    """The imu's frame has only the parameter's prefix, as in the original."""
     gazebo = bare_gazebo
     gazebo.start(distro)
     for name, value in params.items():
@@ -93,11 +97,11 @@ def test_frames_have_the_tf_prefix_of_their_namespace(
         assert headers[f"/r{number}/cam/camera_info"] == f"{prefix}cam_link"
         imu_prefix = f"r{number}_tf/" if f"/r{number}/tf_prefix" in params else ""
         assert headers[f"/r{number}/imu"] == f"{imu_prefix}imu_link"
-    warned = [line for line in gazebo.report.warnings if "both send odom -> base_link; a parameter tf_prefix" in line]
-    assert len(warned) == (0 if params else 1)
+    warnings = [line for line in gazebo.report.warnings if "both send odom -> base_link; a parameter tf_prefix" in line]
+    assert len(warnings) == (0 if params else 1)
 
 
-def test_a_command_moves_the_robot_of_its_namespace_alone(gazebo: Gazebo) -> None:
+def test_a_command_moves_only_the_robot_of_its_namespace(gazebo: Gazebo) -> None:
     _spawn_both(gazebo)
     first, second = gazebo.hear("/r1/odom", "nav_msgs/Odometry"), gazebo.hear("/r2/odom", "nav_msgs/Odometry")
     start = gazebo.state("beta").pose.position.x
@@ -118,8 +122,8 @@ def test_a_command_moves_the_robot_of_its_namespace_alone(gazebo: Gazebo) -> Non
         ("kinetic", "true", 0.0),
     ],
 )
-def test_an_imu_measures_from_the_world_from_noetic_on(bare_gazebo: Gazebo, distro: str, tag: str, yaw: float) -> None:
-    """As REP 145 wants it; before, from its first pose."""
+def test_the_imu_reference_is_the_world_from_noetic_on(bare_gazebo: Gazebo, distro: str, tag: str, yaw: float) -> None:
+    """As in REP 145; earlier, the reference is the first pose."""
     gazebo = bare_gazebo
     gazebo.start(distro)
     reference = f"<initialOrientationAsReference>{tag}</initialOrientationAsReference>" if tag else ""
@@ -129,9 +133,9 @@ def test_an_imu_measures_from_the_world_from_noetic_on(bare_gazebo: Gazebo, dist
 
     assert gazebo.spawn(model, "post").success
     gazebo.call("unpause_physics")
-    heard = gazebo.hear("/post/imu_data", "sensor_msgs/Imu")
-    until(lambda: heard)
+    messages = gazebo.hear("/post/imu_data", "sensor_msgs/Imu")
+    until(lambda: messages)
 
-    turn = heard[-1].orientation
-    assert 2.0 * math.atan2(turn.z, turn.w) == pytest.approx(yaw, abs=1e-3)
+    orientation = messages[-1].orientation
+    assert 2.0 * math.atan2(orientation.z, orientation.w) == pytest.approx(yaw, abs=1e-3)
     assert gazebo.report.warnings == []

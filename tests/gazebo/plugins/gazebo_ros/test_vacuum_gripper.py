@@ -12,33 +12,33 @@ _BALL = f"""<sdf version="1.6"><model name="ball"><pose>0 0 {{z}} 0 0 0</pose><l
 {_INERTIA}</inertial></link></model></sdf>"""
 
 
-def _switch(gazebo: Gazebo, word: str) -> None:
-    gazebo.loop.run(gazebo.client.call_service(f"/arm/{word}", "std_srvs/Empty", {}), timeout_s=PATIENCE_S)
+def _switch(gazebo: Gazebo, service: str) -> None:
+    gazebo.loop.run(gazebo.client.call_service(f"/arm/{service}", "std_srvs/Empty", {}), timeout_s=PATIENCE_S)
 
 
 def _z(gazebo: Gazebo, model: str) -> float:
     return float(gazebo.state(model).pose.position.z)
 
 
-def test_what_is_near_is_held_while_it_is_on(gazebo: Gazebo) -> None:
+def test_a_nearby_link_is_held_while_the_gripper_is_on(gazebo: Gazebo) -> None:
     assert gazebo.spawn(_ARM.format(more=""), "arm").success
     assert gazebo.spawn(_BALL.format(z=0.97), "ball").success
     assert gazebo.spawn(_BALL.format(z=0.9), "other").success
-    told = gazebo.hear("/arm/grasping", "std_msgs/Bool")
+    messages = gazebo.hear("/arm/grasping", "std_msgs/Bool")
     _switch(gazebo, "on")
     gazebo.call("unpause_physics")
     gazebo.until_s(0.5)
     assert _z(gazebo, "ball") == pytest.approx(1.0, abs=0.05)
     assert _z(gazebo, "other") < 0.5, "too far away"
-    assert told[-1].data
+    assert messages[-1].data
 
     _switch(gazebo, "off")
-    until(lambda: not told[-1].data)
+    until(lambda: not messages[-1].data)
     until(lambda: _z(gazebo, "ball") < 0.5)
 
 
-def test_what_it_does_not_know_or_lacks_is_named(gazebo: Gazebo) -> None:
+def test_unknown_and_missing_parameters_are_reported(gazebo: Gazebo) -> None:
     assert gazebo.spawn(_ARM.format(more="<maxForce>9</maxForce>"), "arm").success
     assert gazebo.spawn(_ARM.format(more="").replace("grasping", "").replace("/arm<", "/b<"), "b").success
-    for words in ("<maxForce>", "<topicName> is missing"):
-        until(lambda words=words: any(words in warning for warning in gazebo.report.warnings))
+    for message in ("<maxForce>", "<topicName> is missing"):
+        until(lambda message=message: any(message in warning for warning in gazebo.report.warnings))

@@ -17,38 +17,38 @@ _WALL = """<sdf version="1.6"><model name="wall"><static>1</static><link name="l
 <diffuse>0 0 0 1</diffuse><emissive>1 0 0 1</emissive></material></visual></link></model></sdf>"""
 
 
-def _first(gazebo: Gazebo, sensor: str, topic: str, kind: str) -> Any:
-    """First message of a sensor that faces a pure red wall 2 m ahead."""
+def _first_message(gazebo: Gazebo, sensor: str, topic: str, kind: str) -> Any:
+    """Return the first message of a sensor in front of a red wall at 2 m."""
     model = f"""<sdf version="1.6"><model name="mast"><link name="head"><pose>0 0 1 0 0 0</pose>
 <inertial><mass>2</mass>{_INERTIA}</inertial>{sensor}</link>
 <joint name="fix" type="fixed"><parent>world</parent><child>head</child></joint></model></sdf>"""
     assert gazebo.spawn(_WALL, "wall").success
     assert gazebo.spawn(model, "mast").success
     gazebo.call("unpause_physics")
-    heard = gazebo.hear(topic, kind)
-    until(lambda: heard)
-    return heard[-1]
+    messages = gazebo.hear(topic, kind)
+    until(lambda: messages)
+    return messages[-1]
 
 
-def test_a_sonar_tells_the_nearest_with_its_errors(gazebo: Gazebo) -> None:
+def test_a_sonar_publishes_the_nearest_range_with_its_errors(gazebo: Gazebo) -> None:
     plugin = """<plugin name="p" filename="libhector_gazebo_ros_sonar.so"><topicName>sonar_height</topicName>
 <offset>0.25</offset></plugin>"""
     sensor = f'<sensor name="eye" type="ray"><update_rate>50</update_rate>{_RAYS}{plugin}</sensor>'
-    told = _first(gazebo, sensor, "/sonar_height", "sensor_msgs/Range")
+    message = _first_message(gazebo, sensor, "/sonar_height", "sensor_msgs/Range")
 
-    assert told.range == pytest.approx(2.25, abs=1e-3)
-    assert (told.radiation_type, told.header.frame_id) == (0, "sonar_link")
-    assert told.field_of_view == pytest.approx(0.2)
-    assert (told.min_range, told.max_range) == (pytest.approx(0.1), pytest.approx(10.0))
+    assert message.range == pytest.approx(2.25, abs=1e-3)
+    assert (message.radiation_type, message.header.frame_id) == (0, "sonar_link")
+    assert message.field_of_view == pytest.approx(0.2)
+    assert (message.min_range, message.max_range) == (pytest.approx(0.1), pytest.approx(10.0))
 
 
-def test_a_thermal_camera_sees_hot_what_is_red(gazebo: Gazebo) -> None:
+def test_a_thermal_camera_shows_red_as_hot(gazebo: Gazebo) -> None:
     plugin = """<plugin name="p" filename="libgazebo_ros_thermal_camera.so"><cameraName>thermal</cameraName>
 <frameName>eye_link</frameName></plugin>"""
     sensor = f'<sensor name="eye" type="camera"><update_rate>20</update_rate>{_CAMERA}{plugin}</sensor>'
-    told = _first(gazebo, sensor, "/thermal/image_raw", "sensor_msgs/Image")
+    message = _first_message(gazebo, sensor, "/thermal/image_raw", "sensor_msgs/Image")
 
-    assert (told.width, told.height, told.step, told.encoding) == (32, 24, 32, "mono8")
-    assert told.header.frame_id == "eye_link"
-    assert told.data[12 * 32 + 16] == 255
-    assert told.data[16] <= 3 * 255 // 8, "above the wall it is dark"
+    assert (message.width, message.height, message.step, message.encoding) == (32, 24, 32, "mono8")
+    assert message.header.frame_id == "eye_link"
+    assert message.data[12 * 32 + 16] == 255
+    assert message.data[16] <= 3 * 255 // 8, "dark above the wall"

@@ -1,4 +1,4 @@
-"""The base of a TurtleBot 2 in a running world: driven, bumped, lifted and switched off."""
+"""The base of a TurtleBot 2 in a running world: drive, bumper, cliff sensors and motor power."""
 
 import math
 
@@ -13,12 +13,12 @@ _RAY = """<ray><scan><horizontal><samples>3</samples><min_angle>-0.04</min_angle
 </horizontal></scan><range><min>0.01</min><max>0.15</max></range></ray>"""
 
 
-def _felt(name: str, collision: str) -> str:
+def _contact_sensor(name: str, collision: str) -> str:
     return f"""<sensor name="{name}" type="contact"><always_on>1</always_on><update_rate>50</update_rate>
 <contact><collision>{collision}</collision></contact></sensor>"""
 
 
-def _cliff(name: str, y: float) -> str:
+def _cliff_sensor(name: str, y: float) -> str:
     return f"""<sensor name="{name}" type="ray"><pose>0.1 {y} 0.03 0 {math.pi / 2} 0</pose>
 <update_rate>50</update_rate>{_RAY}</sensor>"""
 
@@ -27,7 +27,7 @@ def _wheel(side: str, y: float) -> str:
     return f"""<link name="wheel_{side}"><pose>0 {y} 0.035 {-math.pi / 2} 0 0</pose>
 <inertial><mass>0.05</mass><inertia><ixx>1e-4</ixx><iyy>1e-4</iyy><izz>1e-4</izz></inertia></inertial>
 <collision name="rim"><geometry><cylinder><radius>0.035</radius><length>0.02</length></cylinder></geometry></collision>
-{_felt(f"drop_{side}", "rim")}</link>
+{_contact_sensor(f"drop_{side}", "rim")}</link>
 <joint name="{side}" type="revolute"><parent>base_footprint</parent><child>wheel_{side}</child>
 <axis><xyz>0 1 0</xyz><use_parent_model_frame>1</use_parent_model_frame></axis></joint>"""
 
@@ -48,8 +48,8 @@ _PARAMETERS = """<left_wheel_joint_name>left</left_wheel_joint_name><publish_tf>
 _ROBOT = f"""<sdf version="1.6"><model name="mobile_base"><link name="base_footprint">
 <inertial><pose>0 0 0.05 0 0 0</pose><mass>2.4</mass>{_INERTIA}</inertial>{_caster(0.12)}{_caster(-0.12)}
 <collision name="body"><pose>0 0 0.08 0 0 0</pose><geometry><cylinder><radius>0.17</radius><length>0.08</length>
-</cylinder></geometry></collision>{_felt("bumpers", "body")}
-{_cliff("cliff_left", 0.08)}{_cliff("cliff_front", 0.0)}{_cliff("cliff_right", -0.08)}
+</cylinder></geometry></collision>{_contact_sensor("bumpers", "body")}
+{_cliff_sensor("cliff_left", 0.08)}{_cliff_sensor("cliff_front", 0.0)}{_cliff_sensor("cliff_right", -0.08)}
 <sensor name="imu" type="imu"><update_rate>50</update_rate></sensor></link>
 {_wheel("left", 0.115)}{_wheel("right", -0.115)}
 <plugin name="kobuki" filename="libgazebo_ros_kobuki.so">{_PARAMETERS}</plugin></model></sdf>"""
@@ -58,13 +58,13 @@ _BASE = "/mobile_base"
 
 @pytest.fixture
 def kobuki(gazebo: Gazebo) -> Gazebo:
-    answer = gazebo.spawn(_ROBOT, "mobile_base")
-    assert answer.success, answer.status_message
+    response = gazebo.spawn(_ROBOT, "mobile_base")
+    assert response.success, response.status_message
     gazebo.call("unpause_physics")
     return gazebo
 
 
-def test_it_drives_until_it_bumps_into_a_wall(kobuki: Gazebo) -> None:
+def test_the_base_drives_until_its_bumper_touches_a_wall(kobuki: Gazebo) -> None:
     kobuki.spawn(_WALL, "wall")
     odometry = kobuki.hear("/odom", "nav_msgs/Odometry")
     bumps = kobuki.hear(f"{_BASE}/events/bumper", "kobuki_msgs/BumperEvent")
@@ -79,15 +79,15 @@ def test_it_drives_until_it_bumps_into_a_wall(kobuki: Gazebo) -> None:
     until(driving)
     assert (bumps[0].bumper, bumps[0].state) == (1, 1)
     assert core[-1].bumper & 2
-    place = odometry[-1]
-    assert place.pose.pose.position.x == pytest.approx(kobuki.state("mobile_base").pose.position.x, abs=0.05)
-    assert (place.header.frame_id, place.child_frame_id) == ("odom", "base_footprint")
+    message = odometry[-1]
+    assert message.pose.pose.position.x == pytest.approx(kobuki.state("mobile_base").pose.position.x, abs=0.05)
+    assert (message.header.frame_id, message.child_frame_id) == ("odom", "base_footprint")
     assert max(message.twist.twist.linear.x for message in odometry) == pytest.approx(0.3, abs=0.05)
-    assert (place.pose.covariance[0], place.pose.covariance[35], place.twist.covariance[0]) == (0.1, 0.05, 0.0)
+    assert (message.pose.covariance[0], message.pose.covariance[35], message.twist.covariance[0]) == (0.1, 0.05, 0.0)
     assert list(states[-1].name) == ["left", "right"]
 
 
-def test_it_turns_by_its_gyro_and_stops_when_nobody_commands_it(kobuki: Gazebo) -> None:
+def test_odometry_takes_yaw_from_the_gyro_and_commands_expire(kobuki: Gazebo) -> None:
     odometry = kobuki.hear("/odom", "nav_msgs/Odometry")
     imu = kobuki.hear(f"{_BASE}/sensors/imu_data", "sensor_msgs/Imu")
     drive = kobuki.speak(f"{_BASE}/commands/velocity", "geometry_msgs/Twist")
@@ -101,14 +101,16 @@ def test_it_turns_by_its_gyro_and_stops_when_nobody_commands_it(kobuki: Gazebo) 
     assert imu[-1].linear_acceleration.z == pytest.approx(9.8, abs=1.0)
     assert imu[-1].orientation_covariance[8] == 0.05
     until(lambda: abs(odometry[-1].twist.twist.angular.z) < 0.05)
-    turn = odometry[-1].pose.pose.orientation
-    true = kobuki.state("mobile_base").pose.orientation
-    assert math.atan2(turn.z, turn.w) == pytest.approx(math.atan2(true.z, true.w), abs=0.05)
+    orientation = odometry[-1].pose.pose.orientation
+    true_orientation = kobuki.state("mobile_base").pose.orientation
+    assert math.atan2(orientation.z, orientation.w) == pytest.approx(
+        math.atan2(true_orientation.z, true_orientation.w), abs=0.05
+    )
     kobuki.speak(f"{_BASE}/commands/reset_odometry", "std_msgs/Empty")({})
     until(lambda: abs(odometry[-1].pose.pose.orientation.z) < 0.01)
 
 
-def test_lifted_it_feels_no_floor_and_without_power_it_stands(kobuki: Gazebo) -> None:
+def test_a_lifted_base_reports_cliffs_and_stops_without_power(kobuki: Gazebo) -> None:
     cliffs = kobuki.hear(f"{_BASE}/events/cliff", "kobuki_msgs/CliffEvent")
     drops = kobuki.hear(f"{_BASE}/events/wheel_drop", "kobuki_msgs/WheelDropEvent")
     core = kobuki.hear(f"{_BASE}/sensors/core", "kobuki_msgs/SensorState")
@@ -129,14 +131,16 @@ def test_lifted_it_feels_no_floor_and_without_power_it_stands(kobuki: Gazebo) ->
     until(spinning)
     kobuki.speak(f"{_BASE}/commands/motor_power", "kobuki_msgs/MotorPower")({"state": 0})
 
-    def standing() -> bool:
+    def stopped() -> bool:
         drive({"linear": {"x": 0.3}})
         return abs(states[-1].velocity[0]) < 0.1
 
-    until(standing)
+    until(stopped)
 
 
-def test_what_is_missing_is_named(gazebo: Gazebo) -> None:
-    wrong = _ROBOT.replace("<bumper_name>bumpers", "<bumper_name>nose")
-    assert gazebo.spawn(wrong, "mobile_base").success
-    until(lambda: any("no sensor 'nose'; there are: bumpers, " in str(said) for said in gazebo.report.warnings))
+def test_a_missing_sensor_is_reported(gazebo: Gazebo) -> None:
+    invalid = _ROBOT.replace("<bumper_name>bumpers", "<bumper_name>nose")
+    assert gazebo.spawn(invalid, "mobile_base").success
+    until(
+        lambda: any("no sensor 'nose'; sensors here: bumpers, " in str(warning) for warning in gazebo.report.warnings)
+    )

@@ -1,4 +1,4 @@
-"""Laws of ros_control as rules in Python, at every step, to which the C++ is compared."""
+"""Laws of ros_control in Python, at every step: the reference for the C++ laws."""
 
 import math
 from collections import deque
@@ -37,8 +37,8 @@ class PythonPid:
         self._last = error
         self._integral += error * dt
         if self.antiwindup and self.i:
-            most = abs(self.i_clamp / self.i)
-            self._integral = min(max(self._integral, -most), most)
+            limit = abs(self.i_clamp / self.i)
+            self._integral = min(max(self._integral, -limit), limit)
         contribution = min(max(self.i * self._integral, -self.i_clamp), self.i_clamp)
         return self.p * error + contribution + self.d * slope
 
@@ -52,20 +52,20 @@ class PythonJoint:
         self._is_at_rest = True
         axis = handle.joint.axis
         assert axis is not None
-        self.lower, self.upper, self._most_effort, self._most_speed = axis.lower, axis.upper, axis.effort, axis.velocity
+        self.lower, self.upper, self._max_effort, self._max_speed = axis.lower, axis.upper, axis.effort, axis.velocity
 
     def read(self) -> None:
         self.position, self.velocity, self.effort = self.handle.position, self.handle.velocity, self.handle.effort
 
-    def error(self, wanted: float) -> float:
+    def error(self, target: float) -> float:
         is_revolute = self.handle.joint.type is JointType.REVOLUTE
-        way = wanted - self.position
+        difference = target - self.position
         is_continuous = is_revolute and math.isinf(self.upper) and math.isinf(self.lower)
-        return math.remainder(way, math.tau) if is_continuous else way
+        return math.remainder(difference, math.tau) if is_continuous else difference
 
-    def shortest_error(self, wanted: float) -> float:
-        way = wanted - self.position
-        return way if self.handle.joint.type is JointType.PRISMATIC else math.remainder(way, math.tau)
+    def shortest_error(self, target: float) -> float:
+        difference = target - self.position
+        return difference if self.handle.joint.type is JointType.PRISMATIC else math.remainder(difference, math.tau)
 
     @property
     def settling_ns(self) -> int:
@@ -87,11 +87,11 @@ class PythonJoint:
             case "EffortJointInterface":
                 self.handle.command_effort(self.command, hardware=True)
             case "VelocityJointInterface":
-                wanted = min(max(self.command, -self._most_speed), self._most_speed)
+                target = min(max(self.command, -self._max_speed), self._max_speed)
                 if self.pid is not None:
-                    self.handle.command_effort(self.pid.command(wanted - self.velocity, dt), hardware=True)
+                    self.handle.command_effort(self.pid.command(target - self.velocity, dt), hardware=True)
                 else:
-                    self.handle.command_velocity(wanted, max_effort=self._most_effort, hardware=True)
+                    self.handle.command_velocity(target, max_effort=self._max_effort, hardware=True)
             case _:
                 self._write_position(dt)
 
@@ -103,7 +103,7 @@ class PythonJoint:
             self.handle.command_effort(self.pid.command(error, dt), hardware=True)
             return
         speed = error / self.lag_s
-        self.handle.drive_kinematically(min(max(speed, -self._most_speed), self._most_speed), hardware=True)
+        self.handle.drive_kinematically(min(max(speed, -self._max_speed), self._max_speed), hardware=True)
 
 
 @dataclass
@@ -154,7 +154,7 @@ class PythonTrajectory:
     def update(self, time_ns: int, dt: float) -> None:
         self.time_ns = time_ns
         segments = [path.at(time_ns) for path in self.paths]
-        self.desired = [each.segment.sample(time_ns) for each in segments]
+        self.desired = [segment.segment.sample(time_ns) for segment in segments]
         if self.watches:
             self._event = self._check(segments)
             self.watches = self._event is None
@@ -167,18 +167,18 @@ class PythonTrajectory:
             joint.command = command + self._forward[number] * velocity
 
     def _check(self, segments: Sequence[PathSegment]) -> Event | None:
-        for number, (joint, path, on) in enumerate(zip(self._joints, self.paths, segments, strict=True)):
-            if on.goal != self.goal:
+        for number, (joint, path, segment) in enumerate(zip(self._joints, self.paths, segments, strict=True)):
+            if segment.goal != self.goal:
                 continue
             position, velocity, _ = self.desired[number]
             errors = joint.shortest_error(position), velocity - joint.velocity
-            if self.time_ns < on.segment.end_ns:
-                if not on.tolerances.path.allows(*errors):
+            if self.time_ns < segment.segment.end_ns:
+                if not segment.tolerances.path.allows(*errors):
                     return -4, number, errors[0]
-            elif on is path.segments[-1]:
-                if on.tolerances.goal.allows(*errors):
+            elif segment is path.segments[-1]:
+                if segment.tolerances.goal.allows(*errors):
                     self._arrived.add(number)
-                elif self.time_ns >= on.segment.end_ns + on.tolerances.time_ns + joint.settling_ns:
+                elif self.time_ns >= segment.segment.end_ns + segment.tolerances.time_ns + joint.settling_ns:
                     return -5, number, errors[0]
         return (0, 0, 0.0) if len(self._arrived) == len(self._joints) else None
 
@@ -202,7 +202,7 @@ class PythonDiffDrive:
         self._left, self._right, self._radii = left, right, radii
         self._drive = DifferentialDrive(wheel_radius=wheel_radius, separation=separation)
         names = SpeedLimit.__struct_fields__
-        self._limits = [SpeedLimit(**dict(zip(names, each, strict=True))) for each in limits]
+        self._limits = [SpeedLimit(**dict(zip(names, segment, strict=True))) for segment in limits]
         self._timeout_ns, self._open_loop = timeout_ns, open_loop
         self._odometry = WheelOdometry(self._drive)
         self._history = [(0.0, 0.0), (0.0, 0.0)]
@@ -211,7 +211,7 @@ class PythonDiffDrive:
     def start(self) -> None:
         for joint in (*self._left, *self._right):
             joint.start()
-        self._wheel_angles = self._turns()
+        self._wheel_angles = self._mean_angles()
         self._command: tuple[int, float, float] | None = None
 
     def set_command(self, stamp_ns: int, linear: float, angular: float) -> None:
@@ -230,12 +230,12 @@ class PythonDiffDrive:
         return self._history[0][0], self._history[1][0]
 
     def update(self, time_ns: int, dt: float) -> None:
-        self._count(dt)
-        is_old = self._command is None or time_ns - self._command[0] > self._timeout_ns
-        targets = (0.0, 0.0) if is_old or self._command is None else self._command[1:]
-        for number, wanted in enumerate(targets):
-            last, before = self._history[number]
-            self._history[number] = (self._limits[number].limit(wanted, last, before, dt), last)
+        self._update_odometry(dt)
+        is_timed_out = self._command is None or time_ns - self._command[0] > self._timeout_ns
+        targets = (0.0, 0.0) if is_timed_out or self._command is None else self._command[1:]
+        for index, target in enumerate(targets):
+            last, previous = self._history[index]
+            self._history[index] = (self._limits[index].limit(target, last, previous, dt), last)
         (linear, _), (angular, _) = self._history
         half = angular * self._drive.separation / 2
         for joints, speed, radius in zip(
@@ -244,21 +244,21 @@ class PythonDiffDrive:
             for joint in joints:
                 joint.command = speed / radius
 
-    def _turns(self) -> tuple[float, float]:
+    def _mean_angles(self) -> tuple[float, float]:
         left, right = (sum(joint.position for joint in side) / len(side) for side in (self._left, self._right))
         return left, right
 
-    def _count(self, dt: float) -> None:
+    def _update_odometry(self, dt: float) -> None:
         if self._open_loop:
             (linear, _), (angular, _) = self._history
             half = angular * self._drive.separation / 2
             left, right = (linear - half) * dt, (linear + half) * dt
         else:
-            now = self._turns()
+            angles = self._mean_angles()
             left, right = (
-                (new - old) * radius for new, old, radius in zip(now, self._wheel_angles, self._radii, strict=True)
+                (new - old) * radius for new, old, radius in zip(angles, self._wheel_angles, self._radii, strict=True)
             )
-            self._wheel_angles = now
+            self._wheel_angles = angles
         radius = self._drive.wheel_radius
         distance, turn = self._odometry.update(left / radius, right / radius)
         self._speeds.append((distance / dt, turn / dt))
@@ -287,13 +287,13 @@ class PythonGripper:
         return event
 
     def update(self, time_ns: int, dt: float) -> None:
-        joint, most = self._joint, self._max_effort
+        joint, limit = self._joint, self._max_effort
         error = joint.error(self._target)
         if self._pid is None:
             joint.command = self._target
         else:
             effort = self._pid.command(error, dt, slope=-joint.velocity)
-            joint.command = min(max(effort, -most), most) if most > 0.0 else effort
+            joint.command = min(max(effort, -limit), limit) if limit > 0.0 else effort
         if abs(joint.velocity) > self._min_speed or time_ns < self._moved_ns:
             self._moved_ns = time_ns
         if not self.watches:

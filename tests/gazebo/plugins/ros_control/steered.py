@@ -5,10 +5,10 @@ import math
 RADIUS = 0.1
 
 
-def inertial(mass: float, moment: float, *, at: str = "0 0 0") -> str:
+def inertial(mass: float, moment: float, *, com: str = "0 0 0") -> str:
     moments = " ".join(f'{name}="{moment}"' for name in ("ixx", "iyy", "izz"))
     return (
-        f'<inertial><origin xyz="{at}"/><mass value="{mass}"/><inertia {moments} ixy="0" ixz="0" iyz="0"/></inertial>'
+        f'<inertial><origin xyz="{com}"/><mass value="{mass}"/><inertia {moments} ixy="0" ixz="0" iyz="0"/></inertial>'
     )
 
 
@@ -19,7 +19,7 @@ def _driven(joint: str, interface: str) -> str:
 
 
 def wheel(name: str, parent: str, x: float, y: float, *, driven: bool = True) -> str:
-    """A wheel that turns about y, with its joint `<name>_joint`."""
+    """Return a wheel with the axis y, and its joint `<name>_joint`."""
     transmission = _driven(f"{name}_joint", "VelocityJointInterface") if driven else ""
     cylinder = f'<geometry><cylinder radius="{RADIUS}" length="0.03"/></geometry>'
     return f"""<link name="{name}">{inertial(0.5, 0.002)}
@@ -29,7 +29,7 @@ def wheel(name: str, parent: str, x: float, y: float, *, driven: bool = True) ->
 
 
 def knuckle(name: str, x: float, y: float) -> str:
-    """Steering knuckle of a wheel, with its joint `<name>_joint`."""
+    """Return the steering knuckle of a wheel, with its joint `<name>_joint`."""
     return f"""<link name="{name}">{inertial(0.2, 0.002)}</link>
 <joint name="{name}_joint" type="revolute"><parent link="base_link"/><child link="{name}"/><origin xyz="{x} {y} 0"/>
 <axis xyz="0 0 1"/><limit lower="-1.5" upper="1.5" effort="100" velocity="10"/></joint>
@@ -37,8 +37,8 @@ def knuckle(name: str, x: float, y: float) -> str:
 
 
 def robot(parts: str, *, com: str = "0 0 0", feet: str = "") -> str:
-    """A base with its centre of mass there and such parts, under ros_control in the root namespace."""
-    return f"""<robot name="car"><link name="base_link">{inertial(5, 0.2, at=com)}{feet}</link>{parts}
+    """Return a base with the given parts and centre of mass, under ros_control in the root namespace."""
+    return f"""<robot name="car"><link name="base_link">{inertial(5, 0.2, com=com)}{feet}</link>{parts}
 <gazebo reference="base_link"><mu1>0</mu1><mu2>0</mu2></gazebo>
 <gazebo><plugin name="control" filename="libgazebo_ros_control.so"><robotNamespace>/</robotNamespace></plugin></gazebo>
 </robot>"""

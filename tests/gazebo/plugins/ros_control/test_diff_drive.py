@@ -51,10 +51,10 @@ def car(gazebo: Gazebo) -> Iterator[Gazebo]:
     gazebo.loop.run(gazebo.client.params.set("/robot_description", CAR))
     gazebo.loop.run(gazebo.client.params.set("/base", BASE))
     pose = {"position": {"z": _RADIUS}}
-    answer = gazebo.call(
+    response = gazebo.call(
         "spawn_urdf_model", "gazebo_msgs/SpawnModel", model_name="car", model_xml=CAR, initial_pose=pose
     )
-    assert answer.success, answer.status_message
+    assert response.success, response.status_message
     node = Node("/spawner", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
     future = gazebo.loop.spawn(Spawner(node, ["base"], NodeHost()).run())
     gazebo.call("unpause_physics")
@@ -64,11 +64,11 @@ def car(gazebo: Gazebo) -> Iterator[Gazebo]:
 
 
 def _yaw(message: Message) -> float:
-    turn = message.pose.pose.orientation
-    return 2.0 * math.atan2(turn.z, turn.w)
+    orientation = message.pose.pose.orientation
+    return 2.0 * math.atan2(orientation.z, orientation.w)
 
 
-def test_a_command_drives_and_the_wheels_tell_where_to(car: Gazebo) -> None:
+def test_a_command_drives_and_odometry_follows_the_wheels(car: Gazebo) -> None:
     odometry = car.hear("/base/odom", "nav_msgs/Odometry")
     frames = car.hear("/tf", "tf2_msgs/TFMessage")
     drive = car.speak("/base/cmd_vel", "geometry_msgs/Twist")
@@ -87,12 +87,12 @@ def test_a_command_drives_and_the_wheels_tell_where_to(car: Gazebo) -> None:
         return abs(odometry[-1].twist.twist.linear.x) < 1e-3
 
     until(stopped)  # no more commands
-    until(lambda: abs(car.state("car").twist.linear.x) < 1e-3)  # it slides on after its wheels have stopped
-    told, true = odometry[-1].pose.pose.position, car.state("car").pose.position
-    assert (told.x, told.y) == (pytest.approx(true.x, abs=0.02), pytest.approx(true.y, abs=0.02))
+    until(lambda: abs(car.state("car").twist.linear.x) < 1e-3)  # the car slides on after its wheels have stopped
+    estimate, truth = odometry[-1].pose.pose.position, car.state("car").pose.position
+    assert (estimate.x, estimate.y) == (pytest.approx(truth.x, abs=0.02), pytest.approx(truth.y, abs=0.02))
 
 
-def test_it_turns_left_for_a_positive_rate(car: Gazebo) -> None:
+def test_a_positive_yaw_rate_turns_left(car: Gazebo) -> None:
     odometry = car.hear("/base/odom", "nav_msgs/Odometry")
     drive = car.speak("/base/cmd_vel", "geometry_msgs/Twist")
 

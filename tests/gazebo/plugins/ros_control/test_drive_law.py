@@ -1,4 +1,4 @@
-"""Drives in C++ within the step, to the byte as in Python at every step."""
+"""Drive laws in C++ within the step give the same bytes as laws in Python at every step."""
 
 import math
 import random
@@ -17,7 +17,7 @@ _WHEEL = """<link name="{0}"><pose>{1} {2} 0.08 0 0 0</pose><inertial><mass>0.3<
 <iyy>8e-4</iyy><izz>5e-4</izz></inertia></inertial><collision name="c"><pose>0 0 0 1.5708 0 0</pose><geometry><cylinder>
 <radius>0.08</radius><length>0.03</length></cylinder></geometry></collision></link><joint name="{0}_joint"
 type="revolute"><parent>base</parent><child>{0}</child><axis><xyz>0 1 0</xyz></axis></joint>"""
-_PLACES = {"fl": (0.1, 0.12), "fr": (0.1, -0.12), "rl": (-0.1, 0.12), "rr": (-0.1, -0.12)}
+_WHEEL_POSITIONS = {"fl": (0.1, 0.12), "fr": (0.1, -0.12), "rl": (-0.1, 0.12), "rr": (-0.1, -0.12)}
 _GROUND = "<include><uri>model://ground_plane</uri></include>"
 _INF = math.inf
 _LIMITS = [
@@ -27,7 +27,7 @@ _LIMITS = [
 
 
 def _cart(folder: Path) -> Simulation:
-    wheels = "".join(_WHEEL.format(name, x, y) for name, (x, y) in _PLACES.items())
+    wheels = "".join(_WHEEL.format(name, x, y) for name, (x, y) in _WHEEL_POSITIONS.items())
     base = """<link name="base"><pose>0 0 0.12 0 0 0</pose><inertial><mass>5</mass><inertia><ixx>0.05</ixx>
 <iyy>0.1</iyy><izz>0.1</izz></inertia></inertial></link>"""
     file = folder / "w.sdf"
@@ -55,15 +55,16 @@ class _InStep:
 
 
 def _drive(sim: Simulation, seed: int, *, in_step: bool) -> Any:
-    """Give a cart a drive of random limits and radii; return its law."""
+    """Add a drive with random radii to a cart; return its law."""
     random_ = random.Random(seed)
-    joint, law = (JointHardware, DiffDriveLaw) if in_step else (PythonJoint, PythonDiffDrive)
+    joint, cpp_law = (JointHardware, DiffDriveLaw) if in_step else (PythonJoint, PythonDiffDrive)
     wheels: dict[str, Any] = {
-        name: joint(sim["m"].joint(f"{name}_joint"), "VelocityJointInterface", None, lag_s=0.005) for name in _PLACES
+        name: joint(sim["m"].joint(f"{name}_joint"), "VelocityJointInterface", None, lag_s=0.005)
+        for name in _WHEEL_POSITIONS
     }
     for wheel in wheels.values():
         wheel.read()
-    drive: Any = law(
+    drive: Any = cpp_law(
         [wheels["fl"], wheels["rl"]],
         [wheels["fr"], wheels["rr"]],
         wheel_radius=0.08,
@@ -86,20 +87,24 @@ def _drive(sim: Simulation, seed: int, *, in_step: bool) -> Any:
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_random_commands_drive_to_the_same_bytes_as_in_python(tmp_path: Path, seed: int) -> None:
+def test_random_commands_give_the_same_bytes_as_in_python(tmp_path: Path, seed: int) -> None:
     random_ = random.Random(seed)
-    ours, rules = _cart(tmp_path), _cart(tmp_path)
-    law, python = _drive(ours, seed, in_step=True), _drive(rules, seed, in_step=False)
+    cpp_sim, python_sim = _cart(tmp_path), _cart(tmp_path)
+    cpp_law, python_law = _drive(cpp_sim, seed, in_step=True), _drive(python_sim, seed, in_step=False)
     for _ in range(12):
         twist = random_.gauss(0.0, 1.0), random_.gauss(0.0, 3.0)
-        for each in (law, python):
-            each.set_command(ours.time_ns, *twist)
+        for drive in (cpp_law, python_law):
+            drive.set_command(cpp_sim.time_ns, *twist)
         steps = random_.choice((1, 15, 90))
-        ours.step(steps)
-        rules.step(steps)
-        assert (law.place, law.limited, law.speeds) == (python.place, python.limited, python.speeds)
-        assert ours["m"].pose == rules["m"].pose
-    assert math.dist(law.place, (0.0, 0.0, 0.0)) > 0.001
-    (hook,) = ours.hooks
+        cpp_sim.step(steps)
+        python_sim.step(steps)
+        assert (cpp_law.place, cpp_law.limited, cpp_law.speeds) == (
+            python_law.place,
+            python_law.limited,
+            python_law.speeds,
+        )
+        assert cpp_sim["m"].pose == python_sim["m"].pose
+    assert math.dist(cpp_law.place, (0.0, 0.0, 0.0)) > 0.001
+    (hook,) = cpp_sim.hooks
     assert isinstance(hook, _InStep)
     assert hook.calls <= 12

@@ -14,7 +14,7 @@ _FLOOR = """<model name="floor"><static>true</static><link name="l"><collision n
 <normal>0 0 1</normal></plane></geometry></collision></link></model>"""
 
 
-def _box(name: str, pose: str, mass: float, size: tuple[float, float, float]) -> str:
+def _link(name: str, pose: str, mass: float, size: tuple[float, float, float]) -> str:
     x, y, z = size
     moments = [mass * (a * a + b * b) / 12 for a, b in ((y, z), (x, z), (x, y))]
     ixx, iyy, izz = (f"<{name}>{value}</{name}>" for name, value in zip(("ixx", "iyy", "izz"), moments, strict=True))
@@ -34,10 +34,10 @@ def _load(folder: Path, models: str) -> Simulation:
     return trundle.load(str(file))
 
 
-def _arm_on_a_box(limit: str) -> str:
-    """An arm of 4 kg and 0.4 m on a pan of 2 kg on a box of 10 kg that stands free."""
-    return f"""<model name="m">{_box("base", "0 0 0.1", 10.0, (0.4, 0.4, 0.2))}
-    {_box("pan", "0 0 0.25", 2.0, (0.1, 0.1, 0.1))}{_box("arm", "0.2 0 0.35", 4.0, (0.4, 0.05, 0.05))}
+def _arm_on_a_free_base(limit: str) -> str:
+    """Return an arm of 4 kg and 0.4 m, on a pan of 2 kg, on a free base of 10 kg."""
+    return f"""<model name="m">{_link("base", "0 0 0.1", 10.0, (0.4, 0.4, 0.2))}
+    {_link("pan", "0 0 0.25", 2.0, (0.1, 0.1, 0.1))}{_link("arm", "0.2 0 0.35", 4.0, (0.4, 0.05, 0.05))}
     {_joint("turn", "revolute", "base", "pan", "0 0 1", "0 0 -0.05", limit)}
     {_joint("lift", "revolute", "pan", "arm", "0 1 0", "-0.2 0 0", limit)}</model>"""
 
@@ -50,13 +50,13 @@ def _engage(sim: Simulation, *names: str) -> list[JointHardware]:
     return joints
 
 
-def _control(sim: Simulation, joints: list[JointHardware], steps: int, look: Callable[[], None]) -> None:
+def _control(sim: Simulation, joints: list[JointHardware], steps: int, record: Callable[[], None]) -> None:
     for _ in range(steps):
         for joint in joints:
             joint.read()
             joint.write(0.001)
         sim.step()
-        look()
+        record()
 
 
 @pytest.mark.parametrize(
@@ -69,33 +69,33 @@ def _control(sim: Simulation, joints: list[JointHardware], steps: int, look: Cal
         ("<velocity>3</velocity><effort>0</effort>", 430),
     ],
 )
-def test_an_arm_goes_to_its_target_and_its_free_base_stays(tmp_path: Path, limit: str, steps: int) -> None:
-    """By motors that push the base in turn, it was thrown by 2 mm to 13 m; an arm of 8 N·m hung from 1 N·m."""
-    sim = _load(tmp_path, _arm_on_a_box(limit))
+def test_an_arm_reaches_its_target_and_its_free_base_does_not_move(tmp_path: Path, limit: str, steps: int) -> None:
+    """With reaction forces on the base, it would move by 2 mm to 13 m."""
+    sim = _load(tmp_path, _arm_on_a_free_base(limit))
     joints = _engage(sim, "turn", "lift")
     base = sim["m"].link("base")
     _control(sim, joints, 300, lambda: None)
-    start, off = base.pose, [(0.0, 0.0)]
+    start, offsets = base.pose, [(0.0, 0.0)]
 
-    def look() -> None:
+    def record() -> None:
         moved = start.inverse() @ base.pose
-        off.append((math.hypot(*moved.position), 2 * math.hypot(*moved.quaternion[1:])))
+        offsets.append((math.hypot(*moved.position), 2 * math.hypot(*moved.quaternion[1:])))
 
     joints[0].command, joints[1].command = 1.0, -1.2
-    _control(sim, joints, steps, look)
+    _control(sim, joints, steps, record)
     positions = [joint.handle.position for joint in joints]
-    _control(sim, joints, 500, look)
+    _control(sim, joints, 500, record)
 
     assert positions == pytest.approx([1.0, -1.2], abs=0.01)
-    assert max(far for far, _ in off) < 1e-4
-    assert max(tilt for _, tilt in off) < 1e-4
+    assert max(far for far, _ in offsets) < 1e-4
+    assert max(tilt for _, tilt in offsets) < 1e-4
 
 
-def test_legs_that_bend_let_their_body_down(tmp_path: Path) -> None:
-    """The feet stand on the floor: so the body moves instead, and by as much."""
-    links, limit = _box("base", "0 0 0.5", 8.0, (0.5, 0.3, 0.1)), "<velocity>10</velocity><effort>100</effort>"
+def test_bending_legs_lower_their_body(tmp_path: Path) -> None:
+    """The feet touch the floor, so the body moves by the joints' displacement."""
+    links, limit = _link("base", "0 0 0.5", 8.0, (0.5, 0.3, 0.1)), "<velocity>10</velocity><effort>100</effort>"
     for i, (x, y) in enumerate((x, y) for x in (0.2, -0.2) for y in (0.2, -0.2)):
-        links += _box(f"leg{i}", f"{x} {y} 0.35", 0.5, (0.04, 0.04, 0.3))
+        links += _link(f"leg{i}", f"{x} {y} 0.35", 0.5, (0.04, 0.04, 0.3))
         links += _joint(f"hip{i}", "prismatic", "base", f"leg{i}", "0 0 1", "0 0 0", limit)
     sim = _load(tmp_path, f'<model name="m"><pose>0 0 -0.2 0 0 0</pose>{links}</model>')
     joints = _engage(sim, *(f"hip{i}" for i in range(4)))
@@ -110,11 +110,11 @@ def test_legs_that_bend_let_their_body_down(tmp_path: Path) -> None:
     assert sim["m"].link("base").pose.position == pytest.approx((0.0, 0.0, before - 0.05), abs=5e-4)
 
 
-def test_what_a_wall_stops_is_pushed_by_its_effort_limit(tmp_path: Path) -> None:
+def test_a_joint_blocked_by_a_wall_pushes_with_its_effort_limit(tmp_path: Path) -> None:
     limit = "<velocity>3</velocity><effort>5</effort>"
     wall = f"""<model name="wall"><static>true</static><pose>0.3 0.35 0.35 0 0 0</pose>
-    {_box("l", "0 0 0", 1.0, (0.2, 0.2, 0.3))}</model>"""
-    sim = _load(tmp_path, _arm_on_a_box(limit) + wall)
+    {_link("l", "0 0 0", 1.0, (0.2, 0.2, 0.3))}</model>"""
+    sim = _load(tmp_path, _arm_on_a_free_base(limit) + wall)
     joints = _engage(sim, "turn", "lift")
     joints[0].command = 1.5
     _control(sim, joints, 1500, lambda: None)
@@ -127,34 +127,34 @@ def test_what_a_wall_stops_is_pushed_by_its_effort_limit(tmp_path: Path) -> None
     assert joints[0].handle.position == pytest.approx(0.0, abs=1e-3)
 
 
-@pytest.mark.parametrize("way", ["interface", "set_position"])
-def test_fingers_that_close_on_a_box_leave_it_where_it_is(tmp_path: Path, way: str) -> None:
-    """They are commanded 2 cm into it from either side, and one arrives first."""
+@pytest.mark.parametrize("command", ["interface", "set_position"])
+def test_closing_fingers_do_not_move_a_box(tmp_path: Path, command: str) -> None:
+    """The fingers are commanded 2 cm into the box from either side; one arrives first."""
     limit = "<lower>-0.1</lower><upper>0.1</upper>"
-    hand = f"""{_box("palm", "0 0 0.3", 5.0, (0.2, 0.1, 0.05))}{_box("left", "-0.08 0 0.23", 0.1, (0.02, 0.04, 0.1))}
-    {_box("right", "0.08 0 0.23", 0.1, (0.02, 0.04, 0.1))}
+    hand = f"""{_link("palm", "0 0 0.3", 5.0, (0.2, 0.1, 0.05))}{_link("left", "-0.08 0 0.23", 0.1, (0.02, 0.04, 0.1))}
+    {_link("right", "0.08 0 0.23", 0.1, (0.02, 0.04, 0.1))}
     {_joint("a", "prismatic", "palm", "left", "1 0 0", "0 0 0", limit)}
     {_joint("b", "prismatic", "palm", "right", "-1 0 0", "0 0 0", limit)}
     <joint name="fix" type="fixed"><parent>world</parent><child>palm</child></joint>"""
-    box = f"""<model name="box"><pose>0.005 0 0.2 0 0 0</pose>{_box("l", "0 0 0", 0.5, (0.06, 0.06, 0.06))}</model>
-    <model name="stand"><static>true</static><pose>0 0 0.085 0 0 0</pose>{_box("l", "0 0 0", 1.0, (0.1, 0.1, 0.17))}
+    box = f"""<model name="box"><pose>0.005 0 0.2 0 0 0</pose>{_link("l", "0 0 0", 0.5, (0.06, 0.06, 0.06))}</model>
+    <model name="stand"><static>true</static><pose>0 0 0.085 0 0 0</pose>{_link("l", "0 0 0", 1.0, (0.1, 0.1, 0.17))}
     </model>"""
     sim = _load(tmp_path, f'<model name="m">{hand}</model>{box}')
     joints = _engage(sim, "a", "b")
     _control(sim, joints, 100, lambda: None)
     for joint in joints:
         joint.command = 0.06
-    fastest = 0.0
+    max_speed = 0.0
     for _ in range(1000):
         for joint in joints:
-            if way == "interface":
+            if command == "interface":
                 joint.read()
                 joint.write(0.001)
             else:
                 joint.handle.set_position(0.06)
         sim.step()
-        fastest = max(fastest, math.hypot(*sim["box"].base.twist.linear))
+        max_speed = max(max_speed, math.hypot(*sim["box"].base.twist.linear))
 
     assert sim["box"].pose.position == pytest.approx((0.0, 0.0, 0.2), abs=0.006)
-    assert fastest < 3.0
+    assert max_speed < 3.0
     assert math.hypot(*sim["box"].base.twist.linear) < 0.01

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 from tests.gazebo.plugins.ros_control.steered import robot, wheel
-from tests.gazebo.plugins.ros_control.test_steering import driving, keep
+from tests.gazebo.plugins.ros_control.test_steering import driving, repeat_until
 from tests.gazebo_server import Gazebo
 
 _CORNERS = {"front_left": (0.3, 0.2), "front_right": (0.3, -0.2), "rear_left": (-0.3, 0.2), "rear_right": (-0.3, -0.2)}
@@ -28,7 +28,7 @@ def test_wheels_and_odometry_have_the_commanded_twist_within_limits(gazebo: Gaze
         frames = gazebo.hear("/tf", "tf2_msgs/TFMessage")
         drive = gazebo.speak("/base/cmd_vel", "geometry_msgs/Twist")
         command = {"linear": {"x": 0.3, "y": 5.0}, "angular": {"z": 0.4}}
-        keep(drive, command, lambda: odometry and odometry[-1].pose.pose.position.x > 0.1)
+        repeat_until(drive, command, lambda: odometry and odometry[-1].pose.pose.position.x > 0.1)
 
         twist = odometry[-1].twist.twist
         assert (twist.linear.x, twist.linear.y) == pytest.approx((0.3, 0.2), abs=0.02)
@@ -36,17 +36,17 @@ def test_wheels_and_odometry_have_the_commanded_twist_within_limits(gazebo: Gaze
         assert odometry[-1].pose.pose.position.y > 0.05
         assert odometry[0].twist.covariance[0] == 0.1
         assert frames[-1].transforms[0].child_frame_id == "base_link"
-        speeds = [
+        joints = [
             gazebo.call("get_joint_properties", "gazebo_msgs/GetJointProperties", joint_name=f"{name}_joint")
             for name in _CORNERS
         ]
-        found = [each.rate[0] for each in speeds]
-        assert found == pytest.approx([-1.0, 7.0, 3.0, 3.0], abs=0.2)
+        wheel_speeds = [joint.rate[0] for joint in joints]
+        assert wheel_speeds == pytest.approx([-1.0, 7.0, 3.0, 3.0], abs=0.2)
 
 
-def test_a_robot_that_nobody_commands_stops(gazebo: Gazebo) -> None:
+def test_a_robot_stops_when_commands_end(gazebo: Gazebo) -> None:
     with driving(gazebo, ROBOT, MECANUM):
         odometry = gazebo.hear("/base/odom", "nav_msgs/Odometry")
         drive = gazebo.speak("/base/cmd_vel", "geometry_msgs/Twist")
-        keep(drive, {"linear": {"x": 0.3}}, lambda: odometry and odometry[-1].twist.twist.linear.x > 0.25)
-        keep(lambda _: None, {}, lambda: abs(odometry[-1].twist.twist.linear.x) < 1e-3)
+        repeat_until(drive, {"linear": {"x": 0.3}}, lambda: odometry and odometry[-1].twist.twist.linear.x > 0.25)
+        repeat_until(lambda _: None, {}, lambda: abs(odometry[-1].twist.twist.linear.x) < 1e-3)

@@ -1,4 +1,4 @@
-"""One joint that ros_control and another plugin command, as Gazebo's forces, motors and positions act together."""
+"""One joint commanded by ros_control and another plugin: efforts, motors and positions combine as in Gazebo."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 from msgspec.structs import replace
-from tests.gazebo.plugins.ros_control.controlled import Robot, driven, standing
-from tests.gazebo.plugins.stage import ARM, load
+from tests.gazebo.plugins.plugin_world import ARM, load
+from tests.gazebo.plugins.ros_control.controlled import Robot, driven, fixed_robot
 from tests.gazebo_server import Gazebo, until
 
 from trundle.gazebo.plugins.ros_control.hardware import JointHardware
@@ -33,10 +33,10 @@ def _push(joint: JointHandle) -> None:
     joint.command_effort(0.2)
 
 
-def _mixed(
+def _run_both(
     sim: Simulation, joint: JointHardware, other: Callable[[JointHandle], None], period: int, *, first: bool
 ) -> None:
-    """Run both plugins for `_STEPS`; the other one, due every `period` steps, acts before or after ros_control."""
+    """Run both for `_STEPS`; the other plugin, due every `period` steps, acts before or after ros_control."""
     handle = joint.handle
     for step in range(_STEPS):
         if first and step % period == 0:
@@ -91,7 +91,7 @@ def test_efforts_add_up_and_a_position_overrides_all(
 ) -> None:
     """v = Σ effort · t / I with 0.1 kg·m² after 0.5 s, whichever plugin acts first and however often."""
     sim, joint = _hardware(tmp_path, interface, command, gains)
-    _mixed(sim, joint, other, period, first=first)
+    _run_both(sim, joint, other, period, first=first)
 
     assert joint.handle.velocity == pytest.approx(speed, abs=0.02)
     if interface == _POSITION and not gains:
@@ -99,10 +99,10 @@ def test_efforts_add_up_and_a_position_overrides_all(
 
 
 @pytest.mark.parametrize(("first", "period", "speed"), [(True, 1, 0.0), (False, 1, 1.0), (True, 20, 0.0)])
-def test_of_two_speeds_the_later_one_counts(tmp_path: Path, first: bool, period: int, speed: float) -> None:
+def test_the_later_of_two_speeds_counts(tmp_path: Path, first: bool, period: int, speed: float) -> None:
     """Gazebo has one motor a joint: ros_control, which writes at every step, overrides a drive plugin of 50 Hz."""
     sim, joint = _hardware(tmp_path, _VELOCITY, 0.0, {})
-    _mixed(sim, joint, _drive, period, first=first)
+    _run_both(sim, joint, _drive, period, first=first)
 
     assert joint.handle.velocity == pytest.approx(speed, abs=1e-3)
 
@@ -111,40 +111,40 @@ def test_a_plugins_effort_beyond_the_motors_limit_accelerates(tmp_path: Path) ->
     """0.2 N·m of the plugin and 0.1 N·m of a wrench against a motor of 0.2 N·m."""
     sim, joint = _hardware(tmp_path, _VELOCITY, 0.0, {}, "<effort>0.2</effort>")
     sim["m"].link("arm").apply_wrench(Wrench(torque=(0.0, 0.0, 0.1)))
-    _mixed(sim, joint, _push, 1, first=False)
+    _run_both(sim, joint, _push, 1, first=False)
 
     assert joint.handle.velocity == pytest.approx((0.2 + 0.1 - 0.2) / _INERTIA * 0.5, abs=0.01)
 
 
 @pytest.mark.parametrize("command", [0.3, 3.0])
-def test_each_effort_has_the_joints_limits(tmp_path: Path, command: float) -> None:
-    """At most 1 N·m of ros_control's, beside the plugin's; and neither accelerates beyond 2 rad/s."""
+def test_each_effort_respects_the_joints_limits(tmp_path: Path, command: float) -> None:
+    """ros_control adds at most 1 N·m to the plugin's effort; neither accelerates beyond 2 rad/s."""
     sim, joint = _hardware(tmp_path, _EFFORT, command, {}, "<effort>1</effort><velocity>2</velocity>")
-    _mixed(sim, joint, _push, 1, first=True)
+    _run_both(sim, joint, _push, 1, first=True)
     assert joint.handle.velocity == pytest.approx(min(2.0, (min(command, 1.0) + 0.2) / _INERTIA * 0.5), abs=0.05)
 
 
-def test_an_effort_beside_a_motor_does_not_pass_the_velocity_limit(tmp_path: Path) -> None:
+def test_an_effort_with_a_motor_respects_the_velocity_limit(tmp_path: Path) -> None:
     sim, joint = _hardware(tmp_path, _EFFORT, 0.5, {}, "<velocity>2</velocity>")
-    _mixed(sim, joint, _weak_drive, 1, first=True)
+    _run_both(sim, joint, _weak_drive, 1, first=True)
 
     assert joint.handle.velocity == pytest.approx(2.0, abs=0.02)
 
 
 def test_a_wrench_on_the_link_adds_to_an_effort(tmp_path: Path) -> None:
-    """As of gazebo_ros_force."""
+    """Like that of gazebo_ros_force."""
     sim, joint = _hardware(tmp_path, _EFFORT, 0.3, {})
     sim["m"].link("arm").apply_wrench(Wrench(torque=(0.0, 0.0, 0.1)))
-    _mixed(sim, joint, lambda _: None, 1, first=True)
+    _run_both(sim, joint, lambda _: None, 1, first=True)
 
     assert joint.handle.velocity == pytest.approx(0.4 / _INERTIA * 0.5, rel=1e-3)
 
 
-def test_a_timed_effort_ends_beside_that_of_ros_control(tmp_path: Path) -> None:
-    """As of apply_joint_effort."""
+def test_a_timed_effort_ends_and_that_of_ros_control_stays(tmp_path: Path) -> None:
+    """Like that of apply_joint_effort."""
     sim, joint = _hardware(tmp_path, _EFFORT, 0.1, {})
     joint.handle.command_effort(0.2, duration_s=0.25)
-    _mixed(sim, joint, lambda _: None, 1, first=True)
+    _run_both(sim, joint, lambda _: None, 1, first=True)
 
     assert joint.handle.velocity == pytest.approx((0.1 * 0.5 + 0.2 * 0.25) / _INERTIA, rel=1e-3)
 
@@ -154,7 +154,7 @@ def test_mixed_commands_continue_from_a_saved_state_to_the_bit(
     tmp_path: Path, other: Callable[[JointHandle], None]
 ) -> None:
     sim, joint = _hardware(tmp_path, _EFFORT, 0.3, {})
-    _mixed(sim, joint, other, 20, first=False)
+    _run_both(sim, joint, other, 20, first=False)
     saved = sim.save()
 
     def rest() -> tuple[float, float, object]:
@@ -179,7 +179,7 @@ def test_mixed_commands_are_not_doubled_when_a_model_is_spawned(tmp_path: Path) 
     joint.rebind()
     assert joint.handle.commands == commands
     assert joint.handle.effort == pytest.approx(0.3)
-    _mixed(sim, joint, lambda _: None, 1, first=True)
+    _run_both(sim, joint, lambda _: None, 1, first=True)
 
     assert joint.handle.velocity == pytest.approx(0.3 / _INERTIA * 0.5, rel=1e-3)
 
@@ -190,7 +190,7 @@ iyz="0"/></inertial><collision><origin rpy="1.5708 0 0"/><geometry><cylinder rad
 <origin xyz="{1} {2} 0"/><axis xyz="0 1 0"/></joint><transmission name="{0}_t">
 <type>transmission_interface/SimpleTransmission</type><joint name="{0}_hinge">
 <hardwareInterface>hardware_interface/{3}</hardwareInterface></joint><actuator name="{0}_m"/></transmission>"""
-_PLACES = {"fl": (0.06, 0.11), "fr": (0.06, -0.11), "rl": (-0.06, 0.11), "rr": (-0.06, -0.11)}
+_WHEEL_POSITIONS = {"fl": (0.06, 0.11), "fr": (0.06, -0.11), "rl": (-0.06, 0.11), "rr": (-0.06, -0.11)}
 _SKID = """<plugin name="drive" filename="libgazebo_ros_skid_steer_drive.so"><leftFrontJoint>fl_hinge</leftFrontJoint>
 <rightFrontJoint>fr_hinge</rightFrontJoint><leftRearJoint>rl_hinge</leftRearJoint><rightRearJoint>rr_hinge
 </rightRearJoint><wheelSeparation>0.22</wheelSeparation><wheelDiameter>0.08</wheelDiameter></plugin>"""
@@ -201,7 +201,7 @@ _CONTROL = '<plugin name="control" filename="libgazebo_ros_control.so"/>'
 
 
 def _cart(interface: Interface, *plugins: str) -> str:
-    wheels = "".join(_WHEEL.format(name, x, y, interface) for name, (x, y) in _PLACES.items())
+    wheels = "".join(_WHEEL.format(name, x, y, interface) for name, (x, y) in _WHEEL_POSITIONS.items())
     return f"""<robot name="cart"><link name="base_link"><inertial><mass value="2"/><inertia ixx="0.01" iyy="0.02"
 izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial><collision><origin xyz="0 0 0.05"/><geometry><box size="0.2 0.16 0.06"/>
 </geometry></collision></link>{wheels}{"".join(f"<gazebo>{plugin}</gazebo>" for plugin in plugins)}</robot>"""
@@ -217,10 +217,10 @@ izz="0.02" ixy="0" ixz="0" iyz="0"/></inertial><collision><origin xyz="0 0 0.05"
         (_POSITION, (_CONTROL, _SKID), 0.0),
     ],
 )
-def test_wheels_without_a_controller_roll_unless_their_interface_holds_them(
+def test_wheels_without_a_controller_roll_only_with_effort_interfaces(
     gazebo: Gazebo, interface: Interface, plugins: tuple[str, ...], distance: float
 ) -> None:
-    """The default hardware adds zero effort, but holds zero speed, or a position."""
+    """The default hardware adds zero effort, but holds zero speed or a position."""
     text = _cart(interface, *plugins)
     gazebo.loop.run(gazebo.client.params.set("/robot_description", text))
     pose: dict[str, Any] = {"position": {"z": 0.041}}
@@ -240,7 +240,7 @@ def test_wheels_without_a_controller_roll_unless_their_interface_holds_them(
     assert moved == pytest.approx(distance * elapsed_s, abs=0.03 * elapsed_s + 0.02)
 
 
-_ROBOT = standing(
+_ROBOT = fixed_robot(
     driven("a", "continuous", _POSITION), driven("b", "continuous", _VELOCITY), driven("c", "continuous", _EFFORT)
 ).replace("</robotNamespace>", "</robotNamespace><eStopTopic>stop</eStopTopic>")
 _CONTROLLERS: dict[str, Any] = {
@@ -269,10 +269,10 @@ def test_an_emergency_stop_holds_positions_and_restarts_the_controllers_afterwar
     stop = robot.gazebo.speak("/r/stop", "std_msgs/Bool")
     stop({"data": True})
     until(lambda: abs(robot.joint("a").rate[0]) < 1e-3 and abs(robot.joint("b").rate[0]) < 1e-3)
-    places = {name: robot.joint(name).position[0] for name in "ab"}
+    positions = {name: robot.joint(name).position[0] for name in "ab"}
     coasting = robot.joint("c").rate[0]
     robot.gazebo.until_s(robot.gazebo.time_s + 0.5)
-    assert {name: robot.joint(name).position[0] for name in "ab"} == pytest.approx(places, abs=1e-3)
+    assert {name: robot.joint(name).position[0] for name in "ab"} == pytest.approx(positions, abs=1e-3)
     assert robot.joint("c").rate[0] == pytest.approx(coasting, rel=1e-3)
     assert not results
 
@@ -280,5 +280,5 @@ def test_an_emergency_stop_holds_positions_and_restarts_the_controllers_afterwar
     until(lambda: results)
     assert results[0].status.status == 2  # preempted, as the controller was restarted
     robot.gazebo.until_s(robot.gazebo.time_s + 0.3)
-    assert robot.joint("a").position[0] == pytest.approx(places["a"], abs=1e-3)
+    assert robot.joint("a").position[0] == pytest.approx(positions["a"], abs=1e-3)
     assert abs(robot.joint("b").rate[0]) < 1e-3

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from tests.gazebo.plugins.ros_control.controlled import MANAGER, Robot, driven, standing
+from tests.gazebo.plugins.ros_control.controlled import MANAGER, Robot, driven, fixed_robot
 from tests.gazebo_server import PATIENCE_S, Gazebo, until
 
 from trundle.gazebo.nodes import NodeHost
@@ -13,7 +13,7 @@ from trundle.gazebo.nodes.controller_manager import ControllerManagerTool, Spawn
 from trundle.ros import Node
 
 _LIMIT = '<limit lower="-2" upper="2" effort="100" velocity="3"/>'
-ROBOT = standing(
+ROBOT = fixed_robot(
     driven("lift", "prismatic", "EffortJointInterface", axis="0 0 1", limit=_LIMIT),
     driven("turn", "revolute", "PositionJointInterface", limit=_LIMIT),
     driven("spin", "continuous", "VelocityJointInterface"),
@@ -59,24 +59,24 @@ def test_commands_move_joints_through_their_interfaces(robot: Robot) -> None:
 
 def test_joint_states_are_published_in_the_order_of_names(robot: Robot) -> None:
     robot.spawn("states")
-    heard = robot.gazebo.hear("/r/joint_states", "sensor_msgs/JointState")
-    until(lambda: len(heard) > 3)
+    messages = robot.gazebo.hear("/r/joint_states", "sensor_msgs/JointState")
+    until(lambda: len(messages) > 3)
 
-    assert list(heard[0].name) == ["lift", "spin", "turn"]
-    stamps = [message.header.stamp.sec + message.header.stamp.nanosec * 1e-9 for message in heard[:3]]
+    assert list(messages[0].name) == ["lift", "spin", "turn"]
+    stamps = [message.header.stamp.sec + message.header.stamp.nanosec * 1e-9 for message in messages[:3]]
     assert stamps[1] - stamps[0] == pytest.approx(0.01, abs=1e-9)
 
 
-def test_an_effort_falls_back_when_its_controller_stops(robot: Robot) -> None:
+def test_an_effort_ends_when_its_controller_stops(robot: Robot) -> None:
     """An effort equal to the weight holds 1 kg; without it, the mass falls."""
     robot.spawn("push")
     robot.command("push", 9.8 + 1.0)
     until(lambda: robot.joint("lift").position[0] > 0.05)
-    assert robot.ask("switch_controller", "SwitchController", stop_controllers=["push"], strictness=2).ok
+    assert robot.call("switch_controller", "SwitchController", stop_controllers=["push"], strictness=2).ok
     until(lambda: robot.joint("lift").position[0] == pytest.approx(-2.0, abs=1e-2))
 
 
-def test_the_manager_lists_refuses_and_unloads(robot: Robot) -> None:
+def test_the_controller_manager_lists_switches_and_unloads(robot: Robot) -> None:
     robot.spawn("--stopped", "turn")
     robot.spawn("all")
     (first, second) = robot.list()
@@ -86,51 +86,51 @@ def test_the_manager_lists_refuses_and_unloads(robot: Robot) -> None:
 
     def switch(start: list[str], stop: list[str], strictness: int = 2) -> bool:
         fields = {"start_controllers": start, "stop_controllers": stop, "strictness": strictness}
-        return robot.ask("switch_controller", "SwitchController", **fields).ok
+        return robot.call("switch_controller", "SwitchController", **fields).ok
 
     assert not switch(["turn"], [])  # both would command one joint
     assert not switch(["nobody"], [])
     assert switch(["nobody"], [], 1)
-    assert not robot.ask("unload_controller", "UnloadController", name="all").ok  # it runs
+    assert not robot.call("unload_controller", "UnloadController", name="all").ok  # it runs
     assert switch(["turn"], ["all"])
-    assert robot.ask("unload_controller", "UnloadController", name="all").ok
+    assert robot.call("unload_controller", "UnloadController", name="all").ok
     assert [(c.name, c.state) for c in robot.list()] == [("turn", "running")]
     for name in ("turn", "nobody", "odd"):
-        assert not robot.ask("load_controller", "LoadController", name=name).ok
-    types = robot.ask("list_controller_types", "ListControllerTypes").types
+        assert not robot.call("load_controller", "LoadController", name=name).ok
+    types = robot.call("list_controller_types", "ListControllerTypes").types
     assert "diff_drive_controller/DiffDriveController" in types
 
 
-def test_a_spawner_that_is_killed_takes_its_controllers_away(robot: Robot) -> None:
+def test_a_killed_spawner_unloads_its_controllers(robot: Robot) -> None:
     robot.spawn("turn")
     assert robot.stop_spawner(0) == 0
     until(lambda: robot.list() == [])
 
 
 def test_the_command_line_tool(robot: Robot, capsys: pytest.CaptureFixture[str]) -> None:
-    def tool(words: str) -> int:
+    def run_tool(arguments: str) -> int:
         gazebo = robot.gazebo
         node = Node("/r/tool", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
 
         async def run() -> int:
             try:
-                return await ControllerManagerTool(node, words.split(), NodeHost()).run()
+                return await ControllerManagerTool(node, arguments.split(), NodeHost()).run()
             finally:
                 await node.shutdown()
 
         return gazebo.loop.run(run(), timeout_s=PATIENCE_S)
 
-    assert tool("spawn spin") == 0
-    assert tool("list") == 0
+    assert run_tool("spawn spin") == 0
+    assert run_tool("list") == 0
     out = capsys.readouterr().out
     assert "Spawned 'spin' successfully\n'spin' - 'velocity_controllers/JointVelocityController' ( running )" in out
-    assert tool("kill spin") == 0
-    assert tool("start spin") == 1
-    assert tool("fly spin") == 1
+    assert run_tool("kill spin") == 0
+    assert run_tool("start spin") == 1
+    assert run_tool("fly spin") == 1
     assert "invalid choice: 'fly'" in capsys.readouterr().err
 
 
-def test_a_reset_holds_joints_where_they_came(robot: Robot) -> None:
+def test_a_reset_holds_joints_at_their_initial_positions(robot: Robot) -> None:
     robot.spawn("turn")
     robot.command("turn", 1.0)
     until(lambda: robot.joint("turn").position[0] == pytest.approx(1.0, abs=1e-2))
@@ -140,13 +140,13 @@ def test_a_reset_holds_joints_where_they_came(robot: Robot) -> None:
     assert robot.joint("turn").position[0] == pytest.approx(0.0, abs=1e-2)
 
 
-def test_without_a_description_it_waits_and_says_so(gazebo: Gazebo, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_missing_robot_description_is_logged_and_awaited(gazebo: Gazebo, capfd: pytest.CaptureFixture[str]) -> None:
     spawned = gazebo.call(
         "spawn_urdf_model", "gazebo_msgs/SpawnModel", model_name="r", model_xml=ROBOT, robot_namespace="/r"
     )
     assert spawned.success
-    said: list[str] = []
-    until(lambda: said.append(capfd.readouterr().err) or "waiting for model URDF" in "".join(said))
+    output: list[str] = []
+    until(lambda: output.append(capfd.readouterr().err) or "waiting for model URDF" in "".join(output))
     gazebo.loop.run(gazebo.client.params.set("/robot_description", ROBOT))
     wait = gazebo.client.wait_for_service(f"{MANAGER}/list_controllers", PATIENCE_S)
     gazebo.loop.run(wait, timeout_s=PATIENCE_S)
@@ -164,11 +164,11 @@ def test_a_spawner_without_a_manager_gives_up(gazebo: Gazebo, capfd: pytest.Capt
 
 
 @pytest.mark.parametrize(("name", "interface"), [("imu", "ImuSensor"), ("wrist", "ForceTorqueSensor")])
-def test_a_controller_of_sensors_does_not_load_as_the_hardware_has_none(
+def test_a_sensor_controller_does_not_load_without_its_hardware_interface(
     robot: Robot, name: str, interface: str
 ) -> None:
     robot.list()
     log = robot.gazebo.hear("/rosout_agg", "rosgraph_msgs/Log")
-    assert not robot.ask("load_controller", "LoadController", name=name).ok
-    wanted = f"/r/{name} requires a hardware interface of type 'hardware_interface::{interface}Interface'"
-    until(lambda: any(wanted in str(line.msg) for line in log))
+    assert not robot.call("load_controller", "LoadController", name=name).ok
+    error = f"/r/{name} requires a hardware interface of type 'hardware_interface::{interface}Interface'"
+    until(lambda: any(error in str(line.msg) for line in log))

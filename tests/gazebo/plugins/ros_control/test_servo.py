@@ -1,4 +1,4 @@
-"""Laws in C++ within the step, to the byte as in Python at every step."""
+"""Laws in C++ within the step give the same bytes as laws in Python at every step."""
 
 import math
 import random
@@ -22,7 +22,7 @@ import trundle
 from trundle.gazebo.plugins.ros_control.hardware import JointHardware
 from trundle.gazebo.plugins.ros_control.tolerances import JointTolerances, StateTolerance
 from trundle.gazebo.plugins.ros_control.trajectory_goal import JointPath, PathSegment
-from trundle.gazebo.plugins.ros_control.transmissions import INTERFACES
+from trundle.gazebo.plugins.ros_control.transmissions import INTERFACES, Interface
 from trundle.sim.control import GripperLaw, JointSegment, JointState, PidLoop, Servo, ToolboxPid, TrajectoryLaw
 from trundle.sim.physics import SimulationUnstableError
 from trundle.sim.simulation import Simulation
@@ -82,7 +82,7 @@ class _InStep:
 
 
 class _Events:
-    """Hook that takes the events of Python's law."""
+    """Hook that records the events of the Python law."""
 
     def __init__(self, law: Any, joints: Sequence[Any]) -> None:
         self._law, self._joints = law, joints
@@ -95,13 +95,13 @@ class _Events:
 
 
 def _states(joints: Sequence[Any]) -> list[tuple[float, ...]]:
-    return [(each.position, each.velocity, each.effort) for each in joints]
+    return [(joint.position, joint.velocity, joint.effort) for joint in joints]
 
 
 def _add_hooks(
     sim: Simulation, joints: Sequence[Any], laws: Sequence[Any], watched: Any, *, in_step: bool
 ) -> list[_Event]:
-    """Run laws in C++ or in Python; return where the events of one appear."""
+    """Run laws in C++ or in Python; return the list that receives the watched law's events."""
     if in_step:
         servo = Servo(joints)
         servo.longest_ns = sim.step_ns
@@ -115,8 +115,8 @@ def _add_hooks(
     return events.events
 
 
-class _Other:
-    """Plugin that commands joints 0 and 5 directly, now and then."""
+class _OtherPlugin:
+    """Plugin that commands joints 0 and 5 directly, every 13 ms."""
 
     period_ns = 13_000_000
 
@@ -132,15 +132,15 @@ class _Other:
                 sim["m"].joint(name).command_effort(value)
 
 
-class _Rig:
-    """Arm whose joints 0 to 2 follow a trajectory, 3 and 4 have loops, and 5 keeps its command."""
+class _ControlledArm:
+    """Arm with joints 0 to 2 on a trajectory, 3 and 4 under PID loops, and 5 at a constant command."""
 
     def __init__(self, folder: Path, random_: random.Random, *, in_step: bool, other: int = 0) -> None:
-        """Make a rig; another plugin acts before it (1), after it (2) or not (0)."""
+        """Create the arm; another plugin acts before its laws (1), after them (2) or not at all (0)."""
         self.sim = _arm(folder)
         if other == 1:
-            self.sim.add_hook(_Other(1), period_ns=_Other.period_ns)
-        pid, joint, loop, law = (
+            self.sim.add_hook(_OtherPlugin(1), period_ns=_OtherPlugin.period_ns)
+        pid_class, joint_class, loop_class, law_class = (
             (ToolboxPid, JointHardware, PidLoop, TrajectoryLaw)
             if in_step
             else (PythonPid, PythonJoint, PythonLoop, PythonTrajectory)
@@ -149,61 +149,61 @@ class _Rig:
         def gains(*, of_speed: bool = False) -> Any:
             p, i, d = random_.choice((5.0, 20.0)), random_.choice((0.0, 4.0)), random_.choice((0.2, 1.0))
             clamp, antiwindup = random_.choice((0.0, 3.0)), random_.random() < 0.5
-            return pid(
+            return pid_class(
                 p=0.1 * p if of_speed else p, i=i, d=0.0 if of_speed else d, i_clamp=clamp, antiwindup=antiwindup
             )
 
-        def hardware(number: int, interface: str) -> Any:
+        def hardware(number: int, interface: Interface) -> Any:
             of_speed = interface == "VelocityJointInterface"
-            own = gains(of_speed=of_speed) if interface != INTERFACES[0] and random_.random() < 0.5 else None
-            return joint(self.sim["m"].joint(f"j{number}"), interface, own, lag_s=0.005)
+            pid_gains = gains(of_speed=of_speed) if interface != INTERFACES[0] and random_.random() < 0.5 else None
+            return joint_class(self.sim["m"].joint(f"j{number}"), interface, pid_gains, lag_s=0.005)
 
         interface = random_.choice(INTERFACES)
         self.joints = [hardware(number, interface) for number in range(3)]
         self.joints += [hardware(3, INTERFACES[0]), hardware(4, random_.choice((INTERFACES[0], INTERFACES[2])))]
         self.joints.append(hardware(5, random_.choice(INTERFACES)))
-        for each in self.joints:
-            each.read()
-            each.start()
+        for joint in self.joints:
+            joint.read()
+            joint.start()
         by_speed = interface == "VelocityJointInterface"
         pids = [] if interface == "PositionJointInterface" else [gains(of_speed=by_speed) for _ in range(3)]
         speeds = [random_.random() < 0.5 for _ in range(2)]
         self.loops: list[Any] = [
-            loop(each, gains(of_speed=speed or each.interface == "VelocityJointInterface"), speed)
-            for each, speed in zip(self.joints[3:5], speeds, strict=True)
+            loop_class(joint, gains(of_speed=speed or joint.interface == "VelocityJointInterface"), speed)
+            for joint, speed in zip(self.joints[3:5], speeds, strict=True)
         ]
-        for each in self.loops:
-            each.start(0)
+        for loop in self.loops:
+            loop.start(0)
         forward = [random_.choice((0.0, 0.2)) for _ in range(3)]
-        self.law: Any = law(self.joints[:3], pids, forward)
+        self.law: Any = law_class(self.joints[:3], pids, forward)
         laws: list[Any] = [self.law, *self.loops]
         self.events = _add_hooks(self.sim, self.joints, laws, self.law, in_step=in_step)
         if other == 2:
-            self.sim.add_hook(_Other(2), period_ns=_Other.period_ns)
+            self.sim.add_hook(_OtherPlugin(2), period_ns=_OtherPlugin.period_ns)
 
     @property
     def hook(self) -> "_InStep":
-        """Hook of a rig that acts in C++."""
-        return next(each for each in self.sim.hooks if isinstance(each, _InStep))
+        """Hook of an arm with laws in C++."""
+        return next(hook for hook in self.sim.hooks if isinstance(hook, _InStep))
 
     def command(self, random_: random.Random, goal: int) -> None:
-        """Give new paths and targets, the same by the same numbers."""
+        """Set new paths and targets, equal for equal random states."""
         now_ns = self.sim.time_ns
-        paths = [_path(random_, each.position, now_ns, goal) for each in self.joints[:3]]
+        paths = [_path(random_, joint.position, now_ns, goal) for joint in self.joints[:3]]
         if isinstance(self.law, PythonTrajectory):
             self.law.paths = paths
         else:
             self.law.set_paths([path.rows() for path in paths])
         self.law.begin_goal(goal)
         self.law.watches = True
-        for each in self.loops:
-            each.target = random_.gauss(0.0, 1.5)
+        for loop in self.loops:
+            loop.target = random_.gauss(0.0, 1.5)
         self.joints[5].command = random_.choice((0.0, random_.gauss(0.0, 1.0)))
         if random_.random() < 0.3:
             self.sim["m"].joint("j5").command_effort(random_.gauss(0.0, 1.0), duration_s=0.03)
 
-    def numbers(self) -> bytes:
-        """Return all that commands and steps write."""
+    def state_bytes(self) -> bytes:
+        """Return the bytes of all state that commands and steps write."""
         saved = self.sim.save().engine
         data, motors = saved.data, saved.motors
         arrays = (data.qpos, data.qvel, data.ctrl, data.qfrc_applied, data.qfrc_actuator, data.userdata)
@@ -232,26 +232,28 @@ def _path(random_: random.Random, position: float, now_ns: int, goal: int) -> Jo
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_random_trajectories_gains_and_interfaces_give_the_same_bytes_as_in_python(tmp_path: Path, seed: int) -> None:
+def test_random_trajectories_give_the_same_bytes_as_in_python(tmp_path: Path, seed: int) -> None:
     """The C++ acts within strides, which events end; Python acts at every step, before or after another plugin."""
-    ours, rules = (_Rig(tmp_path, random.Random(seed), in_step=in_step, other=seed % 3) for in_step in (True, False))
+    cpp, python = (
+        _ControlledArm(tmp_path, random.Random(seed), in_step=in_step, other=seed % 3) for in_step in (True, False)
+    )
     for goal in range(1, 9):
-        for rig in (ours, rules):
-            rig.command(random.Random(f"{seed} {goal}"), goal)
+        for arm in (cpp, python):
+            arm.command(random.Random(f"{seed} {goal}"), goal)
         for steps in (1, 2 + goal, 70, 61, 37):
-            ours.sim.step(steps)
-            rules.sim.step(steps)
-            assert ours.numbers() == rules.numbers()
-            assert [each.command for each in ours.joints] == [each.command for each in rules.joints]
-            assert ours.law.desired == rules.law.desired
-    assert ours.events == rules.events
-    assert ours.hook.calls < 0.15 * ours.sim.steps
+            cpp.sim.step(steps)
+            python.sim.step(steps)
+            assert cpp.state_bytes() == python.state_bytes()
+            assert [joint.command for joint in cpp.joints] == [joint.command for joint in python.joints]
+            assert cpp.law.desired == python.law.desired
+    assert cpp.events == python.events
+    assert cpp.hook.calls < 0.15 * cpp.sim.steps
 
 
 @pytest.mark.parametrize("interface", ["EffortJointInterface", "PositionJointInterface"])
 def test_a_gripper_arrives_and_stalls_in_the_same_states_as_in_python(tmp_path: Path, interface: Any) -> None:
-    """Joint 2 closes on its stop; the action's result has position and effort of that moment."""
-    outcomes: list[list[object]] = []
+    """Joint 2 closes on its stop; the result has the position and effort of that step."""
+    results: list[list[object]] = []
     for in_step in (True, False):
         sim = _arm(tmp_path)
         joint, law, pid = (
@@ -267,65 +269,65 @@ def test_a_gripper_arrives_and_stalls_in_the_same_states_as_in_python(tmp_path: 
             grip.begin(target, max_effort, sim.time_ns)
             grip.watches = True
             sim.step(700)
-        outcomes.append([*events, sim.save().engine.data.qpos.tobytes()])
+        results.append([*events, sim.save().engine.data.qpos.tobytes()])
 
-    assert outcomes[0] == outcomes[1]
-    assert len(outcomes[0]) > 3
+    assert results[0] == results[1]
+    assert len(results[0]) > 3
 
 
-def test_a_goal_that_settles_ends_the_stride(tmp_path: Path) -> None:
-    rig = _Rig(tmp_path, random.Random(3), in_step=True)
-    rig.command(random.Random(1), 1)
+def test_a_goal_that_settles_ends_the_stride(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    arm = _ControlledArm(tmp_path, random.Random(3), in_step=True)
+    arm.command(random.Random(1), 1)
     strides: list[int] = []
-    step = rig.sim.engine.step
+    step = arm.sim.engine.step
 
-    def counted(count: int, each: Any) -> int:
-        made = step(count, each)
-        strides.append(made)
-        return made
+    def counted_step(count: int, recorders: Any) -> int:
+        steps_taken = step(count, recorders)
+        strides.append(steps_taken)
+        return steps_taken
 
-    rig.sim.engine.step = counted
-    rig.sim.step(400)
-    (time_ns, _, _), *_ = rig.events
+    monkeypatch.setattr(arm.sim.engine, "step", counted_step)
+    arm.sim.step(400)
+    (time_ns, _, _), *_ = arm.events
 
     assert sum(strides) == 400
-    assert time_ns == (strides[0] - 1) * rig.sim.step_ns  # before the last step of the first stride
+    assert time_ns == (strides[0] - 1) * arm.sim.step_ns  # before the last step of the first stride
 
 
-def test_an_unstable_stride_leaves_joints_and_laws_as_they_were(tmp_path: Path) -> None:
-    """So that one goes on as from the last good state."""
-    rig, other = (_Rig(tmp_path, random.Random(5), in_step=True) for _ in range(2))
-    for each in (rig, other):
-        each.command(random.Random(2), 1)
-        each.sim.step(60)
-    before = rig.numbers()
-    rig.sim["m"].link("l5").apply_wrench(Wrench(force=(1e12, 0.0, 0.0)))
+def test_an_unstable_stride_restores_joints_and_laws(tmp_path: Path) -> None:
+    """The run continues from the last stable state."""
+    arm, other = (_ControlledArm(tmp_path, random.Random(5), in_step=True) for _ in range(2))
+    for either in (arm, other):
+        either.command(random.Random(2), 1)
+        either.sim.step(60)
+    before = arm.state_bytes()
+    arm.sim["m"].link("l5").apply_wrench(Wrench(force=(1e12, 0.0, 0.0)))
     with pytest.raises(SimulationUnstableError):
-        rig.sim.step(50)
-    assert rig.numbers() != before  # of the stride's first action
-    assert rig.law.time_ns == rig.sim.time_ns
-    rig.sim["m"].link("l5").apply_wrench(Wrench())
-    for each in (rig, other):
-        each.sim.step(100)
+        arm.sim.step(50)
+    assert arm.state_bytes() != before  # the stride's first action remains
+    assert arm.law.time_ns == arm.sim.time_ns
+    arm.sim["m"].link("l5").apply_wrench(Wrench())
+    for either in (arm, other):
+        either.sim.step(100)
 
-    assert rig.numbers() == other.numbers()
-    assert rig.law.desired == other.law.desired
+    assert arm.state_bytes() == other.state_bytes()
+    assert arm.law.desired == other.law.desired
 
 
 def test_checkpoints_restore_all_state(tmp_path: Path) -> None:
-    rig = _Rig(tmp_path, random.Random(7), in_step=True)
-    rig.command(random.Random(3), 1)
-    rig.sim.step(30)
-    saved = rig.sim.save()
-    restores = [each.checkpoint() for each in (*rig.joints, *rig.loops, rig.law)]
-    rig.sim.step(90)
-    after = rig.numbers()
-    rig.command(random.Random(4), 2)
-    rig.sim.step(90)
-    rig.sim.restore(saved)
+    arm = _ControlledArm(tmp_path, random.Random(7), in_step=True)
+    arm.command(random.Random(3), 1)
+    arm.sim.step(30)
+    saved = arm.sim.save()
+    restores = [item.checkpoint() for item in (*arm.joints, *arm.loops, arm.law)]
+    arm.sim.step(90)
+    after = arm.state_bytes()
+    arm.command(random.Random(4), 2)
+    arm.sim.step(90)
+    arm.sim.restore(saved)
     for restore in restores:
         restore()
-    rig.hook._servo.restart(rig.sim.time_ns - rig.sim.step_ns)  # pyright: ignore[reportPrivateUsage]
-    rig.sim.step(90)
+    arm.hook._servo.restart(arm.sim.time_ns - arm.sim.step_ns)  # pyright: ignore[reportPrivateUsage]
+    arm.sim.step(90)
 
-    assert rig.numbers() == after
+    assert arm.state_bytes() == after

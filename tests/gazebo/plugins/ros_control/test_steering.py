@@ -43,14 +43,14 @@ FOUR: dict[str, Any] = {
 
 @contextmanager
 def driving(gazebo: Gazebo, urdf: str, settings: dict[str, Any]) -> Generator[None]:
-    """The robot on the ground, its controller `base` running."""
+    """Spawn a robot on the ground and run its controller `base`."""
     gazebo.loop.run(gazebo.client.params.set("/robot_description", urdf))
     gazebo.loop.run(gazebo.client.params.set("/base", settings))
     pose = {"position": {"z": RADIUS}}
-    answer = gazebo.call(
+    response = gazebo.call(
         "spawn_urdf_model", "gazebo_msgs/SpawnModel", model_name="car", model_xml=urdf, initial_pose=pose
     )
-    assert answer.success, answer.status_message
+    assert response.success, response.status_message
     node = Node("/spawner", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
     future = gazebo.loop.spawn(Spawner(node, ["base"], NodeHost()).run())
     gazebo.call("unpause_physics")
@@ -59,11 +59,13 @@ def driving(gazebo: Gazebo, urdf: str, settings: dict[str, Any]) -> Generator[No
     gazebo.loop.run(node.shutdown(), timeout_s=PATIENCE_S)
 
 
-def keep(say: Callable[[dict[str, Any]], None], message: dict[str, Any], done: Callable[[], object]) -> None:
+def repeat_until(
+    publish: Callable[[dict[str, Any]], None], message: dict[str, Any], done: Callable[[], object]
+) -> None:
     """Repeat a command until a condition holds."""
 
     def is_done() -> object:
-        say(message)
+        publish(message)
         return done()
 
     until(is_done)
@@ -73,86 +75,86 @@ def _yaw(pose: Message) -> float:
     return 2.0 * math.atan2(pose.orientation.z, pose.orientation.w)
 
 
-def _meets(gazebo: Gazebo, odometry: list[Message], *, apart: float) -> None:
+def _assert_odometry_matches(gazebo: Gazebo, odometry: list[Message], *, tolerance: float) -> None:
     """Assert that odometry agrees with the true pose of a robot at rest."""
     until(lambda: abs(odometry[-1].twist.twist.linear.x) < 1e-3)
-    told, true = odometry[-1].pose.pose, gazebo.state("car").pose
-    assert (told.position.x, told.position.y) == (
-        pytest.approx(true.position.x, abs=apart),
-        pytest.approx(true.position.y, abs=apart),
+    estimate, truth = odometry[-1].pose.pose, gazebo.state("car").pose
+    assert (estimate.position.x, estimate.position.y) == (
+        pytest.approx(truth.position.x, abs=tolerance),
+        pytest.approx(truth.position.y, abs=tolerance),
     )
-    assert _yaw(told) == pytest.approx(_yaw(true), abs=apart)
+    assert _yaw(estimate) == pytest.approx(_yaw(truth), abs=tolerance)
 
 
-def test_a_steered_wheel_leads_round_and_odometry_tells_where(gazebo: Gazebo) -> None:
+def test_ackermann_steering_turns_by_its_steering_angle(gazebo: Gazebo) -> None:
     """angular.z is the steering angle: at 0.5 m/s, 0.5 m between the wheels and 0.4 rad it turns at tan 0.4 rad/s."""
     with driving(gazebo, BIKE, ACKERMANN):
         odometry = gazebo.hear("/base/odom", "nav_msgs/Odometry")
         frames = gazebo.hear("/tf", "tf2_msgs/TFMessage")
         drive = gazebo.speak("/base/cmd_vel", "geometry_msgs/Twist")
         command = {"linear": {"x": 5.0}, "angular": {"z": 0.4}}
-        keep(drive, command, lambda: odometry and _yaw(odometry[-1].pose.pose) > 1.0)
+        repeat_until(drive, command, lambda: odometry and _yaw(odometry[-1].pose.pose) > 1.0)
 
         assert odometry[-1].twist.twist.linear.x == pytest.approx(0.5, abs=0.01)
         assert odometry[-1].twist.twist.angular.z == pytest.approx(math.tan(0.4), abs=0.02)
         assert (odometry[0].header.frame_id, odometry[0].child_frame_id) == ("odom", "base_link")
         assert odometry[0].pose.covariance[7] == 0.1
         assert frames[-1].transforms[0].child_frame_id == "base_link"
-        _meets(gazebo, odometry, apart=0.08)  # no more commands
+        _assert_odometry_matches(gazebo, odometry, tolerance=0.08)  # no more commands
 
 
-def test_of_two_who_command_none_is_heard_where_that_is_asked(gazebo: Gazebo) -> None:
+def test_a_second_command_publisher_is_refused_if_not_allowed(gazebo: Gazebo) -> None:
     with driving(gazebo, BIKE, {**ACKERMANN, "allow_multiple_cmd_vel_publishers": False}):
         log = gazebo.hear("/rosout_agg", "rosgraph_msgs/Log")
         odometry = gazebo.hear("/base/odom", "nav_msgs/Odometry")
         drive = gazebo.speak("/base/cmd_vel", "geometry_msgs/Twist")
         until(lambda: odometry)
         other = Node("/other", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
-        also = other.advertise("/base/cmd_vel", "geometry_msgs/Twist")
-        until(lambda: also.has_subscribers)
-        wanted = "Detected 2 publishers. Only 1 publisher is allowed."
-        keep(drive, {"linear": {"x": 0.5}}, lambda: any(wanted in str(line.msg) for line in log))
+        other_publisher = other.advertise("/base/cmd_vel", "geometry_msgs/Twist")
+        until(lambda: other_publisher.has_subscribers)
+        error = "Detected 2 publishers. Only 1 publisher is allowed."
+        repeat_until(drive, {"linear": {"x": 0.5}}, lambda: any(error in str(line.msg) for line in log))
         assert odometry[-1].pose.pose.position.x == pytest.approx(0.0, abs=1e-3)
         gazebo.loop.run(other.shutdown(), timeout_s=PATIENCE_S)
 
 
-def test_four_steered_wheels_turn_by_a_twist(gazebo: Gazebo) -> None:
+def test_four_wheel_steering_follows_a_twist(gazebo: Gazebo) -> None:
     with driving(gazebo, ROVER, FOUR):
         odometry = gazebo.hear("/base/odom", "nav_msgs/Odometry")
         drive = gazebo.speak("/base/cmd_vel", "geometry_msgs/Twist")
         command = {"linear": {"x": 0.5}, "angular": {"z": 0.6}}
-        keep(drive, command, lambda: odometry and _yaw(odometry[-1].pose.pose) > 1.0)
+        repeat_until(drive, command, lambda: odometry and _yaw(odometry[-1].pose.pose) > 1.0)
 
         assert odometry[-1].twist.twist.linear.x == pytest.approx(0.5, abs=0.02)
         assert odometry[-1].twist.twist.angular.z == pytest.approx(0.6, abs=0.02)
         assert (odometry[0].header.frame_id, odometry[0].child_frame_id) == ("odom", "base_link")
-        _meets(gazebo, odometry, apart=0.08)
+        _assert_odometry_matches(gazebo, odometry, tolerance=0.08)
 
 
-def test_axles_turned_alike_go_sideways(gazebo: Gazebo) -> None:
+def test_equally_steered_axles_drive_sideways(gazebo: Gazebo) -> None:
     with driving(gazebo, ROVER, FOUR):
         odometry = gazebo.hear("/base/odom", "nav_msgs/Odometry")
-        told = gazebo.hear("/base/odom_steer", "four_wheel_steering_msgs/FourWheelSteeringStamped")
+        messages = gazebo.hear("/base/odom_steer", "four_wheel_steering_msgs/FourWheelSteeringStamped")
         steer = gazebo.speak("/base/cmd_four_wheel_steering", "four_wheel_steering_msgs/FourWheelSteering")
         command = {"speed": 0.5, "front_steering_angle": 0.5, "rear_steering_angle": 0.5}
-        keep(steer, command, lambda: odometry and odometry[-1].pose.pose.position.y > 0.3)
+        repeat_until(steer, command, lambda: odometry and odometry[-1].pose.pose.position.y > 0.3)
 
         assert odometry[-1].twist.twist.linear.y == pytest.approx(0.5 * math.sin(0.5), abs=0.02)
         assert _yaw(odometry[-1].pose.pose) == pytest.approx(0.0, abs=0.05)
-        assert told[-1].data.speed == pytest.approx(0.5, abs=0.02)
-        assert told[-1].data.rear_steering_angle == pytest.approx(0.5, abs=0.02)
-        _meets(gazebo, odometry, apart=0.08)
+        assert messages[-1].data.speed == pytest.approx(0.5, abs=0.02)
+        assert messages[-1].data.rear_steering_angle == pytest.approx(0.5, abs=0.02)
+        _assert_odometry_matches(gazebo, odometry, tolerance=0.08)
 
 
 def test_a_single_joint_for_an_axle_is_refused(gazebo: Gazebo) -> None:
     with driving(gazebo, ROVER, {**FOUR, "front_wheel": "fl_joint"}):
         log = gazebo.hear("/rosout_agg", "rosgraph_msgs/Log")
-        wanted = "Could not load controller 'base': parameter /base/front_wheel must be a left and a right joint"
+        error = "Could not load controller 'base': parameter /base/front_wheel must be a left and a right joint"
         call = ("/controller_manager/load_controller", "controller_manager_msgs/LoadController", {"name": "base"})
         gazebo.loop.run(gazebo.client.wait_for_service(call[0], PATIENCE_S))
 
-        def is_said() -> bool:
+        def is_logged() -> bool:
             assert not gazebo.loop.run(gazebo.client.call_service(*call), timeout_s=PATIENCE_S).ok
-            return any(wanted in str(line.msg) for line in log)
+            return any(error in str(line.msg) for line in log)
 
-        until(is_said)
+        until(is_logged)

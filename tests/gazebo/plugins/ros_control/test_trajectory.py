@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from tests.gazebo.plugins.ros_control.controlled import Robot, driven, standing
+from tests.gazebo.plugins.ros_control.controlled import Robot, driven, fixed_robot
 from tests.gazebo_server import Gazebo, until
 
 from trundle.gazebo.plugins.ros_control.plugin import GazeboRosControl
@@ -12,7 +12,7 @@ from trundle.ros import Message, ServiceError
 from trundle.sim.control import Servo
 
 _LIMIT = '<limit lower="-2" upper="2" effort="200" velocity="10"/>'
-_ROBOT = standing(
+_ROBOT = fixed_robot(
     driven("a", "revolute", "PositionJointInterface", limit=_LIMIT),
     driven("b", "continuous", "PositionJointInterface"),
     driven("c", "revolute", "EffortJointInterface", limit=_LIMIT),
@@ -67,16 +67,18 @@ def robot(gazebo: Gazebo) -> Iterator[Robot]:
     running.close()
 
 
-def point(*positions: float, at_s: float, **more: list[float]) -> dict[str, Any]:
+def point(*positions: float, at_s: float, **fields: list[float]) -> dict[str, Any]:
     ns = round(at_s * 1e9)
-    return {"positions": list(positions), "time_from_start": {"sec": ns // 10**9, "nanosec": ns % 10**9}, **more}
+    return {"positions": list(positions), "time_from_start": {"sec": ns // 10**9, "nanosec": ns % 10**9}, **fields}
 
 
 def trajectory(joints: list[str], *points: dict[str, Any]) -> dict[str, Any]:
     return {"trajectory": {"joint_names": joints, "points": list(points)}}
 
 
-def ask(robot: Robot, controller: str, goal: dict[str, Any], *, kind: str = FOLLOW, key: str = "1") -> list[Message]:
+def send_goal(
+    robot: Robot, controller: str, goal: dict[str, Any], *, kind: str = FOLLOW, key: str = "1"
+) -> list[Message]:
     """Send a goal; return the list of the action's results."""
     name = f"/r/{controller}/{'gripper_cmd' if kind != FOLLOW else 'follow_joint_trajectory'}"
     results = robot.gazebo.hear(f"{name}/result", f"{kind}ActionResult")
@@ -88,12 +90,10 @@ def ask(robot: Robot, controller: str, goal: dict[str, Any], *, kind: str = FOLL
     ("controller", "joints", "goal"),
     [("arm", ["b", "a"], (0.5, -1.0)), ("pushed", ["c"], (0.75,)), ("slid", ["d"], (0.3,))],
 )
-def test_a_goal_is_reached_in_its_time(
-    robot: Robot, controller: str, joints: list[str], goal: tuple[float, ...]
-) -> None:
+def test_a_goal_is_reached_in_time(robot: Robot, controller: str, joints: list[str], goal: tuple[float, ...]) -> None:
     zero = [0.0] * len(goal)
     points = [point(*(value / 2 for value in goal), at_s=0.3), point(*goal, at_s=0.8, velocities=zero)]
-    results = ask(robot, controller, trajectory(joints, *points))
+    results = send_goal(robot, controller, trajectory(joints, *points))
     until(lambda: results)
 
     assert (results[0].status.status, results[0].result.error_code) == (SUCCEEDED, 0), results[0].status.text
@@ -116,8 +116,8 @@ def test_a_goal_is_reached_in_its_time(
         (trajectory(["a", "b"], point(1, 1, at_s=1.0), point(1, 1, at_s=1.0)), -1, "not strictly increasing in time"),
     ],
 )
-def test_a_goal_that_does_not_fit_is_refused(robot: Robot, goal: dict[str, Any], code: int, text: str) -> None:
-    results = ask(robot, "arm", goal)
+def test_an_invalid_goal_is_refused(robot: Robot, goal: dict[str, Any], code: int, text: str) -> None:
+    results = send_goal(robot, "arm", goal)
     until(lambda: results)
     assert (results[0].status.status, results[0].result.error_code) == (REJECTED, code)
     assert text in results[0].result.error_string
@@ -125,9 +125,9 @@ def test_a_goal_that_does_not_fit_is_refused(robot: Robot, goal: dict[str, Any],
 
 def test_a_controller_that_does_not_run_refuses_goals_topics_and_queries(robot: Robot) -> None:
     log = robot.gazebo.hear("/rosout_agg", "rosgraph_msgs/Log")
-    assert robot.ask("switch_controller", "SwitchController", stop_controllers=["arm"], strictness=2).ok
+    assert robot.call("switch_controller", "SwitchController", stop_controllers=["arm"], strictness=2).ok
     goal = trajectory(["a", "b"], point(1.0, 1.0, at_s=1.0))
-    results = ask(robot, "arm", goal)
+    results = send_goal(robot, "arm", goal)
     robot.gazebo.speak("/r/arm/command", "trajectory_msgs/JointTrajectory")(goal["trajectory"])
     until(lambda: results)
     assert (results[0].status.status, results[0].result.error_code) == (REJECTED, -1)
@@ -142,22 +142,22 @@ def _query(robot: Robot, secs: int) -> Message:
     return robot.gazebo.loop.run(call)
 
 
-def test_a_goal_without_points_stops_and_is_reached(robot: Robot) -> None:
-    results = ask(robot, "arm", trajectory(["a", "b"], point(1.0, 1.0, at_s=500.0)), key="slow")
+def test_a_goal_without_points_stops_and_succeeds(robot: Robot) -> None:
+    results = send_goal(robot, "arm", trajectory(["a", "b"], point(1.0, 1.0, at_s=500.0)), key="slow")
     until(lambda: robot.joint("a").position[0] > 0.0)
-    ask(robot, "arm", trajectory(["a", "b"]), key="stop")
+    send_goal(robot, "arm", trajectory(["a", "b"]), key="stop")
     until(lambda: len(results) == 2)
     assert {r.status.goal_id.id: r.status.status for r in results} == {"slow": PREEMPTED, "stop": SUCCEEDED}
-    place = robot.joint("a").position[0]
+    position = robot.joint("a").position[0]
     robot.gazebo.until_s(robot.gazebo.time_s + 0.2)
-    assert robot.joint("a").position[0] == pytest.approx(place, abs=1e-4)
+    assert robot.joint("a").position[0] == pytest.approx(position, abs=1e-4)
 
 
-def test_a_stop_takes_its_duration_and_a_partial_goal_leaves_other_joints_going(robot: Robot) -> None:
+def test_a_stop_has_its_duration_and_a_partial_goal_keeps_other_joints_moving(robot: Robot) -> None:
     states = robot.gazebo.hear("/r/ramp/state", "control_msgs/JointTrajectoryControllerState")
-    results = ask(robot, "ramp", trajectory(["e", "f"], point(100.0, 100.0, at_s=100.0)), key="both")
+    results = send_goal(robot, "ramp", trajectory(["e", "f"], point(100.0, 100.0, at_s=100.0)), key="both")
     until(lambda: states and states[-1].desired.velocities[0] == pytest.approx(1.0))
-    ask(robot, "ramp", trajectory(["f"], point(0.0, at_s=0.3)), key="one")
+    send_goal(robot, "ramp", trajectory(["f"], point(0.0, at_s=0.3)), key="one")
     until(lambda: results)
     assert (results[0].status.goal_id.id, results[0].status.status) == ("both", PREEMPTED)
     until(lambda: states[-1].desired.velocities[1] == 0.0)
@@ -174,25 +174,25 @@ def test_a_stop_takes_its_duration_and_a_partial_goal_leaves_other_joints_going(
     assert states[-1].desired.positions[0] - (moving or [start])[-1] == pytest.approx(0.625 * 0.5, abs=0.02)
 
 
-def test_a_goal_that_is_refused_leaves_the_one_before_it_running(robot: Robot) -> None:
-    results = ask(robot, "arm", trajectory(["a", "b"], point(1.0, 1.0, at_s=1.0)), key="good")
+def test_a_refused_goal_does_not_stop_the_running_goal(robot: Robot) -> None:
+    results = send_goal(robot, "arm", trajectory(["a", "b"], point(1.0, 1.0, at_s=1.0)), key="good")
     states = robot.gazebo.hear("/r/arm/follow_joint_trajectory/status", "actionlib_msgs/GoalStatusArray")
     until(lambda: robot.joint("a").position[0] > 0.0)
-    ask(robot, "arm", trajectory(["a"], point(1.0, at_s=1.0)), key="bad")
+    send_goal(robot, "arm", trajectory(["a"], point(1.0, at_s=1.0)), key="bad")
     until(lambda: len(results) == 2)
     assert [(r.status.goal_id.id, r.status.status) for r in results] == [("bad", REJECTED), ("good", SUCCEEDED)]
     assert {s.status for state in states for s in state.status_list if s.goal_id.id == "bad"} <= {0, REJECTED}
 
 
 def test_stopping_a_controller_preempts_its_goal(robot: Robot) -> None:
-    results = ask(robot, "arm", trajectory(["a", "b"], point(1.0, 1.0, at_s=500.0)))
+    results = send_goal(robot, "arm", trajectory(["a", "b"], point(1.0, 1.0, at_s=500.0)))
     until(lambda: robot.joint("a").position[0] > 0.0)
-    robot.ask("switch_controller", "SwitchController", stop_controllers=["arm"], strictness=2)
+    robot.call("switch_controller", "SwitchController", stop_controllers=["arm"], strictness=2)
     until(lambda: results)
     assert results[0].status.status == PREEMPTED
 
 
-def test_trajectories_and_grippers_act_in_the_step(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_trajectories_and_grippers_run_in_the_step_action(robot: Robot, monkeypatch: pytest.MonkeyPatch) -> None:
     actions: list[object] = []
     step_action = GazeboRosControl.step_action
 
@@ -201,22 +201,22 @@ def test_trajectories_and_grippers_act_in_the_step(robot: Robot, monkeypatch: py
         return step_action(plugin)
 
     monkeypatch.setattr(GazeboRosControl, "step_action", recorded)
-    ask(robot, "arm", trajectory(["a", "b"], point(1.0, 1.0, at_s=500.0)))
+    send_goal(robot, "arm", trajectory(["a", "b"], point(1.0, 1.0, at_s=500.0)))
     until(lambda: robot.joint("a").position[0] > 0.0 and len(actions) > 5)
 
     assert None not in actions
 
 
-def test_a_goal_that_cannot_be_reached_is_given_up(robot: Robot) -> None:
-    results = ask(robot, "arm", trajectory(["a", "b"], point(5.0, 0.0, at_s=0.2)))  # beyond the stop of a
+def test_an_unreachable_goal_is_aborted(robot: Robot) -> None:
+    results = send_goal(robot, "arm", trajectory(["a", "b"], point(5.0, 0.0, at_s=0.2)))  # beyond the stop of a
     until(lambda: results)
     assert (results[0].status.status, results[0].result.error_code) == (ABORTED, -5)
     assert results[0].result.error_string.startswith("a goal error ")
 
 
-def test_an_effort_that_misses_its_goal_has_no_more_time_than_is_asked(robot: Robot) -> None:
-    asked = {"goal_time_tolerance": {"sec": -1, "nanosec": 0}, "goal_tolerance": [{"name": "c", "position": 1e-6}]}
-    results = ask(robot, "pushed", {**trajectory(["c"], point(1.0, at_s=0.1)), **asked})
+def test_a_missed_goal_is_aborted_after_its_goal_time_tolerance(robot: Robot) -> None:
+    tolerances = {"goal_time_tolerance": {"sec": -1, "nanosec": 0}, "goal_tolerance": [{"name": "c", "position": 1e-6}]}
+    results = send_goal(robot, "pushed", {**trajectory(["c"], point(1.0, at_s=0.1)), **tolerances})
     feedback = robot.gazebo.hear(
         "/r/pushed/follow_joint_trajectory/feedback", "control_msgs/FollowJointTrajectoryActionFeedback"
     )
@@ -225,9 +225,9 @@ def test_an_effort_that_misses_its_goal_has_no_more_time_than_is_asked(robot: Ro
     assert all(message.feedback.actual.time_from_start.sec == 0 for message in feedback)
 
 
-def test_what_leaves_its_path_is_aborted_and_goes_on(robot: Robot) -> None:
+def test_a_violated_path_tolerance_aborts_the_goal_and_the_motion_goes_on(robot: Robot) -> None:
     goal = trajectory(["c"], point(1.9, at_s=0.02), point(1.9, at_s=1.0))
-    results = ask(robot, "pushed", {**goal, "path_tolerance": [{"name": "c", "position": 0.1}]})
+    results = send_goal(robot, "pushed", {**goal, "path_tolerance": [{"name": "c", "position": 0.1}]})
     until(lambda: results)
     assert (results[0].status.status, results[0].result.error_code) == (ABORTED, -4)
     assert results[0].result.error_string.startswith("c path error 0.1")
@@ -236,9 +236,9 @@ def test_what_leaves_its_path_is_aborted_and_goes_on(robot: Robot) -> None:
 
 def test_a_new_goal_and_a_cancel_preempt(robot: Robot) -> None:
     slow = trajectory(["a", "b"], point(1.0, 1.0, at_s=500.0))
-    results = ask(robot, "arm", slow, key="first")
+    results = send_goal(robot, "arm", slow, key="first")
     until(lambda: robot.joint("a").position[0] > 0.0)
-    ask(robot, "arm", slow, key="second")
+    send_goal(robot, "arm", slow, key="second")
     until(lambda: len(results) == 1)
     assert (results[0].status.goal_id.id, results[0].status.status) == ("first", PREEMPTED)
     robot.gazebo.speak("/r/arm/follow_joint_trajectory/cancel", "actionlib_msgs/GoalID")({})
@@ -246,15 +246,15 @@ def test_a_new_goal_and_a_cancel_preempt(robot: Robot) -> None:
     assert (results[1].status.goal_id.id, results[1].status.status) == ("second", PREEMPTED)
 
 
-def test_the_topic_moves_too_and_states_are_told(robot: Robot) -> None:
+def test_the_topic_moves_the_joints_and_states_are_published(robot: Robot) -> None:
     states = robot.gazebo.hear("/r/arm/state", "control_msgs/JointTrajectoryControllerState")
     command = robot.gazebo.speak("/r/arm/command", "trajectory_msgs/JointTrajectory")
     command(trajectory(["a", "b"], point(0.4, 2.0 + 6.283185307, at_s=0.3))["trajectory"])  # b takes the shorter way
 
-    def is_there() -> bool:
+    def has_arrived() -> bool:
         return bool(states) and states[-1].actual.positions[0] == pytest.approx(0.4, abs=5e-3)
 
-    until(is_there)
+    until(has_arrived)
     until(lambda: robot.joint("b").position[0] == pytest.approx(2.0, abs=1e-2))
     assert list(states[-1].joint_names) == ["a", "b"]
     assert states[-1].actual.time_from_start.sec - states[-1].desired.time_from_start.sec >= 0
@@ -267,12 +267,12 @@ def test_the_topic_moves_too_and_states_are_told(robot: Robot) -> None:
     assert robot.joint("a").position[0] == pytest.approx(0.4, abs=5e-3)
 
 
-def test_a_finger_opens_and_stalls_where_it_is_stopped(robot: Robot) -> None:
+def test_a_gripper_reaches_its_goal_and_stalls_at_its_stop(robot: Robot) -> None:
     kind = "control_msgs/GripperCommand"
-    results = ask(robot, "hand", {"command": {"position": 0.2}}, kind=kind)
+    results = send_goal(robot, "hand", {"command": {"position": 0.2}}, kind=kind)
     until(lambda: results)
     assert (results[0].status.status, results[0].result.reached_goal) == (SUCCEEDED, True)
-    ask(robot, "hand", {"command": {"position": 3.0, "max_effort": 5.0}}, kind=kind, key="2")
+    send_goal(robot, "hand", {"command": {"position": 3.0, "max_effort": 5.0}}, kind=kind, key="2")
     until(lambda: len(results) == 2)
     assert (results[1].status.status, results[1].result.stalled) == (ABORTED, True)
     assert results[1].result.position == pytest.approx(0.5, abs=0.02)

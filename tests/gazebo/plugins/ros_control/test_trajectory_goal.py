@@ -1,4 +1,4 @@
-"""Trajectory messages at their edges, by the rules of ros_controllers' initJointTrajectory."""
+"""Edge cases of trajectory messages, by the rules of ros_controllers' initJointTrajectory."""
 
 import math
 from typing import Any
@@ -37,12 +37,12 @@ def _ns(seconds: float) -> int:
     return round(seconds * 1e9)
 
 
-def _point(at_s: float, *positions: float, **more: list[float]) -> dict[str, Any]:
-    return {"positions": list(positions), "time_from_start": _time(at_s), **more}
+def _point(at_s: float, *positions: float, **fields: list[float]) -> dict[str, Any]:
+    return {"positions": list(positions), "time_from_start": _time(at_s), **fields}
 
 
 class _Joints:
-    """Two joints, a and b, that hold 0 or follow what was read before."""
+    """Two joints, a and b, that hold 0 or follow the trajectory read last."""
 
     def __init__(self, *, continuous: bool = False, partial: bool = False) -> None:
         self.warnings: list[str] = []
@@ -62,15 +62,15 @@ class _Joints:
         message: Any = _TYPES.new("trajectory_msgs/JointTrajectory", fields)
         self.paths = self.reader.read(message, self.paths, _ns(now_s), tolerances, goal)
 
-    def refuse(self, *points: dict[str, Any], **more: Any) -> str:
-        """Read what is refused; return the text. The paths stay."""
+    def refuse(self, *points: dict[str, Any], **fields: Any) -> str:
+        """Read a trajectory that is refused; return the error's text. The paths stay."""
         before = self.paths
-        with pytest.raises(GoalError) as caught:
-            self.follow(*points, **more)
+        with pytest.raises(GoalError) as error:
+            self.follow(*points, **fields)
         assert self.paths is before
-        assert caught.value.code == GoalError.INVALID_GOAL
-        assert caught.value.is_late == str(caught.value).startswith("Dropping all")
-        return str(caught.value)
+        assert error.value.code == GoalError.INVALID_GOAL
+        assert error.value.is_late == str(error.value).startswith("Dropping all")
+        return str(error.value)
 
     def sample(self, time_s: float, joint: int = 0) -> tuple[float, float, float]:
         return self.paths[joint].at(_ns(time_s)).segment.sample(_ns(time_s))
@@ -79,7 +79,7 @@ class _Joints:
 # -- times
 
 
-def test_a_trajectory_starts_with_the_next_update_from_where_the_joints_are() -> None:
+def test_a_trajectory_starts_with_the_next_update_at_the_current_positions() -> None:
     joints = _Joints()
     joints.follow(_point(1.0, 1.0, -1.0), _point(2.0, 1.0, 3.0))
     assert [joints.sample(at)[0] for at in (9.0, 10.0, 10.5, 11.0, 11.5, 12.0, 99.0)] == [0, 0, 0.5, 1, 1, 1, 1]
@@ -95,14 +95,14 @@ def test_one_point_at_time_zero_is_refused() -> None:
     )
 
 
-def test_a_first_point_at_time_zero_is_left_out_silently() -> None:
+def test_a_first_point_at_time_zero_is_dropped_silently() -> None:
     joints = _Joints()
     joints.follow(_point(0.0, 7.0, 7.0), _point(1.0, 1.0, 1.0))
     assert joints.sample(10.5) == (0.5, 1.0, 0.0)
     assert joints.warnings == []
 
 
-def test_points_at_or_before_now_are_left_out_with_a_warning() -> None:
+def test_points_at_or_before_now_are_dropped_with_a_warning() -> None:
     joints = _Joints()
     joints.follow(_point(0.0, 7.0, 7.0), _point(0.5, 8.0, 8.0), _point(2.5, 2.0, 2.0), stamp_s=9.5)
     assert joints.sample(11.0) == (1.0, 1.0, 0.0)
@@ -122,7 +122,7 @@ def test_a_trajectory_in_the_past_is_refused() -> None:
     )
 
 
-def test_a_trajectory_of_the_future_starts_at_its_stamp_and_until_then_the_one_before_goes_on() -> None:
+def test_a_future_trajectory_starts_at_its_stamp_and_the_current_one_runs_until_then() -> None:
     joints = _Joints()
     joints.follow(_point(4.0, 4.0, 4.0))
     joints.follow(_point(1.0, 0.0, 5.0), stamp_s=12.0, now_s=11.0, goal=3)
@@ -130,14 +130,14 @@ def test_a_trajectory_of_the_future_starts_at_its_stamp_and_until_then_the_one_b
     assert [joints.paths[0].at(_ns(at)).goal for at in (11.5, 12.5)] == [NO_GOAL, 3]
 
 
-def test_a_first_point_at_a_stamp_of_the_future_jumps_there() -> None:
+def test_a_first_point_at_a_future_stamp_jumps_to_its_position() -> None:
     joints = _Joints()
     joints.follow(_point(0.0, 5.0, 5.0), _point(1.0, 6.0, 6.0), stamp_s=12.0)
     assert [joints.sample(at)[0] for at in (11.999, 12.0, 12.5)] == [0.0, 5.0, 5.5]
 
 
-def test_one_point_at_a_stamp_of_the_future_is_never_followed() -> None:
-    """The original's bridge has no length and stays at its start."""
+def test_a_single_point_at_a_future_stamp_is_never_followed() -> None:
+    """The original's segment has no duration and stays at its start."""
     joints = _Joints()
     joints.follow(_point(0.0, 5.0, 5.0), stamp_s=12.0)
     assert [joints.sample(at)[0] for at in (11.0, 12.0, 13.0)] == [0.0, 0.0, 0.0]
@@ -149,13 +149,13 @@ def test_a_first_point_between_now_and_the_stamp_is_refused() -> None:
 
 
 @pytest.mark.parametrize("times", [(1.0, 1.0), (2.0, 1.0), (0.0, -1.0)])
-def test_times_that_do_not_grow_are_refused(times: tuple[float, float]) -> None:
+def test_times_that_do_not_increase_are_refused(times: tuple[float, float]) -> None:
     text = _Joints().refuse(*(_point(at, 1.0, 1.0) for at in times))
     assert text == "Trajectory message contains waypoints that are not strictly increasing in time."
 
 
-def test_a_replaced_trajectory_is_left_with_its_velocity() -> None:
-    """Where the first point has a velocity; else by a straight line."""
+def test_a_replaced_trajectory_is_left_at_its_velocity() -> None:
+    """If the first point has a velocity; else on a straight line."""
     joints = _Joints()
     joints.follow(_point(4.0, 4.0, 4.0))
     joints.follow(_point(1.0, 1.0, 1.0, velocities=[0.0, 0.0]), now_s=11.0)
@@ -193,7 +193,7 @@ def test_partial_trajectories_name_joints_of_the_controller(names: str) -> None:
     assert text.startswith("Cannot create trajectory from message.")
 
 
-def test_a_joint_that_a_partial_trajectory_leaves_out_goes_on_as_part_of_the_goal() -> None:
+def test_a_joint_missing_in_a_partial_trajectory_goes_on_as_part_of_the_goal() -> None:
     joints = _Joints(partial=True)
     tolerances = [JointTolerances(goal=StateTolerance(0.1)), JointTolerances(goal=StateTolerance(0.2))]
     joints.follow(_point(4.0, 4.0, 4.0), _point(5.0, 0.0, 0.0), goal=1, tolerances=tolerances)
@@ -231,13 +231,13 @@ def test_points_of_wrong_sizes_are_refused(points: list[dict[str, Any]], text: s
     assert _Joints().refuse(*points) == text
 
 
-def test_points_that_are_left_out_may_have_any_size() -> None:
+def test_dropped_points_may_have_any_size() -> None:
     joints = _Joints()
     joints.follow(_point(0.0), _point(1.0, 1.0, 1.0))
     assert joints.sample(11.0)[0] == 1.0
 
 
-def test_values_of_more_joints_than_named_are_left_out() -> None:
+def test_surplus_values_are_ignored() -> None:
     joints = _Joints()
     joints.follow(_point(1.0, 1.0, 2.0, 3.0))
     assert [joints.sample(11.0, joint)[0] for joint in (0, 1)] == [1.0, 2.0]
@@ -268,7 +268,7 @@ def test_velocities_count_between_points_that_both_have_them() -> None:
         (0.0, [3 * math.pi], [math.pi]),
     ],
 )
-def test_a_continuous_joint_takes_the_shorter_way_to_its_first_point(
+def test_a_continuous_joint_turns_in_the_shorter_direction_to_its_first_point(
     start: float, targets: list[float], expected: list[float]
 ) -> None:
     joints = _Joints(continuous=True)
@@ -277,7 +277,7 @@ def test_a_continuous_joint_takes_the_shorter_way_to_its_first_point(
     assert [joints.sample(11.0 + i)[0] for i in range(len(targets))] == pytest.approx(expected)
 
 
-def test_a_joint_with_limits_goes_where_it_is_told() -> None:
+def test_a_joint_with_limits_moves_to_the_given_position() -> None:
     joints = _Joints()
     joints.follow(_point(1.0, 6.5, -6.5))
     assert [joints.sample(11.0, joint)[0] for joint in (0, 1)] == [6.5, -6.5]
@@ -286,14 +286,14 @@ def test_a_joint_with_limits_goes_where_it_is_told() -> None:
 # -- holding and stopping
 
 
-def test_a_held_position_is_a_goal_that_has_ended() -> None:
+def test_a_held_position_is_a_finished_goal() -> None:
     path = holding_path(1.5, _ns(10.0), goal=4)
     assert (path.at(_ns(10.001)).goal, path.at(_ns(10.001)).segment.end_ns) == (4, _ns(10.0))
     assert path.at(_ns(10.001)).segment.sample(_ns(10.001)) == (1.5, 0.0, 0.0)
 
 
-def test_a_stop_takes_its_duration() -> None:
-    """The quintic p + v (t − t³/2 + t⁴/8) of 2 s is at rest after 1 s, 0.625 m further; then a quintic to there."""
+def test_a_stop_has_its_duration() -> None:
+    """The quintic p + v (t − t³/2 + t⁴/8) of 2 s is at rest after 1 s, 0.625 m further, where the path ends."""
     path = stopping_path(2.0, 1.0, _ns(10.0), _ns(1.0), goal=4)
     segment = path.at(_ns(10.5)).segment
     assert segment.sample(_ns(10.0)) == (2.0, 1.0, 0.0)
@@ -305,7 +305,7 @@ def test_a_stop_takes_its_duration() -> None:
 # -- tolerances
 
 
-def test_an_actions_tolerances_replace_end_or_leave_the_defaults() -> None:
+def test_tolerances_of_a_goal_replace_disable_or_keep_the_defaults() -> None:
     constraints = RosParameters({"goal_time": 0.5, "a": {"trajectory": 0.1, "goal": 0.2}, "b": {"goal": 0.3}}, "c")
     defaults = read_tolerances(constraints, ["a", "b"])
     assert defaults[0] == JointTolerances(StateTolerance(0.1), StateTolerance(0.2, 0.01), _ns(0.5))
@@ -323,9 +323,9 @@ def test_an_actions_tolerances_replace_end_or_leave_the_defaults() -> None:
         {"name": "x", "position": 9.0},
     ]
     end = [{"name": "a", "position": 0.0, "velocity": -1.0}]
-    asked = merged(path_tolerance=path, goal_tolerance=end, goal_time_tolerance=_time(2.0))
-    assert asked[0] == JointTolerances(StateTolerance(0.0, 2.0), StateTolerance(0.2, 0.0), _ns(2.0))
-    assert asked[1] == JointTolerances(StateTolerance(8.0), StateTolerance(0.3, 0.01), _ns(2.0))
+    updated = merged(path_tolerance=path, goal_tolerance=end, goal_time_tolerance=_time(2.0))
+    assert updated[0] == JointTolerances(StateTolerance(0.0, 2.0), StateTolerance(0.2, 0.0), _ns(2.0))
+    assert updated[1] == JointTolerances(StateTolerance(8.0), StateTolerance(0.3, 0.01), _ns(2.0))
     assert merged(goal_time_tolerance=_time(-1.0))[0].time_ns == 0
 
 
@@ -337,7 +337,7 @@ def test_errors_within_a_tolerance_are_allowed(errors: tuple[float, float], allo
     assert StateTolerance().allows(1e9, 1e9)
 
 
-def test_a_path_before_its_start_is_its_start() -> None:
+def test_a_path_is_constant_before_its_start() -> None:
     segment = JointSegment.between(_ns(5.0), JointState(1.0), _ns(6.0), JointState(2.0))
     path = JointPath([PathSegment(segment)])
     assert (path.index_at(_ns(4.0)), path.state_at(_ns(4.0))) == (-1, JointState(1.0, 0.0, 0.0))

@@ -1,4 +1,4 @@
-"""<transmission> by transmission_interface's parser: invalid ones are left out, the others are used."""
+"""<transmission> by the rules of transmission_interface's parser: invalid ones are left out, the others are used."""
 
 import pytest
 
@@ -12,14 +12,14 @@ LAST = f'<transmission name="last">{TYPE}<joint name="z">{EFFORT}</joint>{MOTOR}
 
 
 def read(transmission: str, rest: str = "") -> tuple[list[str], list[str]]:
-    """Driven joints and warnings of a robot with two transmissions."""
+    """Return the driven joints and warnings of a robot with two transmissions."""
     report = Diagnostics()
-    found = read_transmissions(f'<robot name="r">\n{transmission}{LAST}{rest}</robot>', "r", report)
-    return [driven.name for driven in found], report.warnings
+    joints = read_transmissions(f'<robot name="r">\n{transmission}{LAST}{rest}</robot>', "r", report)
+    return [driven.name for driven in joints], report.warnings
 
 
 @pytest.mark.parametrize(
-    ("transmission", "said"),
+    ("transmission", "message"),
     [
         (f'<transmission>{TYPE}<joint name="a">{EFFORT}</joint>{MOTOR}</transmission>', "a transmission has no name"),
         (f'<transmission name="">{TYPE}<joint name="a">{EFFORT}</joint>{MOTOR}</transmission>', "has no name"),
@@ -33,10 +33,10 @@ def read(transmission: str, rest: str = "") -> tuple[list[str], list[str]]:
             "</transmission>",
             "'t' has a <joint> without a name",
         ),
-        (f'<transmission name="t">{TYPE}<joint name="a"/>{MOTOR}</transmission>', "names no <hardwareInterface>"),
+        (f'<transmission name="t">{TYPE}<joint name="a"/>{MOTOR}</transmission>', "has no <hardwareInterface>"),
         (
             f'<transmission name="t">{TYPE}<joint name="a"><hardwareInterface/></joint>{MOTOR}</transmission>',
-            "names no <hardwareInterface>",
+            "has no <hardwareInterface>",
         ),
         (
             f'<transmission name="t">{TYPE}<joint name="a">{EFFORT}</joint><joint name="b">{EFFORT}</joint>{MOTOR}'
@@ -45,16 +45,16 @@ def read(transmission: str, rest: str = "") -> tuple[list[str], list[str]]:
         ),
     ],
 )
-def test_a_transmission_that_the_parser_drops_is_left_out(transmission: str, said: str) -> None:
+def test_a_transmission_that_the_parser_drops_is_left_out(transmission: str, message: str) -> None:
     joints, (warning,) = read(transmission)
 
     assert joints == ["z"]
     assert warning.startswith("r:2: warning: ")
-    assert said in warning
+    assert message in warning
     assert warning.endswith("; it is left out")
 
 
-def test_a_joint_of_an_empty_name_goes_alone() -> None:
+def test_a_joint_with_an_empty_name_is_left_out_alone() -> None:
     joints, (warning,) = read(
         f'<transmission name="t">{TYPE}<joint name="">{EFFORT}</joint><joint name="a">{EFFORT}</joint>{MOTOR}'
         "</transmission>"
@@ -64,16 +64,16 @@ def test_a_joint_of_an_empty_name_goes_alone() -> None:
     assert "the name is empty" in warning
 
 
-def test_a_joint_without_an_interface_is_no_second_one() -> None:
+def test_a_joint_without_an_interface_does_not_count_as_a_second_joint() -> None:
     joints, (warning,) = read(
         f'<transmission name="t">{TYPE}<joint name="a">{EFFORT}</joint><joint name="b"/>{MOTOR}</transmission>'
     )
 
     assert joints == ["a", "z"]
-    assert "joint 'b' names no <hardwareInterface>" in warning
+    assert "joint 'b' has no <hardwareInterface>" in warning
 
 
-def test_elements_that_nobody_knows_and_a_second_interface_are_no_fault() -> None:
+def test_unknown_elements_and_a_second_interface_are_no_fault() -> None:
     second = "<hardwareInterface>VelocityJointInterface</hardwareInterface>"
     report = Diagnostics()
     text = (
@@ -84,9 +84,9 @@ def test_elements_that_nobody_knows_and_a_second_interface_are_no_fault() -> Non
     assert read_transmissions(text, "r", report) == [DrivenJoint("a", "EffortJointInterface")]
     syntax, interfaces = report.warnings
     assert "'--' within a comment (column " in syntax
-    assert interfaces.endswith("names 2 times a <hardwareInterface>; the first one is used")
+    assert interfaces.endswith("has 2 <hardwareInterface> elements; the first one is used")
 
 
-def test_what_no_reader_takes_for_a_robot_is_refused() -> None:
+def test_malformed_xml_is_refused() -> None:
     with pytest.raises(DescriptionError, match="not well-formed XML"):
         read("", rest="<joint>")

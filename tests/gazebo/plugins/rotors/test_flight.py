@@ -1,4 +1,4 @@
-"""Multirotors of published parameters fly as the rotors' equations of motion have it."""
+"""Multirotors with published parameters, against their equations of motion."""
 
 from pathlib import Path
 
@@ -8,11 +8,11 @@ from msgspec import Struct
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
+from tests.gazebo.plugins.plugin_world import FakeNode, load
 from tests.gazebo.plugins.rotors.quadrotor import PLUGIN, G
-from tests.gazebo.plugins.stage import Wires, load
 
 _Array = NDArray[np.float64]
-STRETCH_S, STRETCHES = 0.25, 6
+INTERVAL_S, INTERVALS = 0.25, 6
 UP_S, DOWN_S, SLOWDOWN, ROLL = 0.0125, 0.025, 10.0, 1e-6
 
 
@@ -24,7 +24,7 @@ class Multirotor(Struct, frozen=True):
     inertia: tuple[float, float, float]
     rotor_mass: float
     arms: tuple[tuple[float, float], ...]
-    """Rotor's place: distance [m] and angle [rad]; they turn left and right in turn, the first one left."""
+    """Rotors' positions: distance [m] and angle [rad]; directions alternate, the first is counter-clockwise."""
     height: float
     lift: float
     moment: float
@@ -70,9 +70,9 @@ def _sdf(vehicle: Multirotor) -> str:
 
     text = f'<link name="base_link">{inertial(vehicle.mass, np.array(vehicle.inertia))}</link>'
     for i, (length, angle) in enumerate(vehicle.arms):
-        place = f"{length * np.cos(angle)} {length * np.sin(angle)} {vehicle.height} 0 0 0"
+        pose = f"{length * np.cos(angle)} {length * np.sin(angle)} {vehicle.height} 0 0 0"
         rotor = inertial(vehicle.rotor_mass, _rotor_inertia(vehicle))
-        text += f"""<link name="r{i}"><pose>{place}</pose>{rotor}</link><joint name="j{i}" type="revolute">
+        text += f"""<link name="r{i}"><pose>{pose}</pose>{rotor}</link><joint name="j{i}" type="revolute">
         <parent>base_link</parent><child>r{i}</child><axis><xyz>0 0 1</xyz></axis></joint>"""
         parameters = f"""<jointName>j{i}</jointName><linkName>r{i}</linkName><motorNumber>{i}</motorNumber>
         <turningDirection>{"cw" if i % 2 else "ccw"}</turningDirection><timeConstantUp>{UP_S}</timeConstantUp>
@@ -84,35 +84,39 @@ def _sdf(vehicle: Multirotor) -> str:
     return text
 
 
-def _flown(vehicle: Multirotor, commands: _Array) -> _Array:
-    """Return position, quaternion xyzw, velocity and angular velocity (of the body) of the true motion."""
+def _true_motion(vehicle: Multirotor, commands: _Array) -> _Array:
+    """Return the true position, quaternion xyzw, velocity and angular velocity of the body."""
     count = len(vehicle.arms)
-    ways = np.array([-1.0 if i % 2 else 1.0 for i in range(count)])
-    places = np.array([(r * np.cos(a), r * np.sin(a), vehicle.height) for r, a in vehicle.arms])
+    directions = np.array([-1.0 if i % 2 else 1.0 for i in range(count)])
+    positions = np.array([(r * np.cos(a), r * np.sin(a), vehicle.height) for r, a in vehicle.arms])
     spin = _rotor_inertia(vehicle)
     mass = vehicle.mass + count * vehicle.rotor_mass
-    com = vehicle.rotor_mass * places.sum(axis=0) / mass
+    com = vehicle.rotor_mass * positions.sum(axis=0) / mass
     inertia = np.diag(np.array(vehicle.inertia)) + vehicle.mass * _parallel(-com)
-    inertia += sum(np.diag(spin) + vehicle.rotor_mass * _parallel(place - com) for place in places)
+    inertia += sum(np.diag(spin) + vehicle.rotor_mass * _parallel(position - com) for position in positions)
     axis = np.array((0.0, 0.0, 1.0))
 
-    def motion(_time: float, state: _Array, wanted: _Array) -> _Array:
-        turn = Rotation.from_quat(state[3:7])
-        velocity, rate, speeds = turn.inv().apply(state[7:10]), state[10:13], state[13:]
-        change = (wanted - speeds) / np.where(wanted > speeds, UP_S, DOWN_S)
+    def motion(_time: float, state: _Array, command: _Array) -> _Array:
+        rotation = Rotation.from_quat(state[3:7])
+        velocity, rate, speeds = rotation.inv().apply(state[7:10]), state[10:13], state[13:]
+        acceleration = (command - speeds) / np.where(command > speeds, UP_S, DOWN_S)
         force, torque = np.zeros(3), np.zeros(3)
-        for place, way, speed in zip(places - com, ways, speeds, strict=True):
-            across = velocity + np.cross(rate, place)
-            across[2] = 0.0
+        for position, direction, speed in zip(positions - com, directions, speeds, strict=True):
+            radial_velocity = velocity + np.cross(rate, position)
+            radial_velocity[2] = 0.0
             thrust = vehicle.lift * speed**2
-            pull = thrust * axis - speed * vehicle.drag * across
-            force += pull
-            torque += np.cross(place, pull) - way * thrust * vehicle.moment * axis - speed * ROLL * across
-        momentum = inertia @ rate + spin[2] * (ways * speeds).sum() / SLOWDOWN * axis
-        torque -= spin[2] * (ways * change).sum() / SLOWDOWN * axis
+            rotor_force = thrust * axis - speed * vehicle.drag * radial_velocity
+            force += rotor_force
+            torque += (
+                np.cross(position, rotor_force)
+                - direction * thrust * vehicle.moment * axis
+                - speed * ROLL * radial_velocity
+            )
+        momentum = inertia @ rate + spin[2] * (directions * speeds).sum() / SLOWDOWN * axis
+        torque -= spin[2] * (directions * acceleration).sum() / SLOWDOWN * axis
         x, y, z = rate
         w = state[6]
-        turning = 0.5 * np.array(
+        quaternion_rate = 0.5 * np.array(
             [
                 w * x + state[4] * z - state[5] * y,
                 w * y + state[5] * x - state[3] * z,
@@ -120,13 +124,13 @@ def _flown(vehicle: Multirotor, commands: _Array) -> _Array:
                 -state[3:6] @ rate,
             ]
         )
-        linear = turn.apply(force) / mass - G * axis
+        linear = rotation.apply(force) / mass - G * axis
         angular = np.linalg.solve(inertia, torque - np.cross(rate, momentum))
-        return np.concatenate([state[7:10], turning, linear, angular, change])
+        return np.concatenate([state[7:10], quaternion_rate, linear, angular, acceleration])
 
     state = np.concatenate([com, (0, 0, 0, 1), np.zeros(6 + count)])
-    for wanted in commands:
-        state = solve_ivp(motion, (0, STRETCH_S), state, args=(wanted,), method="DOP853", rtol=1e-9, atol=1e-10).y[
+    for command in commands:
+        state = solve_ivp(motion, (0, INTERVAL_S), state, args=(command,), method="DOP853", rtol=1e-9, atol=1e-10).y[
             :, -1
         ]
     state[:3] -= Rotation.from_quat(state[3:7]).apply(com)
@@ -139,24 +143,24 @@ def _parallel(offset: _Array) -> _Array:
 
 @pytest.mark.parametrize("name", VEHICLES)
 @pytest.mark.parametrize("seed", range(3))
-def test_a_multirotor_flies_as_its_equations_have_it(tmp_path: Path, name: str, seed: int) -> None:
-    """For a second and a half, each rotor with a random speed about hovering every quarter of it.
+def test_a_multirotor_follows_its_equations_of_motion(tmp_path: Path, name: str, seed: int) -> None:
+    """For 1.5 s, each rotor with a new random speed around hover every 0.25 s.
 
-    The firefly's moments of inertia violate the triangle inequality; raised to fit, they turned it 0.15 rad less.
+    The firefly's moments of inertia violate the triangle inequality; raised to fit, they turn it 0.15 rad less.
     """
     vehicle = VEHICLES[name]
     count = len(vehicle.arms)
     hover = np.sqrt((vehicle.mass + count * vehicle.rotor_mass) * G / count / vehicle.lift)
-    commands = hover * np.random.default_rng(seed).uniform(0.97, 1.05, (STRETCHES, count))
-    wires = Wires()
-    sim = load(tmp_path, _sdf(vehicle), gravity=f"0 0 -{G}", wires=wires)
-    for wanted in commands:
-        wires.tell("/quad/command/motor_speed", angular_velocities=wanted.tolist())
-        sim.run(STRETCH_S)
+    commands = hover * np.random.default_rng(seed).uniform(0.97, 1.05, (INTERVALS, count))
+    node = FakeNode()
+    sim = load(tmp_path, _sdf(vehicle), gravity=f"0 0 -{G}", node=node)
+    for command in commands:
+        node.receive("/quad/command/motor_speed", angular_velocities=command.tolist())
+        sim.run(INTERVAL_S)
 
     link = sim["m"].link("base_link")
-    truth = _flown(vehicle, commands)
+    truth = _true_motion(vehicle, commands)
     w, x, y, z = link.pose.quaternion
-    off = (Rotation.from_quat((x, y, z, w)).inv() * Rotation.from_quat(truth[3:7])).magnitude()
+    angle_error = (Rotation.from_quat((x, y, z, w)).inv() * Rotation.from_quat(truth[3:7])).magnitude()
     assert link.pose.position == pytest.approx(truth[:3], abs=0.01)
-    assert off < 0.01
+    assert angle_error < 0.01

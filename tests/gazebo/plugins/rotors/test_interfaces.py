@@ -1,4 +1,4 @@
-"""Quadrotor on the graph: commanded and read by RotorS' topics."""
+"""Quadrotor on the ROS graph, commanded and read by RotorS' topics."""
 
 import pytest
 from tests.gazebo.plugins.rotors.quadrotor import HOVER, PLUGIN, quadrotor
@@ -12,12 +12,12 @@ _PLUGINS = {
 }
 
 
-def test_a_controller_flies_it_through_its_topics(gazebo: Gazebo) -> None:
+def test_a_controller_flies_a_quadrotor_through_its_topics(gazebo: Gazebo) -> None:
     plugins = "".join(PLUGIN.format(name, parameters) for name, parameters in _PLUGINS.items())
     model = f'<sdf version="1.6"><model name="quad">{quadrotor(plugins)}</model></sdf>'
     assert gazebo.spawn(model, "quad").success
     odometry = gazebo.hear("/quad/odometry_sensor1/odometry", "nav_msgs/Odometry")
-    felt = gazebo.hear("/quad/imu", "sensor_msgs/Imu")
+    imu_messages = gazebo.hear("/quad/imu", "sensor_msgs/Imu")
     speeds = gazebo.hear("/quad/motor_speed", "mav_msgs/Actuators")
     fly = gazebo.speak("/quad/command/motor_speed", "mav_msgs/Actuators")
     fly({"angular_velocities": [1.1 * HOVER] * 4})
@@ -25,5 +25,5 @@ def test_a_controller_flies_it_through_its_topics(gazebo: Gazebo) -> None:
 
     until(lambda: odometry and odometry[-1].pose.pose.position.z > 1.5)
     assert list(map(abs, speeds[-1].angular_velocities)) == pytest.approx([1.1 * HOVER] * 4, rel=1e-2)
-    assert felt[-1].linear_acceleration.z == pytest.approx(1.1**2 * 9.8, abs=1.0)
+    assert imu_messages[-1].linear_acceleration.z == pytest.approx(1.1**2 * 9.8, abs=1.0)
     assert gazebo.report.warnings == []

@@ -14,7 +14,7 @@ _FOOT = """<sdf version="1.6"><model name="foot"><link name="l"><pose>0 0 0.1 0 
 <plugin name="feel" filename="libunitreeFootContactPlugin.so"/></sensor></link></model></sdf>"""
 
 
-def test_a_line_of_the_force_on_a_foot_stands_on_the_foot(bare_gazebo: Gazebo) -> None:
+def test_the_line_of_the_force_starts_at_the_foot(bare_gazebo: Gazebo) -> None:
     """2 kg weigh 19.6 N: 19.6 N / (20 N/m) · 0.2 = 0.196 m."""
     ground = "<include><uri>model://ground_plane</uri></include>"
     bare_gazebo.start(world=f'<sdf version="1.6"><world name="w">{ground}</world></sdf>')

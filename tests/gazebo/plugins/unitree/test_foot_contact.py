@@ -1,10 +1,10 @@
-"""Unitree's foot contacts, against the weight that a foot stands under."""
+"""Unitree's foot contacts, against the foot's weight."""
 
 from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.gazebo.plugins.stage import BODY, Wires, load
+from tests.gazebo.plugins.plugin_world import BODY, FakeNode, load
 
 from trundle.gazebo.model_plugins import attach_sensor_plugins
 from trundle.sim.sensors import mount_sensors
@@ -20,27 +20,27 @@ SENSOR = (
 def forces(folder: Path, pose: str) -> list[Any]:
     body = f'<link name="foot"><pose>{pose}</pose>{BODY.format(MASS)}{BALL}{SENSOR}</link>'
     sim = load(folder, body, gravity=f"0 0 {-G}", ground=True)
-    wires: Any = Wires()
+    node: Any = FakeNode()
     sensors = mount_sensors(sim)
-    assert attach_sensor_plugins(sensors, wires, sim) == []
+    assert attach_sensor_plugins(sensors, node, sim) == []
     for sensor in sensors:
         sensor.start(sim)
     sim.run(1.0)
     assert sim.report.warnings == []
-    return wires.said["/visual/FR_foot_contact/the_force"]
+    return node.published["/visual/FR_foot_contact/the_force"]
 
 
-def test_a_foot_tells_its_weight_in_its_own_axes(tmp_path: Path) -> None:
-    """The foot lies on its side, so that up is its own y."""
-    told = forces(tmp_path, "0 0 0.1 1.5707963 0 0")
+def test_foot_contact_publishes_the_weight_in_the_axes_of_the_foot(tmp_path: Path) -> None:
+    """The foot lies on its side: its y points up."""
+    messages = forces(tmp_path, "0 0 0.1 1.5707963 0 0")
 
-    assert len(told) == 100
-    force = told[-1].wrench.force
+    assert len(messages) == 100
+    force = messages[-1].wrench.force
     assert (force.x, force.y, force.z) == pytest.approx((0.0, MASS * G, 0.0), abs=0.01)
-    assert told[-1].header.frame_id == "foot"
+    assert messages[-1].header.frame_id == "foot"
 
 
-def test_a_foot_in_the_air_tells_zero(tmp_path: Path) -> None:
-    told = forces(tmp_path, "0 0 50 0 0 0")
+def test_foot_contact_publishes_zero_in_the_air(tmp_path: Path) -> None:
+    messages = forces(tmp_path, "0 0 50 0 0 0")
 
-    assert (told[-1].wrench.force.x, told[-1].wrench.force.z) == (0.0, 0.0)
+    assert (messages[-1].wrench.force.x, messages[-1].wrench.force.z) == (0.0, 0.0)

@@ -1,4 +1,4 @@
-"""Bounding box of a link's collisions, by which Gazebo's native drive plugins measure wheels."""
+"""Bounding box of a link's collisions; Gazebo's native drive plugins derive wheel sizes from it."""
 
 import itertools
 
@@ -8,7 +8,7 @@ from trundle.spatial import Vector3
 
 
 def bounding_box(link: Link) -> Vector3:
-    """Side lengths of the box around all collisions, along the link's axes [m]; zero without any."""
+    """Return the side lengths of the box around all collisions, along the link's axes [m]; zero without any."""
     corners = [corner for collision in link.collisions for corner in _corners(collision)]
     if not corners:
         return (0.0, 0.0, 0.0)
@@ -46,7 +46,7 @@ def _mesh_extent(geometry: MeshFile) -> tuple[Vector3, Vector3]:
     assert geometry.path is not None
     try:
         mesh = load_mesh(geometry.path, submesh=geometry.submesh, center=geometry.center_submesh)
-    except MeshError:  # physics has reported it
+    except MeshError:  # physics has already reported it
         return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     vertices = mesh.scaled(geometry.scale).vertices
     low, high = vertices.min(axis=0).tolist(), vertices.max(axis=0).tolist()

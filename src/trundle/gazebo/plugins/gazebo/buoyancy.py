@@ -13,7 +13,7 @@ from trundle.spatial import ZERO, Vector3, Wrench
 from ..plugin import Plugin
 from .bounding_box import bounding_box
 
-_WATER = 999.1026
+_WATER_DENSITY = 999.1026
 """Gazebo's default density [kg/m³]."""
 
 
@@ -42,30 +42,30 @@ class Buoyancy(Plugin):
         """See `Plugin.load`."""
         del node
         parameters = TagParameters(tag.node, sim.report)
-        density = parameters.number("fluid_density", _WATER)
-        given: dict[str, _Volume] = {}
+        density = parameters.number("fluid_density", _WATER_DENSITY)
+        declared: dict[str, _Volume] = {}
         for child in parameters.sections("link"):
             link = model.link(child.attribute("name"))
             volume = child.number("volume", 0.0)
             centre = child.vector("center_of_volume", ZERO)
             child.report_unread()
             if volume <= 0.0:
-                child.warn(f"link {link.name!r}: a volume of {volume:g} m³ floats nothing; it is left out")
-            given[link.name] = _Volume(link, max(volume, 0.0), centre)
+                child.warn(f"link {link.name!r}: a volume of {volume:g} m³ has no buoyancy; it is left out")
+            declared[link.name] = _Volume(link, max(volume, 0.0), centre)
         parameters.report_unread()
-        volumes = [given.get(link.name) or _Volume(link, *_of_collisions(link.link)) for link in model.links]
-        return cls([each for each in volumes if each.volume > 0.0], density)
+        volumes = [declared.get(link.name) or _Volume(link, *_collision_volume(link.link)) for link in model.links]
+        return cls([volume for volume in volumes if volume.volume > 0.0], density)
 
     def before_step(self, sim: Simulation) -> None:
         """Apply the buoyancy."""
         gx, gy, gz = sim.world.physics.gravity
-        for each in self._volumes:
-            mass = self._density * each.volume
+        for volume in self._volumes:
+            mass = self._density * volume.volume
             lift = Wrench(force=(-mass * gx, -mass * gy, -mass * gz))
-            each.link.add_wrench(lift, at=each.link.pose.transform_point(each.centre))
+            volume.link.add_wrench(lift, at=volume.link.pose.transform_point(volume.centre))
 
 
-def _of_collisions(link: Link) -> tuple[float, Vector3]:
+def _collision_volume(link: Link) -> tuple[float, Vector3]:
     """Volume of all collisions [m³], overlaps counted twice as in Gazebo, and its centre in the link's frame [m]."""
     parts = [(_volume(collision), collision.link_from_collision.position) for collision in link.collisions]
     total = sum(volume for volume, _ in parts)

@@ -50,5 +50,5 @@ class DiffDrive(Plugin):
         self._command.stop()
 
 
-def _distance(one: Pose, other: Pose) -> float:
-    return sum((a - b) ** 2 for a, b in zip(one.position, other.position, strict=True)) ** 0.5
+def _distance(left: Pose, right: Pose) -> float:
+    return sum((a - b) ** 2 for a, b in zip(left.position, right.position, strict=True)) ** 0.5

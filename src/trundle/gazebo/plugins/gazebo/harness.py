@@ -29,10 +29,10 @@ _STILL = 1e-6
 
 
 class Harness(Plugin):
-    """Joins links of the model to the world, drives the winch and detaches.
+    """Joins links of the model to the world, drives the winch and detaches the model.
 
     Parameters: any number of <joint>, as in a model; <winch> with <joint>, <pos_pid> and <vel_pid> (p, i, d, i_max,
-    i_min, cmd_max, cmd_min, all 0); <detach>: the joint that opens. `/<model>/harness/velocity` (std_msgs/Float32) is
+    i_min, cmd_max, cmd_min, all 0); <detach>: the joint to remove. `/<model>/harness/velocity` (std_msgs/Float32) is
     the winch's velocity [m/s], 0 holds; `/<model>/harness/detach` (std_msgs/Bool) detaches, once. The velocity loop
     only pulls up, as in Gazebo.
     """
@@ -49,7 +49,7 @@ class Harness(Plugin):
             raise UsageError("a harness needs a <joint>")
         winch = parameters.section("winch")
         self._winch: JointHandle | None = self._find_joint(model.name, winch, "joint", parameters)
-        self._opens: JointHandle | None = self._find_joint(model.name, parameters, "detach", parameters)
+        self._detachable: JointHandle | None = self._find_joint(model.name, parameters, "detach", parameters)
         self._position = _read_pid(winch.section("pos_pid"))
         self._speed = _read_pid(winch.section("vel_pid"))
         parameters.report_unread()
@@ -69,13 +69,13 @@ class Harness(Plugin):
         if self._winch is None or not self._winch.is_valid:
             return
         dt = sim.step_ns / 1e9
-        holds = abs(self._target_speed) < _STILL
-        error = self._winch.position - self._target if holds else 0.0
+        is_holding = abs(self._target_speed) < _STILL
+        error = self._winch.position - self._target if is_holding else 0.0
         pull = max(self._speed.command(self._winch.velocity - self._target_speed, dt), 0.0)
         self._winch.command_effort(pull + self._position.command(error, dt))
 
     def reset(self) -> None:
-        """Hold the winch at zero; what was detached stays detached."""
+        """Hold the winch at zero; a detached model stays detached."""
         self._target = self._target_speed = 0.0
         self._position.reset()
         self._speed.reset()
@@ -89,9 +89,9 @@ class Harness(Plugin):
 
     def detach(self) -> None:
         """Remove the joint; the winch stops for good."""
-        if self._opens is not None and self._opens.is_valid:
-            self._sim.detach(self._opens.name)
-            self._opens = self._winch = None
+        if self._detachable is not None and self._detachable.is_valid:
+            self._sim.detach(self._detachable.name)
+            self._detachable = self._winch = None
 
     def _on_velocity(self, message: "std_msgs.Float32") -> None:
         self.set_winch_velocity(float(message.data))
@@ -101,32 +101,32 @@ class Harness(Plugin):
             self.detach()
 
     def _find_joint(self, model: str, section: TagParameters, tag: str, parameters: TagParameters) -> JointHandle:
-        """Joint that a tag names; if there is none, warn and return the first."""
+        """Return the joint that a tag names; without one, warn and return the first."""
         name = section.text(tag, "")
         for joint in self._joints:
             if joint.name == f"{model}::{name}":
                 return joint
-        where = parameters if section.node is None else section
-        where.warn(f"harness: no joint {name!r} for <{tag}>; the first one is used")
+        reporter = parameters if section.node is None else section
+        reporter.warn(f"harness: no joint {name!r} for <{tag}>; the first one is used")
         return self._joints[0]
 
 
 def _in_world(joint: Joint, model: ModelHandle) -> Joint:
-    """Joint of a model, with names and axes in the world."""
+    """Return a model's joint with names and axes in the world."""
 
-    def named(link: str) -> str:
+    def world_link(link: str) -> str:
         return link if link == "world" else f"{model.name}::{link}"
 
-    def turned(axis: JointAxis | None, by: Pose) -> JointAxis | None:
-        return None if axis is None else replace(axis, direction=by.transform_vector(axis.direction))
+    def rotate(axis: JointAxis | None, world_from_model: Pose) -> JointAxis | None:
+        return None if axis is None else replace(axis, direction=world_from_model.transform_vector(axis.direction))
 
     return replace(
         joint,
         name=f"{model.name}::{joint.name}",
-        parent=named(joint.parent),
-        child=named(joint.child),
-        axis=turned(joint.axis, model.pose),
-        axis2=turned(joint.axis2, model.pose),
+        parent=world_link(joint.parent),
+        child=world_link(joint.child),
+        axis=rotate(joint.axis, model.pose),
+        axis2=rotate(joint.axis2, model.pose),
     )
 
 

@@ -74,8 +74,8 @@ class JointControl(Plugin):
         except (re.error, RecursionError, OverflowError) as error:
             controller.warn(f"{text!r} is not a regular expression ({error}); it is left out")
             return []
-        found = [joint for joint in self._model.joints if joint.axes and pattern.fullmatch(joint.name)]
-        if not found:
-            there = ", ".join(repr(joint.name) for joint in self._model.joints) or "none"
-            controller.warn(f"no movable joint matches {text!r}; joints here: {there}")
-        return [self._joints.setdefault(joint.name, ControlledJoint(joint)) for joint in found]
+        matches = [joint for joint in self._model.joints if joint.axes and pattern.fullmatch(joint.name)]
+        if not matches:
+            names = ", ".join(repr(joint.name) for joint in self._model.joints) or "none"
+            controller.warn(f"no movable joint matches {text!r}; joints here: {names}")
+        return [self._joints.setdefault(joint.name, ControlledJoint(joint)) for joint in matches]

@@ -23,7 +23,7 @@ class ControlledJoint:
     def __init__(self, joint: JointHandle) -> None:
         self.joint = joint
         self._effort: float | None = None
-        self._once = 0.0
+        self._step_effort = 0.0
         self._position, self._velocity = _Loop(), _Loop()
         self._is_idle = True
 
@@ -33,7 +33,7 @@ class ControlledJoint:
 
     def apply_effort(self, effort: float) -> None:
         """Add an effort [N·m or N] for one step."""
-        self._once += effort
+        self._step_effort += effort
 
     def command_position(self, target: float | None, pid: Pid | None = None) -> None:
         """Set the target position [rad or m]; None keeps the target, or the gains."""
@@ -46,16 +46,16 @@ class ControlledJoint:
     def update(self, sim: Simulation) -> None:
         """Apply the effort of the coming step."""
         dt = sim.step_ns / 1e9
-        effort, self._once = self._once, 0.0
-        wanted = effort != 0.0
+        effort, self._step_effort = self._step_effort, 0.0
+        is_commanded = effort != 0.0
         if self._effort is not None:
-            effort, wanted = effort + self._effort, True
-        for loop, now in ((self._position, self.joint.position), (self._velocity, self.joint.velocity)):
+            effort, is_commanded = effort + self._effort, True
+        for loop, value in ((self._position, self.joint.position), (self._velocity, self.joint.velocity)):
             if loop.target is not None:
-                effort, wanted = effort + loop.pid.command(now - loop.target, dt), True
-        if wanted or not self._is_idle:
+                effort, is_commanded = effort + loop.pid.command(value - loop.target, dt), True
+        if is_commanded or not self._is_idle:
             self.joint.command_effort(effort)
-        self._is_idle = not wanted
+        self._is_idle = not is_commanded
 
     def clear(self) -> None:
         """Clear all commands."""
@@ -64,6 +64,6 @@ class ControlledJoint:
 
     def reset(self) -> None:
         """Reset the PID loops; commands stay."""
-        self._once = 0.0
+        self._step_effort = 0.0
         self._position.pid.reset()
         self._velocity.pid.reset()

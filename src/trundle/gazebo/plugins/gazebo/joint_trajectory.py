@@ -21,7 +21,7 @@ _SWINGS = {
 class JointTrajectory(Plugin):
     """Sets four joints, by name, to cosines of simulation time; no parameters.
 
-    Gazebo moves only simple_arm_gripper; here any model that has such joints.
+    Gazebo moves only simple_arm_gripper; Trundle moves any model with such joints.
     """
 
     def __init__(self, joints: list[tuple[JointHandle, float, float, float]]) -> None:
@@ -31,13 +31,16 @@ class JointTrajectory(Plugin):
     def load(cls, sim: Simulation, model: ModelHandle, node: Node | None, tag: PluginTag) -> Self:
         """See `Plugin.load`."""
         del node
-        found = [(joint, *_SWINGS[name]) for joint in model.joints if (name := joint.name.split("::")[-1]) in _SWINGS]
-        found = [each for each in found if each[0].is_driven]
-        if not found:
-            what = f"plugin {tag.name!r} moves the joints {', '.join(_SWINGS)} only; the model has none of them"
-            sim.report.warn(tag.at, what)
+        joints = [
+            (joint, *_SWINGS[name])
+            for joint in model.joints
+            if (name := joint.name.split("::")[-1]) in _SWINGS and joint.is_driven
+        ]
+        if not joints:
+            message = f"plugin {tag.name!r} moves the joints {', '.join(_SWINGS)} only; the model has none of them"
+            sim.report.warn(tag.at, message)
         tag.node.report_unread(sim.report)
-        return cls(found)
+        return cls(joints)
 
     def before_step(self, sim: Simulation) -> None:
         """Set the positions."""

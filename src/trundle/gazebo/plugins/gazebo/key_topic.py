@@ -1,4 +1,4 @@
-"""Keyboard topic `/keyboard/keypress`, in place of `~/keyboard/keypress` of Gazebo's window.
+"""Keyboard topic `/keyboard/keypress`, which replaces `~/keyboard/keypress` of Gazebo's window.
 
 A key is a std_msgs/Int32: its character code, or Qt's key code (16777234 left, …35 up, …36 right, …37 down).
 """
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 KEYS_TOPIC = "/keyboard/keypress"
 
 
-def subscribe_keys(node: Node | None, tag: PluginTag, press: Callable[[int], None], report: Diagnostics) -> None:
+def subscribe_keys(node: Node | None, tag: PluginTag, on_key: Callable[[int], None], report: Diagnostics) -> None:
     """Call a function with each key; warn if there is no node."""
     if node is None:
-        report.warn(tag.at, f"plugin {tag.name!r} takes keys from a ROS topic, which --no-ros leaves out")
+        report.warn(tag.at, f"plugin {tag.name!r} reads keys from a ROS topic, which --no-ros leaves out")
         return
 
     def on_message(message: "std_msgs.Int32") -> None:
-        press(int(message.data))
+        on_key(int(message.data))
 
     node.subscribe(KEYS_TOPIC, "std_msgs/Int32", on_message)
-    report.info(tag.at, f"plugin {tag.name!r} takes keys from the topic {KEYS_TOPIC} (std_msgs/Int32)")
+    report.info(tag.at, f"plugin {tag.name!r} reads keys from the topic {KEYS_TOPIC} (std_msgs/Int32)")

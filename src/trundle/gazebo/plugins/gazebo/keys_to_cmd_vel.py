@@ -34,19 +34,19 @@ class KeysToCmdVel(Plugin):
         parameters = TagParameters(tag.node, sim.report)
 
         topic = parameters.text("cmd_vel_topic", "~/cmd_vel")
-        self._fastest = parameters.number("max_linear_vel", 1.0)
-        self._slowest = parameters.number("min_linear_vel", -self._fastest)
+        self._max_speed = parameters.number("max_linear_vel", 1.0)
+        self._min_speed = parameters.number("min_linear_vel", -self._max_speed)
         self._linear_step = parameters.number("linear_increment", 0.5)
-        self._fastest_turn = parameters.number("max_angular_vel", 1.0)
+        self._max_yaw_rate = parameters.number("max_angular_vel", 1.0)
         self._angular_step = parameters.number("angular_increment", 0.5)
-        self._keys = {key: what for what, keys in _KEYS.items() for key in keys}
+        self._keys = {key: action for action, keys in _KEYS.items() for key in keys}
         controls = parameters.section("key_controls")
-        if any(what in controls for what in _KEYS):
+        if any(action in controls for action in _KEYS):
             self._keys = dict[int, str]()
-            for what in _KEYS:
-                self._keys.update(dict.fromkeys(_read_keys(controls, what), what))
+            for action in _KEYS:
+                self._keys.update(dict.fromkeys(_read_keys(controls, action), action))
         parameters.report_unread()
-        self.speed = self.turning = 0.0
+        self.speed = self.yaw_rate = 0.0
         self._topic = None
         if node is not None:
             name = ros_name(topic.removeprefix("~").strip("/"))
@@ -64,36 +64,36 @@ class KeysToCmdVel(Plugin):
         """Handle a key."""
         match self._keys.get(key):
             case "stop":
-                self.speed = self.turning = 0.0
+                self.speed = self.yaw_rate = 0.0
             case "accelerate":
-                self.speed = self._clamped(self.speed + self._linear_step)
+                self.speed = self._clamp(self.speed + self._linear_step)
             case "decelerate":
-                self.speed = self._clamped(self.speed - self._linear_step)
+                self.speed = self._clamp(self.speed - self._linear_step)
             case "left":
-                self.turning = max(self.turning - self._angular_step, -self._fastest_turn)
+                self.yaw_rate = max(self.yaw_rate - self._angular_step, -self._max_yaw_rate)
             case "right":
-                self.turning = min(self.turning + self._angular_step, self._fastest_turn)
+                self.yaw_rate = min(self.yaw_rate + self._angular_step, self._max_yaw_rate)
             case _:
                 return
         if self._topic is not None:
-            half = self.turning / 2
+            half = self.yaw_rate / 2
             turn = {"x": 0.0, "y": 0.0, "z": math.sin(half), "w": math.cos(half)}
             self._topic.publish({"position": {"x": self.speed}, "orientation": turn})
 
     def reset(self) -> None:
         """Set both speeds to zero."""
-        self.speed = self.turning = 0.0
+        self.speed = self.yaw_rate = 0.0
 
-    def _clamped(self, speed: float) -> float:
-        return min(max(speed, self._slowest), self._fastest)
+    def _clamp(self, speed: float) -> float:
+        return min(max(speed, self._min_speed), self._max_speed)
 
 
-def _read_keys(controls: TagParameters, what: str) -> list[int]:
-    """The numbers of the keys for one thing."""
-    keys = controls.texts(what)
+def _read_keys(controls: TagParameters, action: str) -> list[int]:
+    """Return the key codes of an action."""
+    keys = controls.texts(action)
     for key in keys:
         if not key.isdecimal():
-            controls.warn(f"<{what}>: {key!r} is not a key's number; it is left out", what)
+            controls.warn(f"<{action}>: {key!r} is not a key code; it is left out", action)
     if not keys:
-        controls.warn(f"<key_controls> has no <{what}>; no key is bound to it")
+        controls.warn(f"<key_controls> has no <{action}>; no key is bound to it")
     return [int(key) for key in keys if key.isdecimal()]

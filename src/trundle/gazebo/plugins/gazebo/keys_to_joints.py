@@ -14,7 +14,7 @@ from ..plugin import Plugin
 from .joint_controller import ControlledJoint
 from .key_topic import subscribe_keys
 
-_NEEDED = ("key", "scale", "type")
+_REQUIRED = ("key", "scale", "type")
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,14 +49,14 @@ class KeysToJoints(Plugin):
 
     def on_key(self, key: int) -> None:
         """Handle a key."""
-        for each in self._keys.get(key, ()):
-            match each.kind:
+        for binding in self._keys.get(key, ()):
+            match binding.kind:
                 case "position":
-                    each.joint.command_position(each.joint.joint.position + each.scale)
+                    binding.joint.command_position(binding.joint.joint.position + binding.scale)
                 case "velocity":
-                    each.joint.command_velocity(each.scale)
+                    binding.joint.command_velocity(binding.scale)
                 case _:
-                    each.joint.apply_effort(each.scale)
+                    binding.joint.apply_effort(binding.scale)
 
     def before_step(self, sim: Simulation) -> None:
         """Apply the efforts."""
@@ -69,8 +69,8 @@ class KeysToJoints(Plugin):
             joint.clear()
 
     def _read(self, entry: TagParameters, model: ModelHandle) -> None:
-        values = {name: entry.attribute(name) for name in (*_NEEDED, "kp", "ki", "kd")}
-        missing = [name for name in _NEEDED if not values[name]]
+        values = {name: entry.attribute(name) for name in (*_REQUIRED, "kp", "ki", "kd")}
+        missing = [name for name in _REQUIRED if not values[name]]
         kind = values["type"]
         try:
             numbers = {name: float(values[name] or 0.0) for name in values if name != "type"}
@@ -79,8 +79,10 @@ class KeysToJoints(Plugin):
             entry.warn(f"<map>: {error}; it is left out")
             return
         if missing or kind not in ("position", "velocity", "force") or not joint.axes:
-            what = f"needs {', '.join(missing)}" if missing else f"type {kind!r} of a joint with {len(joint.axes)} axes"
-            entry.warn(f"<map>: {what}; it is left out")
+            problem = (
+                f"needs {', '.join(missing)}" if missing else f"type {kind!r} of a joint with {len(joint.axes)} axes"
+            )
+            entry.warn(f"<map>: {problem}; it is left out")
             return
         controlled = self._joints.setdefault(joint.name, ControlledJoint(joint))
         pid = Pid(p=numbers["kp"], i=numbers["ki"], d=numbers["kd"])

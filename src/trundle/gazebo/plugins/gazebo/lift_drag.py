@@ -11,7 +11,7 @@ from trundle.spatial import Vector3, Wrench, add, cross, dot, multiply, normaliz
 
 from ..plugin import Plugin
 
-_SLOWEST = 0.01
+_MIN_AIRSPEED = 0.01
 """Airspeed [m/s] below which Gazebo's plugin applies nothing."""
 
 
@@ -22,8 +22,8 @@ class LiftDrag(Plugin):
     <cp> 0 0 0 and <forward> 1 0 0, <upward> 0 0 1 in the link's frame, <area> 1 m², <air_density> 1.2041 kg/m³. Its
     pitching moment (<cma>, <cma_stall>) is always zero in Gazebo, and so here. Below stall the lift coefficient is
     cla · α and the drag coefficient |cda · α|; above it they continue with the stall's slopes. Both are multiplied by
-    the squared cosine of the sweep angle. α is wrapped to ±π/2, so that a wing that flies backwards acts as one that
-    flies forwards. <control_joint_rad_to_cl> (4) times the position of <control_joint_name> is added to the lift
+    the squared cosine of the sweep angle. α is wrapped to ±π/2, so that a wing that flies backwards acts as if it flew
+    forwards. <control_joint_rad_to_cl> (4) times the position of <control_joint_name> is added to the lift
     coefficient. With <radial_symmetry> the upward direction opposes the flow across <forward>.
     """
 
@@ -42,7 +42,7 @@ class LiftDrag(Plugin):
         self._centre = parameters.vector("cp", (0.0, 0.0, 0.0))
         self._forward, self._upward = direction("forward", (1.0, 0.0, 0.0)), direction("upward", (0.0, 0.0, 1.0))
         self._flap_lift = parameters.number("control_joint_rad_to_cl", 4.0)
-        self._is_round = parameters.flag("radial_symmetry", default=False)
+        self._is_radial = parameters.flag("radial_symmetry", default=False)
         parameters.ignore("link_name", "control_joint_name", "cma", "cma_stall")
         parameters.report_unread()
 
@@ -62,25 +62,25 @@ class LiftDrag(Plugin):
         arm = subtract(at, pose.position)
         velocity = add(twist.linear, cross(twist.angular, arm))
         forward, upward = pose.transform_vector(self._forward), pose.transform_vector(self._upward)
-        if self._is_round:
+        if self._is_radial:
             upward = normalized(cross(forward, cross(forward, velocity))) or upward
         span = normalized(cross(forward, upward))
-        if span is None or _length(velocity) <= _SLOWEST:
+        if span is None or _length(velocity) <= _MIN_AIRSPEED:
             return
-        # Only the flow across the span lifts and drags.
+        # Only the flow across the span produces lift and drag.
         across = add(velocity, multiply(span, -dot(velocity, span)))
         speed, drag_direction = _length(across), normalized(multiply(across, -1.0))
-        if drag_direction is None or speed <= _SLOWEST:
+        if drag_direction is None or speed <= _MIN_AIRSPEED:
             return
         lift_direction = cross(span, across)
         alpha = self._alpha0 + math.atan2(-dot(across, upward), dot(across, forward))
         alpha = math.remainder(alpha, math.pi)
-        unswept = (speed / _length(velocity)) ** 2
+        sweep_factor = (speed / _length(velocity)) ** 2
         flap_lift = 0.0 if self._flap is None else self._flap_lift * self._flap.position
         pressure = 0.5 * self._density * speed * speed * self._area
-        lifting = self._lift_coefficient(alpha) * unswept + flap_lift
-        lift = multiply(normalized(lift_direction) or upward, lifting * pressure)
-        drag = multiply(drag_direction, self._drag_coefficient(alpha) * unswept * pressure)
+        lift_coefficient = self._lift_coefficient(alpha) * sweep_factor + flap_lift
+        lift = multiply(normalized(lift_direction) or upward, lift_coefficient * pressure)
+        drag = multiply(drag_direction, self._drag_coefficient(alpha) * sweep_factor * pressure)
         self._link.add_wrench(Wrench(force=add(lift, drag)), at=at)
 
     def _lift_coefficient(self, alpha: float) -> float:

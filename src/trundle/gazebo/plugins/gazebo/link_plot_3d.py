@@ -14,9 +14,9 @@ from trundle.spatial import Pose, Vector3
 
 from ..plugin import Plugin
 
-_APART = 0.05
-"""Least distance between two points [m]."""
-_MOST, _FEWER = 1000, 5
+_MIN_DISTANCE = 0.05
+"""Minimum distance between two points [m]."""
+_MAX_POINTS, _DROPPED_POINTS = 1000, 5
 """Largest number of points of a line, and number of the oldest that are dropped beyond it."""
 
 
@@ -42,15 +42,15 @@ class LinkPlot3D(Plugin):
         for plot in parameters.sections("plot"):
             pen = Pose.from_rpy(*plot.numbers("pose", 6, (0.0,) * 6))
             name = plot.text("material", "Gazebo/Black")
-            colour = GAZEBO_MATERIALS.get(name)
-            if colour is None:
-                plot.warn(f"no material {name!r} among Gazebo's; the line is black")
+            material = GAZEBO_MATERIALS.get(name)
+            if material is None:
+                plot.warn(f"Gazebo has no material {name!r}; the line is black")
             try:
                 link = model.link(plot.text("link"))
             except UsageError as error:
                 plot.warn(f"<plot>: {error}; it is left out")
                 continue
-            line = DebugLine((0.0, 0.0, 0.0) if colour is None else colour.diffuse[:3])
+            line = DebugLine((0.0, 0.0, 0.0) if material is None else material.diffuse[:3])
             sim.lines[f"{model.name}::plot_{link.name}_{len(self._plots)}"] = line
             self._plots.append(_Plot(link, pen, line))
         parameters.report_unread()
@@ -64,13 +64,13 @@ class LinkPlot3D(Plugin):
     def before_step(self, sim: Simulation) -> None:
         """Append the links' positions."""
         for number, plot in enumerate(self._plots):
-            here = (plot.link.pose @ plot.link_from_pen).position
+            position = (plot.link.pose @ plot.link_from_pen).position
             points = plot.line.points
-            if points and math.dist(here, points[-1]) <= _APART:
+            if points and math.dist(position, points[-1]) <= _MIN_DISTANCE:
                 continue
-            points.append(here)
-            if len(points) > _MOST:
-                del points[:_FEWER]
+            points.append(position)
+            if len(points) > _MAX_POINTS:
+                del points[:_DROPPED_POINTS]
             self._publish(number, plot, sim.time_ns)
 
     def reset(self) -> None:

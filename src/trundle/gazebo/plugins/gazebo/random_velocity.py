@@ -25,10 +25,11 @@ class RandomVelocity(Plugin):
         self._link = link
         self._start = parameters.vector("initial_velocity", ZERO)
         self._speed = parameters.number("velocity_factor", 1.0)
-        self._every_ns = round(parameters.number("update_period", 10.0) * NS_PER_S)
+        self._update_period_ns = round(parameters.number("update_period", 10.0) * NS_PER_S)
         bounds = [
             sorted(
-                parameters.number(f"{end}_{axis}", default) for end, default in (("min", -math.inf), ("max", math.inf))
+                parameters.number(f"{bound}_{axis}", default)
+                for bound, default in (("min", -math.inf), ("max", math.inf))
             )
             for axis in "xyz"
         ]
@@ -57,13 +58,13 @@ class RandomVelocity(Plugin):
         """Set the velocity."""
         if not sim.engine.writer.is_free(self._link.index):
             return
-        if sim.time_ns - self._drawn_ns > self._every_ns:
+        if sim.time_ns - self._drawn_ns > self._update_period_ns:
             self._drawn_ns = sim.time_ns
             self._velocity = self._draw()
         self._link.set_twist(Twist(self._velocity, self._link.twist.angular))
 
     def _draw(self) -> Vector3:
-        drawn = self._random.uniform(-1.0, 1.0, 3)
-        drawn *= self._speed / (float(np.linalg.norm(drawn)) or 1.0)
-        x, y, z = np.clip(drawn, self._low, self._high).tolist()
+        velocity = self._random.uniform(-1.0, 1.0, 3)
+        velocity *= self._speed / (float(np.linalg.norm(velocity)) or 1.0)
+        x, y, z = np.clip(velocity, self._low, self._high).tolist()
         return (x, y, z)

@@ -12,7 +12,7 @@ from trundle.spatial import Vector3
 from ..plugin import Plugin
 from .tracked_vehicle import Tracks
 
-_SLOWEST = 0.1
+_MIN_SPEED = 0.1
 """Speed [m/s] and rate [rad/s] below which Gazebo assumes a turn on the spot, or straight motion."""
 
 
@@ -58,11 +58,11 @@ class SimpleTrackedVehicle(Plugin):
 
     def _centre(self, speeds: tuple[float, float], left: Vector3) -> Vector3 | None:
         """Centre of rotation in the world [m]; None: straight motion."""
-        one, other = speeds
-        turning = (one - other) * self._tracks.efficiency / self._tracks.separation
-        forwards = (one + other) / 2
-        if abs(turning) < _SLOWEST:
+        left_speed, right_speed = speeds
+        yaw_rate = (left_speed - right_speed) * self._tracks.efficiency / self._tracks.separation
+        speed = (left_speed + right_speed) / 2
+        if abs(yaw_rate) < _MIN_SPEED:
             return None
-        away = 0.0 if abs(forwards) < _SLOWEST else -forwards / turning
-        x, y, z = (p + away * y for p, y in zip(self._body.pose.position, left, strict=True))
+        offset = 0.0 if abs(speed) < _MIN_SPEED else -speed / yaw_rate
+        x, y, z = (p + offset * y for p, y in zip(self._body.pose.position, left, strict=True))
         return (x, y, z)

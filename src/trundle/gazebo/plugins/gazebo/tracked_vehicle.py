@@ -1,4 +1,4 @@
-"""Command, track speeds and friction, which all tracked vehicles share."""
+"""Command, track speeds and friction of all tracked vehicles."""
 
 from collections.abc import Iterable
 
@@ -16,8 +16,8 @@ from .velocity_command import VelocityCommand
 class Tracks:
     """Turns `/<robot_namespace>/cmd_vel` into the speeds of a left and a right track.
 
-    Parameters: <robot_namespace> (the model's name), <steering_efficiency> (0.5: yaw rate over that of tracks
-    without slip), <tracks_separation> [m] (0.4), <max_linear_speed> [m/s] (1), <max_angular_speed> [rad/s] (1),
+    Parameters: <robot_namespace> (the model's name), <steering_efficiency> (0.5: ratio of the yaw rate to that of
+    tracks without slip), <tracks_separation> [m] (0.4), <max_linear_speed> [m/s] (1), <max_angular_speed> [rad/s] (1),
     <track_mu>, <track_mu2>. As in Gazebo a positive yaw speeds the left track up, which turns to the right. The speeds
     are published on `/<robot_namespace>/tracks_speed` (geometry_msgs/Vector3, x left, y right).
     """
@@ -26,8 +26,8 @@ class Tracks:
         parameters = TagParameters(tag.node, sim.report)
         self.efficiency = parameters.number("steering_efficiency", 0.5, above=0.0)
         self.separation = parameters.number("tracks_separation", 0.4, above=0.0)
-        self._fastest = parameters.number("max_linear_speed", 1.0, above=0.0)
-        self._fastest_turn = abs(parameters.number("max_angular_speed", 1.0))
+        self._max_speed = parameters.number("max_linear_speed", 1.0, above=0.0)
+        self._max_yaw_rate = abs(parameters.number("max_angular_speed", 1.0))
         namespace = ros_name(parameters.text("robot_namespace", "") or model.name).strip("/")
         self._mu = _friction(parameters, "track_mu"), _friction(parameters, "track_mu2")
         self.command = VelocityCommand(f"/{namespace}/cmd_vel", node)
@@ -39,9 +39,9 @@ class Tracks:
     @property
     def speeds(self) -> tuple[float, float]:
         """Speeds of the left and the right track [m/s], positive forwards."""
-        speed = _clamped(self.command.speed, self._fastest)
-        half = _clamped(self.command.yaw_rate, self._fastest_turn) * self.separation / 2 / self.efficiency
-        left, right = _clamped(speed + half, self._fastest), _clamped(speed - half, self._fastest)
+        speed = _clamp(self.command.speed, self._max_speed)
+        half_difference = _clamp(self.command.yaw_rate, self._max_yaw_rate) * self.separation / 2 / self.efficiency
+        left, right = _clamp(speed + half_difference, self._max_speed), _clamp(speed - half_difference, self._max_speed)
         if self._topic is not None and self._published != (left, right):
             self._published = (left, right)
             self._topic.publish({"x": left, "y": right})
@@ -56,18 +56,20 @@ class Tracks:
         def with_friction(link: Link) -> Link:
             surfaces = [
                 replace(
-                    each.surface,
-                    mu=each.surface.mu if mu is None else mu,
-                    mu2=each.surface.mu2 if mu2 is None else mu2,
+                    collision.surface,
+                    mu=collision.surface.mu if mu is None else mu,
+                    mu2=collision.surface.mu2 if mu2 is None else mu2,
                 )
-                for each in link.collisions
+                for collision in link.collisions
             ]
             collisions = zip(link.collisions, surfaces, strict=True)
-            return replace(link, collisions=tuple(replace(each, surface=surface) for each, surface in collisions))
+            return replace(
+                link, collisions=tuple(replace(collision, surface=surface) for collision, surface in collisions)
+            )
 
-        wanted = {id(link.link) for link in links}
+        link_ids = {id(link.link) for link in links}
         models = [
-            replace(model, links=tuple(with_friction(link) if id(link) in wanted else link for link in model.links))
+            replace(model, links=tuple(with_friction(link) if id(link) in link_ids else link for link in model.links))
             for model in sim.world.models
         ]
         sim.edit(replace(sim.world, models=tuple(models)))
@@ -77,5 +79,5 @@ def _friction(parameters: TagParameters, name: str) -> float | None:
     return parameters.number(name, 1.0) if name in parameters else None
 
 
-def _clamped(value: float, most: float) -> float:
-    return min(max(value, -most), most)
+def _clamp(value: float, limit: float) -> float:
+    return min(max(value, -limit), limit)

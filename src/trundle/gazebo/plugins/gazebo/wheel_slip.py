@@ -71,7 +71,7 @@ class WheelSlip(Plugin):
         return plugin
 
     def set_compliance(self, *, lateral: float = -1.0, longitudinal: float = -1.0) -> None:
-        """Set all wheels' compliances; a negative one is left as it is."""
+        """Set all wheels' compliances; a negative value leaves them unchanged."""
         for wheel in self._wheels:
             wheel.lateral = lateral if lateral >= 0.0 else wheel.lateral
             wheel.longitudinal = longitudinal if longitudinal >= 0.0 else wheel.longitudinal
@@ -80,7 +80,7 @@ class WheelSlip(Plugin):
                 WheelGrip(axis=wheel.axis, slip=per_turn * wheel.lateral, slip_across=per_turn * wheel.longitudinal)
             )
 
-    def is_wanted(self) -> bool:
+    def is_active(self) -> bool:
         """True if there is a subscriber; the slip itself needs no hook."""
         return any(wheel.topic is not None and wheel.topic.has_subscribers for wheel in self._wheels)
 

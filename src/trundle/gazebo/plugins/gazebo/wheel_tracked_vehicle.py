@@ -26,8 +26,8 @@ class WheelTrackedVehicle(Plugin):
         sides = [[model.joint(name) for name in parameters.texts(f"{side}_joint")] for side in ("left", "right")]
         for side, joints in zip(("left", "right"), sides, strict=True):
             if len(joints) < 2:
-                what = f"plugin {tag.name!r} needs two or more <{side}_joint>, got {len(joints)}"
-                parameters.warn(f"{what}; it drives those")
+                problem = f"plugin {tag.name!r} needs two or more <{side}_joint>, got {len(joints)}"
+                parameters.warn(f"{problem}; it drives these")
         parameters.report_unread()
         self._wheels = [[(joint, _radius(model, joint)) for joint in joints] for joints in sides]
         self._tracks.set_friction(sim, [model.link(joint.joint.child) for joints in sides for joint in joints])

@@ -21,7 +21,7 @@ class Wind(WorldPlugin):
     Parameters, as in Gazebo 11: <force_approximation_scaling_factor> [1/s] (required); of <horizontal><magnitude>,
     <horizontal><direction> and <vertical> the <time_for_rise> [s] (1) to the world's wind; of the first two a <sin>
     with <amplitude_percent> (a fraction, not a percentage) or <amplitude> [°] and <period> [s] (1); of all a <noise>.
-    Gazebo advances the rise once for each link in the wind; here once per step.
+    Gazebo advances the rise once for each link in the wind; Trundle once per step.
     """
 
     def __init__(self, sim: Simulation, tag: PluginTag) -> None:
@@ -53,13 +53,13 @@ class Wind(WorldPlugin):
         twists = sim.engine.reader.link_twists()
         for link in self._links:
             vx, vy, vz = twists[link.index, :3].tolist()
-            push = self._factor * link.link.inertial.mass
-            link.add_wrench(Wrench(force=(push * (wx - vx), push * (wy - vy), push * (wz - vz))))
+            coefficient = self._factor * link.link.inertial.mass
+            link.add_wrench(Wrench(force=(coefficient * (wx - vx), coefficient * (wy - vy), coefficient * (wz - vz))))
 
     def reset(self) -> None:
-        """Start again from no wind."""
-        for part in (self._speed, self._heading, self._rise):
-            part.mean = 0.0
+        """Restart with no wind."""
+        for component in (self._speed, self._heading, self._rise):
+            component.mean = 0.0
 
     def _find_links(self, sim: Simulation) -> None:
         """Find the links with <enable_wind>."""
@@ -87,28 +87,28 @@ class _WindComponent:
     def __init__(self, parameters: TagParameters, amplitude: str, sim: Simulation) -> None:
         rise = parameters.number("time_for_rise", 1.0)
         step = sim.world.physics.max_step_size_s
-        self._share = min(step / rise, 1.0) if rise > 0.0 else 1.0
+        self._filter_gain = min(step / rise, 1.0) if rise > 0.0 else 1.0
         self.mean = 0.0
         self._amplitude, self._period = 0.0, 1.0
         if amplitude:
-            swing = parameters.section("sin")
-            self._amplitude = swing.number(amplitude, 0.0)
-            self._period = swing.number("period", 1.0) or 1.0
+            sine = parameters.section("sin")
+            self._amplitude = sine.number(amplitude, 0.0)
+            self._period = sine.number("period", 1.0) or 1.0
         self._noise = NoiseSource(
             _read_noise(parameters.section("noise")), np.random.default_rng([sim.seed, *amplitude.encode()])
         )
 
     def follow(self, value: float) -> float:
         """Move the mean one step towards a value; return it."""
-        self.mean += self._share * (value - self.mean)
+        self.mean += self._filter_gain * (value - self.mean)
         return self.mean
 
     def sine(self, time_s: float) -> float:
-        """Value of the sine at a time."""
+        """Return the sine's value at a time."""
         return self._amplitude * math.sin(math.tau * time_s / self._period)
 
     def disturb(self, value: float) -> float:
-        """Value with noise."""
+        """Return the value with noise."""
         return self._noise.apply_to_value(value)
 
 

@@ -17,7 +17,7 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
     /world, <gaussianNoise> 0 (of each coordinate of a hit [m], and of each intensity).
     """
     rays = require_rays(sensor)
-    outlet = SensorPublisher(
+    publisher = SensorPublisher(
         advertise_scan(names, parameters, "sensor_msgs/PointCloud", "points"),
         names.frame(parameters.text("frameName", "/world")),
     )
@@ -32,7 +32,7 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
             hit = np.isfinite(reading.ranges.reshape(-1))
             points[hit] += random.normal(0.0, noise, (np.count_nonzero(hit), 3))
             intensities += random.normal(0.0, noise, len(intensities))
-        places = [{"x": x, "y": y, "z": z} for x, y, z in points.tolist()]
-        return {"points": places, "channels": [{"values": intensities.astype(np.float32)}]}
+        fields = [{"x": x, "y": y, "z": z} for x, y, z in points.tolist()]
+        return {"points": fields, "channels": [{"values": intensities.astype(np.float32)}]}
 
-    rays.listen(lambda reading: outlet.publish(reading, lambda: message(reading)), enabled=outlet.has_subscribers)
+    rays.listen(lambda reading: publisher.publish(reading, lambda: message(reading)), enabled=publisher.has_subscribers)

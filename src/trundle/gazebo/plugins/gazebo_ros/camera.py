@@ -11,7 +11,7 @@ from trundle.sim.sensors import CameraReading, CameraSensor
 from .plugin_names import PluginNames
 from .sensor_publisher import SensorPublisher
 
-_FASTEST_HZ = 1000.0
+_MAX_RATE_HZ = 1000.0
 _SIDES = ["left", "right"]
 
 
@@ -33,21 +33,21 @@ def attach_images(
     names: PluginNames,
     image: Callable[[CameraReading], dict[str, object]],
 ) -> None:
-    """Publish the messages that a function makes of readings, with the parameters of `attach`."""
+    """Publish the messages that a function makes from readings, with the parameters of `attach`."""
     read_border_crop(sensor, parameters)
     frame, rate_hz = names.frame(parameters.text("frameName", "/world")), parameters.number("updateRate", 0.0)
     image_topic = camera_topic(sensor, parameters, "imageTopicName", "image_raw")
-    pictures = SensorPublisher(names.advertise("sensor_msgs/Image", image_topic), frame, rate_hz=rate_hz)
+    images = SensorPublisher(names.advertise("sensor_msgs/Image", image_topic), frame, rate_hz=rate_hz)
     info_topic = camera_topic(sensor, parameters, "cameraInfoTopicName", "camera_info")
     infos = SensorPublisher(names.advertise("sensor_msgs/CameraInfo", info_topic), frame, rate_hz=rate_hz)
     calibration = read_calibration(sensor, parameters)
     parameters.ignore("autoDistortion", "triggerTopicName", "cameraName")
 
     def publish(reading: CameraReading) -> None:
-        pictures.publish(reading, lambda: image(reading))
+        images.publish(reading, lambda: image(reading))
         infos.publish(reading, lambda: calibration)
 
-    sensor.listen(publish, enabled=lambda: pictures.has_subscribers() or infos.has_subscribers())
+    sensor.listen(publish, enabled=lambda: images.has_subscribers() or infos.has_subscribers())
     offer_rate(sensor, parameters, names, rate_hz)
 
 
@@ -70,7 +70,9 @@ def offer_rate(sensor: CameraSensor, parameters: TagParameters, names: PluginNam
         sensor.set_rate(float(values["imager_rate"]))
         return values
 
-    option = Option(name="imager_rate", value=min(rates), lower=0.1, upper=_FASTEST_HZ, description="Images per second")
+    option = Option(
+        name="imager_rate", value=min(rates), lower=0.1, upper=_MAX_RATE_HZ, description="Images per second"
+    )
     namespace = names.topic(_camera_name(sensor, parameters)).rstrip("/")
     ReconfigureServer(names.node, [option], apply, namespace=namespace)
 
@@ -82,7 +84,7 @@ def read_border_crop(sensor: CameraSensor, parameters: TagParameters) -> None:
 
 
 def camera_topic(sensor: CameraSensor, parameters: TagParameters, parameter: str, default: str) -> str:
-    """Topic below the camera's name, in the robot's namespace; each camera of a multicamera has its own."""
+    """Return the topic below the camera's name; each camera of a multicamera has its own."""
     topic = parameters.text(parameter, default)
     return topic if topic.startswith("/") else "/".join(filter(None, (_camera_name(sensor, parameters), topic)))
 
@@ -92,7 +94,7 @@ def _camera_name(sensor: CameraSensor, parameters: TagParameters) -> str:
 
 
 def _eye(sensor: CameraSensor) -> str:
-    """Name of a multicamera's camera in topics: `left` or `right` if a pair's names contain these, else its own."""
+    """Return a multicamera camera's name in topics: `left` or `right` if a pair's names contain these, else its own."""
     names = [camera.name for camera in sensor.sensor.cameras]
     sides = [next((side for side in _SIDES if side in name), "") for name in names]
     return sides[names.index(sensor.optics.name)] if sorted(sides) == _SIDES else sensor.optics.name
@@ -100,8 +102,8 @@ def _eye(sensor: CameraSensor) -> str:
 
 def read_calibration(sensor: CameraSensor, parameters: TagParameters) -> dict[str, object]:
     """Make camera_info, with the plugin's overrides."""
-    found: dict[str, Any] = dict(camera_info_message(sensor))
-    k, p = list(found["K"]), list(found["P"])
+    info: dict[str, Any] = dict(camera_info_message(sensor))
+    k, p = list(info["K"]), list(info["P"])
     focal = parameters.number("focalLength", 0.0)
     cx, cy = parameters.number("Cx", 0.0), parameters.number("Cy", 0.0)
     parameters.ignore("CxPrime")  # gazebo_ros does not use it
@@ -113,5 +115,5 @@ def read_calibration(sensor: CameraSensor, parameters: TagParameters) -> dict[st
     if baseline:
         is_origin = len(sensor.sensor.cameras) > 1 and "right" not in sensor.optics.name
         p[3] = 0.0 if is_origin else -p[0] * baseline
-    bends = [parameters.number(f"distortion{name}", 0.0) for name in ("K1", "K2", "T1", "T2", "K3")]
-    return {**found, "K": k, "P": p, "D": bends if any(bends) else found["D"]}
+    distortion = [parameters.number(f"distortion{name}", 0.0) for name in ("K1", "K2", "T1", "T2", "K3")]
+    return {**info, "K": k, "P": p, "D": distortion if any(distortion) else info["D"]}

@@ -43,14 +43,17 @@ def _attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames,
     near = parameters.number("pointCloudCutoff", 0.4)
     in_millimetres = parameters.flag("useDepth16UC1Format", default=False)
 
-    def outlet(parameter: str, default: str, kind: str) -> SensorPublisher:
+    def advertise(parameter: str, default: str, kind: str) -> SensorPublisher:
         topic = names.advertise(kind, camera_topic(sensor, parameters, parameter, default))
         return SensorPublisher(topic, frame, rate_hz=rate_hz)
 
-    pictures, infos = outlet("imageTopicName", "image_raw", _IMAGE), outlet("cameraInfoTopicName", "camera_info", _INFO)
-    depths = outlet("depthImageTopicName", "depth/image_raw", _IMAGE)
-    depth_infos = outlet("depthImageCameraInfoTopicName", "depth/camera_info", _INFO)
-    points = outlet("pointCloudTopicName", "points", _POINTS)
+    images, infos = (
+        advertise("imageTopicName", "image_raw", _IMAGE),
+        advertise("cameraInfoTopicName", "camera_info", _INFO),
+    )
+    depths = advertise("depthImageTopicName", "depth/image_raw", _IMAGE)
+    depth_infos = advertise("depthImageCameraInfoTopicName", "depth/camera_info", _INFO)
+    points = advertise("pointCloudTopicName", "points", _POINTS)
     calibration, image, cloud = (
         read_calibration(sensor, parameters),
         image_encoder(sensor.optics.format),
@@ -59,23 +62,23 @@ def _attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames,
     parameters.ignore("autoDistortion", "cameraName", "depthImageInfoTopicName", "reflectanceTopicName")
 
     @lru_cache(maxsize=1)  # depths and points share a reading
-    def cut(reading: CameraReading) -> CameraReading:
+    def clip(reading: CameraReading) -> CameraReading:
         assert reading.depth is not None
         depth = clip_depths(reading.depth, near_m=near, far_m=max_depth)
         return CameraReading(time_ns=reading.time_ns, rgb=reading.rgb, depth=depth)
 
-    def depth_of(reading: CameraReading) -> dict[str, object]:
-        return _millimetres(cut(reading)) if in_millimetres else depth_image(cut(reading))
+    def depth_message(reading: CameraReading) -> dict[str, object]:
+        return _millimetres(clip(reading)) if in_millimetres else depth_image(clip(reading))
 
     def publish(reading: CameraReading) -> None:
-        pictures.publish(reading, lambda: image(reading))
+        images.publish(reading, lambda: image(reading))
         infos.publish(reading, lambda: calibration)
-        depths.publish(reading, lambda: depth_of(reading))
+        depths.publish(reading, lambda: depth_message(reading))
         depth_infos.publish(reading, lambda: calibration)
-        points.publish(reading, lambda: cloud(cut(reading)))
+        points.publish(reading, lambda: cloud(clip(reading)))
 
-    outlets = (pictures, infos, depths, depth_infos, points)
-    sensor.listen(publish, enabled=lambda: any(each.has_subscribers() for each in outlets))
+    publishers = (images, infos, depths, depth_infos, points)
+    sensor.listen(publish, enabled=lambda: any(publisher.has_subscribers() for publisher in publishers))
     offer_rate(sensor, parameters, names, rate_hz)
 
 

@@ -61,12 +61,12 @@ class DiffDrive(RosPlugin):
 
     def before_step(self, sim: Simulation) -> None:
         """Set both wheels' speeds."""
-        most = self._acceleration * (self.period_ns or sim.step_ns) / 1e9
-        wanted = self._drive.wheel_speeds(self._command.forward, self._sign * self._command.yaw_rate)
-        for number, (wheel, speed) in enumerate(zip(self._wheels, wanted, strict=True)):
+        max_change = self._acceleration * (self.period_ns or sim.step_ns) / 1e9
+        targets = self._drive.wheel_speeds(self._command.forward, self._sign * self._command.yaw_rate)
+        for index, (wheel, speed) in enumerate(zip(self._wheels, targets, strict=True)):
             if self._acceleration > 0.0:
-                speed = step_towards(self._speeds[number], speed, most / self._drive.wheel_radius)
-            self._speeds[number] = speed
+                speed = step_towards(self._speeds[index], speed, max_change / self._drive.wheel_radius)
+            self._speeds[index] = speed
             wheel.command_velocity(speed, max_effort=self._torque)
 
     def after_step(self, snapshot: Snapshot) -> None:
@@ -85,20 +85,20 @@ class DiffDrive(RosPlugin):
         """Stop, and restart odometry at its origin."""
         self._command.stop()
         self._speeds = [0.0, 0.0]
-        self._place = WheelOdometry(self._drive)
-        self._turned = [wheel.position for wheel in self._wheels]
+        self._wheel_odometry = WheelOdometry(self._drive)
+        self._last_positions = [wheel.position for wheel in self._wheels]
         self._last_ns = 0
 
     def _integrate_wheels(self, time_ns: int) -> tuple[Pose, Twist]:
         """Integrate the wheels' rotation; return pose and twist."""
-        turned = [wheel.position for wheel in self._wheels]
-        left, right = (now - before for now, before in zip(turned, self._turned, strict=True))
+        positions = [wheel.position for wheel in self._wheels]
+        left, right = (now - last for now, last in zip(positions, self._last_positions, strict=True))
         if self._sign < 0.0:
             left, right = right, left
-        distance, turn = self._place.update(left, right)
-        elapsed, self._turned, self._last_ns = (time_ns - self._last_ns) / 1e9, turned, time_ns
-        place = self._place
-        pose = Pose((place.x, place.y, 0.0), (math.cos(place.yaw / 2), 0.0, 0.0, math.sin(place.yaw / 2)))
+        distance, turn = self._wheel_odometry.update(left, right)
+        elapsed, self._last_positions, self._last_ns = (time_ns - self._last_ns) / 1e9, positions, time_ns
+        odometry = self._wheel_odometry
+        pose = Pose((odometry.x, odometry.y, 0.0), (math.cos(odometry.yaw / 2), 0.0, 0.0, math.sin(odometry.yaw / 2)))
         if elapsed <= 0.0:
             return pose, Twist()
         return pose, Twist((distance / elapsed, 0.0, 0.0), (0.0, 0.0, turn / elapsed))

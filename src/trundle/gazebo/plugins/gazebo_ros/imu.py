@@ -45,7 +45,7 @@ class Imu(RosPlugin):
             return
         motion = self._motion.sample(snapshot.time_ns)
         qw, qx, qy, qz = (self._offset @ Pose(quaternion=motion.orientation)).quaternion
-        covariance = [self._noise**2 if number % 4 == 0 else 0.0 for number in range(9)]
+        covariance = [self._noise**2 if index % 4 == 0 else 0.0 for index in range(9)]
         self._topic.publish(
             {
                 "header": {"stamp": snapshot.time_ns, "frame_id": self._frame},
@@ -64,5 +64,5 @@ class Imu(RosPlugin):
 
 
 def _calibrated(_request: "std_srvs.EmptyRequest") -> dict[str, object]:
-    """Answer the calibration service; there is nothing to calibrate."""
+    """Answer the calibration service; the simulated sensor needs no calibration."""
     return {}

@@ -21,7 +21,7 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
 
     Parameters, with gazebo_ros' defaults: <topicName> imu_data, <frameName> (the link), <updateRateHZ> 1,
     <gaussianNoise> 0 (covariances are its square), <rpyOffset> 0 0 0 (or <rpyOffsets>; turns the orientation, in the
-    axes of its reference) and <initialOrientationAsReference>: if false, as REP 145 wants it and by default from Noetic
+    axes of its reference) and <initialOrientationAsReference>: if false, as in REP 145 and by default from Noetic
     on, the reference is the world; if true, it is the sensor's, its first pose unless <imu> has another. As in the
     original, <xyzOffset> has no effect.
     """
@@ -29,10 +29,10 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; an imu is needed")
     topic = names.advertise("sensor_msgs/Imu", parameters.text("topicName", "imu_data"))
     rate_hz = parameters.number("updateRateHZ", 1.0)
-    outlet = SensorPublisher(topic, names.frame(parameters.text("frameName", sensor.link.name)), rate_hz=rate_hz)
+    publisher = SensorPublisher(topic, names.frame(parameters.text("frameName", sensor.link.name)), rate_hz=rate_hz)
     noise = parameters.number("gaussianNoise", 0.0)
     random = np.random.default_rng(0)
-    covariance = [noise**2 if number % 4 == 0 else 0.0 for number in range(9)]
+    covariance = [noise**2 if index % 4 == 0 else 0.0 for index in range(9)]
     fields_with_noise = ("orientation", "angular_velocity", "linear_acceleration")
     covariances = {f"{name}_covariance": covariance for name in fields_with_noise}
     if not parameters.flag("initialOrientationAsReference", default=names.node.profile.imu_reference_is_first_pose):
@@ -41,14 +41,14 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
     parameters.ignore("bodyName", "serviceName", "xyzOffset", "xyzOffsets")
 
     def message(reading: ImuReading) -> dict[str, Any]:
-        turned = (offset @ Pose(quaternion=reading.orientation)).quaternion
-        fields: dict[str, Any] = {**imu_message(replace(reading, orientation=turned)), **covariances}
+        orientation = (offset @ Pose(quaternion=reading.orientation)).quaternion
+        fields: dict[str, Any] = {**imu_message(replace(reading, orientation=orientation)), **covariances}
         if noise > 0.0:
             for name in fields_with_noise:
                 fields[name] = {axis: value + float(random.normal(0.0, noise)) for axis, value in fields[name].items()}
         return fields
 
     def publish(reading: ImuReading) -> None:
-        outlet.publish(reading, lambda: message(reading))
+        publisher.publish(reading, lambda: message(reading))
 
-    sensor.listen(publish, enabled=outlet.has_subscribers)
+    sensor.listen(publish, enabled=publisher.has_subscribers)

@@ -8,7 +8,7 @@ from trundle.ros.bridge import points_message, scan_message
 from trundle.sim.sensors import InstrumentSensor, RangeReading, RangeSensor
 
 from .namespaces import join_topic
-from .plugin_names import Outlet, PluginNames
+from .plugin_names import PluginNames, TopicPublisher
 from .sensor_publisher import SensorPublisher
 
 _TOPIC = "/world"
@@ -25,25 +25,25 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
 
 
 def attach_ray_sensor(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNames) -> None:
-    """libgazebo_ros_ray_sensor.so, as files for ROS 2 have it: <output_type>, <frame_name>, <ros> with <namespace> and
+    """Publish as ROS 2's libgazebo_ros_ray_sensor.so: <output_type>, <frame_name>, <ros> with <namespace> and
     <remapping>~/out:=scan."""
     rays = require_rays(sensor)
     kind = parameters.text("output_type", "sensor_msgs/PointCloud2")
     ros, topic = parameters.section("ros"), "out"
     namespace = ros.text("namespace", names.namespace).strip("/")
     for remapping in ros.texts("remapping"):
-        found = re.fullmatch(r"~/out\s*:=\s*(\S+)", remapping)
-        topic = found[1] if found else topic
+        match = re.fullmatch(r"~/out\s*:=\s*(\S+)", remapping)
+        topic = match[1] if match else topic
     ros.report_unread()
-    outlet = {"sensor_msgs/LaserScan": False, "sensor_msgs/PointCloud2": True}.get(kind)
-    if outlet is None:
+    as_points = {"sensor_msgs/LaserScan": False, "sensor_msgs/PointCloud2": True}.get(kind)
+    if as_points is None:
         raise UsageError(f"output_type {kind!r} is not published; sensor_msgs/LaserScan and PointCloud2 are")
     frame = names.frame(parameters.text("frame_name", rays.link.name))
-    _listen(rays, SensorPublisher(names.advertise(kind, join_topic(namespace, topic)), frame), as_points=outlet)
+    _listen(rays, SensorPublisher(names.advertise(kind, join_topic(namespace, topic)), frame), as_points=as_points)
 
 
-def advertise_scan(names: PluginNames, parameters: TagParameters, kind: str, default: str) -> Outlet:
-    """Advertise <topicName>; where it is missing, the default and the originals' own, /world."""
+def advertise_scan(names: PluginNames, parameters: TagParameters, kind: str, default: str) -> TopicPublisher:
+    """Advertise <topicName>; without it, the default and, as in the originals, /world."""
     return names.advertise(kind, *((parameters.text("topicName"),) if "topicName" in parameters else (default, _TOPIC)))
 
 
@@ -58,10 +58,10 @@ def require_rays(sensor: InstrumentSensor) -> RangeSensor:
     return sensor
 
 
-def _listen(sensor: RangeSensor, outlet: SensorPublisher, *, as_points: bool) -> None:
+def _listen(sensor: RangeSensor, publisher: SensorPublisher, *, as_points: bool) -> None:
     period_s = float(sensor.period_ns) / 1e9
 
     def publish(reading: RangeReading) -> None:
-        outlet.publish(reading, lambda: points_message(reading) if as_points else scan_message(reading, period_s))
+        publisher.publish(reading, lambda: points_message(reading) if as_points else scan_message(reading, period_s))
 
-    sensor.listen(publish, enabled=outlet.has_subscribers)
+    sensor.listen(publish, enabled=publisher.has_subscribers)

@@ -27,19 +27,21 @@ class LinkMotion:
 
     def __init__(self, link: LinkHandle) -> None:
         self._link = link
-        self._before: tuple[int, Vector3] | None = None
+        self._last: tuple[int, Vector3] | None = None
 
     def sample(self, time_ns: int) -> MotionSample:
         """Sample the current motion; the first sample's acceleration is zero."""
         twist, orientation = self._link.twist, self._link.pose.quaternion
-        before, self._before = self._before, (time_ns, twist.linear)
+        last, self._last = self._last, (time_ns, twist.linear)
         ax = ay = az = 0.0
-        if before is not None and time_ns > before[0]:
-            elapsed = (time_ns - before[0]) / 1e9
-            ax, ay, az = ((now - then) / elapsed for now, then in zip(twist.linear, before[1], strict=True))
-        back = Pose(quaternion=orientation).inverse()
+        if last is not None and time_ns > last[0]:
+            elapsed = (time_ns - last[0]) / 1e9
+            ax, ay, az = (
+                (current - previous) / elapsed for current, previous in zip(twist.linear, last[1], strict=True)
+            )
+        link_from_world = Pose(quaternion=orientation).inverse()
         return MotionSample(
             orientation=orientation,
-            rate=back.transform_vector(twist.angular),
-            acceleration=back.transform_vector((ax, ay, az)),
+            rate=link_from_world.transform_vector(twist.angular),
+            acceleration=link_from_world.transform_vector((ax, ay, az)),
         )

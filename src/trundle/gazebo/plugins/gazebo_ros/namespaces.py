@@ -6,23 +6,23 @@ from trundle.robots.parameters import TagParameters
 from trundle.spatial import ZERO, Pose
 
 WITHOUT_EFFECT = ("rosDebugLevel", "alwaysOn", "robotNamespace", "always_on", "update_rate")
-"""Parameters that any plugin of gazebo_ros may have and that mean nothing here."""
+"""Parameters that any plugin of gazebo_ros may have, without effect in Trundle."""
 
 
 def join_topic(namespace: str, topic: str) -> str:
-    """Global name of a topic."""
+    """Return the global name of a topic."""
     if topic.startswith("/") or not namespace:
         return f"/{topic.lstrip('/')}"
     return f"/{namespace}/{topic}"
 
 
 def rate_to_period_ns(rate_hz: float) -> int:
-    """Period of an update rate [ns]; 0: every step."""
+    """Return the period of an update rate [ns]; 0: every step."""
     return round(1e9 / rate_hz) if rate_hz > 0.0 else 0
 
 
 def read_offset(parameters: TagParameters, names: Collection[str]) -> Pose:
-    """Read <xyzOffset> and <rpyOffset>, or those of them that are named; many files write them with an s at the end."""
+    """Read those of <xyzOffset> and <rpyOffset> that are in `names`; many files spell them with an s at the end."""
     xyz, rpy = (
         parameters.vector(name, parameters.vector(f"{name}s", ZERO)) if name in names else ZERO
         for name in ("xyzOffset", "rpyOffset")

@@ -31,13 +31,13 @@ class OdometryTopic:
         """Advertise.
 
         Args:
-            names: of the plugin.
-            topic: in its namespace.
+            names: plugin's names.
+            topic: topic in the plugin's namespace.
             frame: odometry frame, without its prefix.
-            base: the robot's frame, without its prefix.
-            variances: of x, y, z [m²], roll, pitch, yaw [rad²].
-            with_tf: True: send the frame on /tf, too.
-            twist_variances: of the velocities; None: the same values.
+            base: robot's frame, without its prefix.
+            variances: variances of x, y, z [m²], roll, pitch, yaw [rad²].
+            with_tf: True: also send the frame on /tf.
+            twist_variances: variances of the velocities; None: the same values.
         """
         self._frame, self._base = names.frame(frame), names.frame(base)
         self._covariance = _diagonal(variances)
@@ -70,16 +70,19 @@ class OdometryTopic:
             twist_variances=twist_variances,
         )
         frames = (odometry._frame, odometry._base)
-        for model, of_other, other in names.drives_before():
-            theirs = (of_other.text("odometryFrame", "odom"), of_other.text("robotBaseFrame", base))
-            if with_tf and frames == tuple(map(other.frame, theirs)):
-                what = f"this model and {model!r} both send {' -> '.join(frames)}"
-                parameters.warn(f"{what}; a parameter tf_prefix in the namespace of each keeps them apart")
+        for model, other_parameters, other_names in names.drives_before():
+            other_frames = (
+                other_parameters.text("odometryFrame", "odom"),
+                other_parameters.text("robotBaseFrame", base),
+            )
+            if with_tf and frames == tuple(map(other_names.frame, other_frames)):
+                problem = f"this model and {model!r} both send {' -> '.join(frames)}"
+                parameters.warn(f"{problem}; a parameter tf_prefix in each namespace separates them")
                 break
         return odometry
 
     def publish(self, time_ns: int, pose: Pose, twist: Twist, *, yaw_variance: float | None = None) -> None:
-        """Publish; `twist` is in the robot's axes, `yaw_variance` replaces that of yaw and its rate in this message."""
+        """Publish; `twist` is in the robot's axes; `yaw_variance` replaces the variance of yaw and its rate."""
         (x, y, z), (qw, qx, qy, qz) = pose.position, pose.quaternion
         if self._broadcaster is not None:
             self._broadcaster.send_transform(
@@ -119,7 +122,7 @@ def _diagonal(variances: tuple[float, ...]) -> list[float]:
 
 
 def ground_truth(model: ModelHandle) -> tuple[Pose, Twist]:
-    """Pose of a model in the world, and its twist: linear along its heading, angular in world axes."""
+    """Return a model's pose in the world, and its twist: linear along its heading, angular in world axes."""
     pose, twist = model.pose, model.base.twist
     yaw = pose.rpy[2]
     (vx, vy, vz), cos, sin = twist.linear, math.cos(yaw), math.sin(yaw)

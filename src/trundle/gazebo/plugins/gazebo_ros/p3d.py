@@ -36,19 +36,19 @@ class P3D(RosPlugin):
         self._frame, self._child = names.frame(frame), names.frame(self._link.name)
         self._topic = names.advertise("nav_msgs/Odometry", parameters.text("topicName"))
         variance = self._noise**2
-        self._covariance = [variance if number % 7 == 0 else 0.0 for number in range(36)]
+        self._covariance = [variance if index % 7 == 0 else 0.0 for index in range(36)]
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Publish pose and velocity."""
         if not self._topic.has_subscribers:
             return
-        frame, carried = Pose(), Twist()
+        reference_pose, reference_twist = Pose(), Twist()
         if self._reference is not None:
-            frame, carried = self._reference.pose, self._reference.twist
-        pose, twist = frame.inverse() @ self._link.pose @ self._offset, self._link.twist
-        back = Pose(quaternion=frame.quaternion).inverse()
-        (ax, ay, az), (bx, by, bz) = twist.linear, carried.linear
-        (ux, uy, uz), (vx, vy, vz) = twist.angular, carried.angular
+            reference_pose, reference_twist = self._reference.pose, self._reference.twist
+        pose, twist = reference_pose.inverse() @ self._link.pose @ self._offset, self._link.twist
+        frame_from_world = Pose(quaternion=reference_pose.quaternion).inverse()
+        (ax, ay, az), (bx, by, bz) = twist.linear, reference_twist.linear
+        (ux, uy, uz), (vx, vy, vz) = twist.angular, reference_twist.angular
         qw, qx, qy, qz = pose.quaternion
         pose_fields = {
             "pose": {
@@ -57,15 +57,17 @@ class P3D(RosPlugin):
             },
             "covariance": self._covariance,
         }
-        speeds = {
+        twist_fields = {
             "twist": {
-                "linear": self._with_noise(back.transform_vector((ax - bx, ay - by, az - bz))),
-                "angular": self._with_noise(back.transform_vector((ux - vx, uy - vy, uz - vz))),
+                "linear": self._with_noise(frame_from_world.transform_vector((ax - bx, ay - by, az - bz))),
+                "angular": self._with_noise(frame_from_world.transform_vector((ux - vx, uy - vy, uz - vz))),
             },
             "covariance": self._covariance,
         }
         header = {"stamp": snapshot.time_ns, "frame_id": self._frame}
-        self._topic.publish({"header": header, "child_frame_id": self._child, "pose": pose_fields, "twist": speeds})
+        self._topic.publish(
+            {"header": header, "child_frame_id": self._child, "pose": pose_fields, "twist": twist_fields}
+        )
 
     def _with_noise(self, vector: tuple[float, float, float]) -> dict[str, Any]:
         if self._noise > 0.0:

@@ -1,6 +1,6 @@
 """Names of one plugin of gazebo_ros: topics in its namespace, frames through its tf prefix.
 
-The sources differ in what a missing or empty <robotNamespace> means and where a frame gets its prefix from: see
+The plugins differ in the meaning of a missing or empty <robotNamespace> and in the source of a frame's prefix: see
 gazebo_plugins (gazebo_ros_utils.h, GazeboRos and GetRobotNamespace), kobuki_gazebo_plugins, velodyne_gazebo_plugins.
 """
 
@@ -19,14 +19,16 @@ from .namespaces import join_topic
 
 
 class NameRule(NamedTuple):
-    """Rule by which a plugin's source makes names."""
+    """Rule by which a plugin resolves topics and frames."""
 
     missing_is_model: bool = False
     """A missing <robotNamespace> means the model's name; else the root."""
     empty_is_model: bool = False
     """An empty <robotNamespace> means the model's name; else the root."""
     prefix: Literal["tf_prefix", "else_namespace", "namespace"] = "tf_prefix"
-    """Prefix of frames: the parameter tf_prefix; that, or up to Melodic the namespace; or the namespace, or that."""
+    """Prefix of frames: `tf_prefix`: the parameter; `else_namespace`: the parameter, up to Melodic else the namespace;
+    `namespace`: the namespace, else the parameter.
+    """
 
 
 _MODEL = NameRule(missing_is_model=True, empty_is_model=True, prefix="else_namespace")
@@ -67,7 +69,7 @@ _DRIVES = frozenset(
 """Plugins with <commandTopic>, <odometryFrame> and <robotBaseFrame>."""
 
 
-class Outlet(Protocol):
+class TopicPublisher(Protocol):
     """Publisher on one topic or several."""
 
     @property
@@ -83,8 +85,8 @@ class Outlet(Protocol):
 class PluginNames:
     """Topics and frames of one plugin.
 
-    A plugin whose namespace defaults to the model's name has its topics at the root as well while no other model could
-    be meant (docs/decisions/0014).
+    A plugin whose namespace defaults to the model's name also has its topics at the root, as long as they are
+    unambiguous (docs/decisions/0014).
     """
 
     def __init__(self, node: Node, parameters: TagParameters, model: Model, models: Sequence[Model]) -> None:
@@ -92,55 +94,55 @@ class PluginNames:
 
         Args:
             node: publishes and subscribes; reads tf_prefix.
-            parameters: of the plugin.
-            model: the plugin's, or the sensor's.
-            models: all of the world.
+            parameters: plugin's parameters.
+            model: model of the plugin or sensor.
+            models: all models of the world.
         """
         self.node = node
         self._report = parameters.report
-        rule = _RULES.get(_file(parameters.attribute("filename")), NameRule())
+        rule = _RULES.get(_file_name(parameters.attribute("filename")), NameRule())
         self._prefix_rule = rule.prefix
         is_missing = "robotNamespace" not in parameters
-        written = parameters.text("robotNamespace", "")
-        is_model = rule.missing_is_model if is_missing else rule.empty_is_model and not written
-        self.namespace = ros_name(model.name) if is_model else written.strip("/")
+        namespace = parameters.text("robotNamespace", "")
+        uses_model_name = rule.missing_is_model if is_missing else rule.empty_is_model and not namespace
+        self.namespace = ros_name(model.name) if uses_model_name else namespace.strip("/")
         """Without slashes at its ends; empty: the root."""
         others = [other for other in models if other.name != model.name]
-        self._is_at_root_too = is_missing and is_model and not any(map(_may_be_meant, others))
+        self._is_also_at_root = is_missing and uses_model_name and not any(map(_is_ambiguous_at_root, others))
         self._model, self._models = model, models
 
     def topics(self, *names: str) -> list[str]:
-        """Global names of one topic that has several names."""
-        found = [join_topic(self.namespace, name) for name in names]
-        if self._is_at_root_too:
-            found += [join_topic("", name) for name in names]
-        return list(dict.fromkeys(found))
+        """Return the global names of one topic that has several names."""
+        topics = [join_topic(self.namespace, name) for name in names]
+        if self._is_also_at_root:
+            topics += [join_topic("", name) for name in names]
+        return list(dict.fromkeys(topics))
 
     def topic(self, name: str) -> str:
-        """Global name of a topic, as in the original."""
+        """Return the global name of a topic, as in the original."""
         return join_topic(self.namespace, name)
 
-    def advertise(self, kind: str, *names: str, queue_size: int = 1) -> Outlet:
+    def advertise(self, kind: str, *names: str, queue_size: int = 1) -> TopicPublisher:
         """Advertise a topic that has several names."""
         publishers = [self.node.advertise(topic, kind, queue_size=queue_size) for topic in self.topics(*names)]
-        return publishers[0] if len(publishers) == 1 else _Together(publishers)
+        return publishers[0] if len(publishers) == 1 else _PublisherGroup(publishers)
 
-    def subscribe(self, name: str, kind: str, call: Callable[[Message], None], *, queue_size: int = 1) -> None:
+    def subscribe(self, name: str, kind: str, callback: Callable[[Message], None], *, queue_size: int = 1) -> None:
         """Subscribe to a topic."""
         for topic in self.topics(name):
-            self.node.subscribe(topic, kind, call, queue_size=queue_size)
+            self.node.subscribe(topic, kind, callback, queue_size=queue_size)
 
     def frame(self, name: str) -> str:
-        """Frame with its prefix, which one with a leading slash has none of (tf::resolve)."""
+        """Return the frame with its prefix; a leading slash means no prefix (tf::resolve)."""
         if name.startswith("/") or not self._prefix:
             return name.lstrip("/")
         return f"{self._prefix}/{name}"
 
     def drives_before(self) -> Iterator[tuple[str, TagParameters, "PluginNames"]]:
         """Yield the drives of the models before this one: the model's name, the drive's parameters and names."""
-        for model in takewhile(lambda each: each.name != self._model.name, self._models):
+        for model in takewhile(lambda model: model.name != self._model.name, self._models):
             for tag in model.plugins:
-                if _file(tag.filename) in _DRIVES:
+                if _file_name(tag.filename) in _DRIVES:
                     parameters = TagParameters(tag.node, self._report)
                     yield model.name, parameters, PluginNames(self.node, parameters, model, self._models)
 
@@ -148,29 +150,29 @@ class PluginNames:
     def _prefix(self) -> str:
         if self._prefix_rule == "namespace" and self.namespace:
             return self.namespace
-        found = self._tf_prefix()
-        if not found and self._prefix_rule == "else_namespace" and self.node.profile.namespace_is_tf_prefix:
+        tf_prefix = self._tf_prefix()
+        if not tf_prefix and self._prefix_rule == "else_namespace" and self.node.profile.namespace_is_tf_prefix:
             return self.namespace
-        return found
+        return tf_prefix
 
     def _tf_prefix(self) -> str:
-        """Return the parameter tf_prefix of the namespace, or of the nearest one above that has it (getPrefixParam)."""
+        """Return the parameter tf_prefix of the namespace, or of its nearest ancestor that has one (getPrefixParam)."""
         parts = [part for part in self.namespace.split("/") if part]
         try:
             for length in range(len(parts), -1, -1):
                 name = "/".join(["", *parts[:length], "tf_prefix"])
-                found = self.node.loop.run(self.node.params.get(name, None))
-                if isinstance(found, str):
-                    return found.strip("/")
+                prefix = self.node.loop.run(self.node.params.get(name, None))
+                if isinstance(prefix, str):
+                    return prefix.strip("/")
         except RosError as error:
             self.node.log.warn(f"tf_prefix: {error}; frames have no prefix")
         return ""
 
 
-class _Together:
-    """Several topics with the same messages."""
+class _PublisherGroup:
+    """Publisher of the same messages on several topics."""
 
-    def __init__(self, publishers: Sequence[Outlet]) -> None:
+    def __init__(self, publishers: Sequence[TopicPublisher]) -> None:
         self._publishers = publishers
 
     @property
@@ -185,15 +187,15 @@ class _Together:
                 publisher.publish(message)
 
 
-def _may_be_meant(model: Model) -> bool:
-    """Return True if a model has a plugin, its own or a sensor's, that may be meant by a name at the root."""
-    of_sensors = (tag for link in model.links for sensor in link.sensors for tag in sensor.plugins)
+def _is_ambiguous_at_root(model: Model) -> bool:
+    """Return True if a plugin of the model or of its sensors could claim a topic at the root."""
+    sensor_tags = (tag for link in model.links for sensor in link.sensors for tag in sensor.plugins)
     return any(
         tag.node.find("robotNamespace") is None
-        and (_file(tag.filename) in _DRIVES or _RULES.get(_file(tag.filename), NameRule()).missing_is_model)
-        for tag in (*model.plugins, *of_sensors)
+        and (_file_name(tag.filename) in _DRIVES or _RULES.get(_file_name(tag.filename), NameRule()).missing_is_model)
+        for tag in (*model.plugins, *sensor_tags)
     )
 
 
-def _file(filename: str) -> str:
+def _file_name(filename: str) -> str:
     return PurePosixPath(filename.replace("\\", "/")).name

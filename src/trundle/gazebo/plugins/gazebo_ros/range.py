@@ -22,28 +22,28 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a ray sensor is needed")
     topic = names.advertise("sensor_msgs/Range", parameters.text("topicName", "/range"))
     frame, rate_hz = names.frame(parameters.text("frameName", "/world")), parameters.number("updateRate", 0.0)
-    outlet = SensorPublisher(topic, frame, rate_hz=rate_hz)
-    kind = parameters.text("radiation", "ultrasound")
-    if kind not in _KINDS:
-        parameters.warn(f"radiation {kind!r} is neither of {', '.join(_KINDS)}; ultrasound is used")
+    publisher = SensorPublisher(topic, frame, rate_hz=rate_hz)
+    radiation = parameters.text("radiation", "ultrasound")
+    if radiation not in _KINDS:
+        parameters.warn(f"radiation {radiation!r} is neither of {', '.join(_KINDS)}; ultrasound is used")
     fov = parameters.number("fov", 0.05)
     noise = parameters.number("gaussianNoise", 0.0)
     random = np.random.default_rng(0)
 
     def message(reading: RangeReading) -> dict[str, object]:
-        near, far = reading.scan.min_m, reading.scan.max_m
-        nearest = min(float(np.nanmin(reading.ranges)), far) if reading.ranges.size else far
-        if noise > 0.0 and nearest < far:
-            nearest = min(max(nearest + float(random.normal(0.0, noise)), near), far)
+        min_range, max_range = reading.scan.min_m, reading.scan.max_m
+        nearest = min(float(np.nanmin(reading.ranges)), max_range) if reading.ranges.size else max_range
+        if noise > 0.0 and nearest < max_range:
+            nearest = min(max(nearest + float(random.normal(0.0, noise)), min_range), max_range)
         return {
-            "radiation_type": _KINDS.get(kind, 0),
+            "radiation_type": _KINDS.get(radiation, 0),
             "field_of_view": fov,
-            "min_range": near,
-            "max_range": far,
-            "range": max(nearest, near),
+            "min_range": min_range,
+            "max_range": max_range,
+            "range": max(nearest, min_range),
         }
 
     def publish(reading: RangeReading) -> None:
-        outlet.publish(reading, lambda: message(reading))
+        publisher.publish(reading, lambda: message(reading))
 
-    sensor.listen(publish, enabled=outlet.has_subscribers)
+    sensor.listen(publish, enabled=publisher.has_subscribers)

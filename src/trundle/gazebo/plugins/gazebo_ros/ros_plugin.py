@@ -15,11 +15,11 @@ from .plugin_names import PluginNames
 
 def plugin_names(sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> PluginNames:
     """Return the names of a model's plugin."""
-    return PluginNames(node, parameters, model.model, [each.model for each in sim.models])
+    return PluginNames(node, parameters, model.model, [other.model for other in sim.models])
 
 
 class RosPlugin(Plugin):
-    """Plugin that reads its parameters in `__init__`; unread ones are reported after it."""
+    """Plugin that reads its parameters in `__init__`; `load` then reports unread ones."""
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
         """Read the parameters, advertise and subscribe."""

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Protocol
 
 from .namespaces import rate_to_period_ns
-from .plugin_names import Outlet
+from .plugin_names import TopicPublisher
 
 
 class UpdateRateThrottle:
@@ -15,7 +15,7 @@ class UpdateRateThrottle:
         self._next_ns = 0
 
     def is_due(self, time_ns: int) -> bool:
-        """True if a reading of this time is due; at rate 0 all are."""
+        """Return True if a reading of this time is due; at rate 0, always."""
         if time_ns + self._period_ns < self._next_ns:  # the simulation was reset
             self._next_ns = time_ns
         if time_ns < self._next_ns:
@@ -38,7 +38,7 @@ class StampedReading(Protocol):
 class SensorPublisher:
     """One topic of a sensor plugin."""
 
-    def __init__(self, topic: Outlet, frame: str, *, rate_hz: float = 0.0) -> None:
+    def __init__(self, topic: TopicPublisher, frame: str, *, rate_hz: float = 0.0) -> None:
         """Publish on a topic with a frame in each header."""
         self._topic = topic
         self._frame = frame

@@ -26,7 +26,8 @@ class TricycleDrive(RosPlugin):
     <encoderWheelDiameter> 0.15, <encoderWheelSeparation> 0.5, <wheelAcceleration> 0 (at once) and <wheelDeceleration>
     (the same) [rad/s²], <steeringSpeed> 0 (at once) [rad/s], <wheelTorque> 5, <odometrySource> world or encoder,
     <updateRate> 100, <commandTopic>, <odometryTopic>, <odometryFrame>, <robotBaseFrame>, <publishWheelJointState> and
-    <publishWheelTF> (frames named by the joints). Encoder odometry turns as the robot does; the original's is mirrored.
+    <publishWheelTF> (frames named by the joints). Encoder odometry turns as the
+    robot does; the original's is mirrored.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, parameters: TagParameters) -> None:
@@ -48,8 +49,8 @@ class TricycleDrive(RosPlugin):
             parameters.number("wheelTorque", 5.0),
             parameters.number("steeringSpeed", 0.0),
         )
-        self._faster = parameters.number("wheelAcceleration", 0.0)
-        self._slower = parameters.number("wheelDeceleration", self._faster)
+        self._acceleration = parameters.number("wheelAcceleration", 0.0)
+        self._deceleration = parameters.number("wheelDeceleration", self._acceleration)
         self.period_ns = rate_to_period_ns(parameters.number("updateRate", 100.0))
         self._from_wheels = parameters.text("odometrySource", "world") in ("encoder", "0")
         self._command = TwistCommand.from_tag(parameters, names)
@@ -67,9 +68,9 @@ class TricycleDrive(RosPlugin):
     def before_step(self, sim: Simulation) -> None:
         """Set wheel speed and steering angle."""
         dt_s = (self.period_ns or sim.step_ns) / 1e9
-        wanted = self._command.forward / self._radius
-        change = self._faster if abs(wanted) > abs(self._speed) else self._slower
-        self._speed = step_towards(self._speed, wanted, change * dt_s) if self._faster > 0.0 else wanted
+        target = self._command.forward / self._radius
+        change = self._acceleration if abs(target) > abs(self._speed) else self._deceleration
+        self._speed = step_towards(self._speed, target, change * dt_s) if self._acceleration > 0.0 else target
         self._wheel.command_velocity(self._speed, max_effort=self._torque)
         angle = min(max(self._command.yaw_rate, -math.pi / 2), math.pi / 2)
         if self._steering_speed > 0.0:
@@ -98,17 +99,17 @@ class TricycleDrive(RosPlugin):
         """Stop, steer straight, and restart odometry at its origin."""
         self._command.stop()
         self._speed, self._angle = 0.0, self._steering.position
-        self._place = WheelOdometry(self._drive)
-        self._turned = [wheel.position for wheel in self._encoders]
+        self._wheel_odometry = WheelOdometry(self._drive)
+        self._last_positions = [wheel.position for wheel in self._encoders]
         self._last_ns = 0
 
     def _integrate_wheels(self, time_ns: int) -> tuple[Pose, Twist]:
         """Integrate the encoder wheels' rotation; return pose and twist."""
-        turned = [wheel.position for wheel in self._encoders]
-        left, right = (now - before for now, before in zip(turned, self._turned, strict=True))
-        distance, turn = self._place.update(left, right)
-        elapsed, self._turned, self._last_ns = (time_ns - self._last_ns) / 1e9, turned, time_ns
-        pose = Pose.from_rpy(self._place.x, self._place.y, 0.0, 0.0, 0.0, self._place.yaw)
+        positions = [wheel.position for wheel in self._encoders]
+        left, right = (now - last for now, last in zip(positions, self._last_positions, strict=True))
+        distance, turn = self._wheel_odometry.update(left, right)
+        elapsed, self._last_positions, self._last_ns = (time_ns - self._last_ns) / 1e9, positions, time_ns
+        pose = Pose.from_rpy(self._wheel_odometry.x, self._wheel_odometry.y, 0.0, 0.0, 0.0, self._wheel_odometry.yaw)
         if elapsed <= 0.0:
             return pose, Twist()
         return pose, Twist((distance / elapsed, 0.0, 0.0), (0.0, 0.0, turn / elapsed))

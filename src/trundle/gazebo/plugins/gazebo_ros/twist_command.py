@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class TwistCommand:
-    """Last command; it holds until the next."""
+    """Last command, valid until the next."""
 
     def __init__(self, names: PluginNames, topic: str) -> None:
         """Subscribe to geometry_msgs/Twist."""
@@ -25,13 +25,13 @@ class TwistCommand:
 
     @classmethod
     def from_tag(cls, parameters: TagParameters, names: PluginNames) -> Self:
-        """Read <commandTopic>, the parameter of every gazebo_ros drive; warn if another model obeys it."""
+        """Read <commandTopic>, the parameter of every gazebo_ros drive; warn if it commands another model too."""
         name = parameters.text("commandTopic", "cmd_vel")
         topic = names.topic(name)
-        for model, of_other, other in names.drives_before():
-            if topic == other.topic(of_other.text("commandTopic", "cmd_vel")):
-                what = f"one command on {topic} moves this model and {model!r}"
-                parameters.warn(f"{what}; with a <robotNamespace> each has its own topic")
+        for model, other_parameters, other_names in names.drives_before():
+            if topic == other_names.topic(other_parameters.text("commandTopic", "cmd_vel")):
+                problem = f"one command on {topic} moves this model and {model!r}"
+                parameters.warn(f"{problem}; with a <robotNamespace> each has its own topic")
                 break
         return cls(names, name)
 
@@ -40,7 +40,7 @@ class TwistCommand:
         self.forward = self.sideways = self.yaw_rate = 0.0
 
     def _on_command(self, twist: "geometry_msgs.Twist") -> None:
-        wanted = (float(twist.linear.x), float(twist.linear.y), float(twist.angular.z))
-        if all(map(math.isfinite, wanted)):
-            self.forward, self.sideways, self.yaw_rate = wanted
+        command = (float(twist.linear.x), float(twist.linear.y), float(twist.angular.z))
+        if all(map(math.isfinite, command)):
+            self.forward, self.sideways, self.yaw_rate = command
             self.stamp_ns = self._node.clock.now_ns()

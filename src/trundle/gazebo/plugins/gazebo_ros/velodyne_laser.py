@@ -24,15 +24,15 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
     """Publish sensor_msgs/PointCloud2 with intensity, ring and time, column by column from the lowest ray.
 
     Parameters, with velodyne_gazebo_plugins' defaults: <topicName> /points, <frameName> /world, <min_range> 0 and
-    <max_range> (none) [m] beside the sensor's own, <min_intensity> (none), <gaussianNoise> 0 (of ranges [m]),
-    <organize_cloud> false (true: what is out of range is a point without numbers).
+    <max_range> (none) [m] within the sensor's own, <min_intensity> (none), <gaussianNoise> 0 (of ranges [m]),
+    <organize_cloud> false (true: rays out of range are NaN points).
     """
     rays = require_rays(sensor)
     topic = names.advertise("sensor_msgs/PointCloud2", parameters.text("topicName", "/points"))
-    outlet = SensorPublisher(topic, names.frame(parameters.text("frameName", "/world")))
-    near = max(parameters.number("min_range", 0.0), rays.scan.min_m)
-    far = min(parameters.number("max_range", rays.scan.max_m), rays.scan.max_m)
-    faintest = parameters.number("min_intensity", 0.0) if "min_intensity" in parameters else -math.inf
+    publisher = SensorPublisher(topic, names.frame(parameters.text("frameName", "/world")))
+    min_range = max(parameters.number("min_range", 0.0), rays.scan.min_m)
+    max_range = min(parameters.number("max_range", rays.scan.max_m), rays.scan.max_m)
+    min_intensity = parameters.number("min_intensity", 0.0) if "min_intensity" in parameters else -math.inf
     noise, random = parameters.number("gaussianNoise", 0.0), np.random.default_rng(0)
     organized = parameters.flag("organize_cloud", default=False)
     parameters.ignore("hokuyoMinIntensity", "updateRate")
@@ -41,16 +41,16 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
         rows, columns = reading.ranges.shape
         ranges, intensities = reading.ranges.T.reshape(-1), reading.intensities.T.reshape(-1)
         directions = directions_of(reading.scan).reshape(rows, columns, 3).swapaxes(0, 1).reshape(-1, 3)
-        seen = (ranges > near) & (ranges < far) & (intensities >= faintest)
+        is_hit = (ranges > min_range) & (ranges < max_range) & (intensities >= min_intensity)
         if noise > 0.0:
             ranges = ranges + random.normal(0.0, noise, len(ranges))
-            seen &= (ranges > near) & (ranges < far)
+            is_hit &= (ranges > min_range) & (ranges < max_range)
         points = np.zeros(len(ranges), dtype=_POINT)
         points["ring"] = np.tile(np.arange(rows, dtype=np.uint16), columns)
-        places = np.where(seen[:, None], directions * np.where(seen, ranges, 0.0)[:, None], np.nan)
-        points["x"], points["y"], points["z"] = places.T
-        points["intensity"] = np.where(seen, intensities, np.nan)
-        points = points if organized else points[seen]
+        positions = np.where(is_hit[:, None], directions * np.where(is_hit, ranges, 0.0)[:, None], np.nan)
+        points["x"], points["y"], points["z"] = positions.T
+        points["intensity"] = np.where(is_hit, intensities, np.nan)
+        points = points if organized else points[is_hit]
         width = rows if organized else len(points)
         return {
             "height": columns if organized else 1,
@@ -62,4 +62,4 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
             "is_dense": not organized,
         }
 
-    rays.listen(lambda reading: outlet.publish(reading, lambda: message(reading)), enabled=outlet.has_subscribers)
+    rays.listen(lambda reading: publisher.publish(reading, lambda: message(reading)), enabled=publisher.has_subscribers)

@@ -15,9 +15,9 @@ class WheelFrames:
         """Advertise.
 
         Args:
-            names: of the plugin.
-            model: of the wheels.
-            wheels: frame of the wheel, without its prefix, to the joint that it turns on.
+            names: plugin's names.
+            model: model of the wheels.
+            wheels: frame of the wheel, without its prefix → wheel's joint.
         """
         self._broadcaster = TransformBroadcaster(names.node)
         self._wheels = [
@@ -30,8 +30,8 @@ class WheelFrames:
         if not self._broadcaster.has_subscribers:
             return
         transforms: list[Transform] = []
-        for parent, child, carrier, wheel in self._wheels:
-            pose = carrier.pose.inverse() @ wheel.pose
+        for parent, child, parent_link, wheel_link in self._wheels:
+            pose = parent_link.pose.inverse() @ wheel_link.pose
             position, rotation = pose.position, pose.quaternion
             transforms.append(
                 Transform(parent=parent, child=child, stamp_ns=time_ns, translation=position, rotation=rotation)

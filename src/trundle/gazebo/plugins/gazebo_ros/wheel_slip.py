@@ -11,7 +11,7 @@ from trundle.sim.simulation import ModelHandle, Simulation
 from ..gazebo.wheel_slip import WheelSlip
 
 _UNCHANGED = -1.0
-_MOST = 20.0
+_MAX_COMPLIANCE = 20.0
 """Upper bound of compliances, from gazebo_plugins."""
 
 
@@ -31,16 +31,16 @@ class RosWheelSlip(WheelSlip):
         return plugin
 
     def _offer(self, node: Node, namespace: str) -> None:
-        ways = ("lateral", "longitudinal")
+        directions = ("lateral", "longitudinal")
         options = [
             Option(
-                name=f"slip_compliance_unitless_{way}",
+                name=f"slip_compliance_unitless_{direction}",
                 value=_UNCHANGED,
                 lower=_UNCHANGED,
-                upper=_MOST,
-                description=f"Unitless slip compliance (slip / friction) in the {way} direction",
+                upper=_MAX_COMPLIANCE,
+                description=f"Unitless slip compliance (slip / friction) in the {direction} direction",
             )
-            for way in ways
+            for direction in directions
         ]
 
         def apply(values: Options) -> Options:

@@ -21,7 +21,7 @@ class Arm:
 
         Args:
             sim: the simulation.
-            model: of the fingers.
+            model: model of the gripper.
             parameters: <arm> with <arm_name>, <palm_link> and <gripper_link>.
             disable_collisions: True: a held object collides with nothing.
 
@@ -35,17 +35,17 @@ class Arm:
         self.fingers: dict[str, LinkHandle] = {}
         """Collision, `model::link::collision` → link of the finger."""
         for finger in parameters.texts("gripper_link"):
-            found = next((link for link in model.links if link.name == finger), None)
-            if found is None:
-                there = ", ".join(repr(link.name) for link in model.links)
-                parameters.warn(f"no link {finger!r}; links here: {there}; it is left out")
+            link = next((link for link in model.links if link.name == finger), None)
+            if link is None:
+                links = ", ".join(repr(link.name) for link in model.links)
+                parameters.warn(f"no link {finger!r}; links here: {links}; it is left out")
                 continue
-            names = (f"{model.name}::{found.name}::{collision.name}" for collision in found.link.collisions)
-            self.fingers |= dict.fromkeys(names, found)
+            names = (f"{model.name}::{link.name}::{collision.name}" for collision in link.link.collisions)
+            self.fingers |= dict.fromkeys(names, link)
         self.held = ""
         """Held collision, `model::link::collision`; empty: none."""
         self.grip: list[ContactAverage] = []
-        """Contacts of the fingers when it was grasped."""
+        """Contacts of the fingers at the grasp."""
         self._surfaces: list[Surface] = []
 
     @property
@@ -56,19 +56,21 @@ class Arm:
         """Weld an object's link to the palm in its current pose.
 
         Args:
-            collision: of the object, `model::link::collision`.
-            link: of that collision.
-            grip: contacts of the fingers with it.
+            collision: object's collision, `model::link::collision`.
+            link: link of the collision.
+            grip: contacts of the fingers with the object.
 
         Raises:
-            TrundleError: the two cannot be joined; nothing is changed.
+            TrundleError: the links cannot be joined; nothing is changed.
         """
         child, parent = collision.rpartition("::")[0], f"{self._model.name}::{self.palm.name}"
         self._sim.attach(Joint(name=self._joint, type=JointType.FIXED, parent=parent, child=child, at=self.at))
         self.held, self.grip = collision, grip
-        self._surfaces = [each.surface for each in link.link.collisions]
+        self._surfaces = [shape.surface for shape in link.link.collisions]
         if self._disable_collisions:
-            self._set_surfaces(child, [replace(each, collide_bitmask=0, category_bitmask=0) for each in self._surfaces])
+            self._set_surfaces(
+                child, [replace(collision, collide_bitmask=0, category_bitmask=0) for collision in self._surfaces]
+            )
 
     def detach(self) -> None:
         """Release the object."""
@@ -78,29 +80,30 @@ class Arm:
         self.clear()
 
     def clear(self) -> None:
-        """Forget the held object."""
+        """Clear the held object."""
         self.held, self.grip = "", []
 
     @property
     def is_joint_lost(self) -> bool:
-        """True if the joint was removed by something else, as when a model is deleted."""
+        """True if another part removed the joint, as when a model is deleted."""
         return bool(self.held) and all(joint.name != self._joint for joint in self._sim.joints)
 
-    def _set_surfaces(self, link: str, surfaces: Sequence[Surface]) -> None:
+    def _set_surfaces(self, path: str, surfaces: Sequence[Surface]) -> None:
         """Set the surfaces of the collisions of `model::link`."""
-        owner, _, name = link.partition("::")
+        owner, _, name = path.partition("::")
         world = self._sim.world
 
         def with_surfaces(model: Model) -> Model:
             if model.name != owner:
                 return model
             return replace(
-                model, links=tuple(_with(each, surfaces) if each.name == name else each for each in model.links)
+                model,
+                links=tuple(_with_surfaces(link, surfaces) if link.name == name else link for link in model.links),
             )
 
         self._sim.edit(replace(world, models=tuple(map(with_surfaces, world.models))))
 
 
-def _with(link: Link, surfaces: Sequence[Surface]) -> Link:
+def _with_surfaces(link: Link, surfaces: Sequence[Surface]) -> Link:
     pairs = zip(link.collisions, surfaces, strict=True)
     return replace(link, collisions=tuple(replace(collision, surface=surface) for collision, surface in pairs))

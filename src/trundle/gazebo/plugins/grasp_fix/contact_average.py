@@ -12,9 +12,9 @@ from trundle.sim.physics import Contact
 from trundle.sim.simulation import LinkHandle
 
 _MIN_RATIO = 0.3
-"""Least ratio of the weaker to the stronger of two opposing forces."""
+"""Minimum ratio of the weaker to the stronger of two opposing forces."""
 _MIN_FORCE = 1e-4
-"""Least force that holds an object [N]."""
+"""Minimum force that holds an object [N]."""
 
 
 @dataclass(slots=True)
@@ -36,8 +36,8 @@ class ContactAverage:
         """Add one step's contacts.
 
         Args:
-            forces: (n, 3) on the object, world axes [N].
-            points: (n, 3) in the world [m].
+            forces: (n, 3) forces on the object, world axes [N].
+            points: (n, 3) contact points in the world [m].
         """
         finger_from_world = self.finger.pose.inverse()
         x, y, z = points.mean(axis=0).tolist()
@@ -55,8 +55,8 @@ class ContactAverage:
         """Change of the distance between contact point and object's origin since the contact [m]."""
         point, origin = self.point / self.steps, self.object_origin / self.steps
         x, y, z = point.tolist()
-        now = math.dist(self.finger.pose.transform_point((x, y, z)), self.object_link.pose.position)
-        return abs(float(np.linalg.norm(point - origin)) - now)
+        distance = math.dist(self.finger.pose.transform_point((x, y, z)), self.object_link.pose.position)
+        return abs(float(np.linalg.norm(point - origin)) - distance)
 
 
 def group_by_pair(
@@ -65,10 +65,10 @@ def group_by_pair(
     """Group contacts by (object, finger) collision: (n, 3) forces on the object and (n, 3) points, in the world.
 
     Args:
-        contacts: of one step.
-        fingers: collisions of the gripper; if both are, the second is the finger.
+        contacts: contacts of one step.
+        fingers: collisions of the gripper; in a contact of two fingers the second counts as the finger.
     """
-    found: dict[tuple[str, str], list[tuple[Sequence[float], Sequence[float]]]] = {}
+    groups: dict[tuple[str, str], list[tuple[Sequence[float], Sequence[float]]]] = {}
     for contact in contacts:
         first, second = contact.collisions
         if second in fingers:
@@ -76,20 +76,20 @@ def group_by_pair(
         else:
             pair, sign = (second, first), 1.0
         force = [sign * value for value in contact.force.force]
-        found.setdefault(pair, []).append((force, contact.position))
+        groups.setdefault(pair, []).append((force, contact.position))
     return {
         pair: (np.array([force for force, _ in rows]), np.array([point for _, point in rows]))
-        for pair, rows in found.items()
+        for pair, rows in groups.items()
     }
 
 
-def forces_oppose(forces: Sequence[NDArray[np.float64]], least_angle_rad: float) -> bool:
+def forces_oppose(forces: Sequence[NDArray[np.float64]], min_angle_rad: float) -> bool:
     """True if two of the forces are further apart than an angle, and neither is much weaker."""
-    for one, other in combinations(forces, 2):
-        strong, weak = sorted((float(np.linalg.norm(one)), float(np.linalg.norm(other))), reverse=True)
+    for a, b in combinations(forces, 2):
+        strong, weak = sorted((float(np.linalg.norm(a)), float(np.linalg.norm(b))), reverse=True)
         if weak < _MIN_FORCE or weak < _MIN_RATIO * strong:
             continue
-        cosine = float(np.clip(one @ other / (strong * weak), -1.0, 1.0))
-        if math.acos(cosine) > least_angle_rad:
+        cosine = float(np.clip(a @ b / (strong * weak), -1.0, 1.0))
+        if math.acos(cosine) > min_angle_rad:
             return True
     return False

@@ -15,7 +15,7 @@ from ..plugin import Plugin
 from .arm import Arm
 from .contact_average import ContactAverage, forces_oppose, group_by_pair
 
-_USUAL_TOPIC = "__default_topic__"
+_DEFAULT_TOPIC = "__default_topic__"
 
 
 class GraspFix(Plugin):
@@ -23,14 +23,14 @@ class GraspFix(Plugin):
 
     Parameters, with the original's defaults: any number of <arm> with <arm_name>, <palm_link> and <gripper_link> (any
     number); <update_rate> 5 [Hz, of simulated time; wall time in the original]; <forces_angle_tolerance> 120 [deg]
-    (at least 90): forces further apart oppose; <max_grip_count> 10; <grip_count_threshold> (half of that): more updates
-    than these weld; <release_tolerance> 0.005 [m]: distance that a finger may move from the held object;
+    (at least 90): forces further apart oppose; <max_grip_count> 10; <grip_count_threshold> (half of that): welds after
+    more updates than this; <release_tolerance> 0.005 [m]: distance that a finger may move from the held object;
     <disable_collisions_on_attach> false: the held object collides with nothing.
     """
 
-    def __init__(self, sim: Simulation, model: ModelHandle, say: Callable[[str], object], tag: PluginTag) -> None:
+    def __init__(self, sim: Simulation, model: ModelHandle, log: Callable[[str], object], tag: PluginTag) -> None:
         parameters = TagParameters(tag.node, sim.report)
-        self._sim, self._say = sim, say
+        self._sim, self._log = sim, log
         self._angle_rad = math.radians(parameters.number("forces_angle_tolerance", 120.0))
         if self._angle_rad < math.pi / 2:
             parameters.warn(
@@ -41,7 +41,7 @@ class GraspFix(Plugin):
         self._threshold = parameters.integer("grip_count_threshold", self._max_count // 2)
         self._release_tolerance = parameters.number("release_tolerance", 0.005)
         disable_collisions = parameters.flag("disable_collisions_on_attach", default=False)
-        if parameters.text("contact_topic", _USUAL_TOPIC).strip() != _USUAL_TOPIC:
+        if parameters.text("contact_topic", _DEFAULT_TOPIC).strip() != _DEFAULT_TOPIC:
             parameters.warn("<contact_topic> is ignored, as in the original")
         self._arms: dict[str, Arm] = {}
         for child in parameters.sections("arm"):
@@ -70,8 +70,8 @@ class GraspFix(Plugin):
                 arm.clear()
         held = {
             name
-            for name, each in touching.items()
-            if forces_oppose([t.mean_force for t in each.values()], self._angle_rad)
+            for name, contacts in touching.items()
+            if forces_oppose([contact.mean_force for contact in contacts.values()], self._angle_rad)
         }
         for name in sorted(held):
             self._count[name] = min(self._count[name] + 1, self._max_count)
@@ -94,7 +94,7 @@ class GraspFix(Plugin):
         self._touching: dict[str, dict[str, ContactAverage]] = {}
         """Object's collision → finger's collision → contact."""
         self._count: Counter[str] = Counter()
-        """Object's collision → updates in which it was held, minus those in which it was not."""
+        """Object's collision → number of updates with a grip minus updates without."""
 
     def _add(self, parameters: TagParameters, model: ModelHandle, disable_collisions: bool) -> None:
         try:
@@ -105,8 +105,8 @@ class GraspFix(Plugin):
         finally:
             parameters.report_unread()
         if arm.name in self._arms or not arm.fingers:
-            why = "there is one of that name already" if arm.name in self._arms else "no finger has a collision"
-            parameters.warn(f"arm {arm.name!r}: {why}; it is left out")
+            reason = "another arm has this name" if arm.name in self._arms else "no finger has a collision"
+            parameters.warn(f"arm {arm.name!r}: {reason}; it is left out")
             return
         self._arms[arm.name] = arm
 
@@ -119,30 +119,30 @@ class GraspFix(Plugin):
             owner = self._sim[name.partition("::")[0]]
             if owner.model.static:
                 continue
-            found = self._touching.setdefault(name, {})
-            if finger not in found:
-                found[finger] = ContactAverage(arm.name, link, _link_of(owner, name))
-            found[finger].add(forces, points)
+            averages = self._touching.setdefault(name, {})
+            if finger not in averages:
+                averages[finger] = ContactAverage(arm.name, link, _link_of(owner, name))
+            averages[finger].add(forces, points)
 
-    def _attach(self, name: str, touching: list[ContactAverage]) -> None:
-        """Attach an object to the arm with most fingers on it, unless an arm that touches it holds one."""
-        fingers = Counter(each.arm for each in touching)
+    def _attach(self, name: str, contacts: list[ContactAverage]) -> None:
+        """Attach an object to the arm with most fingers on it, unless an arm that touches it holds an object."""
+        fingers = Counter(contact.arm for contact in contacts)
         if any(self._arms[arm].held for arm in fingers):
             return
         arm = self._arms[max(fingers, key=lambda arm: fingers[arm])]
         try:
-            arm.attach(name, touching[0].object_link, [each for each in touching if each.arm == arm.name])
+            arm.attach(name, contacts[0].object_link, [contact for contact in contacts if contact.arm == arm.name])
         except TrundleError as error:
             self._sim.report.warn_error(error, arm.at, f"{name} is not held", subject=f"arm {arm.name!r}")
             return
-        self._say(f"grasp_fix: {arm.name} holds {name}")
+        self._log(f"grasp_fix: {arm.name} holds {name}")
 
     def _detach_if_slipped(self, name: str) -> None:
         arm = next((arm for arm in self._arms.values() if arm.held == name), None)
-        if arm is not None and any(each.slip_distance() > self._release_tolerance for each in arm.grip):
+        if arm is not None and any(contact.slip_distance() > self._release_tolerance for contact in arm.grip):
             arm.detach()
             self._count[name] = 0
-            self._say(f"grasp_fix: {arm.name} releases {name}")
+            self._log(f"grasp_fix: {arm.name} releases {name}")
 
 
 def _link_of(model: ModelHandle, collision: str) -> LinkHandle:

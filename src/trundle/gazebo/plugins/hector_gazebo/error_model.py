@@ -17,16 +17,16 @@ class ErrorModel:
         """Read the parameters.
 
         Args:
-            parameters: of the plugin.
-            random: for noise and drift.
-            prefix: of the parameters: accel for <accelDrift> and so on.
+            parameters: plugin's parameters.
+            random: generator of noise and drift.
+            prefix: prefix of the parameters: accel for <accelDrift> and so on.
             axes: number of values; a single number holds for all.
         """
 
         def read(name: str, default: float) -> NDArray[np.float64]:
-            full = prefix + name[0].upper() + name[1:] if prefix else name
-            count = 1 if len(parameters.text(full, "").split()) == 1 else axes
-            return np.resize(np.array(parameters.numbers(full, count, (default,))), axes)
+            parameter = prefix + name[0].upper() + name[1:] if prefix else name
+            count = 1 if len(parameters.text(parameter, "").split()) == 1 else axes
+            return np.resize(np.array(parameters.numbers(parameter, count, (default,))), axes)
 
         self._random = random
         self._offset, self._drift = read("offset", 0.0), read("drift", 0.0)
@@ -38,20 +38,20 @@ class ErrorModel:
 
     @property
     def variances(self) -> list[float]:
-        """(axes,) Variances of drift and noise together."""
+        """(axes,) Sum of the variances of drift and noise."""
         return (self._drift**2 + self.noise**2).tolist()
 
     def reset(self) -> None:
         """Restart the drift."""
-        self._drifted = self._random.normal(0.0, 1.0, self._drift.shape) * self._drift
+        self._current_drift = self._random.normal(0.0, 1.0, self._drift.shape) * self._drift
 
     def apply(self, values: Sequence[float], dt_s: float) -> list[float]:
-        """Values with errors, `dt_s` after the last ones."""
+        """Return the values with errors, `dt_s` after the last ones."""
         return (np.array(values) * self._scale + self.sample(dt_s)).tolist()
 
     def sample(self, dt_s: float) -> NDArray[np.float64]:
         """(axes,) Errors to add to true values."""
-        kept = np.exp(-self._frequency * dt_s)
-        push = np.sqrt(2.0 * self._frequency) * self._drift * self._random.normal(0.0, 1.0, self._drift.shape)
-        self._drifted = kept * self._drifted + dt_s * push
-        return self._offset + self._drifted + self.noise * self._random.normal(0.0, 1.0, self.noise.shape)
+        decay = np.exp(-self._frequency * dt_s)
+        diffusion = np.sqrt(2.0 * self._frequency) * self._drift * self._random.normal(0.0, 1.0, self._drift.shape)
+        self._current_drift = decay * self._current_drift + dt_s * diffusion
+        return self._offset + self._current_drift + self.noise * self._random.normal(0.0, 1.0, self.noise.shape)

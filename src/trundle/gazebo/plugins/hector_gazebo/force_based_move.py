@@ -16,7 +16,7 @@ _VARIANCES = (1e-3, 1e-3, LARGE_VARIANCE, LARGE_VARIANCE, LARGE_VARIANCE, 1e-2)
 _TWIST_VARIANCES = (1e-3, 1e-3, 1e-3, LARGE_VARIANCE, LARGE_VARIANCE, 1e-2)
 _TURNING_VARIANCE = 100.0
 """Variance of yaw while the model turns [rad²]."""
-_STRAIGHT = 1e-4
+_MIN_YAW_RATE = 1e-4
 """Yaw rate [rad/s] below which motion is straight."""
 
 
@@ -50,7 +50,7 @@ class ForceBasedMove(RosPlugin):
             with_tf=parameters.flag("publishOdometryTf", default=True),
         )
         self._published_ns: int | None = None
-        self._place = Pose()
+        self._odometry_pose = Pose()
 
     def before_step(self, sim: Simulation) -> None:
         """Apply the force and torque."""
@@ -74,23 +74,25 @@ class ForceBasedMove(RosPlugin):
         vx, vy, _ = body_from_world.transform_vector(self.model.twist.linear)
         rate = body_from_world.transform_vector(self.model.twist.angular)[2]
         vy = vy if self.SIDEWAYS else 0.0
-        self._place = self._place @ _arc(vx * elapsed_s, vy * elapsed_s, rate * elapsed_s if _turns(rate) else 0.0)
+        self._odometry_pose = self._odometry_pose @ _arc(
+            vx * elapsed_s, vy * elapsed_s, rate * elapsed_s if _is_turning(rate) else 0.0
+        )
         twist = Twist((vx, vy, 0.0), (0.0, 0.0, rate))
-        yaw_variance = _TURNING_VARIANCE if _turns(rate) else None
-        self._odometry.publish(snapshot.time_ns, self._place, twist, yaw_variance=yaw_variance)
+        yaw_variance = _TURNING_VARIANCE if _is_turning(rate) else None
+        self._odometry.publish(snapshot.time_ns, self._odometry_pose, twist, yaw_variance=yaw_variance)
 
     def reset(self) -> None:
         """Set the command to zero, and restart odometry at its origin."""
         self.command.stop()
-        self._published_ns, self._place = None, Pose()
+        self._published_ns, self._odometry_pose = None, Pose()
 
 
-def _turns(rate: float) -> bool:
-    return abs(rate) >= _STRAIGHT
+def _is_turning(rate: float) -> bool:
+    return abs(rate) >= _MIN_YAW_RATE
 
 
 def _arc(forward: float, sideways: float, turn: float) -> Pose:
-    """Pose after a constant body twist, given as displacements [m, m, rad]."""
+    """Return the pose after a constant body twist over displacements [m, m, rad]."""
     along = math.sin(turn) / turn if turn else 1.0
     across = (1.0 - math.cos(turn)) / turn if turn else 0.0
     x, y = along * forward - across * sideways, across * forward + along * sideways

@@ -43,8 +43,8 @@ class Gps(LinkSensor):
             "status": parameters.integer("status", 0),
             "service": parameters.integer("service", 1),
         }
-        self._place = ErrorModel(parameters, self.random)
-        self._speed = ErrorModel(parameters, self.random, prefix="velocity")
+        self._position_errors = ErrorModel(parameters, self.random)
+        self._velocity_errors = ErrorModel(parameters, self.random, prefix="velocity")
         fix = parameters.text("topicName", "fix")
         velocity = parameters.text("velocityTopicName", "fix_velocity")
         self._fix = node.advertise(self.topic(fix), "sensor_msgs/NavSatFix", queue_size=10)
@@ -56,10 +56,10 @@ class Gps(LinkSensor):
             return
         dt_s = self.elapsed_s(snapshot.time_ns)
         header = {"stamp": snapshot.time_ns, "frame_id": self.frame}
-        vx, vy, vz = self._speed.apply(self.link.twist.linear, dt_s)
-        x, y, z = self._place.apply(self.link.pose.position, dt_s)
+        vx, vy, vz = self._velocity_errors.apply(self.link.twist.linear, dt_s)
+        x, y, z = self._position_errors.apply(self.link.pose.position, dt_s)
         latitude, longitude, altitude = geodetic(self._origin, (x, y, z))
-        east, north, up = self._place.variances
+        east, north, up = self._position_errors.variances
         self._fix.publish(
             {
                 "header": header,
@@ -78,5 +78,5 @@ class Gps(LinkSensor):
 
     def reset(self) -> None:
         """Restart the drifts."""
-        self._place.reset()
-        self._speed.reset()
+        self._position_errors.reset()
+        self._velocity_errors.reset()

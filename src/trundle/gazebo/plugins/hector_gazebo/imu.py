@@ -52,16 +52,22 @@ class Imu(LinkSensor):
         motion = self._motion.sample(snapshot.time_ns)
         (ax, ay, az), (gx, gy, gz) = motion.acceleration, motion.in_link(self._gravity)
         specific_force = (ax - gx + self._tilt[0], ay - gy + self._tilt[1], az - gz)
-        turned = Pose.from_rpy(0, 0, 0, 0, 0, self._yaw + float(self._heading.sample(dt_s)[0]))
-        qw, qx, qy, qz = (Pose(quaternion=motion.orientation) @ turned).quaternion
-        strength = gx * gx + gy * gy + gz * gz
-        roll, pitch, _ = (self._acceleration.noise**2 / strength).tolist() if strength > 0.0 else (-1.0, -1.0, 0.0)
+        heading_error = Pose.from_rpy(0, 0, 0, 0, 0, self._yaw + float(self._heading.sample(dt_s)[0]))
+        qw, qx, qy, qz = (Pose(quaternion=motion.orientation) @ heading_error).quaternion
+        gravity_squared = gx * gx + gy * gy + gz * gz
+        roll, pitch, _ = (
+            (self._acceleration.noise**2 / gravity_squared).tolist() if gravity_squared > 0.0 else (-1.0, -1.0, 0.0)
+        )
         readings = {
             "linear_acceleration": (self._acceleration, specific_force),
             "angular_velocity": (self._rate, motion.rate),
         }
-        values = {name: dict(zip("xyz", by.apply(true, dt_s), strict=True)) for name, (by, true) in readings.items()}
-        covariances = {f"{name}_covariance": _diagonal((by.noise**2).tolist()) for name, (by, _) in readings.items()}
+        values = {
+            name: dict(zip("xyz", errors.apply(value, dt_s), strict=True)) for name, (errors, value) in readings.items()
+        }
+        covariances = {
+            f"{name}_covariance": _diagonal((errors.noise**2).tolist()) for name, (errors, _) in readings.items()
+        }
         self._topic.publish(
             {
                 "header": {"stamp": snapshot.time_ns, "frame_id": self.frame},
@@ -74,8 +80,8 @@ class Imu(LinkSensor):
 
     def reset(self) -> None:
         """Restart the drifts."""
-        for errors in (self._acceleration, self._rate, self._heading):
-            errors.reset()
+        for model in (self._acceleration, self._rate, self._heading):
+            model.reset()
 
     def _calibrate(self, _request: "std_srvs.EmptyRequest") -> dict[str, object]:
         self._rate.reset()

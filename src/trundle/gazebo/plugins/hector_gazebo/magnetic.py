@@ -27,13 +27,13 @@ class Magnetic(LinkSensor):
 
         strength = parameters.number("magnitude", 1.0)
         heading = angle("referenceHeading", 90.0 - sim.world.spherical_coordinates.heading_deg)
-        away, down = heading - angle("declination", 0.0), angle("inclination", 60.0)
-        level = strength * math.cos(down)
-        self._field = (level * math.cos(away), level * math.sin(away), -strength * math.sin(down))
+        azimuth, dip = heading - angle("declination", 0.0), angle("inclination", 60.0)
+        horizontal = strength * math.cos(dip)
+        self._field = (horizontal * math.cos(azimuth), horizontal * math.sin(azimuth), -strength * math.sin(dip))
         self._errors = ErrorModel(parameters, self.random)
         with_field = parameters.flag("useMagneticFieldMsgs", default=False)
         kind = "sensor_msgs/MagneticField" if with_field else "geometry_msgs/Vector3Stamped"
-        self._value = "magnetic_field" if with_field else "vector"
+        self._field_name = "magnetic_field" if with_field else "vector"
         topic = parameters.text("topicName", "magnetic")
         self._topic = node.advertise(self.topic(topic), kind, queue_size=1)
 
@@ -41,10 +41,10 @@ class Magnetic(LinkSensor):
         """Publish the field."""
         if not self._topic.has_subscribers:
             return
-        here = Pose(quaternion=self.link.pose.quaternion).inverse().transform_vector(self._field)
-        field = dict(zip("xyz", self._errors.apply(here, self.elapsed_s(snapshot.time_ns)), strict=True))
+        field_in_link = Pose(quaternion=self.link.pose.quaternion).inverse().transform_vector(self._field)
+        field = dict(zip("xyz", self._errors.apply(field_in_link, self.elapsed_s(snapshot.time_ns)), strict=True))
         header = {"stamp": snapshot.time_ns, "frame_id": self.frame}
-        self._topic.publish({"header": header, self._value: field})
+        self._topic.publish({"header": header, self._field_name: field})
 
     def reset(self) -> None:
         """Restart the drift."""

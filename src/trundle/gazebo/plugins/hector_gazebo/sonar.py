@@ -22,29 +22,29 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
         raise UsageError(f"sensor {sensor.name!r} is of type {sensor.sensor.type}; a ray sensor is needed")
     topic = names.advertise("sensor_msgs/Range", parameters.text("topicName", "sonar"))
     frame, rate_hz = names.frame(parameters.text("frameId", "/sonar_link")), parameters.number("updateRate", 10.0)
-    outlet = SensorPublisher(topic, frame, rate_hz=rate_hz)
+    publisher = SensorPublisher(topic, frame, rate_hz=rate_hz)
     errors = ErrorModel(parameters, np.random.default_rng(0), axes=1)
     last_ns = 0
 
     def message(reading: RangeReading) -> dict[str, object]:
         nonlocal last_ns
         elapsed_s, last_ns = max(reading.time_ns - last_ns, 0) / 1e9, reading.time_ns
-        near, far = reading.scan.min_m, reading.scan.max_m
-        nearest = min(float(np.nanmin(reading.ranges)), far) if reading.ranges.size else far
-        if nearest < far:
-            nearest = min(max(errors.apply((nearest,), elapsed_s)[0], near), far)
+        min_range, max_range = reading.scan.min_m, reading.scan.max_m
+        nearest = min(float(np.nanmin(reading.ranges)), max_range) if reading.ranges.size else max_range
+        if nearest < max_range:
+            nearest = min(max(errors.apply((nearest,), elapsed_s)[0], min_range), max_range)
         return {
             "radiation_type": 0,
             "field_of_view": min(_width(reading.scan.horizontal), _width(reading.scan.vertical)),
-            "min_range": near,
-            "max_range": far,
+            "min_range": min_range,
+            "max_range": max_range,
             "range": nearest,
         }
 
     def publish(reading: RangeReading) -> None:
-        outlet.publish(reading, lambda: message(reading))
+        publisher.publish(reading, lambda: message(reading))
 
-    sensor.listen(publish, enabled=outlet.has_subscribers)
+    sensor.listen(publish, enabled=publisher.has_subscribers)
 
 
 def _width(axis: ScanAxis) -> float:

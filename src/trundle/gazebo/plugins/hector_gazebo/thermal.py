@@ -1,4 +1,4 @@
-"""libgazebo_ros_thermal_camera.so of hector_gazebo: pure red is hot, other colours are dark."""
+"""libgazebo_ros_thermal_camera.so of hector_gazebo: pure red is hot, other colors are dark."""
 
 import numpy as np
 
@@ -9,8 +9,8 @@ from ..gazebo_ros.camera import attach_images
 from ..gazebo_ros.plugin_names import PluginNames
 
 _HOT = (255, 0, 0)
-_DARKER = 8
-"""Divisor of the sum of the three colours."""
+_DIVISOR = 8
+"""Divisor of the sum of the three color channels."""
 
 
 def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) -> None:
@@ -19,8 +19,8 @@ def attach(sensor: CameraSensor, parameters: TagParameters, names: PluginNames) 
 
 
 def _grey(reading: CameraReading) -> dict[str, object]:
-    colours = reading.rgb
-    grey = (colours.sum(axis=2, dtype=np.uint16) // _DARKER).astype(np.uint8)
-    grey[(colours == _HOT).all(axis=2)] = 255
+    rgb = reading.rgb
+    grey = (rgb.sum(axis=2, dtype=np.uint16) // _DIVISOR).astype(np.uint8)
+    grey[(rgb == _HOT).all(axis=2)] = 255
     height, width = grey.shape
     return {"height": height, "width": width, "encoding": "mono8", "step": width, "data": grey.reshape(-1)}

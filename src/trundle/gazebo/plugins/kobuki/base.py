@@ -73,8 +73,8 @@ class Kobuki(RosPlugin):
 
     def before_step(self, sim: Simulation) -> None:
         """Set the wheels' speeds; a command older than the timeout counts as zero."""
-        is_old = (sim.time_ns - self._commanded_ns) / 1e9 > self._timeout_s
-        speeds = (0.0, 0.0) if is_old or not self._is_powered else self._speeds
+        is_timed_out = (sim.time_ns - self._commanded_ns) / 1e9 > self._timeout_s
+        speeds = (0.0, 0.0) if is_timed_out or not self._is_powered else self._speeds
         for wheel, speed in zip(self._wheels, speeds, strict=True):
             wheel.command_velocity(speed, max_effort=self._torque)
 
@@ -99,8 +99,8 @@ class Kobuki(RosPlugin):
     def reset(self) -> None:
         """Stop with power on, and restart odometry at its origin."""
         self._speeds, self._commanded_ns, self._is_powered = (0.0, 0.0), 0, True
-        self._place = [0.0, 0.0, 0.0]
-        self._turned = [wheel.position for wheel in self._wheels]
+        self._odometry_pose = [0.0, 0.0, 0.0]
+        self._last_positions = [wheel.position for wheel in self._wheels]
         self._published_ns = 0
         self._sensors.reset()
 
@@ -118,27 +118,29 @@ class Kobuki(RosPlugin):
 
     def _publish_odometry(self, time_ns: int) -> None:
         """Integrate wheels and gyro since the last call, and publish."""
-        turned, elapsed = [wheel.position for wheel in self._wheels], (time_ns - self._published_ns) / 1e9
+        positions, elapsed = [wheel.position for wheel in self._wheels], (time_ns - self._published_ns) / 1e9
         distance = (
-            sum(now - then for now, then in zip(turned, self._turned, strict=True)) / 2 * self._drive.wheel_radius
+            sum(current - last for current, last in zip(positions, self._last_positions, strict=True))
+            / 2
+            * self._drive.wheel_radius
         )
-        self._turned, self._published_ns = turned, time_ns
-        turning = 0.0 if self._gyro is None else float(self._gyro.angular_velocity.z)
-        yaw = self._place[2]
-        self._place = [
-            self._place[0] + distance * math.cos(yaw),
-            self._place[1] + distance * math.sin(yaw),
-            yaw + turning * max(elapsed, 0.0),
+        self._last_positions, self._published_ns = positions, time_ns
+        yaw_rate = 0.0 if self._gyro is None else float(self._gyro.angular_velocity.z)
+        yaw = self._odometry_pose[2]
+        self._odometry_pose = [
+            self._odometry_pose[0] + distance * math.cos(yaw),
+            self._odometry_pose[1] + distance * math.sin(yaw),
+            yaw + yaw_rate * max(elapsed, 0.0),
         ]
-        x, y, yaw = self._place
+        x, y, yaw = self._odometry_pose
         pose = Pose((x, y, 0.0), (math.cos(yaw / 2), 0.0, 0.0, math.sin(yaw / 2)))
         speed = distance / elapsed if elapsed > 0.0 else 0.0
-        self._odometry.publish(time_ns, pose, Twist((speed, 0.0, 0.0), (0.0, 0.0, turning)))
+        self._odometry.publish(time_ns, pose, Twist((speed, 0.0, 0.0), (0.0, 0.0, yaw_rate)))
 
     def _on_command(self, twist: "geometry_msgs.Twist") -> None:
-        forward, turning = float(twist.linear.x), float(twist.angular.z)
-        if math.isfinite(forward) and math.isfinite(turning):
-            self._speeds = self._drive.wheel_speeds(forward, turning)
+        forward, yaw_rate = float(twist.linear.x), float(twist.angular.z)
+        if math.isfinite(forward) and math.isfinite(yaw_rate):
+            self._speeds = self._drive.wheel_speeds(forward, yaw_rate)
             self._commanded_ns = self._node.clock.now_ns()
 
     def _on_motor_power(self, message: "kobuki_msgs.MotorPower") -> None:
@@ -148,17 +150,19 @@ class Kobuki(RosPlugin):
         self._gyro = message
 
     def _reset_odometry(self, _: Any) -> None:
-        self._place = [0.0, 0.0, 0.0]
+        self._odometry_pose = [0.0, 0.0, 0.0]
 
 
 def _find_sensor(model: ModelHandle, name: str) -> ModelSensor:
     """Sensor of a model by name.
 
     Raises:
-        UsageError: no such sensor; the message lists those there are.
+        UsageError: no such sensor; the message lists the model's sensors.
     """
-    there = [ModelSensor(model.model, link.name, each) for link in model.model.links for each in link.sensors]
-    for each in there:
-        if each.sensor.name == name:
-            return each
-    raise UsageError(f"no sensor {name!r}; there are: {', '.join(each.sensor.name for each in there) or 'none'}")
+    sensors = [ModelSensor(model.model, link.name, sensor) for link in model.model.links for sensor in link.sensors]
+    for sensor in sensors:
+        if sensor.sensor.name == name:
+            return sensor
+    raise UsageError(
+        f"no sensor {name!r}; sensors here: {', '.join(sensor.sensor.name for sensor in sensors) or 'none'}"
+    )

@@ -11,7 +11,7 @@ from trundle.ros import Message
 from trundle.ros.bridge import sensor_topic
 from trundle.sim.simulation import ModelHandle
 
-from ..gazebo_ros.plugin_names import Outlet, PluginNames
+from ..gazebo_ros.plugin_names import PluginNames, TopicPublisher
 
 _SIDES = ("left", "center", "right")
 _BITS = {"left": 4, "center": 2, "right": 1}
@@ -24,7 +24,7 @@ _STAMP_MOD_MS = 1 << 16
 
 @dataclass(frozen=True, slots=True)
 class ModelSensor:
-    """Sensor of the model, read by its topic."""
+    """Sensor of the model, read on its topic."""
 
     model: Model
     link: str
@@ -36,25 +36,25 @@ class ModelSensor:
 
 
 class _EventPublisher:
-    """Switches of one kind; publishes an event when one changes."""
+    """Switches of one kind; each change is published as an event."""
 
-    def __init__(self, publisher: Outlet, field: str, order: Iterable[str]) -> None:
+    def __init__(self, publisher: TopicPublisher, field: str, order: Iterable[str]) -> None:
         self._publisher = publisher
         self._field = field
         self._order = list(order)
         self.on: set[str] = set()
 
-    def set(self, side: str, *, on: bool, **more: int) -> None:
+    def set(self, side: str, *, on: bool, **fields: int) -> None:
         """Set one switch."""
         if on == (side in self.on):
             return
         self.on = self.on | {side} if on else self.on - {side}
         if self._publisher.has_subscribers:
-            self._publisher.publish({self._field: self._order.index(side), "state": int(on), **more})
+            self._publisher.publish({self._field: self._order.index(side), "state": int(on), **fields})
 
 
 class KobukiSensors:
-    """Reads the model's contact and ray sensors by their topics.
+    """Reads the model's contact and ray sensors on their topics.
 
     Parameters: <bumper_name> (a contact sensor), <cliff_sensor_left_name>, <cliff_sensor_center_name>,
     <cliff_sensor_right_name> (ray sensors) and <cliff_detection_threshold> [m], all required; without
@@ -72,14 +72,14 @@ class KobukiSensors:
         """Subscribe.
 
         Args:
-            model: of the bumper.
-            names: of the plugin.
-            base: prefix of its topics, in the plugin's namespace.
-            parameters: of the plugin.
-            sensor: returns the sensor that a parameter names.
+            model: model of the sensors.
+            names: plugin's names.
+            base: prefix of the topics, in the plugin's namespace.
+            parameters: plugin's parameters.
+            sensor: function that returns the sensor in a parameter.
         """
         self._model = model
-        self._edge_m = parameters.number("cliff_detection_threshold", 0.0)
+        self._cliff_m = parameters.number("cliff_detection_threshold", 0.0)
 
         def switches(name: str, kind: str, field: str, order: Iterable[str]) -> _EventPublisher:
             publisher = names.advertise(f"kobuki_msgs/{kind}Event", f"{base}/events/{name}", queue_size=10)
@@ -133,7 +133,7 @@ class KobukiSensors:
             for position, normal in zip(state.contact_positions, state.contact_normals, strict=True):
                 if not _BUMPER_M[0] <= position.z - height <= _BUMPER_M[1]:
                     continue
-                bearing = math.remainder(math.atan2(-normal.y, -normal.x) - yaw, math.tau)  # it points inwards
+                bearing = math.remainder(math.atan2(-normal.y, -normal.x) - yaw, math.tau)  # normals point inwards
                 if abs(bearing) <= math.pi / 6:
                     pressed.add("center")
                 elif abs(bearing) <= math.pi / 2:
@@ -147,8 +147,8 @@ class KobukiSensors:
 
     def _on_cliff(self, side: str, scan: Message) -> None:
         """Update a cliff sensor by the scan's first ray; no hit counts as the largest range."""
-        seen = float(scan.ranges[0])
-        distance = seen if math.isfinite(seen) else float(scan.range_max)
-        # The reading of the robot's own sensor at that distance (updateCliffSensor of the original), as 16 bits.
+        range_m = float(scan.ranges[0])
+        distance = range_m if math.isfinite(range_m) else float(scan.range_max)
+        # The real sensor's 16-bit reading at that distance (updateCliffSensor of the original).
         raw = int(76123.0 * math.atan2(0.995, distance)) & 0xFFFF
-        self._cliffs.set(side, on=distance >= self._edge_m, bottom=raw)
+        self._cliffs.set(side, on=distance >= self._cliff_m, bottom=raw)

@@ -34,8 +34,8 @@ class AckermannSteering:
         self._wheel = context.joint(settings.text("rear_wheel", "rear_wheel_joint"), "VelocityJointInterface")
         self._steer = context.joint(settings.text("front_steer", "front_steer_joint"), "PositionJointInterface")
         self.claims: dict[Interface | str, list[str]] = {j.interface: [j.name] for j in (self._wheel, self._steer)}
-        apart = abs(origin(context, self._wheel)[0] - origin(context, self._steer)[0])
-        base = length(context, "wheel_separation_h", apart or None)
+        distance = abs(origin(context, self._wheel)[0] - origin(context, self._steer)[0])
+        base = length(context, "wheel_separation_h", distance or None)
         self._radius = wheel_radius(context, self._wheel)
         self._rolled_radius = self._radius * settings.number("wheel_radius_multiplier", 1.0)
         self._base = base * settings.number("wheel_separation_h_multiplier", 1.0)
@@ -53,7 +53,7 @@ class AckermannSteering:
         )
         self._endpoints.add(self._commands)
         self._is_running = False
-        self._place = (0.0, 0.0, 0.0)
+        self._pose = (0.0, 0.0, 0.0)
         """x, y [m] and yaw [rad]."""
         self._history = [(0.0, 0.0), (0.0, 0.0)]
         """(last, last but one) command: linear, angular."""
@@ -69,21 +69,21 @@ class AckermannSteering:
             joint.start()
             joint.command = 0.0
         self._odometry.restart(time_ns)
-        self._turned = self._wheel.position
+        self._last_position = self._wheel.position
         self._command: tuple[int, float, float] | None = None
         self._speeds: deque[tuple[float, float]] = deque(maxlen=self._window)
         self._is_running = True
 
     def update(self, time_ns: int, dt: float) -> None:
         """Update and publish odometry, and write the limited command."""
-        self._count(dt)
+        self._update_odometry(dt)
         if self._odometry.due(time_ns, dt):
             count = max(1, len(self._speeds))
             linear, angular = (sum(speed[i] for speed in self._speeds) / count for i in (0, 1))
-            self._odometry.publish(time_ns, self._place, (linear, 0.0, angular))
-        for number, wanted in enumerate(self._current_command(time_ns)):
-            last, before = self._history[number]
-            self._history[number] = (self._limits[number].limit(wanted, last, before, dt), last)
+            self._odometry.publish(time_ns, self._pose, (linear, 0.0, angular))
+        for index, target in enumerate(self._current_command(time_ns)):
+            last, previous = self._history[index]
+            self._history[index] = (self._limits[index].limit(target, last, previous, dt), last)
         (linear, _), (angle, _) = self._history
         self._wheel.command = linear / self._radius
         self._steer.command = angle
@@ -116,21 +116,21 @@ class AckermannSteering:
             return 0.0, 0.0
         return self._command[1:]
 
-    def _count(self, dt: float) -> None:
+    def _update_odometry(self, dt: float) -> None:
         if self._open_loop:
             distance, turn = (last * dt for last, _ in self._history)
         else:
-            turned, self._turned = self._wheel.position - self._turned, self._wheel.position
-            distance = turned * self._rolled_radius
+            rotation, self._last_position = self._wheel.position - self._last_position, self._wheel.position
+            distance = rotation * self._rolled_radius
             turn = math.tan(self._steer.position * self._steer_multiplier) * distance / self._base
-        self._place = arc(self._place, distance, turn)
+        self._pose = arc(self._pose, distance, turn)
         if dt > 0.0:
             self._speeds.append((distance / dt, turn / dt))
 
 
-def arc(place: tuple[float, float, float], distance: float, turn: float) -> tuple[float, float, float]:
-    """Planar pose (x, y [m], yaw [rad]) after an arc of a length [m] and turn [rad]."""
-    x, y, yaw = place
+def arc(pose: tuple[float, float, float], distance: float, turn: float) -> tuple[float, float, float]:
+    """Return the planar pose (x, y [m], yaw [rad]) after an arc with a length [m] and turn [rad]."""
+    x, y, yaw = pose
     if abs(turn) < _STRAIGHT_RAD:
         return x + distance * math.cos(yaw + turn / 2), y + distance * math.sin(yaw + turn / 2), yaw + turn
     radius = distance / turn

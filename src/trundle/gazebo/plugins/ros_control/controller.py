@@ -1,4 +1,4 @@
-"""Protocol of ros_control's controllers, and what they share."""
+"""Protocol of ros_control's controllers, and their shared parts."""
 
 import math
 from collections.abc import Sequence
@@ -31,20 +31,20 @@ class ControllerContext:
     model: ModelHandle
 
     def joint(self, name: str, interface: Interface | None) -> JointHardware:
-        """Joint with the interface that a controller needs; None: any.
+        """Return a joint with an interface; None: any.
 
         Raises:
-            ParamError: no such joint; the message lists those there are.
+            ParamError: no such joint; the message lists the joints with that interface.
         """
-        found = self.hardware.get(name)
-        there = ", ".join(sorted(j.name for j in self.hardware.values() if interface in (None, j.interface)))
-        if found is None or interface not in (None, found.interface):
-            wanted = "" if interface is None else f" with {interface}"
-            raise ParamError(f"{self.name}: no joint {name!r}{wanted}; there are: {there or 'none'}")
-        return found
+        joint = self.hardware.get(name)
+        names = ", ".join(sorted(j.name for j in self.hardware.values() if interface in (None, j.interface)))
+        if joint is None or interface not in (None, joint.interface):
+            suffix = "" if interface is None else f" with {interface}"
+            raise ParamError(f"{self.name}: no joint {name!r}{suffix}; joints: {names or 'none'}")
+        return joint
 
     def joint_setting(self) -> list[str]:
-        """Names of the parameter `joints`, or `joint`.
+        """Return the joint names in the parameter `joints`, or `joint`.
 
         Raises:
             ParamError: neither is set.
@@ -73,7 +73,7 @@ class Controller(Protocol):
         ...
 
     def start(self, time_ns: int) -> None:
-        """Start; the joints were read just before."""
+        """Start; called just after the joints are read."""
         ...
 
     def update(self, time_ns: int, dt: float) -> None:
@@ -96,21 +96,21 @@ class InStepController:
     """Laws in C++ that command its joints at every step."""
 
     def due_ns(self, time_ns: int) -> float:
-        """Return when `update` is due again after a time at which it was [ns]."""
+        """Return the time of the next `update` after an update [ns]."""
         del time_ns
         return math.inf
 
     def update(self, time_ns: int, dt: float) -> None:
-        """Continue as after a stride, and publish what is due; the laws were updated just before."""
+        """Finish the stride and publish due messages; called just after the laws' update."""
         del time_ns, dt
         self.finish_stride()
 
     def finish_stride(self) -> None:
-        """Continue after the steps of a stride, which a law may have ended with an event."""
+        """Handle the event, if any, with which a law ended the stride."""
 
 
 def group_command(message: "std_msgs.Float64MultiArray", count: int, node: Node) -> list[float]:
-    """Values of a std_msgs/Float64MultiArray for `count` joints; empty, with an error logged, if invalid."""
+    """Return the values of a std_msgs/Float64MultiArray for `count` joints; log an error and return [] if invalid."""
     values = [float(value) for value in message.data]
     if len(values) != count:
         node.log.error(
@@ -121,24 +121,24 @@ def group_command(message: "std_msgs.Float64MultiArray", count: int, node: Node)
 
 
 class Endpoints:
-    """Topics and services of a controller, to unregister with it."""
+    """Topics and services that a controller unregisters when it closes."""
 
     def __init__(self) -> None:
         self._endpoints: list[Publisher | Subscription | Service | ReconfigureServer] = []
 
-    def add(self, *ends: Publisher | Subscription | Service | ReconfigureServer) -> None:
+    def add(self, *endpoints: Publisher | Subscription | Service | ReconfigureServer) -> None:
         """Add endpoints."""
-        self._endpoints.extend(ends)
+        self._endpoints.extend(endpoints)
 
     def close(self) -> None:
         """Unregister all."""
-        for end in self._endpoints:
-            end.unregister()
+        for endpoint in self._endpoints:
+            endpoint.unregister()
         self._endpoints.clear()
 
 
 class PublishTimer:
-    """Timer of a rate in simulation time."""
+    """Timer with a rate in simulation time."""
 
     def __init__(self, rate_hz: float) -> None:
         self._period_ns = round(1e9 / rate_hz)
@@ -150,17 +150,17 @@ class PublishTimer:
 
     @property
     def next_ns(self) -> float:
-        """Time at which the period has passed [ns]."""
+        """End of the current period [ns]."""
         return self._last_ns + self._period_ns
 
     def skip(self, time_ns: int, dt: float) -> None:
-        """Skip the periods that ended before a control period [s]: it had no listeners."""
+        """Skip the periods that ended before this control period [s], while there was no subscriber."""
         passed_ns = time_ns - round(dt * 1e9) - self._last_ns
         if self._period_ns <= passed_ns < math.inf:
             self._last_ns += passed_ns // self._period_ns * self._period_ns
 
     def due(self, time_ns: int) -> bool:
-        """Return True if a period has passed; the next then begins."""
+        """Return True if a period has passed; then start the next."""
         if time_ns < self._last_ns:  # the simulation was reset
             self._last_ns = time_ns
         if time_ns < self._last_ns + self._period_ns:

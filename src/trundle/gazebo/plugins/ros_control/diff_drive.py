@@ -37,7 +37,7 @@ class DiffDriveController(InStepController):
         self._right = [context.joint(name, _VELOCITY) for name in joint_names(settings, "right_wheel")]
         if len(self._left) != len(self._right):
             raise ParamError(
-                f"{context.name}: {len(self._left)} left wheels, but {len(self._right)} right ones; as many are needed"
+                f"{context.name}: {len(self._left)} left wheels, but {len(self._right)} right ones; use as many of each"
             )
         self.claims: dict[Interface | str, list[str]] = {_VELOCITY: [j.name for j in (*self._left, *self._right)]}
         drive = self._geometry(settings)
@@ -90,7 +90,7 @@ class DiffDriveController(InStepController):
 
     def due_ns(self, time_ns: int) -> float:
         """Return the time of the next message [ns]."""
-        return time_ns if self._hears_limited else self._odometry.next_ns
+        return time_ns if self._limited_has_subscribers else self._odometry.next_ns
 
     def update(self, time_ns: int, dt: float) -> None:
         """Publish odometry and the limited command."""
@@ -98,14 +98,14 @@ class DiffDriveController(InStepController):
             speeds = self._law.speeds
             linear, angular = (sum(speed[i] for speed in speeds) / max(1, len(speeds)) for i in (0, 1))
             self._odometry.publish(time_ns, self._law.place, (linear, 0.0, angular))
-        if self._limited_topic is not None and self._hears_limited:
+        if self._limited_topic is not None and self._limited_has_subscribers:
             linear, angular = self._law.limited
             header = {"stamp": time_ns, "frame_id": self._odometry.base}
             twist = {"linear": {"x": linear}, "angular": {"z": angular}}
             self._limited_topic.publish({"header": header, "twist": twist})
 
     @property
-    def _hears_limited(self) -> bool:
+    def _limited_has_subscribers(self) -> bool:
         return self._limited_topic is not None and self._limited_topic.has_subscribers
 
     def stop(self) -> None:
@@ -125,7 +125,7 @@ class DiffDriveController(InStepController):
             self._context.node.log.warn("Received NaN in velocity command. Ignoring.")
 
     def _geometry(self, settings: RosParameters) -> DifferentialDrive:
-        """Geometry by the parameters, else from the model."""
+        """Return the geometry from the parameters, else from the model."""
         context, left, right = self._context, self._left[0], self._right[0]
         separation = length(context, "wheel_separation", math.dist(origin(context, left), origin(context, right)))
         return DifferentialDrive(

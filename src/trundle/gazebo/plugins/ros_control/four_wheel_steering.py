@@ -61,7 +61,7 @@ class FourWheelDrive:
         )
         settings.flag("open_loop", default=False)  # without effect in the original, too
         self._is_running = False
-        self._place = (0.0, 0.0, 0.0)
+        self._pose = (0.0, 0.0, 0.0)
         """x, y [m] and yaw [rad]."""
         self._history = [(0.0, 0.0), (0.0, 0.0)]
         """(last, last but one) command: linear, angular."""
@@ -90,17 +90,17 @@ class FourWheelDrive:
         speeds: Wheels = tuple(joint.velocity for joint in self._wheels)  # pyright: ignore[reportAssignmentType]
         fl, fr, rl, rr = (joint.position for joint in self._steers)
         front, rear = axle_angle(fl, fr), axle_angle(rl, rr)
-        forward, sideways, turning = self._law.forward_kinematics(speeds, front, rear)
-        x, y, yaw = self._place
+        forward, sideways, yaw_rate = self._law.forward_kinematics(speeds, front, rear)
+        x, y, yaw = self._pose
         cos, sin = math.cos(yaw), math.sin(yaw)
-        self._place = (
+        self._pose = (
             x + (forward * cos - sideways * sin) * dt,
             y + (forward * sin + sideways * cos) * dt,
-            yaw + turning * dt,
+            yaw + yaw_rate * dt,
         )
         self._samples.append((math.copysign(math.hypot(forward, sideways), forward), front, rear, dt))
         if self._odometry.due(time_ns, dt):
-            self._odometry.publish(time_ns, self._place, (forward, sideways, turning))
+            self._odometry.publish(time_ns, self._pose, (forward, sideways, yaw_rate))
             self._publish_angles(time_ns)
         self._drive(time_ns, dt)
 
@@ -122,23 +122,23 @@ class FourWheelDrive:
             speed, front, rear = (speed, front, rear) if time_ns - stamp <= self._timeout_ns else (0.0, 0.0, 0.0)
             speeds, angles = self._law.command_for_angles(self._limited(0, speed, dt), front, rear)
         else:
-            stamp, forward, turning = self._twist
-            forward, turning = (forward, turning) if time_ns - stamp <= self._timeout_ns else (0.0, 0.0)
-            speeds, angles = self._law.command_for_twist(self._limited(0, forward, dt), self._limited(1, turning, dt))
+            stamp, forward, yaw_rate = self._twist
+            forward, yaw_rate = (forward, yaw_rate) if time_ns - stamp <= self._timeout_ns else (0.0, 0.0)
+            speeds, angles = self._law.command_for_twist(self._limited(0, forward, dt), self._limited(1, yaw_rate, dt))
         for joint, command in zip((*self._wheels, *self._steers), (*speeds, *angles), strict=True):
             joint.command = command
 
-    def _limited(self, number: int, wanted: float, dt: float) -> float:
-        last, before = self._history[number]
-        limited = self._limits[number].limit(wanted, last, before, dt)
-        self._history[number] = (limited, last)
+    def _limited(self, index: int, target: float, dt: float) -> float:
+        last, previous = self._history[index]
+        limited = self._limits[index].limit(target, last, previous, dt)
+        self._history[index] = (limited, last)
         return limited
 
     def _publish_angles(self, time_ns: int) -> None:
         if not self._steering_topic.has_subscribers:
             return
         first, last = self._samples[0], self._samples[-1]
-        elapsed = sum(each[3] for each in list(self._samples)[1:])
+        elapsed = sum(sample[3] for sample in list(self._samples)[1:])
         rates = [(b - a) / elapsed if elapsed > 0.0 else 0.0 for a, b in zip(first[:3], last[:3], strict=True)]
         data: dict[str, Any] = {
             "speed": last[0],
@@ -170,12 +170,12 @@ class FourWheelDrive:
         return False
 
     def _geometry(self, context: ControllerContext) -> FourWheelSteering:
-        """Geometry by the parameters, else from the model."""
+        """Return the geometry from the parameters, else from the model."""
         front, rear, steer = self._wheels[0], self._wheels[2], self._steers[0]
         offset = math.dist(origin(context, steer), origin(context, front))
-        between = math.dist(origin(context, front), origin(context, self._wheels[1]))
+        front_distance = math.dist(origin(context, front), origin(context, self._wheels[1]))
         return FourWheelSteering(
-            track=length(context, "track", between) - 2 * offset,
+            track=length(context, "track", front_distance) - 2 * offset,
             offset=offset,
             radius=wheel_radius(context, front),
             base=length(context, "wheel_base", math.dist(origin(context, front), origin(context, rear))),
@@ -183,8 +183,8 @@ class FourWheelDrive:
 
 
 def _pair(context: ControllerContext, name: str, interface: Interface) -> list[JointHardware]:
-    """Left and right joint of a parameter."""
+    """Return the left and the right joint of a parameter."""
     names = joint_names(context.settings, name)
     if len(names) != 2:
         raise ParamError(f"parameter {context.name}/{name} must be a left and a right joint, got {', '.join(names)}")
-    return [context.joint(each, interface) for each in names]
+    return [context.joint(joint, interface) for joint in names]

@@ -7,8 +7,8 @@ from trundle.sim.control import ToolboxPid
 from .controller import Endpoints
 
 _MAX_P = 100_000.0
-_MOST = 1_000.0
-"""Bounds of p, and of all else, from control_toolbox."""
+_MAX_GAIN = 1_000.0
+"""Bounds of p and of the other gains, from control_toolbox."""
 
 
 def reconfigurable_pid(node: Node, settings: RosParameters, endpoints: Endpoints) -> ToolboxPid:
@@ -17,9 +17,9 @@ def reconfigurable_pid(node: Node, settings: RosParameters, endpoints: Endpoints
     dynamic_reconfigure changes them at run time, as in control_toolbox.
 
     Args:
-        node: of the robot; its callbacks run on the thread that uses the gains.
+        node: robot's node; its callbacks run on the thread that uses the gains.
         settings: parameters of the gains.
-        endpoints: unregister the reconfigure server with the gains' owner.
+        endpoints: endpoints to which the reconfigure server is added.
 
     Raises:
         ParamError: p is missing, or a gain is not a number.
@@ -27,13 +27,21 @@ def reconfigurable_pid(node: Node, settings: RosParameters, endpoints: Endpoints
     pid = _read_pid(settings)
     options = (
         Option(name="p", value=pid.p, lower=-_MAX_P, upper=_MAX_P, description="Proportional gain"),
-        Option(name="i", value=pid.i, lower=-_MOST, upper=_MOST, description="Integral gain"),
-        Option(name="d", value=pid.d, lower=-_MOST, upper=_MOST, description="Derivative gain"),
+        Option(name="i", value=pid.i, lower=-_MAX_GAIN, upper=_MAX_GAIN, description="Integral gain"),
+        Option(name="d", value=pid.d, lower=-_MAX_GAIN, upper=_MAX_GAIN, description="Derivative gain"),
         Option(
-            name="i_clamp_min", value=-pid.i_clamp, lower=-_MOST, upper=0.0, description="Minimum of the integral term"
+            name="i_clamp_min",
+            value=-pid.i_clamp,
+            lower=-_MAX_GAIN,
+            upper=0.0,
+            description="Minimum of the integral term",
         ),
         Option(
-            name="i_clamp_max", value=pid.i_clamp, lower=0.0, upper=_MOST, description="Maximum of the integral term"
+            name="i_clamp_max",
+            value=pid.i_clamp,
+            lower=0.0,
+            upper=_MAX_GAIN,
+            description="Maximum of the integral term",
         ),
         Option(name="antiwindup", value=pid.antiwindup, description="Stop the integral at its clamp"),
     )

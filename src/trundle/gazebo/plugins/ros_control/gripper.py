@@ -42,7 +42,7 @@ class GripperController(InStepController):
         )
         self.laws = (self._law,)
         self._is_running = False
-        self._settled: Callable[[ActionOutcome], None] | None = None
+        self._settle_goal: Callable[[ActionOutcome], None] | None = None
         self._server = ActionServer(
             context.node, f"{context.name}/gripper_cmd", "control_msgs/GripperCommand", self._on_goal, side_by_side=True
         )
@@ -58,7 +58,7 @@ class GripperController(InStepController):
         self._is_running = True
 
     def finish_stride(self) -> None:
-        """Settle the action at its end."""
+        """Settle the goal at its end."""
         reached = self._law.take_event()
         if reached is not None:
             self._settle("succeeded" if reached else "aborted", reached=reached)
@@ -79,8 +79,8 @@ class GripperController(InStepController):
         """Run a goal to its end; on the loop."""
         ended: asyncio.Future[ActionOutcome] = asyncio.get_running_loop().create_future()
 
-        def settle(outcome: ActionOutcome) -> None:
-            self._node.loop.call_soon(lambda: None if ended.done() else ended.set_result(outcome))
+        def settle(result: ActionOutcome) -> None:
+            self._node.loop.call_soon(lambda: None if ended.done() else ended.set_result(result))
 
         def begin() -> None:
             if not self._is_running:
@@ -90,11 +90,11 @@ class GripperController(InStepController):
             self._node.loop.call_soon(accept)
             command = goal.command
             self._law.begin(float(command.position), float(command.max_effort), self._node.clock.now_ns())
-            self._settled, self._law.watches = settle, True
+            self._settle_goal, self._law.watches = settle, True
 
         def abandon() -> None:
-            if self._settled is settle:
-                self._settled, self._law.watches = None, False
+            if self._settle_goal is settle:
+                self._settle_goal, self._law.watches = None, False
                 self._law.hold()
 
         assert self._node.deliver is not None, "plugins' nodes deliver to the simulation's thread"
@@ -106,9 +106,9 @@ class GripperController(InStepController):
             raise
 
     def _settle(self, status: Any, *, reached: bool) -> None:
-        if self._settled is None:
+        if self._settle_goal is None:
             return
-        settle, self._settled = self._settled, None
+        settle, self._settle_goal = self._settle_goal, None
         self._law.watches = False
         joint = self._joint
         result = {"position": joint.position, "effort": joint.effort, "stalled": not reached, "reached_goal": reached}

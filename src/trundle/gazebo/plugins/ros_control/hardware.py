@@ -1,4 +1,4 @@
-"""Joints as controllers see them: a state to read, and a command to write."""
+"""Joints as ros_control's hardware: a state to read, and a command to write."""
 
 import math
 from collections.abc import Mapping
@@ -9,7 +9,7 @@ from trundle.sim.simulation import JointHandle
 
 from .transmissions import Interface
 
-_NUMBERS: dict[Interface, int] = {
+_INTERFACE_NUMBERS: dict[Interface, int] = {
     "EffortJointInterface": 0,
     "VelocityJointInterface": 1,
     "PositionJointInterface": 2,
@@ -23,7 +23,7 @@ class JointHardware(ServoJoint):
         """Wrap a joint.
 
         Args:
-            handle: the simulation's joint; it has an axis.
+            handle: simulation's joint; it has an axis.
             interface: meaning of commands.
             pid: efforts from position or velocity errors; None: position or velocity is driven directly.
             lag_s: time constant of driven positions [s]; gazebo_ros_control sets them at once, through obstacles.
@@ -33,7 +33,7 @@ class JointHardware(ServoJoint):
         range_ = axis.lower, axis.upper
         super().__init__(
             handle.motor,
-            _NUMBERS[interface],
+            _INTERFACE_NUMBERS[interface],
             pid,
             lag_s=lag_s,
             range=range_,

@@ -15,8 +15,8 @@ class JointStateController(InStepController):
     def __init__(self, context: ControllerContext) -> None:
         self.claims: dict[Interface | str, list[str]] = {}
         settings = context.settings
-        named = settings.texts("joints")
-        self._joints = [context.joint(name, None) for name in named] or [
+        names = settings.texts("joints")
+        self._joints = [context.joint(name, None) for name in names] or [
             context.hardware[name] for name in sorted(context.hardware)
         ]
         extra = settings.sections("extra_joints")

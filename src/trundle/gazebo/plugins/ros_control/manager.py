@@ -30,17 +30,17 @@ class _Loaded:
 
 
 class ControllerManager:
-    """Services `<robot>/controller_manager/…`; all of it runs on the simulation's thread."""
+    """Services `<robot>/controller_manager/…`, all on the simulation's thread."""
 
     def __init__(self, node: Node, namespace: str, hardware: Hardware, servo: Servo, model: ModelHandle) -> None:
         """Advertise.
 
         Args:
             node: advertises the services.
-            namespace: of the robot: '/' or '/rrbot'.
-            hardware: joints of the robot.
-            servo: runs the laws of controllers.
-            model: of the joints.
+            namespace: robot's namespace: '/' or '/rrbot'.
+            hardware: robot's joints.
+            servo: runner of the controllers' laws.
+            model: robot's model.
         """
         self._node = node
         self._namespace = namespace.rstrip("/")
@@ -65,13 +65,13 @@ class ControllerManager:
             controller.update(time_ns, dt)
 
     def due_ns(self, time_ns: int) -> float | None:
-        """Return when `update` is due again after a time at which it was [ns]; None: at every step."""
+        """Return the time of the next `update` after an update [ns]; None: at every step."""
         running = self._running
-        due_ns = [each.due_ns(time_ns) for each in running if isinstance(each, InStepController)]
+        due_ns = [controller.due_ns(time_ns) for controller in running if isinstance(controller, InStepController)]
         return min(due_ns, default=math.inf) if len(due_ns) == len(running) else None
 
     def finish_stride(self) -> None:
-        """Let the controllers continue that act in C++."""
+        """Finish the stride of the controllers with laws in C++."""
         for controller in self._running:
             if isinstance(controller, InStepController):
                 controller.finish_stride()
@@ -156,12 +156,12 @@ class ControllerManager:
         stops, starts = (
             [str(name) for name in names] for names in (request.stop_controllers, request.start_controllers)
         )
-        wrong = [
+        errors = [
             self._switch_error(name, state) for names, state in ((stops, "running"), (starts, "")) for name in names
         ]
-        for what in filter(None, wrong):
-            self._node.log.error(what)
-        if strict and any(wrong):
+        for error in filter(None, errors):
+            self._node.log.error(error)
+        if strict and any(errors):
             return False
         stops = [n for n in stops if n in self._loaded and self._loaded[n].state == "running"]
         starts = [n for n in starts if n in self._loaded and (n in stops or self._loaded[n].state != "running")]
@@ -177,12 +177,12 @@ class ControllerManager:
         for name in starts:
             self._loaded[name].controller.start(self._servo.time_ns)
             self._loaded[name].state = "running"
-        running = [each for each in self._running if isinstance(each, InStepController)]
-        self._servo.set_laws([law for each in running for law in each.laws])
+        running = [controller for controller in self._running if isinstance(controller, InStepController)]
+        self._servo.set_laws([law for controller in running for law in controller.laws])
         return True
 
     def _switch_error(self, name: str, state: str) -> str:
-        """Reason why a controller cannot be stopped (`state` "running") or started (""); empty: it can."""
+        """Return why a controller cannot be stopped (`state` "running") or started (""); empty: it can."""
         loaded = self._loaded.get(name)
         if loaded is None:
             verb = "stop" if state else "start"
@@ -194,12 +194,14 @@ class ControllerManager:
         return ""
 
     def _conflict(self, stops: list[str], starts: list[str]) -> str:
-        """Message on two controllers that would command one joint; empty: none."""
+        """Return an error message if two controllers would command one joint; empty: no conflict."""
         runs = [n for n, loaded in self._loaded.items() if loaded.state == "running" and n not in stops]
         claimed: dict[str, str] = {}
         for name in (*runs, *starts):
             for joint in (joint for joints in self._loaded[name].controller.claims.values() for joint in joints):
                 if claimed.setdefault(joint, name) != name:
-                    both = f"'{claimed[joint]}' and '{name}'"
-                    return f"Resource conflict: joint '{joint}' would be commanded by {both}; nothing was switched"
+                    controllers = f"'{claimed[joint]}' and '{name}'"
+                    return (
+                        f"Resource conflict: joint '{joint}' would be commanded by {controllers}; nothing was switched"
+                    )
         return ""

@@ -44,7 +44,7 @@ class MecanumDriveController:
             context.node.subscribe(f"{context.name}/cmd_vel", "geometry_msgs/Twist", self._on_command, queue_size=1)
         )
         self._is_running = False
-        self._place = (0.0, 0.0, 0.0)
+        self._pose = (0.0, 0.0, 0.0)
         """x, y [m] and yaw [rad]."""
         self._history = [(0.0, 0.0)] * 3
         """(last, last but one) command: forward, left, turning."""
@@ -67,20 +67,20 @@ class MecanumDriveController:
     def update(self, time_ns: int, dt: float) -> None:
         """Update and publish odometry, and write the limited command."""
         front_left, front_right, rear_left, rear_right = (joint.velocity for joint in self._wheels)
-        twist = forward, left, turning = self._law.twist((front_left, front_right, rear_left, rear_right))
-        x, y, yaw = self._place
-        middle = yaw + turning * dt / 2
-        cos, sin = math.cos(middle), math.sin(middle)
-        self._place = (x + (forward * cos - left * sin) * dt, y + (forward * sin + left * cos) * dt, yaw + turning * dt)
+        twist = forward, left, yaw_rate = self._law.twist((front_left, front_right, rear_left, rear_right))
+        x, y, yaw = self._pose
+        mid_yaw = yaw + yaw_rate * dt / 2
+        cos, sin = math.cos(mid_yaw), math.sin(mid_yaw)
+        self._pose = (x + (forward * cos - left * sin) * dt, y + (forward * sin + left * cos) * dt, yaw + yaw_rate * dt)
         if self._odometry.due(time_ns, dt):
-            self._odometry.publish(time_ns, self._place, twist)
+            self._odometry.publish(time_ns, self._pose, twist)
         stamp, command = self._command
-        wanted = command if time_ns - stamp <= self._timeout_ns else (0.0, 0.0, 0.0)
-        for number, value in enumerate(wanted):
-            last, before = self._history[number]
-            self._history[number] = (self._limits[number].limit(value, last, before, dt), last)
-        (forward, _), (left, _), (turning, _) = self._history
-        for joint, speed in zip(self._wheels, self._law.wheel_speeds(forward, left, turning), strict=True):
+        targets = command if time_ns - stamp <= self._timeout_ns else (0.0, 0.0, 0.0)
+        for index, target in enumerate(targets):
+            last, previous = self._history[index]
+            self._history[index] = (self._limits[index].limit(target, last, previous, dt), last)
+        (forward, _), (left, _), (yaw_rate, _) = self._history
+        for joint, speed in zip(self._wheels, self._law.wheel_speeds(forward, left, yaw_rate), strict=True):
             joint.command = speed
 
     def stop(self) -> None:
@@ -103,12 +103,12 @@ class MecanumDriveController:
             self._node.log.warn("Received NaN in velocity command. Ignoring.")
 
     def _geometry(self, context: ControllerContext) -> MecanumDrive:
-        """Geometry by the parameters, else from the model."""
+        """Return the geometry from the parameters, else from the model."""
         settings = context.settings
         front_left, front_right, rear_left, _ = (origin(context, wheel) for wheel in self._wheels)
-        along = length(context, "wheel_separation_x", abs(front_left[0] - rear_left[0]) or None)
-        across = length(context, "wheel_separation_y", abs(front_left[1] - front_right[1]) or None)
+        length_x = length(context, "wheel_separation_x", abs(front_left[0] - rear_left[0]) or None)
+        length_y = length(context, "wheel_separation_y", abs(front_left[1] - front_right[1]) or None)
         return MecanumDrive(
             radius=wheel_radius(context, self._wheels[0]) * settings.number("wheel_radius_multiplier", 1.0, above=0.0),
-            reach=(along + across) / 2 * settings.number("wheel_separation_multiplier", 1.0, above=0.0),
+            reach=(length_x + length_y) / 2 * settings.number("wheel_separation_multiplier", 1.0, above=0.0),
         )

@@ -1,4 +1,4 @@
-"""Controllers with a PID loop around one joint, or around each of a group."""
+"""Controllers with a PID loop for one joint, or for each joint of a group."""
 
 import math
 from typing import ClassVar, Self
@@ -11,7 +11,7 @@ from .controller import ControllerContext, Endpoints, InStepController, group_co
 from .gains import reconfigurable_pid
 from .transmissions import Interface
 
-_STATE_EVERY = 10
+_UPDATES_PER_STATE = 10
 """Updates per message on `~state`, as in the original."""
 
 
@@ -20,7 +20,7 @@ class PidController(InStepController):
     (control_msgs/JointControllerState)."""
 
     interface: ClassVar[Interface]
-    of_speed: ClassVar[bool] = False
+    is_velocity: ClassVar[bool] = False
 
     def __init__(self, context: ControllerContext) -> None:
         joint = context.joint(context.settings.text("joint"), self.interface)
@@ -28,7 +28,7 @@ class PidController(InStepController):
         self._endpoints = Endpoints()
         self._joint = joint
         self._pid = reconfigurable_pid(context.node, context.settings.section("pid"), self._endpoints)
-        self._loop = PidLoop(joint, self._pid, self.of_speed)
+        self._loop = PidLoop(joint, self._pid, self.is_velocity)
         self.laws = (self._loop,)
         self._state = context.node.advertise(f"{context.name}/state", "control_msgs/JointControllerState", queue_size=1)
         commands = context.node.subscribe(f"{context.name}/command", "std_msgs/Float64", self._on_command, queue_size=1)
@@ -47,11 +47,11 @@ class PidController(InStepController):
         """Return the time of the next message [ns]."""
         if not self._state.has_subscribers:
             return math.inf
-        return time_ns + (_STATE_EVERY - self._loop.updates % _STATE_EVERY) * self._loop.period_ns
+        return time_ns + (_UPDATES_PER_STATE - self._loop.updates % _UPDATES_PER_STATE) * self._loop.period_ns
 
     def update(self, time_ns: int, dt: float) -> None:
         """Publish when due."""
-        if self._loop.updates % _STATE_EVERY == 0 and self._state.has_subscribers:
+        if self._loop.updates % _UPDATES_PER_STATE == 0 and self._state.has_subscribers:
             self._publish_state(time_ns, dt)
 
     def stop(self) -> None:
@@ -72,8 +72,8 @@ class PidController(InStepController):
             {
                 "header": {"stamp": time_ns},
                 "set_point": loop.target,
-                "process_value": joint.velocity if self.of_speed else joint.position,
-                "process_value_dot": 0.0 if self.of_speed else joint.velocity,
+                "process_value": joint.velocity if self.is_velocity else joint.position,
+                "process_value_dot": 0.0 if self.is_velocity else joint.velocity,
                 "error": loop.error(),
                 "time_step": dt,
                 "command": joint.command,
@@ -138,7 +138,7 @@ class EffortVelocity(PidController):
     """effort_controllers/JointVelocityController."""
 
     interface = "EffortJointInterface"
-    of_speed = True
+    is_velocity = True
 
 
 class VelocityPosition(PidController):

@@ -20,7 +20,7 @@ from .transmissions import read_transmissions
 _DEFAULT_SIM = "gazebo_ros_control/DefaultRobotHWSim"
 _POLL_S = 0.5
 _LAG_STEPS = 5
-_OLD_INDIGO = "legacyModeNS"
+_LEGACY_PARAMETER = "legacyModeNS"
 
 
 class GazeboRosControl(Plugin):
@@ -29,7 +29,7 @@ class GazeboRosControl(Plugin):
     Parameters: <robotNamespace> (the model's name), <robotParam> (robot_description), <robotSimType> (only
     gazebo_ros_control/DefaultRobotHWSim), <controlPeriod> [s] (the step), <eStopTopic>. A joint with gains on
     `gazebo_ros_control/pid_gains/<joint>` gets their efforts; others are driven by a stiff motor. Efforts are added to
-    what other plugins do to the joint; the later of two speeds counts; a position overrides all.
+    the other plugins' efforts on the joint; the later of two speeds counts; a position overrides both.
     """
 
     def __init__(self, sim: Simulation, model: ModelHandle, node: Node, tag: PluginTag) -> None:
@@ -41,15 +41,15 @@ class GazeboRosControl(Plugin):
         self._param = parameters.text("robotParam", "robot_description")
         kind = parameters.text("robotSimType", _DEFAULT_SIM)
         if kind != _DEFAULT_SIM:
-            parameters.warn(f"robotSimType {kind!r} is compiled code; {_DEFAULT_SIM} takes its place")
+            parameters.warn(f"robotSimType {kind!r} is compiled code; {_DEFAULT_SIM} replaces it")
         self.period_ns = _period_ns(parameters, sim)
-        self._stops = False
-        self._held: list[float] = []
+        self._is_stopped = False
+        self._held_commands: list[float] = []
         """Commands of all joints during an emergency stop."""
         stop_topic = parameters.text("eStopTopic", "")
         if stop_topic:
             node.subscribe(f"{self._namespace}/{stop_topic}", "std_msgs/Bool", lambda m: self._stop(m.data))
-        parameters.ignore(_OLD_INDIGO)
+        parameters.ignore(_LEGACY_PARAMETER)
         parameters.report_unread()
         self._endpoints = Endpoints()
         self._hardware: dict[str, JointHardware] = {}
@@ -64,7 +64,7 @@ class GazeboRosControl(Plugin):
             raise TrundleError("ros_control needs the ROS graph, which --no-ros leaves out")
         return cls(sim, model, node, tag)
 
-    def is_wanted(self) -> bool:
+    def is_active(self) -> bool:
         """True if there is a robot to control."""
         return self._manager is not None
 
@@ -74,21 +74,21 @@ class GazeboRosControl(Plugin):
         dt = servo.read(sim.time_ns, sim.step_ns)
         if dt <= 0.0 or self._manager is None:  # the first step after a reset
             return
-        if self._held and not self._stops:
-            self._held = []
+        if self._held_commands and not self._is_stopped:
+            self._held_commands = []
             self._manager.restart(sim.time_ns)
         servo.update(dt)
         self._manager.update(sim.time_ns, dt)
-        if self._stops:
-            self._held = self._held or [joint.resting_command for joint in joints]
-            for joint, command in zip(joints, self._held, strict=True):
+        if self._is_stopped:
+            self._held_commands = self._held_commands or [joint.resting_command for joint in joints]
+            for joint, command in zip(joints, self._held_commands, strict=True):
                 joint.command = command
         servo.write(dt)
         sim.engine.reader.invalidate()  # kinematic drives change velocities
 
     def step_action(self) -> tuple[Servo, float] | None:
-        """Return what reads, updates and writes at every step, until a controller has to do more."""
-        if self._manager is None or self._stops or self._held:
+        """Return the action that reads, updates and writes at every step, until a controller's next update is due."""
+        if self._manager is None or self._is_stopped or self._held_commands:
             return None
         due_ns = self._manager.due_ns(self._sim.time_ns)
         return None if due_ns is None else (self._servo, due_ns)
@@ -105,16 +105,16 @@ class GazeboRosControl(Plugin):
             joint.read()
             joint.stop()
             joint.command = joint.resting_command
-        self._held = []
+        self._held_commands = []
         if self._manager is not None:
             self._manager.restart(self._sim.time_ns)
 
-    def _stop(self, stops: bool) -> None:
-        self._stops = stops
+    def _stop(self, is_stopped: bool) -> None:
+        self._is_stopped = is_stopped
 
     async def _find_robot(self) -> None:
         """Wait for the robot's description, on the loop; then continue on the simulation's thread."""
-        node, said = self._node, False
+        node, is_logged = self._node, False
         name = f"{self._namespace}/{self._param}"
         while not node.closed.is_set():
             for candidate in (name, f"/{self._param}"):  # as searchParam from the robot's namespace
@@ -124,9 +124,9 @@ class GazeboRosControl(Plugin):
                     assert node.deliver is not None, "plugins' nodes deliver to the simulation's thread"
                     node.deliver(lambda text=text, name=candidate, gains=gains: self._begin(text, name, gains))
                     return
-            if not said:
+            if not is_logged:
                 node.log.info(f"gazebo_ros_control plugin is waiting for model URDF in parameter [{name}]")
-                said = True
+                is_logged = True
             await asyncio.sleep(_POLL_S)
 
     def _begin(self, urdf: str, name: str, gains: object) -> None:
@@ -139,9 +139,9 @@ class GazeboRosControl(Plugin):
                 if not handle.is_driven:
                     self._node.log.warn(f"joint {driven.name!r} has no axis to drive; its transmission is left out")
                     continue
-                own = settings.section(driven.name)
-                has_gains = "p" in own and driven.interface != "EffortJointInterface"
-                pid = reconfigurable_pid(self._node, own, self._endpoints) if has_gains else None
+                gains_settings = settings.section(driven.name)
+                has_gains = "p" in gains_settings and driven.interface != "EffortJointInterface"
+                pid = reconfigurable_pid(self._node, gains_settings, self._endpoints) if has_gains else None
                 joint = JointHardware(handle, driven.interface, pid, lag_s=lag_s)
                 joint.read()
                 joint.command = joint.resting_command
@@ -150,7 +150,7 @@ class GazeboRosControl(Plugin):
             self._node.log.fatal(f"gazebo_ros_control: {error}; no joint is controlled")
             return
         self._servo = Servo(list(self._hardware.values()))
-        self._servo.longest_ns = self.period_ns  # a state from before a reset that was undone may be old
+        self._servo.longest_ns = self.period_ns  # after an undone reset the state may be older
         self._servo.restart(self._sim.time_ns)
         self._sim.on_change(self._rebind)
         self._manager = ControllerManager(self._node, self._namespace, self._hardware, self._servo, self._model)

@@ -11,7 +11,7 @@ from trundle.ros import Message, to_nsec
 if TYPE_CHECKING:
     from trundle.ros.message_types import control_msgs
 
-_STOPPED = 0.01
+_DEFAULT_STOPPED_VELOCITY = 0.01
 """Default stopped_velocity_tolerance of the original [rad/s or m/s]."""
 
 
@@ -27,9 +27,9 @@ class StateTolerance(Struct, frozen=True):
         """Return True if both errors are within the tolerance."""
         return not (0.0 < self.position < abs(position_error) or 0.0 < self.velocity < abs(velocity_error))
 
-    def updated(self, asked: Message) -> Self:
+    def updated(self, tolerance: Message) -> Self:
         """Return the tolerance with a control_msgs/JointTolerance: 0 leaves a value, a negative one ends its check."""
-        return type(self)(_updated(self.position, asked.position), _updated(self.velocity, asked.velocity))
+        return type(self)(_updated(self.position, tolerance.position), _updated(self.velocity, tolerance.velocity))
 
 
 class JointTolerances(Struct, frozen=True):
@@ -45,13 +45,15 @@ def read_tolerances(constraints: RosParameters, joints: Sequence[str]) -> list[J
     """Read the parameters `constraints`: goal_time 0, stopped_velocity_tolerance 0.01, <joint>/trajectory 0 and
     <joint>/goal 0.
     """
-    stopped = constraints.number("stopped_velocity_tolerance", _STOPPED)
+    stopped = constraints.number("stopped_velocity_tolerance", _DEFAULT_STOPPED_VELOCITY)
     time_ns = round(constraints.number("goal_time", 0.0) * 1e9)
     return [
         JointTolerances(
-            StateTolerance(own.number("trajectory", 0.0)), StateTolerance(own.number("goal", 0.0), stopped), time_ns
+            StateTolerance(joint_constraints.number("trajectory", 0.0)),
+            StateTolerance(joint_constraints.number("goal", 0.0), stopped),
+            time_ns,
         )
-        for own in map(constraints.section, joints)
+        for joint_constraints in map(constraints.section, joints)
     ]
 
 
@@ -62,15 +64,15 @@ def goal_tolerances(
     time_ns = to_nsec(goal.goal_time_tolerance)
 
     def updated(default: JointTolerances, joint: str) -> JointTolerances:
-        path, end = default.path, default.goal
-        for asked in goal.path_tolerance:
-            path = path.updated(asked) if asked.name == joint else path
-        for asked in goal.goal_tolerance:
-            end = end.updated(asked) if asked.name == joint else end
-        return JointTolerances(path, end, max(time_ns, 0) if time_ns else default.time_ns)
+        path_tolerance, goal_tolerance = default.path, default.goal
+        for tolerance in goal.path_tolerance:
+            path_tolerance = path_tolerance.updated(tolerance) if tolerance.name == joint else path_tolerance
+        for tolerance in goal.goal_tolerance:
+            goal_tolerance = goal_tolerance.updated(tolerance) if tolerance.name == joint else goal_tolerance
+        return JointTolerances(path_tolerance, goal_tolerance, max(time_ns, 0) if time_ns else default.time_ns)
 
     return [updated(default, joint) for default, joint in zip(defaults, joints, strict=True)]
 
 
-def _updated(value: float, asked: float) -> float:
-    return float(asked) if asked > 0.0 else 0.0 if asked < 0.0 else value
+def _updated(value: float, requested: float) -> float:
+    return float(requested) if requested > 0.0 else 0.0 if requested < 0.0 else value

@@ -57,8 +57,8 @@ class TrajectoryController(InStepController):
         self._paths: list[JointPath] = []
         self._goal = NO_GOAL
         """Number of the last goal of the action."""
-        self._settled: Callable[[ActionOutcome], None] | None = None
-        """Called once with the outcome of the action's goal."""
+        self._settle_goal: Callable[[ActionOutcome], None] | None = None
+        """Called once with the result of the action's goal."""
         self._is_running = False
         self._advertise(context)
 
@@ -97,21 +97,21 @@ class TrajectoryController(InStepController):
     def due_ns(self, time_ns: int) -> float:
         """Return the time of the next message [ns]."""
         del time_ns
-        feedback_ns = math.inf if self._settled is None else self._monitors.next_ns
+        feedback_ns = math.inf if self._settle_goal is None else self._monitors.next_ns
         return min(self._states.next_ns if self._state.has_subscribers else math.inf, feedback_ns)
 
     def update(self, time_ns: int, dt: float) -> None:
         """Settle the action's goal, and publish when due."""
         self.finish_stride()
-        if self._settled is not None and self._monitors.due(time_ns):
+        if self._settle_goal is not None and self._monitors.due(time_ns):
             self._server.publish_feedback(self._state_fields())
         self._states.skip(time_ns, dt)
         if self._states.due(time_ns) and self._state.has_subscribers:
             self._state.publish(self._state_fields())
 
     def finish_stride(self) -> None:
-        """Settle the action where a joint has left its path or missed its goal, or all have reached it; the joints
-        follow their paths as before.
+        """Settle the goal if a joint violates a tolerance or all joints have reached the goal; the joints go on
+        following their paths.
         """
         event = self._law.take_event()
         if event is None:
@@ -145,7 +145,7 @@ class TrajectoryController(InStepController):
         try:
             self._begin(trajectory, None, NO_GOAL)
         except GoalError as error:
-            self._log_refused(error)
+            self._log_rejection(error)
             return
         self._settle("preempted", 0, "a trajectory came on the topic")
 
@@ -161,7 +161,7 @@ class TrajectoryController(InStepController):
         next_ns = self._law.time_ns + self._law.period_ns
         self._follow(self._reader.read(trajectory, self._paths, next_ns, tolerances, goal))
 
-    def _log_refused(self, error: GoalError) -> None:
+    def _log_rejection(self, error: GoalError) -> None:
         (self._node.log.warn if error.is_late else self._node.log.error)(str(error))
 
     def _hold(self, goal: int = NO_GOAL) -> None:
@@ -180,14 +180,14 @@ class TrajectoryController(InStepController):
     def _query(self, request: "control_msgs.QueryTrajectoryStateRequest") -> dict[str, Any]:
         time_ns = to_nsec(request.time)
         if not self._is_running:
-            raise self._refusal("Can't sample trajectory. Controller is not running.")
+            raise self._sample_error("Can't sample trajectory. Controller is not running.")
         if any(path.index_at(time_ns) < 0 for path in self._paths):
-            raise self._refusal("Requested sample time precedes trajectory start time.")
+            raise self._sample_error("Requested sample time precedes trajectory start time.")
         samples = [path.at(time_ns).segment.sample(time_ns) for path in self._paths]
         position, velocity, acceleration = map(list, zip(*samples, strict=True))
         return {"name": self._names, "position": position, "velocity": velocity, "acceleration": acceleration}
 
-    def _refusal(self, text: str) -> ServiceError:
+    def _sample_error(self, text: str) -> ServiceError:
         self._node.log.error(text)
         return ServiceError(text)
 
@@ -196,23 +196,23 @@ class TrajectoryController(InStepController):
     async def _on_goal(
         self, goal: "control_msgs.FollowJointTrajectoryGoal", accept: Callable[[], None]
     ) -> ActionOutcome:
-        """Run a goal to its end, on the loop; a rejected one does not stop the trajectory before it."""
+        """Run a goal to its end, on the loop; a rejected goal does not stop the current trajectory."""
         loop = asyncio.get_running_loop()
         ended: asyncio.Future[ActionOutcome] = loop.create_future()
 
-        def settle(outcome: ActionOutcome) -> None:
-            self._node.loop.call_soon(lambda: None if ended.done() else ended.set_result(outcome))
+        def settle(result: ActionOutcome) -> None:
+            self._node.loop.call_soon(lambda: None if ended.done() else ended.set_result(result))
 
         def begin() -> None:
             try:
                 self._begin_goal(goal)
             except GoalError as error:
-                self._log_refused(error)
-                settle(_outcome("rejected", error.code, str(error)))
+                self._log_rejection(error)
+                settle(_action_result("rejected", error.code, str(error)))
                 return
             self._settle("preempted", 0, "another goal came")
             self._node.loop.call_soon(accept)
-            self._settled = settle
+            self._settle_goal = settle
             self._law.watches = True
 
         assert self._node.deliver is not None, "plugins' nodes deliver to the simulation's thread"
@@ -233,19 +233,19 @@ class TrajectoryController(InStepController):
         self._law.begin_goal(self._goal)
 
     def _abandon(self, settle: Callable[[ActionOutcome], None]) -> None:
-        """Hold after a goal was cancelled, unless another has replaced it."""
-        if self._settled is settle:
-            self._settled, self._law.watches = None, False
+        """Hold after a goal was cancelled, unless another goal has replaced it."""
+        if self._settle_goal is settle:
+            self._settle_goal, self._law.watches = None, False
             self._hold()
 
     def _settle(self, status: Any, code: int, text: str) -> None:
-        if self._settled is not None:
-            settle, self._settled = self._settled, None
+        if self._settle_goal is not None:
+            settle, self._settle_goal = self._settle_goal, None
             self._law.watches = False
-            settle(_outcome(status, code, text))
+            settle(_action_result(status, code, text))
 
     def _state_fields(self) -> dict[str, Any]:
-        """Fields of a JointTrajectoryControllerState, and of the action's feedback; the first joint's time counts."""
+        """Return the fields of JointTrajectoryControllerState and of the feedback; times are the first joint's."""
         joints, time_ns = self._joints, self._law.time_ns
         positions, velocities, accelerations = (list(values) for values in zip(*self._law.desired, strict=True))
         first = self._paths[0].at(time_ns)
@@ -272,7 +272,7 @@ class TrajectoryController(InStepController):
         }
 
 
-def _outcome(status: Any, code: int, text: str) -> ActionOutcome:
+def _action_result(status: Any, code: int, text: str) -> ActionOutcome:
     return ActionOutcome(status=status, result={"error_code": code, "error_string": text}, text=text)
 
 

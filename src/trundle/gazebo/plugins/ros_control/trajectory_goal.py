@@ -1,4 +1,4 @@
-"""Trajectory messages as paths of joints, which continue what the joints follow; rules of ros_controllers'
+"""Trajectory messages as paths of joints, which continue the current paths; rules of ros_controllers'
 initJointTrajectory.
 """
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from trundle.ros.message_types import trajectory_msgs
 
 NO_GOAL = 0
-"""Number of no action's goal."""
+"""Goal number for trajectories from the topic."""
 _MAX_POINTS = 100_000
 SegmentRow: TypeAlias = tuple[int, int, tuple[float, ...], int, tuple[float, float, float, float], int]
 _OTHER_JOINTS = "Cannot create trajectory from message. It does not contain the expected joints."
@@ -38,7 +38,7 @@ class GoalError(ValueError):
         super().__init__(text)
         self.code = code
         self.is_late = is_late
-        """True if it came too late, which is a warning only: streams of commands do at times."""
+        """True if it arrived too late; a warning only, since streams of commands are late at times."""
 
 
 class PathSegment(Struct, frozen=True):
@@ -46,14 +46,14 @@ class PathSegment(Struct, frozen=True):
 
     segment: JointSegment
     goal: int = NO_GOAL
-    """Number of the action's goal that it belongs to."""
+    """Number of the action's goal."""
     tolerances: JointTolerances = JointTolerances()
     from_start_ns: int = 0
     """time_from_start of its first point [ns]."""
 
     @property
     def row(self) -> SegmentRow:
-        """Numbers for `TrajectoryLaw.set_paths`."""
+        """Row for `TrajectoryLaw.set_paths`."""
         curve, path, goal = self.segment, self.tolerances.path, self.tolerances.goal
         limits = path.position, path.velocity, goal.position, goal.velocity
         return curve.start_ns, curve.end_ns, curve.coefficients, self.goal, limits, self.tolerances.time_ns
@@ -65,27 +65,27 @@ class JointPath:
     def __init__(self, segments: list[PathSegment]) -> None:
         """Make a path of at least one segment."""
         self.segments = segments
-        self._starts = [each.segment.start_ns for each in segments]
+        self._starts = [segment.segment.start_ns for segment in segments]
 
     def rows(self) -> list[SegmentRow]:
         """Return the segments for `TrajectoryLaw.set_paths`."""
-        return [each.row for each in self.segments]
+        return [segment.row for segment in self.segments]
 
     def index_at(self, time_ns: int) -> int:
-        """Index of the segment at a time; −1 before the first."""
+        """Return the index of the segment at a time; −1 before the first."""
         return bisect_right(self._starts, time_ns) - 1
 
     def at(self, time_ns: int) -> PathSegment:
-        """Segment at a time, or the first one."""
+        """Return the segment at a time, or the first one."""
         return self.segments[max(self.index_at(time_ns), 0)]
 
     def state_at(self, time_ns: int) -> JointState:
-        """Position, velocity and acceleration at a time."""
+        """Return position, velocity and acceleration at a time."""
         return JointState(*self.at(time_ns).segment.sample(time_ns))
 
 
 def holding_path(position: float, time_ns: int, *, goal: int = NO_GOAL) -> JointPath:
-    """Hold a position from a time on."""
+    """Return a path that holds a position from a time on."""
     held = JointState(position, 0.0, 0.0)
     return JointPath([PathSegment(JointSegment.between(time_ns, held, time_ns, held), goal)])
 
@@ -93,13 +93,13 @@ def holding_path(position: float, time_ns: int, *, goal: int = NO_GOAL) -> Joint
 def stopping_path(
     position: float, velocity: float, time_ns: int, duration_ns: int, *, goal: int = NO_GOAL
 ) -> JointPath:
-    """Slow down from a state to rest.
+    """Return a path that decelerates from a state to rest.
 
-    The rest is half-way on the segment that returns to the position with the opposite velocity after twice the time.
+    Its end is the midpoint of a segment that returns to the position with the opposite velocity after twice the time.
     """
-    start, back = JointState(position, velocity, 0.0), JointState(position, -velocity, 0.0)
-    there_and_back = JointSegment.between(time_ns, start, time_ns + 2 * duration_ns, back)
-    rest = JointState(*there_and_back.sample(time_ns + duration_ns))
+    start, mirrored = JointState(position, velocity, 0.0), JointState(position, -velocity, 0.0)
+    return_segment = JointSegment.between(time_ns, start, time_ns + 2 * duration_ns, mirrored)
+    rest = JointState(*return_segment.sample(time_ns + duration_ns))
     return JointPath([PathSegment(JointSegment.between(time_ns, start, time_ns + duration_ns, rest), goal)])
 
 
@@ -109,13 +109,13 @@ class PathReader:
     def __init__(
         self, joints: Sequence[str], continuous: Sequence[bool], *, partial: bool, warn: Callable[[str], None]
     ) -> None:
-        """Read for some joints.
+        """Create a reader for a controller's joints.
 
         Args:
-            joints: of the controller.
-            continuous: True for a joint that takes the shorter way round.
-            partial: True if joints may be missing; these go on as before.
-            warn: takes what is left out.
+            joints: controller's joint names.
+            continuous: True for each joint that turns in the shorter direction.
+            partial: True if joints may be missing; missing joints stay on their current paths.
+            warn: receives warnings about dropped points.
         """
         self._joints, self._continuous, self._partial, self._warn = list(joints), continuous, partial, warn
 
@@ -123,13 +123,13 @@ class PathReader:
         """Check that a trajectory has the controller's joints.
 
         Raises:
-            GoalError: with an error's text and code; it has others.
+            GoalError: other joints; has the text and code.
         """
-        there, names = self._joints, trajectory.joint_names
-        fits = len(names) == len(there) or (self._partial and 0 < len(names) < len(there))
-        if not fits or any(name not in there for name in names):
-            got = ", ".join(map(str, names)) or "none"
-            raise GoalError(f"{error} They are {', '.join(there)}; it has {got}.", code)
+        expected, names = self._joints, trajectory.joint_names
+        fits = len(names) == len(expected) or (self._partial and 0 < len(names) < len(expected))
+        if not fits or any(name not in expected for name in names):
+            received = ", ".join(map(str, names)) or "none"
+            raise GoalError(f"{error} They are {', '.join(expected)}; it has {received}.", code)
 
     def read(
         self,
@@ -142,10 +142,10 @@ class PathReader:
         """Read a trajectory_msgs/JointTrajectory.
 
         Args:
-            trajectory: the message, with at least one point.
-            current: paths that the joints follow; they do until the trajectory starts.
-            now_ns: time of the next update; points up to it are left out.
-            tolerances: of the action's goal; None: it comes from the topic.
+            trajectory: message with at least one point.
+            current: joints' current paths, followed until the trajectory starts.
+            now_ns: time of the next update; points up to it are dropped.
+            tolerances: tolerances of the action's goal; None: a trajectory from the topic.
             goal: number of the action's goal.
 
         Raises:
@@ -175,7 +175,7 @@ class PathReader:
         return paths
 
     def _check_dropped(self, times: Sequence[int], dropped: int, now_ns: int, *, stamped: bool) -> None:
-        """Warn of points that are left out, except of a first one that says where the joints are now."""
+        """Warn of dropped points, except a first point for the current time."""
         if dropped == len(times):
             late_s = (now_ns - times[-1]) / 1e9
             raise GoalError(
@@ -208,11 +208,11 @@ class _SegmentMaker(Struct, frozen=True):
 
 
 def _with_goal(path: JointPath, now_ns: int, goal: int) -> JointPath:
-    """Return a path that goes on, as part of a goal that does not name its joint."""
+    """Return the path as part of a goal that does not name its joint."""
     first = path.index_at(now_ns)
     if first < 0:
         return path
-    return JointPath([*path.segments[:first], *(replace(each, goal=goal) for each in path.segments[first:])])
+    return JointPath([*path.segments[:first], *(replace(segment, goal=goal) for segment in path.segments[first:])])
 
 
 def _continued(
@@ -225,7 +225,7 @@ def _continued(
     *,
     wraps: bool,
 ) -> JointPath:
-    """Return the current path up to the trajectory's start, a bridge to its first point, and the rest."""
+    """Return the current path up to the trajectory's start, a segment to its first point, and the other segments."""
     leave_ns = max(begin_ns, now_ns)
     left, first = current.state_at(leave_ns), next(states)
     turns = _wraparound(left.position, first.position) if wraps else 0.0
@@ -241,17 +241,15 @@ def _continued(
 
 
 def _wraparound(start: float, end: float) -> float:
-    """Return the whole turns to add to an end, so that the way there is the shorter one; half a turn keeps its
-    direction.
-    """
-    way = math.remainder(end - start, math.tau)
-    if abs(abs(way) - math.pi) < 1e-9:
-        way = math.copysign(way, end - start)
-    return start + way - end
+    """Return the full turns to add to an end position for the shorter rotation; half a turn keeps its direction."""
+    change = math.remainder(end - start, math.tau)
+    if abs(abs(change) - math.pi) < 1e-9:
+        change = math.copysign(change, end - start)
+    return start + change - end
 
 
 def _state(point: "trajectory_msgs.JointTrajectoryPoint", column: int, *, first: bool, width: int) -> JointState:
-    """Read a joint's state of a point; positions of more joints than the trajectory names are left out."""
+    """Read a joint's state at a point; surplus positions are ignored."""
     count = len(point.positions)
     if any(len(values) not in (0, count) for values in (point.velocities, point.accelerations)):
         raise GoalError(_SIZES)
@@ -260,7 +258,7 @@ def _state(point: "trajectory_msgs.JointTrajectoryPoint", column: int, *, first:
         raise GoalError(_NO_POSITIONS if first else start_end)
     if count < width:
         raise GoalError(_SIZES)
-    values = [float(each[column]) for each in (point.positions, point.velocities, point.accelerations) if len(each)]
+    values = [float(row[column]) for row in (point.positions, point.velocities, point.accelerations) if len(row)]
     if not all(map(math.isfinite, values)):
         raise GoalError("A trajectory point has a value that is not finite.")
     velocity = float(point.velocities[column]) if len(point.velocities) else None

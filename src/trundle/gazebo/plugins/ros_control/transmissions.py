@@ -26,9 +26,9 @@ def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[Driven
     the <actuator> counts, as before Indigo.
 
     Args:
-        urdf: the robot as XML.
-        name: of the text in messages.
-        report: takes warnings.
+        urdf: robot as XML.
+        name: name of the text in messages.
+        report: receives warnings.
 
     Raises:
         DescriptionError: the text is not a URDF.
@@ -36,25 +36,25 @@ def read_transmissions(urdf: str, name: str, report: Diagnostics) -> list[Driven
     root = parse_xml(urdf, name=name, report=report)
     if root.tag != "robot":
         raise DescriptionError(root.at, f"a URDF starts with <robot>, not <{root.tag}>")
-    found: dict[str, DrivenJoint] = {}
+    joints: dict[str, DrivenJoint] = {}
     for transmission in root.all("transmission"):
-        if why := _fault(transmission):
-            said = transmission.attribute("name")
-            who = "a transmission" if not said else f"transmission {said!r}"
-            report.warn(transmission.at, f"{who} {why}; it is left out")
+        if why := _find_fault(transmission):
+            name_attribute = transmission.attribute("name")
+            subject = "a transmission" if not name_attribute else f"transmission {name_attribute!r}"
+            report.warn(transmission.at, f"{subject} {why}; it is left out")
             continue
         for joint in transmission.all("joint"):
-            driven = _driven(transmission, joint, report)
+            driven = _read_driven_joint(transmission, joint, report)
             if driven is None:
                 continue
-            if driven.name in found:
+            if driven.name in joints:
                 report.warn(joint.at, f"joint {driven.name!r} has a transmission already; this one is left out")
                 continue
-            found[driven.name] = driven
-    return list(found.values())
+            joints[driven.name] = driven
+    return list(joints.values())
 
 
-def _fault(transmission: XmlNode) -> str | None:
+def _find_fault(transmission: XmlNode) -> str | None:
     """Fault for which the original drops a transmission with all its joints; None: valid."""
     if not transmission.attribute("name"):
         return "has no name"
@@ -73,25 +73,25 @@ def _fault(transmission: XmlNode) -> str | None:
     return None
 
 
-def _driven(transmission: XmlNode, joint: XmlNode, report: Diagnostics) -> DrivenJoint | None:
+def _read_driven_joint(transmission: XmlNode, joint: XmlNode, report: Diagnostics) -> DrivenJoint | None:
     name = joint.attribute("name")
-    who = f"transmission {transmission.attribute('name')!r} of joint {name!r}"
+    subject = f"transmission {transmission.attribute('name')!r} of joint {name!r}"
     if not name:
-        report.warn(joint.at, f"{who}: the name is empty; it is left out")
+        report.warn(joint.at, f"{subject}: the name is empty; it is left out")
         return None
-    texts = _interfaces(joint) or [text for each in transmission.all("actuator") for text in _interfaces(each)]
+    texts = _interfaces(joint) or [text for actuator in transmission.all("actuator") for text in _interfaces(actuator)]
     if not texts:
-        report.warn(joint.at, f"{who} names no <hardwareInterface>; it is left out")
+        report.warn(joint.at, f"{subject} has no <hardwareInterface>; it is left out")
         return None
     if len(_interfaces(joint)) > 1:
-        report.warn(joint.at, f"{who} names {len(texts)} times a <hardwareInterface>; the first one is used")
+        report.warn(joint.at, f"{subject} has {len(texts)} <hardwareInterface> elements; the first one is used")
     interface = texts[0].removeprefix(_PACKAGE)
     if interface not in INTERFACES:
-        what = f"{who}: no hardware interface {texts[0]!r}; there are {', '.join(INTERFACES)}; it is left out"
-        report.warn(joint.at, what)
+        problem = f"{subject}: no hardware interface {texts[0]!r}; interfaces: {', '.join(INTERFACES)}; it is left out"
+        report.warn(joint.at, problem)
         return None
     return DrivenJoint(name, interface)
 
 
 def _interfaces(node: XmlNode) -> list[str]:
-    return [each.text for each in node.all("hardwareInterface") if each.text]
+    return [interface.text for interface in node.all("hardwareInterface") if interface.text]

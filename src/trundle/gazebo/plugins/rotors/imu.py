@@ -25,7 +25,7 @@ class _NoiseModel:
     """Noise density [unit/√Hz]."""
     walk: float
     """Bias random walk."""
-    lag_s: float
+    correlation_s: float
     """Correlation time of the bias [s]."""
     bias: NDArray[np.float64]
     """(3,) Gauss-Markov bias."""
@@ -33,9 +33,9 @@ class _NoiseModel:
     """(3,) Turn-on bias."""
 
     def with_noise(self, values: Vector3, dt: float) -> dict[str, float]:
-        """Values with noise, `dt` [s] after the last."""
-        spread = self.walk * math.sqrt(self.lag_s / 2.0 * -math.expm1(-2.0 * dt / self.lag_s))
-        self.bias = math.exp(-dt / self.lag_s) * self.bias + spread * self.random.normal(size=3)
+        """Return the values with noise, `dt` [s] after the last ones."""
+        spread = self.walk * math.sqrt(self.correlation_s / 2.0 * -math.expm1(-2.0 * dt / self.correlation_s))
+        self.bias = math.exp(-dt / self.correlation_s) * self.bias + spread * self.random.normal(size=3)
         noise = self.density / math.sqrt(dt) * self.random.normal(size=3)
         return dict(zip("xyz", (np.array(values) + self.bias + noise + self.first).tolist(), strict=True))
 
@@ -64,7 +64,7 @@ class Imu(RosPlugin):
         walks = ("gyroscopeBiasRandomWalk", "accelerometerRandomWalk")
         defaults = ((70.0 / 3600 * degree, 8.0 / 3600 * degree, 1000.0, 0.5 * degree), (0.004, 0.006, 300.0, 0.196))
         self._gyroscope, self._accelerometer = (
-            _axes(parameters, random, walk, values) for walk, values in zip(walks, defaults, strict=True)
+            _read_noise_model(parameters, random, walk, values) for walk, values in zip(walks, defaults, strict=True)
         )
         self._topic = node.advertise(read_topic_name(parameters, "imuTopic", "imu"), "sensor_msgs/Imu", queue_size=1)
         self._last_ns = sim.time_ns
@@ -92,14 +92,14 @@ class Imu(RosPlugin):
         )
 
 
-def _axes(
+def _read_noise_model(
     parameters: TagParameters, random: np.random.Generator, walk: str, defaults: tuple[float, ...]
 ) -> _NoiseModel:
     """Read the noise model whose parameters have the prefix of `walk`, a …RandomWalk parameter."""
-    device = walk.removesuffix("RandomWalk").removesuffix("Bias")
-    names = (f"{device}NoiseDensity", walk, f"{device}BiasCorrelationTime", f"{device}TurnOnBiasSigma")
+    sensor = walk.removesuffix("RandomWalk").removesuffix("Bias")
+    names = (f"{sensor}NoiseDensity", walk, f"{sensor}BiasCorrelationTime", f"{sensor}TurnOnBiasSigma")
     bounds = (-math.inf, -math.inf, 0.0, -math.inf)
-    density, spread, lag_s, sigma = (
+    density, spread, correlation_s, sigma = (
         parameters.number(name, value, above=bound) for name, value, bound in zip(names, defaults, bounds, strict=True)
     )
-    return _NoiseModel(random, density, spread, lag_s, np.zeros(3), sigma * random.normal(size=3))
+    return _NoiseModel(random, density, spread, correlation_s, np.zeros(3), sigma * random.normal(size=3))

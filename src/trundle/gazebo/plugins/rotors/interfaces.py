@@ -43,10 +43,10 @@ class ControllerInterface(RosPlugin):
         command_topic = read_topic_name(parameters, "commandMotorSpeedSubTopic", "command/motor_speed")
         motor_topic = read_topic_name(parameters, "motorSpeedCommandPubTopic", "gazebo/command/motor_speed")
         self._sim, self._motors = sim, node.advertise(motor_topic, _ACTUATORS, queue_size=1)
-        node.subscribe(command_topic, _ACTUATORS, self._pass, queue_size=1)
+        node.subscribe(command_topic, _ACTUATORS, self._forward, queue_size=1)
         for name in ("commandAttitudeThrustSubTopic", "commandRateThrustSubTopic", "imuSubTopic"):
             parameters.ignore(name)  # without effect in the original, too
 
-    def _pass(self, message: Message) -> None:
+    def _forward(self, message: Message) -> None:
         header = {"stamp": self._sim.time_ns}
         self._motors.publish({"header": header, "angular_velocities": list(message.angular_velocities)})

@@ -19,7 +19,7 @@ from .namespaces import read_topic_name
 if TYPE_CHECKING:
     from trundle.ros.message_types import mav_msgs, rotors_comm
 
-_WAYS = {"cw": -1.0, "ccw": 1.0}
+_DIRECTIONS = {"cw": -1.0, "ccw": 1.0}
 _GAINS = (
     ("p", "p"),
     ("i", "i"),
@@ -33,7 +33,7 @@ Kind = Literal["velocity", "position", "force"]
 
 
 class MotorModel(RosPlugin):
-    """Takes mav_msgs/Actuators; the value at <motorNumber> is a speed [rad/s], an angle [rad] or an effort [N·m].
+    """Reads mav_msgs/Actuators; the value at <motorNumber> is a speed [rad/s], an angle [rad] or an effort [N·m].
 
     Parameters, with RotorS' defaults: <robotNamespace>, <jointName>, <linkName>, <turningDirection> cw or ccw
     (required), <motorNumber> 0, <motorType> velocity, position (by <joint_control_pid>) or force; of velocity
@@ -58,18 +58,18 @@ class MotorModel(RosPlugin):
         """Joint axis in the rotor's frame."""
         self._parent = None if parent == "world" else model.link(parent)
         self._number = parameters.integer("motorNumber", 0)
-        way = parameters.text("turningDirection", "")
-        if way not in _WAYS:
-            raise UsageError(f"<turningDirection> is cw or ccw, got {way!r}")
-        self._way = _WAYS[way]
-        self._kind = _kind_of(parameters)
-        self._pid = _pid_of(parameters.section("joint_control_pid"))
-        self._fastest = parameters.number("maxRotVelocity", 838.0)
-        self._lift, self._moment = (
+        direction = parameters.text("turningDirection", "")
+        if direction not in _DIRECTIONS:
+            raise UsageError(f"<turningDirection> is cw or ccw, got {direction!r}")
+        self._direction = _DIRECTIONS[direction]
+        self._kind = _read_kind(parameters)
+        self._pid = _read_pid(parameters.section("joint_control_pid"))
+        self._max_speed = parameters.number("maxRotVelocity", 838.0)
+        self._motor_constant, self._moment_constant = (
             parameters.number("motorConstant", 8.54858e-6),
             parameters.number("momentConstant", 0.016),
         )
-        self._up_s, self._down_s = (
+        self._time_constant_up, self._time_constant_down = (
             parameters.number("timeConstantUp", 1 / 80, above=0.0),
             parameters.number("timeConstantDown", 1 / 40, above=0.0),
         )
@@ -101,15 +101,15 @@ class MotorModel(RosPlugin):
         dt = sim.step_ns / 1e9
         if self._kind == "velocity":
             self._apply_forces()
-            lag_s = self._up_s if self._wanted > self._speed else self._down_s
-            kept = math.exp(-dt / lag_s)
-            self._speed = kept * self._speed + (1.0 - kept) * self._wanted
-            self._joint.set_velocity(self._way * self._speed / self._slowdown)
+            time_constant = self._time_constant_up if self._command > self._speed else self._time_constant_down
+            decay = math.exp(-dt / time_constant)
+            self._speed = decay * self._speed + (1.0 - decay) * self._command
+            self._joint.set_velocity(self._direction * self._speed / self._slowdown)
         elif self._kind == "position":
-            error = math.remainder(self._joint.position - self._wanted, math.tau)
+            error = math.remainder(self._joint.position - self._command, math.tau)
             self._joint.command_effort(self._pid.command(error, dt))
         else:
-            self._joint.command_effort(self._wanted)
+            self._joint.command_effort(self._command)
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Publish the joint's speed, position and effort."""
@@ -125,30 +125,32 @@ class MotorModel(RosPlugin):
         self._clear()
 
     def _clear(self) -> None:
-        self._wanted = self._speed = 0.0
+        self._command = self._speed = 0.0
         self._pid.reset()
 
     def _apply_forces(self) -> None:
         """Apply thrust along the rotor's z axis; drag and rolling moment by P. Martin and E. Salaün, The true role of
         accelerometer feedback in quadrotor control (ICRA 2010)."""
         pose, rate = self._link.pose, self._joint.velocity * self._slowdown
-        thrust = self._way * math.copysign(rate * rate * self._lift, rate)
+        thrust = self._direction * math.copysign(rate * rate * self._motor_constant, rate)
         axis = np.array(pose.transform_vector(self._axis))
         airspeed = np.array(self._link.twist.linear) - self._wind
-        across = airspeed - (airspeed @ axis) * axis
-        self._link.add_wrench(Wrench(_sum(pose.transform_vector((0.0, 0.0, thrust)), -abs(rate) * self._drag * across)))
+        radial_velocity = airspeed - (airspeed @ axis) * axis
+        self._link.add_wrench(
+            Wrench(_sum(pose.transform_vector((0.0, 0.0, thrust)), -abs(rate) * self._drag * radial_velocity))
+        )
         if self._parent is not None:
-            torque = pose.transform_vector((0.0, 0.0, -self._way * thrust * self._moment))
-            self._parent.add_wrench(Wrench(torque=_sum(torque, -abs(rate) * self._roll * across)))
+            torque = pose.transform_vector((0.0, 0.0, -self._direction * thrust * self._moment_constant))
+            self._parent.add_wrench(Wrench(torque=_sum(torque, -abs(rate) * self._roll * radial_velocity)))
 
     def _on_command(self, message: "mav_msgs.Actuators") -> None:
         values = message.angular_velocities
         if not 0 <= self._number < len(values):
             self._node.log.error(f"motor {self._number}: the command is for {len(values)} motors")
             return
-        wanted = float(values[self._number])
-        if math.isfinite(wanted):
-            self._wanted = min(wanted, self._fastest) if self._kind == "velocity" else wanted
+        command = float(values[self._number])
+        if math.isfinite(command):
+            self._command = min(command, self._max_speed) if self._kind == "velocity" else command
 
     def _on_wind(self, message: "rotors_comm.WindSpeed") -> None:
         wind = np.array([message.velocity.x, message.velocity.y, message.velocity.z], dtype=float)
@@ -156,7 +158,7 @@ class MotorModel(RosPlugin):
             self._wind = wind
 
 
-def _kind_of(parameters: TagParameters) -> Kind:
+def _read_kind(parameters: TagParameters) -> Kind:
     match parameters.text("motorType", "velocity"):
         case "velocity" | "position" | "force" as kind:
             return kind
@@ -164,11 +166,11 @@ def _kind_of(parameters: TagParameters) -> Kind:
             raise UsageError(f"<motorType> is velocity, position or force, got {other!r}")
 
 
-def _pid_of(parameters: TagParameters) -> Pid:
+def _read_pid(parameters: TagParameters) -> Pid:
     """Gains and limits; all default to 0, the command's limits as well."""
     return Pid(**{field: parameters.number(name, 0.0) for field, name in _GAINS})
 
 
-def _sum(one: Vector3, other: NDArray[np.float64]) -> Vector3:
-    x, y, z = (np.array(one) + other).tolist()
+def _sum(vector: Vector3, offset: NDArray[np.float64]) -> Vector3:
+    x, y, z = (np.array(vector) + offset).tolist()
     return x, y, z

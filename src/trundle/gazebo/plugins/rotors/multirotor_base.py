@@ -42,10 +42,10 @@ class MultirotorBase(RosPlugin):
 
 
 def _rotors_of(model: ModelHandle, base: str) -> list[JointHandle]:
-    """Joints of a body's rotors, by number."""
-    found: dict[int, JointHandle] = {}
+    """Return the joints of a body's rotors, by number."""
+    rotors: dict[int, JointHandle] = {}
     for joint in model.joints:
         number = _ROTOR.search(joint.joint.child)
         if joint.joint.parent == base and number is not None and joint.name == f"{joint.joint.child}_joint":
-            found[int(number[1])] = joint
-    return [found[number] for number in sorted(found)]
+            rotors[int(number[1])] = joint
+    return [rotors[number] for number in sorted(rotors)]

@@ -48,7 +48,7 @@ class Odometry(RosPlugin):
             self._reference = sim[owner].link(name) if name else sim[owner].base
         self._divisor = parameters.integer("measurementDivisor", 1, minimum=1)
         self._delay = parameters.integer("measurementDelay", 0, minimum=0)
-        self._late_ns = int(parameters.number("unknownDelay", 0.0)) * NS_PER_S
+        self._unknown_delay_ns = int(parameters.number("unknownDelay", 0.0)) * NS_PER_S
         self._random = np.random.default_rng(parameters.integer("randomEngineSeed", sim.seed))
 
         def spread(kind: str) -> NDArray[np.float64]:
@@ -71,7 +71,9 @@ class Odometry(RosPlugin):
         if not any(topic.has_subscribers for topic in (*self._topics.values(), self._broadcaster)):
             self._measured.clear()
         elif self._steps % self._divisor == 0:
-            self._measured.append((self._steps + self._delay, snapshot.time_ns + self._late_ns, *self._motion()))
+            self._measured.append(
+                (self._steps + self._delay, snapshot.time_ns + self._unknown_delay_ns, *self._motion())
+            )
         if self._measured and self._measured[0][0] == self._steps:
             _, stamp_ns, pose, twist = self._measured.popleft()
             self._publish(stamp_ns, *self._with_noise(pose, twist))
@@ -88,15 +90,15 @@ class Odometry(RosPlugin):
         com = link.transform_point(self._link.link.inertial.link_from_com.position)
         pose, linear, angular = Pose(com, link.quaternion), twist.linear, twist.angular
         if self._reference is not None:
-            frame, carried = self._reference.pose, self._reference.twist
-            arm = np.subtract(com, frame.position)
-            swept = cross(carried.angular, (float(arm[0]), float(arm[1]), float(arm[2])))
-            pose = frame.inverse() @ pose
-            vx, vy, vz = (v - c - s for v, c, s in zip(linear, carried.linear, swept, strict=True))
-            wx, wy, wz = (w - c for w, c in zip(angular, carried.angular, strict=True))
+            reference_pose, reference_twist = self._reference.pose, self._reference.twist
+            arm = np.subtract(com, reference_pose.position)
+            rotation_velocity = cross(reference_twist.angular, (float(arm[0]), float(arm[1]), float(arm[2])))
+            pose = reference_pose.inverse() @ pose
+            vx, vy, vz = (v - c - s for v, c, s in zip(linear, reference_twist.linear, rotation_velocity, strict=True))
+            wx, wy, wz = (w - c for w, c in zip(angular, reference_twist.angular, strict=True))
             linear, angular = (vx, vy, vz), (wx, wy, wz)
-        back = Pose(quaternion=link.quaternion).inverse()
-        return pose, Twist(back.transform_vector(linear), back.transform_vector(angular))
+        link_from_world = Pose(quaternion=link.quaternion).inverse()
+        return pose, Twist(link_from_world.transform_vector(linear), link_from_world.transform_vector(angular))
 
     def _with_noise(self, pose: Pose, twist: Twist) -> tuple[Pose, Twist]:
         errors = self._random.normal(size=(4, 3)) * self._normal

@@ -20,10 +20,9 @@ _NEWTONS_PER_UNIT = 20.0
 class DrawForce(VisualPlugin):
     """Draws a line from a visual's origin along the force of geometry_msgs/WrenchStamped on <topicName>/the_force.
 
-    A relative name is below /visual, as the foot contacts; the default is /default_force_draw. As in
-    Gazebo the line is in the visual's axes and scaled with it (a unit sphere's line is 0.05 m/N long, that of one of
-    0.02 m diameter 0.001 m/N), and only the page shows it, not cameras (GZ_VISIBILITY_GUI). It subscribes once a page
-    shows lines.
+    A relative name is below /visual, as for foot contacts; the default is /default_force_draw. As in
+    Gazebo the line is in the visual's axes and scaled with it (0.05 m/N for a sphere of 1 m diameter, 0.001 m/N for
+    0.02 m), and only the page shows it, not cameras (GZ_VISIBILITY_GUI). It subscribes once a page shows lines.
     """
 
     period_ns = 20_000_000
@@ -41,7 +40,7 @@ class DrawForce(VisualPlugin):
         self._subscription: Subscription | None = None
         self._link = link
         self._link_from_visual = visual.link_from_visual
-        self._scale = _scale_of(visual.geometry)
+        self._scale = _node_scale(visual.geometry)
         self._force = ZERO
         self._line = DebugLine(GAZEBO_MATERIALS["Gazebo/Purple"].diffuse[:3])
         sim.lines[f"{model.name}::{link.name}::{visual.name}::{tag.name}"] = self._line
@@ -69,8 +68,8 @@ class DrawForce(VisualPlugin):
         self._force = (force.x, force.y, force.z)
 
 
-def _scale_of(geometry: Geometry) -> Vector3:
-    """Scale of a visual's node, by which Gazebo draws unit shapes and all that is attached (Visual::Load)."""
+def _node_scale(geometry: Geometry) -> Vector3:
+    """Return the scale of a visual's node, with which Gazebo draws unit shapes and attached objects (Visual::Load)."""
     match geometry:
         case Box(size):
             return size

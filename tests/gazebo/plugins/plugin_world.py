@@ -1,4 +1,4 @@
-"""A model with its plugins, and a node of no graph that a test speaks through."""
+"""A world whose plugins run, and a fake node that replaces the ROS graph."""
 
 import asyncio
 from collections.abc import Callable, Coroutine, Mapping
@@ -17,7 +17,7 @@ ARM = (
     f'<child>base</child></joint><link name="arm">{BODY.format(1)}</link><joint name="hinge" type="revolute">'
     "<parent>base</parent><child>arm</child><axis><xyz>0 0 1</xyz></axis></joint>"
 )
-"""An arm of 0.1 kg·m² on a hinge that points upwards."""
+"""Arm of 0.1 kg·m² on a vertical hinge."""
 
 
 class _Loop:
@@ -33,8 +33,8 @@ class _Params:
         return self._values.get(name, default)
 
 
-class Wires:
-    """Stand-in for a node: keeps subscribers, services and what is published."""
+class FakeNode:
+    """Fake node that records subscribers, services and published messages."""
 
     loop = _Loop()
 
@@ -42,26 +42,26 @@ class Wires:
         self.params, self.profile = _Params(params or {}), profile
         self.services: set[str] = set()
         self._types = Messages()
-        self.heard_by: dict[str, list[tuple[str, Callable[[Any], None]]]] = {}
-        self.said: dict[str, list[Any]] = {}
+        self.subscribers: dict[str, list[tuple[str, Callable[[Any], None]]]] = {}
+        self.published: dict[str, list[Any]] = {}
         self.latched: set[str] = set()
         self.endpoints = EndpointRecorder()
 
-    def subscribe(self, topic: str, kind: str, call: Callable[[Any], None], **_: Any) -> None:
-        self.heard_by.setdefault(topic, []).append((kind, call))
+    def subscribe(self, topic: str, kind: str, callback: Callable[[Any], None], **_: Any) -> None:
+        self.subscribers.setdefault(topic, []).append((kind, callback))
 
     def advertise(self, topic: str, kind: str, *, latch: bool = False, **_: Any) -> "_Topic":
         if latch:
             self.latched.add(topic)
-        return _Topic(self._types, kind, self.said.setdefault(topic, []))
+        return _Topic(self._types, kind, self.published.setdefault(topic, []))
 
     def advertise_service(self, name: str, *_: object) -> None:
         self.services.add(name)
 
-    def tell(self, topic: str, **fields: Any) -> None:
-        """Pass a message to the subscribers of a topic."""
-        for kind, call in self.heard_by[topic]:
-            call(self.new(kind, fields))
+    def receive(self, topic: str, **fields: Any) -> None:
+        """Deliver a message to the subscribers of a topic."""
+        for kind, callback in self.subscribers[topic]:
+            callback(self.new(kind, fields))
 
     def new(self, kind: str, fields: Any) -> Any:
         return self._types.new(kind, fields)
@@ -70,11 +70,11 @@ class Wires:
 class _Topic:
     has_subscribers = True
 
-    def __init__(self, types: Messages, kind: str, said: list[Any]) -> None:
-        self._types, self._kind, self._said = types, kind, said
+    def __init__(self, types: Messages, kind: str, published: list[Any]) -> None:
+        self._types, self._kind, self._published = types, kind, published
 
     def publish(self, message: Any) -> None:
-        self._said.append(self._types.new(self._kind, message) if isinstance(message, dict) else message)
+        self._published.append(self._types.new(self._kind, message) if isinstance(message, dict) else message)
 
 
 def load(
@@ -83,18 +83,18 @@ def load(
     *,
     gravity: str = "0 0 0",
     ground: bool = False,
-    others: str = "",
-    wires: Wires | None = None,
+    other_models: str = "",
+    node: FakeNode | None = None,
 ) -> Simulation:
-    """A world with the model `m`, and others after it, whose plugins run."""
+    """Return a world with the model `m` and other models, with their plugins loaded."""
     plane = "<include><uri>model://ground_plane</uri></include>" if ground else ""
     file = folder / "w.sdf"
     file.write_text(
         f'<sdf version="1.6"><world name="w"><gravity>{gravity}</gravity>{plane}'
-        f'<model name="m">{body}</model>{others}</world></sdf>'
+        f'<model name="m">{body}</model>{other_models}</world></sdf>'
     )
     sim = trundle.load(str(file))
-    make: Any = None if wires is None else lambda _: wires
-    load_plugins(sim, make, {}, say=lambda _: None)
-    load_world_plugins(sim, make, {}, say=lambda _: None)
+    make_node: Any = None if node is None else lambda _: node
+    load_plugins(sim, make_node, {}, log=lambda _: None)
+    load_world_plugins(sim, make_node, {}, log=lambda _: None)
     return sim
