@@ -67,7 +67,7 @@ def test_the_link_that_only_allows_looking_is_printed_on_request(view_only: bool
     with PageServer.start(Session(title="t", kind="graph"), at=at) as page:
         announce_page(page, at, said.append, opens_browser=False)
 
-        assert said == [f"see it at {page.url}", *([f"look only at {page.view_url}"] if view_only else [])]
+        assert said == [f"see it at {page.url}", *([f"view-only link: {page.view_url}"] if view_only else [])]
 
 
 def test_a_script_opens_nothing(env: Mapping[str, str], opened: Path) -> None:

@@ -140,7 +140,7 @@ def test_sliders_and_joysticks_move_what_offered_them(shown: Shown) -> None:
     assert moved == [("pan", 0.5)]
     assert sticks == [([0.5, -1.0], [1])]
     refused = shown.request(request="slider", joint="tilt", position=0.5)
-    assert (refused["ok"], refused["error"]) == (False, "no slider moves a joint 'tilt'")
+    assert (refused["ok"], refused["error"]) == (False, "no slider for joint 'tilt'")
 
 
 def test_the_configuration_is_saved_where_it_came_from(shown: Shown) -> None:
@@ -156,7 +156,7 @@ def test_what_a_graph_has_not_is_refused_with_a_sentence(shown: Shown) -> None:
 
     response = shown.request(request="step", count=1)
     assert response["ok"] is False
-    assert response["error"].startswith("this page shows a ROS graph; it has no simulation")
+    assert response["error"].startswith("this page shows a ROS graph: it has no simulation")
 
 
 def test_the_page_ends_with_its_server(shown: Shown) -> None:

@@ -81,7 +81,7 @@ def test_reset_goes_to_the_beginning_and_speed_may_be_as_fast_as_possible() -> N
 
 
 def test_a_recording_moves_no_joint() -> None:
-    with pytest.raises(UsageError, match="a recording cannot do that"):
+    with pytest.raises(UsageError, match="a recording does not support this request"):
         playback().handle(MoveJoint(model="m", joint="j", position=1.0))
 
 

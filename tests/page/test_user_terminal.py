@@ -208,7 +208,7 @@ def test_who_may_only_look_sees_it_and_types_nothing(graph: Graph, chromium: Any
     viewer.page.keyboard.type("iii")
     with ProtocolClient(link) as client:
         client.send("trundle/terminal", number=0, text="i")
-        client.until(lambda: [status["message"] for status in client.statuses] == ["this link only allows looking"])
+        client.until(lambda: [status["message"] for status in client.statuses] == ["this link is view-only"])
     user.choose("/drive")
     user.page.keyboard.press("k")
     user.until(lambda: heard, what="for the owner's command")

@@ -17,7 +17,7 @@ from trundle.page import GraphAddress, PageServer, Session
 from trundle.page.clients.protocol import ClientOperation
 from trundle.page.requests.request import ClientAction, SaveRvizAs
 
-REFUSAL = "this link only allows looking"
+REFUSAL = "this link is view-only"
 LOOKING = {
     "subscribe", "unsubscribe", "getParameters", "subscribeParameterUpdates", "unsubscribeParameterUpdates",
     "subscribeConnectionGraph", "unsubscribeConnectionGraph", "fetchAsset", "trundle/presence", "trundle/request",

@@ -1,4 +1,4 @@
-"""Browser page: a server process on the Foxglove protocol, and its owner's side.
+"""Browser page: a server process for the Foxglove protocol, and the interface of the process that owns it.
 
 page = PageServer.start(Session(title="rp2w", kind="simulation"))
 page.set_world(manifest, files)

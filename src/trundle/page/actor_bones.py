@@ -1,4 +1,4 @@
-"""Bones of actors, which the page moves as it moves links."""
+"""Bones of actors, which the page moves like links."""
 
 from collections.abc import Callable
 
@@ -17,14 +17,14 @@ class ActorBones:
     def __init__(self, world: World) -> None:
         self._actors = []
         if world.actors:
-            from trundle.sim.render import skinned_actors  # these read COLLADA's bones, which most worlds have none of
+            from trundle.sim.render import skinned_actors  # reads COLLADA; most worlds have no actors
 
             self._actors = list(skinned_actors(world))
         self.names = tuple(f"{name}::{bone}" for _, name, puppet in self._actors for bone in puppet.bones)
-        """As the scene names them."""
+        """Names of the bones in the scene."""
 
     def with_bones(self, poses: _Array, animation_state: Callable[[str], AnimationState]) -> _Array:
-        """Return the poses of the links (links, 7) in the world, and below them those of the bones, in order."""
+        """Return the poses of the links (links, 7) in the world, followed by rows for the bones."""
         if not self._actors:
             return poses
         rows = [poses]

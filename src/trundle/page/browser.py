@@ -24,30 +24,30 @@ class ServedPage(Protocol):
 
 
 def announce_page(page: ServedPage, at: PageAddress, say: Callable[[str], None], *, opens_browser: bool = True) -> None:
-    """Print the link to a page, and open it in the browser of a person who sees this terminal.
+    """Print the link to a page, and open it in the browser if a user sees this terminal.
 
     Args:
-        page: the page.
-        at: address that was asked for.
+        page: running page.
+        at: requested address.
         say: prints a line.
         opens_browser: False: print only.
     """
     say(f"see it at {page.url}")
     if at.view_only:
-        say(f"look only at {page.view_url}")
+        say(f"view-only link: {page.view_url}")
     if opens_browser and sys.stdout.isatty() and sys.stderr.isatty():
-        threading.Thread(target=_open, args=(page.url,), daemon=True).start()  # finding and starting it takes seconds
+        threading.Thread(target=_open, args=(page.url,), daemon=True).start()  # starting a browser takes seconds
 
 
 def _open(url: str) -> None:
-    """Open a link by a file that leads there: all users may read the arguments of a browser's process."""
+    """Open a link through a file that redirects to it: all users may read the arguments of a browser's process."""
     if has_browser(os.environ) and (file := write_redirect(url)) is not None:
         atexit.register(file.unlink, missing_ok=True)
         webbrowser.open(file.as_uri())
 
 
 def write_redirect(url: str) -> Path | None:
-    """Write a document that only this user may read, and that leads to a link."""
+    """Write a document that redirects to a link and that only this user may read."""
     text = f'''<!doctype html>
 <meta charset="utf-8">
 <meta name="referrer" content="no-referrer">
@@ -59,7 +59,7 @@ def write_redirect(url: str) -> Path | None:
 
 
 def has_browser(env: Mapping[str, str]) -> bool:
-    """True if there is a display with a browser, or $BROWSER names a program that opens links."""
+    """True if a graphical browser can be opened, or $BROWSER names a program."""
     if env.get("BROWSER"):
         return True
     if sys.platform in ("win32", "darwin"):
@@ -70,5 +70,5 @@ def has_browser(env: Mapping[str, str]) -> bool:
         browser = webbrowser.get()
     except webbrowser.Error:
         return False
-    # Only browsers in the terminal itself, such as lynx, are of this very class.
+    # Only browsers in the terminal, such as lynx, are of exactly this class.
     return type(browser) is not webbrowser.GenericBrowser

@@ -1,4 +1,4 @@
-"""The page: what clients and the owner say, sent to the part that it is for."""
+"""The page: routes messages of clients and of the owner to its parts."""
 
 import asyncio
 import os
@@ -58,9 +58,9 @@ from .wire import (
 )  # fmt: skip
 from .world.camera_channel import TYPE as IMAGE, CameraChannel
 from .world.channels import (
-    BoxChannel,
     PosesChannel,
     StateChannel,
+    StreamChannel,
     WorldChannel,
     contacts_channel,
     joints_channel,
@@ -81,37 +81,43 @@ class Page:
     """Content of the page; used on the loop only."""
 
     def __init__(self, start: Start, *, loop: GraphLoop, assets: Assets, send: Callable[[FromServer], None]) -> None:
-        """Create; `send` writes a message to the owner."""
+        """Create it; `send` writes a message to the owner."""
         self.addresses = Served(url="", foxglove_url="", view_url="")
         self._session: Session = start.session
         self._saved_rviz: RvizFile | None = None
-        """The newest .rviz file, if it was saved by `SaveRvizAs`."""
+        """.rviz file that `SaveRvizAs` wrote last."""
         self._has_graph = start.graph is not None
         self._messages = loop.messages
         self._assets = assets
         self._owner = Owner(send)
         self._plotted: dict[Connection, frozenset[str]] = {}
         self._tasks: dict[bool, set[asyncio.Task[None]]] = {False: set(), True: set()}
-        """By whether they are for clients that may only look."""
+        """Tasks of clients with full access (False) and of view-only clients (True)."""
         self._model_pictures = asyncio.Semaphore(1)
         self._uploads = Uploads(lambda folder: send(Uploaded(str(folder))), os.environ)
         self._session_channel = SessionChannel(self.session_json)
         self._people = PeopleChannel()
         self._world = WorldChannel()
         self._state = StateChannel()
-        boxes: tuple[BoxChannel, ...] = ()
+        streams: tuple[StreamChannel, ...] = ()
         if start.bag is None:
             world = self._world
-            boxes = (self._state, PosesChannel(world), joints_channel(world), contacts_channel(world), *line_channels())
-            boxes += (series_channel(), performance_channel())
-        self._boxes: dict[str, BoxChannel] = {box.topic: box for box in boxes}
+            streams = (
+                self._state,
+                PosesChannel(world),
+                joints_channel(world),
+                contacts_channel(world),
+                *line_channels(),
+            )
+            streams += (series_channel(), performance_channel())
+        self._streams: dict[str, StreamChannel] = {stream.topic: stream for stream in streams}
         self.hub = Hub(
             session_id=str(time.time_ns()),
             capabilities=CAPABILITIES + (GRAPH_CAPABILITIES if self._has_graph else ()),
             simulated_time_ns=self._simulated_time_ns,
         )
-        self.hub.add_channels([self._session_channel, self._people, self._world, *boxes])
-        self.hub.polled += [self._people, *boxes]
+        self.hub.add_channels([self._session_channel, self._people, self._world, *streams])
+        self.hub.polled += [self._people, *streams]
         self._bag = None if start.bag is None else BagSource(open_bag(start.bag.file), start.bag, self.hub)
         if self._bag is not None:
             self.hub.polled.append(self._bag)
@@ -123,7 +129,7 @@ class Page:
         await asyncio.gather(*parts)
 
     async def stop(self) -> None:
-        """Stop robots that are driven, and remove what was uploaded."""
+        """Stop driven robots, and remove uploads."""
         self._uploads.close()
         if self._graph is not None:
             await self._graph.stop()
@@ -145,26 +151,26 @@ class Page:
             case SetWorld() as world:
                 self._world.set(world.manifest, world.generation, world.urls)
                 for topic in () if self._has_graph else world.camera_topics:
-                    self._box(topic)
+                    self._stream(topic)
             case OpenMailbox(stream, address):
                 try:
-                    self._box(stream).open(Mailbox.open(address))
-                except FileNotFoundError:  # it is replaced already; the next one is on its way
+                    self._stream(stream).open(Mailbox.open(address))
+                except FileNotFoundError:  # replaced already; the next message opens the new one
                     return
             case Respond() as answer:
                 self._owner.receive(answer)
 
-    def _box(self, stream: str) -> BoxChannel:
-        """Return the channel of a stream, that of a camera or terminal made on first use."""
-        if stream not in self._boxes:
-            if stream.startswith(TERMINAL):
-                box = TerminalChannel(stream)
+    def _stream(self, topic: str) -> StreamChannel:
+        """Return the channel of a stream; those of cameras and terminals are created on first use."""
+        if topic not in self._streams:
+            if topic.startswith(TERMINAL):
+                stream = TerminalChannel(topic)
             else:
-                box = CameraChannel(stream, schema=self._messages.definition(IMAGE))
-            self._boxes[stream] = box
-            self.hub.add_channels([box])
-            self.hub.polled.append(box)
-        return self._boxes[stream]
+                stream = CameraChannel(topic, schema=self._messages.definition(IMAGE))
+            self._streams[topic] = stream
+            self.hub.add_channels([stream])
+            self.hub.polled.append(stream)
+        return self._streams[topic]
 
     def _simulated_time_ns(self) -> int | None:
         if self._graph is not None and not isinstance(self._graph.clock, WallClock):
@@ -174,21 +180,21 @@ class Page:
     # -- for HTTP
 
     def session_json(self, is_view_only: bool) -> bytes:
-        """Return what `/session.json` says; who may only look gets no address that allows more."""
+        """Return the content of `/session.json`; a view-only client gets view-only addresses."""
         session = self._session
         if self._saved_rviz is not None:
             session = msgspec.structs.replace(session, rviz=self._saved_rviz, fixed_frame=None)  # the file has one
-        at = self.addresses
-        told = PageSession(
+        served = self.addresses
+        page_session = PageSession(
             **msgspec.structs.asdict(session),
             version=version("trundle"),
-            foxglove=at.view_url.replace("http:", "ws:", 1) if is_view_only else at.foxglove_url,
+            foxglove=served.view_url.replace("http:", "ws:", 1) if is_view_only else served.foxglove_url,
             node=None if self._graph is None else self._graph.node_name,
             view_only=is_view_only,
-            token=None if is_view_only else at.url.partition("?token=")[2],
-            view_token=at.view_url.partition("?token=")[2],
+            token=None if is_view_only else served.url.partition("?token=")[2],
+            view_token=served.view_url.partition("?token=")[2],
         )
-        return msgspec.json.encode(told)
+        return msgspec.json.encode(page_session)
 
     def world_files(self) -> Mapping[str, bytes]:
         """Return the files of the simulated world by URL."""
@@ -198,38 +204,38 @@ class Page:
         """Return a picture of the scene as PNG.
 
         Raises:
-            PictureError: it cannot be drawn; the text says why.
+            PictureError: the picture cannot be drawn.
         """
         if self._bag is not None:
-            raise PictureError("a bag is drawn by browsers with WebGL alone")
+            raise PictureError("only browsers with WebGL can draw a bag")
         return await self._owner.render(view)
 
     async def render_model(self, model: RenderModel) -> bytes:
-        """Return a picture of a model as PNG, or its shape as GLB, after those asked for before.
+        """Return a picture of a model as PNG or its shape as GLB, one model at a time.
 
         Raises:
-            PictureError: it cannot be drawn; the text says why.
+            PictureError: the picture cannot be drawn.
         """
         if self._session.kind != "simulation":
-            raise PictureError("models are drawn where a world is simulated")
+            raise PictureError("only the page of a simulation can draw models")
         async with self._model_pictures:
             return await self._owner.render(model)
 
     async def upload(self, parts: MultipartReader) -> list[str]:
-        """Receive a model and return the names of what can be inserted now.
+        """Receive a model and return the names of the models that can now be inserted.
 
         Raises:
-            UsageError: it is refused; the text says why.
+            UsageError: the upload is refused.
         """
         if self._session.kind != "simulation":
-            raise UsageError("models are inserted where a world is simulated")
+            raise UsageError("models can only be inserted into a simulation")
         return await self._uploads.receive(parts)
 
     # -- for clients
 
-    def join(self, outbox: Outbox, *, is_own: bool, is_view_only: bool) -> Connection:
+    def join(self, outbox: Outbox, *, speaks_trundle: bool, is_view_only: bool) -> Connection:
         """Add a client."""
-        client = Connection(outbox, self.hub, is_own=is_own, is_view_only=is_view_only)
+        client = Connection(outbox, self.hub, speaks_trundle=speaks_trundle, is_view_only=is_view_only)
         self.hub.add_client(client)
         if self._graph is not None:
             self._graph.join(client)
@@ -246,7 +252,7 @@ class Page:
         self._update_watched()
 
     def receive(self, client: Connection, message: bytes, *, is_text: bool) -> None:
-        """Handle a message of a client; what cannot be read is answered with a status message."""
+        """Handle a message of a client; an invalid one is answered with a status message."""
         try:
             if is_text:
                 self._operate(client, operation_decoder.decode(message), message)
@@ -283,12 +289,12 @@ class Page:
 
     def _request(self, client: Connection, request: PageRequest, message: bytes) -> None:
         client_id = request.id
-        if not client.is_own:
-            client.send_status(ERROR, "requests are for clients that speak trundle.v1")
+        if not client.speaks_trundle:
+            client.send_status(ERROR, "requests need the subprotocol trundle.v1")
             return
         if request.request not in REQUEST_NAMES:
-            what = f"the server does not know the request {request.request!r}"
-            respond(client, client_id, f"{what}: the page may be of another version, load it again")
+            error = f"unknown request {request.request!r}: the page may be of another version, reload it"
+            respond(client, client_id, error)
             return
         try:
             action = _action_decoder.decode(message)
@@ -309,25 +315,25 @@ class Page:
                 self._act(client, client_id, action)
 
     def _plot(self, client: Connection, series: frozenset[str]) -> None:
-        """Set what a client plots."""
+        """Set the values that a client plots."""
         self._plotted.pop(client, None)
         if series:
             self._plotted[client] = series
         self._owner.set_plotted(frozenset().union(*self._plotted.values()))
 
     def _start(self, client: Connection, client_id: int | str, work: Coroutine[None, None, None]) -> None:
-        """Begin work that takes time, and that answers a client."""
+        """Start a task that answers a client."""
         tasks = self._tasks[client.is_view_only]
         if len(tasks) >= MAX_IN_FLIGHT:
             work.close()
-            respond(client, client_id, f"{MAX_IN_FLIGHT} requests wait already")
+            respond(client, client_id, f"{MAX_IN_FLIGHT} requests are pending")
             return
         task = asyncio.get_running_loop().create_task(work)
         tasks.add(task)
         task.add_done_callback(tasks.discard)
 
     async def _define(self, client: Connection, client_id: int | str, type_name: str) -> None:
-        """Answer with the definition of a type, which may have to be searched."""
+        """Answer with the definition of a type; reading it may take time."""
         try:
             text = await asyncio.to_thread(self._messages.definition, type_name)
         except MessageError as error:
@@ -336,7 +342,7 @@ class Page:
             respond(client, client_id, answer=encode_json(DefinitionText(definition=text)))
 
     async def _save_rviz(self, client: Connection, client_id: int | str, action: SaveRvizAs) -> None:
-        """Answer with `file`, or `exists` where a file is there that may not be replaced."""
+        """Answer with `file`, or with `exists` if the file exists and must not be replaced."""
         try:
             exists = await asyncio.to_thread(_save_rviz, Path.cwd(), action)
         except UsageError as error:
@@ -349,7 +355,7 @@ class Page:
         respond(client, client_id, answer=encode_json(SavedFile(file=action.file)))
 
     def _act(self, client: Connection, client_id: int | str, action: ClientAction) -> None:
-        """Have the bag or the owner do what a client asks for."""
+        """Pass a request to the bag or to the owner."""
         if self._bag is None:
             self._owner.request(client, client_id, action)
             return
@@ -361,10 +367,10 @@ class Page:
             respond(client, client_id)
 
     def _update_watched(self) -> None:
-        self._owner.set_watched(frozenset(topic for topic, box in self._boxes.items() if box.clients))
+        self._owner.set_watched(frozenset(topic for topic, stream in self._streams.items() if stream.clients))
 
 
 def _save_rviz(root: Path, action: SaveRvizAs) -> str | None:
-    """Write an .rviz file; return its name if it is there and may not be replaced."""
+    """Write an .rviz file; return its name if it exists and must not be replaced."""
     file = find_target(root, action.file, example="rviz/mine.rviz", suffixes=(".rviz",))
     return save_files(root, {file: action.text}, replace=action.replace)

@@ -1,4 +1,4 @@
-"""Page as a window of the ROS graph: what rviz, rqt's programs and sliders show there."""
+"""Page as a window of the ROS graph: rviz, rqt's programs, sliders and joysticks."""
 
 import asyncio
 import os
@@ -34,17 +34,17 @@ MoveAxes = Callable[[Sequence[float], Sequence[int]], None]
 
 
 class GraphPage:
-    """Collects what windows of the graph ask for, and handles the requests to them.
+    """Collects the panels, plots and files of the graph's windows, and handles the requests to them.
 
-    All methods but the properties and `close` are called on the graph's loop.
+    Call all methods but the properties and `close` on the graph's loop.
     """
 
     def __init__(self, page: SharedPage, report: Diagnostics | None = None) -> None:
-        """Prepare; `show` serves the page.
+        """Create it; `show` serves the page.
 
         Args:
-            page: which a simulation may share.
-            report: takes warnings about the files of the launch; the page shows them.
+            page: page, which a simulation may share.
+            report: warnings about the files of the launch, which the page shows.
         """
         self._page = page
         self.report = report
@@ -89,11 +89,11 @@ class GraphPage:
             self._page.change(drive_topic=topic)
 
     def show_image(self, topic: str) -> None:
-        """Show an image topic, besides those of an rviz configuration."""
+        """Show an image topic in addition to those of an rviz configuration."""
         self._page.change(images=_with(self._session.images, topic))
 
     def open_panel(self, program: str) -> None:
-        """Open the panel that takes the place of a program: `rqt_graph`."""
+        """Open the panel that replaces a program: `rqt_graph`."""
         self._page.change(panels=_with(self._session.panels, program))
 
     def plot(self, fields: Sequence[str]) -> None:
@@ -101,16 +101,16 @@ class GraphPage:
         self._page.change(plots=_with(self._session.plots, *fields), panels=_with(self._session.panels, "rqt_plot"))
 
     async def show(self, node: Node, *, config: str | None = None, fixed_frame: str | None = None) -> int:
-        """Show until the page's server is gone or the call is cancelled; returns an exit code.
+        """Show the page until its server ends or the call is cancelled; return an exit code.
 
         Args:
-            node: the node with the window. The first one serves the page; later ones add what they show.
-            config: path of an .rviz file, which may not exist.
-            fixed_frame: overrides that of `config`.
+            node: node of the window. The first one serves the page; later ones add their panels.
+            config: path of an .rviz file, which need not exist.
+            fixed_frame: overrides the fixed frame in `config`.
 
         Raises:
             DescriptionError: the configuration cannot be read.
-            UsageError: the port asked for is taken.
+            UsageError: the requested port is in use.
         """
         if config is not None and os.path.exists(config):
             self._config = Path(config)
@@ -120,8 +120,8 @@ class GraphPage:
         if fixed_frame is not None:
             self._page.change(fixed_frame=fixed_frame)
         if self._owner is not None:
-            where = without_query(self.url or "") or "an address that it will print"
-            node.log.info(f"the page is {self._owner.name}'s, at {where}")
+            url = without_query(self.url or "") or "an address that it will print"
+            node.log.info(f"{self._owner.name} serves the page at {url}")
         else:
             self._owner = node
         try:
@@ -132,13 +132,13 @@ class GraphPage:
         return 0
 
     async def serve(self, node: Node) -> None:
-        """Serve the page until its server is gone or the call is cancelled.
+        """Serve the page until its server ends or the call is cancelled.
 
         Args:
-            node: publishes the stop of a robot that is driven when the server dies.
+            node: stops a driven robot if the server dies.
 
         Raises:
-            UsageError: the port asked for is taken.
+            UsageError: the requested port is in use.
         """
         server = await asyncio.to_thread(self._page.acquire, node)
         try:
@@ -152,7 +152,7 @@ class GraphPage:
             self._page.release()
 
     def close(self) -> None:
-        """Close the page; may be called twice and on any thread."""
+        """Close the page; callable twice and on any thread."""
         self._page.close()
 
     def _handle_requests(self, server: PageServer) -> None:
@@ -168,7 +168,7 @@ class GraphPage:
         match action:
             case MoveSlider(joint, position) if self._move_slider is not None:
                 if joint not in {slider.name for slider in self._session.sliders}:
-                    raise UsageError(f"no slider moves a joint '{joint}'")
+                    raise UsageError(f"no slider for joint '{joint}'")
                 self._move_slider(joint, position)
             case MoveJoystick(axes, buttons) if self._joysticks:
                 for move in self._joysticks:
@@ -177,9 +177,11 @@ class GraphPage:
                 write_atomically(self._config, text)
                 self._page.change(rviz=read_rviz_file(self._config))
             case RenderView():
-                raise UsageError("a ROS graph is drawn by browsers with WebGL alone")
+                raise UsageError("only browsers with WebGL can draw a ROS graph")
             case _:
-                raise UsageError("this page shows a ROS graph; it has no simulation, recording or file of that kind")
+                raise UsageError(
+                    "this page shows a ROS graph: it has no simulation, recording or file for this request"
+                )
 
 
 def _with(names: tuple[str, ...], *more: str) -> tuple[str, ...]:
@@ -187,10 +189,10 @@ def _with(names: tuple[str, ...], *more: str) -> tuple[str, ...]:
 
 
 def read_rviz_file(path: Path) -> RvizFile:
-    """Read a configuration of rviz; the client understands it.
+    """Read an rviz configuration, which the client parses.
 
     Raises:
-        DescriptionError: it cannot be read.
+        DescriptionError: the file cannot be read.
     """
     try:
         text = read_file(path, max_bytes=_MAX_CONFIG_BYTES).decode("utf-8", "replace")

@@ -1,4 +1,4 @@
-"""Links of the pages that run, in files that only their user may read."""
+"""Links of running pages, in files that only their user may read."""
 
 import contextlib
 import os
@@ -15,24 +15,24 @@ from trundle.base.ownership import runtime_folders, write_private_file
 from .wire import Served
 
 _PREFIX, _SUFFIX = "page-", ".json"
-_ANSWER_S = 2.0
+_TIMEOUT_S = 2.0
 
 
 def write_link_file(links: Served, environment: Mapping[str, str]) -> Path | None:
-    """Write the file of a page that runs; its owner removes it. None: there is no folder that is this user's alone."""
+    """Write the file of a running page, whose owner removes it; None: the user has no private folder."""
     name = f"{_PREFIX}{links.port}-{os.getpid()}{_SUFFIX}"
     return write_private_file(name, msgspec.json.encode(links), environment)
 
 
 def read_link_files(environment: Mapping[str, str]) -> list[Served]:
-    """Return the links of this user's pages that run, newest first; files of pages that have ended are removed."""
-    found: list[tuple[float, Path, Served]] = []
+    """Return the links of this user's running pages, newest first; files of ended pages are removed."""
+    files: list[tuple[float, Path, Served]] = []
     for folder in runtime_folders(environment):
         for file in folder.glob(f"{_PREFIX}*{_SUFFIX}"):
             with contextlib.suppress(OSError, msgspec.MsgspecError):
-                found.append((file.stat().st_mtime, file, msgspec.json.decode(file.read_bytes(), type=Served)))
+                files.append((file.stat().st_mtime, file, msgspec.json.decode(file.read_bytes(), type=Served)))
     running: list[Served] = []
-    for _, file, links in sorted(found, key=lambda each: each[0], reverse=True):
+    for _, file, links in sorted(files, key=lambda entry: entry[0], reverse=True):
         if _has_ended(links):
             file.unlink(missing_ok=True)
         else:
@@ -41,15 +41,15 @@ def read_link_files(environment: Mapping[str, str]) -> list[Served]:
 
 
 def _has_ended(links: Served) -> bool:
-    """True if nothing is at the page's port, or another server, which does not know the token."""
+    """True if no server listens at the page's port, or another one, which refuses the token."""
     session = urlunsplit(urlsplit(links.url)._replace(path="/session.json"))
     try:
-        with urllib.request.build_opener(urllib.request.ProxyHandler({})).open(session, timeout=_ANSWER_S):
+        with urllib.request.build_opener(urllib.request.ProxyHandler({})).open(session, timeout=_TIMEOUT_S):
             return False
     except urllib.error.HTTPError as error:
         error.close()
         return True
     except urllib.error.URLError as error:
         return isinstance(error.reason, ConnectionRefusedError)
-    except OSError:  # it is busy
+    except OSError:  # the server is busy
         return False

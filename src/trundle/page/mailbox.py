@@ -1,8 +1,8 @@
-"""A latest-wins slot between two processes: the newest message replaces the one that was not read.
+"""Latest-value mailbox between two processes: the newest message replaces an unread one.
 
-Writer and reader share memory and never wait for each other. Two halves alternate: message n lies in half n % 2, and
-two counters say which messages were begun and which are done, so that a reader knows whether the half it copied was
-overwritten meanwhile.
+Writer and reader share memory and never wait for each other. Two halves alternate: message n is in half n % 2, and two
+counters hold the numbers of the last started and the last finished message, from which a reader detects that its half
+was overwritten while it was copied.
 """
 
 from collections.abc import Sequence
@@ -15,11 +15,11 @@ from .shared_memory import MemoryAddress, SharedMemory
 
 Piece: TypeAlias = bytes | NDArray[np.uint8]
 _HEADER_BYTES = 64
-_BEGUN, _DONE, _LENGTHS = 0, 1, 2
+_STARTED, _FINISHED, _LENGTHS = 0, 1, 2
 
 
 class Mailbox:
-    """One direction, one writer, one reader."""
+    """Mailbox with one writer and one reader."""
 
     def __init__(self, shared: SharedMemory) -> None:
         self._shared = shared
@@ -30,17 +30,17 @@ class Mailbox:
 
     @classmethod
     def create(cls, capacity_bytes: int) -> "Mailbox":
-        """Allocate the memory; raises OSError where there is no room."""
+        """Allocate the memory; raises OSError if there is not enough."""
         return cls(SharedMemory.create(_HEADER_BYTES + 2 * capacity_bytes))
 
     @classmethod
     def open(cls, address: MemoryAddress) -> "Mailbox":
-        """Map the memory of another process; raises FileNotFoundError if that process has let go of it."""
+        """Map the memory of another process; raises FileNotFoundError if that process has released it."""
         return cls(SharedMemory.open(address))
 
     @property
     def address(self) -> MemoryAddress:
-        """Place where another process finds it."""
+        """Address by which another process opens it."""
         return self._shared.address
 
     @property
@@ -50,8 +50,8 @@ class Mailbox:
 
     def put(self, pieces: Sequence[Piece]) -> None:
         """Replace the message; the pieces are copied one after another."""
-        number = int(self._header[_DONE]) + 1
-        self._header[_BEGUN] = number
+        number = int(self._header[_FINISHED]) + 1
+        self._header[_STARTED] = number
         start = end = _HEADER_BYTES + (number % 2) * self._half_bytes
         for piece in pieces:
             assert end + len(piece) <= start + self._half_bytes, "the message is longer than the mailbox"
@@ -59,20 +59,20 @@ class Mailbox:
                 self._bytes[end : end + len(piece)] = np.frombuffer(piece, dtype=np.uint8)
             end += len(piece)
         self._header[_LENGTHS + number % 2] = end - start
-        self._header[_DONE] = number
+        self._header[_FINISHED] = number
 
     def read(self) -> bytes | None:
-        """Return the newest message; None if it was read before, or is being overwritten."""
-        number = int(self._header[_DONE])
+        """Return the newest message; None if it was read already or is being overwritten."""
+        number = int(self._header[_FINISHED])
         if number == self._read:
             return None
         start = _HEADER_BYTES + (number % 2) * self._half_bytes
         message = self._bytes[start : start + int(self._header[_LENGTHS + number % 2])].tobytes()
-        if int(self._header[_BEGUN]) > number + 1:
+        if int(self._header[_STARTED]) > number + 1:
             return None
         self._read = number
         return message
 
     def unlink(self) -> None:
-        """Have no other process find it; both sides keep the memory as long as they hold it."""
+        """Remove its address; processes that have opened it keep the memory."""
         self._shared.unlink()

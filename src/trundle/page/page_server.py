@@ -1,4 +1,4 @@
-"""The page's server as its owner sees it: start it, feed it, poll the requests."""
+"""Interface of the owner to the page's server: start it, send it data, poll the requests."""
 
 import contextlib
 import os
@@ -77,14 +77,14 @@ if TYPE_CHECKING:
 
 _STOP_TIMEOUT_S = 1.5
 _MAX_REQUESTS = 1000
-_MIN_BOX_BYTES = 4096
+_MIN_MAILBOX_BYTES = 4096
 _Item = TypeVar("_Item")
 
 
 class PageServer:
-    """A browser page served by a process of its own.
+    """A browser page served by its own process.
 
-    One thread owns it. Nothing here waits for the page: a browser that is slow, or gone, costs the owner nothing.
+    One thread owns it. No method but `start` and `close` waits for the page, however slow the browser.
     """
 
     def __init__(self, process: "subprocess.Popen[bytes]", stop: DriveStop | None) -> None:
@@ -93,10 +93,10 @@ class PageServer:
         self._outgoing: queue.SimpleQueue[Start | ToServer | None] = queue.SimpleQueue()
         self._replies: queue.SimpleQueue[Served | Refused | None] = queue.SimpleQueue()
         self._requests: dict[bool, deque[Request]] = {kind: deque(maxlen=_MAX_REQUESTS) for kind in (False, True)}
-        """By whether they are to nodes of the graph."""
+        """Requests to the simulation or recording (False) and to nodes of the graph (True)."""
         self._terminal_inputs: deque[TerminalInput] = deque(maxlen=_MAX_REQUESTS)
         self._watched: frozenset[str] = frozenset()
-        self._boxes: dict[str, Mailbox] = {}
+        self._mailboxes: dict[str, Mailbox] = {}
         self._plotted: tuple[str, ...] = ()
         self._uploads: Path | None = None
         self._generation = 0
@@ -119,19 +119,19 @@ class PageServer:
         bag: BagFile | None = None,
         source: Path | None = None,
     ) -> Self:
-        """Start the server and return once it answers.
+        """Start the server and wait until it answers.
 
         Args:
-            session: what the page is for.
+            session: title, panels and topics of the page.
             at: address to bind; by default loopback, port 8080 or the next free one.
-            graph: the ROS graph to join; None: the page shows what its owner puts here, alone.
-            source: world, model or launch file that the page is about; clients may fetch meshes and textures around it
-                and on the package paths. None: the working directory.
-            bag: a bag to play; None: the page shows what its owner puts here, or the graph.
+            graph: ROS graph to join; None: the page shows only its owner's data.
+            source: world, model or launch file of the page; clients may fetch meshes and textures around it and on the
+                package paths. None: the working directory.
+            bag: bag to play; None: the page shows its owner's data or the graph.
             node: node of this process that publishes a zero velocity if the server dies while a robot is driven.
 
         Raises:
-            UsageError: the host or the port asked for cannot be bound.
+            UsageError: the requested host or port cannot be bound.
             PageError: the server's process did not start.
         """
         at = at or PageAddress()
@@ -139,7 +139,7 @@ class PageServer:
             [sys.executable, "-P", "-m", "trundle.page.server"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            # Ctrl-C reaches every process of the terminal's group; the server ends when its input does.
+            # Ctrl-C signals every process of the terminal's group; the server ends at the end of its input.
             start_new_session=True,
         )
         server = cls(process, None if node is None else DriveStop(node))
@@ -165,7 +165,7 @@ class PageServer:
 
     @property
     def url(self) -> str:
-        """Link to the page, with the token that opens it: `http://127.0.0.1:8080/?token=…`."""
+        """Link to the page, with its token: `http://127.0.0.1:8080/?token=…`."""
         return self._addresses.url
 
     @property
@@ -175,63 +175,63 @@ class PageServer:
 
     @property
     def view_url(self) -> str:
-        """Link to a page that may look and change nothing: `http://127.0.0.1:8080/?token=…`."""
+        """View-only link to the page: `http://127.0.0.1:8080/?token=…`."""
         return self._addresses.view_url
 
     @property
     def alive(self) -> bool:
-        """True while the server's process runs; afterwards everything put here is dropped."""
+        """True while the server's process runs; afterwards all data is dropped."""
         return self._process.poll() is None
 
     @property
     def process_id(self) -> int:
-        """Number of the server's process."""
+        """Id of the server's process."""
         return self._process.pid
 
     @property
     def generation(self) -> int:
-        """Generation of the last world shown; 0 before the first."""
+        """Generation of the latest world; 0 before the first."""
         return self._generation
 
     def is_watched(self, stream: str) -> bool:
-        """True if some client looks at a stream: one of `trundle.page.world.streams`, or a camera's topic.
+        """True if a client watches a stream: one of `trundle.page.world.streams`, or a camera's topic.
 
-        Streams that are not watched need not be put.
+        Other streams need not be put.
         """
         return stream in self._watched
 
     @property
     def plotted(self) -> tuple[str, ...]:
-        """Values of the simulation that some client plots, as `PlotSeries` names them."""
+        """Names, as in `PlotSeries`, of the values of the simulation that clients plot."""
         return self._plotted
 
     @property
     def uploads(self) -> Path | None:
-        """Folder of the models that people have uploaded, each a folder, until `close`; None: there are none."""
+        """Folder of the uploaded models, each a folder, until `close`; None: there are none."""
         return self._uploads
 
     def requests(self, *, of_graph: bool | None = None) -> list[Request]:
-        """Return the requests since the last call, oldest first; each is to be answered by `respond`.
+        """Return the requests since the last call, oldest first; answer each by `respond`.
 
-        Two threads may share the page: one takes the requests to nodes of the graph, the other one the rest.
+        Two threads may share the page, one for the requests to nodes of the graph, the other for the rest.
 
         Args:
-            of_graph: True: requests to nodes of the graph alone; False: all others; None: all.
+            of_graph: True: only requests to nodes of the graph; False: all others; None: all.
         """
-        taken = [
+        requests = [
             request
-            for kind, waiting in self._requests.items()
+            for kind, pending in self._requests.items()
             if of_graph in (None, kind)
-            for request in _drain(waiting)
+            for request in _drain(pending)
         ]
-        return taken if of_graph is not None else sorted(taken, key=lambda request: request.id)
+        return requests if of_graph is not None else sorted(requests, key=lambda request: request.id)
 
     def terminal_inputs(self) -> list[TerminalInput]:
-        """Return the keys and sizes for terminals since the last call, oldest first."""
+        """Return the input and sizes for terminals since the last call, oldest first."""
         return _drain(self._terminal_inputs)
 
     def respond(self, request_id: int, error: str | None = None, answer: Answer = DONE) -> None:
-        """Answer a request; `error` is a sentence that says why it was not done."""
+        """Answer a request; `error` is the reason for a failure."""
         self._send(Respond(request_id, error, answer=encode_json(answer)))
 
     def respond_picture(self, request_id: int, picture: bytes) -> None:
@@ -239,15 +239,15 @@ class PageServer:
         self._send(Respond(request_id, picture=picture))
 
     def set_session(self, session: Session) -> None:
-        """Replace the session: the robot's name came, or a panel was asked for."""
+        """Replace the session."""
         self._send(SetSession(session))
 
     def set_notice(self, notice_id: str, text: str | None) -> None:
-        """Show a warning, a sentence, until it is replaced; None: it does not hold any more."""
+        """Show a warning until it is replaced; None: remove it."""
         self._send(SetNotice(notice_id, text))
 
     def set_node(self, node: "Node | None") -> None:
-        """Have another node publish the stop of a driven robot; see `start`."""
+        """Replace the node that stops a driven robot; see `start`."""
         if self._stop is not None:
             self._stop.end()
         self._stop = None if node is None else DriveStop(node)
@@ -256,9 +256,9 @@ class PageServer:
         """Replace the manifest of the simulated world.
 
         Args:
-            manifest: its generation goes with the poses and joints put afterwards.
-            files: URL as in the manifest → content of the files that the manifest did not name before. Files that it
-                no longer names are forgotten.
+            manifest: manifest, whose generation the following poses and joints get.
+            files: URL as in the manifest → content of files that are new in the manifest. Files that it no longer
+                names are removed.
         """
         for url, content in files.items():
             self._send(AddFile(url, content))
@@ -278,12 +278,12 @@ class PageServer:
         self._put_rows(JOINTS, time_ns, joints)
 
     def put_series(self, first: int, head: SeriesHead, rows: NDArray[np.float64]) -> None:
-        """Show the newest rows of plotted values; those that a client has already are sent again.
+        """Show the newest rows of plotted values; they may overlap with earlier ones.
 
         Args:
-            first: number of the first row, which counts all that were put.
-            head: of the columns.
-            rows: (rows, 1 + series): time [s] and values, NaN where there is none.
+            first: number of the first row, counted from the first row ever put.
+            head: names and units of the columns.
+            rows: (rows, 1 + series): time [s] and values, NaN for missing ones.
         """
         text = msgspec.json.encode(head)
         self._put(
@@ -291,11 +291,11 @@ class PageServer:
         )
 
     def put_performance(self, profile: "Profile") -> None:
-        """Show where the wall time of the last second went."""
+        """Show how the wall time of the last second was spent."""
         self._put(PERFORMANCE, [msgspec.json.encode(profile)])
 
     def put_lines(self, time_ns: int, lines: Iterable[Line]) -> None:
-        """Show these lines and no others."""
+        """Replace the lines."""
         self._put(LINES, line_pieces(time_ns, tuple(lines)))
 
     def put_contacts(self, time_ns: int, contacts: NDArray[np.float64]) -> None:
@@ -303,21 +303,21 @@ class PageServer:
         self._put_rows(CONTACTS, time_ns, contacts)
 
     def put_ranges(self, time_ns: int, lines: Iterable[Line]) -> None:
-        """Show what range sensors measure, and nothing of those before."""
+        """Replace the lines of range sensors."""
         self._put(RANGES, line_pieces(time_ns, tuple(lines)))
 
     def put_terminal(self, stream: str, first: int, size: tuple[int, int], output: bytes) -> None:
-        """Show the end of a terminal's output, which begins with byte `first` of all, at a size (columns, rows)."""
+        """Show the end of a terminal's output, from byte `first` of the whole, at a size (columns, rows)."""
         self._put(stream, [TERMINAL_HEADER.pack(first, *size), output])
 
     def put_image(self, topic: str, time_ns: int, rgb: NDArray[np.uint8]) -> None:
-        """Show a camera's newest picture (height, width, 3) on its topic of the manifest; for runs without ROS."""
+        """Show a camera's newest picture (height, width, 3) on its topic in the manifest; for runs without ROS."""
         assert rgb.ndim == 3, "a picture is (height, width, 3)"
         assert rgb.shape[2] == 3, "a picture is (height, width, 3)"
         self._put(topic, [IMAGE_HEADER.pack(time_ns, *rgb.shape), np.ascontiguousarray(rgb).reshape(-1)])
 
     def close(self) -> None:
-        """End the server; the port is free and the process gone when this returns. May be called twice."""
+        """End the server and wait until its process has ended and the port is free. May be called twice."""
         self._outgoing.put(None)
         try:
             self._process.wait(_STOP_TIMEOUT_S)
@@ -326,9 +326,9 @@ class PageServer:
             self._process.wait()
         for thread in self._threads:
             thread.join()
-        boxes, self._boxes = self._boxes, {}  # first: two threads may close
-        for box in boxes.values():
-            box.unlink()
+        mailboxes, self._mailboxes = self._mailboxes, {}  # first: two threads may close
+        for mailbox in mailboxes.values():
+            mailbox.unlink()
         if self._link_file is not None:
             with contextlib.suppress(OSError):
                 self._link_file.unlink(missing_ok=True)
@@ -347,23 +347,23 @@ class PageServer:
         self._put(stream, [header, np.ascontiguousarray(rows, dtype=np.float64).reshape(-1).view(np.uint8)])
 
     def _put(self, stream: str, pieces: Sequence[Piece]) -> None:
-        """Put a message into the stream's mailbox, a larger one if it does not fit."""
+        """Put a message into the stream's mailbox; one that is too small is replaced."""
         size = sum(map(len, pieces))
-        box = self._boxes.get(stream)
-        if box is None or size > box.capacity_bytes:
-            if box is not None:
-                box.unlink()
-            box = self._boxes[stream] = Mailbox.create(max(_MIN_BOX_BYTES, size + size // 4))
-            box.put(pieces)
-            self._send(OpenMailbox(stream, box.address))
+        mailbox = self._mailboxes.get(stream)
+        if mailbox is None or size > mailbox.capacity_bytes:
+            if mailbox is not None:
+                mailbox.unlink()
+            mailbox = self._mailboxes[stream] = Mailbox.create(max(_MIN_MAILBOX_BYTES, size + size // 4))
+            mailbox.put(pieces)
+            self._send(OpenMailbox(stream, mailbox.address))
             return
-        box.put(pieces)
+        mailbox.put(pieces)
 
     def _send(self, message: ToServer) -> None:
         self._outgoing.put(message)
 
     def _send_all(self) -> None:
-        """Write messages until the end; in a thread of its own, as a pipe blocks when it is full."""
+        """Write messages until the end, in a thread, as a full pipe blocks."""
         assert self._process.stdin is not None
         with contextlib.suppress(OSError), self._process.stdin as pipe:
             while (message := self._outgoing.get()) is not None:
@@ -371,7 +371,7 @@ class PageServer:
                 pipe.flush()
 
     def _receive(self) -> None:
-        """Receive what the server says until it ends."""
+        """Receive the server's messages until it ends."""
         assert self._process.stdout is not None
         with contextlib.suppress(EOFError, OSError, msgspec.DecodeError), self._process.stdout as pipe:
             while True:
@@ -408,13 +408,13 @@ class PageServer:
             return reply
         if isinstance(reply, Refused):
             raise UsageError(reply.reason)
-        raise PageError(f"the page's server ended at once with exit code {self._process.wait()}")
+        raise PageError(f"the page's server ended at its start with exit code {self._process.wait()}")
 
 
-def _drain(waiting: deque[_Item]) -> list[_Item]:
-    """Remove and return what another thread appended, oldest first."""
-    taken: list[_Item] = []
+def _drain(pending: deque[_Item]) -> list[_Item]:
+    """Remove and return the items that another thread appended, oldest first."""
+    items: list[_Item] = []
     with contextlib.suppress(IndexError):
         while True:
-            taken.append(waiting.popleft())
-    return taken
+            items.append(pending.popleft())
+    return items

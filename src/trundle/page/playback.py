@@ -1,4 +1,4 @@
-"""Playback of a recording: its time, speed and pause, as a person at the page sets them."""
+"""Playback of a recording: its time, speed and pause, controlled from the page."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,20 +9,20 @@ from trundle.spatial import NS_PER_S
 from .requests.request import PageAction, Pause, Play, Reset, Seek, SetSpeed, Step
 from .world.streams import ClockState, TimelineSpan
 
-_FASTEST = 100.0
-"""Speed of a playback as fast as possible."""
+_MAX_SPEED = 100.0
+"""Playback speed for "as fast as possible"."""
 
 
 class Playback:
-    """Time of a recording, which is played in a loop."""
+    """Time of a recording that is played in a loop."""
 
     def __init__(self, times_ns: NDArray[np.int64], *, speed: float, paused: bool) -> None:
-        """Start at the beginning.
+        """Start at the first sample.
 
         Args:
-            times_ns: of the samples, ascending, at least one [ns].
+            times_ns: ascending times of the samples, at least one [ns].
             speed: recorded seconds per second of wall time.
-            paused: do not play yet.
+            paused: start paused.
         """
         self._times_ns = times_ns
         self._speed: float | None = speed
@@ -36,7 +36,7 @@ class Playback:
 
     @property
     def state(self) -> ClockState:
-        """The clock for the page."""
+        """Clock's state for the page."""
         return ClockState(
             time_ns=self.time_ns,
             paused=self._paused,
@@ -46,7 +46,7 @@ class Playback:
         )
 
     def advance(self, wall_s: float) -> None:
-        """Play for a duration of wall time [s]; from the end it goes on at the beginning."""
+        """Play for a duration of wall time [s]; after the end, playback restarts."""
         if self._paused:
             return
         span_ns = int(self._times_ns[-1] - self._times_ns[0])
@@ -55,10 +55,10 @@ class Playback:
             self.time_ns = int(self._times_ns[0])
 
     def handle(self, action: PageAction) -> None:
-        """Do what a person asks for.
+        """Execute a request.
 
         Raises:
-            UsageError: a recording cannot do it.
+            UsageError: a recording does not support it.
         """
         match action:
             case Play():
@@ -75,8 +75,8 @@ class Playback:
             case SetSpeed(factor):
                 self._speed = factor
             case _:
-                raise UsageError("a recording cannot do that")
+                raise UsageError("a recording does not support this request")
 
     @property
     def _factor(self) -> float:
-        return _FASTEST if self._speed is None else self._speed
+        return _MAX_SPEED if self._speed is None else self._speed

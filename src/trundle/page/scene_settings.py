@@ -1,4 +1,4 @@
-"""Ambient light, background, sky and fog of a world, as the page's client reads them."""
+"""Ambient light, background, sky and fog of a world, for the page's client."""
 
 from trundle.robots.model import World
 
@@ -6,7 +6,7 @@ from .world.manifest import Fog, SceneSettings
 
 
 def scene_settings(world: World) -> SceneSettings:
-    """Return what a client needs of <scene>."""
+    """Return the settings in <scene> for a client."""
     scene, fog = world.scene, world.scene.fog
     return SceneSettings(
         ambient=scene.ambient[:3],

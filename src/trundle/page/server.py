@@ -1,7 +1,7 @@
-"""The page's process: HTTP, WebSockets and a node of the graph, fed by its owner, ended by the end of its input.
+"""The page's process: HTTP, WebSockets and a node of the graph; it ends at the end of its input.
 
-Run as `python -m trundle.page.server` by `PageServer.start` alone. Standard input and output carry the messages of
-`wire`; nothing else may write there.
+Only `PageServer.start` runs it, as `python -m trundle.page.server`. Standard input and output carry the messages of
+`wire`; nothing else may write to them.
 """
 
 import contextlib
@@ -25,18 +25,18 @@ from .http.listening import AddressError, listen
 from .http.server import HttpServer
 from .wire import FromServer, Refused, Served, Start, frame, read_frame, start_decoder, to_server_decoder
 
-_STOP_S = 0.5
+_STOP_TIMEOUT_S = 0.5
 
 
 class OwnerPipe:
-    """Pipe to the owner, written on the loop only: what it says is short, and the owner reads at once."""
+    """Pipe to the owner, written on the loop only: messages are short, and the owner reads them at once."""
 
     def __init__(self) -> None:
         self._descriptor = os.dup(1)
         os.dup2(2, 1)
 
     def send(self, message: FromServer) -> None:
-        """Send a message; an owner that is gone is noticed where its pipe ends."""
+        """Send a message; the end of the input pipe reveals that the owner has ended."""
         data = frame(message)
         try:
             while data:
@@ -68,12 +68,12 @@ def main() -> None:
     page = loop.run(_serve(start, loop, listening, address, pipe))
     _receive(page, loop)
     with contextlib.suppress(TimeoutError):
-        loop.run(page.stop(), _STOP_S)
-    os._exit(0)  # nothing else needs an orderly end
+        loop.run(page.stop(), _STOP_TIMEOUT_S)
+    os._exit(0)  # nothing else needs a clean end
 
 
 async def _serve(start: Start, loop: GraphLoop, listening: socket.socket, at: PageAddress, pipe: OwnerPipe) -> Page:
-    """Serve the page and say where it is."""
+    """Serve the page and send its addresses to the owner."""
     port = int(listening.getsockname()[1])
     access = Access(host=at.host, port=port, allowed=at.allowed, needs_token=True, view_token=secrets.token_urlsafe(16))
     page = Page(start, loop=loop, assets=Assets(os.environ, Path(os.fsdecode(start.source))), send=pipe.send)
@@ -91,14 +91,14 @@ async def _serve(start: Start, loop: GraphLoop, listening: socket.socket, at: Pa
 
 
 def _end(run: "Future[None]") -> None:
-    """End the process after a bug: its owner then stops what is driven."""
+    """End the process after a bug: its owner then stops driven robots."""
     if not run.cancelled():
         logging.getLogger(__name__).critical("the page has failed", exc_info=run.exception())
         os._exit(1)
 
 
 def _receive(page: Page, loop: GraphLoop) -> None:
-    """Receive the owner's messages until it closes the pipe or is gone."""
+    """Receive the owner's messages until the pipe ends."""
     try:
         while True:
             message = to_server_decoder.decode(read_frame(sys.stdin.buffer))

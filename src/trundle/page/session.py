@@ -1,4 +1,4 @@
-"""Purpose of a page, as `/session.json` says it: title, panels and topics that its owner asks for."""
+"""Session of a page, served as `/session.json`: title, panels and topics that its owner requests."""
 
 from typing import Literal
 
@@ -6,18 +6,18 @@ import msgspec
 
 
 class RvizFile(msgspec.Struct, frozen=True, kw_only=True):
-    """The .rviz file that the page was started with, or that was saved there last."""
+    """The .rviz file that the page was started with, or that was saved last."""
 
     name: str
     text: str
     writable: bool
-    """True if it may be replaced."""
+    """True if the file may be replaced."""
     saved: bool = False
-    """True if it was saved at the page: `name` is its path from the working folder, and `SaveRvizAs` replaces it."""
+    """True if the page saved it: `name` is its path from the working folder, and `SaveRvizAs` replaces it."""
 
 
 class JointSlider(msgspec.Struct, frozen=True, kw_only=True):
-    """A joint of joint_state_publisher_gui."""
+    """Joint of joint_state_publisher_gui."""
 
     name: str
     lower: float
@@ -29,53 +29,53 @@ class JointSlider(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class NodeTerminal(msgspec.Struct, frozen=True, kw_only=True):
-    """A node's terminal, whose channel is `trundle/terminal/N` with its place in the list."""
+    """Terminal of a node; its channel is `trundle/terminal/N` with its index in the list."""
 
     name: str
-    """Name of the node."""
+    """Node's name."""
     ended: str | None = None
-    """Sentence on the end of the node; None: it runs."""
+    """Message about the node's end; None: it runs."""
 
 
 class Session(msgspec.Struct, frozen=True, kw_only=True):
-    """Purpose of the page; empty lists ask for nothing."""
+    """Title, panels and topics of the page."""
 
     title: str
     kind: Literal["simulation", "graph", "log", "bag"]
     robot: str | None = None
-    """Name of the robot that the page is about, for the tab's title."""
+    """Robot's name, for the tab's title."""
     rviz: RvizFile | None = None
     fixed_frame: str | None = None
     namespace: str = "/"
-    """Namespace of the rviz node: of relative names in its file, of its tf and its parameters."""
+    """Namespace of the rviz node, for relative names in its file, its tf and its parameters."""
     remappings: dict[str, str] = {}
     """Remappings of the rviz node: global name → global name."""
     panels: tuple[str, ...] = ()
-    """rqt's programs whose panels are open from the start: `rqt_graph`."""
+    """rqt's programs whose panels are open at the start: `rqt_graph`."""
     plots: tuple[str, ...] = ()
     """Curves of the plots panel: `/odom/pose/pose/position/x`."""
     images: tuple[str, ...] = ()
-    """Topics of pictures to show."""
+    """Image topics to show."""
     drive_topic: str | None = None
-    """Topic of velocity commands; None: driving is not offered."""
+    """Topic of velocity commands; None: no driving."""
     sliders: tuple[JointSlider, ...] = ()
     joystick: bool = False
-    """True if a joystick is to be shown: the launch starts a joy node."""
+    """True if a joystick is shown: the launch has started a joy node."""
     terminals: tuple[NodeTerminal, ...] = ()
 
 
 class PageSession(Session, frozen=True, kw_only=True):
-    """Session as a client gets it; another `kind` or `version` is another page, which loads again."""
+    """Session for a client, which reloads the page when `kind` or `version` changes."""
 
     version: str
     """Version of the server."""
     foxglove: str
     """Address for Foxglove and Lichtblick."""
     node: str | None
-    """Name of the page's node on the graph; None: there is no graph, or it is not joined yet."""
+    """Name of the page's node on the graph; None: no graph, or not joined yet."""
     view_only: bool
-    """True if the server does nothing for this client that changes anything."""
+    """True if this client must not change anything."""
     token: str | None
-    """Token of links that allow everything; None: this client only looks."""
+    """Token of links with full access; None: this client is view-only."""
     view_token: str
-    """Token of links that only allow looking."""
+    """Token of view-only links."""

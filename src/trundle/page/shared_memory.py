@@ -1,8 +1,7 @@
-"""Memory that two processes of one user map.
+"""Memory shared by two processes of one user.
 
-Where the system has it, a file without a name, which ends with the processes that hold it, however they end; elsewhere
-a file of this user's that is removed once it is mapped. (`multiprocessing.shared_memory` has a name, which stays behind
-when both processes are killed.)
+On Linux it is an anonymous file, which the system frees once no process uses it; elsewhere a private file until
+`unlink`. (`multiprocessing.shared_memory` is named, and leaks when both processes are killed.)
 """
 
 import mmap
@@ -13,39 +12,41 @@ from pathlib import Path
 import msgspec
 
 _NEVER_WAIT = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0) | getattr(os, "O_BINARY", 0)
-"""A descriptor number of another process may be a pipe or a terminal by now."""
+"""Flags for opening: a descriptor of another process may have become a pipe or a terminal."""
 
 
 class MemoryAddress(msgspec.Struct, frozen=True):
-    """Place where another process of this user finds the memory."""
+    """Address by which another process of this user opens the memory."""
 
     path: str
     inode: int
-    """A path in /proc names whatever has the number now."""
+    """Identifies the file: a descriptor's path in /proc may name another file by now."""
 
 
 class SharedMemory:
-    """Mapped memory; the creator keeps it to be found until `unlink`."""
+    """Mapped memory; others can open it until its creator calls `unlink`."""
 
     def __init__(self, address: MemoryAddress, memory: mmap.mmap, descriptor: int | None = None) -> None:
         self.address = address
         self.memory = memory
         self._descriptor = descriptor
-        """Keeps a file without a name to be found."""
+        """Keeps the path of an anonymous file valid."""
 
     @classmethod
     def create(cls, size: int) -> "SharedMemory":
         """Allocate memory [bytes].
 
         Raises:
-            OSError: there is no room.
+            OSError: there is not enough memory.
         """
         try:
             descriptor = os.memfd_create("trundle-page", os.MFD_CLOEXEC)
-        except (AttributeError, OSError):  # another system, or a sandbox that forbids it
+        except (AttributeError, OSError):  # not Linux, or forbidden by a sandbox
             return cls._create_named(size)
         try:
-            os.posix_fallocate(descriptor, 0, size)  # pages that cannot be had later would end the process
+            os.posix_fallocate(
+                descriptor, 0, size
+            )  # reserves the memory: running out of it later would kill the process
             address = MemoryAddress(f"/proc/{os.getpid()}/fd/{descriptor}", os.fstat(descriptor).st_ino)
             return cls(address, mmap.mmap(descriptor, size), descriptor)
         except OSError:
@@ -69,7 +70,7 @@ class SharedMemory:
         """Map the memory of another process.
 
         Raises:
-            FileNotFoundError: that process has let go of it.
+            FileNotFoundError: that process has released it.
         """
         try:
             descriptor = os.open(address.path, os.O_RDWR | _NEVER_WAIT)
@@ -81,7 +82,7 @@ class SharedMemory:
             return cls(address, mmap.mmap(file.fileno(), 0))
 
     def unlink(self) -> None:
-        """Have no other process find it; both sides keep the memory as long as they hold it."""
+        """Remove the address; processes that have mapped the memory keep it."""
         descriptor, self._descriptor = self._descriptor, None
         if descriptor is not None:
             os.close(descriptor)

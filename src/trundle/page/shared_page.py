@@ -14,15 +14,15 @@ from trundle.ros import Node
 from .browser import announce_page
 
 _MAX_FINDINGS = 60
-"""Most warnings about files on the page."""
+"""Limit of warnings about files on the page."""
 CMD_VEL = "/cmd_vel"
-"""Topic of velocity commands until a window asks for another."""
+"""Default topic of velocity commands."""
 
 
 class SharedPage:
-    """The page's server, which the first window starts and the last one ends, and its session, which all fill.
+    """The page's server, started by the first window and ended by the last, and the session that all windows share.
 
-    Any thread may call it.
+    Thread-safe.
     """
 
     def __init__(
@@ -35,14 +35,14 @@ class SharedPage:
         server: PageServer | None = None,
         opens_browser: bool = True,
     ) -> None:
-        """Prepare; `acquire` serves the page.
+        """Create it; `acquire` serves the page.
 
         Args:
             say: prints the page's URLs.
             at: address of the page.
             graph: ROS graph that the page joins; None: without ROS.
-            source: file that the page is about; packages are found from there, else from the working folder.
-            server: a running one; None: it is started when it is needed.
+            source: file of the page, from whose folder packages are searched; None: the working folder.
+            server: running server; None: it is started on first use.
             opens_browser: False: print the URLs only.
         """
         self._say = say
@@ -53,9 +53,9 @@ class SharedPage:
         self._opens_browser = opens_browser
         self._session = Session(title="ROS", kind="graph", drive_topic=None if graph is None else CMD_VEL)
         self._users = {False: 0, True: 0}
-        """Windows that show the graph, and those that show a simulated world."""
+        """Numbers of windows that show the graph (False) and a simulated world (True)."""
         self._findings: tuple[Diagnostics, int] | None = None
-        """Collection that is shown, and how many of its findings."""
+        """Report whose findings are shown, and their number."""
         self._notices = 0
         self._is_over = False
         self._starting = threading.Lock()
@@ -79,7 +79,7 @@ class SharedPage:
 
     @property
     def session(self) -> Session:
-        """Purpose of the page, as it is now."""
+        """Current session."""
         return self._session
 
     def change(self, **changes: object) -> None:
@@ -90,15 +90,15 @@ class SharedPage:
                 self._server.set_session(self._session)
 
     def acquire(self, node: Node | None, *, shows_world: bool = False, source: Path | None = None) -> PageServer:
-        """Return the server, started if none runs; each call is followed by one of `release`.
+        """Return the server, after starting it if none runs; call `release` once for each call.
 
         Args:
-            node: publishes the stop of a robot that is driven when the server dies.
+            node: stops a driven robot if the server dies.
             shows_world: True for a window with a simulated world.
-            source: file that the page is about, where the constructor was given none.
+            source: file of the page, if the constructor got none.
 
         Raises:
-            UsageError: the port asked for is taken, or the page was closed meanwhile.
+            UsageError: the requested port is in use, or the page was closed meanwhile.
         """
         with self._starting:
             server = self._server
@@ -127,7 +127,7 @@ class SharedPage:
         return server
 
     def show_findings(self, report: Diagnostics) -> None:
-        """Show the warnings about files, `file:line: text`; to be called whenever there may be new ones."""
+        """Show the warnings about files, `file:line: text`; call it whenever there may be new ones."""
         with self._lock:
             server, shown = self._server, (report, len(report.findings))
             if server is None or shown == self._findings:
@@ -139,14 +139,14 @@ class SharedPage:
             self._notices = len(texts)
 
     def requests(self, *, of_world: bool) -> list[Request]:
-        """Return new requests to the windows of one kind; those of the other kind, too, where it has no window."""
+        """Return new requests to the windows of one kind, and to the other kind, too, while it has no window."""
         server = self._server
         if server is None:
             return []
         return server.requests(of_graph=not of_world if self._users[not of_world] else None)
 
     def release(self, *, shows_world: bool = False) -> None:
-        """End the use of a window; the last one closes the page."""
+        """End a window's use of the page; the last one closes it."""
         with self._starting:
             self._users[shows_world] -= 1
             is_last = not any(self._users.values())
@@ -154,7 +154,7 @@ class SharedPage:
             self.close()
 
     def close(self) -> None:
-        """Close the page, also where windows use it; may be called twice."""
+        """Close the page even if windows use it; may be called twice."""
         with self._lock:
             self._is_over = True
             server, self._server = self._server, None
@@ -163,9 +163,9 @@ class SharedPage:
 
 
 def _warnings(report: Diagnostics) -> list[str]:
-    """Return warnings and errors, the first of them if they are very many; one about many lines of a file is one."""
-    own = Diagnostics()
-    own.extend(finding for finding in report.findings if finding.severity != "info")
-    texts = [text.replace(": warning: ", ": ", 1) for text in own.worst_first()]
+    """Return warnings and errors up to the limit, the worst first; one about several lines of a file counts once."""
+    findings = Diagnostics()
+    findings.extend(finding for finding in report.findings if finding.severity != "info")
+    texts = [text.replace(": warning: ", ": ", 1) for text in findings.worst_first()]
     rest = len(texts) - _MAX_FINDINGS
-    return texts if rest <= 0 else [*texts[:_MAX_FINDINGS], f"{rest} more, which the terminal shows"]
+    return texts if rest <= 0 else [*texts[:_MAX_FINDINGS], f"{rest} more in the terminal"]

@@ -1,4 +1,4 @@
-"""The world that a page shows and changes: a simulation, and what comes and goes with its models."""
+"""The world that a page shows and edits: a simulation with its sensors and plugins."""
 
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -17,26 +17,26 @@ if TYPE_CHECKING:
 
 
 class ShownWorld(Protocol):
-    """World in motion; used on the simulation's thread."""
+    """Running world; used on the simulation's thread."""
 
     @property
     def simulation(self) -> "Simulation":
-        """The running simulation."""
+        """Running simulation."""
         ...
 
     @property
     def timeline(self) -> "Timeline | None":
-        """Last minutes of the simulation; None: it cannot go back."""
+        """Timeline of the last minutes; None: the simulation cannot go back in time."""
         ...
 
     @property
     def sensors(self) -> "Sequence[CameraSensor | InstrumentSensor]":
-        """Sensors that measure; cameras and rays are drawn."""
+        """Running sensors; cameras and rays are drawn."""
         ...
 
     @property
     def packages(self) -> Packages:
-        """Finder of models."""
+        """Finds models."""
         ...
 
     @property
@@ -53,18 +53,18 @@ class ShownWorld(Protocol):
         ...
 
     def do(self, command: "Callable[[Simulation], object]") -> None:
-        """Give the simulation a command, which the timeline repeats.
+        """Execute a command, and record it for the timeline.
 
         Raises:
-            TrundleError: of the command.
+            TrundleError: raised by the command.
         """
         ...
 
     def spawn(self, model: Model, robot: "Robot | None" = None) -> None:
-        """Add a model with its sensors and plugins; `robot` is the URDF that it came from.
+        """Add a model with its sensors and plugins; `robot` is its URDF.
 
         Raises:
-            TrundleError: it cannot be added; nothing has changed.
+            TrundleError: the model cannot be added; the world is unchanged.
         """
         ...
 
@@ -78,7 +78,7 @@ class ShownWorld(Protocol):
 
 
 class BareWorld:
-    """Simulation in which no sensor or plugin can be started."""
+    """World that starts no sensors or plugins."""
 
     def __init__(
         self,
@@ -86,7 +86,7 @@ class BareWorld:
         sensors: "Sequence[CameraSensor | InstrumentSensor]" = (),
         timeline: "Timeline | None" = None,
     ) -> None:
-        """Take a simulation, with sensors that are started already."""
+        """Wrap a simulation and its running sensors."""
         self.simulation = simulation
         self.sensors = sensors
         self.timeline = timeline
@@ -94,7 +94,7 @@ class BareWorld:
         self.packages = Packages(os.environ, start=Path.cwd())
 
     def robot(self, model: str) -> None:
-        """Return the URDF that a model was spawned from; there is none."""
+        """Return None: models here have no URDF."""
         del model
 
     def advance(self, until_ns: int) -> None:
@@ -102,7 +102,7 @@ class BareWorld:
         (self.simulation if self.timeline is None else self.timeline).advance(until_ns)
 
     def do(self, command: "Callable[[Simulation], object]") -> None:
-        """Give the simulation a command, which the timeline repeats."""
+        """Execute a command, and record it for the timeline."""
         if self.timeline is None:
             command(self.simulation)
         else:
@@ -112,7 +112,7 @@ class BareWorld:
         """Add a model.
 
         Raises:
-            UsageError: it has sensors or plugins.
+            UsageError: the model has sensors or plugins.
         """
         del robot
         if has_sensors_or_plugins(model):
@@ -125,7 +125,7 @@ class BareWorld:
 
 
 def has_sensors_or_plugins(model: Model) -> bool:
-    """Tell if a model has sensors or plugins, its visuals' included."""
+    """Tell if a model has sensors or plugins, including plugins of visuals."""
     visuals = (visual for link in model.links for visual in link.visuals)
     parts = (*model.links, *model.joints)
     return bool(model.plugins) or any(part.sensors for part in parts) or any(visual.plugins for visual in visuals)

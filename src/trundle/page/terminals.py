@@ -1,4 +1,4 @@
-"""Terminals of nodes on the page: what they show goes there, and keys come back."""
+"""Terminals of nodes on the page: output to it, input from it."""
 
 from trundle.base.supervisor import Terminal
 from trundle.page import TERMINAL, NodeTerminal, PageServer
@@ -6,17 +6,17 @@ from trundle.page import TERMINAL, NodeTerminal, PageServer
 from .shared_page import SharedPage
 
 _PROGRAM = "xterm"
-"""Program whose place the panel takes."""
+"""Program that the panel replaces."""
 
 
 class PageTerminals:
-    """Terminals by number, in the order in which they were added; used on the graph's loop."""
+    """Terminals, numbered in the order in which they were added; used on the graph's loop."""
 
     def __init__(self, page: SharedPage) -> None:
         self._page = page
         self._terminals: list[tuple[str, Terminal]] = []
         self._shown: list[int] = []
-        """Changes of each terminal that the page has; −1: none yet."""
+        """Change count of each terminal when it was last sent to the page; −1: never sent."""
 
     def __bool__(self) -> bool:
         return bool(self._terminals)
@@ -31,7 +31,7 @@ class PageTerminals:
         return terminal
 
     def update(self, server: PageServer) -> None:
-        """Show the terminals that changed and that some client looks at, and pass on keys; to be called often."""
+        """Send changed terminals that are watched to the page, and input to the terminals; call it often."""
         for typed in server.terminal_inputs():
             if typed.number < len(self._terminals):
                 _, terminal = self._terminals[typed.number]

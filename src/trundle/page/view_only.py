@@ -1,4 +1,4 @@
-"""Refusals to clients that may look and change nothing: only the operations listed here are done."""
+"""Refusals to view-only clients: only the operations listed here are allowed."""
 
 from .clients.connection import Connection
 from .clients.protocol import (
@@ -21,24 +21,24 @@ from .clients.server_messages import ServiceCallFailure
 from .owner import respond
 from .requests.request import Definition, PlotSeries
 
-REFUSAL = "this link only allows looking"
-_LOOKING = (
+REFUSAL = "this link is view-only"
+_READ_ONLY = (
     Subscribe, Unsubscribe, GetParameters, SubscribeParameterUpdates, UnsubscribeParameterUpdates,
     SubscribeConnectionGraph, UnsubscribeConnectionGraph, FetchAsset, Presence, PageRequest,
 )  # fmt: skip
-"""Operations that change nothing; `allows_request` decides on requests."""
+"""Operations that change nothing; `allows_request` checks requests."""
 
 
 def allows(client: Connection, operation: ClientOperation) -> bool:
-    """Return True if a client may do an operation; otherwise a status message says why not."""
-    if not client.is_view_only or isinstance(operation, _LOOKING):
+    """Return True if a client may do an operation; otherwise send it a status message."""
+    if not client.is_view_only or isinstance(operation, _READ_ONLY):
         return True
     client.send_status(ERROR, REFUSAL)
     return False
 
 
 def allows_request(client: Connection, client_id: int | str, action: object) -> bool:
-    """Return True if a client may make a request; otherwise answer it."""
+    """Return True if a client may make a request; otherwise answer with a refusal."""
     if not client.is_view_only or isinstance(action, Definition | PlotSeries):
         return True
     respond(client, client_id, REFUSAL)
@@ -46,7 +46,7 @@ def allows_request(client: Connection, client_id: int | str, action: object) -> 
 
 
 def allows_binary(client: Connection, message: bytes) -> bool:
-    """Return True if a client may publish and call services; otherwise it gets the reason."""
+    """Return True if a client may publish and call services; otherwise answer with a refusal."""
     if not client.is_view_only:
         return True
     if message[:1] == bytes((CLIENT_SERVICE_CALL,)) and len(message) >= SERVICE_HEADER.size:

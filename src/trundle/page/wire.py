@@ -1,7 +1,7 @@
-"""Messages between the page's server and the process that started it: msgpack behind a u32 of its length.
+"""Messages between the page's server and its owner: msgpack after its length as u32.
 
-They go through the server's standard input and output. Poses, pictures and the clock's state do not: they are many,
-only the newest counts, and they lie in mailboxes.
+They go through the server's standard input and output. Poses, pictures and the clock's state are many, and only the
+newest counts: they go through mailboxes.
 """
 
 import os
@@ -23,27 +23,27 @@ _LENGTH = struct.Struct("<I")
 
 
 class GraphAddress(msgspec.Struct, frozen=True, kw_only=True):
-    """The graph that the server joins as a node."""
+    """Graph that the server joins as a node."""
 
     master_uri: str
     host: str | None = None
     """Address that the node binds; None: loopback."""
     name: str = "trundle_page"
-    """Base name; the server adds its process's number, so that two pages do not meet."""
+    """Base name; the server appends its process id, so that names of several pages differ."""
 
 
 class BagFile(msgspec.Struct, frozen=True, kw_only=True):
-    """The bag that the server plays."""
+    """Bag that the server plays."""
 
     path: bytes
-    """As the system names it, which may be no UTF-8."""
+    """Path in the system's encoding, which need not be UTF-8."""
     speed: float
     """Recorded seconds per second of wall time."""
     paused: bool
 
     @property
     def file(self) -> Path:
-        """The bag."""
+        """Bag's path."""
         return Path(os.fsdecode(self.path))
 
 
@@ -60,9 +60,9 @@ class Start(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     graph: GraphAddress | None
     """None: no graph."""
     bag: BagFile | None = None
-    """None: the owner puts what is shown."""
+    """None: the page shows the owner's data or the graph."""
     source: bytes
-    """File or folder, as the system names it; those around it may be fetched."""
+    """File or folder, in the system's encoding; clients may fetch files around it."""
 
 
 class SetSession(msgspec.Struct, frozen=True, tag=True):
@@ -72,25 +72,25 @@ class SetSession(msgspec.Struct, frozen=True, tag=True):
 
 
 class SetNotice(msgspec.Struct, frozen=True, tag=True):
-    """Shows a warning until it is replaced."""
+    """Shows or removes a warning."""
 
     id: str
     text: str | None
-    """None: it does not hold any more."""
+    """None: the warning ends."""
 
 
 class AddFile(msgspec.Struct, frozen=True, tag=True):
-    """Brings a file that the next manifest names."""
+    """Adds a file that the next manifest names."""
 
     url: str
     content: bytes
 
 
 class SetWorld(msgspec.Struct, frozen=True, kw_only=True, tag=True):
-    """Replaces the manifest of the simulated world; files that it does not name are forgotten."""
+    """Replaces the manifest of the simulated world; files that it does not name are removed."""
 
     manifest: bytes
-    """JSON, which goes to clients as it is."""
+    """JSON for clients."""
     generation: int
     urls: frozenset[str]
     """URLs of all files that the manifest names."""
@@ -98,7 +98,7 @@ class SetWorld(msgspec.Struct, frozen=True, kw_only=True, tag=True):
 
     @classmethod
     def of(cls, manifest: "Manifest") -> Self:
-        """Encode a manifest, with what the server needs of it."""
+        """Encode a manifest, with the fields that the server uses."""
         urls = {file.url for file in manifest.files} | set(manifest.resources)
         if manifest.collisions is not None:
             urls.add(manifest.collisions)
@@ -111,10 +111,10 @@ class SetWorld(msgspec.Struct, frozen=True, kw_only=True, tag=True):
 
 
 class OpenMailbox(msgspec.Struct, frozen=True, tag=True):
-    """A stream comes through this mailbox from now on."""
+    """Replaces the mailbox of a stream."""
 
     stream: str
-    """Topic: `trundle/poses`, or that of a camera."""
+    """Topic: `trundle/poses`, or a camera's topic."""
     address: MemoryAddress
 
 
@@ -130,12 +130,12 @@ class Respond(msgspec.Struct, frozen=True, tag=True):
 
 
 class Served(msgspec.Struct, frozen=True, kw_only=True, tag=True):
-    """The server answers at these links, each with a token."""
+    """Links of the running server, each with a token."""
 
     url: str
     foxglove_url: str
     view_url: str
-    """Link to a page that may look and change nothing."""
+    """View-only link."""
 
     @property
     def port(self) -> int | None:
@@ -144,40 +144,40 @@ class Served(msgspec.Struct, frozen=True, kw_only=True, tag=True):
 
 
 class Refused(msgspec.Struct, frozen=True, tag=True):
-    """The address cannot be served."""
+    """The requested address cannot be bound."""
 
     reason: str
 
 
 class Watched(msgspec.Struct, frozen=True, tag=True):
-    """Streams that some client looks at."""
+    """Streams that any client watches."""
 
     streams: frozenset[str]
 
 
 class Plotted(msgspec.Struct, frozen=True, tag=True):
-    """Values of the simulation that some client plots."""
+    """Values of the simulation that any client plots."""
 
     series: tuple[str, ...]
 
 
 class Uploaded(msgspec.Struct, frozen=True, tag=True):
-    """A folder of uploaded models: each of its folders is one."""
+    """Folder of uploaded models, each a folder."""
 
     folder: str
 
 
 class TerminalInput(msgspec.Struct, frozen=True, tag=True):
-    """Keys for a node's terminal, and its size."""
+    """Input for a node's terminal, and its size."""
 
     number: int
     text: str
     size: tuple[int, int] | None
-    """Columns and rows; None: as it is."""
+    """Columns and rows; None: unchanged."""
 
 
 class Driven(msgspec.Struct, frozen=True, tag=True):
-    """Topics of velocity commands that some client drives with, each with its type."""
+    """Topics of velocity commands that any client drives with, and their types."""
 
     topics: dict[str, str]
 
@@ -191,7 +191,7 @@ from_server_decoder = msgspec.msgpack.Decoder(FromServer)
 
 
 def frame(message: Start | ToServer | FromServer) -> bytes:
-    """Encode a message with its length; bytes of file names that are no UTF-8 become question marks."""
+    """Encode a message with its length; bytes of file names that are not UTF-8 become question marks."""
     try:
         body = encoder.encode(message)
     except UnicodeEncodeError:
@@ -200,7 +200,7 @@ def frame(message: Start | ToServer | FromServer) -> bytes:
 
 
 def encode_json(value: object) -> bytes:
-    """Encode as JSON; bytes of file names that are no UTF-8 become question marks."""
+    """Encode as JSON; bytes of file names that are not UTF-8 become question marks."""
     try:
         return msgspec.json.encode(value)
     except UnicodeEncodeError:
@@ -208,7 +208,7 @@ def encode_json(value: object) -> bytes:
 
 
 def _readable(value: object) -> object:
-    """Return a value as builtins with texts that UTF-8 can hold."""
+    """Return a value as builtins whose texts can be encoded as UTF-8."""
     return _with_texts(msgspec.to_builtins(value, builtin_types=(bytes,)))
 
 
@@ -217,9 +217,9 @@ def _with_texts(value: Any) -> Any:
         case str():
             return value.encode("utf-8", "replace").decode()
         case dict():
-            return {_with_texts(name): _with_texts(each) for name, each in value.items()}
+            return {_with_texts(name): _with_texts(item) for name, item in value.items()}
         case list() | tuple():
-            return [_with_texts(each) for each in value]
+            return [_with_texts(item) for item in value]
         case _:
             return value
 

@@ -93,7 +93,7 @@ def test_a_browser_without_webgl_is_told_that_no_pictures_come(bag: Path) -> Non
     ):
         urllib.request.urlopen(page_url(page.url, "/camera.png?width=64&height=48"))
     with refusal.value as answer:
-        assert answer.read() == b"a bag is drawn by browsers with WebGL alone\n"
+        assert answer.read() == b"only browsers with WebGL can draw a bag\n"
 
 
 def test_topics_are_offered_with_their_types(client: ProtocolClient) -> None:
@@ -156,7 +156,7 @@ def test_a_later_client_gets_what_holds_and_a_step_is_a_tenth_of_a_second(client
 def test_a_bag_has_no_joints_to_move(client: ProtocolClient) -> None:
     answer = ask(client, 1, request="joint", model="m", joint="j", position=1.0)
 
-    assert (answer["ok"], answer["error"]) == (False, "a recording cannot do that")
+    assert (answer["ok"], answer["error"]) == (False, "a recording does not support this request")
 
 
 def test_reading_goes_on_where_it_stopped(bag: Path) -> None:

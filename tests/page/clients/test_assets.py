@@ -64,11 +64,11 @@ def test_files_of_the_package_are_sent(client: ProtocolClient, robot: Path) -> N
         ("package://robot/meshes", "directory"),
         ("package://nobody/a.stl", "no package 'nobody'"),
         ("file:///dev/zero", "not a file"),
-        ("http://example.com/a.stl", "files are fetched by package://, model://, file://"),
-        ("/etc/passwd", "files are fetched by"),
+        ("http://example.com/a.stl", "use one of package://, model://, file://"),
+        ("/etc/passwd", "use one of"),
         ("package://robot/\0", ""),
-        ("package://robot/package.xml", "no other files"),
-        ("package://robot/.env", "no other files"),
+        ("package://robot/package.xml", "only meshes, textures and robots are sent"),
+        ("package://robot/.env", "only meshes, textures and robots are sent"),
     ],
 )
 def test_other_files_are_refused_with_the_reason(client: ProtocolClient, uri: str, reason: str) -> None:
@@ -97,7 +97,7 @@ def test_the_65th_file_that_is_waited_for_is_refused(client: ProtocolClient) -> 
 
     errors = [data for data in client.binaries if data[5]]
     assert errors
-    assert b"64 files are waited for already" in errors[0]
+    assert b"64 requests for files are pending" in errors[0]
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="needs file names that are no UTF-8")

@@ -103,10 +103,10 @@ def test_a_removed_link_takes_its_joints_with_it_and_both_come_back(cart: Draft)
         (CHASSIS, "inertial/mass", (-1.0,), "from 1e-09"),
         (CHASSIS, "inertial/mass", "heavy", "1 numbers"),
         (CHASSIS, "nothing/here", (1.0,), "no field"),
-        (CHASSIS, "@name", " ", "has a name"),
+        (CHASSIS, "@name", " ", "needs a name"),
         (CHASSIS, "gravity", "perhaps", "true or false"),
         (("link", "gone"), "inertial/mass", (1.0,), "no link 'gone'"),
-        (("link",), "inertial/mass", (1.0,), "in turn"),
+        (("link",), "inertial/mass", (1.0,), "alternates tags and names"),
     ],
 )
 def test_what_cannot_be_is_refused_and_nothing_changes(
@@ -154,10 +154,10 @@ def test_a_sensor_comes_with_its_publisher(cart: Draft) -> None:
 
 def test_a_link_is_placed_in_the_world(cart: Draft) -> None:
     """The model stands at x = 2 m."""
-    cart.place(WHEEL, Pose((2.0, 1.0, 0.5)))
+    cart.move(WHEEL, Pose((2.0, 1.0, 0.5)))
     assert cart.checked.model.links[1].model_from_link.position == pytest.approx((0.0, 1.0, 0.5))
 
-    cart.place((), Pose((4.0, 0.0, 0.0)))
+    cart.move((), Pose((4.0, 0.0, 0.0)))
     assert cart.world_from_model.position == (4.0, 0.0, 0.0)
     cart.undo()
     assert cart.world_from_model.position == (2.0, 0.0, 0.0)

@@ -63,7 +63,7 @@ def test_the_65th_request_that_waits_is_refused(page: PageServer) -> None:
         for number in range(65):
             client.send("trundle/request", id=number, request="play")
         assert client.last("trundle/response") == {
-            "op": "trundle/response", "id": 64, "ok": False, "error": "64 requests wait already",
+            "op": "trundle/response", "id": 64, "ok": False, "error": "64 requests are pending",
         }  # fmt: skip
         assert len(_taken(page, client, 64)) == 64
 
@@ -72,7 +72,7 @@ def test_a_request_of_another_version_is_refused_with_a_sentence(page: PageServe
     with ProtocolClient(page.url) as client:
         client.send("trundle/request", id=1, request="dance")
         assert client.last("trundle/response")["error"] == (
-            "the server does not know the request 'dance': the page may be of another version, load it again"
+            "unknown request 'dance': the page may be of another version, reload it"
         )
         assert page.requests() == []
 

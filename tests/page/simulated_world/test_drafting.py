@@ -76,7 +76,7 @@ def test_a_model_is_edited_in_its_place_and_replaced(editor: Editor) -> None:
     assert editor.ask(BeginDraft(model="crate")) == {}
     draft = editor.shown[-1].info
     assert draft is not None
-    assert draft.of == "crate"
+    assert draft.original == "crate"
     assert draft.pose[:3] == pytest.approx([3.0, 0.0, 0.5])
     assert editor.shown[-1].files.keys() >= {file.url for file in draft.files}
     with pytest.raises(UsageError, match="edited already"):

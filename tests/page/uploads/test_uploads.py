@@ -120,12 +120,12 @@ def test_a_body_that_is_no_form_is_refused(page: PageServer) -> None:
 
 def test_who_only_looks_and_who_has_no_token_uploads_nothing(page: PageServer) -> None:
     files = {"intruder.zip": zipped({"intruder/model.config": "", "intruder/model.sdf": ""})}
-    assert _post(page.view_url, files) == (403, "this link only allows looking")
+    assert _post(page.view_url, files) == (403, "this link is view-only")
     bare = page.url.partition("?")[0]
     foreign: list[dict[str, str]] = [{}, {"origin": bare.rstrip("/")}, {"origin": "http://evil.example"}]
     for fields in (*foreign, {"origin": "null"}):
         assert _post(bare, files, **fields)[0] == 403
-    assert _post(f"{bare}?view_only&{urlsplit(page.url).query}", files) == (403, "this link only allows looking")
+    assert _post(f"{bare}?view_only&{urlsplit(page.url).query}", files) == (403, "this link is view-only")
     assert _post(page.url, files, host="evil.example")[0] == 403
     assert _post(page.url, {"cart.zip": CART})[0] == 200
     assert not (_uploads(page) / "intruder").exists()
@@ -138,7 +138,7 @@ def graph_page() -> Iterator[PageServer]:
 
 
 def test_without_a_simulation_or_the_token_nothing_is_taken(graph_page: PageServer) -> None:
-    assert _post(graph_page.url, {"cart.zip": CART}) == (400, "models are inserted where a world is simulated")
+    assert _post(graph_page.url, {"cart.zip": CART}) == (400, "models can only be inserted into a simulation")
     assert _post(graph_page.url.partition("?")[0], {"cart.zip": CART})[0] == 403
     assert graph_page.uploads is None
 

@@ -38,7 +38,7 @@ class LanesChannel(Channel):
     """Lanes of a bag; the index is read for the first client, by a reader and a thread of its own."""
 
     def __init__(self, path: Path) -> None:
-        super().__init__(LANES, encoding="json", is_droppable=False, is_own=True)
+        super().__init__(LANES, encoding="json", is_droppable=False, trundle_only=True)
         self._path = path
         self._lanes: bytes | None = None
         self._reading: asyncio.Task[None] | None = None

@@ -55,7 +55,7 @@ class BagState(Channel):
     """Clock of the playback."""
 
     def __init__(self, playback: Playback) -> None:
-        super().__init__(STATE, encoding="json", is_own=True)
+        super().__init__(STATE, encoding="json", trundle_only=True)
         self._playback = playback
         self._due_s = 0.0
         self._sent = b""

@@ -1,1 +1,1 @@
-"""Clients of the Foxglove protocol: their messages, what they subscribe to, what waits for them."""
+"""Clients of the Foxglove protocol: their messages, subscriptions and send queues."""

@@ -1,4 +1,4 @@
-"""A channel that clients subscribe to, and what it needs of a client."""
+"""A channel that clients subscribe to, and the client interface that it needs."""
 
 import itertools
 from collections.abc import Sequence
@@ -14,34 +14,34 @@ _ids = itertools.count(1)
 
 
 class Client(Protocol):
-    """Client as a channel sees it."""
+    """Interface of a client to channels."""
 
     @property
     def is_view_only(self) -> bool:
-        """True if the client may look and change nothing."""
+        """True if the client must not change anything."""
         ...
 
     def send_message(self, channel: "Channel", time_ns: int, pieces: Sequence[Buffer]) -> None:
         """Send a message of a channel that the client subscribes to.
 
         Args:
-            channel: one that the client subscribes to.
+            channel: subscribed channel.
             time_ns: time of the message [ns].
-            pieces: buffers of the payload, which must not change any more.
+            pieces: buffers of the payload, which must not change afterwards.
         """
         ...
 
     def is_waiting(self, channel: "Channel") -> bool:
-        """True if a message of a channel was not sent yet."""
+        """True if a message of a channel is still queued."""
         ...
 
     def count_drop(self, channel: "Channel") -> None:
-        """Count a message that the client does not get."""
+        """Count a dropped message."""
         ...
 
 
 class Channel:
-    """Topic with a type; ids are never used twice."""
+    """Topic with a type and a unique id."""
 
     def __init__(
         self,
@@ -51,17 +51,17 @@ class Channel:
         schema_name: str = "",
         schema: str = "",
         is_droppable: bool = True,
-        is_own: bool = False,
+        trundle_only: bool = False,
     ) -> None:
-        """Create.
+        """Create it.
 
         Args:
-            topic: name.
-            encoding: of the payload.
-            schema_name: type.
+            topic: topic's name.
+            encoding: payload's encoding.
+            schema_name: name of the messages' type.
             schema: full definition of the type.
-            is_droppable: True if a slow client may lose messages.
-            is_own: True if only clients that speak `trundle.v1` are offered it.
+            is_droppable: True if messages to a slow client may be dropped.
+            trundle_only: True if only clients that speak `trundle.v1` may subscribe.
         """
         self.id = next(_ids)
         self.topic = topic
@@ -69,7 +69,7 @@ class Channel:
         self.schema_name = schema_name
         self.schema = schema
         self.is_droppable = is_droppable
-        self.is_own = is_own
+        self.trundle_only = trundle_only
         self.clients: set[Client] = set()
         """Clients that subscribe to it."""
 
@@ -85,7 +85,7 @@ class Channel:
         )
 
     def subscribe(self, client: Client) -> None:
-        """Add a client; subclasses send it what it has missed."""
+        """Add a client; subclasses send it the current state."""
         self.clients.add(client)
 
     def unsubscribe(self, client: Client) -> None:

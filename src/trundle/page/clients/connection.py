@@ -1,4 +1,4 @@
-"""One client: its subscriptions, what it asks for, and its queue."""
+"""One client: its subscriptions, requests and send queue."""
 
 from collections.abc import Hashable, Mapping, Sequence
 from typing import Protocol
@@ -16,7 +16,7 @@ _MAX_SUBSCRIPTIONS = 10_000
 
 
 class ChannelTable(Protocol):
-    """Channels that there are now."""
+    """Advertised channels."""
 
     def find(self, channel_id: int) -> Channel | None:
         """Return the channel with an id."""
@@ -26,17 +26,19 @@ class ChannelTable(Protocol):
 class Connection:
     """Client of the protocol; used on the loop only."""
 
-    def __init__(self, outbox: Outbox, channels: ChannelTable, *, is_own: bool, is_view_only: bool = False) -> None:
-        """Create.
+    def __init__(
+        self, outbox: Outbox, channels: ChannelTable, *, speaks_trundle: bool, is_view_only: bool = False
+    ) -> None:
+        """Create it.
 
         Args:
-            outbox: queue to the client.
-            channels: what it can subscribe to.
-            is_own: it speaks `trundle.v1`.
-            is_view_only: it may look and change nothing.
+            outbox: send queue.
+            channels: channels that the client may subscribe to.
+            speaks_trundle: True if the client speaks `trundle.v1`.
+            is_view_only: True if the client must not change anything.
         """
         self.outbox = outbox
-        self.is_own = is_own
+        self.speaks_trundle = speaks_trundle
         self.is_view_only = is_view_only
         self.drops: dict[str, int] = {}
         """Messages dropped so far, by topic."""
@@ -44,7 +46,7 @@ class Connection:
         self._channels = channels
         self._subscriptions: dict[int, Channel] = {}
         self._numbers: dict[Channel, int] = {}
-        """Channel → number of the subscription."""
+        """Channel → id of its subscription."""
 
     # -- to the client
 
@@ -58,46 +60,46 @@ class Connection:
         self.outbox.send(TEXT, (msgspec.json.encode(message),))
 
     def send_response(self, response: Response, answer: bytes) -> None:
-        """Send the answer to a request, whose fields come as JSON."""
+        """Send the answer to a request; `answer` holds further fields as JSON."""
         fields = msgspec.json.decode(answer, type=dict[str, msgspec.Raw])
         self.outbox.send(TEXT, (msgspec.json.encode(msgspec.to_builtins(response) | fields),))
 
     def send_binary(self, pieces: Sequence[Buffer], stream: Hashable = None) -> None:
-        """Send a binary message; those of a stream may be dropped."""
+        """Send a binary message; messages of a stream may be dropped."""
         self.outbox.send(BINARY, pieces, stream)
 
     def send_status(self, level: int, message: str, status_id: str | None = None) -> None:
-        """Send a status message; one with an id replaces the last one with that id."""
+        """Send a status message; it replaces the earlier one with the same id."""
         status = Status(level, message, UNSET if status_id is None else status_id)
         self.outbox.send(TEXT, (msgspec.json.encode(status),), _STATUS)
 
     def send_drops(self, channel: Channel, time_ns: int) -> None:
-        """Send the counts of dropped messages, if they have changed."""
+        """Send the counts of dropped messages if they have changed."""
         if self.drops_changed and not self.is_waiting(channel):
             self.drops_changed = False
             self.send_message(channel, time_ns, (msgspec.json.encode(self.drops),))
 
     def offer(self, channels: Sequence[Channel]) -> None:
-        """Advertise channels, those of `trundle.v1` only to a client that speaks it."""
-        offers = tuple(channel.offer() for channel in channels if self.is_own or not channel.is_own)
+        """Advertise channels; those of `trundle.v1` only to a client that speaks it."""
+        offers = tuple(channel.offer() for channel in channels if self.speaks_trundle or not channel.trundle_only)
         if offers:
             self.send(AdvertiseChannels(offers))
 
     def withdraw(self, channels: Sequence[Channel]) -> None:
         """Unadvertise channels; their subscriptions end."""
-        gone = set(channels)
-        for number in [number for number, channel in self._subscriptions.items() if channel in gone]:
+        removed = set(channels)
+        for number in [number for number, channel in self._subscriptions.items() if channel in removed]:
             self._end_subscription(number)
-        ids = tuple(channel.id for channel in channels if self.is_own or not channel.is_own)
+        ids = tuple(channel.id for channel in channels if self.speaks_trundle or not channel.trundle_only)
         if ids:
             self.send(UnadvertiseChannels(ids))
 
     def is_waiting(self, channel: Channel) -> bool:
-        """True if a message of a channel was not sent yet."""
+        """True if a message of a channel is still queued."""
         return self.outbox.has_waiting(channel)
 
     def count_drop(self, channel: Hashable) -> None:
-        """Count a message that the client does not get."""
+        """Count a dropped message."""
         if isinstance(channel, Channel):
             self.drops[channel.topic] = self.drops.get(channel.topic, 0) + 1
             self.drops_changed = True
@@ -105,20 +107,20 @@ class Connection:
     # -- from the client
 
     def subscribe(self, operation: Subscribe) -> None:
-        """Subscribe to channels; what cannot be is answered with a status message."""
-        for wanted in operation.subscriptions:
-            channel = self._channels.find(wanted.channel_id)
-            if channel is None or (channel.is_own and not self.is_own):
-                self.send_status(ERROR, f"there is no channel {wanted.channel_id}")
-            elif wanted.id in self._subscriptions:
-                self.send_status(ERROR, f"subscription {wanted.id} is in use already")
+        """Subscribe to channels; an invalid subscription is answered with a status message."""
+        for subscription in operation.subscriptions:
+            channel = self._channels.find(subscription.channel_id)
+            if channel is None or (channel.trundle_only and not self.speaks_trundle):
+                self.send_status(ERROR, f"no channel {subscription.channel_id}")
+            elif subscription.id in self._subscriptions:
+                self.send_status(ERROR, f"subscription {subscription.id} is in use already")
             elif channel in self._numbers:
                 self.send_status(ERROR, f"{channel.topic} is subscribed to already")
             elif len(self._subscriptions) >= _MAX_SUBSCRIPTIONS:
                 self.send_status(ERROR, f"more than {_MAX_SUBSCRIPTIONS} subscriptions")
             else:
-                self._subscriptions[wanted.id] = channel
-                self._numbers[channel] = wanted.id
+                self._subscriptions[subscription.id] = channel
+                self._numbers[channel] = subscription.id
                 channel.subscribe(self)
 
     def unsubscribe(self, operation: Unsubscribe) -> None:
@@ -127,10 +129,10 @@ class Connection:
             if number in self._subscriptions:
                 self._end_subscription(number)
             else:
-                self.send_status(ERROR, f"there is no subscription {number}")
+                self.send_status(ERROR, f"no subscription {number}")
 
-    def watched(self) -> Mapping[int, Channel]:
-        """Return the channels that the client subscribes to, by the number of the subscription."""
+    def subscribed_channels(self) -> Mapping[int, Channel]:
+        """Return the subscribed channels by subscription id."""
         return self._subscriptions
 
     def end_subscriptions(self) -> None:

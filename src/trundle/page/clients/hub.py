@@ -1,4 +1,4 @@
-"""Clients and channels of the page, and the messages that go to every client."""
+"""Clients and channels of the page, and the messages to all clients."""
 
 import asyncio
 import time
@@ -17,23 +17,23 @@ _TIME = "time"
 
 
 class Polled(Protocol):
-    """Part of the page that is polled while there are clients."""
+    """Part of the page that is polled while clients are connected."""
 
     def poll(self, now_s: float, time_ns: int) -> bool:
-        """Do what is due; return True if something new came.
+        """Send what is due; return True if new data came in.
 
         Args:
             now_s: monotonic time [s].
-            time_ns: time of the page [ns].
+            time_ns: page's time [ns].
         """
         ...
 
 
 class DropsChannel(Channel):
-    """Counts of dropped messages, to each client its own."""
+    """Each client's counts of dropped messages."""
 
     def __init__(self) -> None:
-        super().__init__("trundle/drops", encoding="json", is_own=True)
+        super().__init__("trundle/drops", encoding="json", trundle_only=True)
 
 
 class Hub:
@@ -42,12 +42,12 @@ class Hub:
     def __init__(
         self, *, session_id: str, capabilities: tuple[str, ...], simulated_time_ns: Callable[[], int | None]
     ) -> None:
-        """Create.
+        """Create it.
 
         Args:
-            session_id: distinguishes this server from one before it at the same address.
-            capabilities: what clients may ask for, in the protocol's words.
-            simulated_time_ns: returns the time [ns]; None where wall time is used.
+            session_id: distinguishes this server from an earlier one at the same address.
+            capabilities: server's capabilities, by the protocol's names.
+            simulated_time_ns: returns the simulated time [ns]; None: wall time is used.
         """
         self.clients: set[Connection] = set()
         self.polled: list[Polled] = []
@@ -56,7 +56,7 @@ class Hub:
         self._simulated_time_ns = simulated_time_ns
         self._channels: dict[int, Channel] = {}
         self._conditions: dict[str, str] = {}
-        """Status messages that hold now, by id."""
+        """Current status messages by id."""
         self._drops = DropsChannel()
         self.add_channels([self._drops])
         self._time_ns: int | None = None
@@ -87,25 +87,25 @@ class Hub:
     # -- clients
 
     def add_client(self, client: Connection) -> None:
-        """Greet a client: the server's capabilities, channels, and the conditions that hold."""
+        """Add a client, and send it the server's capabilities, channels and conditions."""
         self.clients.add(client)
         self._has_clients.set()
         refused = CONTROL_CAPABILITIES if client.is_view_only else ()
-        capabilities = tuple(each for each in self._capabilities if each not in refused)
+        capabilities = tuple(capability for capability in self._capabilities if capability not in refused)
         client.send(ServerInfo(capabilities=capabilities, session_id=self._session_id))
         client.offer(list(self._channels.values()))
         for status_id, message in self._conditions.items():
             client.send_status(WARNING, message, status_id)
 
     def remove_client(self, client: Connection) -> None:
-        """Forget a client that has gone."""
+        """Remove a client that has disconnected."""
         self.clients.discard(client)
         client.end_subscriptions()
         if not self.clients:
             self._has_clients.clear()
 
     def set_condition(self, status_id: str, message: str | None) -> None:
-        """Show a status message until it is replaced; None: it does not hold any more."""
+        """Show a status message until it is replaced; None: remove it."""
         if message == self._conditions.get(status_id):
             return
         if message is None:
@@ -119,22 +119,22 @@ class Hub:
 
     @property
     def conditions(self) -> Mapping[str, str]:
-        """Status messages that hold now, by id."""
+        """Current status messages by id."""
         return self._conditions
 
     # -- time
 
     def now_ns(self) -> int:
-        """Return the time that messages get [ns]: simulated time where there is one, else wall time."""
+        """Return the time for messages [ns]: simulated time if there is one, else wall time."""
         simulated = self._simulated_time_ns()
         return time.time_ns() if simulated is None else simulated
 
     async def wait_client(self) -> None:
-        """Wait until there is a client."""
+        """Wait until a client is connected."""
         await self._has_clients.wait()
 
     async def run(self) -> None:
-        """Poll what is due while there are clients, in step with the owner: soon after it wrote, and seldom between."""
+        """Poll while clients are connected, soon after each time that the owner writes."""
         timing = PollTiming()
         while True:
             await self._has_clients.wait()

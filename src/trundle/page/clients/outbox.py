@@ -1,7 +1,7 @@
-"""Send queue of one WebSocket: what the kernel does not take waits, and streams lose their oldest message first.
+"""Send queue of one WebSocket, which drops the oldest messages of streams when the client is slow.
 
-Frames go to the socket directly, from buffers that all clients share: asyncio's transport copies what it keeps, which
-for clouds of many megabytes costs more than sending them.
+Frames are written to the socket from buffers that all clients share: asyncio's transport would copy them, which costs
+more than sending them for point clouds of many megabytes.
 """
 
 import asyncio
@@ -16,19 +16,19 @@ from typing import TypeAlias
 Buffer: TypeAlias = bytes | memoryview
 
 MAX_STREAM_BYTES = 4 * 1024 * 1024
-"""Limit of what waits in streams; the newest message of each stays, however long."""
+"""Limit of queued bytes in streams; the newest message of each stream stays, however long."""
 MAX_BYTES = 256 * 1024 * 1024
-"""Limit of what waits in all; a client that leaves more unread is disconnected."""
+"""Limit of all queued bytes; a client that leaves more unread is disconnected."""
 _OVERHEAD_BYTES = 512
-"""Memory of a waiting message beside its buffers."""
-_AT_ONCE = 256
-"""Messages per call of sendmsg, which takes at most IOV_MAX (1024) pieces."""
+"""Memory of a queued message in addition to its buffers."""
+_MAX_BATCH = 256
+"""Messages per call of sendmsg, which accepts at most IOV_MAX (1024) pieces."""
 TEXT, BINARY, CLOSE, PONG = 0x81, 0x82, 0x88, 0x8A
-"""First byte of a frame that is whole: RFC 6455, 5.2."""
+"""First byte of an unfragmented frame: RFC 6455, 5.2."""
 
 
 class _Message:
-    """Message that waits; without pieces once it is dropped."""
+    """Queued message; without pieces once it is dropped."""
 
     __slots__ = ("pieces", "size", "stream")
 
@@ -44,12 +44,12 @@ class Outbox:
     def __init__(
         self, sock: socket.socket, *, broken: Callable[[str], None], dropped: Callable[[Hashable], None]
     ) -> None:
-        """Create; call on the loop.
+        """Create it; call on the loop.
 
         Args:
-            sock: connected and non-blocking; closed here.
-            broken: called with the reason when the client is gone, or reads nothing for too long.
-            dropped: called with the stream for each message that is dropped.
+            sock: connected, non-blocking socket; closed here.
+            broken: called with the reason when the client disconnects or leaves too much unread.
+            dropped: called with the stream of each dropped message.
         """
         self._socket = sock
         self._loop = asyncio.get_running_loop()
@@ -57,9 +57,9 @@ class Outbox:
         self._dropped = dropped
         self._queue: deque[_Message] = deque()
         self._rest: list[Buffer] = []
-        """Rest of messages that are partly sent."""
+        """Unsent rest of the current batch."""
         self._streams: dict[Hashable, deque[_Message]] = {}
-        """Waiting messages that may be dropped, by stream."""
+        """Queued messages that may be dropped, by stream."""
         self._stream_bytes: dict[Hashable, int] = {}
         self._waiting_bytes = self._droppable_bytes = 0
         self._is_watching = self._is_closed = self._is_due = False
@@ -67,16 +67,16 @@ class Outbox:
 
     @property
     def waiting_bytes(self) -> int:
-        """Size of what waits."""
+        """Size of all queued messages [bytes]."""
         return self._waiting_bytes
 
     def send(self, first_byte: int, pieces: Sequence[Buffer], stream: Hashable = None) -> None:
-        """Send a message, or queue it.
+        """Send or queue a message.
 
         Args:
-            first_byte: of the frame.
-            pieces: buffers of the payload, which must not change any more.
-            stream: the oldest messages of a stream are dropped if the client is slow; None: never dropped.
+            first_byte: frame's first byte.
+            pieces: buffers of the payload, which must not change afterwards.
+            stream: stream whose oldest messages are dropped if the client is slow; None: never dropped.
         """
         if self._is_closed:
             return
@@ -98,11 +98,11 @@ class Outbox:
             self._fail(f"the client has left {self._waiting_bytes} bytes unread")
 
     def has_waiting(self, stream: Hashable) -> bool:
-        """True if messages of a stream wait."""
+        """True if messages of a stream are queued."""
         return bool(self._streams.get(stream))
 
     async def drain(self, timeout_s: float) -> None:
-        """Wait until everything is sent, or the timeout."""
+        """Wait until everything is sent, or until the timeout."""
         if not self._queue and not self._rest:
             return
         self._drained.clear()
@@ -110,7 +110,7 @@ class Outbox:
             await asyncio.wait_for(self._drained.wait(), timeout_s)
 
     def close(self) -> None:
-        """Close the socket and drop what waits."""
+        """Close the socket and drop all messages."""
         if not self._is_closed:
             self._is_closed = True
             self._watch(False)
@@ -121,36 +121,36 @@ class Outbox:
             self._drained.set()
 
     def _drop_oldest(self) -> None:
-        """Have the stream with most bytes lose its oldest message, until the rest fits."""
+        """Drop the oldest message of the stream with the most bytes, until the rest fits."""
         while self._droppable_bytes > MAX_STREAM_BYTES:
-            longest = [stream for stream, waiting in self._streams.items() if len(waiting) > 1]
-            if not longest:
+            droppable = [stream for stream, messages in self._streams.items() if len(messages) > 1]
+            if not droppable:
                 return
-            self._drop(max(longest, key=self._stream_bytes.__getitem__))
+            self._drop(max(droppable, key=self._stream_bytes.__getitem__))
 
     def _drop(self, stream: Hashable) -> None:
-        message = self._forget_first(stream)
+        message = self._pop_first(stream)
         self._waiting_bytes -= message.size
         message.pieces = ()  # stays in the queue until its turn
         self._dropped(stream)
 
-    def _forget_first(self, stream: Hashable) -> _Message:
-        waiting = self._streams[stream]
-        message = waiting.popleft()
+    def _pop_first(self, stream: Hashable) -> _Message:
+        messages = self._streams[stream]
+        message = messages.popleft()
         self._stream_bytes[stream] -= message.size
         self._droppable_bytes -= message.size
-        if not waiting:
+        if not messages:
             del self._streams[stream], self._stream_bytes[stream]
         return message
 
     def _write_soon(self) -> None:
-        """Write what came in this round of the loop, at once, unless the kernel has no room."""
+        """Write the messages of this round of the loop, unless the socket's buffer is full."""
         self._is_due = False
         if not self._is_watching and not self._is_closed:
             self._write()
 
     def _write(self) -> None:
-        """Write as much as the kernel takes, and watch for the rest."""
+        """Write as much as the kernel accepts, and watch the socket for the rest."""
         try:
             while pieces := self._next():
                 self._rest = _after(pieces, send_pieces(self._socket, pieces))
@@ -164,31 +164,32 @@ class Outbox:
             self._drained.set()
 
     def _next(self) -> list[Buffer]:
-        """Pieces to write next."""
+        """Return the pieces to write next."""
         if not self._rest:
-            for message in self._dequeue(_AT_ONCE):
+            for message in self._dequeue(_MAX_BATCH):
                 self._rest += message.pieces
         return self._rest
 
     def _dequeue(self, count: int) -> list[_Message]:
-        """Remove messages from the queue to be sent; from now on they cannot be dropped."""
-        taken: list[_Message] = []
+        """Remove messages from the queue to be sent; they cannot be dropped afterwards."""
+        batch: list[_Message] = []
         size = 0
-        while self._queue and len(taken) < count and size < MAX_STREAM_BYTES:
+        while self._queue and len(batch) < count and size < MAX_STREAM_BYTES:
             message = self._queue.popleft()
             if not message.pieces:
                 continue
             if message.stream is not None:
-                self._forget_first(message.stream)
+                self._pop_first(message.stream)
             self._waiting_bytes -= message.size
             size += message.size
-            taken.append(message)
-        return taken
+            batch.append(message)
+        return batch
 
-    def _watch(self, wanted: bool) -> None:
-        if wanted != self._is_watching:
-            self._is_watching = wanted
-            if wanted:
+    def _watch(self, on: bool) -> None:
+        """Start or stop writing whenever the socket has room."""
+        if on != self._is_watching:
+            self._is_watching = on
+            if on:
                 self._loop.add_writer(self._socket.fileno(), self._write)
             else:
                 self._loop.remove_writer(self._socket.fileno())
@@ -196,11 +197,11 @@ class Outbox:
     def _fail(self, reason: str) -> None:
         if not self._is_closed:
             self.close()
-            self._loop.call_soon(self._broken, reason)  # later: the caller may go through all clients
+            self._loop.call_soon(self._broken, reason)  # later: the caller may be iterating over all clients
 
 
 def frame_header(first_byte: int, size: int) -> bytes:
-    """Header of a frame that is not masked: RFC 6455, 5.2."""
+    """Return the header of an unmasked frame: RFC 6455, 5.2."""
     if size < 126:
         return bytes((first_byte, size))
     if size < 65536:
@@ -209,10 +210,10 @@ def frame_header(first_byte: int, size: int) -> bytes:
 
 
 def send_pieces(sock: socket.socket, pieces: Sequence[Buffer]) -> int:
-    """Send buffers, as many bytes as the kernel takes.
+    """Send as many bytes of the buffers as the kernel accepts; return their number.
 
     Raises:
-        BlockingIOError: it takes none.
+        BlockingIOError: the kernel accepts none.
     """
     if hasattr(sock, "sendmsg"):
         return sock.sendmsg(list(islice(pieces, 1024)))
@@ -220,7 +221,7 @@ def send_pieces(sock: socket.socket, pieces: Sequence[Buffer]) -> int:
 
 
 def _after(pieces: list[Buffer], count: int) -> list[Buffer]:
-    """Buffers without their first `count` bytes."""
+    """Return the buffers without their first `count` bytes."""
     for i, piece in enumerate(pieces):
         if count < len(piece):
             return [memoryview(piece)[count:], *pieces[i + 1 :]]

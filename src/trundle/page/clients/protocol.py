@@ -1,7 +1,7 @@
-"""Messages of the Foxglove WebSocket protocol and of `trundle.v1`: what clients send, and headers of what they get.
+"""Messages of the Foxglove WebSocket protocol and of `trundle.v1`: those from clients, and headers of those to clients.
 
-Fields and opcodes are those of the published specification, foxglove/ws-protocol docs/spec.md;
-docs/protocol.md says what `trundle.v1` adds.
+Fields and opcodes are from the published specification, foxglove/ws-protocol docs/spec.md;
+docs/protocol.md describes the additions of `trundle.v1`.
 """
 
 import struct
@@ -15,9 +15,9 @@ ENCODING = "ros1"
 SCHEMA_ENCODING = "ros1msg"
 CAPABILITIES = ("assets", "time")
 GRAPH_CAPABILITIES = ("clientPublish", "parameters", "parametersSubscribe", "services", "connectionGraph")
-"""Further ones of a page that has a ROS graph."""
+"""Further capabilities of a page with a ROS graph."""
 CONTROL_CAPABILITIES = ("clientPublish", "services")
-"""Capabilities that clients which may only look are not offered."""
+"""Capabilities that view-only clients do not have."""
 
 _MAX_LIST = 10_000
 _MAX_NAME = 1_000
@@ -30,30 +30,30 @@ Size: TypeAlias = Annotated[int, msgspec.Meta(ge=2, le=500)]
 
 
 class Operation(msgspec.Struct, frozen=True, tag_field="op", rename="camel"):
-    """Base of what clients send as text."""
+    """Base of text messages from clients."""
 
 
 class Subscription(msgspec.Struct, frozen=True, rename="camel"):
-    """Channel that a client subscribes to, under a number of its own."""
+    """Channel that a client subscribes to, with the subscription's id."""
 
     id: U32
     channel_id: U32
 
 
 class Subscribe(Operation, frozen=True, tag="subscribe"):
-    """Begin to receive channels."""
+    """Subscribe to channels."""
 
     subscriptions: Annotated[tuple[Subscription, ...], msgspec.Meta(max_length=_MAX_LIST)]
 
 
 class Unsubscribe(Operation, frozen=True, tag="unsubscribe"):
-    """Stop receiving."""
+    """End subscriptions."""
 
     subscription_ids: Ids
 
 
 class ClientChannel(msgspec.Struct, frozen=True, rename="camel"):
-    """Topic that a client publishes."""
+    """Topic that a client publishes to."""
 
     id: U32
     topic: Name
@@ -63,26 +63,26 @@ class ClientChannel(msgspec.Struct, frozen=True, rename="camel"):
 
 
 class Advertise(Operation, frozen=True, tag="advertise"):
-    """Announce topics of the client."""
+    """Advertise topics that the client publishes to."""
 
     channels: Annotated[tuple[ClientChannel, ...], msgspec.Meta(max_length=_MAX_LIST)]
 
 
 class Unadvertise(Operation, frozen=True, tag="unadvertise"):
-    """End topics of the client."""
+    """Stop publishing to topics."""
 
     channel_ids: Ids
 
 
 class GetParameters(Operation, frozen=True, tag="getParameters"):
-    """Ask for parameters; no names: all of them."""
+    """Request parameters; no names: all."""
 
     parameter_names: Names
     id: str | None = None
 
 
 class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
-    """Parameter and its value; unset: the parameter is deleted, or is not set."""
+    """Parameter and its value; unset: the parameter is deleted or not set."""
 
     name: Name
     value: object = msgspec.UNSET
@@ -90,7 +90,7 @@ class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
 
     @property
     def is_set(self) -> bool:
-        """True if there is a value."""
+        """True if the parameter has a value."""
         return self.value is not msgspec.UNSET
 
 
@@ -102,34 +102,34 @@ class SetParameters(Operation, frozen=True, tag="setParameters"):
 
 
 class SubscribeParameterUpdates(Operation, frozen=True, tag="subscribeParameterUpdates"):
-    """Ask for changes of parameters; no names: of all."""
+    """Subscribe to changes of parameters; no names: of all."""
 
     parameter_names: Names
 
 
 class UnsubscribeParameterUpdates(Operation, frozen=True, tag="unsubscribeParameterUpdates"):
-    """Ask for changes no more; no names: of none."""
+    """Unsubscribe from changes of parameters; no names: from all."""
 
     parameter_names: Names
 
 
 class SubscribeConnectionGraph(Operation, frozen=True, tag="subscribeConnectionGraph"):
-    """Ask for nodes of topics and services."""
+    """Subscribe to the nodes of topics and services."""
 
 
 class UnsubscribeConnectionGraph(Operation, frozen=True, tag="unsubscribeConnectionGraph"):
-    """Ask for nodes of topics and services no more."""
+    """Unsubscribe from the nodes of topics and services."""
 
 
 class FetchAsset(Operation, frozen=True, tag="fetchAsset"):
-    """Ask for a file."""
+    """Request a file."""
 
     uri: Name
     request_id: U32
 
 
 class Drive(Operation, frozen=True, tag="trundle/drive"):
-    """Drive at a velocity, until 0.3 s pass without the next such message."""
+    """Drive at a velocity until 0.3 s after the latest such message."""
 
     topic: Name
     linear: Velocity
@@ -145,52 +145,52 @@ class Release(Operation, frozen=True, tag="trundle/release"):
 
 
 class SelectedModel(msgspec.Struct, frozen=True, tag_field="kind", tag="model", forbid_unknown_fields=True):
-    """A model of the simulated world."""
+    """Model of the simulated world."""
 
     model: Name
 
 
 class SelectedLink(msgspec.Struct, frozen=True, tag_field="kind", tag="link", forbid_unknown_fields=True):
-    """A link."""
+    """Link of a model."""
 
     model: Name
     link: Name
 
 
 class SelectedJoint(msgspec.Struct, frozen=True, tag_field="kind", tag="joint", forbid_unknown_fields=True):
-    """A joint."""
+    """Joint of a model."""
 
     model: Name
     joint: Name
 
 
 class SelectedLight(msgspec.Struct, frozen=True, tag_field="kind", tag="light", forbid_unknown_fields=True):
-    """A light."""
+    """Light of the world."""
 
     light: Name
 
 
 SharedSelection: TypeAlias = SelectedModel | SelectedLink | SelectedJoint | SelectedLight
-"""Selection of a person in the simulated world, as the others see it."""
+"""A user's selection in the simulated world, shown to the other users."""
 
 
 class Presence(Operation, frozen=True, tag="trundle/presence"):
-    """Show the others what this client has selected."""
+    """Show this client's selection to the other users."""
 
     selection: SharedSelection | None
 
 
 class UseTerminal(Operation, frozen=True, tag="trundle/terminal"):
-    """Type into a node's terminal, or change its size."""
+    """Send input to a node's terminal, or change its size."""
 
     number: U32
     text: Annotated[str, msgspec.Meta(max_length=4096)] = ""
     size: tuple[Size, Size] | None = None
-    """Columns and rows; None: as it is."""
+    """Columns and rows; None: unchanged."""
 
 
 class PageRequest(Operation, frozen=True, tag="trundle/request"):
-    """Request to the page's owner; its fields are read by `trundle.page.requests.request`."""
+    """Request to the page's owner; `trundle.page.requests.request` reads its fields."""
 
     id: int | Name
     request: Name = ""
@@ -220,7 +220,7 @@ CLIENT_MESSAGE, CLIENT_SERVICE_CALL = 1, 2
 CLIENT_MESSAGE_HEADER = struct.Struct("<BI")
 """Opcode, channel id."""
 SERVICE_HEADER = struct.Struct("<BIII")
-"""Opcode, service id, call id, length of the encoding's name; in both directions."""
+"""Opcode, service id, call id, length of the encoding's name; for requests and responses."""
 _MESSAGE_HEADER = struct.Struct("<BIQ")
 _TIME = struct.Struct("<BQ")
 _ASSET_HEADER = struct.Struct("<BIBI")
@@ -230,21 +230,21 @@ INFO, WARNING, ERROR = 0, 1, 2
 
 
 def message_header(subscription_id: int, time_ns: int) -> bytes:
-    """Header of a message on a channel."""
+    """Return the header of a message on a channel."""
     return _MESSAGE_HEADER.pack(1, subscription_id, time_ns & _U64)
 
 
 def time_message(time_ns: int) -> bytes:
-    """Time of the server."""
+    """Return a message with the server's time."""
     return _TIME.pack(2, time_ns & _U64)
 
 
 def service_header(service_id: int, call_id: int) -> bytes:
-    """Header of a service's response."""
+    """Return the header of a service's response."""
     return SERVICE_HEADER.pack(3, service_id, call_id, len(ENCODING)) + ENCODING.encode()
 
 
 def asset_header(request_id: int, error: str | None) -> bytes:
-    """Header of a file, or the message that says why there is none."""
+    """Return the header of a file, or the message with the reason for a failure."""
     text = b"" if error is None else error.encode("utf-8", "replace")
     return _ASSET_HEADER.pack(4, request_id, int(error is not None), len(text)) + text

@@ -9,23 +9,23 @@ from .protocol import ENCODING, SCHEMA_ENCODING, Parameter
 
 
 class ServerMessage(msgspec.Struct, frozen=True, tag_field="op", rename="camel"):
-    """Base of what the server sends as text."""
+    """Base of text messages from the server."""
 
 
 class ServerInfo(ServerMessage, frozen=True, kw_only=True, tag="serverInfo"):
-    """Greeting of a client."""
+    """First message to a client."""
 
     name: str = "trundle"
     capabilities: tuple[str, ...]
-    """Operations that the client may use, in the protocol's words."""
+    """Operations that the client may use, by the protocol's names."""
     supported_encodings: tuple[str, ...] = (ENCODING,)
     metadata: dict[str, str] = {}
     session_id: str
-    """Distinguishes this server from one before it at the same address."""
+    """Distinguishes this server from an earlier one at the same address."""
 
 
 class Status(ServerMessage, frozen=True, tag="status"):
-    """Sentence about the server; replaces the last one with its id."""
+    """Status of the server; replaces the earlier one with the same id."""
 
     level: int
     """`INFO`, `WARNING` or `ERROR`."""
@@ -34,7 +34,7 @@ class Status(ServerMessage, frozen=True, tag="status"):
 
 
 class RemoveStatus(ServerMessage, frozen=True, tag="removeStatus"):
-    """End of status messages, by id."""
+    """Ids of status messages that end."""
 
     status_ids: tuple[str, ...]
 
@@ -59,7 +59,7 @@ class AdvertiseChannels(ServerMessage, frozen=True, tag="advertise"):
 
 
 class UnadvertiseChannels(ServerMessage, frozen=True, tag="unadvertise"):
-    """End of channels and of their subscriptions."""
+    """Ids of channels that end, with their subscriptions."""
 
     channel_ids: tuple[int, ...]
 
@@ -92,13 +92,13 @@ class AdvertiseServices(ServerMessage, frozen=True, tag="advertiseServices"):
 
 
 class UnadvertiseServices(ServerMessage, frozen=True, tag="unadvertiseServices"):
-    """End of services."""
+    """Ids of services that end."""
 
     service_ids: tuple[int, ...]
 
 
 class ServiceCallFailure(ServerMessage, frozen=True, kw_only=True, tag="serviceCallFailure"):
-    """A call that has no response."""
+    """Service call that failed."""
 
     service_id: int
     call_id: int
@@ -106,31 +106,31 @@ class ServiceCallFailure(ServerMessage, frozen=True, kw_only=True, tag="serviceC
 
 
 class ParameterValues(ServerMessage, frozen=True, tag="parameterValues"):
-    """Parameters that were asked for, or that have changed."""
+    """Requested or changed parameters."""
 
     parameters: tuple[Parameter, ...]
     id: str | UnsetType = UNSET
-    """Id of the request that it answers."""
+    """Id of the answered request."""
 
 
 class PublishedTopic(msgspec.Struct, frozen=True, rename="camel"):
-    """Nodes that publish a topic now."""
+    """Current publishers of a topic."""
 
     name: str
     publisher_ids: tuple[str, ...]
 
 
 class SubscribedTopic(msgspec.Struct, frozen=True, rename="camel"):
-    """Nodes that subscribe to a topic now."""
+    """Current subscribers of a topic."""
 
     name: str
     subscriber_ids: tuple[str, ...]
     type: str
-    """Datatype, `*` where it is not known; an addition to the protocol: without a publisher there is no channel."""
+    """Datatype, `*` if unknown; an addition to the protocol, as a topic without a publisher has no channel."""
 
 
 class ProvidedService(msgspec.Struct, frozen=True, rename="camel"):
-    """Nodes that provide a service now."""
+    """Current providers of a service."""
 
     name: str
     provider_ids: tuple[str, ...]
@@ -147,12 +147,12 @@ class ConnectionGraphUpdate(ServerMessage, frozen=True, kw_only=True, tag="conne
 
 
 class Response(ServerMessage, frozen=True, tag="trundle/response"):
-    """Answer to a request of `trundle.v1`; where it is `ok`, the fields of its `Answer` come along."""
+    """Answer to a request of `trundle.v1`; if it is `ok`, the fields of its `Answer` follow."""
 
     id: int | str
     ok: bool
     error: str | UnsetType = UNSET
-    """Sentence that says why it was not done."""
+    """Reason for a failure."""
 
 
 ServerOperation: TypeAlias = (

@@ -1,4 +1,4 @@
-"""Channel of a ROS topic: its messages go out as the bytes that came in."""
+"""Channel of a ROS topic: messages are forwarded as the bytes received."""
 
 import asyncio
 from collections.abc import Callable, Collection
@@ -9,18 +9,18 @@ from .channel import Channel, Client
 from .outbox import Buffer
 
 _NEVER_DROPPED = ("visualization_msgs/", "map_msgs/", "nav_msgs/OccupancyGrid")
-"""Types whose messages build on those before: markers and maps."""
+"""Types whose messages depend on earlier ones: markers and maps."""
 _LINGER_S = 1.0
-"""Time that a subscription outlives its last client, who may be subscribing again: a new connection loses messages."""
+"""Time that a subscription outlives its last client, which may resubscribe: a new connection would lose messages."""
 
 
 def is_droppable(topic: str, type_name: str) -> bool:
-    """True if a slow client may lose messages of a topic."""
+    """True if messages of a topic to a slow client may be dropped."""
     return not (type_name.startswith(_NEVER_DROPPED) or topic.endswith("/tf_static"))
 
 
 class TopicChannel(Channel):
-    """One subscription, however many clients look; none without clients."""
+    """Channel with one subscription for all its clients, and none without clients."""
 
     def __init__(
         self,
@@ -33,16 +33,16 @@ class TopicChannel(Channel):
         now_ns: Callable[[], int],
         retype: "Callable[[TopicChannel, RawMessage], None]",
     ) -> None:
-        """Create.
+        """Create it.
 
         Args:
             topic: global name.
             type_name: such as sensor_msgs/LaserScan.
-            md5sum: of the type.
+            md5sum: type's checksum.
             definition: full definition of the type.
-            is_certain: True if both are a publisher's own; otherwise its messages may have another definition.
-            now_ns: returns the time that messages get [ns].
-            retype: called with a message whose type has another definition, after which the channel is replaced.
+            is_certain: True if checksum and definition come from a publisher; otherwise messages may differ.
+            now_ns: returns the time for messages [ns].
+            retype: called with a message of another definition; it replaces the channel.
         """
         super().__init__(
             topic,
@@ -57,22 +57,22 @@ class TopicChannel(Channel):
         self._md5sum = md5sum
         self._is_certain = is_certain
         self._latched: dict[str, tuple[int, Buffer]] = {}
-        """Last latched message of each publisher, for clients that come later."""
+        """Latest latched message of each publisher, for later clients."""
 
     @property
     def is_subscribed(self) -> bool:
-        """True while the topic is subscribed to."""
+        """True while the channel subscribes to the topic."""
         return self._subscription is not None
 
     def set_node(self, node: Node) -> None:
-        """Use another node from now on."""
+        """Use another node."""
         self._node, self._subscription = node, None
         self._latched.clear()
         if self.clients:
             self._begin()
 
     def set_publishers(self, names: Collection[str]) -> None:
-        """Forget latched messages of nodes that publish no more."""
+        """Drop latched messages of nodes that no longer publish."""
         self._latched = {caller: message for caller, message in self._latched.items() if caller in names}
 
     def subscribe(self, client: Client) -> None:
@@ -88,7 +88,7 @@ class TopicChannel(Channel):
             asyncio.get_running_loop().call_later(_LINGER_S, self._end)
 
     def _end(self) -> None:
-        """Unsubscribe, if no client has come since."""
+        """Unsubscribe unless a client has subscribed since."""
         if not self.clients and self._subscription is not None:
             self._subscription.unregister()
             self._subscription = None

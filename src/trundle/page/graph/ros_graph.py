@@ -237,10 +237,10 @@ class RosGraph:
                     client.send(update)
             case UnsubscribeConnectionGraph():
                 self._graph_clients.discard(client)
-            case Drive() if client.is_own:
+            case Drive() if client.speaks_trundle:
                 if self._has_state:  # else the type of the topic is not known yet; the command is repeated
                     self._driving.drive(client, operation, self._state.types)
-            case Release(topic) if client.is_own:
+            case Release(topic) if client.speaks_trundle:
                 self._driving.release(client, topic)
             case _:
                 client.send_status(ERROR, "this is for clients that speak trundle.v1")

@@ -61,7 +61,7 @@ class Page(Protocol):
         """Receive a model and return the names of what can be inserted now; raises UsageError."""
         ...
 
-    def join(self, outbox: Outbox, *, is_own: bool, is_view_only: bool) -> Connection:
+    def join(self, outbox: Outbox, *, speaks_trundle: bool, is_view_only: bool) -> Connection:
         """Add a client."""
         ...
 
@@ -219,7 +219,7 @@ class HttpServer:
         own: socket.socket = transport.get_extra_info("socket").dup()
         client = self._page.join(
             Outbox(own, broken=lambda _: transport.abort(), dropped=lambda stream: client.count_drop(stream)),
-            is_own=web_socket.ws_protocol == TRUNDLE,
+            speaks_trundle=web_socket.ws_protocol == TRUNDLE,
             is_view_only=is_view_only,
         )
         try:

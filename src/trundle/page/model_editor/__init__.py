@@ -1,1 +1,1 @@
-"""Editing of a model's SDF: a document, its parts and their values, what is wrong with it, its files."""
+"""Model editor: an SDF document, its parts and their fields, findings and files."""

@@ -1,4 +1,4 @@
-"""SDF of one model under change; comments and unknown elements stay."""
+"""Editable SDF of one model; comments and unknown elements are kept."""
 
 from collections.abc import Iterator
 
@@ -14,12 +14,12 @@ _CHILDREN = {
 }
 """Tags of an element's parts."""
 _REFERENCES = {"link": ("parent", "child", "link"), "joint": ("joint",), "collision": ("collision",)}
-"""Tag of a part → tags of elements whose text names it."""
+"""Tag of a part → tags of elements whose text refers to it."""
 _FRAME_ATTRIBUTES = ("relative_to", "attached_to", "expressed_in", "canonical_link", "placement_frame")
 
 
 class ModelDocument:
-    """Document with one <model>."""
+    """SDF document with one <model>."""
 
     def __init__(self, text: bytes) -> None:
         self._document = XmlDocument(text, name="model.sdf")
@@ -32,11 +32,11 @@ class ModelDocument:
         return self._document.text()
 
     def line(self, element: XmlElement) -> int:
-        """Return the line of an element as it was parsed."""
+        """Return the line of an element in the parsed text."""
         return self._document.line(element) or 1
 
     def parts(self) -> Iterator[tuple[Part, XmlElement]]:
-        """Return every part below the model with its address, in file order; of two with one name the first counts."""
+        """Yield every part in the model with its address, in file order; of two with the same name only the first."""
         seen: set[Part] = set()
         for part, element in _below((), self.model):
             if part not in seen:
@@ -47,62 +47,64 @@ class ModelDocument:
         """Return the element of a part.
 
         Raises:
-            UsageError: there is none.
+            UsageError: there is no such part.
         """
         element = self.model
         for tag, name in zip(part[::2], part[1::2], strict=False):
-            found = None
+            child = None
             if tag in _CHILDREN.get(element.tag, ()):
-                found = next((each for each in element.all(tag) if each.get("name") == name), None)
-            if found is None:
-                raise UsageError(f"the model has no {tag} {name!r} any more")
-            element = found
+                child = next((child for child in element.all(tag) if child.get("name") == name), None)
+            if child is None:
+                raise UsageError(f"the model has no {tag} {name!r}")
+            element = child
         if len(part) % 2:
-            raise UsageError("a part is addressed by tags and names in turn")
+            raise UsageError("a part's address alternates tags and names")
         return element
 
-    def home(self, part: Part) -> XmlElement:
-        """Return the <model> that a part is in; nested models have their own names."""
+    def model_of(self, part: Part) -> XmlElement:
+        """Return the innermost <model> around a part, in which its name is unique."""
         nested = 0
         while part[2 * nested : 2 * nested + 1] == ("model",):
             nested += 1
         return self.find(part[: 2 * nested])
 
     def rename(self, part: Part, name: str) -> Part:
-        """Rename a part, and what refers to it; return its new address.
+        """Rename a part and update references to it; return its new address.
 
         Raises:
-            UsageError: another one has that name.
+            UsageError: another part has that name.
         """
         element = self.find(part)
         if not part:
             element.set("name", name)
             return part
-        if any(each != element and each.get("name") == name for each in self.find(part[:-2]).all(element.tag)):
+        siblings = self.find(part[:-2]).all(element.tag)
+        if any(sibling != element and sibling.get("name") == name for sibling in siblings):
             raise UsageError(f"there is a {element.tag} {name!r} already")
         old = part[-1]
         element.set("name", name)
-        self._rename_references(self.home(part), element.tag, old, name)
+        self._rename_references(self.model_of(part), element.tag, old, name)
         return (*part[:-1], name)
 
-    def _rename_references(self, home: XmlElement, tag: str, old: str, new: str) -> None:
-        named = _REFERENCES.get(tag, ())
-        for element in home.descendants():
+    def _rename_references(self, model: XmlElement, tag: str, old: str, new: str) -> None:
+        reference_tags = _REFERENCES.get(tag, ())
+        for element in model.descendants():
             if tag in ("link", "joint"):
                 for attribute in _FRAME_ATTRIBUTES:
                     if element.get(attribute) == old:
                         element.set(attribute, new)
             if element.text != old or element.children:
                 continue
-            if element.tag in named or (tag in ("link", "joint") and _is_in_plugin(element)):
+            if element.tag in reference_tags or (tag in ("link", "joint") and _is_in_plugin(element)):
                 element.text = new
-        if tag == "link" and home.get("canonical_link") == old:
-            home.set("canonical_link", new)
+        if tag == "link" and model.get("canonical_link") == old:
+            model.set("canonical_link", new)
 
     def joints_of(self, part: Part) -> list[XmlElement]:
-        """Return the joints at a link."""
-        ends = [[end.text for end in (j.find("parent"), j.find("child")) if end] for j in self.home(part).all("joint")]
-        return [joint for joint, at in zip(self.home(part).all("joint"), ends, strict=True) if part[-1] in at]
+        """Return the joints whose parent or child is a link."""
+        joints = self.model_of(part).all("joint")
+        ends = [[end.text for end in (joint.find("parent"), joint.find("child")) if end] for joint in joints]
+        return [joint for joint, links in zip(joints, ends, strict=True) if part[-1] in links]
 
 
 def _below(part: Part, element: XmlElement) -> Iterator[tuple[Part, XmlElement]]:
@@ -115,14 +117,14 @@ def _below(part: Part, element: XmlElement) -> Iterator[tuple[Part, XmlElement]]
 
 
 def _is_in_plugin(element: XmlElement) -> bool:
-    return any(each.tag == "plugin" for each in element.ancestors())
+    return any(ancestor.tag == "plugin" for ancestor in element.ancestors())
 
 
-def free_name(home: XmlElement, tag: str, name: str) -> str:
-    """Return a name that no child with a tag has: `name`, `name_1`, …"""
-    taken = {each.get("name") for each in home.children if each.tag in (tag, "link", "joint", "model")}
+def free_name(parent: XmlElement, tag: str, name: str) -> str:
+    """Return an unused name for a new child: `name`, `name_1`, …"""
+    used = {child.get("name") for child in parent.children if child.tag in (tag, "link", "joint", "model")}
     number, free = 0, name
-    while free in taken:
+    while free in used:
         number += 1
         free = f"{name}_{number}"
     return free

@@ -1,4 +1,4 @@
-"""Copy of a model under change, with the edits that can be taken back."""
+"""Copy of a model being edited, with its undo history."""
 
 import math
 from collections.abc import Callable
@@ -26,7 +26,7 @@ _GAP_M = 0.2
 
 
 class _Edit(NamedTuple):
-    """Model before an edit, or after one that was taken back."""
+    """Entry of the history: the model before an edit, or after an undone one."""
 
     title: str
     text: bytes
@@ -34,19 +34,19 @@ class _Edit(NamedTuple):
 
 
 class Draft:
-    """One model under change; an edit after which it cannot be read is refused."""
+    """Model being edited; an edit that makes it unreadable is refused."""
 
     def __init__(self, text: bytes, reader: ModelReader, *, original: str | None, world_from_model: Pose) -> None:
         """Read a model.
 
         Args:
             text: document with one <model>.
-            reader: reads it.
+            reader: reads and checks the document.
             original: name of the copied model in the world; None: a new model.
-            world_from_model: its place.
+            world_from_model: model's pose in the world.
 
         Raises:
-            DescriptionError: it cannot be read.
+            UsageError: the document cannot be read.
         """
         self.original = original
         self.world_from_model = world_from_model
@@ -57,35 +57,35 @@ class Draft:
 
     @property
     def text(self) -> bytes:
-        """Document as it is now."""
+        """Current document."""
         return self.checked.document.text()
 
     @property
     def name(self) -> str:
-        """Name of the model."""
+        """Model's name."""
         return self.checked.document.model.get("name") or "model"
 
     @property
     def undo_title(self) -> str | None:
-        """Edit that can be taken back."""
+        """Title of the edit to undo."""
         return self._done[-1].title if self._done else None
 
     @property
     def redo_title(self) -> str | None:
-        """Edit that can be done again."""
+        """Title of the edit to redo."""
         return self._undone[-1].title if self._undone else None
 
     def undo(self) -> None:
-        """Take the last edit back."""
+        """Undo the latest edit."""
         self._swap(self._done, self._undone)
 
     def redo(self) -> None:
-        """Do the edit again that was taken back last."""
+        """Redo the edit undone last."""
         self._swap(self._undone, self._done)
 
     def _swap(self, from_: "list[_Edit]", to: "list[_Edit]") -> None:
         if not from_:
-            raise UsageError("there is nothing to take back or do again")
+            raise UsageError("nothing to undo or redo")
         edit = from_[-1]
         now = _Edit(edit.title, self.text, self.world_from_model)
         self.checked = self._check(edit.text)
@@ -94,23 +94,23 @@ class Draft:
         to.append(now)
 
     def set(self, part: Part, name: str, value: Value) -> Part:
-        """Set a field of a part; return the part's address from now on.
+        """Set a field of a part; return the part's address afterwards.
 
         Raises:
-            TrundleError: it cannot be set; nothing has changed.
+            TrundleError: the value is refused; the draft is unchanged.
         """
         field = self.checked.field(part, name)
-        what = part[-1] if part else self.name
+        part_name = part[-1] if part else self.name
 
         def change(document: ModelDocument) -> Part:
             if name == "@name":
                 if not isinstance(value, str) or not value.strip():
-                    raise UsageError("a part has a name")
+                    raise UsageError("a part needs a name")
                 return document.rename(part, value.strip())
             self._set(document, part, field, value)
             return part
 
-        return self._edit(f"{field.label} of {what}", change)
+        return self._edit(f"{field.label} of {part_name}", change)
 
     def _set(self, document: ModelDocument, part: Part, field: Field, value: Value) -> None:
         element = document.find(part)
@@ -127,8 +127,8 @@ class Draft:
             if density is not None:
                 self._weigh(document, owner, density=density)
         elif field.name.endswith("material/diffuse"):
-            home = element.find("visual") if element.tag == "link" else element
-            material = None if home is None else home.find("material")
+            visual = element.find("visual") if element.tag == "link" else element
+            material = None if visual is None else visual.find("material")
             script = None if material is None else material.find("script")
             if script is not None:
                 script.remove()
@@ -142,14 +142,14 @@ class Draft:
         if link is not None:
             weigh(document.find(part), link, mass=mass, density=density)
 
-    def place(self, part: Part, pose: Pose) -> Part:
+    def move(self, part: Part, pose: Pose) -> Part:
         """Move a link, or the model as a whole, to a pose in the world."""
         if not part:
             self._remember(_Edit(f"Pose of {self.name}", self.text, self.world_from_model))
             self.world_from_model = pose
             return part
         if len(part) != 2 or part[0] != "link":
-            raise UsageError("links of the model itself are moved by handles, others by their numbers")
+            raise UsageError("only links of the outermost model can be dragged: set the pose in the form")
         model_from_link = self.world_from_model.inverse() @ pose
 
         def change(document: ModelDocument) -> Part:
@@ -164,25 +164,25 @@ class Draft:
         """Add a part; return its address.
 
         Args:
-            into: part that gets it; of a joint, its child.
+            into: part that it is added to; for a joint, its child.
             kind: tag of the part.
             type_: shape or mesh, type of the joint or sensor, file name of the plugin.
         """
 
         def change(document: ModelDocument) -> Part:
-            home = self._home_of(document, into, kind, type_)
-            element = document.find(home)
-            new = self._new(document, home, into, kind, type_)
+            parent = self._parent_for(document, into, kind, type_)
+            element = document.find(parent)
+            new = self._new(document, parent, into, kind, type_)
             _insert(element, new)
-            added = (*home, kind, new.get("name") or "")
+            added = (*parent, kind, new.get("name") or "")
             if kind == "link":
                 self._weigh(document, added, mass=1.0)
             return added
 
         return self._edit(f"Add {kind} {type_.rpartition('/')[2]}", change)
 
-    def _home_of(self, document: ModelDocument, into: Part, kind: str, type_: str) -> Part:
-        """Return the part that gets a new one."""
+    def _parent_for(self, document: ModelDocument, into: Part, kind: str, type_: str) -> Part:
+        """Return the part to which a new one is added."""
         if kind in ("link", "joint"):
             return ()
         if kind == "plugin":
@@ -196,21 +196,21 @@ class Draft:
             return owner
         first = document.model.find("link")
         if first is None:
-            raise UsageError(f"a {kind} sits on a link: add a link first")
+            raise UsageError(f"a {kind} belongs to a link: add a link first")
         return ("link", first.get("name") or "")
 
-    def _new(self, document: ModelDocument, home: Part, into: Part, kind: str, type_: str) -> XmlElement:
-        element = document.find(home)
+    def _new(self, document: ModelDocument, parent: Part, into: Part, kind: str, type_: str) -> XmlElement:
+        element = document.find(parent)
         match kind:
             case "link":
                 return new_link(type_, free_name(element, kind, _stem(type_)), self._right_edge())
             case "joint":
-                parent, child = self._ends(document, into)
-                return new_joint(type_, free_name(element, kind, f"{child}_joint"), parent, child)
+                parent_link, child = self._ends(document, into)
+                return new_joint(type_, free_name(element, kind, f"{child}_joint"), parent_link, child)
             case "sensor":
                 collision = element.find("collision")
                 name = free_name(element, kind, {"ray": "lidar", "gpu_ray": "lidar"}.get(type_, type_))
-                return new_sensor(type_, name, home[-1], (collision.get("name") or "") if collision else "collision")
+                return new_sensor(type_, name, parent[-1], (collision.get("name") or "") if collision else "collision")
             case "plugin":
                 stem = _stem(type_).removeprefix("lib").removeprefix("gazebo_ros_")
                 return new_plugin(type_, free_name(element, kind, stem))
@@ -218,8 +218,8 @@ class Draft:
                 return new_shape(kind, type_, free_name(element, kind, kind))
 
     def _ends(self, document: ModelDocument, into: Part) -> tuple[str, str]:
-        """Return parent and child of a new joint: the first link, and the one that is selected or came last."""
-        links = [each.get("name") or "" for each in document.model.all("link")]
+        """Return parent and child of a new joint: the first link, and the selected or else the last one."""
+        links = [link.get("name") or "" for link in document.model.all("link")]
         if not links:
             raise UsageError("a joint joins two links: add them first")
         owner = _link_part(into)
@@ -229,9 +229,9 @@ class Draft:
         return next((name for name in links if name != child), WORLD), child
 
     def _right_edge(self) -> float:
-        """Return where a new link stands beside all others, along x [m]."""
+        """Return the x coordinate at which a new link is next to all others [m]."""
         links = self.checked.model.links
-        edges = [k.model_from_link.position[0] + _reach(c.geometry) for k in links for c in k.collisions]
+        edges = [k.model_from_link.position[0] + _bounding_radius(c.geometry) for k in links for c in k.collisions]
         return round(max(edges) + 0.5 + _GAP_M, 2) if edges else 0.0
 
     def copy(self, part: Part) -> Part:
@@ -240,7 +240,7 @@ class Draft:
         def change(document: ModelDocument) -> Part:
             element = document.find(part)
             if not part:
-                raise UsageError("a model is copied in the world")
+                raise UsageError("copy the model itself in the world, not in the editor")
             copied = element.copy()
             name = free_name(document.find(part[:-2]), element.tag, part[-1])
             copied.set("name", name)
@@ -250,12 +250,12 @@ class Draft:
         return self._edit(f"Copy of {part[-1] if part else self.name}", change)
 
     def remove(self, part: Part) -> Part:
-        """Remove a part, a link with its joints; return the part that it was in."""
+        """Remove a part, and the joints of a link; return the part that contained it."""
 
         def change(document: ModelDocument) -> Part:
             element = document.find(part)
             if not part:
-                raise UsageError("the model itself is deleted in the world")
+                raise UsageError("delete the model itself in the world, not in the editor")
             for joint in document.joints_of(part) if element.tag == "link" else []:
                 joint.remove()
             element.remove()
@@ -276,7 +276,7 @@ class Draft:
 
     def _remember(self, edit: "_Edit") -> None:
         self._done = [*self._done, edit][-_MAX_UNDO:]
-        while sum(len(each.text) for each in self._done) > _MAX_UNDO_BYTES:
+        while sum(len(entry.text) for entry in self._done) > _MAX_UNDO_BYTES:
             del self._done[0]
         self._undone.clear()
 
@@ -290,34 +290,34 @@ class Draft:
 
 
 def _link_part(part: Part) -> Part:
-    """Return the link that a part is, or is on; empty: none."""
+    """Return the link that a part is or belongs to; empty: none."""
     for end in range(len(part), 0, -2):
         if part[end - 2] == "link":
             return part[:end]
     return ()
 
 
-def _insert(home: XmlElement, new: XmlElement) -> None:
-    """Insert an element after the last of its kind."""
-    last = max((i for i, each in enumerate(home.raw) if each.tag == new.tag), default=-1)
-    home.insert(new, at=last + 1 if last >= 0 else None)
+def _insert(parent: XmlElement, new: XmlElement) -> None:
+    """Insert an element after the last one with its tag."""
+    last = max((i for i, child in enumerate(parent.raw) if child.tag == new.tag), default=-1)
+    parent.insert(new, at=last + 1 if last >= 0 else None)
 
 
 def _fit_axes(joint: XmlElement) -> None:
-    """Have a joint the axes of its type."""
-    wanted = ("axis", "axis2")[: axis_count(joint.get("type") or "")]
+    """Add and remove axes of a joint to match its type."""
+    tags = ("axis", "axis2")[: axis_count(joint.get("type") or "")]
     for tag, direction in (("axis", "0 0 1"), ("axis2", "1 0 0")):
         axis = joint.find(tag)
-        if axis is not None and tag not in wanted:
+        if axis is not None and tag not in tags:
             axis.remove()
-        elif axis is None and tag in wanted:
+        elif axis is None and tag in tags:
             joint.insert(XmlElement.parse(f"<{tag}><xyz>{direction}</xyz></{tag}>"))
 
 
 def _number(field: Field, value: Value) -> float:
     number = value[0] if isinstance(value, tuple) and len(value) == 1 else None
-    if number is None or not field.least <= number <= field.most:
-        raise UsageError(f"{field.label}: a number from {field.least:g} to {field.most:g}, please")
+    if number is None or not field.minimum <= number <= field.maximum:
+        raise UsageError(f"{field.label}: enter a number from {field.minimum:g} to {field.maximum:g}")
     return number
 
 
@@ -325,8 +325,8 @@ def _stem(type_: str) -> str:
     return type_.rpartition("/")[2].partition(".")[0] or "link"
 
 
-def _reach(geometry: Geometry) -> float:
-    """Return how far a shape reaches from its origin at most [m]."""
+def _bounding_radius(geometry: Geometry) -> float:
+    """Return the radius of a sphere around a shape's origin that contains it [m]."""
     match geometry:
         case Box(size):
             return math.hypot(*size) / 2

@@ -1,4 +1,4 @@
-"""Values of an element that a form shows: read from its children, and written there."""
+"""Fields of a form: values read from an element's children and attributes, and written to them."""
 
 import math
 
@@ -10,42 +10,42 @@ from trundle.page import Value
 
 from ..world.draft_info import DraftField, FieldKind, ShownValue
 
-_COUNTS: dict[str, int] = {"number": 1, "pose": 6, "colour": 4}
+_COUNTS: dict[str, int] = {"number": 1, "pose": 6, "color": 4}
 _ANGLE_ATTRIBUTES = ("degrees", "rotation_format")
 
 
 class Field(Struct, frozen=True, kw_only=True):
-    """One value of a part."""
+    """Value of a part."""
 
     name: str
-    """Path of the element, "inertial/mass"; an attribute ends in "@name"."""
+    """Path of an element, "inertial/mass", or of an attribute, "axis/@name"."""
     label: str
     kind: FieldKind = "number"
     unit: str = ""
     labels: tuple[str, ...] = ()
-    """Names of a vector's numbers."""
+    """Names of a vector's components."""
     default: str = ""
-    """Text where the file has none."""
+    """Text if the file has none."""
     choices: tuple[str, ...] = ()
-    least: float = -1e9
-    most: float = 1e9
+    minimum: float = -1e9
+    maximum: float = 1e9
     also: tuple[str, ...] = ()
-    """Paths that get the same value."""
+    """Further paths to which the value is written."""
     derived: tuple[float, ...] | None = None
-    """Value of a field that is computed, without an element of its own."""
+    """Value of a computed field, which has no element."""
 
 
 class Section(Struct, frozen=True, kw_only=True):
-    """Fields below one heading."""
+    """Fields under one heading."""
 
     title: str
     fields: tuple[Field, ...]
 
 
 def shown_field(element: XmlElement, field: Field) -> DraftField:
-    """Return a field with its value as the client shows it."""
+    """Return a field with its value, for the client."""
     text = read_text(element, field.name)
-    has_numbers = field.kind in ("number", "vector", "pose", "colour")
+    has_numbers = field.kind in ("number", "vector", "pose", "color")
     value: ShownValue = text
     default: ShownValue = field.default
     if has_numbers:
@@ -63,8 +63,8 @@ def shown_field(element: XmlElement, field: Field) -> DraftField:
         unit=field.unit,
         labels=field.labels,
         choices=field.choices,
-        least=field.least if has_numbers else UNSET,
-        most=field.most if has_numbers else UNSET,
+        minimum=field.minimum if has_numbers else UNSET,
+        maximum=field.maximum if has_numbers else UNSET,
     )
 
 
@@ -72,18 +72,18 @@ def _numbers(text: str | None, field: Field) -> tuple[float, ...] | None:
     numbers = tuple(parse_numbers(text or "") or ())
     if not numbers or not all(map(math.isfinite, numbers)):
         return None
-    if field.kind == "colour" and len(numbers) == 3:
+    if field.kind == "color" and len(numbers) == 3:
         numbers = (*numbers, 1.0)
     return numbers if len(numbers) == count_of(field) else None
 
 
 def count_of(field: Field) -> int:
-    """Return how many numbers a field has."""
+    """Return the number of a field's components."""
     return _COUNTS.get(field.kind, len(field.labels))
 
 
 def read_text(element: XmlElement, path: str) -> str | None:
-    """Return the text at a path, or None."""
+    """Return the text at a path; None if there is none."""
     at: XmlElement | None = element
     for step in path.split("/"):
         if step.startswith("@"):
@@ -93,10 +93,10 @@ def read_text(element: XmlElement, path: str) -> str | None:
 
 
 def write_value(element: XmlElement, field: Field, value: Value) -> None:
-    """Write a value to its element, made if there is none; None removes it.
+    """Write a value to its element, which is created if necessary; None removes the element.
 
     Raises:
-        UsageError: it is no value of the field.
+        UsageError: the value is invalid.
     """
     text = _checked(element, field, value)
     for path in (field.name, *field.also):
@@ -112,25 +112,25 @@ def _checked(element: XmlElement, field: Field, value: Value) -> str | None:
         return None
     if field.kind in ("text", "choice", "flag"):
         if not isinstance(value, str):
-            raise UsageError(f"{field.label} is a text")
+            raise UsageError(f"{field.label} must be text")
         if field.choices and value not in field.choices:
-            raise UsageError(f"{field.label} is one of: {', '.join(field.choices)}")
+            raise UsageError(f"{field.label} must be one of: {', '.join(field.choices)}")
         if field.kind == "flag" and value not in ("true", "false"):
-            raise UsageError(f"{field.label} is true or false")
+            raise UsageError(f"{field.label} must be true or false")
         if any(ord(letter) < 32 for letter in value):
-            raise UsageError(f"{field.label}: a text of one line, please")
+            raise UsageError(f"{field.label} must be one line of text")
         return value
     if isinstance(value, str) or len(value) != count_of(field):
-        raise UsageError(f"{field.label} has {count_of(field)} numbers")
-    if not all(each is None or field.least <= each <= field.most for each in value):
-        raise UsageError(f"{field.label}: from {field.least:g} to {field.most:g}, please")
-    there = _numbers(read_text(element, field.name), field) or _numbers(field.default, field) or (0.0,) * len(value)
-    return number_text([old if new is None else new for new, old in zip(value, there, strict=True)])
+        raise UsageError(f"{field.label} needs {count_of(field)} numbers")
+    if not all(number is None or field.minimum <= number <= field.maximum for number in value):
+        raise UsageError(f"{field.label}: enter numbers from {field.minimum:g} to {field.maximum:g}")
+    current = _numbers(read_text(element, field.name), field) or _numbers(field.default, field) or (0.0,) * len(value)
+    return number_text([old if new is None else new for new, old in zip(value, current, strict=True)])
 
 
 def number_text(numbers: "tuple[float, ...] | list[float]") -> str:
-    """Return numbers as text, without the rounding errors of a computation."""
-    return " ".join(f"{0.0 if abs(each) < 1e-14 else each:.12g}" for each in numbers)
+    """Return numbers as text with 12 digits, which hides rounding errors."""
+    return " ".join(f"{0.0 if abs(number) < 1e-14 else number:.12g}" for number in numbers)
 
 
 def _write(element: XmlElement, path: str, text: str) -> None:

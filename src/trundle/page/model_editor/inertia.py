@@ -10,18 +10,18 @@ _TENSOR = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
 
 def density_of(link: Link) -> float | None:
-    """Return the density of a link [kg/m³]; None where its collisions have no volume."""
+    """Return the density of a link [kg/m³]; None if its collisions have no volume."""
     volume = enclosed_volume(link.collisions)
     return link.inertial.mass / volume if volume else None
 
 
 def weigh(element: XmlElement, link: Link, *, mass: float | None = None, density: float | None = None) -> None:
-    """Write mass and inertia of a <link>; without a volume, the mass alone.
+    """Write mass and inertia of a <link>; without a volume, only the mass.
 
     Args:
-        element: the link.
-        link: as it was read, with its collisions of now.
-        mass: [kg]; None: by the density.
+        element: link's element.
+        link: link as read from the element.
+        mass: [kg]; None: computed from the density.
         density: [kg/m³]
     """
     if mass is None:

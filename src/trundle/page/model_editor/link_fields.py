@@ -5,12 +5,12 @@ from trundle.robots.description import enclosed_volume
 from trundle.robots.model import Link
 
 from .field import Field, Section
-from .shape_fields import NAME, POSE, colour_section, friction_section, has_one_shape, size_fields
+from .shape_fields import NAME, POSE, color_section, friction_section, has_one_shape, size_fields
 
 DENSITY = "density"
-"""Name of the field that sets mass and inertia by the volume of the collisions."""
+"""Name of the field that sets mass and inertia from the volume of the collisions."""
 MASS = "inertial/mass"
-_LEAST_KG = 1e-9
+_MIN_KG = 1e-9
 
 
 def model_sections() -> list[Section]:
@@ -28,20 +28,20 @@ def link_sections(element: XmlElement, link: Link | None) -> list[Section]:
     """Return the sections of a <link>.
 
     Args:
-        element: the link.
-        link: as it was read; None: of a model whose name another has.
+        element: link's element.
+        link: link as read from the element; None: its name is not unique.
     """
-    own = (
+    link_fields = (
         NAME,
         POSE,
         Field(name="gravity", label="Gravity", kind="flag", default="true"),
         Field(name="self_collide", label="Self collide", kind="flag", default="false"),
     )
-    sections = [Section(title="Link", fields=own)]
+    sections = [Section(title="Link", fields=link_fields)]
     if has_one_shape(element):
         sections.append(Section(title="Shape", fields=size_fields(element, ("collision", "visual"))))
     if len(element.all("visual")) == 1:
-        sections.append(colour_section("visual/"))
+        sections.append(color_section("visual/"))
     if len(element.all("collision")) == 1:
         sections.append(friction_section("collision/"))
     return [*sections, _inertia_section(link)]
@@ -52,12 +52,12 @@ def _inertia_section(link: Link | None) -> Section:
     density: tuple[Field, ...] = ()
     if link is not None and volume:
         derived = (link.inertial.mass / volume,)
-        density = (Field(name=DENSITY, label="Density", unit="kg/m³", least=_LEAST_KG, derived=derived),)
+        density = (Field(name=DENSITY, label="Density", unit="kg/m³", minimum=_MIN_KG, derived=derived),)
     moments = (f"inertial/inertia/{name}" for name in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))
     return Section(
         title="Mass and inertia",
         fields=(
-            Field(name=MASS, label="Mass", unit="kg", least=_LEAST_KG, default="1"),
+            Field(name=MASS, label="Mass", unit="kg", minimum=_MIN_KG, default="1"),
             *density,
             *(
                 Field(name=path, label=path[-3:], unit="kg m²", default="1" if path[-2] == path[-1] else "0")

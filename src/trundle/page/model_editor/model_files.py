@@ -1,4 +1,4 @@
-"""Files of a model: model.sdf with model.config in a folder of their own."""
+"""Files of a model's folder: model.sdf and model.config."""
 
 import re
 from pathlib import Path
@@ -11,12 +11,12 @@ CONFIG_FILE = "model.config"
 
 
 def folder_name(model: str) -> str:
-    """Return the folder to offer for a model."""
+    """Return the name to offer for a model's folder."""
     return re.sub(r"[^A-Za-z0-9_-]+", "_", model).strip("_") or "model"
 
 
 def model_config(text: bytes, name: str) -> bytes:
-    """Return the model.config of a model's document."""
+    """Return the content of model.config for a model's document."""
     version = XmlDocument(text, name=SDF_FILE).root.get("version") or "1.7"
     return (
         '<?xml version="1.0"?>\n<model>\n'
@@ -27,5 +27,5 @@ def model_config(text: bytes, name: str) -> bytes:
 
 
 def target_files(folder: Path) -> tuple[Path, Path]:
-    """Return model.sdf and model.config of a folder."""
+    """Return the paths of model.sdf and model.config in a folder."""
     return folder / SDF_FILE, folder / CONFIG_FILE

@@ -1,4 +1,4 @@
-"""Elements of new parts, with Gazebo's usual values."""
+"""Elements of new parts, with Gazebo's default values."""
 
 import re
 from xml.sax.saxutils import escape, quoteattr
@@ -17,8 +17,8 @@ _GEOMETRY = {
     "capsule": "<capsule><radius>0.5</radius><length>1</length></capsule>",
     "ellipsoid": "<ellipsoid><radii>0.5 0.5 0.5</radii></ellipsoid>",
 }
-"""Each is 1 m high, but for the capsule."""
-_HEIGHTS = {"capsule": 1.0}
+"""Geometry by kind; each is 1 m high, except for the capsule."""
+_CENTER_HEIGHTS_M = {"capsule": 1.0}
 _GREY = "<material><ambient>0.7 0.7 0.7 1</ambient><diffuse>0.7 0.7 0.7 1</diffuse></material>"
 _NOISE = "<noise><type>gaussian</type><mean>0</mean><stddev>0.01</stddev></noise>"
 _RAYS = (
@@ -39,7 +39,7 @@ _SENSORS = {
     "contact": (30, "<contact><collision>__default__</collision></contact>"),
     "sonar": (10, "<sonar><min>0.1</min><max>3</max><radius>0.3</radius></sonar>"),
 }
-"""Type → rate [Hz], settings."""
+"""Type → rate [Hz] and settings."""
 _PUBLISHERS = {
     "ray": ("libgazebo_ros_laser.so", {"topicName": "scan", "frameName": "{link}"}),
     "gpu_ray": ("libgazebo_ros_gpu_laser.so", {"topicName": "scan", "frameName": "{link}"}),
@@ -51,12 +51,12 @@ _PUBLISHERS = {
     ),
     "contact": ("libgazebo_ros_bumper.so", {"bumperTopicName": "bumper", "frameName": "{link}"}),
 }
-"""Type → gazebo_ros' plugin that publishes its readings, and the parameters that it needs."""
+"""Type → plugin of gazebo_ros that publishes its readings, and its parameters."""
 _FILENAME = re.compile(r"[\w.+-]+(?:/[\w.+-]+)*")
 
 
 def new_model(name: str) -> bytes:
-    """Return a document with an empty model."""
+    """Return the SDF of an empty model."""
     return (
         f'<?xml version="1.0"?>\n<sdf version="1.7">\n  <model name={quoteattr(name)}>\n  </model>\n</sdf>\n'.encode()
     )
@@ -73,7 +73,7 @@ def _shape(tag: str, kind: str, name: str) -> str:
 
 
 def _geometry(kind: str) -> str:
-    """Return a simple shape, or the mesh of a URI."""
+    """Return the geometry of a simple shape or of a mesh URI."""
     if kind in _GEOMETRY:
         return _GEOMETRY[kind]
     if "://" not in kind and "." not in kind:
@@ -82,8 +82,8 @@ def _geometry(kind: str) -> str:
 
 
 def new_link(kind: str, name: str, x: float) -> XmlElement:
-    """Return a <link> of one shape of 1 kg that stands on the ground; its inertia is still to be computed."""
-    z = _HEIGHTS.get(kind, 0.5) if kind in _GEOMETRY else 0.0
+    """Return a <link> of one shape of 1 kg on the ground, with a placeholder for its inertia."""
+    z = _CENTER_HEIGHTS_M.get(kind, 0.5) if kind in _GEOMETRY else 0.0
     return XmlElement.parse(
         f"<link name={quoteattr(name)}><pose>{x:g} 0 {z:g} 0 0 0</pose>"
         "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
@@ -107,13 +107,13 @@ def new_joint(kind: str, name: str, parent: str, child: str) -> XmlElement:
 
 
 def new_sensor(kind: str, name: str, link: str, collision: str) -> XmlElement:
-    """Return a <sensor> with the plugin that publishes it in ROS.
+    """Return a <sensor> with the plugin that publishes its readings in ROS.
 
     Args:
-        kind: type of the sensor.
-        name: of the sensor.
-        link: that it sits on.
-        collision: first one of that link.
+        kind: sensor's type.
+        name: sensor's name.
+        link: name of its link.
+        collision: name of the link's first collision.
     """
     if kind not in SENSOR_TYPES:
         raise UsageError(f"no sensor type {kind!r}; there are: {', '.join(SENSOR_TYPES)}")
@@ -131,15 +131,16 @@ def new_sensor(kind: str, name: str, link: str, collision: str) -> XmlElement:
 
 
 def new_plugin(filename: str, name: str) -> XmlElement:
-    """Return a <plugin> with the documented defaults of joints and links that it needs."""
+    """Return a <plugin> with the documented defaults of its parameters that name joints and links."""
     if not _FILENAME.fullmatch(filename):
-        raise UsageError(f"{filename!r} is no file name of a plugin, such as libgazebo_ros_diff_drive.so")
+        raise UsageError(f"{filename!r} is not a plugin's file name, such as libgazebo_ros_diff_drive.so")
     documentation = plugin_documentation(filename)
-    known = () if documentation is None else documentation.parameters
-    ends = ("Joint", "BaseFrame", "bodyName", "frameName")
-    return XmlElement.parse(_plugin(filename, name, {p.name: p.default for p in known if p.name.endswith(ends)}))
+    documented = () if documentation is None else documentation.parameters
+    suffixes = ("Joint", "BaseFrame", "bodyName", "frameName")
+    parameters = {p.name: p.default for p in documented if p.name.endswith(suffixes)}
+    return XmlElement.parse(_plugin(filename, name, parameters))
 
 
 def _plugin(filename: str, name: str, parameters: dict[str, str]) -> str:
-    inside = "".join(f"<{key}>{escape(text)}</{key}>" for key, text in parameters.items())
-    return f"<plugin name={quoteattr(name)} filename={quoteattr(filename)}>{inside}</plugin>"
+    children = "".join(f"<{key}>{escape(text)}</{key}>" for key, text in parameters.items())
+    return f"<plugin name={quoteattr(name)} filename={quoteattr(filename)}>{children}</plugin>"

@@ -1,4 +1,4 @@
-"""Overview of a draft for the client: its parts, their forms, and the findings beside what they concern."""
+"""Overview of a draft for the client: its parts with their fields and findings."""
 
 from collections.abc import Sequence
 
@@ -15,14 +15,14 @@ _MAX_FINDINGS = 100
 
 
 def draft_overview(draft: Draft) -> DraftInfo:
-    """Return the draft without its files."""
+    """Return the draft's overview without its files."""
     checked = draft.checked
     parts: list[tuple[Part, XmlElement]] = [((), checked.document.model), *checked.document.parts()]
     findings = _findings_by_part(checked, parts)
     pose = draft.world_from_model
     return DraftInfo(
         name=draft.name,
-        of=draft.original,
+        original=draft.original,
         pose=(*pose.position, *rpy_from_quaternion(pose.quaternion)),
         undo=draft.undo_title,
         redo=draft.redo_title,
@@ -41,7 +41,7 @@ def _part(checked: CheckedModel, part: Part, element: XmlElement, findings: Sequ
         link=None if link is None else checked.model.links.index(link),
         line=checked.document.line(element),
         sections=tuple(
-            DraftSection(title=section.title, fields=tuple(shown_field(element, each) for each in section.fields))
+            DraftSection(title=section.title, fields=tuple(shown_field(element, field) for field in section.fields))
             for section in checked.sections(part, element)
             if section.fields
         ),
@@ -57,16 +57,16 @@ def _detail(element: XmlElement) -> str:
 
 
 def _findings_by_part(checked: CheckedModel, parts: list[tuple[Part, XmlElement]]) -> dict[Part, list[DraftFinding]]:
-    """Return findings by the innermost part around their line; those without one belong to the model."""
+    """Return findings by the innermost part around their line; findings without a line belong to the model."""
     lines = [(checked.document.line(element), _last_line(checked, element), part) for part, element in parts]
-    found: dict[Part, list[DraftFinding]] = {}
+    findings: dict[Part, list[DraftFinding]] = {}
     for finding in checked.findings[:_MAX_FINDINGS]:
         line = finding.at.line if finding.at.file == "model.sdf" else None
         around = [part for first, last, part in lines if line is not None and first <= line <= last]
-        home = max(around, key=len, default=())
-        said = DraftFinding(severity=finding.severity, text=finding.what, line=line)
-        found.setdefault(home, []).append(said)
-    return found
+        innermost = max(around, key=len, default=())
+        shown = DraftFinding(severity=finding.severity, text=finding.what, line=line)
+        findings.setdefault(innermost, []).append(shown)
+    return findings
 
 
 def _last_line(checked: CheckedModel, element: XmlElement) -> int:

@@ -1,4 +1,4 @@
-"""Sections of fields of each part of a model."""
+"""Sections of fields for each part of a model."""
 
 import re
 from dataclasses import dataclass
@@ -21,14 +21,14 @@ _PARAMETER = re.compile(r"[A-Za-z_][\w.-]{0,60}")
 
 @dataclass(frozen=True, slots=True)
 class ReadModel:
-    """A document, and the model that was read from it."""
+    """Document, and the model read from it."""
 
     document: ModelDocument
     model: Model
-    """Flat."""
+    """Flat model."""
 
     def link(self, part: Part) -> Link | None:
-        """Return a link by its address; None if it is no link, or its name is not unique."""
+        """Return a link by its address; None if the part is not a link."""
         if part[-2:-1] != ("link",):
             return None
         name = "::".join(part[1::2])
@@ -43,7 +43,7 @@ class ReadModel:
                 links = [link.name.removeprefix(_scope(part)) for link in self.model.links]
                 return joint_sections(element, [name for name in links if "::" not in name or len(part) == 2])
             case "sensor":
-                collisions = [each.get("name") or "" for each in self.document.find(part[:-2]).all("collision")]
+                collisions = [element.get("name") or "" for element in self.document.find(part[:-2]).all("collision")]
                 return sensor_sections(element, tuple(collisions))
             case "plugin":
                 return plugin_sections(element)
@@ -53,10 +53,10 @@ class ReadModel:
                 return model_sections()
 
     def field(self, part: Part, name: str) -> Field:
-        """Return a field of a part; of a plugin, any parameter.
+        """Return a field of a part; a plugin has fields for all parameters.
 
         Raises:
-            UsageError: there is no such part, or field.
+            UsageError: there is no such part or field.
         """
         element = self.document.find(part)
         for section in self.sections(part, element):

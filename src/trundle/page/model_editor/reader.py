@@ -1,4 +1,4 @@
-"""Reading of a model under change: its description, and all that `trundle check` says of it."""
+"""Reading a model being edited: its description, and the findings of `trundle check`."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,35 +22,35 @@ class CheckedModel(ReadModel):
     """Document, model and findings."""
 
     world: World
-    """With the model alone."""
+    """World with only this model."""
     findings: tuple[Diagnostic, ...]
     """Errors and warnings."""
 
 
 class ModelReader:
-    """Reads documents from one folder."""
+    """Reads documents as files of one folder."""
 
     def __init__(self, packages: Packages, environment: Mapping[str, str], folder: Path) -> None:
-        """Prepare.
+        """Create it.
 
         Args:
-            packages: resolve URIs.
+            packages: resolves URIs.
             environment: variables that locate plugins.
-            folder: relative URIs are from there.
+            folder: folder that relative URIs start from.
         """
         self.packages = packages
         self.folder = folder
         self._environment = environment
 
     def check(self, text: bytes, name: str) -> CheckedModel:
-        """Read and check a document; `name` is the file in its messages.
+        """Read and check a document; `name` is the file name in findings.
 
         Raises:
-            DescriptionError: it cannot be read.
-            UsageError: it has more models than one.
+            DescriptionError: the document cannot be read.
+            UsageError: it has several models.
         """
         report = Diagnostics()
-        found = check_description(
+        checked = check_description(
             name,
             self._environment,
             packages=self.packages,
@@ -58,14 +58,14 @@ class ModelReader:
             report=report,
             piped=Piped(name, text),
         )
-        findings = tuple(each for each in report.findings if each.severity in _SEVERITIES)
-        return CheckedModel(ModelDocument(text), _only(found.flat), found.flat, findings)
+        findings = tuple(finding for finding in report.findings if finding.severity in _SEVERITIES)
+        return CheckedModel(ModelDocument(text), _only(checked.flat), checked.flat, findings)
 
     def read(self, document: ModelDocument) -> ReadModel:
-        """Read a document without a check.
+        """Read a document without checking it.
 
         Raises:
-            DescriptionError: it cannot be read.
+            DescriptionError: the document cannot be read.
         """
         text = document.text()
         loaded = load_text(text, name="model.sdf", folder=self.folder, packages=self.packages, report=Diagnostics())
@@ -74,5 +74,5 @@ class ModelReader:
 
 def _only(world: World) -> Model:
     if len(world.models) != 1:
-        raise UsageError(f"one model can be edited; this file has {len(world.models)}")
+        raise UsageError(f"only one model can be edited; this file has {len(world.models)}")
     return world.models[0]

@@ -1,4 +1,4 @@
-"""Fields of shapes: size, colour, friction."""
+"""Fields of shapes: size, color, friction."""
 
 from trundle.base.xmlnode import XmlElement
 
@@ -6,17 +6,17 @@ from .field import Field, Section
 
 XYZ = ("x", "y", "z")
 _SIZES = {
-    "box": (Field(name="box/size", label="Size", kind="vector", unit="m", labels=XYZ, least=1e-6),),
-    "sphere": (Field(name="sphere/radius", label="Radius", unit="m", least=1e-6),),
+    "box": (Field(name="box/size", label="Size", kind="vector", unit="m", labels=XYZ, minimum=1e-6),),
+    "sphere": (Field(name="sphere/radius", label="Radius", unit="m", minimum=1e-6),),
     "cylinder": (
-        Field(name="cylinder/radius", label="Radius", unit="m", least=1e-6),
-        Field(name="cylinder/length", label="Length", unit="m", least=1e-6),
+        Field(name="cylinder/radius", label="Radius", unit="m", minimum=1e-6),
+        Field(name="cylinder/length", label="Length", unit="m", minimum=1e-6),
     ),
     "capsule": (
-        Field(name="capsule/radius", label="Radius", unit="m", least=1e-6),
-        Field(name="capsule/length", label="Length", unit="m", least=1e-6),
+        Field(name="capsule/radius", label="Radius", unit="m", minimum=1e-6),
+        Field(name="capsule/length", label="Length", unit="m", minimum=1e-6),
     ),
-    "ellipsoid": (Field(name="ellipsoid/radii", label="Radii", kind="vector", unit="m", labels=XYZ, least=1e-6),),
+    "ellipsoid": (Field(name="ellipsoid/radii", label="Radii", kind="vector", unit="m", labels=XYZ, minimum=1e-6),),
     "plane": (
         Field(name="plane/normal", label="Normal", kind="vector", labels=XYZ, default="0 0 1"),
         Field(name="plane/size", label="Size", kind="vector", unit="m", labels=("x", "y"), default="1 1"),
@@ -34,11 +34,11 @@ def size_fields(element: XmlElement, tags: tuple[str, ...] = ()) -> tuple[Field,
     """Return the fields of a shape's size.
 
     Args:
-        element: with <geometry>, or whose first children with the tags have one.
-        tags: of children that have the same shape; empty: the element itself.
+        element: element with a <geometry>, or the parent of such elements.
+        tags: tags of its children that have the same shape; empty: the element itself.
     """
-    homes = [element] if not tags else [home for tag in tags if (home := element.find(tag))]
-    geometry = homes[0].find("geometry") if homes else None
+    parents = [element] if not tags else [child for tag in tags if (child := element.find(tag))]
+    geometry = parents[0].find("geometry") if parents else None
     shape = next(iter(geometry.children), None) if geometry else None
     if shape is None:
         return ()
@@ -54,14 +54,14 @@ def _below(field: Field, path: str, more: list[str]) -> Field:
         unit=field.unit,
         labels=field.labels,
         default=field.default,
-        least=field.least,
-        most=field.most,
-        also=tuple(f"{each}/{field.name}" for each in more),
+        minimum=field.minimum,
+        maximum=field.maximum,
+        also=tuple(f"{other}/{field.name}" for other in more),
     )
 
 
 def has_one_shape(link: XmlElement) -> bool:
-    """True if a link has one visual and one collision of the same shape and place."""
+    """True if a link has one visual and one collision with the same geometry and pose."""
     visuals, collisions = link.all("visual"), link.all("collision")
     if len(visuals) != 1 or len(collisions) != 1:
         return False
@@ -74,32 +74,34 @@ def _canonical(element: XmlElement | None) -> object:
     return element.tag, element.text.split(), [_canonical(child) for child in element.children]
 
 
-def colour_section(prefix: str = "") -> Section:
-    """Return the fields of a visual's colour; `prefix` leads to the visual."""
+def color_section(prefix: str = "") -> Section:
+    """Return the fields of a visual's color; `prefix` is the path to the visual."""
     path = f"{prefix}material"
-    colour = Field(
+    color = Field(
         name=f"{path}/diffuse",
-        label="Colour",
-        kind="colour",
-        least=0.0,
-        most=1.0,
+        label="Color",
+        kind="color",
+        minimum=0.0,
+        maximum=1.0,
         also=(f"{path}/ambient",),
         default="0.7 0.7 0.7 1",
     )
-    return Section(title="Look", fields=(colour,))
+    return Section(title="Look", fields=(color,))
 
 
 def friction_section(prefix: str = "") -> Section:
-    """Return the fields of a collision's friction; `prefix` leads to the collision."""
+    """Return the fields of a collision's friction; `prefix` is the path to the collision."""
     path = f"{prefix}surface/friction/ode"
     return Section(
         title="Friction",
-        fields=tuple(Field(name=f"{path}/{mu}", label=mu, least=0.0, most=1e6, default="1") for mu in ("mu", "mu2")),
+        fields=tuple(
+            Field(name=f"{path}/{mu}", label=mu, minimum=0.0, maximum=1e6, default="1") for mu in ("mu", "mu2")
+        ),
     )
 
 
 def shape_sections(element: XmlElement) -> list[Section]:
     """Return the sections of a <visual> or <collision>."""
     shape = Section(title="Shape", fields=size_fields(element))
-    more = colour_section() if element.tag == "visual" else friction_section()
-    return [Section(title=element.tag.capitalize(), fields=(NAME, POSE)), shape, more]
+    surface = color_section() if element.tag == "visual" else friction_section()
+    return [Section(title=element.tag.capitalize(), fields=(NAME, POSE)), shape, surface]

@@ -1,1 +1,1 @@
-"""Requests of clients: edits of the world, of a model, and the rest."""
+"""Requests of clients: edits of the world and of a draft, saving, playback."""

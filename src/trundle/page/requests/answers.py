@@ -1,4 +1,4 @@
-"""Answers to requests; each request names those that it can get. An error is a sentence, and no answer."""
+"""Answers to successful requests; each request lists its types of answers."""
 
 from msgspec import Struct
 
@@ -8,7 +8,7 @@ class Answer(Struct, frozen=True):
 
 
 class Done(Answer, frozen=True):
-    """The request was done."""
+    """The request was executed."""
 
 
 DONE = Done()
@@ -18,16 +18,16 @@ class SavedFile(Answer, frozen=True, kw_only=True):
     """A file, or a folder with files, was written."""
 
     file: str
-    """Path as it was asked for."""
+    """Path as requested."""
 
 
 class SavedWorld(Answer, frozen=True, kw_only=True):
     """A world was written."""
 
     file: str
-    """Path as it was asked for."""
+    """Path as requested."""
     lost: tuple[str, ...]
-    """Parts of the world that the file does not hold."""
+    """Parts of the world that are not in the file."""
 
 
 class WorldText(Answer, frozen=True, kw_only=True):
@@ -35,11 +35,11 @@ class WorldText(Answer, frozen=True, kw_only=True):
 
     sdf: str
     lost: tuple[str, ...]
-    """Parts of the world that the text does not hold."""
+    """Parts of the world that are not in the text."""
 
 
 class FilesExist(Answer, frozen=True, kw_only=True):
-    """Nothing was written, as there are files that may not be replaced."""
+    """Nothing was written: there are files that must not be replaced."""
 
     exists: str
     """Their names, separated by commas."""
@@ -59,7 +59,7 @@ class ReplayScene(Answer, frozen=True, kw_only=True):
 
 
 class ModelEntry(Struct, frozen=True, kw_only=True):
-    """A model that can be inserted."""
+    """Model that can be inserted."""
 
     name: str
     """Folder's name."""
@@ -75,38 +75,38 @@ class ModelList(Answer, frozen=True, kw_only=True):
 
 
 class Inserted(Answer, frozen=True, kw_only=True):
-    """A model or light was put into the world."""
+    """A model or light was inserted into the world."""
 
     name: str
     """Name in the world."""
 
 
 class CodeQuestion(Answer, frozen=True, kw_only=True):
-    """Nothing was inserted: a person has to agree that the model's code is run."""
+    """Nothing was inserted: the user must first consent to run the model's code."""
 
     code: tuple[str, ...]
     """Files of code."""
     consent: str
-    """Word that agrees to this code once."""
+    """Token that gives consent to this code once."""
 
 
 class EditedPart(Answer, frozen=True, kw_only=True):
     """The draft was edited."""
 
     part: tuple[str, ...]
-    """Address of the part from now on; empty: the model itself."""
+    """Address of the part after the edit; empty: the model itself."""
 
 
 class PluginOffer(Struct, frozen=True, kw_only=True):
-    """A plugin that a draft can be given."""
+    """Plugin that can be added to a draft."""
 
     filename: str
     about: str
-    """Sentence on what it does."""
+    """Summary of its documentation."""
 
 
 class DraftOffers(Answer, frozen=True, kw_only=True):
-    """Parts that a draft can be given."""
+    """Parts that can be added to a draft."""
 
     plugins: tuple[PluginOffer, ...]
     sensors: tuple[str, ...]
@@ -121,4 +121,4 @@ class DefinitionText(Answer, frozen=True, kw_only=True):
     """Definition of a message type."""
 
     definition: str
-    """With those of all types in it."""
+    """Definition with those of all nested types."""

@@ -1,4 +1,4 @@
-"""Requests that edit a copy of a model, the draft; the thread that owns the simulation polls them."""
+"""Requests that edit the draft, a copy of a model; the thread that owns the simulation polls them."""
 
 from typing import Annotated, Literal, TypeAlias
 
@@ -9,27 +9,27 @@ from .edits import Action, Name, Quaternion, Triple, check_direction
 from .world import Consent, FileName
 
 Part: TypeAlias = Annotated[tuple[Name, ...], msgspec.Meta(max_length=12)]
-"""Element of the model by tags and names: ("link", "base", "sensor", "eye"); empty: the model itself."""
+"""Address of an element by tags and names: ("link", "base", "sensor", "eye"); empty: the model itself."""
 _Number: TypeAlias = Annotated[float, msgspec.Meta(ge=-1e12, le=1e12)]
 Value: TypeAlias = (
     Annotated[str, msgspec.Meta(max_length=4000)]
     | Annotated[tuple[_Number | None, ...], msgspec.Meta(max_length=9)]
     | None
 )
-"""Text; numbers, None where one stays as it is; or None: the default."""
+"""Text; numbers, None for unchanged ones; or None: the default."""
 
 
 class BeginDraft(Action, frozen=True, tag="begin_draft"):
-    """Copy a model of the world, or begin one from nothing; time pauses until the draft is left."""
+    """Start a draft from a model of the world or from nothing; the simulation pauses until the draft is left."""
 
     model: Name | None
-    """None: a new one."""
+    """None: a new model."""
     position: Triple = (0.0, 0.0, 0.0)
-    """Place of a new one [m]."""
+    """Position of a new model [m]."""
 
 
 class ListOffers(Action, frozen=True, tag="draft_offers"):
-    """Ask for the plugins, sensors and meshes that a draft can be given."""
+    """List the plugins, sensors, joints and meshes that can be added to a draft."""
 
     answer = DraftOffers
 
@@ -53,10 +53,10 @@ class PlaceLink(Action, frozen=True, tag="draft_place"):
     position: Triple
     """[m]"""
     orientation: Quaternion
-    """Quaternion wxyz, of any length but zero."""
+    """Quaternion wxyz of any length except zero."""
 
     def __post_init__(self) -> None:
-        """Check that the quaternion has a direction."""
+        """Check that the quaternion is not zero."""
         check_direction(self.orientation)
 
 
@@ -66,7 +66,7 @@ class AddPart(Action, frozen=True, tag="draft_add"):
     answer = EditedPart
 
     into: Part
-    """Part that gets it; of a joint, its child."""
+    """Part that it is added to; for a joint, its child."""
     kind: Literal["link", "joint", "sensor", "plugin", "visual", "collision"]
     type: Name
     """Shape or URI of a mesh, type of the joint or sensor, file name of the plugin."""
@@ -81,7 +81,7 @@ class CopyPart(Action, frozen=True, tag="draft_copy"):
 
 
 class RemovePart(Action, frozen=True, tag="draft_remove"):
-    """Remove a part; a link goes with its joints."""
+    """Remove a part, and the joints of a link."""
 
     answer = EditedPart
 
@@ -89,13 +89,13 @@ class RemovePart(Action, frozen=True, tag="draft_remove"):
 
 
 class UndoDraft(Action, frozen=True, tag="draft_undo"):
-    """Take the last edit of the draft back."""
+    """Undo the latest edit of the draft."""
 
     answer = EditedPart
 
 
 class RedoDraft(Action, frozen=True, tag="draft_redo"):
-    """Do the edit again that was taken back last."""
+    """Redo the edit undone last."""
 
     answer = EditedPart
 
@@ -108,23 +108,23 @@ class SaveDraft(Action, frozen=True, tag="draft_save"):
     folder: FileName
     """Path below the folder where the simulation was started."""
     replace: bool = False
-    """True if a person has agreed to replace the files."""
+    """True if the user has confirmed to replace the files."""
 
 
 class FinishDraft(Action, frozen=True, tag="draft_finish"):
-    """Put the draft into the world, in place of the model that it is a copy of.
+    """Insert the draft into the world, replacing its original.
 
-    A person is asked about a model with code.
+    A model with code needs the user's consent.
     """
 
     answer = Inserted | CodeQuestion
 
     consent: Consent = None
-    """Word of the answer that showed the code, if a person has agreed."""
+    """Token of the `CodeQuestion` to which the user has consented."""
 
 
 class LeaveDraft(Action, frozen=True, tag="draft_leave"):
-    """Throw the draft away."""
+    """Discard the draft."""
 
 
 DraftAction: TypeAlias = (

@@ -1,4 +1,4 @@
-"""Requests that change a simulated world while it runs; numbers are bounded, so that none destroys the state."""
+"""Requests that change a simulated world while it runs; numbers are bounded to protect the simulation's state."""
 
 from types import UnionType
 from typing import Annotated, ClassVar, TypeAlias
@@ -8,7 +8,7 @@ import msgspec
 from .answers import Answer, Done
 
 _Number: TypeAlias = Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)]
-_Share: TypeAlias = Annotated[float, msgspec.Meta(ge=0, le=1)]
+_ColorValue: TypeAlias = Annotated[float, msgspec.Meta(ge=0, le=1)]
 _Friction: TypeAlias = Annotated[float, msgspec.Meta(ge=0, le=1e6)]
 Name: TypeAlias = Annotated[str, msgspec.Meta(max_length=500)]
 Triple: TypeAlias = tuple[_Number, _Number, _Number]
@@ -22,7 +22,7 @@ class Action(msgspec.Struct, frozen=True, tag_field="request", tag=str.lower):
 
 
 class MoveJoint(Action, frozen=True, tag="joint"):
-    """Drive a joint of a simulated model: one of position, velocity and effort is given."""
+    """Command a joint by exactly one of position, velocity and effort."""
 
     model: Name
     joint: Name
@@ -34,7 +34,7 @@ class MoveJoint(Action, frozen=True, tag="joint"):
     """[N·m or N]"""
 
     def __post_init__(self) -> None:
-        """Check that one is given."""
+        """Check that exactly one is set."""
         if [self.position, self.velocity, self.effort].count(None) != 2:
             raise ValueError("give one of 'position', 'velocity' and 'effort'")
 
@@ -45,7 +45,7 @@ Quaternion: TypeAlias = tuple[_Number, _Number, _Number, _Number]
 def check_direction(quaternion: Quaternion) -> None:
     """Check that a quaternion is not zero."""
     if sum(part * part for part in quaternion) < 1e-12:
-        raise ValueError("the quaternion of an orientation is not zero")
+        raise ValueError("the quaternion of an orientation must not be zero")
 
 
 class SetPose(Action, frozen=True, tag="pose"):
@@ -56,19 +56,19 @@ class SetPose(Action, frozen=True, tag="pose"):
     position: Triple
     """In the world [m]."""
     orientation: Quaternion
-    """Quaternion wxyz, of any length but zero."""
+    """Quaternion wxyz of any length except zero."""
 
     def __post_init__(self) -> None:
-        """Check that the quaternion has a direction."""
+        """Check that the quaternion is not zero."""
         check_direction(self.orientation)
 
 
 class Carry(SetPose, frozen=True, tag="carry"):
-    """Carry a model, at rest, so that one of its links has this pose; to be renewed within a second, until `let_go`."""
+    """Keep a model at rest with one of its links at this pose, until `let_go` or a second without such a request."""
 
 
 class Pull(Action, frozen=True, tag="pull"):
-    """Pull a point of a link to a place by a spring; to be renewed within a second, until `let_go`."""
+    """Pull a point of a link to a target by a spring, until `let_go` or a second without such a request."""
 
     model: Name
     link: Name
@@ -79,20 +79,20 @@ class Pull(Action, frozen=True, tag="pull"):
 
 
 class LetGo(Action, frozen=True, tag="let_go"):
-    """Let a model go that is carried or pulled."""
+    """Stop carrying or pulling a model."""
 
     model: Name
 
 
 class HoldModel(Action, frozen=True, tag="hold"):
-    """Fix a model's base where it is, in the air too, or free it again."""
+    """Fix a model's base at its current pose, even in the air, or free it again."""
 
     model: Name
     on: bool
 
 
 class PlaceJoint(Action, frozen=True, tag="place_joint"):
-    """Set the position of a joint at once; its velocity stays, and no motor is switched."""
+    """Set the position of a joint at once; its velocity and motor commands stay."""
 
     model: Name
     joint: Name
@@ -101,7 +101,7 @@ class PlaceJoint(Action, frozen=True, tag="place_joint"):
 
 
 class SetTwist(Action, frozen=True, tag="twist"):
-    """Set the velocity of a model once, world axes."""
+    """Set the velocity of a model once, in world axes."""
 
     model: Name
     linear: Triple
@@ -111,7 +111,7 @@ class SetTwist(Action, frozen=True, tag="twist"):
 
 
 class SetMass(Action, frozen=True, tag="mass"):
-    """Set the mass of a link; its moments of inertia change in proportion."""
+    """Set the mass of a link and scale its moments of inertia."""
 
     model: Name
     link: Name
@@ -129,30 +129,30 @@ class SetFriction(Action, frozen=True, tag="friction"):
 
 
 class SetLight(Action, frozen=True, tag="light"):
-    """Set the colour and intensity of a light."""
+    """Set the color and intensity of a light."""
 
     light: Name
-    """`name`, or `model::link::name` of one on a link."""
-    diffuse: tuple[_Share, _Share, _Share]
+    """`name`, or `model::link::name` for a link's light."""
+    diffuse: tuple[_ColorValue, _ColorValue, _ColorValue]
     intensity: Annotated[float, msgspec.Meta(ge=0, le=1e6)]
 
 
 class PlaceLight(Action, frozen=True, tag="place_light"):
-    """Move a light of the world itself."""
+    """Move a light that belongs to the world, not to a link."""
 
     light: Name
     position: Triple
     """In the world [m]."""
     orientation: Quaternion
-    """Quaternion wxyz, of any length but zero."""
+    """Quaternion wxyz of any length except zero."""
 
     def __post_init__(self) -> None:
-        """Check that the quaternion has a direction."""
+        """Check that the quaternion is not zero."""
         check_direction(self.orientation)
 
 
 class SetPhysics(Action, frozen=True, tag="physics"):
-    """Set what is given of gravity, wind and time step."""
+    """Set gravity, wind or time step; None: unchanged."""
 
     gravity: Triple | None = None
     """[m/s²]"""
@@ -163,7 +163,7 @@ class SetPhysics(Action, frozen=True, tag="physics"):
 
 
 class ApplyWrench(Action, frozen=True, tag="wrench"):
-    """Push a link at its centre of mass, world axes."""
+    """Apply a wrench to a link at its centre of mass, in world axes."""
 
     model: Name
     link: Name

@@ -1,6 +1,6 @@
-"""Requests of a person at the page; the thread that owns the simulation or the graph polls `PageServer.requests`.
+"""Requests of users; the thread that owns the simulation or the graph polls `PageServer.requests`.
 
-They arrive as JSON; the field `request` names the class.
+They arrive as JSON; the field `request` identifies the class.
 """
 
 import math
@@ -14,7 +14,7 @@ from .edits import Action, EditAction
 from .world import FileName, InsertAction, ModelAction, RenderModel, SaveReplay, SaveWorld
 
 MAX_STEPS = 1_000_000
-"""Steps that one request may ask for."""
+"""Limit of steps in one request."""
 _MAX_TEXT = 4_000_000
 Count: TypeAlias = Annotated[int, msgspec.Meta(ge=1, le=MAX_STEPS)]
 TimeNs: TypeAlias = Annotated[int, msgspec.Meta(ge=0, le=2**63 - 1)]
@@ -24,43 +24,43 @@ Text: TypeAlias = Annotated[str, msgspec.Meta(max_length=_MAX_TEXT)]
 
 
 class Play(Action, frozen=True):
-    """Let time run."""
+    """Run the simulation or recording."""
 
 
 class Pause(Action, frozen=True):
-    """Stop time."""
+    """Pause the simulation or recording."""
 
 
 class Step(Action, frozen=True):
-    """Pause, then take physics steps."""
+    """Pause, then do physics steps."""
 
     count: Count = 1
 
 
 class RunTo(Action, frozen=True, tag="run_to"):
-    """Pause, then take physics steps up to a time that is ahead."""
+    """Pause, then do physics steps up to a time in the future."""
 
     time_ns: TimeNs
 
 
 class Reset(Action, frozen=True):
-    """Put time, poses or both back as loaded."""
+    """Reset time, poses or both to their initial state."""
 
     what: Literal["all", "poses", "time"] = "all"
 
 
 class Reload(Action, frozen=True):
-    """Load the world again."""
+    """Reload the world."""
 
 
 class SetSpeed(Action, frozen=True, tag="speed"):
-    """Pace time at a multiple of real time; None: as fast as possible."""
+    """Set the speed as a multiple of real time; None: as fast as possible."""
 
     factor: Factor | None
 
 
 class Seek(Action, frozen=True):
-    """Go to a time of a recorded run or bag."""
+    """Set the time of a recorded run or bag."""
 
     time_ns: TimeNs
 
@@ -74,7 +74,7 @@ class MoveSlider(Action, frozen=True, tag="slider"):
 
 
 class MoveJoystick(Action, frozen=True, tag="joystick"):
-    """Positions of a joystick's axes, −1 to 1, and buttons, 0 or 1, in joy's order."""
+    """Set a joystick's axes, −1 to 1, and buttons, 0 or 1, in joy's order."""
 
     axes: Values
     buttons: Annotated[tuple[Literal[0, 1], ...], msgspec.Meta(max_length=64)]
@@ -87,31 +87,31 @@ class SaveRviz(Action, frozen=True, tag="save_rviz"):
 
 
 class SaveRvizAs(Action, frozen=True, tag="save_rviz_as"):
-    """Save an .rviz file below the folder where Trundle was started, as `SaveWorld` does; the server itself does it."""
+    """Save an .rviz file below the folder where Trundle was started; the server executes this itself."""
 
     answer = SavedFile | FilesExist
 
     file: FileName
     text: Text
     replace: bool = False
-    """True: a file of that name is replaced."""
+    """True: replace an existing file."""
 
 
 class Record(Action, frozen=True):
-    """Begin or end recording."""
+    """Start or stop recording."""
 
     on: bool
 
 
 class PlotSeries(Action, frozen=True, tag="plot"):
-    """Sample these values of the simulation for `trundle/series`, and no others; the server itself answers."""
+    """Set the values of the simulation that are sampled for `trundle/series`; the server answers this itself."""
 
     series: Annotated[tuple[Annotated[str, msgspec.Meta(max_length=1000)], ...], msgspec.Meta(max_length=64)]
     """Names such as `rp2w::chassis.pose.x`."""
 
 
 class Definition(Action, frozen=True):
-    """Text of a message type; the server itself answers."""
+    """Request the definition of a message type; the server answers this itself."""
 
     answer = DefinitionText
 
@@ -119,9 +119,9 @@ class Definition(Action, frozen=True):
 
 
 class RenderView(Action, frozen=True, tag="camera"):
-    """Draw the scene by Trundle's own renderer, for browsers without WebGL; answered by `PageServer.respond_picture`.
+    """Draw the scene with Trundle's renderer, for browsers without WebGL; answered by `PageServer.respond_picture`.
 
-    The camera looks at what the page frames first, from a distance, turned about z and raised.
+    The camera orbits the robot or the origin: at a distance, by azimuth about z and elevation.
     """
 
     width: Annotated[int, msgspec.Meta(ge=16, le=1920)]
@@ -138,7 +138,7 @@ class RenderView(Action, frozen=True, tag="camera"):
     def __post_init__(self) -> None:
         """Check that the numbers are finite."""
         if not all(map(math.isfinite, (self.azimuth, self.elevation, self.distance))):
-            raise ValueError("a view's numbers are finite")
+            raise ValueError("a view's numbers must be finite")
 
 
 ClientAction: TypeAlias = (
@@ -161,17 +161,17 @@ ClientAction: TypeAlias = (
     | SaveRviz
     | Record
 )
-"""Requests over the page's socket that its owner answers."""
+"""Requests through the page's socket that its owner answers."""
 SocketAction: TypeAlias = ClientAction | Definition | PlotSeries | SaveRvizAs
-"""All requests over the page's socket."""
-REQUEST_NAMES = frozenset(str(each.__struct_config__.tag) for each in get_args(SocketAction))
+"""All requests through the page's socket."""
+REQUEST_NAMES = frozenset(str(action.__struct_config__.tag) for action in get_args(SocketAction))
 GraphAction: TypeAlias = MoveSlider | MoveJoystick | SaveRviz
-"""Requests to nodes of the graph; all others are to what the page shows."""
+"""Requests to nodes of the graph; all others are for the simulation or recording."""
 PageAction: TypeAlias = ClientAction | RenderView | RenderModel
 
 
 class Request(msgspec.Struct, frozen=True, tag=True):
-    """One request, to be answered by `PageServer.respond` with its id."""
+    """One request; `PageServer.respond` answers it by its id."""
 
     id: int
     action: PageAction

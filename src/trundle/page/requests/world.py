@@ -1,4 +1,4 @@
-"""Requests that save a simulated world, or put something into it."""
+"""Requests that save a simulated world, or insert, copy, delete and reset its models and lights."""
 
 from typing import Annotated, Literal, TypeAlias
 
@@ -26,9 +26,9 @@ class SaveWorld(Action, frozen=True, tag="save_world"):
     answer = SavedWorld | WorldText | FilesExist
 
     file: FileName | None
-    """Path below the folder where the simulation was started; None: answer with the text, `sdf`."""
+    """Path below the folder where the simulation was started; None: answer with the SDF text."""
     replace: bool = False
-    """True if a person has agreed to replace the file."""
+    """True if the user has confirmed to replace the file."""
 
 
 class SaveReplay(Action, frozen=True, tag="replay"):
@@ -37,32 +37,32 @@ class SaveReplay(Action, frozen=True, tag="replay"):
     answer = ReplayPage | ReplayScene
 
     view: Annotated[str, msgspec.Meta(max_length=4000)] | None = None
-    """JSON of the view from which a page is seen first, as an .rviz file has it."""
+    """Initial view of the replay page: JSON of a view as in an .rviz file."""
     format: Literal["html", "glb"] = "html"
 
 
 class ListModels(Action, frozen=True, tag="models"):
-    """Ask for the models that can be inserted."""
+    """List the models that can be inserted."""
 
     answer = ModelList
 
 
 class InsertModel(Action, frozen=True, tag="insert"):
-    """Put a model of the model path, or a simple shape, into the world; a person is asked about a model with code."""
+    """Insert a model of the model path or a simple shape; a model with code needs the user's consent."""
 
     answer = Inserted | CodeQuestion
 
     model: FileName
-    """Name of its folder, or `box`, `sphere`, `cylinder` where `is_shape`."""
+    """Name of the model's folder; if `is_shape`: `box`, `sphere` or `cylinder`."""
     position: Triple
     """Point on the floor [m]."""
     is_shape: bool = False
     consent: Consent = None
-    """Word of the answer that showed the code, if a person has agreed."""
+    """Token of the `CodeQuestion` to which the user has consented."""
 
 
 class InsertLight(Action, frozen=True, tag="insert_light"):
-    """Put a light above a point."""
+    """Insert a light above a point."""
 
     answer = Inserted
 
@@ -78,19 +78,19 @@ class DeleteLight(Action, frozen=True, tag="delete_light"):
 
 
 class RestoreLight(Action, frozen=True, tag="restore_light"):
-    """Put back a light that the page deleted."""
+    """Restore a light that the page deleted."""
 
     light: Name
 
 
 class CopyModel(Action, frozen=True, tag="copy"):
-    """Add a copy of a model in the state that it has, with its sensors and plugins."""
+    """Add a copy of a model in its current state, with its sensors and plugins."""
 
     model: Name
     name: Annotated[str, msgspec.Meta(min_length=1, max_length=500)]
     """Name of the copy."""
     offset: Triple
-    """From the model to its copy, in the world [m]."""
+    """Offset of the copy from the model, in the world [m]."""
 
 
 class DeleteModel(Action, frozen=True, tag="delete"):
@@ -100,7 +100,7 @@ class DeleteModel(Action, frozen=True, tag="delete"):
 
 
 class RestoreModel(Action, frozen=True, tag="restore"):
-    """Put back a model that the page deleted, in the state that it had, with its sensors and plugins."""
+    """Restore a model that the page deleted, in its former state, with its sensors and plugins."""
 
     model: Name
 
@@ -110,20 +110,20 @@ class RenderModel(Action, frozen=True, tag="model_picture"):
 
     model: FileName
     kind: Literal["picture", "shape"] = "picture"
-    """A PNG, or the GLB of what follows the pointer until it is placed."""
+    """PNG, or GLB for the preview at the pointer."""
 
 
 InsertAction: TypeAlias = ListModels | InsertModel | InsertLight
 
 
 class ResetModel(Action, frozen=True, tag="reset_model"):
-    """Put one model back as it came, with its joints, at rest and with its motors off; its plugins are reset."""
+    """Reset a model to its initial pose and joint positions, at rest, with motors off; its plugins are reset, too."""
 
     model: Name
 
 
 class UndoReset(Action, frozen=True, tag="undo_reset"):
-    """Give a model the state before its newest reset, with motors, loads and what its plugins remember."""
+    """Restore a model's state before its latest reset, with motors, wrenches and the state of its plugins."""
 
     model: Name
 

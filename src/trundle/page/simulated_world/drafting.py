@@ -266,7 +266,7 @@ def _edit(draft: Draft, action: DraftAction) -> Part:
         case SetField(part, field, value):
             return draft.set(part, field, value)
         case PlaceLink(part, position, orientation):
-            return draft.place(part, Pose(position, orientation))
+            return draft.move(part, Pose(position, orientation))
         case AddPart(into, kind, type_):
             return draft.add(into, kind, type_)
         case CopyPart(part):

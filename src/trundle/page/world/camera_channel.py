@@ -4,7 +4,7 @@ import struct
 from collections.abc import Sequence
 
 from ..clients.outbox import Buffer
-from .channels import BoxChannel
+from .channels import StreamChannel
 from .streams import IMAGE_HEADER
 
 TYPE = "sensor_msgs/Image"
@@ -18,7 +18,7 @@ _ENCODINGS = {1: b"mono8", 3: b"rgb8", 4: b"rgba8"}
 _NS = 1_000_000_000
 
 
-class CameraChannel(BoxChannel):
+class CameraChannel(StreamChannel):
     """Topic of a camera, whose pixels come through a mailbox."""
 
     def __init__(self, topic: str, *, schema: str) -> None:

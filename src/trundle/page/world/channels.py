@@ -21,7 +21,7 @@ class WorldChannel(Channel):
     """Manifest, and the files that it names."""
 
     def __init__(self) -> None:
-        super().__init__(WORLD, encoding="json", is_droppable=False, is_own=True)
+        super().__init__(WORLD, encoding="json", is_droppable=False, trundle_only=True)
         self.files: dict[str, bytes] = {}
         """URL → content."""
         self.generation = _NO_GENERATION
@@ -46,12 +46,14 @@ class WorldChannel(Channel):
             client.send_message(self, 0, (self._manifest,))
 
 
-class BoxChannel(Channel):
+class StreamChannel(Channel):
     """Channel that a mailbox feeds; a client whose last message still waits gets the newest one later."""
 
     def __init__(self, topic: str, *, encoding: str, period_s: float, schema_name: str = "", schema: str = "") -> None:
         """Create; new messages go out at most every `period_s`."""
-        super().__init__(topic, encoding=encoding, schema_name=schema_name, schema=schema, is_own=encoding != ENCODING)
+        super().__init__(
+            topic, encoding=encoding, schema_name=schema_name, schema=schema, trundle_only=encoding != ENCODING
+        )
         self._period_s = period_s
         self._due_s = 0.0
         self._box: Mailbox | None = None
@@ -127,7 +129,7 @@ class BoxChannel(Channel):
     _newest = b""
 
 
-class RowsChannel(BoxChannel):
+class RowsChannel(StreamChannel):
     """Channel of rows that belong to a generation of the world."""
 
     def __init__(self, topic: str, world: WorldChannel, *, period_s: float) -> None:
@@ -167,7 +169,7 @@ class PosesChannel(RowsChannel):
         return (header + bodies.astype("<u4").tobytes() + poses.tobytes(),)
 
 
-class StateChannel(BoxChannel):
+class StateChannel(StreamChannel):
     """State of the clock, 10 Hz."""
 
     def __init__(self) -> None:
@@ -186,9 +188,9 @@ class StateChannel(BoxChannel):
         return message
 
 
-def line_channels() -> tuple[BoxChannel, ...]:
+def line_channels() -> tuple[StreamChannel, ...]:
     """Channels of lines: what is drawn always, and what range sensors measure."""
-    return tuple(BoxChannel(topic, encoding=LINES.replace("/", "."), period_s=0.0) for topic in (LINES, RANGES))
+    return tuple(StreamChannel(topic, encoding=LINES.replace("/", "."), period_s=0.0) for topic in (LINES, RANGES))
 
 
 def contacts_channel(world: WorldChannel) -> RowsChannel:
@@ -196,14 +198,14 @@ def contacts_channel(world: WorldChannel) -> RowsChannel:
     return RowsChannel(CONTACTS, world, period_s=0.0)
 
 
-def series_channel() -> BoxChannel:
+def series_channel() -> StreamChannel:
     """Channel of plotted values, 20 Hz; each message has the rows of about a second."""
-    return BoxChannel(SERIES, encoding=SERIES.replace("/", "."), period_s=0.05)
+    return StreamChannel(SERIES, encoding=SERIES.replace("/", "."), period_s=0.05)
 
 
-def performance_channel() -> BoxChannel:
+def performance_channel() -> StreamChannel:
     """Channel of profiles, as they come."""
-    return BoxChannel(PERFORMANCE, encoding="json", period_s=0.0)
+    return StreamChannel(PERFORMANCE, encoding="json", period_s=0.0)
 
 
 def joints_channel(world: WorldChannel) -> RowsChannel:

@@ -1,19 +1,19 @@
-"""Draft, a copy of a model that is edited, as the page's client shows it: its parts, forms and findings."""
+"""Draft, a copy of a model being edited, for the page's client: its parts, fields and findings."""
 
 from typing import Literal, TypeAlias
 
 from msgspec import UNSET, Struct, UnsetType
 
-FieldKind: TypeAlias = Literal["text", "number", "vector", "pose", "colour", "choice", "flag"]
+FieldKind: TypeAlias = Literal["text", "number", "vector", "pose", "color", "choice", "flag"]
 ShownValue: TypeAlias = str | tuple[float, ...] | bool | None
-"""By the kind: text; numbers; true or false. None: the file has none, or there is no default."""
+"""Text, numbers or a flag, by the field's kind; None: the file has no value, or there is no default."""
 
 
 class FileUrl(Struct, frozen=True, kw_only=True):
-    """A GLB."""
+    """GLB file."""
 
     id: str
-    """Name of a model, `draft`, or empty: lights of the world itself."""
+    """Model's name; `draft`; or empty for the lights of the world itself."""
     url: str
 
 
@@ -28,61 +28,61 @@ class DraftFinding(Struct, frozen=True, kw_only=True):
 
 
 class DraftField(Struct, frozen=True, kw_only=True, omit_defaults=True):
-    """One value of a part."""
+    """Value of a part."""
 
     name: str
-    """Path of the element, `inertial/mass`; an attribute ends in `@name`."""
+    """Path of an element, `inertial/mass`, or of an attribute, `axis/@name`."""
     label: str
     kind: FieldKind
     value: ShownValue
     default: ShownValue
     unit: str = ""
     labels: tuple[str, ...] = ()
-    """Names of a vector's numbers."""
+    """Names of a vector's components."""
     choices: tuple[str, ...] = ()
-    least: float | UnsetType = UNSET
-    most: float | UnsetType = UNSET
+    minimum: float | UnsetType = UNSET
+    maximum: float | UnsetType = UNSET
 
 
 class DraftSection(Struct, frozen=True, kw_only=True):
-    """Fields below one heading."""
+    """Fields under one heading."""
 
     title: str
     fields: tuple[DraftField, ...]
 
 
 class DraftPart(Struct, frozen=True, kw_only=True):
-    """An element of the model."""
+    """Element of the model."""
 
     part: tuple[str, ...]
-    """Tags and names from the model down: ("link", "base", "sensor", "eye"); empty: the model itself."""
+    """Address by tags and names: ("link", "base", "sensor", "eye"); empty: the model itself."""
     tag: str
     name: str
     detail: str
     """Type, shape or file name."""
     mass: float | None
-    """[kg]; None: it is no link."""
+    """[kg]; None: not a link."""
     link: int | None
-    """Number among the links; None: it is none."""
+    """Index of a link; None: not a link."""
     line: int
     sections: tuple[DraftSection, ...]
     findings: tuple[DraftFinding, ...]
 
 
 class DraftInfo(Struct, frozen=True, kw_only=True):
-    """A model that is edited."""
+    """Model being edited."""
 
     name: str
-    of: str | None
-    """Model of the world that it takes the place of; None: it is a new one."""
+    original: str | None
+    """Model of the world that it replaces; None: a new model."""
     pose: tuple[float, float, float, float, float, float]
     """x y z [m], roll pitch yaw [rad] of the model in the world."""
     undo: str | None
-    """Edit that can be undone."""
+    """Title of the edit to undo."""
     redo: str | None
-    """Edit that can be done again."""
+    """Title of the edit to redo."""
     folder: str | None = None
-    """Folder to offer for saving; None: nothing can be written."""
+    """Folder to offer for saving; None: not writable."""
     files: tuple[FileUrl, ...] = ()
     parts: tuple[DraftPart, ...]
-    """The model itself, then what is in it, in the file's order."""
+    """The model itself, then its parts in file order."""

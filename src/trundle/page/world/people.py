@@ -32,7 +32,7 @@ class PeopleChannel(Channel):
     """List of people, sent to each with the number of its own: at subscription, and at most 10 Hz as it changes."""
 
     def __init__(self) -> None:
-        super().__init__(PEOPLE, encoding="json", is_own=True)
+        super().__init__(PEOPLE, encoding="json", trundle_only=True)
         self._people: dict[Client, Person] = {}
         self._has_changed = False
         self._due_s = 0.0

@@ -11,7 +11,7 @@ class SessionChannel(Channel):
 
     def __init__(self, content: Callable[[bool], bytes]) -> None:
         """Create; `content` returns the session as JSON, by whether a client may only look."""
-        super().__init__(SESSION, encoding="json", is_droppable=False, is_own=True)
+        super().__init__(SESSION, encoding="json", is_droppable=False, trundle_only=True)
         self._content = content
 
     def subscribe(self, client: Client) -> None:

@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 
 from ..clients.outbox import Buffer
-from .channels import BoxChannel
+from .channels import StreamChannel
 from .streams import TERMINAL, TERMINAL_HEADER
 
 
-class TerminalChannel(BoxChannel):
+class TerminalChannel(StreamChannel):
     """Channel of one terminal; a client whose messages wait gets the end of the output once they are sent."""
 
     def __init__(self, topic: str) -> None:

@@ -26,7 +26,7 @@ export function FieldRow({ field, onSet }: RowProps): JSX.Element {
     case "vector":
     case "number":
       return <NumberRow field={field} onSet={onSet} />;
-    case "colour":
+    case "color":
       return <ColourRow field={field} onSet={onSet} />;
     case "flag":
       return <FlagRow field={field} onSet={onSet} />;
@@ -52,21 +52,21 @@ interface CellProps {
   /** Null: the default counts. */
   readonly value: number | null;
   readonly placeholder: string;
-  readonly least?: number | undefined;
-  readonly most?: number | undefined;
+  readonly minimum?: number | undefined;
+  readonly maximum?: number | undefined;
   readonly before?: string;
   readonly onSet: (value: number | null) => void;
 }
 
 /** A number that may be left to its default. */
-function NumberCell({ label, unit, value, placeholder, least, most, before, onSet }: CellProps): JSX.Element {
+function NumberCell({ label, unit, value, placeholder, minimum, maximum, before, onSet }: CellProps): JSX.Element {
   return (
     <span class="cell">
       <TextField
         label={unit === undefined ? label : `${label} [${unit}]`}
         value={value === null ? "" : plain(value)}
         placeholder={placeholder}
-        check={(text) => (text.trim() === "" ? null : numberFault(text, { min: least, max: most }))}
+        check={(text) => (text.trim() === "" ? null : numberFault(text, { min: minimum, max: maximum }))}
         class="small num"
         before={before === undefined ? null : <span class="axis" style={{ "--ax": `var(--${before})` }} />}
         onCommit={(text) => {
@@ -79,7 +79,7 @@ function NumberCell({ label, unit, value, placeholder, least, most, before, onSe
 }
 
 function NumberRow({ field, onSet }: RowProps): JSX.Element {
-  const { label, unit, labels, least, most } = field;
+  const { label, unit, labels, minimum, maximum } = field;
   const values = numbersOf(field.value);
   const defaults = numbersOf(field.default);
   const names = labels ?? [""];
@@ -100,8 +100,8 @@ function NumberRow({ field, onSet }: RowProps): JSX.Element {
             unit={unit}
             value={values?.[index] ?? null}
             placeholder={defaults?.[index] === undefined ? "none" : plain(defaults[index])}
-            least={least}
-            most={most}
+            minimum={minimum}
+            maximum={maximum}
             {...(names.length === 3 ? { before: XYZ[index] ?? "x" } : {})}
             onSet={(value) => set(index, value)}
           />
@@ -128,8 +128,8 @@ function PoseRows({ field, onSet }: RowProps): JSX.Element {
             unit={unit}
             value={(pose[first + index] ?? 0) / scale}
             placeholder="0"
-            least={field.least}
-            most={field.most}
+            minimum={field.minimum}
+            maximum={field.maximum}
             before={XYZ[index] ?? "x"}
             onSet={(value) => set(first + index, value === null ? null : value * scale)}
           />
@@ -162,8 +162,8 @@ function ColourRow({ field, onSet }: RowProps): JSX.Element {
           label={`${field.label} alpha`}
           value={alpha}
           placeholder="1"
-          least={0}
-          most={1}
+          minimum={0}
+          maximum={1}
           onSet={(value) => onSet([red, green, blue, value ?? 1])}
         />
       </span>

@@ -289,7 +289,7 @@ export const frameInfo: is.Check<page.FrameInfo> = is.struct(() => ({
 
 export const draftInfo: is.Check<page.DraftInfo> = is.struct(() => ({
   name: is.text,
-  of: is.nullable(is.text),
+  original: is.nullable(is.text),
   pose: is.tuple(is.float, is.float, is.float, is.float, is.float, is.float),
   undo: is.nullable(is.text),
   redo: is.nullable(is.text),
@@ -318,14 +318,14 @@ export const draftSection: is.Check<page.DraftSection> = is.struct(() => ({
 export const draftField: is.Check<page.DraftField> = is.struct(() => ({
   name: is.text,
   label: is.text,
-  kind: is.literal("choice", "colour", "flag", "number", "pose", "text", "vector"),
+  kind: is.literal("choice", "color", "flag", "number", "pose", "text", "vector"),
   value: is.nullable(is.oneOf(is.text, is.list(is.float), is.flag)),
   default: is.nullable(is.oneOf(is.text, is.list(is.float), is.flag)),
   unit: is.optional(is.text),
   labels: is.optional(is.list(is.text)),
   choices: is.optional(is.list(is.text)),
-  least: is.optional(is.float),
-  most: is.optional(is.float),
+  minimum: is.optional(is.float),
+  maximum: is.optional(is.float),
 }));
 
 export const draftFinding: is.Check<page.DraftFinding> = is.struct(() => ({

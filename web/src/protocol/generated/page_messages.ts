@@ -2,19 +2,19 @@
 
 import type { Json } from "../json";
 
-/** Greeting of a client. */
+/** First message to a client. */
 export interface ServerInfo {
   readonly op: "serverInfo";
   readonly name: string;
-  /** Operations that the client may use, in the protocol's words. */
+  /** Operations that the client may use, by the protocol's names. */
   readonly capabilities: readonly string[];
   readonly supportedEncodings: readonly string[];
   readonly metadata: { readonly [name: string]: string };
-  /** Distinguishes this server from one before it at the same address. */
+  /** Distinguishes this server from an earlier one at the same address. */
   readonly sessionId: string;
 }
 
-/** Sentence about the server; replaces the last one with its id. */
+/** Status of the server; replaces the earlier one with the same id. */
 export interface Status {
   readonly op: "status";
   /** `INFO`, `WARNING` or `ERROR`. */
@@ -23,7 +23,7 @@ export interface Status {
   readonly id?: string;
 }
 
-/** End of status messages, by id. */
+/** Ids of status messages that end. */
 export interface RemoveStatus {
   readonly op: "removeStatus";
   readonly statusIds: readonly string[];
@@ -47,7 +47,7 @@ export interface ChannelOffer {
   readonly schemaEncoding?: string;
 }
 
-/** End of channels and of their subscriptions. */
+/** Ids of channels that end, with their subscriptions. */
 export interface UnadvertiseChannels {
   readonly op: "unadvertise";
   readonly channelIds: readonly number[];
@@ -78,13 +78,13 @@ export interface ServiceSchema {
   readonly schema: string;
 }
 
-/** End of services. */
+/** Ids of services that end. */
 export interface UnadvertiseServices {
   readonly op: "unadvertiseServices";
   readonly serviceIds: readonly number[];
 }
 
-/** A call that has no response. */
+/** Service call that failed. */
 export interface ServiceCallFailure {
   readonly op: "serviceCallFailure";
   readonly serviceId: number;
@@ -92,15 +92,15 @@ export interface ServiceCallFailure {
   readonly message: string;
 }
 
-/** Parameters that were asked for, or that have changed. */
+/** Requested or changed parameters. */
 export interface ParameterValues {
   readonly op: "parameterValues";
   readonly parameters: readonly Parameter[];
-  /** Id of the request that it answers. */
+  /** Id of the answered request. */
   readonly id?: string;
 }
 
-/** Parameter and its value; unset: the parameter is deleted, or is not set. */
+/** Parameter and its value; unset: the parameter is deleted or not set. */
 export interface Parameter {
   readonly name: string;
   readonly value?: Json;
@@ -117,84 +117,84 @@ export interface ConnectionGraphUpdate {
   readonly removedServices: readonly string[];
 }
 
-/** Nodes that publish a topic now. */
+/** Current publishers of a topic. */
 export interface PublishedTopic {
   readonly name: string;
   readonly publisherIds: readonly string[];
 }
 
-/** Nodes that subscribe to a topic now. */
+/** Current subscribers of a topic. */
 export interface SubscribedTopic {
   readonly name: string;
   readonly subscriberIds: readonly string[];
-  /** Datatype, `*` where it is not known; an addition to the protocol: without a publisher there is no channel. */
+  /** Datatype, `*` if unknown; an addition to the protocol, as a topic without a publisher has no channel. */
   readonly type: string;
 }
 
-/** Nodes that provide a service now. */
+/** Current providers of a service. */
 export interface ProvidedService {
   readonly name: string;
   readonly providerIds: readonly string[];
 }
 
-/** Answer to a request of `trundle.v1`; where it is `ok`, the fields of its `Answer` come along. */
+/** Answer to a request of `trundle.v1`; if it is `ok`, the fields of its `Answer` follow. */
 export interface Response {
   readonly op: "trundle/response";
   readonly id: number | string;
   readonly ok: boolean;
-  /** Sentence that says why it was not done. */
+  /** Reason for a failure. */
   readonly error?: string;
 }
 
-/** Session as a client gets it; another `kind` or `version` is another page, which loads again. */
+/** Session for a client, which reloads the page when `kind` or `version` changes. */
 export interface PageSession {
   readonly title: string;
   readonly kind: "bag" | "graph" | "log" | "simulation";
-  /** Name of the robot that the page is about, for the tab's title. */
+  /** Robot's name, for the tab's title. */
   readonly robot: string | null;
   readonly rviz: RvizFile | null;
   readonly fixed_frame: string | null;
-  /** Namespace of the rviz node: of relative names in its file, of its tf and its parameters. */
+  /** Namespace of the rviz node, for relative names in its file, its tf and its parameters. */
   readonly namespace: string;
   /** Remappings of the rviz node: global name → global name. */
   readonly remappings: { readonly [name: string]: string };
-  /** rqt's programs whose panels are open from the start: `rqt_graph`. */
+  /** rqt's programs whose panels are open at the start: `rqt_graph`. */
   readonly panels: readonly string[];
   /** Curves of the plots panel: `/odom/pose/pose/position/x`. */
   readonly plots: readonly string[];
-  /** Topics of pictures to show. */
+  /** Image topics to show. */
   readonly images: readonly string[];
-  /** Topic of velocity commands; null: driving is not offered. */
+  /** Topic of velocity commands; null: no driving. */
   readonly drive_topic: string | null;
   readonly sliders: readonly JointSlider[];
-  /** true if a joystick is to be shown: the launch starts a joy node. */
+  /** true if a joystick is shown: the launch has started a joy node. */
   readonly joystick: boolean;
   readonly terminals: readonly NodeTerminal[];
   /** Version of the server. */
   readonly version: string;
   /** Address for Foxglove and Lichtblick. */
   readonly foxglove: string;
-  /** Name of the page's node on the graph; null: there is no graph, or it is not joined yet. */
+  /** Name of the page's node on the graph; null: no graph, or not joined yet. */
   readonly node: string | null;
-  /** true if the server does nothing for this client that changes anything. */
+  /** true if this client must not change anything. */
   readonly view_only: boolean;
-  /** Token of links that allow everything; null: this client only looks. */
+  /** Token of links with full access; null: this client is view-only. */
   readonly token: string | null;
-  /** Token of links that only allow looking. */
+  /** Token of view-only links. */
   readonly view_token: string;
 }
 
-/** The .rviz file that the page was started with, or that was saved there last. */
+/** The .rviz file that the page was started with, or that was saved last. */
 export interface RvizFile {
   readonly name: string;
   readonly text: string;
-  /** true if it may be replaced. */
+  /** true if the file may be replaced. */
   readonly writable: boolean;
-  /** true if it was saved at the page: `name` is its path from the working folder, and `SaveRvizAs` replaces it. */
+  /** true if the page saved it: `name` is its path from the working folder, and `SaveRvizAs` replaces it. */
   readonly saved: boolean;
 }
 
-/** A joint of joint_state_publisher_gui. */
+/** Joint of joint_state_publisher_gui. */
 export interface JointSlider {
   readonly name: string;
   /** [rad or m] */
@@ -205,11 +205,11 @@ export interface JointSlider {
   readonly position: number;
 }
 
-/** A node's terminal, whose channel is `trundle/terminal/N` with its place in the list. */
+/** Terminal of a node; its channel is `trundle/terminal/N` with its index in the list. */
 export interface NodeTerminal {
-  /** Name of the node. */
+  /** Node's name. */
   readonly name: string;
-  /** Sentence on the end of the node; null: it runs. */
+  /** Message about the node's end; null: it runs. */
   readonly ended: string | null;
 }
 
@@ -240,9 +240,9 @@ export interface Manifest {
   readonly draft: DraftInfo | null;
 }
 
-/** A GLB. */
+/** GLB file. */
 export interface FileUrl {
-  /** Name of a model, `draft`, or empty: lights of the world itself. */
+  /** Model's name; `draft`; or empty for the lights of the world itself. */
   readonly id: string;
   readonly url: string;
 }
@@ -396,61 +396,61 @@ export interface FrameInfo {
   readonly body: number;
 }
 
-/** A model that is edited. */
+/** Model being edited. */
 export interface DraftInfo {
   readonly name: string;
-  /** Model of the world that it takes the place of; null: it is a new one. */
-  readonly of: string | null;
+  /** Model of the world that it replaces; null: a new model. */
+  readonly original: string | null;
   /** x y z [m], roll pitch yaw [rad] of the model in the world. */
   readonly pose: readonly [number, number, number, number, number, number];
-  /** Edit that can be undone. */
+  /** Title of the edit to undo. */
   readonly undo: string | null;
-  /** Edit that can be done again. */
+  /** Title of the edit to redo. */
   readonly redo: string | null;
-  /** Folder to offer for saving; null: nothing can be written. */
+  /** Folder to offer for saving; null: not writable. */
   readonly folder: string | null;
   readonly files: readonly FileUrl[];
-  /** The model itself, then what is in it, in the file's order. */
+  /** The model itself, then its parts in file order. */
   readonly parts: readonly DraftPart[];
 }
 
-/** An element of the model. */
+/** Element of the model. */
 export interface DraftPart {
-  /** Tags and names from the model down: ("link", "base", "sensor", "eye"); empty: the model itself. */
+  /** Address by tags and names: ("link", "base", "sensor", "eye"); empty: the model itself. */
   readonly part: readonly string[];
   readonly tag: string;
   readonly name: string;
   /** Type, shape or file name. */
   readonly detail: string;
-  /** [kg]; null: it is no link. */
+  /** [kg]; null: not a link. */
   readonly mass: number | null;
-  /** Number among the links; null: it is none. */
+  /** Index of a link; null: not a link. */
   readonly link: number | null;
   readonly line: number;
   readonly sections: readonly DraftSection[];
   readonly findings: readonly DraftFinding[];
 }
 
-/** Fields below one heading. */
+/** Fields under one heading. */
 export interface DraftSection {
   readonly title: string;
   readonly fields: readonly DraftField[];
 }
 
-/** One value of a part. */
+/** Value of a part. */
 export interface DraftField {
-  /** Path of the element, `inertial/mass`; an attribute ends in `@name`. */
+  /** Path of an element, `inertial/mass`, or of an attribute, `axis/@name`. */
   readonly name: string;
   readonly label: string;
-  readonly kind: "choice" | "colour" | "flag" | "number" | "pose" | "text" | "vector";
+  readonly kind: "choice" | "color" | "flag" | "number" | "pose" | "text" | "vector";
   readonly value: string | readonly number[] | boolean | null;
   readonly default: string | readonly number[] | boolean | null;
   readonly unit?: string;
-  /** Names of a vector's numbers. */
+  /** Names of a vector's components. */
   readonly labels?: readonly string[];
   readonly choices?: readonly string[];
-  readonly least?: number;
-  readonly most?: number;
+  readonly minimum?: number;
+  readonly maximum?: number;
 }
 
 /** Error or warning about a part. */
@@ -526,27 +526,27 @@ export interface Person {
   readonly selection: SelectedModel | SelectedLink | SelectedJoint | SelectedLight | null;
 }
 
-/** A model of the simulated world. */
+/** Model of the simulated world. */
 export interface SelectedModel {
   readonly kind: "model";
   readonly model: string;
 }
 
-/** A link. */
+/** Link of a model. */
 export interface SelectedLink {
   readonly kind: "link";
   readonly model: string;
   readonly link: string;
 }
 
-/** A joint. */
+/** Joint of a model. */
 export interface SelectedJoint {
   readonly kind: "joint";
   readonly model: string;
   readonly joint: string;
 }
 
-/** A light. */
+/** Light of the world. */
 export interface SelectedLight {
   readonly kind: "light";
   readonly light: string;
@@ -592,25 +592,25 @@ export interface ReplayAbout {
   readonly view: { readonly [name: string]: Json } | null;
 }
 
-/** The request was done. */
+/** The request was executed. */
 export type Done = { readonly [name: string]: never };
 
 /** A world was written. */
 export interface SavedWorld {
-  /** Path as it was asked for. */
+  /** Path as requested. */
   readonly file: string;
-  /** Parts of the world that the file does not hold. */
+  /** Parts of the world that are not in the file. */
   readonly lost: readonly string[];
 }
 
 /** A world as SDF. */
 export interface WorldText {
   readonly sdf: string;
-  /** Parts of the world that the text does not hold. */
+  /** Parts of the world that are not in the text. */
   readonly lost: readonly string[];
 }
 
-/** Nothing was written, as there are files that may not be replaced. */
+/** Nothing was written: there are files that must not be replaced. */
 export interface FilesExist {
   /** Their names, separated by commas. */
   readonly exists: string;
@@ -632,7 +632,7 @@ export interface ModelList {
   readonly models: readonly ModelEntry[];
 }
 
-/** A model that can be inserted. */
+/** Model that can be inserted. */
 export interface ModelEntry {
   /** Folder's name. */
   readonly name: string;
@@ -641,21 +641,21 @@ export interface ModelEntry {
   readonly uploaded: boolean;
 }
 
-/** A model or light was put into the world. */
+/** A model or light was inserted into the world. */
 export interface Inserted {
   /** Name in the world. */
   readonly name: string;
 }
 
-/** Nothing was inserted: a person has to agree that the model's code is run. */
+/** Nothing was inserted: the user must first consent to run the model's code. */
 export interface CodeQuestion {
   /** Files of code. */
   readonly code: readonly string[];
-  /** Word that agrees to this code once. */
+  /** Token that gives consent to this code once. */
   readonly consent: string;
 }
 
-/** Parts that a draft can be given. */
+/** Parts that can be added to a draft. */
 export interface DraftOffers {
   readonly plugins: readonly PluginOffer[];
   /** Types. */
@@ -666,66 +666,66 @@ export interface DraftOffers {
   readonly meshes: readonly string[];
 }
 
-/** A plugin that a draft can be given. */
+/** Plugin that can be added to a draft. */
 export interface PluginOffer {
   readonly filename: string;
-  /** Sentence on what it does. */
+  /** Summary of its documentation. */
   readonly about: string;
 }
 
 /** The draft was edited. */
 export interface EditedPart {
-  /** Address of the part from now on; empty: the model itself. */
+  /** Address of the part after the edit; empty: the model itself. */
   readonly part: readonly string[];
 }
 
 /** A file, or a folder with files, was written. */
 export interface SavedFile {
-  /** Path as it was asked for. */
+  /** Path as requested. */
   readonly file: string;
 }
 
 /** Definition of a message type. */
 export interface DefinitionText {
-  /** With those of all types in it. */
+  /** Definition with those of all nested types. */
   readonly definition: string;
 }
 
-/** Let time run. */
+/** Run the simulation or recording. */
 export type Play = { readonly [name: string]: never };
 
-/** Stop time. */
+/** Pause the simulation or recording. */
 export type Pause = { readonly [name: string]: never };
 
-/** Pause, then take physics steps. */
+/** Pause, then do physics steps. */
 export interface Step {
   readonly count?: number;
 }
 
-/** Pause, then take physics steps up to a time that is ahead. */
+/** Pause, then do physics steps up to a time in the future. */
 export interface RunTo {
   readonly time_ns: number;
 }
 
-/** Put time, poses or both back as loaded. */
+/** Reset time, poses or both to their initial state. */
 export interface Reset {
   readonly what?: "all" | "poses" | "time";
 }
 
-/** Load the world again. */
+/** Reload the world. */
 export type Reload = { readonly [name: string]: never };
 
-/** Pace time at a multiple of real time; null: as fast as possible. */
+/** Set the speed as a multiple of real time; null: as fast as possible. */
 export interface SetSpeed {
   readonly factor: number | null;
 }
 
-/** Go to a time of a recorded run or bag. */
+/** Set the time of a recorded run or bag. */
 export interface Seek {
   readonly time_ns: number;
 }
 
-/** Drive a joint of a simulated model: one of position, velocity and effort is given. */
+/** Command a joint by exactly one of position, velocity and effort. */
 export interface MoveJoint {
   readonly model: string;
   readonly joint: string;
@@ -737,7 +737,7 @@ export interface MoveJoint {
   readonly effort?: number | null;
 }
 
-/** Set the position of a joint at once; its velocity stays, and no motor is switched. */
+/** Set the position of a joint at once; its velocity and motor commands stay. */
 export interface PlaceJoint {
   readonly model: string;
   readonly joint: string;
@@ -751,21 +751,21 @@ export interface SetPose {
   readonly link: string;
   /** In the world [m]. */
   readonly position: readonly [number, number, number];
-  /** Quaternion wxyz, of any length but zero. */
+  /** Quaternion wxyz of any length except zero. */
   readonly orientation: readonly [number, number, number, number];
 }
 
-/** Carry a model, at rest, so that one of its links has this pose; to be renewed within a second, until `let_go`. */
+/** Keep a model at rest with one of its links at this pose, until `let_go` or a second without such a request. */
 export interface Carry {
   readonly model: string;
   readonly link: string;
   /** In the world [m]. */
   readonly position: readonly [number, number, number];
-  /** Quaternion wxyz, of any length but zero. */
+  /** Quaternion wxyz of any length except zero. */
   readonly orientation: readonly [number, number, number, number];
 }
 
-/** Pull a point of a link to a place by a spring; to be renewed within a second, until `let_go`. */
+/** Pull a point of a link to a target by a spring, until `let_go` or a second without such a request. */
 export interface Pull {
   readonly model: string;
   readonly link: string;
@@ -775,18 +775,18 @@ export interface Pull {
   readonly target: readonly [number, number, number];
 }
 
-/** Let a model go that is carried or pulled. */
+/** Stop carrying or pulling a model. */
 export interface LetGo {
   readonly model: string;
 }
 
-/** Fix a model's base where it is, in the air too, or free it again. */
+/** Fix a model's base at its current pose, even in the air, or free it again. */
 export interface HoldModel {
   readonly model: string;
   readonly on: boolean;
 }
 
-/** Set the velocity of a model once, world axes. */
+/** Set the velocity of a model once, in world axes. */
 export interface SetTwist {
   readonly model: string;
   /** [m/s] */
@@ -795,7 +795,7 @@ export interface SetTwist {
   readonly angular: readonly [number, number, number];
 }
 
-/** Set the mass of a link; its moments of inertia change in proportion. */
+/** Set the mass of a link and scale its moments of inertia. */
 export interface SetMass {
   readonly model: string;
   readonly link: string;
@@ -811,24 +811,24 @@ export interface SetFriction {
   readonly mu2: number;
 }
 
-/** Set the colour and intensity of a light. */
+/** Set the color and intensity of a light. */
 export interface SetLight {
-  /** `name`, or `model::link::name` of one on a link. */
+  /** `name`, or `model::link::name` for a link's light. */
   readonly light: string;
   readonly diffuse: readonly [number, number, number];
   readonly intensity: number;
 }
 
-/** Move a light of the world itself. */
+/** Move a light that belongs to the world, not to a link. */
 export interface PlaceLight {
   readonly light: string;
   /** In the world [m]. */
   readonly position: readonly [number, number, number];
-  /** Quaternion wxyz, of any length but zero. */
+  /** Quaternion wxyz of any length except zero. */
   readonly orientation: readonly [number, number, number, number];
 }
 
-/** Set what is given of gravity, wind and time step. */
+/** Set gravity, wind or time step; null: unchanged. */
 export interface SetPhysics {
   /** [m/s²] */
   readonly gravity?: readonly [number, number, number] | null;
@@ -838,7 +838,7 @@ export interface SetPhysics {
   readonly step?: number | null;
 }
 
-/** Push a link at its centre of mass, world axes. */
+/** Apply a wrench to a link at its centre of mass, in world axes. */
 export interface ApplyWrench {
   readonly model: string;
   readonly link: string;
@@ -852,46 +852,46 @@ export interface ApplyWrench {
 
 /** Write the world as SDF. */
 export interface SaveWorld {
-  /** Path below the folder where the simulation was started; null: answer with the text, `sdf`. */
+  /** Path below the folder where the simulation was started; null: answer with the SDF text. */
   readonly file: string | null;
-  /** true if a person has agreed to replace the file. */
+  /** true if the user has confirmed to replace the file. */
   readonly replace?: boolean;
 }
 
 /** Make a replay of the last minutes. */
 export interface SaveReplay {
-  /** JSON of the view from which a page is seen first, as an .rviz file has it. */
+  /** Initial view of the replay page: JSON of a view as in an .rviz file. */
   readonly view?: string | null;
   readonly format?: "glb" | "html";
 }
 
-/** Ask for the models that can be inserted. */
+/** List the models that can be inserted. */
 export type ListModels = { readonly [name: string]: never };
 
-/** Put a model of the model path, or a simple shape, into the world; a person is asked about a model with code. */
+/** Insert a model of the model path or a simple shape; a model with code needs the user's consent. */
 export interface InsertModel {
-  /** Name of its folder, or `box`, `sphere`, `cylinder` where `is_shape`. */
+  /** Name of the model's folder; if `is_shape`: `box`, `sphere` or `cylinder`. */
   readonly model: string;
   /** Point on the floor [m]. */
   readonly position: readonly [number, number, number];
   readonly is_shape?: boolean;
-  /** Word of the answer that showed the code, if a person has agreed. */
+  /** Token of the `CodeQuestion` to which the user has consented. */
   readonly consent?: string | null;
 }
 
-/** Put a light above a point. */
+/** Insert a light above a point. */
 export interface InsertLight {
   readonly type: "directional" | "point" | "spot";
   /** Point on the floor [m]. */
   readonly position: readonly [number, number, number];
 }
 
-/** Add a copy of a model in the state that it has, with its sensors and plugins. */
+/** Add a copy of a model in its current state, with its sensors and plugins. */
 export interface CopyModel {
   readonly model: string;
   /** Name of the copy. */
   readonly name: string;
-  /** From the model to its copy, in the world [m]. */
+  /** Offset of the copy from the model, in the world [m]. */
   readonly offset: readonly [number, number, number];
 }
 
@@ -900,17 +900,17 @@ export interface DeleteModel {
   readonly model: string;
 }
 
-/** Put back a model that the page deleted, in the state that it had, with its sensors and plugins. */
+/** Restore a model that the page deleted, in its former state, with its sensors and plugins. */
 export interface RestoreModel {
   readonly model: string;
 }
 
-/** Put one model back as it came, with its joints, at rest and with its motors off; its plugins are reset. */
+/** Reset a model to its initial pose and joint positions, at rest, with motors off; its plugins are reset, too. */
 export interface ResetModel {
   readonly model: string;
 }
 
-/** Give a model the state before its newest reset, with motors, loads and what its plugins remember. */
+/** Restore a model's state before its latest reset, with motors, wrenches and the state of its plugins. */
 export interface UndoReset {
   readonly model: string;
 }
@@ -920,20 +920,20 @@ export interface DeleteLight {
   readonly light: string;
 }
 
-/** Put back a light that the page deleted. */
+/** Restore a light that the page deleted. */
 export interface RestoreLight {
   readonly light: string;
 }
 
-/** Copy a model of the world, or begin one from nothing; time pauses until the draft is left. */
+/** Start a draft from a model of the world or from nothing; the simulation pauses until the draft is left. */
 export interface BeginDraft {
-  /** Null: a new one. */
+  /** Null: a new model. */
   readonly model: string | null;
-  /** Place of a new one [m]. */
+  /** Position of a new model [m]. */
   readonly position?: readonly [number, number, number];
 }
 
-/** Ask for the plugins, sensors and meshes that a draft can be given. */
+/** List the plugins, sensors, joints and meshes that can be added to a draft. */
 export type ListOffers = { readonly [name: string]: never };
 
 /** Set one value of a part. */
@@ -948,13 +948,13 @@ export interface PlaceLink {
   readonly part: readonly string[];
   /** [m] */
   readonly position: readonly [number, number, number];
-  /** Quaternion wxyz, of any length but zero. */
+  /** Quaternion wxyz of any length except zero. */
   readonly orientation: readonly [number, number, number, number];
 }
 
 /** Add a part. */
 export interface AddPart {
-  /** Part that gets it; of a joint, its child. */
+  /** Part that it is added to; for a joint, its child. */
   readonly into: readonly string[];
   readonly kind: "collision" | "joint" | "link" | "plugin" | "sensor" | "visual";
   /** Shape or URI of a mesh, type of the joint or sensor, file name of the plugin. */
@@ -966,36 +966,36 @@ export interface CopyPart {
   readonly part: readonly string[];
 }
 
-/** Remove a part; a link goes with its joints. */
+/** Remove a part, and the joints of a link. */
 export interface RemovePart {
   readonly part: readonly string[];
 }
 
-/** Take the last edit of the draft back. */
+/** Undo the latest edit of the draft. */
 export type UndoDraft = { readonly [name: string]: never };
 
-/** Do the edit again that was taken back last. */
+/** Redo the edit undone last. */
 export type RedoDraft = { readonly [name: string]: never };
 
 /** Write model.sdf and model.config. */
 export interface SaveDraft {
   /** Path below the folder where the simulation was started. */
   readonly folder: string;
-  /** true if a person has agreed to replace the files. */
+  /** true if the user has confirmed to replace the files. */
   readonly replace?: boolean;
 }
 
 /**
- * Put the draft into the world, in place of the model that it is a copy of.
+ * Insert the draft into the world, replacing its original.
  *
- * A person is asked about a model with code.
+ * A model with code needs the user's consent.
  */
 export interface FinishDraft {
-  /** Word of the answer that showed the code, if a person has agreed. */
+  /** Token of the `CodeQuestion` to which the user has consented. */
   readonly consent?: string | null;
 }
 
-/** Throw the draft away. */
+/** Discard the draft. */
 export type LeaveDraft = { readonly [name: string]: never };
 
 /** Move a joint of joint_state_publisher_gui. */
@@ -1005,7 +1005,7 @@ export interface MoveSlider {
   readonly position: number;
 }
 
-/** Positions of a joystick's axes, −1 to 1, and buttons, 0 or 1, in joy's order. */
+/** Set a joystick's axes, −1 to 1, and buttons, 0 or 1, in joy's order. */
 export interface MoveJoystick {
   readonly axes: readonly number[];
   readonly buttons: readonly (0 | 1)[];
@@ -1016,34 +1016,34 @@ export interface SaveRviz {
   readonly text: string;
 }
 
-/** Begin or end recording. */
+/** Start or stop recording. */
 export interface Record {
   readonly on: boolean;
 }
 
-/** Text of a message type; the server itself answers. */
+/** Request the definition of a message type; the server answers this itself. */
 export interface Definition {
   readonly type: string;
 }
 
-/** Sample these values of the simulation for `trundle/series`, and no others; the server itself answers. */
+/** Set the values of the simulation that are sampled for `trundle/series`; the server answers this itself. */
 export interface PlotSeries {
   /** Names such as `rp2w::chassis.pose.x`. */
   readonly series: readonly string[];
 }
 
-/** Save an .rviz file below the folder where Trundle was started, as `SaveWorld` does; the server itself does it. */
+/** Save an .rviz file below the folder where Trundle was started; the server executes this itself. */
 export interface SaveRvizAs {
   readonly file: string;
   readonly text: string;
-  /** true: a file of that name is replaced. */
+  /** true: replace an existing file. */
   readonly replace?: boolean;
 }
 
 /**
- * Draw the scene by Trundle's own renderer, for browsers without WebGL; answered by `PageServer.respond_picture`.
+ * Draw the scene with Trundle's renderer, for browsers without WebGL; answered by `PageServer.respond_picture`.
  *
- * The camera looks at what the page frames first, from a distance, turned about z and raised.
+ * The camera orbits the robot or the origin: at a distance, by azimuth about z and elevation.
  */
 export interface RenderView {
   /** [px] */
@@ -1061,35 +1061,35 @@ export interface RenderView {
 /** Draw a model of the model path; answered by `PageServer.respond_picture`. */
 export interface RenderModel {
   readonly model: string;
-  /** A PNG, or the GLB of what follows the pointer until it is placed. */
+  /** PNG, or GLB for the preview at the pointer. */
   readonly kind?: "picture" | "shape";
 }
 
-/** Begin to receive channels. */
+/** Subscribe to channels. */
 export interface Subscribe {
   readonly op: "subscribe";
   readonly subscriptions: readonly Subscription[];
 }
 
-/** Channel that a client subscribes to, under a number of its own. */
+/** Channel that a client subscribes to, with the subscription's id. */
 export interface Subscription {
   readonly id: number;
   readonly channelId: number;
 }
 
-/** Stop receiving. */
+/** End subscriptions. */
 export interface Unsubscribe {
   readonly op: "unsubscribe";
   readonly subscriptionIds: readonly number[];
 }
 
-/** Announce topics of the client. */
+/** Advertise topics that the client publishes to. */
 export interface Advertise {
   readonly op: "advertise";
   readonly channels: readonly ClientChannel[];
 }
 
-/** Topic that a client publishes. */
+/** Topic that a client publishes to. */
 export interface ClientChannel {
   readonly id: number;
   readonly topic: string;
@@ -1098,13 +1098,13 @@ export interface ClientChannel {
   readonly schema?: string | null;
 }
 
-/** End topics of the client. */
+/** Stop publishing to topics. */
 export interface Unadvertise {
   readonly op: "unadvertise";
   readonly channelIds: readonly number[];
 }
 
-/** Ask for parameters; no names: all of them. */
+/** Request parameters; no names: all. */
 export interface GetParameters {
   readonly op: "getParameters";
   readonly parameterNames: readonly string[];
@@ -1118,36 +1118,36 @@ export interface SetParameters {
   readonly id?: string | null;
 }
 
-/** Ask for changes of parameters; no names: of all. */
+/** Subscribe to changes of parameters; no names: of all. */
 export interface SubscribeParameterUpdates {
   readonly op: "subscribeParameterUpdates";
   readonly parameterNames: readonly string[];
 }
 
-/** Ask for changes no more; no names: of none. */
+/** Unsubscribe from changes of parameters; no names: from all. */
 export interface UnsubscribeParameterUpdates {
   readonly op: "unsubscribeParameterUpdates";
   readonly parameterNames: readonly string[];
 }
 
-/** Ask for nodes of topics and services. */
+/** Subscribe to the nodes of topics and services. */
 export interface SubscribeConnectionGraph {
   readonly op: "subscribeConnectionGraph";
 }
 
-/** Ask for nodes of topics and services no more. */
+/** Unsubscribe from the nodes of topics and services. */
 export interface UnsubscribeConnectionGraph {
   readonly op: "unsubscribeConnectionGraph";
 }
 
-/** Ask for a file. */
+/** Request a file. */
 export interface FetchAsset {
   readonly op: "fetchAsset";
   readonly uri: string;
   readonly requestId: number;
 }
 
-/** Drive at a velocity, until 0.3 s pass without the next such message. */
+/** Drive at a velocity until 0.3 s after the latest such message. */
 export interface Drive {
   readonly op: "trundle/drive";
   readonly topic: string;
@@ -1163,22 +1163,22 @@ export interface Release {
   readonly topic: string;
 }
 
-/** Show the others what this client has selected. */
+/** Show this client's selection to the other users. */
 export interface Presence {
   readonly op: "trundle/presence";
   readonly selection: SelectedModel | SelectedLink | SelectedJoint | SelectedLight | null;
 }
 
-/** Type into a node's terminal, or change its size. */
+/** Send input to a node's terminal, or change its size. */
 export interface UseTerminal {
   readonly op: "trundle/terminal";
   readonly number: number;
   readonly text?: string;
-  /** Columns and rows; null: as it is. */
+  /** Columns and rows; null: unchanged. */
   readonly size?: readonly [number, number] | null;
 }
 
-/** Request to the page's owner; its fields are read by `trundle.page.requests.request`. */
+/** Request to the page's owner; `trundle.page.requests.request` reads its fields. */
 export interface PageRequest {
   readonly op: "trundle/request";
   readonly id: number | string;

@@ -158,7 +158,7 @@ export class WorldFeed implements SimulatedWorld {
     this.scene.background.value = `rgb(${background.join(", ")})`;
     this.sky.visible = scene.sky;
     this.files.show([
-      ...manifest.files.filter(({ id }) => id !== manifest.draft?.of),
+      ...manifest.files.filter(({ id }) => id !== manifest.draft?.original),
       ...(manifest.draft?.files ?? []),
     ]);
     this.lighting.setContents(this.scene.world, scene.shadows);
