@@ -44,7 +44,7 @@ export const SESSION: PageSession = {
   node: "/trundle_page_1",
 };
 
-export class FakeWorld implements SimulatedWorld {
+class FakeWorld implements SimulatedWorld {
   readonly manifest = signal<Manifest | null>(null);
   readonly state = signal<ClockState | null>({
     time_ns: 12.48e9,
@@ -203,7 +203,7 @@ const TOOLS: readonly (readonly [string, string, string, string])[] = [
   ["rviz/PublishPoint", "Publish Point", "u", "point"],
 ];
 
-export class FakeTools implements ToolBox {
+class FakeTools implements ToolBox {
   readonly tools: readonly Tool[] = TOOLS.map(([className, name, shortcut, icon]) => ({
     className,
     name,
@@ -230,7 +230,7 @@ export class FakeTools implements ToolBox {
   }
 }
 
-export class FakeFrames implements FrameTree {
+class FakeFrames implements FrameTree {
   readonly frames = signal<readonly string[]>(["base_link", "map", "odom"]);
   describe(): [] {
     return [];

@@ -38,7 +38,7 @@ export function Bar({ shell }: { readonly shell: Shell }): JSX.Element {
   );
 }
 
-export function Mark(): JSX.Element {
+function Mark(): JSX.Element {
   return (
     <svg
       class="mark"
@@ -182,7 +182,7 @@ function Record({ shell }: { readonly shell: Shell }): JSX.Element | null {
 }
 
 /** The connection's state in words. */
-export function connectionText(state: ConnectionState, nodes: number): string {
+function connectionText(state: ConnectionState, nodes: number): string {
   if (state.kind === "connecting") return "Connecting";
   if (state.kind === "lost")
     return `Connection lost, trying again${state.retryInSeconds > 0 ? ` in ${state.retryInSeconds} s` : ""}`;

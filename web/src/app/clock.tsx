@@ -45,7 +45,7 @@ function Factor({ factor, speed }: { readonly factor: number | null; readonly sp
   );
 }
 
-export function speedText(speed: number | null): string {
+function speedText(speed: number | null): string {
   return speed === null ? "As fast as possible" : `${speed}×`;
 }
 

@@ -6,7 +6,7 @@ import { ScrewDisplay, type Screw } from "./screw_display";
 
 const TYPES = ["geometry_msgs/AccelStamped"];
 
-export class AccelStampedDisplay extends ScrewDisplay<AccelStamped> {
+class AccelStampedDisplay extends ScrewDisplay<AccelStamped> {
   readonly className = "rviz/AccelStamped";
 
   protected screw({ accel }: AccelStamped): Screw {

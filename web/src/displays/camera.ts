@@ -24,7 +24,7 @@ const INFO = "sensor_msgs/CameraInfo";
 /** Widest picture that the scene is drawn for [px]. */
 const MOST_PIXELS = 4096 * 4096;
 
-export class CameraDisplay extends PictureDisplay {
+class CameraDisplay extends PictureDisplay {
   readonly className = "rviz/Camera";
   readonly rendering = this.add(
     new EnumProperty("Image Rendering", BOTH, [BACKGROUND, OVERLAY, BOTH], {

@@ -9,7 +9,7 @@ const TYPES = ["sensor_msgs/FluidPressure"];
 /** Colours go from low to high pressure of the air. */
 const CHANNEL = { channel: "fluid_pressure", min: 98000, max: 105000, invert: false };
 
-export class FluidPressureDisplay extends CloudDisplay<FluidPressure> {
+class FluidPressureDisplay extends CloudDisplay<FluidPressure> {
   readonly className = "rviz/FluidPressure";
 
   protected read(message: FluidPressure): Cloud {

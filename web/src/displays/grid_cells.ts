@@ -13,7 +13,7 @@ import { INVALID_FLOATS, isFiniteXyz } from "../frames/valid";
 
 const TYPES = ["nav_msgs/GridCells"];
 
-export class GridCellsDisplay extends HistoryDisplay<GridCells> {
+class GridCellsDisplay extends HistoryDisplay<GridCells> {
   readonly className = "rviz/GridCells";
   private readonly color = this.add(new ColorProperty("Color", [25, 255, 0]));
   private readonly alpha = this.add(new NumberProperty("Alpha", 1, { min: 0, max: 1 }));

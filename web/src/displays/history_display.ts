@@ -89,7 +89,7 @@ export abstract class HistoryDisplay<M extends Stamped> extends TopicDisplay<M> 
 }
 
 /** Free what an object's parts hold on the GPU: each part that owns something has a `dispose` of its own. */
-export function dispose(object: Object3D): void {
+function dispose(object: Object3D): void {
   object.traverse((part) => {
     if ("dispose" in part && typeof part.dispose === "function") (part as { dispose(): void }).dispose();
   });

@@ -9,7 +9,7 @@ const TYPES = ["sensor_msgs/Illuminance"];
 /** Colours go from dark to the light of an overcast day. */
 const CHANNEL = { channel: "illuminance", min: 0, max: 1000, invert: false };
 
-export class IlluminanceDisplay extends CloudDisplay<Illuminance> {
+class IlluminanceDisplay extends CloudDisplay<Illuminance> {
   readonly className = "rviz/Illuminance";
 
   protected read(message: Illuminance): Cloud {

@@ -19,7 +19,7 @@ const X = new Vector3(1, 0, 0);
 /** Widths of the arrow at a scale of 1 [m per m/s²]. */
 const ARROW = { shaftDiameter: 0.5, headLength: 1, headDiameter: 1 };
 
-export class ImuDisplay extends HistoryDisplay<Imu> {
+class ImuDisplay extends HistoryDisplay<Imu> {
   readonly className = "rviz_imu_plugin/Imu";
   private readonly inFixedFrame = this.add(
     new BoolProperty("fixed_frame_orientation", true, {

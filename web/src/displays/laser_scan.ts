@@ -15,7 +15,7 @@ const TYPES = ["sensor_msgs/LaserScan"];
 const LONG_SCAN_S = 1;
 const AT_ORIGIN: Transform = { position: new Vector3(), orientation: new Quaternion() };
 
-export class LaserScanDisplay extends CloudDisplay<LaserScan> {
+class LaserScanDisplay extends CloudDisplay<LaserScan> {
   readonly className = "rviz/LaserScan";
 
   protected override fault(scan: LaserScan): string | null {

@@ -16,7 +16,7 @@ const TYPES = ["nav_msgs/Odometry"];
 /** What is kept where rviz keeps all. */
 const MOST_KEPT = 10_000;
 
-export class OdometryDisplay extends HistoryDisplay<Odometry> {
+class OdometryDisplay extends HistoryDisplay<Odometry> {
   readonly className = "rviz/Odometry";
   private readonly positionTolerance = this.add(new NumberProperty("Position Tolerance", 0.1, { min: 0, unit: "m" }));
   private readonly angleTolerance = this.add(new NumberProperty("Angle Tolerance", 0.1, { min: 0, unit: "rad" }));

@@ -5,7 +5,7 @@ import type { Offer } from "./display_list";
 import { displayClasses } from "./registry";
 
 /** The class for a type of message: the one of the same name, else the first that shows it. */
-export function classForType(type: string): string | null {
+function classForType(type: string): string | null {
   const able = displayClasses().filter((found) => found.types.includes(type));
   const [, short = ""] = type.split("/");
   const same = able.find((found) => found.className.split("/")[1] === short);

@@ -15,7 +15,7 @@ import { INVALID_FLOATS, isFinitePose } from "../frames/valid";
 
 const TYPES = ["nav_msgs/Path"];
 
-export class PathDisplay extends HistoryDisplay<Path> {
+class PathDisplay extends HistoryDisplay<Path> {
   readonly className = "rviz/Path";
   private readonly style = this.add(new EnumProperty("Line Style", "Lines", ["Lines", "Billboards"]));
   private readonly width = this.add(

@@ -9,7 +9,7 @@ const TYPES = ["sensor_msgs/PointCloud"];
 /** A point is read by the GPU with a stride of 252 bytes at most. */
 const MOST_CHANNELS = 60;
 
-export class PointCloudDisplay extends CloudDisplay<PointCloud> {
+class PointCloudDisplay extends CloudDisplay<PointCloud> {
   readonly className = "rviz/PointCloud";
 
   protected read({ points, channels: all }: PointCloud): Cloud {

@@ -7,7 +7,7 @@ import { register } from "./registry";
 
 const TYPES = ["sensor_msgs/PointCloud2"];
 
-export class PointCloud2Display extends CloudDisplay<PointCloud2> {
+class PointCloud2Display extends CloudDisplay<PointCloud2> {
   readonly className = "rviz/PointCloud2";
 
   protected read(message: PointCloud2): Cloud | string {

@@ -13,7 +13,7 @@ import { INVALID_FLOATS, isFiniteXyz, vector } from "../frames/valid";
 
 const TYPES = ["geometry_msgs/PointStamped"];
 
-export class PointStampedDisplay extends HistoryDisplay<PointStamped> {
+class PointStampedDisplay extends HistoryDisplay<PointStamped> {
   readonly className = "rviz/PointStamped";
   private readonly color = this.add(new ColorProperty("Color", [204, 41, 204]));
   private readonly alpha = this.add(new NumberProperty("Alpha", 1, { min: 0, max: 1 }));

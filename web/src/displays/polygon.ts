@@ -12,7 +12,7 @@ import { INVALID_FLOATS, isFiniteXyz } from "../frames/valid";
 
 const TYPES = ["geometry_msgs/PolygonStamped"];
 
-export class PolygonDisplay extends HistoryDisplay<PolygonStamped> {
+class PolygonDisplay extends HistoryDisplay<PolygonStamped> {
   readonly className = "rviz/Polygon";
   private readonly color = this.add(new ColorProperty("Color", [25, 255, 0]));
   private readonly alpha = this.add(new NumberProperty("Alpha", 1, { min: 0, max: 1 }));

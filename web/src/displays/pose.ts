@@ -11,7 +11,7 @@ import { INVALID_FLOATS, isFinitePose, placed } from "../frames/valid";
 
 const TYPES = ["geometry_msgs/PoseStamped"];
 
-export class PoseDisplay extends HistoryDisplay<PoseStamped> {
+class PoseDisplay extends HistoryDisplay<PoseStamped> {
   readonly className = "rviz/Pose";
   private readonly shape = new PoseShape();
 

@@ -26,7 +26,7 @@ const FLAT_ARROW = [
   [0.75, -0.2],
 ] as const;
 
-export class PoseArrayDisplay extends HistoryDisplay<PoseArray> {
+class PoseArrayDisplay extends HistoryDisplay<PoseArray> {
   readonly className = "rviz/PoseArray";
   private readonly shape = this.add(new EnumProperty("Shape", FLAT, [FLAT, SOLID, AXES]));
   private readonly color = this.add(

@@ -12,7 +12,7 @@ import { areFinite, INVALID_FLOATS, isFinitePose, placed, quaternion, vector } f
 
 const TYPES = ["geometry_msgs/PoseWithCovarianceStamped"];
 
-export class PoseWithCovarianceDisplay extends HistoryDisplay<PoseWithCovarianceStamped> {
+class PoseWithCovarianceDisplay extends HistoryDisplay<PoseWithCovarianceStamped> {
   readonly className = "rviz/PoseWithCovariance";
   private readonly shape = new PoseShape();
   private readonly covariance = new CovarianceProperty();

@@ -13,7 +13,7 @@ import { areFinite, INVALID_FLOATS } from "../frames/valid";
 
 const TYPES = ["sensor_msgs/Range"];
 
-export class RangeDisplay extends HistoryDisplay<Range> {
+class RangeDisplay extends HistoryDisplay<Range> {
   readonly className = "rviz/Range";
   private readonly color = this.add(new ColorProperty("Color", [255, 255, 255]));
   private readonly alpha = this.add(new NumberProperty("Alpha", 0.5, { min: 0, max: 1 }));

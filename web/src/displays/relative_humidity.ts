@@ -9,7 +9,7 @@ const TYPES = ["sensor_msgs/RelativeHumidity"];
 /** Colours go from dry to saturated air. */
 const CHANNEL = { channel: "relative_humidity", min: 0, max: 1, invert: false };
 
-export class RelativeHumidityDisplay extends CloudDisplay<RelativeHumidity> {
+class RelativeHumidityDisplay extends CloudDisplay<RelativeHumidity> {
   readonly className = "rviz/RelativeHumidity";
 
   protected read(message: RelativeHumidity): Cloud {

@@ -9,7 +9,7 @@ const TYPES = ["sensor_msgs/Temperature"];
 /** Colours go from freezing to boiling water. */
 const CHANNEL = { channel: "temperature", min: 0, max: 100, invert: true };
 
-export class TemperatureDisplay extends CloudDisplay<Temperature> {
+class TemperatureDisplay extends CloudDisplay<Temperature> {
   readonly className = "rviz/Temperature";
 
   protected read(message: Temperature): Cloud {

@@ -6,7 +6,7 @@ import { ScrewDisplay, type Screw } from "./screw_display";
 
 const TYPES = ["geometry_msgs/TwistStamped"];
 
-export class TwistStampedDisplay extends ScrewDisplay<TwistStamped> {
+class TwistStampedDisplay extends ScrewDisplay<TwistStamped> {
   readonly className = "rviz/TwistStamped";
 
   protected screw({ twist }: TwistStamped): Screw {

@@ -6,7 +6,7 @@ import { ScrewDisplay, type Screw } from "./screw_display";
 
 const TYPES = ["geometry_msgs/WrenchStamped"];
 
-export class WrenchStampedDisplay extends ScrewDisplay<WrenchStamped> {
+class WrenchStampedDisplay extends ScrewDisplay<WrenchStamped> {
   readonly className = "rviz/WrenchStamped";
 
   protected screw({ wrench }: WrenchStamped): Screw {

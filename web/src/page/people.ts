@@ -30,7 +30,7 @@ export function followPeople(
 }
 
 /** What others are shown of a selection; null: nothing of the simulated world. */
-export function shared(selected: Selection | null): SharedSelection | null {
+function shared(selected: Selection | null): SharedSelection | null {
   const selection = placed(selected);
   switch (selection?.kind) {
     case "model":

@@ -38,7 +38,7 @@ export function robotOf(manifest: Manifest | null): ScopedModel | undefined {
   return allModels(manifest?.models ?? []).find(({ model }) => bodiesOf(model).includes(manifest?.robot ?? NO_BODY));
 }
 
-export function scopedName(scope: string, name: string): string {
+function scopedName(scope: string, name: string): string {
   return scope === "" || name.startsWith(`${scope}::`) ? name : `${scope}::${name}`;
 }
 

@@ -17,7 +17,7 @@ const nodesState = perPage(() => ({
 }));
 
 /** Names of topics or services that a node has a part in, sorted. */
-export function namesOf(map: ReadonlyMap<string, readonly string[]>, node: string): readonly string[] {
+function namesOf(map: ReadonlyMap<string, readonly string[]>, node: string): readonly string[] {
   return [...map]
     .filter(([, nodes]) => nodes.includes(node))
     .map(([name]) => name)

@@ -11,7 +11,7 @@ export type FieldValue = string | readonly (number | null)[] | null;
 const FIRST_BODY = 65536;
 
 /** The body that a part is drawn as; null: it is no link. */
-export function bodyOf(part: DraftPart): number | null {
+function bodyOf(part: DraftPart): number | null {
   return part.link === null ? null : FIRST_BODY + part.link;
 }
 
@@ -23,7 +23,7 @@ export function findPart(draft: DraftInfo | null | undefined, path: PartPath): D
   return draft?.parts.find(({ part }) => samePath(part, path)) ?? null;
 }
 
-export function samePath(a: PartPath, b: PartPath): boolean {
+function samePath(a: PartPath, b: PartPath): boolean {
   return a.length === b.length && a.every((step, i) => step === b[i]);
 }
 

@@ -12,7 +12,7 @@ const ACROSS = 24;
 const UP = 18;
 
 /** A place in the picture [px]. */
-export interface LabelBox {
+interface LabelBox {
   x: number;
   y: number;
   width: number;

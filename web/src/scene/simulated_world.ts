@@ -9,7 +9,6 @@ import type { ShownParts } from "./overlays/shown_parts";
 
 export type SixNumbers = readonly [number, number, number, number, number, number];
 export type Triple = readonly [number, number, number];
-export type Colour = Triple;
 
 /** Position [rad, m], velocity and effort of a joint. */
 export interface JointState {

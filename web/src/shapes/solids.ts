@@ -33,7 +33,7 @@ export function arrowGeometry(arrow: ArrowProportions): BufferGeometry {
   return mergeGeometries([shaft, head.translate(arrow.shaftLength, 0, 0)]);
 }
 
-export type Rgba = readonly [number, number, number, number];
+type Rgba = readonly [number, number, number, number];
 const AXIS_COLORS: readonly Rgba[] = [
   [1, 0, 0, 1],
   [0, 1, 0, 1],
@@ -48,7 +48,7 @@ export function axesGeometry(length: number, radius: number): BufferGeometry {
 }
 
 /** Give every vertex of a geometry one colour, 0…1. */
-export function paint(geometry: BufferGeometry, rgba: Rgba): BufferGeometry {
+function paint(geometry: BufferGeometry, rgba: Rgba): BufferGeometry {
   const count = geometry.getAttribute("position").count;
   const colors = new Float32Array(count * 4);
   for (let vertex = 0; vertex < count; vertex++) colors.set(rgba, vertex * 4);

@@ -101,7 +101,7 @@ function put(list: HTMLElement | null, anchor: HTMLElement | null): void {
 }
 
 /** Choices that contain a text, those that begin with it first. */
-export function matching(choices: readonly Choice[], text: string): readonly Choice[] {
+function matching(choices: readonly Choice[], text: string): readonly Choice[] {
   const wanted = text.toLowerCase();
   const rank = (choice: Choice): number => choice.value.toLowerCase().indexOf(wanted);
   return choices.filter((choice) => rank(choice) >= 0).sort((a, b) => Number(rank(a) > 0) - Number(rank(b) > 0));

@@ -2,7 +2,7 @@
 
 import type { JSX, TargetedKeyboardEvent } from "preact";
 
-export interface TabItem {
+interface TabItem {
   readonly id: string;
   readonly title: string;
   /** Short form where the row is narrow. */

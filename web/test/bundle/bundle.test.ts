@@ -81,7 +81,7 @@ test(
       configFile: false,
       plugins: [page],
       worker: { format: "es", plugins: () => [worker] },
-      build: { rolldownOptions: { input: `${WEB}/test/bundle/only_a_worker.ts` } },
+      build: { rolldownOptions: { input: fileURLToPath(new URL("only_a_worker.ts", import.meta.url)) } },
     });
 
     expect(headings(output)).toEqual(

@@ -10,7 +10,7 @@ import type { SceneView } from "../../src/scene/scene_view";
 import { GraphNames } from "../../src/protocol/graph_names";
 import { FakeConnection } from "../fake_connection";
 
-export class FakeFrames implements Partial<FrameTree> {
+class FakeFrames implements Partial<FrameTree> {
   readonly frames = signal<readonly string[]>([]);
   readonly poses = new Map<string, (time: bigint) => Transform | null>();
 

@@ -58,14 +58,14 @@ export class FakeFrames implements FrameTree {
   }
 }
 
-export interface FakeLabel {
+interface FakeLabel {
   readonly anchor: Object3D;
   text: string;
   detail: string;
   remove(): void;
 }
 
-export class FakeScene {
+class FakeScene {
   readonly displays = new Group();
   readonly world = new Group();
   readonly camera = signal(new PerspectiveCamera());

@@ -81,7 +81,7 @@ export function faultRow(key: string, depth: number, status: Status): TreeRow {
 }
 
 /** The words of a fault that stand out, and the rest: "No transform" and " from [amcl] to [map]". */
-export function splitFault(text: string): readonly [string, string] {
+function splitFault(text: string): readonly [string, string] {
   const at = text.search(/ (from|for|of|\[)|:/);
   return at < 0 ? [text, ""] : [text.slice(0, at), text.slice(at)];
 }

@@ -166,7 +166,7 @@ function Title({ shell, selection }: SelectionProps): JSX.Element {
 }
 
 /** The file with its folder, and the line; the whole path is in the tooltip. */
-export function shortSource(source: string): string {
+function shortSource(source: string): string {
   return source.split("/").slice(-2).join("/");
 }
 

@@ -6,7 +6,7 @@ import type { PointCloud2, PointField } from "../../protocol/generated/ros_messa
 const SIZES: readonly number[] = [0, 1, 1, 2, 2, 4, 4, 4, 8];
 export const UINT32 = 6;
 export const FLOAT32 = 7;
-export const FLOAT64 = 8;
+const FLOAT64 = 8;
 /** WebGL's greatest stride is 255 bytes; strides here are multiples of 4. */
 const MAX_STRIDE = 252;
 

@@ -16,7 +16,7 @@ import { ShapeMaterial } from "../../shapes/shape_material";
 import { loadMesh, type LoadedMesh } from "./mesh_formats";
 
 /** A copy of a mesh to be coloured on its own. */
-export interface MeshCopy {
+interface MeshCopy {
   readonly object: Object3D;
   readonly materials: readonly ShapeMaterial[];
   readonly hasMaterials: boolean;
@@ -51,7 +51,7 @@ class MeshLibrary {
 }
 
 /** The object's meshes in their places, without its lights, cameras and lines. */
-export function copyMeshes(object: Object3D): {
+function copyMeshes(object: Object3D): {
   readonly object: Object3D;
   readonly materials: readonly ShapeMaterial[];
 } {

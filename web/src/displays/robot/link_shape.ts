@@ -163,6 +163,6 @@ function solid(geometry: Exclude<Geometry, { kind: "mesh" }>, material: ShapeMat
 }
 
 /** Rotation about the fixed axes x, y, z in this order. */
-export function orientation([roll, pitch, yaw]: readonly [number, number, number]): Quaternion {
+function orientation([roll, pitch, yaw]: readonly [number, number, number]): Quaternion {
   return new Quaternion().setFromEuler(new Euler(roll, pitch, yaw, "ZYX"));
 }

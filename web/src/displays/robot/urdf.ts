@@ -1,8 +1,8 @@
 /** A robot's links, joints and materials as its URDF says. */
 
-export type Triple = readonly [number, number, number];
+type Triple = readonly [number, number, number];
 
-export interface Origin {
+interface Origin {
   readonly xyz: Triple;
   /** Roll, pitch, yaw about fixed axes [rad]. */
   readonly rpy: Triple;

@@ -7,7 +7,7 @@ import type { Label, SceneView } from "../../scene/scene_view";
 import { BoolProperty, GroupProperty, Property, type Yaml } from "../../rviz/properties";
 
 /** A text that is shown and not saved. */
-export class ReadOut extends Property<string> {
+class ReadOut extends Property<string> {
   readonly kind = "text";
   constructor(name: string) {
     super(name, "", { readOnly: true });

@@ -7,13 +7,13 @@ import { isWatcher } from "../../protocol/watchers";
 export type GraphView = "Nodes only" | "Nodes/Topics (active)" | "Nodes/Topics (all)";
 export const GRAPH_VIEWS: readonly GraphView[] = ["Nodes only", "Nodes/Topics (active)", "Nodes/Topics (all)"];
 
-export interface Vertex {
+interface Vertex {
   readonly id: string;
   readonly kind: "node" | "topic";
   readonly name: string;
 }
 
-export interface Edge {
+interface Edge {
   readonly from: string;
   readonly to: string;
   /** Topics that it stands for; one, unless only nodes are shown. */

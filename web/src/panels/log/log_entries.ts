@@ -56,7 +56,7 @@ export function filtered(entries: readonly LogEntry[], filter: LogFilter): reado
 }
 
 /** A test for a part of a text in any case, or for `/expression/`. */
-export function textMatcher(wanted: string): (text: string) => boolean {
+function textMatcher(wanted: string): (text: string) => boolean {
   const expression = /^\/(.+)\/$/.exec(wanted.trim())?.[1];
   if (expression !== undefined) {
     try {

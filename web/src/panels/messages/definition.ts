@@ -12,7 +12,7 @@ export interface Field {
   readonly length: number | null;
 }
 
-export interface Constant {
+interface Constant {
   readonly name: string;
   readonly type: string;
   readonly text: string;

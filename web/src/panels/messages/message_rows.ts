@@ -103,7 +103,7 @@ export function valueText(value: RosValue): string {
 }
 
 /** A std_msgs/Header, which stays closed: its stamp and frame stand in its own row. */
-export function isHeader(value: RosValue): value is RosMessage {
+function isHeader(value: RosValue): value is RosMessage {
   return isMessage(value) && "seq" in value && "stamp" in value && "frame_id" in value;
 }
 

@@ -8,7 +8,7 @@ import type { Profile, ProfilePart } from "../../protocol/generated/page_message
 import { perPage } from "../per_page";
 
 export type Group = ProfilePart["group"];
-export const GROUPS: readonly Group[] = ["physics", "cameras", "sensors", "plugins", "ros", "page", "other", "waiting"];
+const GROUPS: readonly Group[] = ["physics", "cameras", "sensors", "plugins", "ros", "page", "other", "waiting"];
 
 export const GROUP_NAMES: Readonly<Record<Group, string>> = {
   physics: "Physics",
@@ -32,7 +32,7 @@ export interface Row extends ProfilePart {
 /** Profiles of which the real-time factor is drawn. */
 const KEPT = 120;
 
-export class PerformanceState {
+class PerformanceState {
   readonly profile = signal<Profile | null>(null);
   /** Real-time factors, the newest last. */
   readonly factors = signal<readonly number[]>([]);

@@ -13,7 +13,7 @@ import { sentence } from "../use";
 const HEADER = 12;
 const NUMBER = 8; // bytes
 
-export interface SeriesListener {
+interface SeriesListener {
   /** Time [s]. */
   readonly onValue: (time: number, value: number) => void;
   readonly onUnit: (unit: string) => void;
@@ -21,7 +21,7 @@ export interface SeriesListener {
 }
 
 /** Rows of a message: times and values as the names of its head stand; null: it is cut short. Throws a `MessageFault`. */
-export function readSeries(
+function readSeries(
   payload: DataView,
 ): { readonly first: number; readonly head: SeriesHead; readonly rows: readonly Float64Array[] } | null {
   if (payload.byteLength < HEADER) return null;
@@ -39,7 +39,7 @@ export function readSeries(
   return { first: Number(payload.getBigUint64(0, true)), head, rows };
 }
 
-export class SeriesFeed {
+class SeriesFeed {
   private readonly listeners = new Map<string, Set<SeriesListener>>();
   private subscription: Subscription | null = null;
   /** Number of the first row that has not come. */

@@ -41,10 +41,3 @@ export function simulatedJoint(
   const joint = movingJoints(manifest).find(({ name }) => name === path.slice(0, dot));
   return field === undefined || joint === undefined ? null : { index: joint.index, field };
 }
-
-/** Unit of a joint's field: a slider's are metres, a hinge's radians. */
-export function jointUnit(type: string, field: JointField): string {
-  const isLinear = type === "prismatic";
-  if (field === "effort") return isLinear ? "N" : "N·m";
-  return `${isLinear ? "m" : "rad"}${field === "velocity" ? "/s" : ""}`;
-}

@@ -6,7 +6,7 @@ import { parseLiteral } from "./python_literal";
 
 export type OptionValue = number | boolean | string;
 
-export interface Choice {
+interface Choice {
   readonly name: string;
   readonly value: OptionValue;
   readonly description: string;

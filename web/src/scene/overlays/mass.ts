@@ -32,7 +32,7 @@ export function drawCentre({ mass, inertial_pose }: LinkInfo): Object3D {
 }
 
 /** Sides [m] of the box of even density with these moments about its principal axes [kg m²]. */
-export function equivalentBox(mass: number, [x, y, z]: readonly [number, number, number]): [number, number, number] {
+function equivalentBox(mass: number, [x, y, z]: readonly [number, number, number]): [number, number, number] {
   const side = (squared: number): number => Math.max(SMALLEST.side, Math.sqrt(Math.max(0, (6 * squared) / mass)));
   return [side(y + z - x), side(x + z - y), side(x + y - z)];
 }
