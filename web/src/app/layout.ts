@@ -2,7 +2,7 @@
 
 import { computed, effect, signal, type Signal } from "@preact/signals";
 
-import type { Insets } from "../scene/scene_view";
+import type { Insets } from "../scene/free_area";
 import { isBoolean, isNumber, isOneOf, recall, remember } from "../page/storage";
 
 const LEFT = ["world", "displays", "insert"] as const;

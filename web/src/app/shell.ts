@@ -8,28 +8,16 @@ import { ModelEditor } from "./editor/model_editor";
 import type { PaneLayout } from "../scene/panes/pane_layout";
 import { cameraTopics } from "./cameras/topics";
 import { CommandList } from "./commands";
+import type { OpenDialog } from "./dialogs/open_dialog";
 import { DockSlot } from "./dock_slot";
 import { Insertion } from "./insert/insertion";
 import { Layout } from "./layout";
 import { Notices } from "./notices/notices";
-import type { OpenMenu } from "./object_menu/object_menu";
+import type { OpenMenu } from "./object_menu/open_menu";
 import type { Page } from "../page/page";
-import { recallSplit } from "./panes/split";
+import { recallSplit } from "./panes/recalled_split";
 import { isBoolean, recall, remember } from "../page/storage";
 import { Videos } from "./video/videos";
-
-export type Dialog =
-  | "palette"
-  | "help"
-  | "notices"
-  | "save"
-  | "save_world"
-  | "save_model"
-  | "picture"
-  | "link"
-  | "upload"
-  | "time"
-  | null;
 
 /** An .rviz file that is shown. */
 export interface RvizFileInfo {
@@ -42,7 +30,7 @@ export class Shell {
   readonly layout: Layout;
   readonly notices: Notices;
   readonly dock: DockSlot;
-  readonly dialog = signal<Dialog>(null);
+  readonly dialog = signal<OpenDialog>(null);
   /** How the scene is split where there is room. */
   readonly split: Signal<PaneLayout>;
   /** The menu of a thing in scene or tree; null: none is open. */

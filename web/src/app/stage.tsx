@@ -6,7 +6,7 @@ import { CameraTiles } from "./cameras/tiles";
 import { DriveView } from "./drive/view";
 import { NoticeLine } from "./notices/line";
 import { SceneNotes } from "./notices/scene_notes";
-import { SplitMenu } from "./panes/split";
+import { SplitMenu } from "./panes/split_menu";
 import type { Shell } from "./shell";
 import { ToolBar } from "./tool_bar";
 import { VideoNotes } from "./video/video_note";

@@ -3,7 +3,8 @@
 import { computed, effect, signal } from "@preact/signals";
 
 import { isWatcher } from "../protocol/watchers";
-import type { Page } from "./page";
+import type { Connection } from "../protocol/connection";
+import type { PageSession } from "../protocol/generated/page_messages";
 import { isNumber, recall, remember } from "./storage";
 
 const PERIOD = 100; // ms
@@ -55,7 +56,7 @@ export class Drive {
     return { linear: sum("linear") * this.linearLimit.value, angular: sum("angular") * this.angularLimit.value };
   });
 
-  constructor(private readonly page: Pick<Page, "connection" | "session">) {
+  constructor(private readonly page: { readonly connection: Connection; readonly session: PageSession }) {
     const key = page.session.robot ?? page.session.title;
     this.linearLimit = signal(recall(`drive.${key}.linear`, 0.5, isNumber));
     this.angularLimit = signal(recall(`drive.${key}.angular`, 1, isNumber));

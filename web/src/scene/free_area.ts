@@ -2,7 +2,13 @@
 
 import type { OrthographicCamera, PerspectiveCamera } from "three";
 
-import type { Insets } from "./scene_view";
+/** Widths of the canvas' edges that panels cover [px]. */
+export interface Insets {
+  readonly left: number;
+  readonly right: number;
+  readonly top: number;
+  readonly bottom: number;
+}
 
 export interface Area {
   readonly left: number;

@@ -12,7 +12,7 @@ import type {
   WebGLRenderer,
 } from "three";
 
-import type { Area } from "./free_area";
+import type { Area, Insets } from "./free_area";
 
 /** What a pointer met. */
 export interface Pick {
@@ -70,14 +70,6 @@ export interface PictureBox {
   readonly left: number;
   readonly top: number;
   readonly right: number;
-  readonly bottom: number;
-}
-
-/** Widths of the canvas' edges that panels cover [px]. */
-export interface Insets {
-  readonly left: number;
-  readonly right: number;
-  readonly top: number;
   readonly bottom: number;
 }
 

@@ -16,7 +16,7 @@ import {
 } from "three";
 
 import { drawingCanvas, pixelRatio } from "./drawing_canvas";
-import { NO_INSETS, type Area } from "./free_area";
+import { NO_INSETS, type Area, type Insets } from "./free_area";
 import { GroundGrid } from "./ground_grid";
 import { LabelSet } from "./label_layer";
 import { OffscreenPicture } from "./offscreen_picture";
@@ -25,7 +25,7 @@ import type { Pane } from "./panes/pane";
 import { panePlaces, type PanePlace } from "./panes/pane_layout";
 import { ScenePanes } from "./panes/scene_panes";
 import { Picker, type PictureSize } from "./picking";
-import type { DrawStep, Insets, Label, Pick, PictureBox, SceneStatus, SceneView } from "./scene_view";
+import type { DrawStep, Label, Pick, PictureBox, SceneStatus, SceneView } from "./scene_view";
 
 const NO_WEBGL =
   "This browser has no WebGL 2, so there is no 3D view. Turn on hardware acceleration, or use another browser.";

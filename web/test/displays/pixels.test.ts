@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 
-import { readPixels, type Normalization, type Pixels, type RawImage } from "../../src/displays/pictures/pixels";
+import { readPixels, type Normalization, type Pixels } from "../../src/displays/pictures/pixels";
+import type { RawImage } from "../../src/displays/pictures/raw_image";
 
 const AUTOMATIC: Normalization = { isAutomatic: true, min: 0, max: 1, window: 5 };
 

@@ -8,7 +8,7 @@ import { expect, test } from "vitest";
 import type { Transform } from "../../src/frames/transform";
 import { LabelSet } from "../../src/scene/label_layer";
 import { ScenePanes } from "../../src/scene/panes/scene_panes";
-import type { Insets } from "../../src/scene/scene_view";
+import type { Insets } from "../../src/scene/free_area";
 import { ViewList, type ViewScene } from "../../src/scene/views/view_list";
 
 function setUp(isReduced = false) {

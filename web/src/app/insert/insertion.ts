@@ -6,10 +6,8 @@ import type { Vector3 } from "three";
 import type { Answer } from "../../protocol/connection";
 import type { ModelEntry } from "../../protocol/generated/page_messages";
 import type { Insertable } from "../../page/insertable";
-import type { Command, Selection } from "../../page/page";
-import type { Shell } from "../shell";
-import { ModelUpload } from "./model_upload";
-import { canEdit } from "../world/edits";
+import type { Page, Selection } from "../../page/page";
+import { ModelUpload, type UploadContext } from "./model_upload";
 import { findModel } from "../../page/selection_lookup";
 
 /** Code that a model would run, of which a person is asked. */
@@ -19,25 +17,31 @@ export interface AskedCode {
   readonly agree: () => void;
 }
 
+/** Parts of the page that insertions use. */
+export interface InsertionContext extends UploadContext {
+  readonly page: Page;
+}
+
 export class Insertion {
   /** Null before the server has answered. */
   readonly models = signal<readonly ModelEntry[] | null>(null);
   readonly asked = signal<AskedCode | null>(null);
   readonly upload: ModelUpload;
 
-  constructor(private readonly shell: Shell) {
-    this.upload = new ModelUpload(shell);
-    const { insert, current } = shell.page.tools;
+  constructor(private readonly context: InsertionContext) {
+    const { page, layout } = context;
+    this.upload = new ModelUpload(context, () => this.list());
+    const { insert, current } = page.tools;
     if (insert === null) return;
     insert.onPlace = (thing, point) => this.place(thing, point);
     effect(() => {
-      if (current.value === insert && insert.chosen.value === null) shell.layout.open("insert");
+      if (current.value === insert && insert.chosen.value === null) layout.open("insert");
     });
   }
 
   /** Ask for the models that can be inserted, which may have changed. */
   list(): void {
-    this.shell.page.connection.request("models", {}).then(
+    this.context.page.connection.request("models", {}).then(
       ({ models }) => (this.models.value = models),
       (error: unknown) => this.report("Models", error),
     );
@@ -45,19 +49,19 @@ export class Insertion {
 
   /** Have something follow the pointer. */
   choose(thing: Insertable): void {
-    const { layout, page } = this.shell;
+    const { layout, page } = this.context;
     page.tools.insert?.choose(thing);
     page.tools.use("trundle/Insert");
     if (layout.isPhone.peek()) layout.sheetHeight.value = "closed";
   }
 
   private place(thing: Insertable, point: Vector3, consent: string | null = null): void {
-    void this.shell.page.undo.ask(this.insert(thing, point, consent));
+    void this.context.page.undo.ask(this.insert(thing, point, consent));
   }
 
   private async insert(thing: Insertable, point: Vector3, consent: string | null): Promise<void> {
     const position = point.toArray();
-    const { connection } = this.shell.page;
+    const { connection } = this.context.page;
     try {
       const answer: Answer<"insert" | "insert_light"> =
         thing.kind === "light"
@@ -81,50 +85,32 @@ export class Insertion {
   private record(thing: Insertable, name: string): void {
     const isLight = thing.kind === "light";
     const title = `Insert ${name}`;
-    const ask = (request: "restore" | "delete") => (): void =>
-      isLight
-        ? this.shell.request(title, `${request}_light`, { light: name })
-        : this.shell.request(title, request, { model: name });
-    this.shell.page.undo.record(title, ask("restore"), ask("delete"));
-    selectOnceThere(this.shell, isLight ? { kind: "light", light: name } : { kind: "model", model: name });
+    const { connection, undo } = this.context.page;
+    const send = (request: "restore" | "delete") => (): void => {
+      const result = isLight
+        ? connection.request(`${request}_light`, { light: name })
+        : connection.request(request, { model: name });
+      result.catch((error: unknown) => this.report(title, error));
+    };
+    undo.record(title, send("restore"), send("delete"));
+    selectOnceAdded(this.context.page, isLight ? { kind: "light", light: name } : { kind: "model", model: name });
   }
 
   private report(title: string, error: unknown): void {
-    this.shell.notices.report(title, error instanceof Error ? error.message : String(error));
+    this.context.notices.report(title, error instanceof Error ? error.message : String(error));
   }
 }
 
 /** Select a model or a light once the page knows of it. */
-export function selectOnceThere({ page }: Shell, selection: Extract<Selection, { kind: "model" | "light" }>): void {
+export function selectOnceAdded(page: Page, selection: Extract<Selection, { kind: "model" | "light" }>): void {
   const stop = effect(() => {
     const lights = page.world.manifest.value?.lights ?? [];
-    const isThere =
+    const isAdded =
       selection.kind === "model"
         ? findModel(page, selection.model) !== null
         : lights.some(({ name }) => name === selection.light);
-    if (!isThere) return;
+    if (!isAdded) return;
     page.selection.value = selection;
     queueMicrotask(() => stop());
   });
-}
-
-/** Keys while something follows the pointer. */
-export function insertionCommands(shell: Shell): readonly Command[] {
-  const { insert } = shell.page.tools;
-  if (insert === null || !canEdit(shell)) return [];
-  const command = (id: string, title: string, keys: string, run: () => void): Command => ({
-    id,
-    title,
-    group: "Tools",
-    keys,
-    enabled: () => insert.chosen.peek() !== null,
-    run,
-  });
-  return [
-    { id: "upload_model", title: "Upload a model", group: "Simulation", run: () => shell.insertion.upload.open() },
-    command("insert.place", "Put what is being inserted into the middle of the view", "Enter", () =>
-      insert.placeInMiddle(),
-    ),
-    command("insert.leave", "Insert nothing", "Escape", () => shell.page.tools.use("rviz/Interact")),
-  ];
 }

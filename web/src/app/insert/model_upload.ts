@@ -1,10 +1,19 @@
 /** The upload of a model, after which it is among those to insert. */
 
-import { signal } from "@preact/signals";
+import { signal, type Signal } from "@preact/signals";
 
 import { sentence } from "../../panels/use";
-import type { Shell } from "../shell";
+import type { Layout } from "../layout";
+import type { OpenDialog } from "../dialogs/open_dialog";
+import type { Notices } from "../notices/notices";
 import { sendModel, titleOf, type ModelFile } from "./model_files";
+
+/** Parts of the page that an upload uses. */
+export interface UploadContext {
+  readonly layout: Layout;
+  readonly notices: Notices;
+  readonly dialog: Signal<OpenDialog>;
+}
 
 export class ModelUpload {
   /** What is being sent; null: nothing is. */
@@ -17,11 +26,14 @@ export class ModelUpload {
 
   private aborter = new AbortController();
 
-  constructor(private readonly shell: Shell) {}
+  constructor(
+    private readonly context: UploadContext,
+    private readonly listModels: () => void,
+  ) {}
 
   open(): void {
     this.fault.value = "";
-    this.shell.dialog.value = "upload";
+    this.context.dialog.value = "upload";
   }
 
   cancel(): void {
@@ -51,11 +63,11 @@ export class ModelUpload {
   }
 
   private end(names: readonly string[]): void {
-    const { dialog, insertion, layout, notices } = this.shell;
+    const { dialog, layout, notices } = this.context;
     this.count.value += 1;
     dialog.value = null;
     notices.report("Models", `${names.join(", ")} can be inserted`, "ok");
     layout.open("insert");
-    insertion.list();
+    this.listModels();
   }
 }

@@ -3,7 +3,7 @@
 import { Vector3, type Box3 } from "three";
 
 import type { ModelInfo } from "../../protocol/generated/page_messages";
-import { selectOnceThere } from "../insert/insertion";
+import { selectOnceAdded } from "../insert/insertion";
 import type { Request } from "../../protocol/connection";
 import type { Command, Page, Selection } from "../../page/page";
 import type { Shell } from "../shell";
@@ -37,7 +37,7 @@ export function copyModel(shell: Shell, model: string, at: Vector3 | null = null
   const remove: Request = { request: "delete", fields: { model: name } };
   const restore: Request = { request: "restore", fields: { model: name } }; // the copy, with what became of it
   void change(shell, `Copy of ${outer.name}`, copy, remove, restore).then((isDone) => {
-    if (isDone) selectOnceThere(shell, { kind: "model", model: name });
+    if (isDone) selectOnceAdded(page, { kind: "model", model: name });
   });
 }
 

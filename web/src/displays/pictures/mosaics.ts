@@ -1,6 +1,6 @@
 /** Images whose pixels share colours: Bayer mosaics and YUV 4:2:2. */
 
-import type { RawImage } from "./pixels";
+import type { RawImage } from "./raw_image";
 
 /** Place of the red pixel in a cell of 2 × 2. */
 const RED: Readonly<Record<string, readonly [x: number, y: number]>> = {

@@ -1,6 +1,7 @@
 /** Worker that turns images into bitmaps, so that no picture holds the page up. */
 
-import { readPixels, type Normalization, type RangeHistory, type RawImage } from "./pixels";
+import { readPixels, type Normalization, type RangeHistory } from "./pixels";
+import type { RawImage } from "./raw_image";
 
 export interface PictureRequest {
   readonly id: number;

@@ -1,16 +1,7 @@
 /** Pixels of sensor_msgs/Image as RGBA, as rviz shows them; runs in a worker. */
 
 import { demosaic, isBayer, unpackYuv } from "./mosaics";
-
-/** What of an image its pixels depend on. */
-export interface RawImage {
-  readonly width: number;
-  readonly height: number;
-  readonly encoding: string;
-  readonly is_bigendian: number;
-  readonly step: number;
-  readonly data: Uint8Array;
-}
+import type { RawImage } from "./raw_image";
 
 /** How numbers become grey: by the image's own range, with the median of the last ones, or by a fixed one. */
 export interface Normalization {

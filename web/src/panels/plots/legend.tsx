@@ -8,7 +8,8 @@ import { fixed } from "../../theme/format";
 import { significant } from "../messages/format";
 import { useTick } from "../use";
 import type { Curve } from "./curve";
-import type { Plot, PlotsState } from "./plots_state";
+import type { Plot } from "./plot";
+import type { PlotsState } from "./plots_state";
 import { COLOURS, isDashed } from "./style";
 
 const PERIOD = 200; // ms

@@ -7,8 +7,8 @@ import "uplot/dist/uPlot.min.css";
 
 import { significant, timeText } from "../messages/format";
 import type { Curve } from "./curve";
-import { paddedRange } from "./padded_range";
-import type { PlotsState, Range } from "./plots_state";
+import { paddedRange, type Range } from "./plot";
+import type { PlotsState } from "./plots_state";
 import { COLOURS, isDashed } from "./style";
 
 interface PlotCanvasProps {

@@ -7,19 +7,13 @@ import { forEachNew } from "../../page/session";
 import { perPage } from "../per_page";
 import { Curve } from "./curve";
 import { csvText, type CsvColumn } from "./csv";
+import type { Plot, Range } from "./plot";
 import { svgText } from "./svg";
 
 export const WINDOWS = [5, 10, 30, 60, 120] as const; // s
 
 /** By which the clock and the points may differ [s]. */
 const LAG = 0.005;
-
-export interface Plot {
-  readonly id: number;
-  readonly curves: readonly Curve[];
-}
-
-export type Range = readonly [number, number];
 
 export class PlotsState {
   readonly plots = signal<readonly Plot[]>([{ id: 0, curves: [] }]);

@@ -1,8 +1,7 @@
 /** Plots as an SVG picture on white, for papers and reports. */
 
 import { significant, timeText } from "../messages/format";
-import { paddedRange } from "./padded_range";
-import type { Plot, Range } from "./plots_state";
+import { paddedRange, type Plot, type Range } from "./plot";
 import { isDashed } from "./style";
 
 const WIDTH = 800;

@@ -1,8 +1,20 @@
-/** Stretches of simulated time in which something went on, as a drive or a recording. */
+/** Intervals of simulated time. */
+
+/** Interval that the timeline shows. */
+export interface Span {
+  /** [s] */
+  readonly start: number;
+  readonly end: number;
+  /** Up to here something is known; what follows is the future of a simulation. */
+  readonly known: number;
+  /** Whether one can go to a time. */
+  readonly isSeekable: boolean;
+}
 
 /** Most that are kept; the oldest go. */
 const MOST = 200;
 
+/** Intervals in which something went on, as a drive or a recording. */
 export class Intervals {
   private kept: [number, number][] = [];
   private isOn = false;

@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 
 import type { PairStretches } from "./contact_times";
-import type { Span } from "./timeline_state";
+import type { Span } from "./intervals";
 
 export interface ShareProps {
   readonly span: Span;

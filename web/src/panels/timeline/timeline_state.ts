@@ -9,7 +9,7 @@ import type { Fields, Subscription } from "../../protocol/connection";
 import { perPage } from "../per_page";
 import { sentence } from "../use";
 import { ContactTimes, touchingPairs } from "./contact_times";
-import { Intervals } from "./intervals";
+import { Intervals, type Span } from "./intervals";
 import { TopicTimes } from "./topic_times";
 
 export interface Mark {
@@ -17,16 +17,6 @@ export interface Mark {
   /** [s] */
   readonly time: number;
   readonly name: string;
-}
-
-export interface Span {
-  /** [s] */
-  readonly start: number;
-  readonly end: number;
-  /** Up to here something is known; what follows is the future of a simulation. */
-  readonly known: number;
-  /** Whether one can go to a time. */
-  readonly isSeekable: boolean;
 }
 
 const FUTURE = 1.2;

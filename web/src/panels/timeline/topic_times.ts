@@ -4,7 +4,7 @@ import { signal } from "@preact/signals";
 
 import type { Connection } from "../../protocol/connection";
 import type { Lanes } from "../../protocol/generated/page_messages";
-import type { Span } from "./timeline_state";
+import type { Span } from "./intervals";
 
 /** A topic's messages over time. */
 export interface TopicStretches {

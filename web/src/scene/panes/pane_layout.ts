@@ -1,7 +1,6 @@
 /** How the scene is split into panes, each with a view of its own. */
 
-import { freeArea, type Area } from "../free_area";
-import type { Insets } from "../scene_view";
+import { freeArea, type Area, type Insets } from "../free_area";
 
 export const PANE_LAYOUTS = ["one", "beside", "stacked", "four"] as const;
 export type PaneLayout = (typeof PANE_LAYOUTS)[number];

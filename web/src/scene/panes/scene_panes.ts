@@ -3,7 +3,7 @@
 import { computed, effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
 
 import type { LabelSet } from "../label_layer";
-import type { Insets } from "../scene_view";
+import type { Insets } from "../free_area";
 import { Pane } from "./pane";
 import { isInside, paneCount, panePlaces, type PaneLayout, type PanePlace } from "./pane_layout";
 

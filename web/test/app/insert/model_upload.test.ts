@@ -2,13 +2,12 @@
 
 import { describe, expect, it } from "vitest";
 
-import { ModelUpload } from "../../../src/app/insert/model_upload";
+import { ModelUpload, type UploadContext } from "../../../src/app/insert/model_upload";
 import type { ModelFile } from "../../../src/app/insert/model_files";
-import type { Shell } from "../../../src/app/shell";
 
 describe("an upload", () => {
   it("that is cancelled while its folders are read is not sent", async () => {
-    const upload = new ModelUpload({} as unknown as Shell);
+    const upload = new ModelUpload({} as UploadContext, () => undefined);
     const files = [{ path: "wagon/model.sdf", file: new File(["<sdf/>"], "model.sdf") }];
     const sent = upload.send(new Promise<readonly ModelFile[]>((resolve) => setTimeout(() => resolve(files), 1)));
     upload.cancel();

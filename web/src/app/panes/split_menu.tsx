@@ -1,14 +1,12 @@
-/** How the scene is split: chosen in a menu or by commands, remembered; a phone has one pane. */
+/** Menu and commands that split the scene. */
 
-import { effect, signal, type Signal } from "@preact/signals";
 import type { JSX } from "preact";
 
 import { PANE_LAYOUTS, type PaneLayout } from "../../scene/panes/pane_layout";
 import { MenuButton } from "../../theme/menu";
-import type { Command, Page } from "../../page/page";
-import type { Layout } from "../layout";
+import type { Command } from "../../page/page";
 import type { Shell } from "../shell";
-import { isOneOf, recall, remember } from "../../page/storage";
+import { chooseSplit } from "./recalled_split";
 
 const TITLES: Readonly<Record<PaneLayout, string>> = {
   one: "One view",
@@ -16,24 +14,6 @@ const TITLES: Readonly<Record<PaneLayout, string>> = {
   stacked: "Two views, stacked",
   four: "Four views",
 };
-
-/** The remembered layout, which the scene has unless the page is a phone's. */
-export function recallSplit({ views }: Pick<Page, "views">, layout: Layout): Signal<PaneLayout> {
-  const split = signal(recall<PaneLayout>("split", "one", isOneOf(...PANE_LAYOUTS)));
-  views.onFileLayout = (asked) => {
-    split.value = asked;
-  };
-  effect(() => {
-    views.layout.value = layout.isPhone.value ? "one" : split.value;
-  });
-  return split;
-}
-
-/** Split the scene as a person chooses, which is remembered; what a link shows is not. */
-export function chooseSplit(split: Signal<PaneLayout>, layout: PaneLayout): void {
-  split.value = layout;
-  remember("split", layout);
-}
 
 export function SplitMenu({ shell }: { readonly shell: Shell }): JSX.Element {
   const items = (): ReturnType<Parameters<typeof MenuButton>[0]["items"]> =>

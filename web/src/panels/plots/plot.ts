@@ -1,6 +1,13 @@
-/** Range of an axis. */
+/** A plot: its curves, and the ranges of its axes. */
 
-import type { Range } from "./plots_state";
+import type { Curve } from "./curve";
+
+export interface Plot {
+  readonly id: number;
+  readonly curves: readonly Curve[];
+}
+
+export type Range = readonly [number, number];
 
 /** Range of values with a tenth of room above and below. */
 export function paddedRange(values: readonly Float64Array[]): Range {

@@ -1,0 +1,13 @@
+/** Dialog that is open; null: none. */
+export type OpenDialog =
+  | "palette"
+  | "help"
+  | "notices"
+  | "save"
+  | "save_world"
+  | "save_model"
+  | "picture"
+  | "link"
+  | "upload"
+  | "time"
+  | null;

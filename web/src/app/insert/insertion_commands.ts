@@ -1,0 +1,26 @@
+/** Commands that insert a model, a light or a shape. */
+
+import type { Command } from "../../page/page";
+import type { Shell } from "../shell";
+import { canEdit } from "../world/edits";
+
+/** Keys while something follows the pointer. */
+export function insertionCommands(shell: Shell): readonly Command[] {
+  const { insert } = shell.page.tools;
+  if (insert === null || !canEdit(shell)) return [];
+  const command = (id: string, title: string, keys: string, run: () => void): Command => ({
+    id,
+    title,
+    group: "Tools",
+    keys,
+    enabled: () => insert.chosen.peek() !== null,
+    run,
+  });
+  return [
+    { id: "upload_model", title: "Upload a model", group: "Simulation", run: () => shell.insertion.upload.open() },
+    command("insert.place", "Put what is being inserted into the middle of the view", "Enter", () =>
+      insert.placeInMiddle(),
+    ),
+    command("insert.leave", "Insert nothing", "Escape", () => shell.page.tools.use("rviz/Interact")),
+  ];
+}
