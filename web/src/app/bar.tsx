@@ -11,7 +11,7 @@ import type { MenuItem } from "../theme/menu_list";
 import { StatusShape } from "../theme/status_shape";
 import { Clock } from "./clock";
 import { canControl, LOOKS_ONLY } from "../page/looking";
-import { colourOf, nameOf } from "../page/people";
+import { colorOf, nameOf } from "../page/people";
 import { simulates } from "./simulation_commands";
 import type { Shell } from "./shell";
 import { switchTheme } from "./theme";
@@ -135,7 +135,7 @@ function PeopleHere({ shell }: { readonly shell: Shell }): JSX.Element | null {
     people.map((person) => ({
       title: person.number === you ? `${nameOf(person)}, you` : nameOf(person),
       ...(person.view_only ? { detail: "looks only" } : {}),
-      colour: colourOf(person),
+      color: colorOf(person),
       disabled: person.selection === null || person.number === you,
       run: () => (shell.page.selection.value = person.selection),
     }));

@@ -114,7 +114,7 @@ export function boot(root: HTMLElement, json: string): void {
   effect(() => {
     scene.element.style.cursor = tools.current.value.cursor;
   });
-  new SelectionOutline(scene, world, () => [...othersOutlines(page), { ...outlinedBodies(page), colour: "--accent" }]);
+  new SelectionOutline(scene, world, () => [...othersOutlines(page), { ...outlinedBodies(page), color: "--accent" }]);
   labelOthers(page);
   const modelsOf = ({ models }: Manifest): readonly ScopedModel[] => allModels(models);
   new BodyOverlays(scene, world, modelsOf);

@@ -1,16 +1,16 @@
-/** What the others have selected, in the scene: an outline in their colour, and their name. */
+/** What the others have selected, in the scene: an outline in their color, and their name. */
 
 import { effect, untracked } from "@preact/signals";
 
 import type { Outlined } from "../scene/world/selection_outline";
 import type { Page } from "../page/page";
-import { colourOf, nameOf, others } from "../page/people";
+import { colorOf, nameOf, others } from "../page/people";
 import { selectedBodies } from "../page/selection_lookup";
 
 /** An outline for each of the others who has selected something. */
 export function othersOutlines(page: Page): readonly Outlined[] {
   return others(page.people.value)
-    .map((person): Outlined => ({ thin: selectedBodies(page, person.selection), broad: [], colour: colourOf(person) }))
+    .map((person): Outlined => ({ thin: selectedBodies(page, person.selection), broad: [], color: colorOf(person) }))
     .filter(({ thin }) => thin.length > 0);
 }
 
@@ -24,7 +24,7 @@ export function labelOthers(page: Page): void {
       return anchor === null ? [] : [{ anchor, person }];
     });
     const labels = untracked(() =>
-      shown.map(({ anchor, person }) => page.scene.addLabel(anchor, nameOf(person), colourOf(person))),
+      shown.map(({ anchor, person }) => page.scene.addLabel(anchor, nameOf(person), colorOf(person))),
     );
     return () => labels.forEach((label) => label.remove());
   });

@@ -40,9 +40,9 @@ export function startDisplays(shell: Shell): void {
   if (session.fixed_frame !== null) displays.fixedFrameSetting.value = session.fixed_frame;
   followSession(shell);
   effect(() => {
-    const colour = displays.backgroundColor.value.value;
+    const color = displays.backgroundColor.value.value;
     if (world.manifest.value !== null) return; // the world has a background of its own
-    scene.background.value = `rgb(${colour.join(", ")})`;
+    scene.background.value = `rgb(${color.join(", ")})`;
     scene.grid.value = false;
     scene.invalidate();
   });

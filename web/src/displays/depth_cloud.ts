@@ -1,4 +1,4 @@
-/** rviz/DepthCloud: points of a depth image, in the colours of another image. */
+/** rviz/DepthCloud: points of a depth image, in the colors of another image. */
 
 import { computed, effect, untracked } from "@preact/signals";
 
@@ -207,7 +207,7 @@ export class DepthCloudDisplay extends Display {
     this.setStatus("Points", "ok", this.common.status);
   }
 
-  /** The colour image nearest in time. */
+  /** The color image nearest in time. */
   private nearestColor({ header }: Image): Image | null {
     let best: Image | null = null;
     let least = MOST_APART;

@@ -1,4 +1,4 @@
-/** rviz/FluidPressure: a point at the sensor whose colour is the pressure [Pa]. */
+/** rviz/FluidPressure: a point at the sensor whose color is the pressure [Pa]. */
 
 import type { FluidPressure } from "../protocol/generated/ros_messages";
 import { cloudOf, type Cloud } from "./clouds/cloud";
@@ -6,7 +6,7 @@ import { CloudDisplay } from "./clouds/cloud_display";
 import { register } from "./registry";
 
 const TYPES = ["sensor_msgs/FluidPressure"];
-/** Colours go from low to high pressure of the air. */
+/** Colors go from low to high pressure of the air. */
 const CHANNEL = { channel: "fluid_pressure", min: 98000, max: 105000, invert: false };
 
 class FluidPressureDisplay extends CloudDisplay<FluidPressure> {

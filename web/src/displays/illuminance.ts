@@ -1,4 +1,4 @@
-/** rviz/Illuminance: a point at the sensor whose colour is the illuminance [lux]. */
+/** rviz/Illuminance: a point at the sensor whose color is the illuminance [lux]. */
 
 import type { Illuminance } from "../protocol/generated/ros_messages";
 import { cloudOf, type Cloud } from "./clouds/cloud";
@@ -6,7 +6,7 @@ import { CloudDisplay } from "./clouds/cloud_display";
 import { register } from "./registry";
 
 const TYPES = ["sensor_msgs/Illuminance"];
-/** Colours go from dark to the light of an overcast day. */
+/** Colors go from dark to the light of an overcast day. */
 const CHANNEL = { channel: "illuminance", min: 0, max: 1000, invert: false };
 
 class IlluminanceDisplay extends CloudDisplay<Illuminance> {

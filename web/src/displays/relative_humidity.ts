@@ -1,4 +1,4 @@
-/** rviz/RelativeHumidity: a point at the sensor whose colour is the relative humidity, 0…1. */
+/** rviz/RelativeHumidity: a point at the sensor whose color is the relative humidity, 0…1. */
 
 import type { RelativeHumidity } from "../protocol/generated/ros_messages";
 import { cloudOf, type Cloud } from "./clouds/cloud";
@@ -6,7 +6,7 @@ import { CloudDisplay } from "./clouds/cloud_display";
 import { register } from "./registry";
 
 const TYPES = ["sensor_msgs/RelativeHumidity"];
-/** Colours go from dry to saturated air. */
+/** Colors go from dry to saturated air. */
 const CHANNEL = { channel: "relative_humidity", min: 0, max: 1, invert: false };
 
 class RelativeHumidityDisplay extends CloudDisplay<RelativeHumidity> {

@@ -1,4 +1,4 @@
-/** rviz/Temperature: a point at the sensor whose colour is the temperature [°C]. */
+/** rviz/Temperature: a point at the sensor whose color is the temperature [°C]. */
 
 import type { Temperature } from "../protocol/generated/ros_messages";
 import { cloudOf, type Cloud } from "./clouds/cloud";
@@ -6,7 +6,7 @@ import { CloudDisplay } from "./clouds/cloud_display";
 import { register } from "./registry";
 
 const TYPES = ["sensor_msgs/Temperature"];
-/** Colours go from freezing to boiling water. */
+/** Colors go from freezing to boiling water. */
 const CHANNEL = { channel: "temperature", min: 0, max: 100, invert: true };
 
 class TemperatureDisplay extends CloudDisplay<Temperature> {

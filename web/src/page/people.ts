@@ -8,7 +8,7 @@ import type { Selection } from "./page";
 import { placed } from "./selection_lookup";
 
 const NOBODY: People = { you: 0, people: [] };
-const COLOURS = 6;
+const COLORS = 6;
 
 /** Follow who is there, and show them what is selected here. */
 export function followPeople(
@@ -47,9 +47,9 @@ export function nameOf({ number }: Person): string {
   return `Person ${number}`;
 }
 
-/** Token of the colour in which others see a person's selection. */
-export function colourOf({ number }: Person): `--${string}` {
-  return `--person-${((number - 1) % COLOURS) + 1}`;
+/** Token of the color in which others see a person's selection. */
+export function colorOf({ number }: Person): `--${string}` {
+  return `--person-${((number - 1) % COLORS) + 1}`;
 }
 
 /** Everybody but the person at this page. */

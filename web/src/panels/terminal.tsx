@@ -91,7 +91,7 @@ function Screen({ page, number }: { readonly page: Page; readonly number: number
       state.opened(null);
     };
   }, [page, number, isShown, isConnected]);
-  useEffect(() => void opening.current?.then((view) => view.recolour()), [theme]);
+  useEffect(() => void opening.current?.then((view) => view.recolor()), [theme]);
   useEffect(() => () => void opening.current?.then((view) => view.close()), []);
   return <div class="terminalhost" ref={element} />;
 }

@@ -193,7 +193,7 @@ export class EnumProperty extends Property<string> {
 export type Rgb = readonly [number, number, number];
 
 export class ColorProperty extends Property<Rgb> {
-  readonly kind = "colour";
+  readonly kind = "color";
   encode(): Yaml {
     return this.value.value.join("; ");
   }

@@ -14,7 +14,7 @@ void main() {
 
 const FRAGMENT = /* glsl */ `
 varying vec2 ground;
-uniform vec3 colour;
+uniform vec3 color;
 uniform float opacity;
 uniform vec2 centre;
 uniform float reach;
@@ -29,7 +29,7 @@ float line(float spacing) {
 void main() {
   float fade = clamp(1.0 - length(ground - centre) / reach, 0.0, 1.0);
   float share = max(0.55 * line(1.0), line(10.0));
-  gl_FragColor = vec4(colour, share * fade * opacity);
+  gl_FragColor = vec4(color, share * fade * opacity);
 }`;
 
 export class GroundGrid extends Mesh<PlaneGeometry, ShaderMaterial> {
@@ -37,7 +37,7 @@ export class GroundGrid extends Mesh<PlaneGeometry, ShaderMaterial> {
   private readonly centre = new Vector2();
 
   constructor() {
-    const uniforms: Record<string, { value: unknown }> = { colour: { value: new Color() }, opacity: { value: 0.2 } };
+    const uniforms: Record<string, { value: unknown }> = { color: { value: new Color() }, opacity: { value: 0.2 } };
     const material = new ShaderMaterial({
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
@@ -59,7 +59,7 @@ export class GroundGrid extends Mesh<PlaneGeometry, ShaderMaterial> {
   /** White lines on a dark background, black ones on a bright one. */
   setBackground(background: Color): void {
     const isDark = 0.2126 * background.r + 0.7152 * background.g + 0.0722 * background.b < 0.2;
-    (this.material.uniforms["colour"]?.value as Color).set(isDark ? 0xffffff : 0x000000);
+    (this.material.uniforms["color"]?.value as Color).set(isDark ? 0xffffff : 0x000000);
   }
 
   /** Stand around the camera, as far as it sees lines. */

@@ -19,7 +19,7 @@ class SceneLabel implements Label {
     readonly anchor: Object3D,
     text: string,
     private readonly set: LabelSet,
-    readonly colour?: string,
+    readonly color?: string,
   ) {
     this.shown = text;
   }
@@ -54,8 +54,8 @@ export class LabelSet {
   /** `onChange`: the picture is to be drawn again. */
   constructor(readonly onChange: () => void) {}
 
-  add(anchor: Object3D, text: string, colour?: string): Label {
-    const label = new SceneLabel(anchor, text, this, colour);
+  add(anchor: Object3D, text: string, color?: string): Label {
+    const label = new SceneLabel(anchor, text, this, color);
     this.labels.add(label);
     this.onChange();
     return label;
@@ -121,41 +121,41 @@ export class LabelLayer {
 
   private drawLabel(context: CanvasRenderingContext2D, seen: Seen): void {
     const { label, box } = seen;
-    drawLeader(context, seen, this.colour(label.colour ?? (seen.hovered ? "--accent" : "--text-3")));
+    drawLeader(context, seen, this.color(label.color ?? (seen.hovered ? "--accent" : "--text-3")));
     context.textBaseline = "middle";
     this.setFont(context, seen.hovered);
     const middle = box.y + BAND / 2 + 0.5;
-    if (label.colour !== undefined) {
-      context.fillStyle = this.colour(label.colour);
+    if (label.color !== undefined) {
+      context.fillStyle = this.color(label.color);
       context.beginPath();
       context.roundRect(box.x, box.y + 1, box.width, BAND - 2, 4);
       context.fill();
-      context.fillStyle = this.colour("--on-person");
+      context.fillStyle = this.color("--on-person");
       context.fillText(label.text, box.x + PADDING, middle);
     } else if (seen.hovered) {
-      context.fillStyle = this.colour("--panel");
-      context.strokeStyle = this.colour("--accent");
+      context.fillStyle = this.color("--panel");
+      context.strokeStyle = this.color("--accent");
       context.beginPath();
       context.roundRect(box.x, box.y - 2, box.width, BAND + 4, 4);
       context.fill();
       context.stroke();
-      context.fillStyle = this.colour("--text");
+      context.fillStyle = this.color("--text");
       context.fillText(label.text, box.x + PADDING, middle);
       const end = box.x + PADDING + context.measureText(label.text).width + PADDING;
       this.setFont(context, false);
-      context.fillStyle = this.colour("--text-2");
+      context.fillStyle = this.color("--text-2");
       context.fillText(label.detail, end, middle);
     } else {
       context.lineWidth = 3;
       context.lineJoin = "round";
-      context.strokeStyle = this.colour("--scene");
+      context.strokeStyle = this.color("--scene");
       context.strokeText(label.text, box.x + 2, middle);
-      context.fillStyle = this.colour("--text");
+      context.fillStyle = this.color("--text");
       context.fillText(label.text, box.x + 2, middle);
     }
   }
 
-  private colour(token: string): string {
+  private color(token: string): string {
     return this.style.getPropertyValue(token).trim() || "#888";
   }
 
@@ -173,7 +173,7 @@ export class LabelLayer {
       seen.x = at.x;
       seen.y = at.y;
       seen.distance = at.z;
-      seen.hovered = label === this.hovered || label.colour !== undefined;
+      seen.hovered = label === this.hovered || label.color !== undefined;
       if (this.context !== null) this.measure(this.context, seen);
       this.seen.push(seen);
     }
@@ -247,9 +247,9 @@ export class LabelLayer {
   }
 }
 
-function drawLeader(context: CanvasRenderingContext2D, { x, y, box }: LabelRequest, colour: string): void {
+function drawLeader(context: CanvasRenderingContext2D, { x, y, box }: LabelRequest, color: string): void {
   const end = box.x > x ? box.x : box.x + box.width;
-  context.strokeStyle = colour;
+  context.strokeStyle = color;
   context.lineWidth = 1;
   context.beginPath();
   context.moveTo(x, y);

@@ -111,7 +111,7 @@ export interface SceneView {
   readonly paneSize: ReadonlySignal<{ readonly width: number; readonly height: number }>;
   /** The part of the active pane that no panel covers, in the element [px]. */
   readonly freePart: ReadonlySignal<Area>;
-  /** CSS colour behind everything, as "#16191c" or "rgb(22, 25, 28)". */
+  /** CSS color behind everything, as "#16191c" or "rgb(22, 25, 28)". */
   readonly background: Signal<string>;
   /** The ground's grid. */
   readonly grid: Signal<boolean>;
@@ -130,6 +130,6 @@ export interface SceneView {
   ray(x: number, y: number): Ray;
   /** Where a point of the element meets the plane z = 0 of the fixed frame. */
   pickGround(x: number, y: number): Vector3 | null;
-  /** `colour`: token of a colour that the label is filled with. */
-  addLabel(anchor: Object3D, text: string, colour?: `--${string}`): Label;
+  /** `color`: token of a color that the label is filled with. */
+  addLabel(anchor: Object3D, text: string, color?: `--${string}`): Label;
 }

@@ -145,8 +145,8 @@ export class ThreeScene implements SceneView {
     return { pane, left, top };
   }
 
-  addLabel(anchor: Object3D, text: string, colour?: `--${string}`): Label {
-    return this.labels.add(anchor, text, colour);
+  addLabel(anchor: Object3D, text: string, color?: `--${string}`): Label {
+    return this.labels.add(anchor, text, color);
   }
 
   picture(width: number, height: number): HTMLCanvasElement {

@@ -52,8 +52,8 @@ export class ViewAxes {
   }
 
   private addTip(end: (typeof ENDS)[number], onPress: (side: SixSides) => void): Tip {
-    const colour = `var(--${"of" in end ? end.of : end.letter})`;
-    const line = end.letter === "" ? null : make("line", { style: `stroke: ${colour}; stroke-width: 2` });
+    const color = `var(--${"of" in end ? end.of : end.letter})`;
+    const line = end.letter === "" ? null : make("line", { style: `stroke: ${color}; stroke-width: 2` });
     const name = `Look from ${end.side === "top" || end.side === "bottom" ? end.side : `the ${end.side}`}`;
     const group = make("g", {
       role: "button",
@@ -67,7 +67,7 @@ export class ViewAxes {
     group.append(
       make("circle", {
         r: end.letter === "" ? "3.5" : "7",
-        style: `fill: ${colour}; opacity: ${end.letter === "" ? 0.6 : 1}`,
+        style: `fill: ${color}; opacity: ${end.letter === "" ? 0.6 : 1}`,
       }),
     );
     if (end.letter !== "") {

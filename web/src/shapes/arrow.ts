@@ -1,4 +1,4 @@
-/** An arrow along x: a shaft and a head with a colour each. */
+/** An arrow along x: a shaft and a head with a color each. */
 
 import { Group, Mesh } from "three";
 

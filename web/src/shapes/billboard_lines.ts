@@ -105,7 +105,7 @@ export class BillboardLines extends Mesh<InstancedBufferGeometry, ShaderMaterial
     this.blended = false;
   }
 
-  /** Points three numbers each [m]; colours four each, 0…1. */
+  /** Points three numbers each [m]; colors four each, 0…1. */
   addSegment(
     a: ArrayLike<number>,
     aAt: number,
@@ -129,7 +129,7 @@ export class BillboardLines extends Mesh<InstancedBufferGeometry, ShaderMaterial
     this.blended ||= (colorA[3] ?? 1) < 0.9998 || (colorB[3] ?? 1) < 0.9998;
   }
 
-  /** Points x y z one after another, in one colour or one each; closed: the last is joined to the first. */
+  /** Points x y z one after another, in one color or one each; closed: the last is joined to the first. */
   addPolyline(
     points: ArrayLike<number>,
     rgba: ArrayLike<number> | ((point: number) => ArrayLike<number>),

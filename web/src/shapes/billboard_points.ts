@@ -49,7 +49,7 @@ const INVERSE = new Matrix4();
 export class BillboardPoints extends Mesh<InstancedBufferGeometry, ShaderMaterial> {
   private readonly size: Vector2;
 
-  /** Centres x y z one after another [m], colours r g b a 0…1; width and height [m]. */
+  /** Centres x y z one after another [m], colors r g b a 0…1; width and height [m]. */
   constructor(
     private readonly centers: Float32Array<ArrayBuffer>,
     rgba: Float32Array<ArrayBuffer>,

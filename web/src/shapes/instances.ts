@@ -1,4 +1,4 @@
-/** Copies of one geometry, each with its matrix and colour: thousands cost one draw call. */
+/** Copies of one geometry, each with its matrix and color: thousands cost one draw call. */
 
 import { InstancedBufferAttribute, InstancedMesh, type BufferGeometry } from "three";
 
@@ -8,7 +8,7 @@ export class Instances extends InstancedMesh<BufferGeometry, ShapeMaterial> {
   private rgba: InstancedBufferAttribute;
   private blended = false;
 
-  /** The geometry is cloned shallowly, since colours belong to it; dispose with `dispose`. */
+  /** The geometry is cloned shallowly, since colors belong to it; dispose with `dispose`. */
   constructor(geometry: BufferGeometry, options: ShapeMaterialOptions = {}, capacity = 16) {
     super(shallow(geometry), new ShapeMaterial({ ...options, instanceColors: true }), capacity);
     this.rgba = new InstancedBufferAttribute(new Float32Array(capacity * 4).fill(1), 4);
@@ -17,25 +17,25 @@ export class Instances extends InstancedMesh<BufferGeometry, ShapeMaterial> {
     this.frustumCulled = false;
   }
 
-  /** Change the number of copies; matrices and colours of kept ones stay. */
+  /** Change the number of copies; matrices and colors of kept ones stay. */
   resize(count: number): void {
     if (count > this.instanceMatrix.count) this.grow(Math.max(count, 2 * this.instanceMatrix.count));
     this.count = count;
   }
 
-  /** Colour of one copy, 0…1; call `finish` after the last. */
+  /** Color of one copy, 0…1; call `finish` after the last. */
   setRgbaAt(index: number, red: number, green: number, blue: number, alpha: number): void {
     this.rgba.setXYZW(index, red, green, blue, alpha);
     this.blended ||= alpha < 0.9998;
   }
 
-  /** Begin to set colours anew. */
+  /** Begin to set colors anew. */
   begin(count: number): void {
     this.resize(count);
     this.blended = false;
   }
 
-  /** Hand matrices and colours over to the GPU. */
+  /** Hand matrices and colors over to the GPU. */
   finish(): void {
     this.material.setBlended(this.blended || this.material.color.w < 0.9998);
     this.instanceMatrix.needsUpdate = true;

@@ -1,8 +1,8 @@
 /**
- * Material of rviz's shapes: one light that shines as the camera looks, and nothing else, in the colours' own numbers.
+ * Material of rviz's shapes: one light that shines as the camera looks, and nothing else, in the colors' own numbers.
  *
- * Measured on pictures of rviz: a face that looks along the camera is as bright as its colour, one aside is black.
- * The lights of the simulated world do not reach it, so that a marker has the same colour in every world.
+ * Measured on pictures of rviz: a face that looks along the camera is as bright as its color, one aside is black.
+ * The lights of the simulated world do not reach it, so that a marker has the same color in every world.
  */
 
 import { DoubleSide, FrontSide, ShaderMaterial, Vector4, type Side, type Texture } from "three";
@@ -85,7 +85,7 @@ export interface ShapeMaterialOptions {
   /** `soft`: as rviz shades the spheres of clouds and lists; `flat`: no light. */
   readonly shading?: "lit" | "soft" | "flat";
   readonly side?: Side;
-  /** Each instance has an attribute `instanceRgba`, each vertex `vertexRgba`; they multiply the colour. */
+  /** Each instance has an attribute `instanceRgba`, each vertex `vertexRgba`; they multiply the color. */
   readonly instanceColors?: boolean;
   readonly vertexColors?: boolean;
   readonly map?: Texture | null;
@@ -116,12 +116,12 @@ export class ShapeMaterial extends ShaderMaterial {
     this.setBlended(alpha < OPAQUE);
   }
 
-  /** A property's colour and alpha. */
+  /** A property's color and alpha. */
   setColor(color: Rgb, alpha = 1): void {
     this.setRgba(color[0] / 255, color[1] / 255, color[2] / 255, alpha);
   }
 
-  /** Another colour over texture and colour, 0…1 of it. */
+  /** Another color over texture and color, 0…1 of it. */
   setTint(red: number, green: number, blue: number, share: number): void {
     this.tint.set(red, green, blue, share);
   }
@@ -138,7 +138,7 @@ export class ShapeMaterial extends ShaderMaterial {
     this.depthWrite = !blended;
   }
 
-  /** The colour in use, 0…1. */
+  /** The color in use, 0…1. */
   get color(): Vector4 {
     return this.rgba;
   }

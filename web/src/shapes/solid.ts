@@ -1,4 +1,4 @@
-/** One of the shared solids in a colour of its own. */
+/** One of the shared solids in a color of its own. */
 
 import { Mesh, type BufferGeometry } from "three";
 

@@ -40,14 +40,14 @@ const AXIS_COLORS: readonly Rgba[] = [
   [0, 0, 1, 1],
 ];
 
-/** One geometry of three coloured axes (`vertexRgba`), for instances; rviz's radius is the diameter of its cylinders. */
+/** One geometry of three colored axes (`vertexRgba`), for instances; rviz's radius is the diameter of its cylinders. */
 export function axesGeometry(length: number, radius: number): BufferGeometry {
   const axis = SHAFT.clone().scale(length, radius, radius);
   const axes = [axis, axis.clone().rotateZ(Math.PI / 2), axis.clone().rotateY(-Math.PI / 2)];
   return mergeGeometries(axes.map((geometry, index) => paint(geometry, AXIS_COLORS[index] ?? [1, 1, 1, 1])));
 }
 
-/** Give every vertex of a geometry one colour, 0…1. */
+/** Give every vertex of a geometry one color, 0…1. */
 function paint(geometry: BufferGeometry, rgba: Rgba): BufferGeometry {
   const count = geometry.getAttribute("position").count;
   const colors = new Float32Array(count * 4);

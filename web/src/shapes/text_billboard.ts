@@ -27,7 +27,7 @@ const LARGEST_PX = 4096;
 export class TextBillboard extends Sprite {
   private readonly texture: CanvasTexture;
 
-  /** Lines are `height` high [m]; colour 0…1. The text's middle is at its position. */
+  /** Lines are `height` high [m]; color 0…1. The text's middle is at its position. */
   constructor(text: string, height: number, rgba: readonly [number, number, number, number]) {
     const [red, green, blue, alpha] = rgba;
     const lines = text.split("\n");

@@ -10,8 +10,8 @@ export interface MenuItem {
   readonly keys?: string | undefined;
   readonly detail?: string;
   readonly icon?: IconName;
-  /** Token of a colour that stands before the title. */
-  readonly colour?: `--${string}`;
+  /** Token of a color that stands before the title. */
+  readonly color?: `--${string}`;
   readonly checked?: boolean;
   readonly disabled?: boolean;
   /** The menu stays open after it, as for a row of check marks. */
@@ -153,7 +153,7 @@ function Entry({ item, isOpen, onOpen, onClose }: EntryProps): JSX.Element {
       >
         {item.icon !== undefined && <Icon name={item.icon} />}
         {item.stays === true && <Icon name="check" class={item.checked === true ? "" : "unchecked"} />}
-        {item.colour !== undefined && <span class="swatch" style={{ background: `var(${item.colour})` }} />}
+        {item.color !== undefined && <span class="swatch" style={{ background: `var(${item.color})` }} />}
         {item.title}
         {item.detail !== undefined && <span class="r">{item.detail}</span>}
         {item.keys !== undefined && <kbd>{item.keys}</kbd>}

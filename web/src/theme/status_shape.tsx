@@ -1,4 +1,4 @@
-/** Status by shape and colour both: disc, triangle, square with a cross, ring. */
+/** Status by shape and color both: disc, triangle, square with a cross, ring. */
 
 import type { JSX } from "preact";
 

@@ -62,7 +62,7 @@ describe("points of a depth image", () => {
     expect(cloud(depthPoints(depth("32FC1", [NaN, Infinity]), info(), null)).count).toBe(0);
   });
 
-  it("have the colours of the other image", () => {
+  it("have the colors of the other image", () => {
     const color = {
       width: 2,
       height: 1,
@@ -222,7 +222,7 @@ describe("DepthCloud", () => {
     expect(display.cloudProperties.size.value.value).toBeCloseTo(0.01);
   });
 
-  it("waits for the colours, and names what does not fit", () => {
+  it("waits for the colors, and names what does not fit", () => {
     const { display, around } = start(true);
     around.frames.set("optical");
     around.connection.receive("/c/camera_info", info());

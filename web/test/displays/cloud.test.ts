@@ -184,7 +184,7 @@ describe("color transformers", () => {
     expect(choose("RGB8", supported(plain))).toBe("Intensity");
   });
 
-  it("take no packed colour of another type", () => {
+  it("take no packed color of another type", () => {
     expect(
       packedColor(cloud(readCloud(message([[0, 0, 0, 0]], { fields: [...XYZ, field("rgb", 12, UINT16)] })))),
     ).toBeUndefined();

@@ -22,7 +22,7 @@ function map(read: OccupancyMap | string): OccupancyMap {
   return read;
 }
 
-/** Colour of an occupancy as a person writes it, −128…127. */
+/** Color of an occupancy as a person writes it, −128…127. */
 function color(scheme: "map" | "costmap" | "raw", value: number): number[] {
   const byte = value & 255;
   return [...palette(scheme).subarray(4 * byte, 4 * byte + 4)];
@@ -48,7 +48,7 @@ describe("rviz's palette", () => {
     ["raw", 0, [0, 0, 0, 255]],
     ["raw", 100, [100, 100, 100, 255]],
     ["raw", -1, [255, 255, 255, 255]],
-  ] as const)("%s has for %i the colour %j", (scheme, value, rgba) => expect(color(scheme, value)).toEqual(rgba));
+  ] as const)("%s has for %i the color %j", (scheme, value, rgba) => expect(color(scheme, value)).toEqual(rgba));
 });
 
 describe("a map", () => {

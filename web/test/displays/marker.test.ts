@@ -132,7 +132,7 @@ describe("solid markers", () => {
 });
 
 describe("other markers", () => {
-  it("draw a strip of lines joined, a list in pairs, with colours by point", () => {
+  it("draw a strip of lines joined, a list in pairs, with colors by point", () => {
     const { send, display } = started();
     const points = [point(0, 0), point(1, 0), point(1, 1), point(0, 1)];
     const colors = points.map((_, index) => ({ r: index / 3, g: 0, b: 0, a: 1 }));
@@ -164,7 +164,7 @@ describe("other markers", () => {
     expect(texts[0]?.position.x).toBe(1);
   });
 
-  it("draw triangles, scaled, with a colour per triangle", () => {
+  it("draw triangles, scaled, with a color per triangle", () => {
     const { send, display, boxes } = started();
     const points = [point(0, 0), point(1, 0), point(0, 1), point(0, 0, 1), point(1, 0, 1), point(0, 1, 1)];
     const colors = [

@@ -63,7 +63,7 @@ function rgba(mesh: Mesh | undefined): number[] {
 }
 
 describe("RobotModel", () => {
-  it("stands each link at its frame, with the colour of its material", () => {
+  it("stands each link at its frame, with the color of its material", () => {
     const { robot } = started(URDF);
     const [box] = meshes(robot.root.getObjectByName("base"));
     robot.root.updateMatrixWorld(true);
@@ -74,7 +74,7 @@ describe("RobotModel", () => {
     expect(robot.statuses.value.get("URDF")?.text).toBe("URDF parsed OK");
   });
 
-  it("loads meshes by their address, scaled, and red where the URDF names no colour", async () => {
+  it("loads meshes by their address, scaled, and red where the URDF names no color", async () => {
     const made = setup();
     made.connection.assets.set("package://cart/wheel.stl", bytes(STL));
     made.connection.setParameter("/robot_description", URDF);
@@ -134,7 +134,7 @@ describe("RobotModel", () => {
     expect(meshes(robot.root.getObjectByName("wheel"))).toEqual([]);
   });
 
-  it("shows collisions instead of visuals when asked, in the colour of the visual", () => {
+  it("shows collisions instead of visuals when asked, in the color of the visual", () => {
     const { robot } = started(URDF, { "Visual Enabled": false, "Collision Enabled": true });
     const [sphere] = meshes(robot.root.getObjectByName("base"));
     expect(sphere?.scale.x).toBeCloseTo(0.6);

@@ -189,7 +189,7 @@ it("a long scan waits for its last ray's transform, and is named", () => {
   expect(status(display, "Transform")).toBeUndefined();
 });
 
-it("Temperature colours by its own channel and hides what rviz hides", () => {
+it("Temperature colors by its own channel and hides what rviz hides", () => {
   const { display, around } = start("rviz/Temperature", "/t", "sensor_msgs/Temperature");
   around.frames.set("laser");
   around.connection.receive("/t", { header: header("laser"), temperature: 25, variance: 0 });

@@ -45,7 +45,7 @@ const MAKERS: Record<string, Maker> = {
   }),
   /** Six points in a row along y whose intensities are 0…5. */
   row: () => cloud2(6, (i) => [0, i - 2.5, 0, i]),
-  /** Six coloured points in a row: red, green, blue, white, grey, half transparent yellow. */
+  /** Six colored points in a row: red, green, blue, white, grey, half transparent yellow. */
   rgba: () => {
     const colors = [0xffff0000, 0xff00ff00, 0xff0000ff, 0xffffffff, 0xff808080, 0x80ffff00];
     const message = cloud2(6, (i) => [0, i - 2.5, 0, 0], "rgba");

@@ -2,7 +2,7 @@ import { signal } from "@preact/signals";
 import { expect, test } from "vitest";
 
 import type { Selection } from "../../src/page/page";
-import { colourOf, followPeople, others } from "../../src/page/people";
+import { colorOf, followPeople, others } from "../../src/page/people";
 import { FakeConnection } from "../fake_connection";
 
 const LINK: Selection = { kind: "link", model: "cart", link: "base" };
@@ -47,10 +47,10 @@ test("what is not of the simulated world is nobody else's", () => {
   expect(connection.presented).toEqual([null]);
 });
 
-test("each of the others has a colour", () => {
+test("each of the others has a color", () => {
   const connection = new FakeConnection();
   const people = followPeople(connection, signal<Selection | null>(null));
   tell(connection, 2, 1, 2, 3, 7);
 
-  expect(others(people.value).map(colourOf)).toEqual(["--person-1", "--person-3", "--person-1"]);
+  expect(others(people.value).map(colorOf)).toEqual(["--person-1", "--person-3", "--person-1"]);
 });

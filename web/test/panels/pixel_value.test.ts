@@ -16,14 +16,14 @@ function image(encoding: string, width: number, height: number, step: number, da
 }
 
 test("channels by name, numbers as they are", () => {
-  const colours = image(
+  const colors = image(
     "bgr8",
     2,
     2,
     8,
     Uint8Array.from({ length: 16 }, (_, index) => index),
   );
-  expect(pixelValue(colours, 1, 1)).toEqual([
+  expect(pixelValue(colors, 1, 1)).toEqual([
     ["b", 11],
     ["g", 12],
     ["r", 13],

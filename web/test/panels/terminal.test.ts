@@ -69,7 +69,7 @@ test.each([
   ["cursor and status", "\u001b[5n\u001b[6n\u001b[?6n"],
   ["modes", "\u001b[4$p\u001b[?25$p"],
   ["status strings", '\u001bP$qm\u001b\\\u001bP$q"p\u001b\\'],
-  ["colours", "\u001b]4;1;?\u0007\u001b]10;?\u0007\u001b]11;?\u0007\u001b]12;?\u0007"],
+  ["colors", "\u001b]4;1;?\u0007\u001b]10;?\u0007\u001b]11;?\u0007\u001b]12;?\u0007"],
   ["the window", "\u001b[14t\u001b[16t\u001b[18t\u001b[21t"],
   ["focus", "\u001b[?1004h"],
 ])("a program's question about %s types nothing", async (_, question) => {

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 
 import { OffscreenPicture } from "../../src/scene/offscreen_picture";
 
-const [READ, DRAW, BOTH, BACK, COLOUR, DEPTH, UNSIGNALED, SIGNALED] = [1, 2, 3, 4, 5, 6, 7, 8];
+const [READ, DRAW, BOTH, BACK, COLOR, DEPTH, UNSIGNALED, SIGNALED] = [1, 2, 3, 4, 5, 6, 7, 8];
 
 /** A context that notes where things are drawn and what is copied. */
 class FakeContext {
@@ -10,7 +10,7 @@ class FakeContext {
   readonly DRAW_FRAMEBUFFER = DRAW;
   readonly FRAMEBUFFER = BOTH;
   readonly BACK = BACK;
-  readonly COLOR_ATTACHMENT0 = COLOUR;
+  readonly COLOR_ATTACHMENT0 = COLOR;
   readonly DEPTH_ATTACHMENT = DEPTH;
   readonly UNSIGNALED = UNSIGNALED;
   readonly canvas = new EventTarget();
@@ -66,7 +66,7 @@ describe("a picture beside the canvas", () => {
 
     context.bindFramebuffer(BOTH, null);
     context.drawBuffers([BACK]);
-    expect([context.bound[DRAW], context.chosen]).toEqual(["framebuffer 1", [COLOUR]]);
+    expect([context.bound[DRAW], context.chosen]).toEqual(["framebuffer 1", [COLOR]]);
     context.bindFramebuffer(BOTH, "another");
     expect(context.bound[DRAW]).toBe("another");
   });

@@ -51,7 +51,7 @@ describe("axes", () => {
 });
 
 describe("instances", () => {
-  it("get a program anew when their colours begin to be seen through", () => {
+  it("get a program anew when their colors begin to be seen through", () => {
     const boxes = new Instances(BOX);
     const color = (alpha: number): number => {
       boxes.begin(1);

@@ -1,4 +1,4 @@
-/** Displays as rows of the tree: name, status, rate and colour; below them the reason of a fault and the properties. */
+/** Displays as rows of the tree: name, status, rate and color; below them the reason of a fault and the properties. */
 
 import type { JSX } from "preact";
 
@@ -88,7 +88,7 @@ function splitFault(text: string): readonly [string, string] {
 
 function DisplayRow({ display, rows }: { readonly display: Display; readonly rows: DisplayRowsOf }): JSX.Element {
   const { page } = rows;
-  const colour = display.properties.find(
+  const color = display.properties.find(
     (property) => property instanceof ColorProperty && property.options.visible?.value !== false,
   );
   const isGroup = display instanceof Group;
@@ -116,7 +116,7 @@ function DisplayRow({ display, rows }: { readonly display: Display; readonly row
         <span class="n">{display.name.value}</span>
       )}
       <span class="r">{rateText(page, display)}</span>
-      {colour !== undefined && <span class="sw" style={{ background: hex(colour.value.value as readonly number[]) }} />}
+      {color !== undefined && <span class="sw" style={{ background: hex(color.value.value as readonly number[]) }} />}
     </>
   );
 }

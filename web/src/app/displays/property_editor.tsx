@@ -106,8 +106,8 @@ function ColorEditor({ property, onCommit }: KindProps<ColorProperty>): JSX.Elem
         label={property.name}
         value={rgb.join("; ")}
         class="small bare"
-        check={(text) => (colourOf(text) === null ? "Three numbers of 0 to 255: 255; 25; 0" : null)}
-        onCommit={(text) => onCommit(colourOf(text) ?? rgb.join("; "))}
+        check={(text) => (colorOf(text) === null ? "Three numbers of 0 to 255: 255; 25; 0" : null)}
+        onCommit={(text) => onCommit(colorOf(text) ?? rgb.join("; "))}
       />
     </>
   );
@@ -141,7 +141,7 @@ export function vectorOf(text: string): Triple | null {
 }
 
 /** `r; g; b` of a text in that form or as `#rrggbb`. */
-export function colourOf(text: string): string | null {
+export function colorOf(text: string): string | null {
   if (/^#[0-9a-f]{6}$/i.test(text.trim())) return fromHex(text.trim());
   const parts = vectorOf(text.replaceAll(",", ";"));
   return parts?.every((part) => part >= 0 && part <= 255) === true ? parts.map(Math.round).join("; ") : null;

@@ -27,7 +27,7 @@ export function FieldRow({ field, onSet }: RowProps): JSX.Element {
     case "number":
       return <NumberRow field={field} onSet={onSet} />;
     case "color":
-      return <ColourRow field={field} onSet={onSet} />;
+      return <ColorRow field={field} onSet={onSet} />;
     case "flag":
       return <FlagRow field={field} onSet={onSet} />;
     case "choice":
@@ -145,7 +145,7 @@ function PoseRows({ field, onSet }: RowProps): JSX.Element {
   );
 }
 
-function ColourRow({ field, onSet }: RowProps): JSX.Element {
+function ColorRow({ field, onSet }: RowProps): JSX.Element {
   const [red = 0.7, green = 0.7, blue = 0.7, alpha = 1] = numbersOf(field.value) ?? numbersOf(field.default) ?? [];
   return (
     <div class="fr">

@@ -1,4 +1,4 @@
-/** rviz's color transformers: which there are for a cloud, and the bounds that they colour between. */
+/** rviz's color transformers: which there are for a cloud, and the bounds that they color between. */
 
 import type { Matrix4 } from "three";
 
@@ -15,7 +15,7 @@ export interface Bounds {
   readonly max: number;
 }
 
-/** The channel of packed colours: `rgba` where both are there. */
+/** The channel of packed colors: `rgba` where both are there. */
 export function packedColor(cloud: Cloud): Channel | undefined {
   const order = cloud.channels.filter(({ name }) => name === "rgb" || name === "rgba");
   const channel = order.at(-1);
@@ -39,7 +39,7 @@ export function choose(wanted: string, names: readonly ColorTransformer[]): Colo
   return found ?? (names.includes("RGB8") ? "RGB8" : "Intensity");
 }
 
-/** The channel that Intensity colours by; `intensities` stands in for `intensity`. */
+/** The channel that Intensity colors by; `intensities` stands in for `intensity`. */
 export function intensityChannel(cloud: Cloud, name: string): Channel | undefined {
   return cloud.channel(name) ?? (name === "intensity" ? cloud.channel("intensities") : undefined);
 }

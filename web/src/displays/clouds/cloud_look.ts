@@ -33,7 +33,7 @@ export function offerTransformers(properties: CloudProperties, cloud: Cloud): vo
   if (channels.join("\n") !== properties.channel.choices.peek().join("\n")) properties.channel.choices.value = channels;
 }
 
-/** Set a drawn cloud's size, alpha and colours. */
+/** Set a drawn cloud's size, alpha and colors. */
 export function dress(object: CloudObject, cloud: Cloud, transform: Transform, properties: CloudProperties): void {
   const { uniforms } = object.material;
   const size = properties.style.value.value === "Points" ? properties.pixels : properties.size;

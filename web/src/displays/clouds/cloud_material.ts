@@ -1,4 +1,4 @@
-/** Shaders of rviz's styles of points. A colour's numbers are those of the picture, as everywhere in the scene. */
+/** Shaders of rviz's styles of points. A color's numbers are those of the picture, as everywhere in the scene. */
 
 import { DoubleSide, ShaderMaterial, Vector2, Vector3, Vector4 } from "three";
 
@@ -167,7 +167,7 @@ void main() {
   gl_FragColor = vec4(color, alpha * vColor.a);
 }`;
 
-/** Ways to colour a point; numbers are the shader's. */
+/** Ways to color a point; numbers are the shader's. */
 export const ColorMode = { flat: 0, channel: 1, axis: 2, floats: 3, packed: 4, mono: 5 } as const;
 
 export class CloudMaterial extends ShaderMaterial {

@@ -7,7 +7,7 @@ import { touch } from "../topic_display";
 import { COLOR_TRANSFORMERS } from "./cloud_colors";
 import { STYLES } from "./cloud_material";
 
-/** A cloud whose channel and colours the display's class sets: Temperature and its kin. */
+/** A cloud whose channel and colors the display's class sets: Temperature and its kin. */
 export interface FixedChannel {
   readonly channel: string;
   readonly min: number;

@@ -42,7 +42,7 @@ const VIEWPORT = new Vector4();
 export interface CloudObject {
   readonly object: Object3D;
   readonly material: CloudMaterial;
-  /** Choose the words of a point that its colour is worked out from; three at most. */
+  /** Choose the words of a point that its color is worked out from; three at most. */
   setChannels(words: readonly number[]): void;
   dispose(): void;
 }

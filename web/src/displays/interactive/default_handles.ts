@@ -68,7 +68,7 @@ function blank(marker: InteractiveMarker, control: InteractiveMarkerControl, id:
   };
 }
 
-/** An arrow of two points beside the marker; its colour is that of its direction. */
+/** An arrow of two points beside the marker; its color is that of its direction. */
 function arrow(marker: InteractiveMarker, control: InteractiveMarkerControl, side: 1 | -1, alpha: number): Marker {
   const size = scaleOf(marker);
   const at = (distance: number): Point => turned(control, new Vector3(side * distance * size, 0, 0));

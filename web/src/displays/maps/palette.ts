@@ -1,4 +1,4 @@
-/** rviz's colours of occupancy, for each byte of a map: 0…100 per cent, 255 unknown, others not allowed. */
+/** rviz's colors of occupancy, for each byte of a map: 0…100 per cent, 255 unknown, others not allowed. */
 
 export const COLOR_SCHEMES = ["map", "costmap", "raw"] as const;
 export type ColorScheme = (typeof COLOR_SCHEMES)[number];
@@ -8,7 +8,7 @@ const UNKNOWN: Rgba = [0x70, 0x89, 0x86, 255];
 const INSCRIBED: Rgba = [0, 255, 255, 255];
 const LETHAL: Rgba = [255, 0, 255, 255];
 
-/** 256 colours, four bytes each. */
+/** 256 colors, four bytes each. */
 export function palette(scheme: ColorScheme): Uint8Array<ArrayBuffer> {
   const colorOf = { map: mapColor, costmap: costColor, raw: rawColor }[scheme];
   return new Uint8Array(Array.from({ length: 256 }, (_, value) => colorOf(value)).flat());

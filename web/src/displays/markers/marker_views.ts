@@ -44,7 +44,7 @@ export function makeView(marker: Marker, parts: ViewParts): MarkerView {
   }
 }
 
-/** Share of a marker's colour over the mesh's own, as measured on rviz. */
+/** Share of a marker's color over the mesh's own, as measured on rviz. */
 const MOST_TINT = 0.5;
 
 const UNMOVED = new Matrix4();
@@ -137,7 +137,7 @@ function mesh(marker: Marker, { connection, onFault, onChange }: ViewParts): Mar
   };
 }
 
-/** Embedded materials as seen through as the marker, with at most half of its colour over them; all zeros leave them. Else its colour alone. */
+/** Embedded materials as seen through as the marker, with at most half of its color over them; all zeros leave them. Else its color alone. */
 function paintMesh(marker: Marker, object: Object3D, embedded: readonly ShapeMaterial[]): readonly ShapeMaterial[] {
   const [red, green, blue, alpha] = rgba(marker.color);
   if (marker.mesh_use_embedded_materials) {

@@ -15,7 +15,7 @@ import type { Connection } from "../../protocol/connection";
 import { ShapeMaterial } from "../../shapes/shape_material";
 import { loadMesh, type LoadedMesh } from "./mesh_formats";
 
-/** A copy of a mesh to be coloured on its own. */
+/** A copy of a mesh to be colored on its own. */
 interface MeshCopy {
   readonly object: Object3D;
   readonly materials: readonly ShapeMaterial[];

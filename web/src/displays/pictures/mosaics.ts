@@ -1,4 +1,4 @@
-/** Images whose pixels share colours: Bayer mosaics and YUV 4:2:2. */
+/** Images whose pixels share colors: Bayer mosaics and YUV 4:2:2. */
 
 import type { RawImage } from "./raw_image";
 
@@ -14,7 +14,7 @@ export function isBayer(encoding: string): boolean {
   return /^bayer_(rggb|grbg|gbrg|bggr)(8|16)$/.test(encoding);
 }
 
-/** Each cell of 2 × 2 in one colour: its red, its blue and the mean of its greens. rviz shows the mosaic in grey. */
+/** Each cell of 2 × 2 in one color: its red, its blue and the mean of its greens. rviz shows the mosaic in grey. */
 export function demosaic(
   { width, height, encoding, step, data, is_bigendian }: RawImage,
   rgba: Uint8ClampedArray,

@@ -1,4 +1,4 @@
-/** The shapes of one link: visuals or collisions, with rviz's rules of colour. */
+/** The shapes of one link: visuals or collisions, with rviz's rules of color. */
 
 import {
   DoubleSide,
@@ -19,7 +19,7 @@ import { ShapeMaterial } from "../../shapes/shape_material";
 import { BOX, CYLINDER, SPHERE } from "../../shapes/solids";
 import type { Geometry, RobotMaterial, RobotShape } from "./urdf";
 
-/** rviz's colour of a link that has none. */
+/** rviz's color of a link that has none. */
 const SHADED_RED = [1, 0, 0, 1] as const;
 
 /** Called with the address of a mesh or texture and why it is not there. */
@@ -105,7 +105,7 @@ export class LinkShapes extends Group {
     }
   }
 
-  /** The material that the URDF names: a texture has no colour beside it. */
+  /** The material that the URDF names: a texture has no color beside it. */
   private linkMaterial(material: RobotMaterial | null, side: Side = DoubleSide): ShapeMaterial {
     if (material?.texture === null || material?.texture === undefined) {
       return this.keep(new ShapeMaterial({ side }), material?.rgba ?? SHADED_RED);

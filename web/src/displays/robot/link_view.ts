@@ -37,7 +37,7 @@ export class LinkView extends Group {
   ) {
     super();
     this.name = link.name;
-    const color = link.visuals[0]?.material ?? null; // rviz's colour of shapes that have none
+    const color = link.visuals[0]?.material ?? null; // rviz's color of shapes that have none
     this.visuals = new LinkShapes(connection, link.visuals, color, onMissing, onChange);
     this.collisions = new LinkShapes(connection, link.collisions, color, onMissing, onChange);
     super.add(this.visuals, this.collisions);

@@ -56,7 +56,7 @@ export class TreeProperty extends GroupProperty {
 
 /** One third of the time after which a frame is forgotten passes before it fades; then it greys, then it vanishes. */
 export interface Fade {
-  /** 0: its colours, 1: grey. */
+  /** 0: its colors, 1: grey. */
   readonly grey: number;
   readonly alpha: number;
 }

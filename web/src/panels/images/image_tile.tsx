@@ -117,18 +117,18 @@ function pixelAt(event: PointerEvent & { readonly currentTarget: HTMLCanvasEleme
   ];
 }
 
-/** "12, 30: r 255 g 0 b 0"; of a compressed picture its colour. */
+/** "12, 30: r 255 g 0 b 0"; of a compressed picture its color. */
 function pixelText(
   message: Image | CompressedImage | null,
   canvas: HTMLCanvasElement | null,
   [x, y]: readonly [number, number],
 ): string {
-  const values = message !== null && "encoding" in message ? pixelValue(message, x, y) : shownColour(canvas, x, y);
+  const values = message !== null && "encoding" in message ? pixelValue(message, x, y) : shownColor(canvas, x, y);
   const text = values?.map(([name, value]) => `${name} ${exact(value)}`.trim()).join("  ") ?? "";
   return `${x}, ${y}: ${text}`;
 }
 
-function shownColour(
+function shownColor(
   canvas: HTMLCanvasElement | null,
   x: number,
   y: number,

@@ -14,10 +14,10 @@ const READS: Readonly<Record<string, readonly [bytes: number, read: Read]>> = {
   F64: [8, (view, at, isLittle) => view.getFloat64(at, isLittle)],
 };
 
-/** Kind of number and names of the channels of an encoding; null where pixels share colours. */
+/** Kind of number and names of the channels of an encoding; null where pixels share colors. */
 function layoutOf(encoding: string): readonly [kind: string, channels: readonly string[]] | null {
-  const [, colours, bits] = /^(rgba?|bgra?|mono)(8|16)$/.exec(encoding) ?? [];
-  if (colours !== undefined && bits !== undefined) return [`U${bits}`, colours === "mono" ? [""] : Array.from(colours)];
+  const [, colors, bits] = /^(rgba?|bgra?|mono)(8|16)$/.exec(encoding) ?? [];
+  if (colors !== undefined && bits !== undefined) return [`U${bits}`, colors === "mono" ? [""] : Array.from(colors)];
   const [, size, kind, count] = /^(8|16|32|64)([USF])C(\d{0,3})$/.exec(encoding) ?? [];
   if (size === undefined || kind === undefined) return null;
   return [`${kind}${size}`, Array.from({ length: Number(count === "" ? 1 : count) }, () => "")];

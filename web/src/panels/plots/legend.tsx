@@ -10,7 +10,7 @@ import { useTick } from "../use";
 import type { Curve } from "./curve";
 import type { Plot } from "./plot";
 import type { PlotsState } from "./plots_state";
-import { COLOURS, isDashed } from "./style";
+import { COLORS, isDashed } from "./style";
 
 const PERIOD = 200; // ms
 /** Share of a curve's largest value below which a value is written as 0. */
@@ -27,7 +27,7 @@ export function Legend({ state, plot }: { readonly state: PlotsState; readonly p
           <li
             key={curve.path}
             class={isDashed(index) ? "dash" : ""}
-            style={{ "--c": `var(${COLOURS[index % COLOURS.length] ?? ""})` }}
+            style={{ "--c": `var(${COLORS[index % COLORS.length] ?? ""})` }}
           >
             <span class="n" title={curve.path}>
               {curve.name}

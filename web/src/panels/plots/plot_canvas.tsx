@@ -9,7 +9,7 @@ import { significant, timeText } from "../messages/format";
 import type { Curve } from "./curve";
 import { paddedRange, type Range } from "./plot";
 import type { PlotsState } from "./plots_state";
-import { COLOURS, isDashed } from "./style";
+import { COLORS, isDashed } from "./style";
 
 interface PlotCanvasProps {
   readonly state: PlotsState;
@@ -99,11 +99,11 @@ function emptyData(curves: readonly Curve[]): uPlot.AlignedData {
 
 function options(element: HTMLElement, state: PlotsState, curves: readonly Curve[]): uPlot.Options {
   const style = getComputedStyle(element);
-  const colour = (name: string): string => style.getPropertyValue(name).trim();
+  const color = (name: string): string => style.getPropertyValue(name).trim();
   const axis = {
-    stroke: colour("--text-3"),
+    stroke: color("--text-3"),
     font: `11px ${style.fontFamily}`,
-    grid: { stroke: colour("--line-soft"), width: 1 },
+    grid: { stroke: color("--line-soft"), width: 1 },
     ticks: { show: false },
     gap: GAP,
   };
@@ -134,7 +134,7 @@ function options(element: HTMLElement, state: PlotsState, curves: readonly Curve
       value(LEFT, "left"),
       value(RIGHT, "right"),
     ],
-    series: [{}, ...curves.map((curve, index) => series(curve, index, colour))],
+    series: [{}, ...curves.map((curve, index) => series(curve, index, color))],
     cursor: {
       y: false,
       points: { show: false },
@@ -144,8 +144,8 @@ function options(element: HTMLElement, state: PlotsState, curves: readonly Curve
     hooks: {
       draw: [
         (plot) => {
-          drawTime(plot, state.cursor.peek(), colour("--text-3"));
-          drawTime(plot, state.shownTime(), colour("--accent"));
+          drawTime(plot, state.cursor.peek(), color("--text-3"));
+          drawTime(plot, state.shownTime(), color("--accent"));
         },
       ],
       setCursor: [
@@ -167,12 +167,12 @@ function options(element: HTMLElement, state: PlotsState, curves: readonly Curve
 }
 
 /** A line at a time, across the plot. */
-function drawTime({ ctx, bbox, ...plot }: uPlot, time: number | null, colour: string): void {
+function drawTime({ ctx, bbox, ...plot }: uPlot, time: number | null, color: string): void {
   const { min, max } = plot.scales["x"] ?? {};
   if (time === null || min == null || max == null || time < min || time > max) return;
   const x = Math.round(bbox.left + ((time - min) / (max - min)) * bbox.width);
   ctx.save();
-  ctx.fillStyle = colour;
+  ctx.fillStyle = color;
   ctx.fillRect(x, bbox.top, Math.max(1, Math.round(window.devicePixelRatio)), bbox.height);
   ctx.restore();
 }
@@ -182,9 +182,9 @@ function axisWidth(texts: readonly string[] | null): number {
   return Math.max(AXIS_WIDTH, ...(texts ?? []).map((text) => Math.ceil(DIGIT * text.length + GAP)));
 }
 
-function series(curve: Curve, index: number, colour: (name: string) => string): uPlot.Series {
+function series(curve: Curve, index: number, color: (name: string) => string): uPlot.Series {
   const drawn: uPlot.Series = {
-    stroke: colour(COLOURS[index % COLOURS.length] ?? ""),
+    stroke: color(COLORS[index % COLORS.length] ?? ""),
     width: 1.5,
     points: { show: false },
     facets: [

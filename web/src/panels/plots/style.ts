@@ -1,6 +1,6 @@
-/** Colours and dashes of curves: the second, fourth … are dashed, so that colour is never the only sign. */
+/** Colors and dashes of curves: the second, fourth … are dashed, so that color is never the only sign. */
 
-export const COLOURS = ["--plot-1", "--plot-2", "--plot-3", "--plot-4"] as const;
+export const COLORS = ["--plot-1", "--plot-2", "--plot-3", "--plot-4"] as const;
 
 export function isDashed(index: number): boolean {
   return index % 2 === 1;

@@ -11,7 +11,7 @@ const RIGHT = 56;
 const TOP = 28;
 const BOTTOM = 28;
 const TICKS = 5;
-const COLOURS = ["#007a87", "#a66000", "#7b3fc4", "#3f7f1f"];
+const COLORS = ["#007a87", "#a66000", "#7b3fc4", "#3f7f1f"];
 
 export function svgText(plots: readonly Plot[], range: Range): string {
   const height = HEIGHT * plots.length;
@@ -48,7 +48,7 @@ function plotText({ curves }: Plot, range: Range): string {
       const points = Array.from(xs, (time, at) => `${x(time).toFixed(2)},${y(ys[at] ?? 0).toFixed(2)}`);
       const dash = isDashed(index) ? ' stroke-dasharray="4 3"' : "";
       parts.push(
-        `<polyline clip-path="inset(0)" fill="none" stroke="${colour(index)}" stroke-width="1.5"${dash} points="${points.join(" ")}"/>`,
+        `<polyline clip-path="inset(0)" fill="none" stroke="${color(index)}" stroke-width="1.5"${dash} points="${points.join(" ")}"/>`,
       );
     }
   }
@@ -56,14 +56,14 @@ function plotText({ curves }: Plot, range: Range): string {
     const unit = curve.unit.peek() === "" ? "" : ` [${curve.unit.peek()}]`;
     const at = LEFT + (index * (WIDTH - LEFT - RIGHT)) / curves.length;
     parts.push(
-      `<text x="${at.toFixed(1)}" y="${TOP - 10}" fill="${colour(index)}">${escaped(curve.path + unit)}</text>`,
+      `<text x="${at.toFixed(1)}" y="${TOP - 10}" fill="${color(index)}">${escaped(curve.path + unit)}</text>`,
     );
   });
   return parts.join("\n");
 }
 
-function colour(index: number): string {
-  return COLOURS[index % COLOURS.length] ?? "#000";
+function color(index: number): string {
+  return COLORS[index % COLORS.length] ?? "#000";
 }
 
 function ticks([from, to]: Range): readonly number[] {

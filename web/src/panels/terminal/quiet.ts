@@ -18,7 +18,7 @@ const QUESTIONS: readonly IFunctionIdentifier[] = [
 ];
 const STATUS_STRING: IFunctionIdentifier = { intermediates: "$", final: "q" };
 const FOCUS_REPORTS = 1004;
-/** Titles, colours of the theme, links and the clipboard. */
+/** Titles, colors of the theme, links and the clipboard. */
 const SYSTEM_COMMANDS = [0, 1, 2, 4, 8, 10, 11, 12, 52, 104, 110, 111, 112];
 
 export function silence({ parser }: Pick<Terminal, "parser">): void {

@@ -1,4 +1,4 @@
-/** One terminal in an element: xterm.js with the page's colours, fed by the server. */
+/** One terminal in an element: xterm.js with the page's colors, fed by the server. */
 
 import type { FitAddon } from "@xterm/addon-fit";
 import type { ITheme, Terminal } from "@xterm/xterm";
@@ -13,7 +13,7 @@ const FONT = '"SF Mono", "Cascadia Mono", "DejaVu Sans Mono", "Liberation Mono",
 const HEADER = 12; // bytes
 /** Characters per message; the server takes as many. */
 const AT_ONCE = /[\s\S]{1,4096}/gu;
-/** Tokens of ANSI colours: black, red, green, yellow, blue, magenta, cyan, white. */
+/** Tokens of ANSI colors: black, red, green, yellow, blue, magenta, cyan, white. */
 const ANSI = ["--raised", "--error", "--ok", "--warn", "--z", "--plot-3", "--accent", "--text-2"] as const;
 const NAMES = ["Black", "Red", "Green", "Yellow", "Blue", "Magenta", "Cyan", "White"] as const;
 
@@ -80,7 +80,7 @@ export class TerminalView {
       this.connection.useTerminal(this.number, "", wanted);
   }
 
-  recolour(): void {
+  recolor(): void {
     this.terminal.options.theme = themeOf(this.element);
   }
 
@@ -104,20 +104,20 @@ export class TerminalView {
   }
 }
 
-/** The page's colours for a terminal. */
+/** The page's colors for a terminal. */
 function themeOf(element: Element): ITheme {
   const style = getComputedStyle(element);
-  const colour = (token: string): string => style.getPropertyValue(token).trim();
-  const ansi = new Map(NAMES.map((name, index) => [name, colour(ANSI[index] ?? "--text")]));
+  const color = (token: string): string => style.getPropertyValue(token).trim();
+  const ansi = new Map(NAMES.map((name, index) => [name, color(ANSI[index] ?? "--text")]));
   return {
     ...Object.fromEntries([...ansi].map(([name, value]) => [name.toLowerCase(), value])),
     ...Object.fromEntries([...ansi].map(([name, value]) => [`bright${name}`, value])),
-    background: colour("--sunken"),
-    foreground: colour("--text"),
-    cursor: colour("--accent"),
-    cursorAccent: colour("--on-accent"),
-    selectionBackground: colour("--accent-soft"),
-    brightBlack: colour("--text-3"),
-    brightWhite: colour("--text"),
+    background: color("--sunken"),
+    foreground: color("--text"),
+    cursor: color("--accent"),
+    cursorAccent: color("--on-accent"),
+    selectionBackground: color("--accent-soft"),
+    brightBlack: color("--text-3"),
+    brightWhite: color("--text"),
   };
 }

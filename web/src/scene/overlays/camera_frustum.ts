@@ -4,7 +4,7 @@ import { Group, type Object3D } from "three";
 
 import type { CameraInfo } from "../../protocol/generated/page_messages";
 import { place } from "./mass";
-import { COLOURS, lines } from "./overlay_shapes";
+import { COLORS, lines } from "./overlay_shapes";
 
 /** Longest pyramid that is drawn [m]. */
 const LONGEST = 3;
@@ -27,6 +27,6 @@ export function drawFrustum(camera: CameraInfo): Object3D {
   const edges = sides.flatMap((i) => [0, 0, 0, ...corner(end, i)]);
   const group = new Group();
   place(group, camera.pose);
-  group.add(lines([...ring(near), ...ring(end), ...edges], COLOURS.frustum));
+  group.add(lines([...ring(near), ...ring(end), ...edges], COLORS.frustum));
   return group;
 }

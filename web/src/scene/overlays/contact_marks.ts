@@ -11,7 +11,7 @@ import type { SceneView } from "../scene_view";
 import type { SimulatedWorld } from "../simulated_world";
 import { contactCount, HEADER, MOST, SIZE } from "../world/contact_rows";
 import type { NamedModel } from "./body_overlays";
-import { COLOURS, flat, inFront } from "./overlay_shapes";
+import { COLORS, flat, inFront } from "./overlay_shapes";
 
 /** Diameters of a ball and an arrow's shaft and head, longest arrow [m]. */
 const [BALL, SHAFT_WIDTH, HEAD_WIDTH, LONGEST] = [0.03, 0.012, 0.03, 2];
@@ -31,9 +31,9 @@ interface Chosen {
 }
 
 export class ContactMarks {
-  private readonly balls = instances(SPHERE, COLOURS.contact);
-  private readonly shafts = instances(SHAFT, COLOURS.force);
-  private readonly heads = instances(HEAD, COLOURS.force);
+  private readonly balls = instances(SPHERE, COLORS.contact);
+  private readonly shafts = instances(SHAFT, COLORS.force);
+  private readonly heads = instances(HEAD, COLORS.force);
   private readonly chosen: ReadonlySignal<Chosen>;
   private readonly stop: () => void;
 
@@ -128,8 +128,8 @@ function choose(models: readonly NamedModel[], isShown: (name: string) => boolea
   };
 }
 
-function instances(geometry: BufferGeometry, colour: number): InstancedMesh {
-  const mesh = inFront(new InstancedMesh(geometry, flat(colour), MOST));
+function instances(geometry: BufferGeometry, color: number): InstancedMesh {
+  const mesh = inFront(new InstancedMesh(geometry, flat(color), MOST));
   mesh.userData[NOT_PICKED] = true;
   mesh.frustumCulled = false;
   mesh.count = 0;

@@ -4,7 +4,7 @@ import { CircleGeometry, Euler, Group, Quaternion, RingGeometry, Vector3, type O
 
 import type { JointInfo } from "../../protocol/generated/page_messages";
 import type { Triple } from "../simulated_world";
-import { area, arrow, COLOURS, lines, triad } from "./overlay_shapes";
+import { area, arrow, COLORS, lines, triad } from "./overlay_shapes";
 
 const Z = new Vector3(0, 0, 1);
 const SEGMENTS = 48;
@@ -27,7 +27,7 @@ export function drawJoint({ pose, axes, type, lower, upper }: JointInfo, size: n
   object.add(frame);
   if (type === "fixed") return { object, move: () => undefined };
   const directions = axes.map((axis: Triple) => new Vector3(...axis));
-  for (const direction of directions) object.add(arrow(direction, size, COLOURS.axis));
+  for (const direction of directions) object.add(arrow(direction, size, COLORS.axis));
   const [first] = directions;
   if (first === undefined) return { object, move: () => undefined };
   const range = type === "prismatic" ? slide(first, lower, upper, size) : sector(first, lower, upper, 0.7 * size);
@@ -52,12 +52,12 @@ function sector(axis: Vector3, lower: number | null, upper: number | null, radiu
   const shape = isLimited
     ? new CircleGeometry(radius, SEGMENTS, from, length)
     : new RingGeometry(0.96 * radius, radius, SEGMENTS);
-  const mesh = area(shape, COLOURS.limit, isLimited ? 0.3 : 0.9);
+  const mesh = area(shape, COLORS.limit, isLimited ? 0.3 : 0.9);
   mesh.userData["ownGeometry"] = true;
   group.add(mesh);
   if (!isLimited) return group;
   const end = (angle: number): number[] => [0, 0, 0, radius * Math.cos(angle), radius * Math.sin(angle), 0];
-  group.add(lines([...end(lower), ...end(upper)], COLOURS.limit));
+  group.add(lines([...end(lower), ...end(upper)], COLORS.limit));
   return group;
 }
 
@@ -73,7 +73,7 @@ function slide(axis: Vector3, lower: number | null, upper: number | null, size: 
   group.add(
     lines(
       [from, to, ...tick(from), ...tick(to)].flatMap((point) => point.toArray()),
-      COLOURS.limit,
+      COLORS.limit,
     ),
   );
   return group;

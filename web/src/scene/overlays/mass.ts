@@ -6,7 +6,7 @@ import type { LinkInfo } from "../../protocol/generated/page_messages";
 import { principalAxes } from "../../shapes/eigen";
 import { BOX, SPHERE } from "../../shapes/solids";
 import type { SixNumbers } from "../simulated_world";
-import { area, COLOURS, inFront, lines } from "./overlay_shapes";
+import { area, COLORS, inFront, lines } from "./overlay_shapes";
 
 /** Density of lead [kg/m³]: Gazebo draws a centre of mass as a ball of lead. */
 const LEAD = 11340;
@@ -43,7 +43,7 @@ export function drawInertia({ mass, inertia: [xx, yy, zz, xy, xz, yz], inertial_
   const box = new Group();
   box.quaternion.copy(rotation);
   box.scale.set(...equivalentBox(mass, values));
-  box.add(area(BOX, COLOURS.inertia, 0.2), lines(EDGES, COLOURS.inertia));
+  box.add(area(BOX, COLORS.inertia, 0.2), lines(EDGES, COLORS.inertia));
   const group = new Group();
   place(group, inertial_pose);
   group.add(box);

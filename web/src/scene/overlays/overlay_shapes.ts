@@ -19,8 +19,8 @@ const X = new Vector3(1, 0, 0);
 /** Drawn after the world and its transparent parts: areas first, then lines and solids. */
 const [AREAS, SOLIDS] = [20, 21];
 
-/** Colours, the same in both themes as the world's own background lies behind them. */
-export const COLOURS = {
+/** Colors, the same in both themes as the world's own background lies behind them. */
+export const COLORS = {
   x: 0xff5b52,
   y: 0x56cc40,
   z: 0x4f9dff,
@@ -35,12 +35,12 @@ export const COLOURS = {
 const materials = new Map<string, MeshBasicMaterial | LineBasicMaterial>();
 
 /** A flat material in front of what it is in; shared, so not to be disposed of. */
-export function flat(colour: number, opacity = 1): MeshBasicMaterial {
+export function flat(color: number, opacity = 1): MeshBasicMaterial {
   return shared(
-    `${colour} ${opacity}`,
+    `${color} ${opacity}`,
     () =>
       new MeshBasicMaterial({
-        color: colour,
+        color: color,
         opacity,
         transparent: true,
         depthTest: false,
@@ -59,19 +59,19 @@ function shared<M extends MeshBasicMaterial | LineBasicMaterial>(key: string, ma
 }
 
 /** Lines from each even point to the next. */
-export function lines(points: readonly number[], colour: number, opacity = 1): LineSegments {
+export function lines(points: readonly number[], color: number, opacity = 1): LineSegments {
   const geometry = new BufferGeometry().setAttribute("position", new Float32BufferAttribute(points, 3));
   const material = shared(
-    `line ${colour} ${opacity}`,
-    () => new LineBasicMaterial({ color: colour, opacity, transparent: true, depthTest: false, depthWrite: false }),
+    `line ${color} ${opacity}`,
+    () => new LineBasicMaterial({ color: color, opacity, transparent: true, depthTest: false, depthWrite: false }),
   );
   return inFront(new LineSegments(geometry, material));
 }
 
 /** An arrow of a length from the origin in a direction. */
-export function arrow(direction: Vector3, length: number, colour: number): Group {
+export function arrow(direction: Vector3, length: number, color: number): Group {
   const group = new Group();
-  const [shaft, head] = [new Mesh(SHAFT, flat(colour)), new Mesh(HEAD, flat(colour))];
+  const [shaft, head] = [new Mesh(SHAFT, flat(color)), new Mesh(HEAD, flat(color))];
   shaft.scale.set(0.78 * length, 0.04 * length, 0.04 * length);
   head.position.x = 0.78 * length;
   head.scale.set(0.22 * length, 0.12 * length, 0.12 * length);
@@ -83,9 +83,9 @@ export function arrow(direction: Vector3, length: number, colour: number): Group
 /** Axes of a frame. */
 export function triad(length: number): Group {
   const group = new Group();
-  const colours = [COLOURS.x, COLOURS.y, COLOURS.z];
+  const colors = [COLORS.x, COLORS.y, COLORS.z];
   [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].forEach((axis, i) =>
-    group.add(arrow(axis, length, colours[i] ?? 0)),
+    group.add(arrow(axis, length, colors[i] ?? 0)),
   );
   return group;
 }
@@ -96,8 +96,8 @@ export function inFront<O extends Object3D>(object: O): O {
 }
 
 /** An area that others are seen through. */
-export function area(geometry: BufferGeometry, colour: number, opacity: number): Mesh {
-  const mesh = new Mesh(geometry, flat(colour, opacity));
+export function area(geometry: BufferGeometry, color: number, opacity: number): Mesh {
+  const mesh = new Mesh(geometry, flat(color, opacity));
   mesh.renderOrder = AREAS;
   return mesh;
 }

@@ -3,7 +3,7 @@
 import { Group, Vector3, type Object3D } from "three";
 
 import type { Triple } from "../simulated_world";
-import { COLOURS, arrow, triad } from "./overlay_shapes";
+import { COLORS, arrow, triad } from "./overlay_shapes";
 
 /** Gap between the wind's arrows, their height over the ground [m], and how many lie along each side. */
 const WIND = { gap: 2, height: 1, count: 5 };
@@ -23,7 +23,7 @@ export function drawWind(wind: Triple): Object3D {
   const length = Math.min(LENGTH.longest, LENGTH.unit * speed);
   way.divideScalar(speed);
   for (let i = 0; i < WIND.count ** 2; i += 1) {
-    const each = arrow(way, length, COLOURS.frustum);
+    const each = arrow(way, length, COLORS.frustum);
     const offset = (k: number): number => (k - (WIND.count - 1) / 2) * WIND.gap;
     each.position.set(offset(i % WIND.count), offset(Math.floor(i / WIND.count)), WIND.height);
     group.add(each);

@@ -14,7 +14,7 @@ import {
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
-import { sdfColours, sdfMaterial, sdfVariant } from "./sdf_material";
+import { sdfColors, sdfMaterial, sdfVariant } from "./sdf_material";
 import { CASTERS } from "./shadow_map";
 import type { WorldLighting } from "./world_lighting";
 
@@ -139,7 +139,7 @@ export class GlbModel {
     const known = this.materials.get(key);
     if (known !== undefined) return known;
     const texture = standard.map === null ? null : this.contents.texture(standard.map);
-    const material = sdfMaterial(sdfColours(standard), texture, isFlat, this.lighting);
+    const material = sdfMaterial(sdfColors(standard), texture, isFlat, this.lighting);
     this.materials.set(key, material);
     return material;
   }

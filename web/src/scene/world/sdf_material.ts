@@ -1,4 +1,4 @@
-/** Materials of the simulated world: colours of SDF, from `extras.sdf` of a GLB. */
+/** Materials of the simulated world: colors of SDF, from `extras.sdf` of a GLB. */
 
 import { Color, FrontSide, Matrix3, ShaderMaterial, Vector4, type Material, type Texture } from "three";
 
@@ -10,8 +10,8 @@ const ANISOTROPY = 4;
 
 type Rgba = readonly [number, number, number, number];
 
-/** Colours as SDF has them, each component 0…1. */
-export interface SdfColours {
+/** Colors as SDF has them, each component 0…1. */
+export interface SdfColors {
   readonly ambient: Rgba;
   readonly diffuse: Rgba;
   readonly specular: Rgba;
@@ -21,9 +21,9 @@ export interface SdfColours {
 
 const GREY: Rgba = [0.7, 0.7, 0.7, 1];
 
-/** The colours of a GLB's material; of one that is not ours, its base colour. */
-export function sdfColours(material: Material): SdfColours {
-  const found = material.userData["sdf"] as Partial<SdfColours> | undefined;
+/** The colors of a GLB's material; of one that is not ours, its base color. */
+export function sdfColors(material: Material): SdfColors {
+  const found = material.userData["sdf"] as Partial<SdfColors> | undefined;
   const base =
     "color" in material && material.color instanceof Color ? material.color.clone().convertLinearToSRGB() : null;
   const plain: Rgba = base === null ? GREY : [base.r, base.g, base.b, material.opacity];
@@ -33,12 +33,12 @@ export function sdfColours(material: Material): SdfColours {
 
 /** What a visual looks like; `isFlat`: its geometry has no normals. */
 export function sdfMaterial(
-  colours: SdfColours,
+  colors: SdfColors,
   texture: Texture | null,
   isFlat: boolean,
   lighting: WorldLighting,
 ): ShaderMaterial {
-  const { ambient, diffuse, specular, emissive, shininess } = colours;
+  const { ambient, diffuse, specular, emissive, shininess } = colors;
   const own: ShaderMaterial["uniforms"] = {
     ambient: { value: new Color(...rgb(ambient)) },
     diffuse: { value: new Vector4(...diffuse) },

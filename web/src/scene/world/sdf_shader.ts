@@ -141,12 +141,12 @@ void main() {
   float strength, facing, distance, share, gloss;
   bool isGlossy = any(greaterThan(specular, vec3(0.0)));
 ${lights.map((kind, i) => shading(i, kind, i < shadows)).join("")}
-  vec3 colour = min(ambientLight * ambient + sumDiffuse * diffuse.rgb + emissive, vec3(1.0));
+  vec3 color = min(ambientLight * ambient + sumDiffuse * diffuse.rgb + emissive, vec3(1.0));
 #ifdef TEXTURED
-  colour *= texture2D(image, at).rgb;
+  color *= texture2D(image, at).rgb;
 #endif
-  colour += min(sumSpecular * specular, vec3(1.0));
-  if (fogOfWorld.kind != 0) colour = mix(fogOfWorld.color, colour, transmittance());
-  gl_FragColor = vec4(clamp(colour, 0.0, 1.0), diffuse.a);
+  color += min(sumSpecular * specular, vec3(1.0));
+  if (fogOfWorld.kind != 0) color = mix(fogOfWorld.color, color, transmittance());
+  gl_FragColor = vec4(clamp(color, 0.0, 1.0), diffuse.a);
 }`;
 }

@@ -50,7 +50,7 @@ varying vec2 at;
 uniform sampler2D mask;
 uniform vec2 pixel;
 uniform vec2 widths;
-uniform vec3 colour;
+uniform vec3 color;
 void main() {
   vec2 own = texture2D(mask, at).rg;
   vec2 most = vec2(0.0);
@@ -61,21 +61,21 @@ void main() {
     most.g = max(most.g, max(texture2D(mask, at + way * widths.y).g, texture2D(mask, at + 0.5 * way * widths.y).g));
   }
   vec2 edge = clamp(most - own, 0.0, 1.0);
-  gl_FragColor = vec4(colour, max(edge.r, edge.g));
+  gl_FragColor = vec4(color, max(edge.r, edge.g));
 }`;
 
-/** Bodies with outlines of one colour. */
+/** Bodies with outlines of one color. */
 export interface Outlined {
   readonly thin: readonly number[];
   readonly broad: readonly number[];
-  /** Token of the colour. */
-  readonly colour: `--${string}`;
+  /** Token of the color. */
+  readonly color: `--${string}`;
 }
 
-/** Objects that have outlines of one colour. */
+/** Objects that have outlines of one color. */
 interface Marked {
   readonly objects: readonly Object3D[];
-  readonly colour: string;
+  readonly color: string;
   /** Layer of the thin parts. */
   readonly layer: number;
 }
@@ -117,7 +117,7 @@ export class SelectionOutline {
       mask: { value: this.target.texture },
       pixel: { value: new Vector2() },
       widths: { value: new Vector2() },
-      colour: { value: new Color() },
+      color: { value: new Color() },
     };
     this.material = new ShaderMaterial({
       vertexShader: VERTEX,
@@ -160,7 +160,7 @@ export class SelectionOutline {
         });
       }
     }
-    const marked = outlined.slice(-MOST).map(({ thin, broad, colour }, index): Marked => {
+    const marked = outlined.slice(-MOST).map(({ thin, broad, color }, index): Marked => {
       const layer = FIRST_LAYER + 2 * index;
       const objects: Object3D[] = [];
       for (const [bodies, part] of [
@@ -174,7 +174,7 @@ export class SelectionOutline {
           objects.push(object);
         }
       }
-      return { objects, colour, layer };
+      return { objects, color, layer };
     });
     this.marked = marked.filter(({ objects }) => objects.length > 0);
   }
@@ -195,7 +195,7 @@ export class SelectionOutline {
       this.drawMask(renderer, camera, marked.layer);
       camera.layers.mask = layers;
       renderer.setClearColor(this.clear, alpha);
-      this.drawEdges(renderer, marked.colour);
+      this.drawEdges(renderer, marked.color);
       renderer.setScissor(this.scissor);
       renderer.setScissorTest(isScissored);
     }
@@ -215,9 +215,9 @@ export class SelectionOutline {
     renderer.setRenderTarget(null);
   }
 
-  private drawPart(renderer: WebGLRenderer, camera: Camera, layer: number, colour: number): void {
+  private drawPart(renderer: WebGLRenderer, camera: Camera, layer: number, color: number): void {
     camera.layers.set(layer);
-    this.fill.color.set(colour);
+    this.fill.color.set(color);
     renderer.render(this.scene.scene, camera);
   }
 
@@ -259,10 +259,10 @@ export class SelectionOutline {
   }
 
   private setUniforms(ratio: number, token: string): void {
-    const { pixel, widths, colour } = this.material.uniforms;
+    const { pixel, widths, color } = this.material.uniforms;
     (pixel?.value as Vector2).set(1 / this.viewport.z, 1 / this.viewport.w);
     (widths?.value as Vector2).fromArray(WIDTHS).multiplyScalar(ratio);
     const shown = this.style.getPropertyValue(token).trim() || "#3fbed0";
-    (colour?.value as Color).set(shown).convertLinearToSRGB();
+    (color?.value as Color).set(shown).convertLinearToSRGB();
   }
 }

@@ -66,8 +66,8 @@ export class HandleShape extends Group {
     }
   }
 
-  paint(colour: string, opacity: number): void {
-    this.material.color.set(colour);
+  paint(color: string, opacity: number): void {
+    this.material.color.set(color);
     this.material.opacity = opacity;
   }
 

@@ -18,9 +18,9 @@ import { HandleShape, type HandleKind } from "./handle_shapes";
 /** Length of an arrow [px]. */
 const LENGTH = 110;
 const Z = new Vector3(0, 0, 1);
-const COLOURS = ["--x", "--y", "--z"] as const;
+const COLORS = ["--x", "--y", "--z"] as const;
 
-/** A handle: an axis or a plane's normal in the handles' frame; the colour is that of its letter, if it has one. */
+/** A handle: an axis or a plane's normal in the handles' frame; the color is that of its letter, if it has one. */
 export interface Handle {
   readonly kind: HandleKind;
   readonly axis: Vector3;
@@ -90,7 +90,7 @@ export class SelectionHandles extends Group {
           ? handle.kind === "free"
             ? "#ffffff"
             : token("--accent")
-          : token(COLOURS[handle.letter]);
+          : token(COLORS[handle.letter]);
       const isLit = handle === this.lit;
       shape.paint(
         isLit ? token("--focus") : own,
