@@ -24,6 +24,7 @@ BENCHES = {
     "environments": "gym environments",
     "gpu": "batches on a GPU, where there is one",
     "robots": "one, ten and fifty robots",
+    "growth": "hundreds of robots, thousands of boxes, a million faces",
     "hooks": "controllers and a lidar at their rates",
     "contacts": "piles, walls and contact sensors",
     "house": "a furnished house",
