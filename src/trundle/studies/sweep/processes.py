@@ -34,7 +34,7 @@ def run_in_processes(
         job,
         results.missing(),
         add_outcome,
-        count=progress.left,
+        count=progress.remaining,
         progress=progress,
         workers=workers,
         address=address,
