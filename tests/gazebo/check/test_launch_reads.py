@@ -1,4 +1,4 @@
-"""`trundle check` of a launch file reads only where every description reads."""
+"""`trundle check` of a launch file reads only below the folders that any description reads."""
 
 from pathlib import Path
 
@@ -28,7 +28,7 @@ def secret(tmp_path: Path) -> Path:
     return file
 
 
-def checked(tmp_path: Path, element: str, **variables: str) -> CheckResult:
+def check_launch(tmp_path: Path, element: str, **variables: str) -> CheckResult:
     package = tmp_path / "src/arm"
     (package / "launch").mkdir(parents=True, exist_ok=True)
     (package / "package.xml").write_text("<package><name>arm</name></package>")
@@ -47,7 +47,7 @@ def test_a_file_outside_is_refused_by_line(tmp_path: Path, secret: Path, element
     package.mkdir(parents=True)
     (package / "link").symlink_to(secret)
 
-    result = checked(tmp_path, element)
+    result = check_launch(tmp_path, element)
 
     assert result.is_refused
     (error,) = result.report.errors
@@ -58,18 +58,18 @@ def test_a_file_outside_is_refused_by_line(tmp_path: Path, secret: Path, element
 
 @pytest.mark.parametrize("element", READS)
 def test_a_file_of_the_package_is_read(tmp_path: Path, element: str) -> None:
-    result = checked(tmp_path, element.format(file="$(find arm)/p.xml"))
+    result = check_launch(tmp_path, element.format(file="$(find arm)/p.xml"))
     assert result.report.errors == []
 
 
 @pytest.mark.parametrize("element", READS)
 def test_a_file_outside_can_be_allowed(tmp_path: Path, secret: Path, element: str) -> None:
-    result = checked(tmp_path, element.format(file=secret), **{ALLOW_OUTSIDE: "1"})
+    result = check_launch(tmp_path, element.format(file=secret), **{ALLOW_OUTSIDE: "1"})
     assert result.report.errors == []
 
 
-def test_a_launch_itself_reads_what_it_names(tmp_path: Path, secret: Path) -> None:
-    """It runs programs that the file names, which read what they like."""
+def test_a_launch_reads_outside_files(tmp_path: Path, secret: Path) -> None:
+    """It runs the file's programs, which may read any file anyway."""
     file = tmp_path / "a.launch"
     file.write_text(f'<launch><param name="a" textfile="{secret}"/></launch>')
 

@@ -1,4 +1,4 @@
-"""`trundle check` names the plugins that a run does without, in the run's own words."""
+"""`trundle check` reports missing plugins with the messages of a run."""
 
 from pathlib import Path
 
@@ -19,7 +19,7 @@ WORLD = """<sdf version="1.6"><world name="w">
 </model></world></sdf>"""
 
 
-def test_missing_plugins_are_named_by_line_as_a_run_names_them(
+def test_missing_plugins_are_reported_with_lines_and_in_a_runs_words(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "w.world"
@@ -40,11 +40,11 @@ def test_missing_plugins_are_named_by_line_as_a_run_names_them(
         f"{file}:6: warning: sensor 's': plugin libsense.so is not supported yet; the sensor has topics without",
     ]
     assert main(["run", str(file), "--headless", "--no-ros", "--speed", "max", "--duration", "0.01"]) == 0
-    said = capsys.readouterr().err
-    assert all(warning in said for warning in warnings[:-1])  # the last is one of topics, and there are none
+    stderr = capsys.readouterr().err
+    assert all(warning in stderr for warning in warnings[:-1])  # the last is one of topics, and there are none
 
 
-def test_a_python_file_is_found_and_not_run(tmp_path: Path) -> None:
+def test_a_python_plugin_is_found_but_not_executed(tmp_path: Path) -> None:
     (tmp_path / "model").mkdir()
     file = tmp_path / "model" / "model.sdf"
     file.write_text(

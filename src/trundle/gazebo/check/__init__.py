@@ -1,1 +1,1 @@
-"""`trundle check`: the contents of a file, and what is doubtful about them."""
+"""`trundle check`: the contents of a file and findings about them."""

@@ -24,34 +24,34 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class DescriptionFindings:
-    """A description as read, and its world with nested models flattened."""
+    """Loaded description, and its world with nested models flattened."""
 
     loaded: LoadedDescription
     flat: World
 
     def as_json(self) -> dict[str, object]:
-        """Contents, as `check --json` prints them."""
+        """Return the contents, as `check --json` prints them."""
         from .json_output import description_json
 
         return description_json(self.loaded)
 
     def trees(self) -> "list[TreeNode]":
-        """Kinematic tree of each model."""
+        """Return the kinematic tree of each model."""
         from .kinematic_tree import kinematic_trees
 
         return kinematic_trees(self.loaded)
 
     def sentence(self) -> str:
-        """Kind and counts, on one line."""
+        """Return kind and counts, on one line."""
         models = self.flat.models
         links = sum(len(model.links) for model in models)
         joints = sum(len(model.joints) for model in models)
         sensors = sum(len(link.sensors) for model in models for link in model.links)
-        what = {"world": "a world", "model": "a model", "urdf": "a URDF"}[self.loaded.kind]
+        kind = {"world": "a world", "model": "a model", "urdf": "a URDF"}[self.loaded.kind]
         version = f" (SDF {self.flat.sdf_version})" if self.flat.sdf_version else ""
         counts = f"{len(models)} models, {links} links, {joints} joints, {sensors} sensors"
-        unseen = empty_reason(self.flat)
-        return f"{what}{version}: {counts}{f'; {unseen}' if unseen else ''}"
+        reason = empty_reason(self.flat)
+        return f"{kind}{version}: {counts}{f'; {reason}' if reason else ''}"
 
 
 def check_description(
@@ -67,13 +67,13 @@ def check_description(
     """Read a description, lint it and compile its physics.
 
     Args:
-        file: as `trundle check` takes it.
+        file: argument of `trundle check`.
         environment: variables that locate plugins.
         packages: resolve URIs.
-        start: relative URIs in standard input start here.
-        report: takes all findings.
-        collisions: cut hollow meshes as physics does, which may take a minute.
-        piped: contents of `file` where it is a pipe.
+        start: folder for relative URIs in standard input.
+        report: receives all findings.
+        collisions: cut hollow meshes like physics, which may take a minute.
+        piped: contents of `file` if it is a pipe.
 
     Raises:
         DescriptionError: the file cannot be read.
@@ -92,7 +92,7 @@ def check_description(
 def _report_physics(flat: World, report: Diagnostics, *, collisions: bool) -> None:
     try:
         if not physics_accepts(flat):
-            from trundle.sim.physics import compile_world  # slow to load, and most robots need no repair by it
+            from trundle.sim.physics import compile_world  # slow to load, and needed for few robots
 
             compile_world(flat, report, cut_meshes=collisions)
         report_wheels(flat, report)
@@ -112,16 +112,16 @@ def _report_silent_sensors(flat: World, report: Diagnostics) -> None:
 
 
 def _report_ros_names(flat: World, report: Diagnostics) -> None:
-    """Report each illegal name of what moves, with the name that the graph and tf have for it."""
+    """Report illegal names of moving models, with their names on the graph and in tf."""
     for model in flat.models:
         if model.static:
             continue
-        for name, at in _named(model):
+        for name, at in _names_of(model):
             if not is_legal_base_name(name.replace("::", "_")):
                 report.info(at, f"{name!r} is not a legal ROS name; on the graph and in tf it is {ros_name(name)!r}")
 
 
-def _named(model: Model) -> Iterator[tuple[str, Source]]:
+def _names_of(model: Model) -> Iterator[tuple[str, Source]]:
     yield model.name, model.at
-    for each in (*model.links, *model.joints):
-        yield each.name, each.at
+    for part in (*model.links, *model.joints):
+        yield part.name, part.at

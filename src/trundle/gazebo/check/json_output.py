@@ -1,4 +1,4 @@
-"""JSON of a description, as `trundle check --json` prints it.
+"""JSON of a description, the output of `trundle check --json`.
 
 Every pose is [x y z roll pitch yaw] in its own model's frame [m, rad]; an infinite limit is null; values are as
 resolved from the file, before physics repairs any.
@@ -16,7 +16,7 @@ _NO_AXIS: dict[str, object] = {"axis": None, "lower": None, "upper": None, "effo
 
 
 def description_json(loaded: LoadedDescription) -> dict[str, object]:
-    """JSON of a world, a model or a URDF."""
+    """Return the JSON of a world, a model or a URDF."""
     world = loaded.world
     result: dict[str, object] = {
         "kind": "world" if loaded.kind == "world" else "model",
@@ -47,10 +47,10 @@ def _model(model: Model) -> dict[str, object]:
 
 
 def _named_joints(model: Model) -> Iterator[tuple[Joint, str]]:
-    """Joints with unique names: one that has a link's name, as SDF before 1.7 allows, gets the suffix `_joint`."""
-    taken = {link.name for link in model.links}
+    """Yield joints with unique names: with a link's name, as SDF before 1.7 allows, the suffix `_joint` is added."""
+    link_names = {link.name for link in model.links}
     for joint in model.joints:
-        yield joint, f"{joint.name}_joint" if joint.name in taken else joint.name
+        yield joint, f"{joint.name}_joint" if joint.name in link_names else joint.name
 
 
 def _link(link: Link) -> dict[str, object]:
@@ -122,7 +122,7 @@ def _finite(value: float) -> float | None:
 
 def _world(world: World) -> dict[str, object]:
     return {
-        "joints": [_joint(_whole(world), joint) for joint in world.joints],
+        "joints": [_joint(_world_model(world), joint) for joint in world.joints],
         "frames": [_frame(frame) for frame in world.frames],
         "lights": [
             {
@@ -143,8 +143,8 @@ def _world(world: World) -> dict[str, object]:
     }
 
 
-def _whole(world: World) -> Model:
-    """The world as a model, for joints between its models."""
+def _world_model(world: World) -> Model:
+    """Return the world as a model, for joints between its models."""
     return Model(name=world.name, at=world.at, models=world.models)
 
 

@@ -7,7 +7,7 @@ from trundle.robots.robot import Robot
 
 
 def kinematic_trees(loaded: LoadedDescription) -> list[TreeNode]:
-    """One tree for a URDF as written; for SDF, one per model with its free links below it."""
+    """Return one tree for a URDF as written; for SDF, one per model with its free links below it."""
     if loaded.robot is not None:
         return [_robot_tree(loaded.robot)]
     return [_model_tree(model) for model in flattened(loaded.world).models]
@@ -23,21 +23,21 @@ def _robot_tree(robot: Robot) -> TreeNode:
 
 
 def _model_tree(model: Model) -> TreeNode:
-    top = TreeNode(model.name, edge="static model" if model.static else "model")
+    root = TreeNode(model.name, edge="static model" if model.static else "model")
     nodes = {link.name: TreeNode(link.name) for link in model.links}
-    above: dict[str, str] = {}
+    parents: dict[str, str] = {}
     for joint in model.joints:
         if joint.child not in nodes:
             continue
-        if joint.child in above or _is_below(joint.parent, joint.child, above):
+        if joint.child in parents or _is_below(joint.parent, joint.child, parents):
             loop = TreeNode(joint.child, edge=f"{_edge(joint)}, closes a loop")
-            nodes.get(joint.parent, top).children.append(loop)
+            nodes.get(joint.parent, root).children.append(loop)
             continue
-        above[joint.child] = joint.parent
+        parents[joint.child] = joint.parent
         nodes[joint.child].edge = _edge(joint) + (" to the world" if joint.parent not in nodes else "")
-        nodes.get(joint.parent, top).children.append(nodes[joint.child])
-    top.children += [node for name, node in nodes.items() if name not in above]
-    return top
+        nodes.get(joint.parent, root).children.append(nodes[joint.child])
+    root.children += [node for name, node in nodes.items() if name not in parents]
+    return root
 
 
 def _edge(joint: Joint) -> str:
@@ -45,7 +45,7 @@ def _edge(joint: Joint) -> str:
     return f"{joint.name}: {joint.type.value}{', rigid' if rigid else ''}"
 
 
-def _is_below(name: str, ancestor: str, above: dict[str, str]) -> bool:
-    while name in above and name != ancestor:
-        name = above[name]
+def _is_below(name: str, ancestor: str, parents: dict[str, str]) -> bool:
+    while name in parents and name != ancestor:
+        name = parents[name]
     return name == ancestor

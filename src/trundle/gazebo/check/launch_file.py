@@ -1,4 +1,4 @@
-"""`trundle check` of a launch file; commands are named, not run."""
+"""`trundle check` of a launch file; commands are listed, not run."""
 
 import math
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ class LaunchFindings:
     plan: LaunchPlan
 
     def as_json(self) -> dict[str, object]:
-        """Contents, as `check --json` prints them."""
+        """Return the contents, as `check --json` prints them."""
         return {
             "kind": "launch",
             "nodes": [
@@ -40,26 +40,26 @@ class LaunchFindings:
             "params": {
                 param.name: {"command": param.value.line}
                 if isinstance(param.value, ParamCommand)
-                else _plain(param.value)
+                else _json_value(param.value)
                 for param in self.plan.params
             },
         }
 
     def trees(self) -> list[TreeNode]:
-        """None: robots are in other files."""
+        """Return no trees: robots are in other files."""
         return []
 
     def sentence(self) -> str:
-        """Counts of nodes and parameters, on one line."""
+        """Return the counts of nodes and parameters, on one line."""
         commands = sum(isinstance(param.value, ParamCommand) for param in self.plan.params)
-        to_run = f", {commands} of them by a command" if commands else ""
-        return f"a launch of {len(self.plan.nodes)} nodes with {len(self.plan.params)} parameters{to_run}"
+        by_command = f", {commands} of them by a command" if commands else ""
+        return f"a launch of {len(self.plan.nodes)} nodes with {len(self.plan.params)} parameters{by_command}"
 
 
 def check_launch(
     file: str, environment: Mapping[str, str], *, packages: Packages, report: Diagnostics, piped: Piped | None = None
 ) -> LaunchFindings:
-    """Read a launch file, or the text of a pipe; report the nodes that nothing can run.
+    """Read a launch file, or the text of a pipe; report nodes that cannot be found.
 
     Raises:
         DescriptionError: the file cannot be read.
@@ -85,16 +85,16 @@ def check_launch(
     return LaunchFindings(plan)
 
 
-def _plain(value: object) -> object:
-    """JSON form of a parameter's value: bytes become hex, nan and inf text."""
+def _json_value(value: object) -> object:
+    """Return the JSON form of a parameter's value: bytes become hex, nan and inf text."""
     match value:
         case bytes():
             return value.hex()
         case float() if not math.isfinite(value):
             return str(value)
         case list():
-            return [_plain(each) for each in cast("list[object]", value)]
+            return [_json_value(item) for item in cast("list[object]", value)]
         case dict():
-            return {str(key): _plain(each) for key, each in cast("dict[object, object]", value).items()}
+            return {str(key): _json_value(item) for key, item in cast("dict[object, object]", value).items()}
         case _:
             return value
