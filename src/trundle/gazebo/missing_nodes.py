@@ -20,7 +20,7 @@ def report_missing_nodes(
         node_program = find_launch_node(node, packages, {**env, **dict(node.env)})
         if isinstance(node_program, MissingNode):
             try:
-                report_missing_node(node, node_program.why, report, is_required=node.required)
+                report_missing_node(node, node_program.reason, report, is_required=node.required)
             except DescriptionError as error:
                 report.error(error)
 
@@ -31,8 +31,10 @@ def find_launch_node(
     """Find a node of a launch; advice on running it elsewhere includes its name, arguments and remappings."""
     namespace = () if node.namespace == "/" else (f"__ns:={node.namespace}",)
     remappings = (f"{source}:={target}" for source, target in node.remappings)
-    words = (*_split(node.arguments), *remappings, f"__name:={node.name}", *namespace)
-    return find_node(node.package, node.type, packages.find_package, env=env, arguments=node.arguments, words=words)
+    command_line = (*_split(node.arguments), *remappings, f"__name:={node.name}", *namespace)
+    return find_node(
+        node.package, node.type, packages.find_package, env=env, arguments=node.arguments, command_line=command_line
+    )
 
 
 def _split(arguments: str) -> list[str]:

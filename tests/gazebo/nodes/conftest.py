@@ -1,4 +1,4 @@
-"""A graph of its own for each test, stand-ins that run on it, and a node that talks with them."""
+"""A graph for each test, stand-ins that run on it, and a client node."""
 
 import asyncio
 from collections.abc import Callable, Iterator, Mapping
@@ -15,12 +15,12 @@ from trundle.gazebo.nodes.catalog import BUILTIN_NODES
 from trundle.robots.names import parse_arguments
 from trundle.ros import Core, GraphLoop, Message, Messages, Node, Publisher
 
-_FAREWELL_S = 0.1
-"""Time for the last connections of ended processes [s]: one accepted by half would leak when the loop ends."""
+_CLOSE_DELAY_S = 0.1
+"""Time for the last connections of ended processes [s]: a half-accepted one would leak when the loop ends."""
 
 
-class Stage:
-    """A running master, a client, and the stand-ins a test starts."""
+class NodeGraph:
+    """A graph with a running master, a client and the stand-ins that a test starts."""
 
     def __init__(self, loop: GraphLoop, core: Core) -> None:
         self.loop = loop
@@ -30,42 +30,42 @@ class Stage:
         self._tree = ProcessTree()
 
     def start(
-        self, what: str, arguments: str = "", *, name: str = "", host: NodeHost | None = None, **params: Any
+        self, program: str, arguments: str = "", *, name: str = "", host: NodeHost | None = None, **params: Any
     ) -> Future[int]:
         """Start `package/type` as a launch would; the future is its exit code."""
-        package, _, kind = what.partition("/")
-        given = parse_arguments(arguments.split())
+        package, _, type_name = program.partition("/")
+        parsed = parse_arguments(arguments.split())
         node = Node(
-            name or kind.removesuffix(".py"),
+            name or type_name.removesuffix(".py"),
             loop=self.loop,
             master_uri=self.uri,
-            remappings=given.remappings,
-            params={**given.params, **params},
+            remappings=parsed.remappings,
+            params={**parsed.params, **params},
         )
-        stand_in = BuiltinReplacement(BUILTIN_NODES[package, kind])
+        stand_in = BuiltinReplacement(BUILTIN_NODES[package, type_name])
         future = self.loop.spawn(
-            run_builtin_node(stand_in, node, list(given.rest), replace(host or NodeHost(), tree=self._tree))
+            run_builtin_node(stand_in, node, list(parsed.rest), replace(host or NodeHost(), tree=self._tree))
         )
         self._running.append((future, node))
         return future
 
-    def listen(self, topic: str, kind: str) -> list[Message]:
+    def listen(self, topic: str, type_name: str) -> list[Message]:
         """Collect a topic's messages from now on."""
-        heard: list[Message] = []
-        self.client.subscribe(topic, kind, heard.append, queue_size=None)
-        return heard
+        messages: list[Message] = []
+        self.client.subscribe(topic, type_name, messages.append, queue_size=None)
+        return messages
 
-    def speak(self, topic: str, kind: str, *, latch: bool = False) -> Publisher:
+    def advertise(self, topic: str, type_name: str, *, latch: bool = False) -> Publisher:
         """Return a function that publishes on a topic, once it has a subscriber; at once if latched."""
-        publisher = self.client.advertise(topic, kind, queue_size=None, latch=latch)
+        publisher = self.client.advertise(topic, type_name, queue_size=None, latch=latch)
         if not latch:
             self.until(lambda: publisher.has_subscribers)
         return publisher
 
-    def call(self, service: str, kind: str, **fields: Any) -> Message:
-        """Call a service as soon as it is there."""
+    def call(self, service: str, type_name: str, **fields: Any) -> Message:
+        """Call a service as soon as it is advertised."""
         self.loop.run(self.client.wait_for_service(service, PATIENCE_S), PATIENCE_S + 5.0)
-        return self.loop.run(self.client.call_service(service, kind, fields), PATIENCE_S)
+        return self.loop.run(self.client.call_service(service, type_name, fields), PATIENCE_S)
 
     def set_params(self, params: Mapping[str, Any]) -> None:
         """Set parameters by their global names."""
@@ -84,7 +84,7 @@ class Stage:
                 future.cancel()
             for _, node in self._running:
                 await node.closed.wait()
-            await asyncio.sleep(_FAREWELL_S)
+            await asyncio.sleep(_CLOSE_DELAY_S)
 
         self.loop.run(end(), PATIENCE_S)
         self._running.clear()
@@ -107,8 +107,8 @@ def messages() -> Messages:
 
 
 @pytest.fixture
-def stage(messages: Messages) -> Iterator[Stage]:
-    with running_graph(messages) as graph:
-        running = Stage(graph.loop, graph.core)
-        yield running
-        running.stop()
+def graph(messages: Messages) -> Iterator[NodeGraph]:
+    with running_graph(messages) as core_graph:
+        node_graph = NodeGraph(core_graph.loop, core_graph.core)
+        yield node_graph
+        node_graph.stop()

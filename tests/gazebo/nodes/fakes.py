@@ -1,10 +1,11 @@
-"""A node without a graph, on a clock that the test sets."""
+"""Fakes: a node without a graph, on a clock that the test sets, and a page."""
 
 import asyncio
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Sequence
 from typing import Any
 
-from trundle.ros import DISTROS, LEVELS, Message, Messages
+from trundle.gazebo.nodes import Slider
+from trundle.ros import DISTROS, LEVELS, Message, Messages, Node
 
 MESSAGES = Messages()
 
@@ -72,7 +73,7 @@ class FakeParams:
 
 
 class FakeNode:
-    """Stand-in for a node, without a graph."""
+    """Fake node without a graph."""
 
     def __init__(
         self, clock: FakeClock, params: dict[str, Any] | None = None, name: str = "/n", *, distro: str = "noetic"
@@ -105,13 +106,52 @@ class FakeNode:
     def new(self, type_name: str, fields: object = None) -> Message:
         return MESSAGES.new(type_name, fields, now_ns=self.clock.now_ns())
 
-    def hear(self, topic: str, fields: dict[str, Any], type_name: str) -> None:
+    def receive(self, topic: str, fields: dict[str, Any], type_name: str) -> None:
         """Have the node receive a message."""
         self.callbacks[topic](MESSAGES.new(type_name, fields))
 
     def sent(self, topic: str) -> list[Message]:
         """Messages that the node has published on a topic."""
         return self.topics[topic].sent
+
+
+class FakeDisplay:
+    """Fake page that records a node's requests."""
+
+    def __init__(self) -> None:
+        self.sliders: Sequence[Slider] = ()
+        self.slider_callbacks: list[Callable[[str, float], None]] = []
+        self.driven: list[str] = []
+        self.images: list[str] = []
+        self.panels: list[str] = []
+        self.plots: list[Sequence[str]] = []
+        self.joystick_callbacks: list[Callable[[Sequence[float], Sequence[int]], None]] = []
+        self.shown = 0
+
+    def offer_sliders(self, sliders: Sequence[Slider], move: Callable[[str, float], None]) -> None:
+        self.sliders = sliders
+        self.slider_callbacks.append(move)
+
+    def drive_on(self, topic: str) -> None:
+        self.driven.append(topic)
+
+    def show_image(self, topic: str) -> None:
+        self.images.append(topic)
+
+    def open_panel(self, program: str) -> None:
+        self.panels.append(program)
+
+    def plot(self, fields: Sequence[str]) -> None:
+        self.plots.append(fields)
+
+    def offer_joystick(self, move: Callable[[Sequence[float], Sequence[int]], None]) -> None:
+        self.joystick_callbacks.append(move)
+
+    async def show(self, node: Node, *, config: str | None, fixed_frame: str | None) -> int:
+        assert config is fixed_frame is None
+        self.shown += 1
+        await node.closed.wait()
+        return 0
 
 
 def run_to_end(coroutine: Coroutine[Any, Any, int]) -> int | None:

@@ -1,4 +1,4 @@
-"""Actions: where frames are, and servos along a trajectory."""
+"""Actions: transform lookup, servo trajectories and grippers."""
 
 import math
 from typing import Any
@@ -22,11 +22,11 @@ ARBOTIX: dict[str, Any] = {
 FOLLOW = "control_msgs/FollowJointTrajectory"
 
 
-def ask(stage, name: str, kind: str, goal: dict[str, Any], *, key: str = "1") -> Any:
-    """Send a goal; the publisher of goals and the results so far."""
-    results = stage.listen(f"{name}/result", f"{kind}ActionResult")
-    goals = stage.speak(f"{name}/goal", f"{kind}ActionGoal")
-    stage.until(lambda: stage.connected(f"{name}/result"))
+def send_goal(graph, name: str, type_name: str, goal: dict[str, Any], *, key: str = "1") -> Any:
+    """Send a goal; return the publisher of goals and the list of results."""
+    results = graph.listen(f"{name}/result", f"{type_name}ActionResult")
+    goals = graph.advertise(f"{name}/goal", f"{type_name}ActionGoal")
+    graph.until(lambda: graph.connected(f"{name}/result"))
     goals.publish({"goal_id": {"id": key}, "goal": goal})
     return goals, results
 
@@ -36,14 +36,14 @@ def point(*positions: float, at_s: float) -> dict[str, Any]:
     return {"positions": list(positions), "time_from_start": {"sec": ns // 10**9, "nanosec": ns % 10**9}}
 
 
-def test_servos_follow_a_trajectory(stage) -> None:
+def test_servos_follow_a_trajectory(graph) -> None:
     """The action's name is the node's to resolve, not below the controller's."""
     controllers = {"arm": {"type": "follow_controller", "joints": ["pan", "tilt"]}}
-    stage.start("arbotix_python/arbotix_driver", name="arbotix", **{**ARBOTIX, "controllers": controllers})
-    states = stage.listen("/joint_states", "sensor_msgs/JointState")
+    graph.start("arbotix_python/arbotix_driver", name="arbotix", **{**ARBOTIX, "controllers": controllers})
+    states = graph.listen("/joint_states", "sensor_msgs/JointState")
     trajectory = {"joint_names": ["tilt", "pan"], "points": [point(0.4, -0.2, at_s=0.3), point(0.4, 0.1, at_s=0.6)]}
-    _, results = ask(stage, "/follow_joint_trajectory", FOLLOW, {"trajectory": trajectory})
-    stage.until(lambda: results)
+    _, results = send_goal(graph, "/follow_joint_trajectory", FOLLOW, {"trajectory": trajectory})
+    graph.until(lambda: results)
 
     assert (results[0].status.status, results[0].status.text) == (SUCCEEDED, "Trajectory execution complete")
 
@@ -51,8 +51,8 @@ def test_servos_follow_a_trajectory(stage) -> None:
         return dict(zip(states[-1].name, states[-1].position, strict=True))[joint]
 
     # Ticks are 0.3 degrees; the last hundredth of a second is not waited for.
-    stage.until(lambda: position("tilt") == pytest.approx(0.4, abs=0.01))
-    stage.until(lambda: position("pan") == pytest.approx(0.1, abs=0.02))
+    graph.until(lambda: position("tilt") == pytest.approx(0.4, abs=0.01))
+    graph.until(lambda: position("pan") == pytest.approx(0.1, abs=0.02))
 
 
 @pytest.mark.parametrize(
@@ -63,61 +63,61 @@ def test_servos_follow_a_trajectory(stage) -> None:
         ({"joint_names": ["pan", "tilt"], "points": [point(0.1, at_s=0.1)]}, "fewer positions"),
     ],
 )
-def test_a_trajectory_that_does_not_fit_is_aborted(stage, trajectory: dict[str, Any], text: str) -> None:
-    stage.start("arbotix_python/arbotix_driver", name="arbotix", **ARBOTIX)
-    _, results = ask(stage, "/arm/follow_joint_trajectory", FOLLOW, {"trajectory": trajectory})
-    stage.until(lambda: results)
+def test_an_invalid_trajectory_is_aborted(graph, trajectory: dict[str, Any], text: str) -> None:
+    graph.start("arbotix_python/arbotix_driver", name="arbotix", **ARBOTIX)
+    _, results = send_goal(graph, "/arm/follow_joint_trajectory", FOLLOW, {"trajectory": trajectory})
+    graph.until(lambda: results)
     assert results[0].status.status == ABORTED
     assert text in results[0].status.text
 
 
-def test_a_new_goal_preempts_and_a_cancel_ends_it(stage) -> None:
-    stage.start("arbotix_python/arbotix_driver", name="arbotix", **ARBOTIX)
+def test_a_new_goal_preempts_and_a_cancel_ends_it(graph) -> None:
+    graph.start("arbotix_python/arbotix_driver", name="arbotix", **ARBOTIX)
     slow = {"trajectory": {"joint_names": ["pan", "tilt"], "points": [point(1.0, 1.0, at_s=100.0)]}}
-    goals, results = ask(stage, "/arm/follow_joint_trajectory", FOLLOW, slow, key="first")
-    status = stage.listen("/arm/follow_joint_trajectory/status", "actionlib_msgs/GoalStatusArray")
-    stage.until(lambda: status and [s.status for s in status[-1].status_list] == [1])
+    goals, results = send_goal(graph, "/arm/follow_joint_trajectory", FOLLOW, slow, key="first")
+    status = graph.listen("/arm/follow_joint_trajectory/status", "actionlib_msgs/GoalStatusArray")
+    graph.until(lambda: status and [s.status for s in status[-1].status_list] == [1])
     goals.publish({"goal_id": {"id": "second"}, "goal": slow})
-    stage.until(lambda: len(results) == 1)
+    graph.until(lambda: len(results) == 1)
     assert (results[0].status.goal_id.id, results[0].status.status) == ("first", PREEMPTED)
 
-    stage.speak("/arm/follow_joint_trajectory/cancel", "actionlib_msgs/GoalID").publish({})
-    stage.until(lambda: len(results) == 2)
+    graph.advertise("/arm/follow_joint_trajectory/cancel", "actionlib_msgs/GoalID").publish({})
+    graph.until(lambda: len(results) == 2)
     assert (results[1].status.goal_id.id, results[1].status.status) == ("second", PREEMPTED)
 
 
-def test_a_controller_without_its_servos_is_named_and_left_out(stage, capsys) -> None:
+def test_a_controller_without_its_servos_is_reported(graph, capsys) -> None:
     controllers = {"arm": {"type": "follow_controller", "joints": ["elbow"]}}
-    stage.start("arbotix_python/arbotix_driver", name="arbotix", **{**ARBOTIX, "controllers": controllers})
-    said = ""
+    graph.start("arbotix_python/arbotix_driver", name="arbotix", **{**ARBOTIX, "controllers": controllers})
+    log_text = ""
 
-    def named() -> bool:
-        nonlocal said
-        said += capsys.readouterr().err
-        return "no servo 'elbow'; servos here: pan, tilt; it is left out" in said
+    def is_reported() -> bool:
+        nonlocal log_text
+        log_text += capsys.readouterr().err
+        return "no servo 'elbow'; servos here: pan, tilt; it is left out" in log_text
 
-    stage.until(named)
+    graph.until(is_reported)
 
 
-def test_the_buffer_server_looks_frames_up(stage) -> None:
-    stage.start("tf2_ros/static_transform_publisher", "1 2 3 0 0 0 base camera", name="still")
-    stage.start("tf2_ros/buffer_server")
-    kind = "tf2_msgs/LookupTransform"
+def test_the_buffer_server_looks_up_transforms(graph) -> None:
+    graph.start("tf2_ros/static_transform_publisher", "1 2 3 0 0 0 base camera", name="still")
+    graph.start("tf2_ros/buffer_server")
+    type_name = "tf2_msgs/LookupTransform"
     goal = {"target_frame": "base", "source_frame": "camera", "timeout": {"sec": 60}}
-    goals, results = ask(stage, "/tf2_buffer_server", kind, goal)
-    stage.until(lambda: results)
+    goals, results = send_goal(graph, "/tf2_buffer_server", type_name, goal)
+    graph.until(lambda: results)
     assert results[0].status.status == SUCCEEDED
     assert results[0].result.transform.transform.translation.y == 2.0
 
     goals.publish({"goal_id": {"id": "2"}, "goal": {**goal, "source_frame": "moon", "timeout": {}}})
-    stage.until(lambda: len(results) == 2)
+    graph.until(lambda: len(results) == 2)
     assert (results[1].status.status, results[1].result.error.error) == (SUCCEEDED, 1)  # clients look no further else
     assert "moon" in results[1].result.error.error_string
 
     for number, (target, source, error) in enumerate([("/base", "camera", 4), ("base", "", 4), ("base", "base", 0)]):
         frames = {"target_frame": target, "source_frame": source}
         goals.publish({"goal_id": {"id": f"more{number}"}, "goal": frames})
-        stage.until(lambda expected=number + 3: len(results) == expected)
+        graph.until(lambda expected=number + 3: len(results) == expected)
         assert (results[-1].status.status, results[-1].result.error.error) == (SUCCEEDED, error)
 
 
@@ -141,7 +141,7 @@ def test_an_opening_becomes_servo_angles(
     assert read_gripper(RosParameters(settings, "/g")).commands(opening_m) == pytest.approx(commands)
 
 
-def test_openings_and_models_that_cannot_be_are_refused() -> None:
+def test_invalid_openings_and_models_are_rejected() -> None:
     with pytest.raises(ValueError, match="exceeds the opening limits"):
         read_gripper(RosParameters({"model": "dualservo"}, "/g")).commands(0.5)
     with pytest.raises(ValueError, match="cannot open"):
@@ -150,11 +150,13 @@ def test_openings_and_models_that_cannot_be_are_refused() -> None:
         read_gripper(RosParameters({"model": "tentacle"}, "/g"))
 
 
-def test_a_gripper_opens_as_its_servo_does(stage) -> None:
-    stage.start("arbotix_python/arbotix_driver", name="arbotix", **{**ARBOTIX, "joints": {"gripper_joint": {"id": 1}}})
-    stage.start("arbotix_controllers/gripper_controller", name="grip", model="singlesided")
-    stage.until(lambda: stage.linked("/gripper_joint/command") and stage.linked("/joint_states"))
-    _, results = ask(stage, "/grip/gripper_action", "control_msgs/GripperCommand", {"command": {"position": 0.03}})
-    stage.until(lambda: results)
+def test_a_gripper_opens_as_its_servo_does(graph) -> None:
+    graph.start("arbotix_python/arbotix_driver", name="arbotix", **{**ARBOTIX, "joints": {"gripper_joint": {"id": 1}}})
+    graph.start("arbotix_controllers/gripper_controller", name="grip", model="singlesided")
+    graph.until(lambda: graph.linked("/gripper_joint/command") and graph.linked("/joint_states"))
+    _, results = send_goal(
+        graph, "/grip/gripper_action", "control_msgs/GripperCommand", {"command": {"position": 0.03}}
+    )
+    graph.until(lambda: results)
 
     assert (results[0].status.status, results[0].result.reached_goal) == (SUCCEEDED, True)

@@ -1,4 +1,4 @@
-"""The simulated arbotix driver behaves as the original, faults included."""
+"""The simulated arbotix driver behaves as the original, including its faults."""
 
 import itertools
 import math
@@ -25,7 +25,7 @@ SMARTCAR: dict[str, Any] = {
 
 
 def drive(params: dict[str, Any], *, seconds: float, **clock: Any) -> FakeNode:
-    """Run the driver from 1 s on; the smartcar's command comes before the first pass."""
+    """Run the driver from 1 s on, with the smartcar's command before the first update."""
     node = FakeNode(FakeClock(end_ns=round((1 + seconds) * S), **clock), params)
     driver = ArbotixDriver(node, [], NodeHost())  # pyright: ignore[reportArgumentType]
     subscribe = node.subscribe
@@ -33,7 +33,7 @@ def drive(params: dict[str, Any], *, seconds: float, **clock: Any) -> FakeNode:
     def subscribe_and_command(topic: str, type_name: str, callback: Any, **options: Any) -> None:
         subscribe(topic, type_name, callback, **options)
         if topic == "cmd_vel":
-            node.hear("/cmd_vel", {"linear": {"x": 0.5}, "angular": {"z": 0.5}}, "geometry_msgs/Twist")
+            node.receive("/cmd_vel", {"linear": {"x": 0.5}, "angular": {"z": 0.5}}, "geometry_msgs/Twist")
 
     node.subscribe = subscribe_and_command
     assert run_to_end(driver.run()) is None
@@ -52,7 +52,7 @@ def test_ten_seconds_of_exact_steps_end_where_forward_euler_ends() -> None:
     )
 
 
-def test_odometry_has_the_originals_shape() -> None:
+def test_odometry_has_the_originals_fields() -> None:
     node = drive(SMARTCAR, seconds=2.0)
     first, last = node.sent("/odom")[0], node.sent("/odom")[-1]
     assert (first.header.frame_id, first.child_frame_id) == ("odom", "base_link")
@@ -81,12 +81,12 @@ def test_the_smartcars_topics_come_as_often_as_in_the_recording_of_the_original(
     jitter = random.Random(1)
     node = drive(SMARTCAR, seconds=60.0, late_ns=lambda: jitter.randrange(0, 900_000))
     rates = {topic: len(node.sent(topic)) / 60.0 for topic in ("/odom", "/tf", "/joint_states", "/diagnostics")}
-    wanted = {"/odom": 7.67, "/tf": 7.67, "/joint_states": 12.06, "/diagnostics": 0.97}
-    assert rates == {topic: pytest.approx(rate, rel=0.15) for topic, rate in wanted.items()}
+    expected = {"/odom": 7.67, "/tf": 7.67, "/joint_states": 12.06, "/diagnostics": 0.97}
+    assert rates == {topic: pytest.approx(rate, rel=0.15) for topic, rate in expected.items()}
 
 
 @pytest.mark.parametrize("phase_ms", range(0, 150, 10))
-def test_ten_seconds_of_a_command_end_alike_wherever_in_the_cycle_it_comes(phase_ms: int) -> None:
+def test_ten_seconds_of_a_command_end_alike_at_any_phase_of_the_cycle(phase_ms: int) -> None:
     """Within 5 cm of the real driver's −0.938…−0.949, 0.770…0.800 (docs/decisions/0006)."""
     jitter = random.Random(phase_ms)
     command_ns, end_ns = 3 * S + phase_ms * 1_000_000, 13 * S + phase_ms * 1_000_000
@@ -96,7 +96,7 @@ def test_ten_seconds_of_a_command_end_alike_wherever_in_the_cycle_it_comes(phase
     def late_ns() -> int:
         if clock.ns >= command_ns and not node.sent("/odom")[-1].twist.twist.linear.x:
             woken_ns, clock.ns = clock.ns, command_ns
-            node.hear("/cmd_vel", {"linear": {"x": 0.5}, "angular": {"z": 0.5}}, "geometry_msgs/Twist")
+            node.receive("/cmd_vel", {"linear": {"x": 0.5}, "angular": {"z": 0.5}}, "geometry_msgs/Twist")
             clock.ns = woken_ns
         return jitter.randrange(200_000, 1_200_000)
 
@@ -108,14 +108,14 @@ def test_ten_seconds_of_a_command_end_alike_wherever_in_the_cycle_it_comes(phase
     assert 0.720 <= position.y <= 0.850
 
 
-def test_the_base_keeps_moving_when_nobody_commands_it_any_more() -> None:
+def test_the_base_keeps_moving_without_further_commands() -> None:
     node = drive(
         {**SMARTCAR, "controllers": {"b": {**SMARTCAR["controllers"]["base_controller"], "timeout": 0.1}}}, seconds=5.0
     )
     assert node.sent("/odom")[-1].twist.twist.linear.x == 0.5
 
 
-def test_wheels_are_named_by_the_original_and_stand_still() -> None:
+def test_wheel_joints_have_the_originals_names_and_do_not_move() -> None:
     node = drive(SMARTCAR, seconds=1.0)
     message = node.sent("/joint_states")[-1]
     assert list(message.name) == ["base_l_wheel_joint", "base_r_wheel_joint"]
@@ -124,7 +124,7 @@ def test_wheels_are_named_by_the_original_and_stand_still() -> None:
     assert len(message.effort) == 0
 
 
-def test_diagnostics_tell_the_speeds_once_a_second() -> None:
+def test_diagnostics_have_the_speeds_once_a_second() -> None:
     node = drive(SMARTCAR, seconds=5.0)
     assert len(node.sent("/diagnostics")) == 4
     (status,) = node.sent("/diagnostics")[-1].status
@@ -132,7 +132,7 @@ def test_diagnostics_tell_the_speeds_once_a_second() -> None:
     assert [(pair.key, pair.value) for pair in status.values] == [("dX", "0.5"), ("dR", "0.5")]
 
 
-def test_it_says_what_the_original_says() -> None:
+def test_log_messages_and_services_are_the_originals() -> None:
     node = drive(SMARTCAR, seconds=0.1)
     assert node.log.logged == [
         ("info", "ArbotiX being simulated."),
@@ -157,13 +157,13 @@ def test_it_says_what_the_original_says() -> None:
         ({"sim": True, "joints": {"a": {}}}, "parameter /n/joints/a/id is not set"),
     ],
 )
-def test_parameters_of_no_use_end_it_with_a_sentence(params: dict[str, Any], message: str) -> None:
+def test_invalid_parameters_end_it_with_an_error(params: dict[str, Any], message: str) -> None:
     node = FakeNode(FakeClock(end_ns=2 * S), params)
     assert run_to_end(ArbotixDriver(node, [], NodeHost()).run()) == 1  # pyright: ignore[reportArgumentType]
     assert node.log.logged[-1] == ("error", message)
 
 
-def test_a_controller_that_cannot_be_made_is_named_and_left_out() -> None:
+def test_an_invalid_controller_is_reported_and_ignored() -> None:
     controllers = {
         "a": {"type": "omni_controller"},
         "b": {"type": "diff_controller"},
@@ -185,7 +185,7 @@ def test_a_servo_moves_by_its_speed_limit_in_whole_ticks() -> None:
 
     def subscribe_and_command(topic: str, type_name: str, callback: Any, **options: Any) -> None:
         subscribe(topic, type_name, callback, **options)
-        node.hear("/arm/command", {"data": 1.0}, "std_msgs/Float64")
+        node.receive("/arm/command", {"data": 1.0}, "std_msgs/Float64")
 
     node.subscribe = subscribe_and_command
     assert run_to_end(driver.run()) is None
@@ -195,27 +195,27 @@ def test_a_servo_moves_by_its_speed_limit_in_whole_ticks() -> None:
     assert positions[-1] == pytest.approx(1.0)
 
 
-def test_a_servo_that_a_controller_moves_does_not_obey_its_topic() -> None:
+def test_a_servo_moved_by_a_controller_ignores_its_topic() -> None:
     node = FakeNode(FakeClock(end_ns=S), {})
     servo = HobbyServo(node, "arm", RosParameters({"id": 1}, "/n"))  # pyright: ignore[reportArgumentType]
     servo.is_controlled = lambda: True
-    node.hear("/arm/command", {"data": 0.5}, "std_msgs/Float64")
+    node.receive("/arm/command", {"data": 0.5}, "std_msgs/Float64")
     servo.interpolate(1.0)
     assert servo.reading.position == 0.0
 
     servo.is_controlled = lambda: False
-    node.hear("/arm/command", {"data": 0.5}, "std_msgs/Float64")
+    node.receive("/arm/command", {"data": 0.5}, "std_msgs/Float64")
     servo.interpolate(1.0)
     assert servo.reading.position == pytest.approx(0.5, abs=2e-3)
 
 
-def test_a_disabled_servo_takes_no_command() -> None:
+def test_a_disabled_servo_ignores_commands() -> None:
     params = {"sim": True, "joints": {"arm": {"id": 1}}}
     node = FakeNode(FakeClock(end_ns=round(1.2 * S)), params)
     assert run_to_end(ArbotixDriver(node, [], NodeHost()).run()) is None  # pyright: ignore[reportArgumentType]
     request = node.messages.new("arbotix_msgs/EnableRequest", {"enable": False})
     assert node.services["/arm/enable"](request) == {"state": False}
-    node.hear("/arm/command", {"data": 1.0}, "std_msgs/Float64")
+    node.receive("/arm/command", {"data": 1.0}, "std_msgs/Float64")
     assert node.services["/arm/enable"](node.messages.new("arbotix_msgs/EnableRequest", {"enable": True})) == {
         "state": True
     }

@@ -43,21 +43,21 @@ def video(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ("gscam/gscam", "/camera", "camera_frame", "rgb8", 0),
     ],
 )
-def test_a_video_file_takes_the_place_of_a_camera(
-    stage, video: Path, tmp_path: Path, driver: str, topic: str, frame: str, encoding: str, red: int
+def test_a_video_file_replaces_a_camera(
+    graph, video: Path, tmp_path: Path, driver: str, topic: str, frame: str, encoding: str, red: int
 ) -> None:
     calibration = tmp_path / "narrow.yaml"
     calibration.write_text(CALIBRATION)
-    images = stage.listen(f"{topic}/image_raw", "sensor_msgs/Image")
-    infos = stage.listen(f"{topic}/camera_info", "sensor_msgs/CameraInfo")
+    images = graph.listen(f"{topic}/image_raw", "sensor_msgs/Image")
+    infos = graph.listen(f"{topic}/camera_info", "sensor_msgs/CameraInfo")
     files: dict[str, Any] = {
         "usb_cam/usb_cam_node": {"video_device": str(video)},
         "cv_camera/cv_camera_node": {"file": str(video), "rate": 10.0},
         "gscam/gscam": {"gscam_config": f"filesrc location={video} ! decodebin ! videoconvert"},
     }
-    stage.start(driver, camera_info_url=f"file://{calibration}", **files[driver])
+    graph.start(driver, camera_info_url=f"file://{calibration}", **files[driver])
 
-    stage.until(lambda: images and infos)
+    graph.until(lambda: images and infos)
     image, info = images[0], infos[0]
     assert (image.width, image.height, image.step, image.encoding) == (64, 48, 192, encoding)
     assert image.header.frame_id == info.header.frame_id == frame
@@ -67,26 +67,30 @@ def test_a_video_file_takes_the_place_of_a_camera(
     assert list(info.D) == [pytest.approx(0.1), 0, 0, 0, 0]
 
 
-def test_a_file_begins_anew_for_usb_cam_and_ends_cv_camera(stage, video: Path) -> None:
-    images = stage.listen("/usb_cam_node/image_raw", "sensor_msgs/Image")
-    stage.start("usb_cam/usb_cam_node", video_device=str(video), framerate=100.0)
-    stage.until(lambda: len(images) > 7)
+def test_usb_cam_repeats_a_file_and_cv_camera_ends_with_it(graph, video: Path) -> None:
+    images = graph.listen("/usb_cam_node/image_raw", "sensor_msgs/Image")
+    graph.start("usb_cam/usb_cam_node", video_device=str(video), framerate=100.0)
+    graph.until(lambda: len(images) > 7)
 
-    assert stage.start("cv_camera/cv_camera_node", file=str(video), rate=100.0).result(60.0) == 0
+    assert graph.start("cv_camera/cv_camera_node", file=str(video), rate=100.0).result(60.0) == 0
 
 
 @pytest.mark.parametrize(
-    ("driver", "params", "said"),
+    ("driver", "params", "message"),
     [
-        ("usb_cam/usb_cam_node", {"video_device": "/dev/video97"}, "there is no camera /dev/video97 here"),
+        (
+            "usb_cam/usb_cam_node",
+            {"video_device": "/dev/video97"},
+            "no camera /dev/video97; the path of a video file can replace it",
+        ),
         ("gscam/gscam", {}, "neither gscam_config nor the variable GSCAM_CONFIG is set"),
-        ("gscam/gscam", {"gscam_config": "rtspsrc location=rtsp://x ! decodebin"}, "is not known here"),
+        ("gscam/gscam", {"gscam_config": "rtspsrc location=rtsp://x ! decodebin"}, "is unknown; v4l2src device="),
         ("cv_camera/cv_camera_node", {"file": __file__}, "cannot open"),
     ],
 )
-def test_what_cannot_be_opened_is_said_in_a_sentence(
-    stage, capfd: pytest.CaptureFixture[str], driver: str, params: dict[str, Any], said: str
+def test_a_source_that_cannot_be_opened_is_reported(
+    graph, capfd: pytest.CaptureFixture[str], driver: str, params: dict[str, Any], message: str
 ) -> None:
-    assert stage.start(driver, **params).result(60.0) == 1
+    assert graph.start(driver, **params).result(60.0) == 1
 
-    assert said in capfd.readouterr().err
+    assert message in capfd.readouterr().err

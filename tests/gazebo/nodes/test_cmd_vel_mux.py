@@ -1,4 +1,4 @@
-"""cmd_vel_mux, the nodelet that passes a TurtleBot 2 its commands."""
+"""cmd_vel_mux, the nodelet that multiplexes a TurtleBot 2's velocity commands."""
 
 from pathlib import Path
 
@@ -15,29 +15,31 @@ publisher: output
 """
 
 
-def test_whoever_has_the_highest_priority_drives_until_it_is_silent(stage, tmp_path: Path) -> None:
+def test_the_active_input_has_the_highest_priority_until_it_times_out(graph, tmp_path: Path) -> None:
     (tmp_path / "mux.yaml").write_text(_SOURCES)
-    stage.start("nodelet/nodelet", _LOAD, name="cmd_vel_mux", yaml_cfg_file=str(tmp_path / "mux.yaml"))
-    heard = stage.listen("/base/velocity", _TWIST)
-    active = stage.listen("/cmd_vel_mux/active", "std_msgs/String")
-    navi, teleop, brief = (stage.speak(f"/cmd_vel_mux/input/{name}", _TWIST) for name in ("navi", "teleop", "brief"))
-    stage.until(lambda: stage.connected("/base/velocity") and active)
+    graph.start("nodelet/nodelet", _LOAD, name="cmd_vel_mux", yaml_cfg_file=str(tmp_path / "mux.yaml"))
+    messages = graph.listen("/base/velocity", _TWIST)
+    active = graph.listen("/cmd_vel_mux/active", "std_msgs/String")
+    navi, teleop, brief = (
+        graph.advertise(f"/cmd_vel_mux/input/{name}", _TWIST) for name in ("navi", "teleop", "brief")
+    )
+    graph.until(lambda: graph.connected("/base/velocity") and active)
     for count, (source, speed) in enumerate(((brief, 1.0), (navi, 2.0), (teleop, 3.0))):
         source.publish({"linear": {"x": speed}})
-        stage.until(lambda count=count: len(heard) == count + 1)
+        graph.until(lambda count=count: len(messages) == count + 1)
         if source is brief:
-            stage.until(lambda: active[-1].data == "idle" and len(active) > 1)  # it was silent for its timeout
+            graph.until(lambda: active[-1].data == "idle" and len(active) > 1)  # it was silent for its timeout
     navi.publish({"linear": {"x": 4.0}})
     teleop.publish({"linear": {"x": 5.0}})
-    stage.until(lambda: len(heard) == 4)
+    graph.until(lambda: len(messages) == 4)
 
-    assert [message.linear.x for message in heard] == [1.0, 2.0, 3.0, 5.0]
+    assert [message.linear.x for message in messages] == [1.0, 2.0, 3.0, 5.0]
     assert [message.data for message in active] == ["idle", "brief", "idle", "navi", "teleop"]
 
 
 @pytest.mark.parametrize("text", ["", "subscribers: []", "subscribers: [{name: a}]", "a: [", "subscribers: 3"])
-def test_a_configuration_that_is_none_is_named(stage, tmp_path: Path, capsys, text: str) -> None:
+def test_an_invalid_configuration_is_reported(graph, tmp_path: Path, capsys, text: str) -> None:
     (tmp_path / "mux.yaml").write_text(text)
     file = str(tmp_path / ("mux.yaml" if text else "none.yaml"))
-    assert stage.start("nodelet/nodelet", _LOAD, name="mux", yaml_cfg_file=file).result(PATIENCE_S) == 1
+    assert graph.start("nodelet/nodelet", _LOAD, name="mux", yaml_cfg_file=file).result(PATIENCE_S) == 1
     assert file in capsys.readouterr().err

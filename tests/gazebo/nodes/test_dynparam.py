@@ -1,4 +1,4 @@
-"""dynamic_reconfigure/dynparam from the command line, on a node of ours that has options."""
+"""dynamic_reconfigure/dynparam from the command line, on a stand-in with options."""
 
 from pathlib import Path
 
@@ -8,18 +8,18 @@ NODE = "/depthimage_to_laserscan"
 
 
 @pytest.fixture
-def dynparam(stage):
-    stage.start("depthimage_to_laserscan/depthimage_to_laserscan", scan_height=3)
+def dynparam(graph):
+    graph.start("depthimage_to_laserscan/depthimage_to_laserscan", scan_height=3)
     names = iter(range(100))
 
     def run(arguments: str, **params: object) -> int:
-        return stage.start("dynamic_reconfigure/dynparam", arguments, name=f"d{next(names)}", **params).result(60.0)
+        return graph.start("dynamic_reconfigure/dynparam", arguments, name=f"d{next(names)}", **params).result(60.0)
 
-    stage.loop.run(stage.client.wait_for_service(f"{NODE}/set_parameters"), 60.0)
+    graph.loop.run(graph.client.wait_for_service(f"{NODE}/set_parameters"), 60.0)
     return run
 
 
-def test_list_get_set_dump_and_load(dynparam, stage, capsys, tmp_path: Path) -> None:
+def test_list_get_set_dump_and_load(dynparam, graph, capsys, tmp_path: Path) -> None:
     assert dynparam("list") == 0
     assert dynparam(f"set {NODE} range_max 5") == 0
     assert dynparam(f"dump {NODE} {tmp_path / 'a.yaml'}") == 0
@@ -32,11 +32,11 @@ def test_list_get_set_dump_and_load(dynparam, stage, capsys, tmp_path: Path) -> 
     assert out.startswith(f"{NODE}\n")
     assert "'scan_height': 7" in out
     assert "'range_max': 3.5" in out
-    now = stage.loop.run(stage.client.params.get(NODE))
+    now = graph.loop.run(graph.client.params.get(NODE))
     assert (now["scan_height"], now["range_max"], now["range_min"]) == (3, 5.0, 0.25)
 
 
-def test_what_the_original_dumps_is_read(dynparam, stage, tmp_path: Path) -> None:
+def test_a_dump_of_the_original_is_loaded(dynparam, graph, tmp_path: Path) -> None:
     """The original dumps a Python object with its groups."""
     file = tmp_path / "a.yaml"
     file.write_text(
@@ -45,11 +45,11 @@ def test_what_the_original_dumps_is_read(dynparam, stage, tmp_path: Path) -> Non
         "state: []\n"
     )
     assert dynparam(f"load {NODE} {file}") == 0
-    assert stage.loop.run(stage.client.params.get(f"{NODE}/scan_height")) == 9
+    assert graph.loop.run(graph.client.params.get(f"{NODE}/scan_height")) == 9
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("arguments", "message"),
     [
         (f"set {NODE} speed 1", "don't know parameter: speed; there are: scan_height"),
         (f"set {NODE} scan_height x", "'x' is not of type int"),
@@ -57,10 +57,10 @@ def test_what_the_original_dumps_is_read(dynparam, stage, tmp_path: Path) -> Non
         (f"load {NODE} /no/such.yaml", "No such file"),
     ],
 )
-def test_what_is_wrong_is_said(dynparam, capfd, words: str, said: str) -> None:
-    assert dynparam(words) == 1
-    assert said in "".join(capfd.readouterr())
+def test_invalid_commands_are_reported(dynparam, capfd, arguments: str, message: str) -> None:
+    assert dynparam(arguments) == 1
+    assert message in "".join(capfd.readouterr())
 
 
-def test_wrong_usage_is_two(dynparam) -> None:
+def test_a_usage_error_exits_with_two(dynparam) -> None:
     assert dynparam("fly") == 2

@@ -1,4 +1,4 @@
-"""Package and type of a node resolve to a program, a stand-in, or a sentence."""
+"""Package and type of a node resolve to a program, a stand-in or an error message."""
 
 import importlib
 from pathlib import Path
@@ -17,13 +17,13 @@ def program(path: Path, mode: int = 0o755) -> Path:
 
 
 @pytest.mark.parametrize("target", sorted(set(BUILTIN_NODES.values())))
-def test_every_stand_in_of_the_catalog_is_there(target: str) -> None:
+def test_every_stand_in_of_the_catalog_exists(target: str) -> None:
     module, _, name = target.partition(":")
-    found = getattr(importlib.import_module(module), name)
-    assert isinstance(found, PanelWindow) or callable(found.run)
+    replacement = getattr(importlib.import_module(module), name)
+    assert isinstance(replacement, PanelWindow) or callable(replacement.run)
 
 
-def test_the_packages_own_program_goes_before_the_stand_in(tmp_path: Path) -> None:
+def test_a_program_of_the_package_is_preferred_to_a_stand_in(tmp_path: Path) -> None:
     path = program(tmp_path / "scripts/rviz")
     assert find_node("rviz", "rviz", lambda _: tmp_path, env={}) == Executable(path)
     path.chmod(0o644)
@@ -40,8 +40,8 @@ def test_the_packages_own_program_goes_before_the_stand_in(tmp_path: Path) -> No
         ("elsewhere/amcl", "prefix/lib/amcl"),
     ],
 )
-def test_what_was_built_of_a_package_is_run_where_nothing_stands_in(tmp_path: Path, sources: str, built: str) -> None:
-    """roslaunch and rosrun look there too; most of a ROS that is installed are no scripts in a package's folder."""
+def test_a_built_program_runs_if_there_is_no_stand_in(tmp_path: Path, sources: str, built: str) -> None:
+    """roslaunch and rosrun search there too; most installed ROS programs are not scripts in a package's folder."""
     folder = tmp_path / sources
     folder.mkdir(parents=True)
     path = program(tmp_path / built / "amcl")
@@ -49,24 +49,24 @@ def test_what_was_built_of_a_package_is_run_where_nothing_stands_in(tmp_path: Pa
     assert find_node("amcl", "amcl", lambda _: folder, env=env) == Executable(path)
     assert program_names("amcl", folder, env=env) == {"amcl"}
 
-    own = program(folder / "scripts/amcl")
-    assert find_node("amcl", "amcl", lambda _: folder, env=env) == Executable(own)
+    script = program(folder / "scripts/amcl")
+    assert find_node("amcl", "amcl", lambda _: folder, env=env) == Executable(script)
 
 
-def test_a_stand_in_goes_before_what_is_installed(tmp_path: Path) -> None:
+def test_a_stand_in_is_preferred_to_an_installed_program(tmp_path: Path) -> None:
     """Debian's rviz is a program in /usr/share/rviz."""
     program(tmp_path / "lib/rviz/rviz")
     folder = program(tmp_path / "share/rviz/rviz").parent
     assert isinstance(find_node("rviz", "rviz", lambda _: folder, env={}), BuiltinReplacement)
 
 
-def test_programs_in_hidden_and_build_folders_do_not_count(tmp_path: Path) -> None:
+def test_programs_in_hidden_and_build_folders_are_ignored(tmp_path: Path) -> None:
     program(tmp_path / ".git/x")
     program(tmp_path / "build/x")
     assert isinstance(find_node("p", "x", lambda _: tmp_path, env={}), MissingNode)
 
 
-def test_a_type_may_name_a_folder_but_never_leave_the_package(tmp_path: Path) -> None:
+def test_a_type_may_contain_a_folder_but_not_leave_the_package(tmp_path: Path) -> None:
     path = program(tmp_path / "p/nodes/x")
     program(tmp_path / "outside")
     assert find_node("p", "nodes/x", lambda _: tmp_path / "p", env={}) == Executable(path)
@@ -74,18 +74,18 @@ def test_a_type_may_name_a_folder_but_never_leave_the_package(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("name", ["arbotix_driver", "arbotix_driver.py", "driver.py"])
-def test_old_names_of_the_arbotix_driver_lead_to_it(name: str) -> None:
-    found = find_node("arbotix_python", name, lambda _: None, env={})
-    assert found == BuiltinReplacement("trundle.gazebo.nodes.arbotix:ArbotixDriver")
+def test_old_names_of_the_arbotix_driver_are_aliases(name: str) -> None:
+    node = find_node("arbotix_python", name, lambda _: None, env={})
+    assert node == BuiltinReplacement("trundle.gazebo.nodes.arbotix:ArbotixDriver")
 
 
-def test_what_is_missing_is_named(tmp_path: Path) -> None:
+def test_missing_programs_are_reported(tmp_path: Path) -> None:
     assert find_node("tf", "nope", lambda _: None, env={}) == MissingNode(
         "no package 'tf', and no stand-in for tf/nope; stand-ins of that package: "
         "static_transform_publisher, tf_echo, tf_monitor, view_frames"
     )
     path = program(tmp_path / "x.py", 0o644)
-    assert find_node("p", "x.py", lambda _: tmp_path, env={}) == Executable(path), "a script needs no such bit"
+    assert find_node("p", "x.py", lambda _: tmp_path, env={}) == Executable(path), "a script needs no executable bit"
     path.write_text("data")
     assert find_node("p", "x.py", lambda _: tmp_path, env={}) == MissingNode(
         f"{path} is not executable; run chmod +x on it"
@@ -95,14 +95,12 @@ def test_what_is_missing_is_named(tmp_path: Path) -> None:
     )
     for name in "gfedcba":
         program(tmp_path / name, 0o755)
-    found = find_node("p", "y", lambda _: tmp_path, env={})
-    assert isinstance(found, MissingNode)
-    assert found.why.endswith("no stand-in for p/y; its programs: a, b, c, d, e and 2 more")
+    node = find_node("p", "y", lambda _: tmp_path, env={})
+    assert isinstance(node, MissingNode)
+    assert node.reason.endswith("no stand-in for p/y; its programs: a, b, c, d, e and 2 more")
 
 
-def test_a_script_for_a_ros_that_is_not_installed_gives_way_to_the_stand_in(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_script_without_rospy_is_replaced_by_the_stand_in(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The tutorials clone arbotix_ros into the workspace."""
     monkeypatch.setattr("trundle.gazebo.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "none"))
     path = program(tmp_path / "bin/arbotix_driver")
@@ -111,50 +109,52 @@ def test_a_script_for_a_ros_that_is_not_installed_gives_way_to_the_stand_in(
     installed = {"PYTHONPATH": str(tmp_path / "ros")}
     assert find_node("arbotix_python", "arbotix_driver", lambda _: tmp_path, env=installed) == Executable(path)
 
-    own = program(tmp_path / "scripts/talk.py")
-    own.write_text("import rospy\n")
-    assert find_node("p", "talk.py", lambda _: tmp_path, env={}) == Executable(own)
-    found = find_node("arbotix_python", "arbotix_driver", lambda _: tmp_path, env={})
-    assert found == BuiltinReplacement("trundle.gazebo.nodes.arbotix:ArbotixDriver")
+    script = program(tmp_path / "scripts/talk.py")
+    script.write_text("import rospy\n")
+    assert find_node("p", "talk.py", lambda _: tmp_path, env={}) == Executable(script)
+    node = find_node("arbotix_python", "arbotix_driver", lambda _: tmp_path, env={})
+    assert node == BuiltinReplacement("trundle.gazebo.nodes.arbotix:ArbotixDriver")
 
 
-def test_so_does_one_whose_messages_nobody_built(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_script_without_its_messages_is_replaced_by_the_stand_in(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Debian has rospy, but no ros_control, whose sources may lie in the workspace."""
     monkeypatch.setattr("trundle.gazebo.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "modules"))
     (tmp_path / "modules/rospy").mkdir(parents=True)
     path = program(tmp_path / "scripts/spawner")
     path.write_text("import rospy\nfrom controller_manager_msgs.srv import *\n")
 
-    found = find_node("controller_manager", "spawner", lambda _: tmp_path, env={})
-    assert isinstance(found, BuiltinReplacement)
+    node = find_node("controller_manager", "spawner", lambda _: tmp_path, env={})
+    assert isinstance(node, BuiltinReplacement)
     (tmp_path / "modules/controller_manager_msgs").mkdir()
     assert find_node("controller_manager", "spawner", lambda _: tmp_path, env={}) == Executable(path)
 
 
-def test_what_is_out_of_scope_is_named_with_a_way_out() -> None:
-    found = find_node("move_base", "move_base", lambda _: None, env={})
-    assert isinstance(found, MissingNode)
-    assert found.why.endswith(
+def test_an_unsupported_node_is_reported_with_a_container_command() -> None:
+    node = find_node("move_base", "move_base", lambda _: None, env={})
+    assert isinstance(node, MissingNode)
+    assert node.reason.endswith(
         "the real one can run in a container with ROS_MASTER_URI set to this master: docker run --rm -it "
         "--network host -e ROS_MASTER_URI=http://localhost:11311 ros:noetic-ros-base bash -c "
         "'apt-get update && apt-get install -y ros-noetic-move-base && rosrun move_base move_base'"
     )
 
 
-def test_a_node_of_a_published_package_is_named_with_its_repository() -> None:
-    found = find_node("turtlebot3_example", "turtlebot3_client", lambda _: None, env={})
-    assert isinstance(found, MissingNode)
+def test_a_node_of_a_published_package_is_reported_with_its_repository() -> None:
+    node = find_node("turtlebot3_example", "turtlebot3_client", lambda _: None, env={})
+    assert isinstance(node, MissingNode)
     address = "https://github.com/ROBOTIS-GIT/turtlebot3"
-    assert found.why.endswith(f"; it is published at {address}: trundle pack get turtlebot3_example")
+    assert node.reason.endswith(f"; it is published at {address}: trundle pack get turtlebot3_example")
 
 
-def test_rosserial_s_own_node_in_python_is_named() -> None:
-    found = find_node("rosserial_arduino", "serial_node.py", lambda _: None, env={})
-    assert isinstance(found, MissingNode)
-    assert found.why.endswith("runs here: trundle pack get rosserial_python, and pip install pyserial")
+def test_a_rosserial_node_is_reported_with_its_python_package() -> None:
+    node = find_node("rosserial_arduino", "serial_node.py", lambda _: None, env={})
+    assert isinstance(node, MissingNode)
+    assert node.reason.endswith("runs here: trundle pack get rosserial_python, and pip install pyserial")
 
 
-def test_a_program_that_has_to_be_compiled_is_named_with_its_source(tmp_path: Path) -> None:
+def test_an_uncompiled_program_is_reported_with_its_source(tmp_path: Path) -> None:
     text = (
         "project(arm)\nadd_executable(arm_node src/arm.cpp)\nset_target_properties(arm_node PROPERTIES OUTPUT_NAME arm)"
     )
@@ -165,7 +165,7 @@ def test_a_program_that_has_to_be_compiled_is_named_with_its_source(tmp_path: Pa
         f"; C++ not compiled yet: {tmp_path}/CMakeLists.txt:2 builds it (target 'arm_node') "
         "from src/arm.cpp; catkin_make compiles it, here or in a container: docker run --rm -it --network host "
         f"-v {tmp_path}:/ws/src/{tmp_path.name}:ro "
-    ) in missing.why
+    ) in missing.reason
     other = find_node("arm", "leg", lambda _: tmp_path, env={})
     assert isinstance(other, MissingNode)
-    assert "C++" not in other.why
+    assert "C++" not in other.reason

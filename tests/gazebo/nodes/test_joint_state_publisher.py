@@ -1,11 +1,11 @@
-"""joint_state_publisher picks and places joints as the original does."""
+"""joint_state_publisher selects joints and their positions as the original does."""
 
 import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import pytest
-from tests.gazebo.nodes.fakes import MESSAGES, FakeClock, FakeNode, run_to_end
+from tests.gazebo.nodes.fakes import MESSAGES, FakeClock, FakeDisplay, FakeNode, run_to_end
 
 from trundle.base.diagnostics import Diagnostics
 from trundle.base.xmlnode import parse_xml
@@ -50,12 +50,12 @@ def test_free_joints_come_in_file_order_and_dependent_ones_follow() -> None:
     assert (len(messages[0].velocity), len(messages[0].effort)) == (0, 0)
 
 
-def test_a_robot_within_another_element_is_found() -> None:
+def test_a_robot_nested_in_another_element_is_read() -> None:
     (first, *_) = publish({}, robot=f"<urdf>{ROBOT}</urdf>").sent("/joint_states")
     assert list(first.name) == ["wheel", "lift", "finger", "tip"]
 
 
-def test_parameters_of_the_namespace_count_where_the_node_has_none() -> None:
+def test_parameters_of_the_namespace_are_defaults_of_private_ones() -> None:
     node = publish({"/rate": 5, "/publish_default_velocities": True})
     assert len(node.sent("/joint_states")) == 6
     assert len(node.sent("/joint_states")[0].velocity) == 4
@@ -108,7 +108,7 @@ def test_a_planar_joint_is_moved_in_indigo_only() -> None:
     assert list(publish({}, robot=robot, distro="indigo").sent("/joint_states")[0].name) == ["plane", "turn"]
 
 
-def test_a_joint_without_limits_is_named_and_left_out() -> None:
+def test_a_joint_without_limits_is_reported_and_ignored() -> None:
     node = publish(
         {}, robot='<robot name="r"><joint name="a" type="revolute"/><joint name="b" type="continuous"/></robot>'
     )
@@ -127,21 +127,18 @@ def test_a_joint_without_limits_is_named_and_left_out() -> None:
         ({"dependent_joints": {"tip2": {}}}, "/dependent_joints/tip2/parent is not set"),
     ],
 )
-def test_what_cannot_be_published_ends_it_with_a_sentence(params: dict[str, Any], message: str) -> None:
+def test_invalid_parameters_and_robots_end_it_with_an_error(params: dict[str, Any], message: str) -> None:
     node = FakeNode(FakeClock(end_ns=2 * S), {"/robot_description": ROBOT, **params})
     assert run_to_end(JointStatePublisher(node, [], NodeHost()).run()) == 1  # pyright: ignore[reportArgumentType]
     assert node.log.logged[-1][0] == "error"
     assert message in node.log.logged[-1][1]
 
 
-class Page:
-    """Display that keeps the sliders offered."""
-
-    def __init__(self) -> None:
-        self.sliders: Sequence[Slider] = ()
+class SliderDisplay(FakeDisplay):
+    """Fake page that moves a slider at once."""
 
     def offer_sliders(self, sliders: Sequence[Slider], move: Callable[[str, float], None]) -> None:
-        self.sliders = sliders
+        super().offer_sliders(sliders, move)
         move("wheel", 0.125)
 
     async def show(self, *_: object, **__: object) -> int:
@@ -150,7 +147,7 @@ class Page:
 
 @pytest.mark.parametrize(("kind", "params"), [(JointStatePublisherGui, {}), (JointStatePublisher, {"/use_gui": True})])
 def test_sliders_on_the_page_move_joints(kind: Callable[..., JointStatePublisher], params: dict[str, Any]) -> None:
-    page = Page()
+    page = SliderDisplay()
     node = publish(params, host=NodeHost(display=page), kind=kind)
     assert [slider.name for slider in page.sliders] == ["wheel", "lift"]
     assert (page.sliders[0].lower, page.sliders[0].upper) == (-math.pi, math.pi)

@@ -1,4 +1,4 @@
-"""Maps: from a picture to occupancies by map_server's rules, and back."""
+"""Map files become occupancy grids by map_server's rules, and back."""
 
 from pathlib import Path
 
@@ -15,12 +15,12 @@ _KEYS = "resolution: 0.05\norigin: [-1.0, -2.0, 0.5]\nnegate: 0\noccupied_thresh
 
 @pytest.fixture
 def picture(tmp_path: Path) -> Path:
-    """Black, grey and white above; white below."""
+    """Black, gray and white above; white below."""
     Image.fromarray(np.array([[0, 205, 255], [254, 254, 254]], dtype=np.uint8)).save(tmp_path / "map.pgm")
     return tmp_path / "map.yaml"
 
 
-def test_dark_is_occupied_light_is_free_and_grey_unknown(picture: Path) -> None:
+def test_black_is_occupied_white_free_and_gray_unknown(picture: Path) -> None:
     picture.write_text(f"image: map.pgm\n{_KEYS}")
     grid = read_map(picture)
 
@@ -40,8 +40,8 @@ def test_negated_maps_and_modes(picture: Path) -> None:
     assert read_map(picture).cells.tolist() == [[-2, -2, -2], [0, -51, -1]]  # shades as signed bytes
 
 
-def test_a_picture_that_ends_in_its_header_is_refused_in_a_sentence(tmp_path: Path) -> None:
-    """Pillow's decoders have exceptions of any kind."""
+def test_a_truncated_image_is_rejected(tmp_path: Path) -> None:
+    """Pillow's decoders raise exceptions of any type."""
     (tmp_path / "map.pgm").write_bytes(b"P5")
     with pytest.raises(UsageError, match=r"map\.pgm: Reached EOF"):
         read_cells(tmp_path / "map.pgm", negate=False, occupied=0.65, free=0.196)
@@ -60,37 +60,37 @@ def test_a_picture_that_ends_in_its_header_is_refused_in_a_sentence(tmp_path: Pa
         (f"image: map.pgm\n{_KEYS.replace('[-1.0, -2.0, 0.5]', 'x')}", ""),
     ],
 )
-def test_a_map_that_is_none_is_refused_in_a_sentence(picture: Path, text: str, reason: str) -> None:
+def test_an_invalid_map_is_rejected(picture: Path, text: str, reason: str) -> None:
     picture.write_text(text)
     with pytest.raises(UsageError, match=f".*{reason}"):
         read_map(picture)
 
 
-def test_a_served_map_is_what_was_saved_of_it(stage, picture: Path) -> None:
+def test_a_saved_map_equals_the_served_one(graph, picture: Path) -> None:
     picture.write_text(f"image: map.pgm\n{_KEYS}")
-    stage.start("map_server/map_server", str(picture))
+    graph.start("map_server/map_server", str(picture))
     saved = picture.with_name("saved")
-    assert stage.start("map_server/map_saver", f"-f {saved}").result(PATIENCE_S) == 0
+    assert graph.start("map_server/map_saver", f"-f {saved}").result(PATIENCE_S) == 0
 
     assert read_map(saved.with_name("saved.yaml")).cells.tolist() == [[0, 0, 0], [100, -1, 0]]
-    served = stage.call("/static_map", "nav_msgs/GetMap").map
+    served = graph.call("/static_map", "nav_msgs/GetMap").map
     assert (served.header.frame_id, served.info.width, served.info.height) == ("map", 3, 2)
     assert served.info.origin.position.y == -2.0
     assert list(served.data) == [0, 0, 0, 100, -1, 0]
 
 
-def test_a_picture_and_its_resolution_are_a_map_as_of_old(stage, picture: Path, capsys) -> None:
+def test_an_image_and_its_resolution_are_a_map(graph, picture: Path, capsys) -> None:
     image = picture.with_name("map.pgm")
-    running = stage.start("map_server/map_server", f"{image} 0.1", negate=1)
-    served = stage.call("/static_map", "nav_msgs/GetMap").map
+    running = graph.start("map_server/map_server", f"{image} 0.1", negate=1)
+    served = graph.call("/static_map", "nav_msgs/GetMap").map
     assert (served.info.resolution, served.info.origin.position.x) == (pytest.approx(0.1), 0.0)
     assert list(served.data) == [100, 100, 100, 0, 100, 100]
     assert not running.done()
 
-    assert stage.start("map_server/map_server", f"{image} wide", name="other").result(PATIENCE_S) == 255
+    assert graph.start("map_server/map_server", f"{image} wide", name="other").result(PATIENCE_S) == 255
     assert "resolution must be a number [m], got 'wide'" in capsys.readouterr().err
 
 
-def test_a_map_that_is_not_there_ends_the_server(stage, capsys) -> None:
-    assert stage.start("map_server/map_server", "/no/map.yaml").result(PATIENCE_S) == 255
+def test_a_missing_map_ends_the_server(graph, capsys) -> None:
+    assert graph.start("map_server/map_server", "/no/map.yaml").result(PATIENCE_S) == 255
     assert "/no/map.yaml" in capsys.readouterr().err

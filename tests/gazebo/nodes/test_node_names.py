@@ -1,4 +1,4 @@
-"""Names of nodes that are started by hand."""
+"""Default names of nodes started from a command line."""
 
 import re
 
@@ -25,8 +25,9 @@ from trundle.gazebo.nodes import default_name
         ("rviz/rviz", "-d a.rviz", "rviz"),
     ],
 )
-def test_any_number_of_them_may_run_at_once(program: str, arguments: str, base: str) -> None:
-    name = default_name(*program.split("/"), arguments.split())
+def test_anonymous_nodes_have_unique_names(program: str, arguments: str, base: str) -> None:
+    package, _, executable = program.partition("/")
+    name = default_name(package, executable, arguments.split())
     assert re.fullmatch(rf"{base}_\w+_\d+_\d+", name)
 
 
@@ -45,8 +46,9 @@ def test_any_number_of_them_may_run_at_once(program: str, arguments: str, base: 
         ("nodelet/nodelet", "", "nodelet"),
     ],
 )
-def test_others_are_one_of_a_kind(program: str, arguments: str, name: str) -> None:
-    assert default_name(*program.split("/"), arguments.split()) == name
+def test_other_nodes_have_fixed_names(program: str, arguments: str, name: str) -> None:
+    package, _, executable = program.partition("/")
+    assert default_name(package, executable, arguments.split()) == name
 
 
 def test_windows_of_rqt_are_named_by_their_process() -> None:

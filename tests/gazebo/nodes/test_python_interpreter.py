@@ -6,15 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from trundle.gazebo.nodes import lacks_rospy, missing_ros_module, start_words
+from trundle.gazebo.nodes import command_prefix, lacks_rospy, missing_ros_module
 from trundle.gazebo.nodes.python_interpreter import interpreter
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="only POSIX systems read a script's first line")
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="only POSIX systems read a script's shebang")
 
 
 @pytest.fixture
 def debian(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A machine whose own Python has rospy; its `bin` is returned."""
+    """The `bin` of a machine whose system Python has rospy."""
     python = _program(tmp_path / "usr" / "bin" / "python3")
     (tmp_path / "usr" / "modules" / "rospy").mkdir(parents=True)
     monkeypatch.setattr("trundle.gazebo.nodes.python_interpreter._DEBIAN_PYTHON", str(python))
@@ -24,7 +24,7 @@ def debian(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture
 def venv(tmp_path: Path) -> Path:
-    """The `bin` of a virtual environment that knows nothing of ROS."""
+    """The `bin` of a virtual environment without ROS."""
     _program(tmp_path / "venv" / "bin" / "python")
     return _program(tmp_path / "venv" / "bin" / "python3").parent
 
@@ -36,29 +36,27 @@ def _program(path: Path, text: str = "#!/bin/sh\n") -> Path:
     return path
 
 
-def _asked(folder: Path, first: str, *path: Path, imports: str = "rospy", **env: str) -> list[str]:
+def _interpreter_for(folder: Path, first: str, *path: Path, imports: str = "rospy", **env: str) -> list[str]:
     script = _program(folder / "node.py", f"{first}\nimport {imports}\n")
     return interpreter(script, {"PATH": os.pathsep.join(map(str, path)), **env})
 
 
 @pytest.mark.parametrize("first", ["#!/usr/bin/env python3", "#!/usr/bin/env python", "#! /usr/bin/env python  "])
-def test_an_active_environment_without_rospy_is_passed_over(
-    tmp_path: Path, debian: Path, venv: Path, first: str
-) -> None:
-    assert _asked(tmp_path, first, venv, debian) == [str(debian / "python3")]
+def test_an_active_environment_without_rospy_is_skipped(tmp_path: Path, debian: Path, venv: Path, first: str) -> None:
+    assert _interpreter_for(tmp_path, first, venv, debian) == [str(debian / "python3")]
 
 
-def test_a_program_that_imports_trundle_gets_its_python(tmp_path: Path, debian: Path, venv: Path) -> None:
+def test_a_script_that_imports_trundle_runs_with_its_python(tmp_path: Path, debian: Path, venv: Path) -> None:
     imports = "rospy\nfrom trundle.gym import MlpPolicy"
-    assert _asked(tmp_path, "#!/usr/bin/env python3", venv, debian, imports=imports) == [sys.executable]
+    assert _interpreter_for(tmp_path, "#!/usr/bin/env python3", venv, debian, imports=imports) == [sys.executable]
 
 
-def test_debians_own_python_is_left_to_the_script(tmp_path: Path, debian: Path, venv: Path) -> None:
-    assert _asked(tmp_path, "#!/usr/bin/env python3", debian, venv) == []
+def test_debians_python_is_used_by_the_script_itself(tmp_path: Path, debian: Path, venv: Path) -> None:
+    assert _interpreter_for(tmp_path, "#!/usr/bin/env python3", debian, venv) == []
 
 
 @pytest.mark.parametrize(
-    ("text", "is_ours"),
+    ("text", "uses_this_python"),
     [
         ("from talking.words import WORD", True),
         ("from talking.msg import Word", True),
@@ -66,8 +64,8 @@ def test_debians_own_python_is_left_to_the_script(tmp_path: Path, debian: Path, 
         ("import near, numpy, json", False),
     ],
 )
-def test_modules_of_a_workspace_that_debian_lacks_are_found_by_this_one(
-    tmp_path: Path, debian: Path, text: str, is_ours: bool
+def test_scripts_with_unbuilt_workspace_modules_run_with_this_python(
+    tmp_path: Path, debian: Path, text: str, uses_this_python: bool
 ) -> None:
     package = tmp_path / "src" / "talking"
     script = _program(package / "scripts" / "node.py", f"#!/usr/bin/env python3\nimport rospy\n{text}\n")
@@ -77,17 +75,17 @@ def test_modules_of_a_workspace_that_debian_lacks_are_found_by_this_one(
     (package / "src" / "talking" / "__init__.py").write_text("")
 
     env = {"PATH": str(debian), "ROS_PACKAGE_PATH": str(tmp_path / "src")}
-    assert interpreter(script, env) == ([sys.executable] if is_ours else [])
-    if is_ours:  # built: on the path, as by devel/setup.sh
+    assert interpreter(script, env) == ([sys.executable] if uses_this_python else [])
+    if uses_this_python:  # built: on the path, as by devel/setup.sh
         (tmp_path / "devel" / "talking").mkdir(parents=True)
         assert interpreter(script, {**env, "PYTHONPATH": str(tmp_path / "devel")}) == []
 
 
 @pytest.mark.parametrize("text", ["from talking.words import WORD", "import near"])
-def test_a_script_of_a_package_gets_rospy_whatever_its_own_lines_import(
+def test_a_package_script_gets_rospy_even_without_importing_it(
     tmp_path: Path, venv: Path, monkeypatch: pytest.MonkeyPatch, text: str
 ) -> None:
-    """Catkin's layout: a thin script, and rospy in its package's module or a file beside it."""
+    """Catkin's layout: a thin script, with rospy imported by its package's module or a neighboring file."""
     monkeypatch.setattr("trundle.gazebo.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "nothing"))
     package = tmp_path / "src" / "talking"
     script = _program(package / "scripts" / "node.py", f"#!/usr/bin/env python3\n{text}\n")
@@ -96,7 +94,7 @@ def test_a_script_of_a_package_gets_rospy_whatever_its_own_lines_import(
     assert interpreter(script, {"PATH": str(venv)}) == [sys.executable]
 
 
-def test_modules_that_only_a_file_beside_the_script_imports_count(tmp_path: Path, debian: Path) -> None:
+def test_imports_of_a_neighboring_module_count(tmp_path: Path, debian: Path) -> None:
     package = tmp_path / "src" / "talking"
     script = _program(package / "scripts" / "node.py", "#!/usr/bin/env python3\nimport near\n")
     (package / "scripts" / "near.py").write_text("import rospy\nfrom talking.words import WORD\n")
@@ -108,31 +106,31 @@ def test_modules_that_only_a_file_beside_the_script_imports_count(tmp_path: Path
     assert interpreter(script, env) == [sys.executable]
 
 
-def test_a_rospy_of_the_environments_own_is_used(tmp_path: Path, debian: Path, venv: Path) -> None:
+def test_a_rospy_installed_in_the_environment_is_used(tmp_path: Path, debian: Path, venv: Path) -> None:
     (venv.parent / "lib" / "python3.11" / "site-packages" / "rospy").mkdir(parents=True)
 
-    assert _asked(tmp_path, "#!/usr/bin/env python3", venv, debian) == []
+    assert _interpreter_for(tmp_path, "#!/usr/bin/env python3", venv, debian) == []
 
 
-def test_so_is_one_on_the_python_path(tmp_path: Path, debian: Path, venv: Path) -> None:
+def test_a_rospy_on_the_python_path_is_used(tmp_path: Path, debian: Path, venv: Path) -> None:
     elsewhere = tmp_path / "elsewhere"
     (elsewhere / "rospy").mkdir(parents=True)
 
-    assert _asked(tmp_path, "#!/usr/bin/env python3", venv, debian, PYTHONPATH=str(elsewhere)) == []
+    assert _interpreter_for(tmp_path, "#!/usr/bin/env python3", venv, debian, PYTHONPATH=str(elsewhere)) == []
 
 
 @pytest.mark.parametrize(
     ("first", "imports"), [("#!/usr/bin/env python3", "math"), ("#!/bin/sh", "rospy"), ("#!/opt/ros/python3", "rospy")]
 )
-def test_what_needs_no_rospy_or_says_where_it_is_goes_by_its_first_line(
+def test_a_script_without_rospy_or_with_a_fixed_interpreter_keeps_its_shebang(
     tmp_path: Path, debian: Path, venv: Path, first: str, imports: str
 ) -> None:
-    assert _asked(tmp_path, first, venv, debian, imports=imports) == []
+    assert _interpreter_for(tmp_path, first, venv, debian, imports=imports) == []
 
 
 @pytest.mark.parametrize("first", ["#!/usr/bin/env python", "#!/nowhere/bin/python"])
-def test_where_there_is_no_python_this_one_runs_it(tmp_path: Path, first: str) -> None:
-    assert _asked(tmp_path, first, tmp_path, imports="math") == [sys.executable]
+def test_a_missing_python_is_replaced_by_this_one(tmp_path: Path, first: str) -> None:
+    assert _interpreter_for(tmp_path, first, tmp_path, imports="math") == [sys.executable]
 
 
 @pytest.mark.parametrize(
@@ -144,13 +142,13 @@ def test_where_there_is_no_python_this_one_runs_it(tmp_path: Path, first: str) -
         ("no script", []),
     ],
 )
-def test_a_script_that_is_not_executable_is_started_by_its_first_line(
+def test_a_script_that_is_not_executable_is_started_by_its_shebang(
     tmp_path: Path, first: str, words: list[str]
 ) -> None:
     script = _program(tmp_path / "run", f"{first}\n")
     script.chmod(0o644)
 
-    assert start_words(script, {"PATH": os.defpath}) == words
+    assert command_prefix(script, {"PATH": os.defpath}) == words
 
 
 @pytest.mark.parametrize(
@@ -165,12 +163,12 @@ def test_a_script_that_is_not_executable_is_started_by_its_first_line(
         ("it said: No module named 'rospy'", None),
     ],
 )
-def test_the_module_of_ros_that_a_script_died_for_is_found(output: str, module: str | None) -> None:
+def test_a_missing_ros_module_is_read_from_a_traceback(output: str, module: str | None) -> None:
     assert missing_ros_module(f"Traceback:\n{output}\n") == module
 
 
 @pytest.mark.parametrize(("imports", "lacks"), [("rospy", True), ("math", False)])
-def test_the_python_that_a_script_names_is_asked_for_rospy(tmp_path: Path, imports: str, lacks: bool) -> None:
+def test_lacks_rospy_queries_the_interpreter_of_the_script(tmp_path: Path, imports: str, lacks: bool) -> None:
     script = _program(tmp_path / "node.py", f"#!{sys.executable} -s\nimport {imports}\n")
     assert lacks_rospy(script, {"PATH": os.defpath}) is lacks
     (tmp_path / "rospy").mkdir()

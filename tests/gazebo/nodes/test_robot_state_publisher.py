@@ -28,7 +28,7 @@ ROBOT = """<robot name="r">
 
 
 def play(script: Callable[[FakeNode], None], params: dict[str, Any] | None = None) -> FakeNode:
-    """Start the node at 100 s, let the script happen to it, and end it."""
+    """Start the node at 100 s, run the script on it, and end it."""
 
     async def run() -> FakeNode:
         node = FakeNode(FakeClock(start_ns=100 * S, end_ns=10_000 * S), {"/robot_description": ROBOT, **(params or {})})
@@ -44,13 +44,13 @@ def play(script: Callable[[FakeNode], None], params: dict[str, Any] | None = Non
     return asyncio.run(run())
 
 
-def hear(node: FakeNode, names: Sequence[str], positions: Sequence[float], stamp_s: float) -> None:
+def receive(node: FakeNode, names: Sequence[str], positions: Sequence[float], stamp_s: float) -> None:
     header = {"stamp": round(stamp_s * S)}
-    node.hear("/joint_states", {"header": header, "name": names, "position": positions}, "sensor_msgs/JointState")
+    node.receive("/joint_states", {"header": header, "name": names, "position": positions}, "sensor_msgs/JointState")
 
 
-def test_moving_joints_go_out_in_name_order_with_the_messages_stamp() -> None:
-    node = play(lambda node: hear(node, ["shoulder"], [0.5], 99.5))
+def test_moving_joints_are_published_in_name_order_with_the_messages_stamp() -> None:
+    node = play(lambda node: receive(node, ["shoulder"], [0.5], 99.5))
     (message,) = node.sent("/tf")
     grip, shoulder = message.transforms
     assert (grip.header.frame_id, grip.child_frame_id) == ("arm", "finger")
@@ -61,7 +61,7 @@ def test_moving_joints_go_out_in_name_order_with_the_messages_stamp() -> None:
     assert (shoulder.header.stamp.sec, shoulder.header.stamp.nanosec) == (99, 500_000_000)
 
 
-def test_fixed_joints_go_out_once_on_tf_static() -> None:
+def test_fixed_joints_are_published_once_on_tf_static() -> None:
     node = play(lambda _: None)
     (message,) = node.sent("/tf_static")
     (neck,) = message.transforms
@@ -81,7 +81,7 @@ def test_fixed_joints_are_repeated_half_a_second_ahead_in_indigo(params: dict[st
     assert stamp.sec * S + stamp.nanosec == round(100.6 * S)
 
 
-def test_planar_joints_are_held_as_kdl_holds_them_and_floating_ones_left_to_others() -> None:
+def test_planar_joints_are_fixed_and_floating_ones_ignored() -> None:
     robot = """<robot name="r"><link name="base"/><link name="a"/><link name="b"/>
       <joint name="float" type="floating"><parent link="base"/><child link="a"/></joint>
       <joint name="plane" type="planar"><parent link="base"/><child link="b"/></joint></robot>"""
@@ -93,46 +93,46 @@ def test_planar_joints_are_held_as_kdl_holds_them_and_floating_ones_left_to_othe
 
 def test_messages_closer_than_the_interval_are_dropped_by_joint() -> None:
     def script(node: FakeNode) -> None:
-        hear(node, ["shoulder"], [0.0], 99.0)
-        hear(node, ["shoulder"], [0.1], 99.04)  # 50 ms are the interval at 20 Hz
-        hear(node, ["other"], [0.0], 99.041)  # another publisher's joints have their own count
-        hear(node, ["shoulder"], [0.2], 99.05)
+        receive(node, ["shoulder"], [0.0], 99.0)
+        receive(node, ["shoulder"], [0.1], 99.04)  # 50 ms are the interval at 20 Hz
+        receive(node, ["other"], [0.0], 99.041)  # intervals are counted for each publisher's joints
+        receive(node, ["shoulder"], [0.2], 99.05)
 
     node = play(script, {"publish_frequency": 20.0})
     angles = [2 * math.asin(m.transforms[1].transform.rotation.z) for m in node.sent("/tf")]
     assert angles == pytest.approx([0.0, 0.2])
 
 
-def test_stamps_are_not_looked_at_when_asked_for() -> None:
+def test_ignore_timestamp_ignores_stamps() -> None:
     def script(node: FakeNode) -> None:
-        hear(node, ["shoulder"], [0.0], 99.0)
-        hear(node, ["shoulder"], [0.1], 99.0)
+        receive(node, ["shoulder"], [0.0], 99.0)
+        receive(node, ["shoulder"], [0.1], 99.0)
 
     assert len(play(script, {"ignore_timestamp": True}).sent("/tf")) == 2
 
 
-def test_time_that_goes_back_forgets_what_was_sent() -> None:
+def test_backward_time_resets_the_publish_intervals() -> None:
     def script(node: FakeNode) -> None:
-        hear(node, ["shoulder"], [0.0], 99.0)
+        receive(node, ["shoulder"], [0.0], 99.0)
         node.clock.ns = 10 * S
-        hear(node, ["shoulder"], [0.1], 9.0)
+        receive(node, ["shoulder"], [0.1], 9.0)
 
     node = play(script)
     assert len(node.sent("/tf")) == 2
     assert node.log.logged[-1][1].startswith("Moved backwards in time")
 
 
-def test_odd_messages_are_named_and_dropped() -> None:
+def test_invalid_messages_are_reported_and_dropped() -> None:
     def script(node: FakeNode) -> None:
-        hear(node, ["shoulder", "grip"], [0.0], 99.0)
-        hear(node, ["shoulder"], [], 99.0)
-        hear(node, ["shoulder"], [], 99.0)
-        hear(node, [], [], 99.0)
-        hear(node, ["nobody"], [0.0], 99.1)
-        hear(node, ["nobody"], [0.0], 99.2)
+        receive(node, ["shoulder", "grip"], [0.0], 99.0)
+        receive(node, ["shoulder"], [], 99.0)
+        receive(node, ["shoulder"], [], 99.0)
+        receive(node, [], [], 99.0)
+        receive(node, ["nobody"], [0.0], 99.1)
+        receive(node, ["nobody"], [0.0], 99.2)
         node.clock.ns += 11 * S
-        hear(node, ["nobody"], [0.0], 110.0)
-        hear(node, ["nobody"], [0.0], 60.0)
+        receive(node, ["nobody"], [0.0], 110.0)
+        receive(node, ["nobody"], [0.0], 60.0)
 
     node = play(script)
     assert node.sent("/tf") == []
@@ -147,7 +147,7 @@ def test_odd_messages_are_named_and_dropped() -> None:
 
 @pytest.mark.parametrize("prefix", ["car", "/car/"])
 def test_frames_carry_the_tf_prefix(prefix: str) -> None:
-    node = play(lambda node: hear(node, ["shoulder"], [0.0], 99.0), {"/tf_prefix": prefix})
+    node = play(lambda node: receive(node, ["shoulder"], [0.0], 99.0), {"/tf_prefix": prefix})
     assert node.sent("/tf")[0].transforms[1].child_frame_id == "car/arm"
     assert node.sent("/tf_static")[0].transforms[0].header.frame_id == "car/base"
 
@@ -155,13 +155,13 @@ def test_frames_carry_the_tf_prefix(prefix: str) -> None:
 @pytest.mark.parametrize(
     "params", [{}, {"/robot_description": "<robot"}, {"/robot_description": ROBOT, "publish_frequency": "x"}]
 )
-def test_a_robot_that_cannot_be_read_ends_it_with_a_sentence(params: dict[str, Any]) -> None:
+def test_an_invalid_robot_ends_it_with_an_error(params: dict[str, Any]) -> None:
     node = FakeNode(FakeClock(end_ns=2 * S), params)
     assert run_to_end(RobotStatePublisher(node, [], NodeHost()).run()) == 1  # pyright: ignore[reportArgumentType]
     assert node.log.logged[-1][0] == "error"
 
 
-def test_the_old_name_says_so_and_works() -> None:
+def test_state_publisher_reports_its_deprecation() -> None:
     node = FakeNode(FakeClock(end_ns=2 * S), {})
     assert run_to_end(StatePublisher(node, [], NodeHost()).run()) == 1  # pyright: ignore[reportArgumentType]
     assert node.log.logged[0] == (

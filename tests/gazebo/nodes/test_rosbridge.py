@@ -1,4 +1,4 @@
-"""rosbridge's protocol, as web pages and programs speak it."""
+"""rosbridge's protocol, over WebSocket and TCP."""
 
 import base64
 import io
@@ -14,30 +14,30 @@ STRING = "std_msgs/String"
 
 
 @pytest.fixture
-def bridge(stage):
-    stage.start("rosbridge_server/rosbridge_websocket", "--port 0")
-    with connected(port_of(stage, "rosbridge_websocket")) as client:
+def bridge(graph):
+    graph.start("rosbridge_server/rosbridge_websocket", "--port 0")
+    with connected(port_of(graph, "rosbridge_websocket")) as client:
         yield client
 
 
-def test_what_a_client_publishes_reaches_the_graph(stage, bridge: BridgeClient) -> None:
-    heard = stage.listen("/chatter", STRING)
+def test_messages_of_a_client_reach_the_graph(graph, bridge: BridgeClient) -> None:
+    messages = graph.listen("/chatter", STRING)
     bridge.send("advertise", topic="/chatter", type=STRING, id="a")
     bridge.send("publish", topic="/chatter", msg={"data": "hello"})
 
-    stage.until(lambda: [m.data for m in heard] == ["hello"])
+    graph.until(lambda: [m.data for m in messages] == ["hello"])
 
 
-def test_fields_of_messages_are_made_of_json(stage, bridge: BridgeClient) -> None:
-    images = stage.listen("/image", "sensor_msgs/Image")
-    poses = stage.listen("/pose", "geometry_msgs/PoseWithCovarianceStamped")
+def test_messages_are_read_from_json(graph, bridge: BridgeClient) -> None:
+    images = graph.listen("/image", "sensor_msgs/Image")
+    poses = graph.listen("/pose", "geometry_msgs/PoseWithCovarianceStamped")
     bridge.send("advertise", topic="/image", type="sensor_msgs/Image")
     bridge.send("advertise", topic="/pose", type="geometry_msgs/PoseWithCovarianceStamped")
     data = base64.b64encode(b"\0\1\2").decode()
     bridge.send("publish", topic="/image", msg={"header": {"frame_id": "eye"}, "encoding": "rgb8", "data": data})
     bridge.send("publish", topic="/image", msg={"header": {"stamp": {"secs": 3, "nsecs": 4}}, "data": [5, 6]})
     bridge.send("publish", topic="/pose", msg={"pose": {"pose": {"position": {"x": 1}}, "covariance": [0.5] * 36}})
-    stage.until(lambda: len(images) == 2 and poses)
+    graph.until(lambda: len(images) == 2 and poses)
 
     assert (images[0].data.tobytes(), images[0].header.frame_id) == (b"\0\1\2", "eye")
     assert images[0].header.stamp.sec > 1e9, "a header without a stamp is stamped now"
@@ -47,8 +47,8 @@ def test_fields_of_messages_are_made_of_json(stage, bridge: BridgeClient) -> Non
     assert poses[0].header.stamp.sec == 0, "a header that is not given is not stamped"
 
 
-def test_messages_arrive_as_json(stage, bridge: BridgeClient) -> None:
-    source = stage.client.advertise("/scan", "sensor_msgs/LaserScan", latch=True)
+def test_messages_arrive_as_json(graph, bridge: BridgeClient) -> None:
+    source = graph.client.advertise("/scan", "sensor_msgs/LaserScan", latch=True)
     source.publish({"header": {"stamp": 1_500_000_002}, "ranges": [1.0, float("nan"), float("inf")]})
     bridge.send("subscribe", topic="/scan", type="sensor_msgs/LaserScan", id="s1")
     message = bridge.receive()
@@ -58,10 +58,10 @@ def test_messages_arrive_as_json(stage, bridge: BridgeClient) -> None:
     assert message["msg"]["header"]["stamp"] == {"secs": 1, "nsecs": 500_000_002}
 
 
-def test_messages_arrive_as_png_and_cbor(stage, bridge: BridgeClient) -> None:
-    source = stage.client.advertise("/image", "sensor_msgs/Image", latch=True)
+def test_messages_arrive_as_png_and_cbor(graph, bridge: BridgeClient) -> None:
+    source = graph.client.advertise("/image", "sensor_msgs/Image", latch=True)
     source.publish({"width": 300, "data": b"abc"})
-    stage.client.advertise("/floats", "std_msgs/Float32MultiArray", latch=True).publish({"data": [1.0, -2.0]})
+    graph.client.advertise("/floats", "std_msgs/Float32MultiArray", latch=True).publish({"data": [1.0, -2.0]})
     bridge.send("subscribe", topic="/image", type="sensor_msgs/Image", compression="png")
     packed = bridge.receive()
     pixels = Image.open(io.BytesIO(base64.b64decode(packed["data"]))).tobytes()
@@ -79,15 +79,15 @@ def test_messages_arrive_as_png_and_cbor(stage, bridge: BridgeClient) -> None:
     assert isinstance(raw, bytes)
     assert b"\x65bytes" in raw
     assert (
-        stage.client.messages.serialize(stage.client.new("sensor_msgs/Image", {"width": 300, "data": b"abc"}))[12:]
+        graph.client.messages.serialize(graph.client.new("sensor_msgs/Image", {"width": 300, "data": b"abc"}))[12:]
         in raw
     )
 
 
-def test_a_throttled_queue_keeps_the_newest(stage, bridge: BridgeClient) -> None:
-    source = stage.client.advertise("/count", "std_msgs/Int32", queue_size=None)
+def test_a_throttled_queue_keeps_the_newest(graph, bridge: BridgeClient) -> None:
+    source = graph.client.advertise("/count", "std_msgs/Int32", queue_size=None)
     bridge.send("subscribe", topic="/count", type="std_msgs/Int32", throttle_rate=1000, queue_length=2)
-    stage.until(lambda: source.has_subscribers)
+    graph.until(lambda: source.has_subscribers)
     source.publish({"data": 0})
     first = bridge.receive()
     for number in range(1, 10):
@@ -96,9 +96,9 @@ def test_a_throttled_queue_keeps_the_newest(stage, bridge: BridgeClient) -> None
     assert [m["msg"]["data"] for m in (first, bridge.receive(), bridge.receive())] == [0, 8, 9]
 
 
-def test_a_service_is_called(stage, bridge: BridgeClient) -> None:
-    stage.client.advertise_service("/add", "rospy_tutorials/AddTwoInts", lambda request: {"sum": request.a + request.b})
-    stage.loop.run(stage.client.wait_registered())
+def test_a_service_is_called(graph, bridge: BridgeClient) -> None:
+    graph.client.advertise_service("/add", "rospy_tutorials/AddTwoInts", lambda request: {"sum": request.a + request.b})
+    graph.loop.run(graph.client.wait_registered())
     bridge.send("call_service", service="/add", args={"a": 2, "b": 3}, id="call:1")
     named = bridge.receive()
     bridge.send("call_service", service="/add", args=[4, 5])
@@ -114,32 +114,32 @@ def test_a_service_is_called(stage, bridge: BridgeClient) -> None:
     assert (failed["values"], failed["result"], failed["id"]) == ("Service /no does not exist", False, 7)
 
 
-def test_a_client_provides_a_service(stage, bridge: BridgeClient) -> None:
+def test_a_client_provides_a_service(graph, bridge: BridgeClient) -> None:
     bridge.send("advertise_service", service="/double", type="rospy_tutorials/AddTwoInts")
-    stage.loop.run(stage.client.wait_for_service("/double", 60.0))
-    answer = stage.loop.spawn(stage.client.call_service("/double", "rospy_tutorials/AddTwoInts", {"a": 4}))
-    asked = bridge.receive()
-    bridge.send("service_response", service="/double", id=asked["id"], values={"sum": 8}, result=True)
+    graph.loop.run(graph.client.wait_for_service("/double", 60.0))
+    response = graph.loop.spawn(graph.client.call_service("/double", "rospy_tutorials/AddTwoInts", {"a": 4}))
+    request = bridge.receive()
+    bridge.send("service_response", service="/double", id=request["id"], values={"sum": 8}, result=True)
 
-    assert (asked["op"], asked["service"], asked["args"]) == ("call_service", "/double", {"a": 4, "b": 0})
-    assert answer.result(60.0).sum == 8
+    assert (request["op"], request["service"], request["args"]) == ("call_service", "/double", {"a": 4, "b": 0})
+    assert response.result(60.0).sum == 8
 
     bridge.send("unadvertise_service", service="/double")
-    stage.until(lambda: "/double" not in stage.client.loop.run(_services(stage)))
+    graph.until(lambda: "/double" not in graph.client.loop.run(_services(graph)))
 
 
-async def _services(stage) -> dict[str, list[str]]:
-    return dict((await stage.client.master.call("getSystemState"))[2])
+async def _services(graph) -> dict[str, list[str]]:
+    return dict((await graph.client.master.call("getSystemState"))[2])
 
 
-def test_fragments_go_both_ways(stage, bridge: BridgeClient) -> None:
-    heard = stage.listen("/chatter", STRING)
+def test_fragments_are_received_and_sent(graph, bridge: BridgeClient) -> None:
+    messages = graph.listen("/chatter", STRING)
     text = json.dumps({"op": "advertise", "topic": "/chatter", "type": STRING})
     for number, data in ((1, text[20:]), (0, text[:20])):
         bridge.send("fragment", id="f", num=number, total=2, data=data)
     bridge.send("publish", topic="/chatter", msg={"data": "x"})
-    stage.until(lambda: heard)
-    stage.client.advertise("/long", STRING, latch=True).publish({"data": "y" * 250})
+    graph.until(lambda: messages)
+    graph.client.advertise("/long", STRING, latch=True).publish({"data": "y" * 250})
     bridge.send("subscribe", topic="/long", type=STRING, fragment_size=100)
     parts = [bridge.receive() for _ in range(3)]
 
@@ -165,7 +165,7 @@ FAULTS = {
 }  # fmt: skip
 
 
-def test_faults_are_told_in_the_original_words(bridge: BridgeClient) -> None:
+def test_errors_have_the_originals_text(bridge: BridgeClient) -> None:
     bridge.send("advertise", topic="/c", type=STRING)
     for text, message in FAULTS.items():
         bridge.socket.send(json.dumps({**message, "id": "q"}))
@@ -173,7 +173,7 @@ def test_faults_are_told_in_the_original_words(bridge: BridgeClient) -> None:
         assert bridge.receive() == {"op": "status", "level": "error", "msg": text, "id": "q"}
 
 
-def test_the_status_level_is_the_clients(bridge: BridgeClient) -> None:
+def test_a_client_sets_its_status_level(bridge: BridgeClient) -> None:
     bridge.send("set_level", level="none")
     bridge.send("nonsense")
     bridge.send("set_level", level="info")
@@ -182,9 +182,9 @@ def test_the_status_level_is_the_clients(bridge: BridgeClient) -> None:
     assert bridge.receive() == {"op": "status", "level": "info", "msg": "Subscribed to /c"}
 
 
-def test_globs_hide_topics_and_services(stage) -> None:
-    stage.start("rosbridge_server/rosbridge_websocket", port=0, topics_glob="['/open/*']", services_glob="[/none]")
-    with connected(port_of(stage, "rosbridge_websocket")) as client:
+def test_globs_hide_topics_and_services(graph) -> None:
+    graph.start("rosbridge_server/rosbridge_websocket", port=0, topics_glob="['/open/*']", services_glob="[/none]")
+    with connected(port_of(graph, "rosbridge_websocket")) as client:
         client.send("set_level", level="warning")
         client.send("advertise", topic="/closed", type=STRING)
         assert client.receive()["msg"] == "No match found for topic, cancelling advertisement of: /closed"
@@ -194,22 +194,22 @@ def test_globs_hide_topics_and_services(stage) -> None:
         assert client.receive()["msg"].startswith("publish: Cannot infer")
 
 
-def test_a_client_that_leaves_takes_its_things_along(stage) -> None:
-    counts = stage.listen("/client_count", "std_msgs/Int32")
-    stage.start("rosbridge_server/rosbridge_websocket", port=0, unregister_timeout=0)
-    port = port_of(stage, "rosbridge_websocket")
+def test_a_disconnected_client_is_unregistered(graph) -> None:
+    counts = graph.listen("/client_count", "std_msgs/Int32")
+    graph.start("rosbridge_server/rosbridge_websocket", port=0, unregister_timeout=0)
+    port = port_of(graph, "rosbridge_websocket")
     with connected(port) as client:
-        client.send("advertise", topic="/mine", type=STRING)
-        client.send("subscribe", topic="/theirs", type=STRING)
+        client.send("advertise", topic="/advertised", type=STRING)
+        client.send("subscribe", topic="/subscribed", type=STRING)
         client.send("advertise_service", service="/service", type="std_srvs/Empty")
-        stage.loop.run(stage.client.wait_for_service("/service", 60.0))
+        graph.loop.run(graph.client.wait_for_service("/service", 60.0))
 
     def names() -> set[str]:
-        tables = stage.loop.run(stage.client.master.call("getSystemState"))
+        tables = graph.loop.run(graph.client.master.call("getSystemState"))
         return {name for table in tables for name, _ in table}
 
-    stage.until(lambda: not names() & {"/mine", "/theirs", "/service"})
-    stage.until(lambda: [m.data for m in counts] == [0, 1, 0])
+    graph.until(lambda: not names() & {"/advertised", "/subscribed", "/service"})
+    graph.until(lambda: [m.data for m in counts] == [0, 1, 0])
 
 
 @pytest.mark.parametrize(
@@ -225,9 +225,9 @@ def test_a_client_that_leaves_takes_its_things_along(stage) -> None:
         ("http://evil.example", {"allowed_origins": "*"}, True),
     ],
 )
-def test_only_pages_of_this_machine_are_served(stage, origin: str, params: dict[str, object], is_served: bool) -> None:
-    stage.start("rosbridge_server/rosbridge_websocket", port=0, **params)
-    port = port_of(stage, "rosbridge_websocket")
+def test_only_pages_of_this_machine_are_served(graph, origin: str, params: dict[str, object], is_served: bool) -> None:
+    graph.start("rosbridge_server/rosbridge_websocket", port=0, **params)
+    port = port_of(graph, "rosbridge_websocket")
     if is_served:
         with connected(port, origin=origin) as client:
             client.send("nonsense")
@@ -240,29 +240,29 @@ def test_only_pages_of_this_machine_are_served(stage, origin: str, params: dict[
 
 
 @pytest.mark.parametrize("server", ["rosbridge_websocket", "rosbridge_tcp"])
-def test_it_says_that_ros_has_no_guard(stage, server: str) -> None:
-    heard = stage.listen("/rosout", "rosgraph_msgs/Log")
-    stage.start(f"rosbridge_server/{server}", port=0)
-    said = "ROS has no access control: every user of this machine may connect here; set ~token to ask for one"
-    stage.until(lambda: [log.msg for log in heard if log.level == 4] == [said])
+def test_missing_access_control_is_reported(graph, server: str) -> None:
+    messages = graph.listen("/rosout", "rosgraph_msgs/Log")
+    graph.start(f"rosbridge_server/{server}", port=0)
+    warning = "ROS has no access control: every user of this machine may connect here; set ~token to require one"
+    graph.until(lambda: [log.msg for log in messages if log.level == 4] == [warning])
 
 
-def test_a_token_that_is_set_is_asked_for_on_loopback_too(stage) -> None:
-    heard = stage.listen("/rosout", "rosgraph_msgs/Log")
-    stage.start("rosbridge_server/rosbridge_websocket", port=0, token="sesame")
-    port = port_of(stage, "rosbridge_websocket")
+def test_a_token_is_required_on_loopback_too(graph) -> None:
+    messages = graph.listen("/rosout", "rosgraph_msgs/Log")
+    graph.start("rosbridge_server/rosbridge_websocket", port=0, token="sesame")
+    port = port_of(graph, "rosbridge_websocket")
     with pytest.raises(InvalidStatus), connected(port):
         pass
     with connected(port, path="/?token=sesame") as client:
         client.send("nonsense")
         assert client.receive()["op"] == "status"
-    stage.until(lambda: any("started" in log.msg for log in heard))
-    assert not any("sesame" in log.msg for log in heard)
+    graph.until(lambda: any("started" in log.msg for log in messages))
+    assert not any("sesame" in log.msg for log in messages)
 
 
-def test_over_tcp_the_token_comes_first(stage) -> None:
-    stage.start("rosbridge_server/rosbridge_tcp", port=0, token="sesame")
-    address = ("127.0.0.1", port_of(stage, "rosbridge_tcp"))
+def test_over_tcp_the_first_message_is_the_token(graph) -> None:
+    graph.start("rosbridge_server/rosbridge_tcp", port=0, token="sesame")
+    address = ("127.0.0.1", port_of(graph, "rosbridge_tcp"))
     for first in ({"op": "nonsense"}, {"op": "auth", "mac": "guess"}, {"op": "auth"}):
         with socket.create_connection(address, 60.0) as client:
             client.sendall(json.dumps(first).encode() + b'{"op": "nonsense"}')
@@ -272,9 +272,9 @@ def test_over_tcp_the_token_comes_first(stage) -> None:
         assert b"Unknown operation: nonsense" in client.recv(65536)
 
 
-def test_other_machines_need_the_token(stage) -> None:
-    stage.start("rosbridge_server/rosbridge_websocket", port=0, address="0.0.0.0", token="sesame")
-    port = port_of(stage, "rosbridge_websocket")
+def test_other_machines_must_send_the_token(graph) -> None:
+    graph.start("rosbridge_server/rosbridge_websocket", port=0, address="0.0.0.0", token="sesame")
+    port = port_of(graph, "rosbridge_websocket")
     with pytest.raises(InvalidStatus), connected(port):
         pass
     with connected(port, path="/?token=sesame", origin="http://phone.example") as client:
@@ -286,14 +286,14 @@ def test_other_machines_need_the_token(stage) -> None:
     "params", [{"bson_only_mode": True}, {"authenticate": True}, {"port": "x"}, {"allowed_origins": "evil"},
                {"certfile": "/none.pem"}]
 )  # fmt: skip
-def test_parameters_of_no_use_end_it(stage, params: dict[str, object]) -> None:
-    assert stage.start("rosbridge_server/rosbridge_websocket", **params).result(60.0) == 1
+def test_invalid_parameters_end_it(graph, params: dict[str, object]) -> None:
+    assert graph.start("rosbridge_server/rosbridge_websocket", **params).result(60.0) == 1
 
 
-def test_objects_follow_each_other_over_tcp(stage) -> None:
-    heard = stage.listen("/chatter", STRING)
-    stage.start("rosbridge_server/rosbridge_tcp", port=0)
-    with socket.create_connection(("127.0.0.1", port_of(stage, "rosbridge_tcp")), 60.0) as client:
+def test_json_objects_are_split_from_a_tcp_stream(graph) -> None:
+    messages = graph.listen("/chatter", STRING)
+    graph.start("rosbridge_server/rosbridge_tcp", port=0)
+    with socket.create_connection(("127.0.0.1", port_of(graph, "rosbridge_tcp")), 60.0) as client:
         sent = (
             json.dumps({"op": "advertise", "topic": "/chatter", "type": STRING})
             + json.dumps({"op": "publish", "topic": "/chatter", "msg": {"data": 'a } " \\ ö'}}, ensure_ascii=False)
@@ -301,18 +301,18 @@ def test_objects_follow_each_other_over_tcp(stage) -> None:
         ).encode()
         for start in range(0, len(sent), 7):
             client.sendall(sent[start : start + 7])
-        stage.until(lambda: [m.data for m in heard] == ['a } " \\ ö'])
+        graph.until(lambda: [m.data for m in messages] == ['a } " \\ ö'])
 
         assert b"Unknown operation: nonsense" in client.recv(65536)
 
 
-def test_a_browser_cannot_speak_over_tcp(stage) -> None:
-    stage.start("rosbridge_server/rosbridge_tcp", port=0)
-    with socket.create_connection(("127.0.0.1", port_of(stage, "rosbridge_tcp")), 60.0) as client:
+def test_http_over_tcp_is_refused(graph) -> None:
+    graph.start("rosbridge_server/rosbridge_tcp", port=0)
+    with socket.create_connection(("127.0.0.1", port_of(graph, "rosbridge_tcp")), 60.0) as client:
         client.sendall(b'POST / HTTP/1.1\r\nHost: x\r\n\r\n{"op": "nonsense"}')
 
         assert client.recv(100) == b""
 
 
-def test_tcp_is_not_for_other_machines(stage) -> None:
-    assert stage.start("rosbridge_server/rosbridge_tcp", "_host:=0.0.0.0 _port:=0").result(60.0) == 1
+def test_tcp_is_served_on_loopback_only(graph) -> None:
+    assert graph.start("rosbridge_server/rosbridge_tcp", "_host:=0.0.0.0 _port:=0").result(60.0) == 1

@@ -1,4 +1,4 @@
-"""Stand-ins as nodes that others may shut down."""
+"""Stand-ins are nodes that can be shut down from outside."""
 
 import pytest
 from tests.gazebo.nodes.conftest import PATIENCE_S
@@ -7,18 +7,18 @@ from trundle.ros import MasterProxy
 
 
 @pytest.mark.parametrize(
-    ("what", "arguments"),
+    ("program", "arguments"),
     [("tf/static_transform_publisher", "0 0 0 0 0 0 a b 100"), ("topic_tools/relay", "/in /out")],
 )
-def test_a_stand_in_ends_when_its_node_is_killed(stage, what: str, arguments: str) -> None:
-    ended = stage.start(what, arguments, name="victim")
-    master = MasterProxy(stage.uri)
+def test_a_stand_in_ends_when_its_node_is_killed(graph, program: str, arguments: str) -> None:
+    exit_code = graph.start(program, arguments, name="victim")
+    master = MasterProxy(graph.uri)
 
     def services() -> dict[str, list[str]]:
         _, _, provided = master.call("getSystemState")
         return dict(provided)
 
-    stage.until(lambda: "/victim/get_loggers" in services())
+    graph.until(lambda: "/victim/get_loggers" in services())
     MasterProxy(master.call("lookupNode", "/victim")).call("shutdown", "user request")
-    assert ended.result(PATIENCE_S) == 0
+    assert exit_code.result(PATIENCE_S) == 0
     assert "/victim/get_loggers" not in services()

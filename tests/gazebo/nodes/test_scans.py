@@ -1,4 +1,4 @@
-"""Depth images and point clouds become laser scans; checked against walls, whose ranges geometry gives."""
+"""Depth images and point clouds become laser scans, checked against the known ranges of walls."""
 
 import math
 from typing import Any
@@ -14,10 +14,10 @@ CAMERA = Pinhole(focal_px=100.0, center_x_px=50.0, center_y_px=20.0)
 
 
 def scan(depths: Any, **more: Any) -> tuple[float, float, Any]:
-    return scan_from_depths(depths, CAMERA, **{"rows": 1, "nearest_m": 0.45, "farthest_m": 10.0, **more})
+    return scan_from_depths(depths, CAMERA, **{"rows": 1, "min_range_m": 0.45, "max_range_m": 10.0, **more})
 
 
-def test_a_wall_ahead_reads_its_distance_over_the_cosine() -> None:
+def test_a_wall_ahead_has_its_distance_over_the_cosine() -> None:
     low, high, ranges = scan(np.full((41, 101), WALL_M))
 
     assert (low, high) == (pytest.approx(-math.atan(0.5)), pytest.approx(math.atan(0.5)))
@@ -29,14 +29,14 @@ def test_a_wall_ahead_reads_its_distance_over_the_cosine() -> None:
     assert np.abs(ranges[hit] - WALL_M / np.cos(angles[hit])).max() <= error + 1e-5
 
 
-def test_the_nearest_of_several_rows_counts_and_others_do_not() -> None:
+def test_the_nearest_depth_of_the_used_rows_counts() -> None:
     depths = np.full((41, 101), WALL_M)
     depths[19, 50], depths[30, 50] = 1.0, 0.5
     _, _, ranges = scan(depths, rows=4)
     assert ranges[50] == pytest.approx(1.0)
 
 
-def test_what_is_too_near_or_was_not_measured_is_no_number() -> None:
+def test_ranges_below_the_minimum_and_unmeasured_ones_are_not_finite() -> None:
     depths = np.full((41, 101), np.nan)
     depths[:, 40], depths[:, 60] = 0.2, np.inf
     _, _, ranges = scan(depths)
@@ -50,7 +50,7 @@ def image(messages: Any, encoding: str, pixels: Any, *, big: bool = False) -> An
     return messages.new("sensor_msgs/Image", {**fields, "step": pixels.strides[0], "data": list(pixels.tobytes())})
 
 
-def test_millimetres_and_byte_orders_are_read(messages) -> None:
+def test_millimeters_and_byte_orders_are_read(messages) -> None:
     pixels = np.array([[0, 1500]], dtype=">u2")
     depths = read_depths(image(messages, "16UC1", pixels, big=True))
     assert math.isnan(depths[0, 0])
@@ -66,7 +66,7 @@ SLICE = Slice(
     angle_increment=math.pi / 2.0,
     range_min_m=0.1,
     range_max_m=50.0,
-    nothing_m=math.inf,
+    empty_range_m=math.inf,
 )
 
 
@@ -95,51 +95,51 @@ def cloud(messages: Any, points: Any) -> Any:
     )
 
 
-def test_points_are_read_whatever_lies_between_them(messages) -> None:
+def test_points_with_padding_are_read(messages) -> None:
     assert read_points(cloud(messages, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]])).tolist() == [[1, 2, 3], [4, 5, 6]]
     with pytest.raises(ValueError, match="no fields x, y, z"):
         read_points(messages.new("sensor_msgs/PointCloud2", {}))
 
 
-def test_a_cloud_is_seen_from_another_frame(stage, messages) -> None:
-    stage.start("tf2_ros/static_transform_publisher", "0 0 1 0 0 0 base camera", name="still")
-    stage.start("pointcloud_to_laserscan/pointcloud_to_laserscan_node", target_frame="base", min_height=0.5)
-    scans = stage.listen("/scan", "sensor_msgs/LaserScan")
-    clouds = stage.speak("/cloud_in", "sensor_msgs/PointCloud2")
+def test_a_cloud_is_transformed_into_the_target_frame(graph, messages) -> None:
+    graph.start("tf2_ros/static_transform_publisher", "0 0 1 0 0 0 base camera", name="still")
+    graph.start("pointcloud_to_laserscan/pointcloud_to_laserscan_node", target_frame="base", min_height=0.5)
+    scans = graph.listen("/scan", "sensor_msgs/LaserScan")
+    clouds = graph.advertise("/cloud_in", "sensor_msgs/PointCloud2")
 
-    def heard() -> bool:
+    def received() -> bool:
         clouds.publish(cloud(messages, [[2.0, 0.01, 0.0]]))
         return bool(scans)
 
-    stage.until(heard)
+    graph.until(received)
     assert scans[0].header.frame_id == "base"
     assert min(scans[0].ranges) == pytest.approx(math.hypot(2.0, 0.01), rel=1e-6)
 
 
-def test_a_cloud_waits_until_it_is_known_where_it_was(stage, messages) -> None:
+def test_a_cloud_waits_for_its_transform(graph, messages) -> None:
     """Points at the height of the frame or below are ignored, unless min_height is lower: as in the original."""
-    stage.start("pointcloud_to_laserscan/pointcloud_to_laserscan_node", target_frame="base")
-    scans = stage.listen("/scan", "sensor_msgs/LaserScan")
-    clouds = stage.speak("/cloud_in", "sensor_msgs/PointCloud2")
-    stage.until(lambda: stage.connected("/scan"))
+    graph.start("pointcloud_to_laserscan/pointcloud_to_laserscan_node", target_frame="base")
+    scans = graph.listen("/scan", "sensor_msgs/LaserScan")
+    clouds = graph.advertise("/cloud_in", "sensor_msgs/PointCloud2")
+    graph.until(lambda: graph.connected("/scan"))
     clouds.publish(cloud(messages, [[2.0, 0.01, 0.0], [1.0, 0.01, -1.0]]))
-    stage.start("tf2_ros/static_transform_publisher", "0 0 1 0 0 0 base camera", name="still")
+    graph.start("tf2_ros/static_transform_publisher", "0 0 1 0 0 0 base camera", name="still")
 
-    stage.until(lambda: scans)
+    graph.until(lambda: scans)
     assert min(scans[0].ranges) == pytest.approx(math.hypot(2.0, 0.01), rel=1e-6)
 
 
-def test_a_depth_camera_becomes_a_scan(stage, messages) -> None:
-    stage.start("depthimage_to_laserscan/depthimage_to_laserscan", "image:=cam/depth/image_raw")
-    scans = stage.listen("/scan", "sensor_msgs/LaserScan")
-    infos = stage.client.advertise("/cam/depth/camera_info", "sensor_msgs/CameraInfo", latch=True)
+def test_a_depth_camera_becomes_a_scan(graph, messages) -> None:
+    graph.start("depthimage_to_laserscan/depthimage_to_laserscan", "image:=cam/depth/image_raw")
+    scans = graph.listen("/scan", "sensor_msgs/LaserScan")
+    infos = graph.client.advertise("/cam/depth/camera_info", "sensor_msgs/CameraInfo", latch=True)
     infos.publish({"K": [100.0, 0, 50.0, 0, 100.0, 20.0, 0, 0, 1.0]})
-    images = stage.speak("/cam/depth/image_raw", "sensor_msgs/Image")
+    images = graph.advertise("/cam/depth/image_raw", "sensor_msgs/Image")
 
-    def heard() -> bool:
+    def received() -> bool:
         images.publish(image(messages, "32FC1", np.full((41, 101), WALL_M, dtype="<f4")))
         return bool(scans)
 
-    stage.until(heard)
+    graph.until(received)
     assert scans[0].header.frame_id == "camera_depth_frame"
     assert scans[0].ranges[50] == pytest.approx(WALL_M)

@@ -1,6 +1,6 @@
-"""The published smartcar's launch on a real graph, compared with a recording of ROS item by item.
+"""The published smartcar's launch on a real graph, compared with a recording of ROS.
 
-What differs, and is meant to: names that the run gives (/run_id, /roslaunch/uris), the text around the elements of
+Intended differences: names that a run assigns (/run_id, /roslaunch/uris), the text around the elements of
 /robot_description, and the TFMessages without a transform that robot_state_publisher sends for every JointState of
 wheels that it does not know (165 of its 302 in the recording; without them both have 10 Hz). Rates are compared on a
 clock of the tests: test_arbotix.py, test_joint_state_publisher.py, test_static_transform_publisher.py.
@@ -34,30 +34,32 @@ TIMEOUT_S = 30.0
 
 @dataclass
 class Smartcar:
-    """The running launch, and a node that records its messages."""
+    """The running launch and a node that records its messages."""
 
     master: MasterProxy
     onlooker: Node
     peers: Path
-    heard: dict[str, list[Message]] = field(default_factory=dict[str, list[Message]])
-    news: threading.Condition = field(default_factory=threading.Condition)
+    received: dict[str, list[Message]] = field(default_factory=dict[str, list[Message]])
+    received_condition: threading.Condition = field(default_factory=threading.Condition)
 
     def listen(self, topic: str, type_name: str) -> None:
-        def hear(message: Message) -> None:
-            with self.news:
-                self.heard.setdefault(topic, []).append(message)
-                self.news.notify_all()
+        def receive(message: Message) -> None:
+            with self.received_condition:
+                self.received.setdefault(topic, []).append(message)
+                self.received_condition.notify_all()
 
-        self.onlooker.subscribe(topic, type_name, hear, queue_size=None)
+        self.onlooker.subscribe(topic, type_name, receive, queue_size=None)
 
     def wait_for(self, topic: str, count: int = 1) -> list[Message]:
-        with self.news:
-            assert self.news.wait_for(lambda: len(self.heard.get(topic, [])) >= count, TIMEOUT_S), topic
-            return list(self.heard[topic])
+        with self.received_condition:
+            assert self.received_condition.wait_for(lambda: len(self.received.get(topic, [])) >= count, TIMEOUT_S), (
+                topic
+            )
+            return list(self.received[topic])
 
     def forget(self) -> None:
-        with self.news:
-            self.heard.clear()
+        with self.received_condition:
+            self.received.clear()
 
 
 async def set_up(plan: LaunchPlan, params: Any, loop: GraphLoop, uri: str, events: list[Event]) -> Supervisor:
@@ -67,12 +69,12 @@ async def set_up(plan: LaunchPlan, params: Any, loop: GraphLoop, uri: str, event
     await setter.shutdown()
     supervisor = Supervisor(events.append)
     for planned in plan.nodes:
-        found = find_node(planned.package, planned.type, lambda _: None, env={})
-        assert isinstance(found, BuiltinReplacement), found
+        replacement = find_node(planned.package, planned.type, lambda _: None, env={})
+        assert isinstance(replacement, BuiltinReplacement), replacement
 
-        async def run(planned: LaunchNode = planned, found: BuiltinReplacement = found) -> int:
+        async def run(planned: LaunchNode = planned, replacement: BuiltinReplacement = replacement) -> int:
             node = Node(planned.name, loop=loop, master_uri=uri, namespace=planned.namespace)
-            return await run_builtin_node(found, node, shlex.split(planned.arguments), NodeHost())
+            return await run_builtin_node(replacement, node, shlex.split(planned.arguments), NodeHost())
 
         await supervisor.start(TaskJob(planned.full_name, run))
     return supervisor
@@ -96,14 +98,14 @@ def smartcar(shared: Path) -> Iterator[Smartcar]:
         loop.run(core.start())
         onlooker = Node("onlooker", loop=loop, master_uri=core.uri)
         car = Smartcar(MasterProxy(core.uri), onlooker, peers)
-        for topic, kind in (
+        for topic, type_name in (
             ("/odom", "nav_msgs/Odometry"),
             ("/tf", "tf2_msgs/TFMessage"),
             ("/tf_static", "tf2_msgs/TFMessage"),
             ("/joint_states", "sensor_msgs/JointState"),
             ("/diagnostics", "diagnostic_msgs/DiagnosticArray"),
         ):
-            car.listen(topic, kind)
+            car.listen(topic, type_name)
         supervisor = loop.run(set_up(plan, params, loop, core.uri, events))
         try:
             for topic in ("/tf_static", "/diagnostics", "/odom"):
@@ -117,39 +119,41 @@ def smartcar(shared: Path) -> Iterator[Smartcar]:
 
 def sections(text: str) -> dict[str, list[str]]:
     """Split `rosnode info` or `rostopic info` into one list of bullets per heading within each subject."""
-    found: dict[str, list[str]] = {}
+    bullets: dict[str, list[str]] = {}
     subject = heading = ""
     for line in text.splitlines():
         if match := re.match(r"(?:Node \[(.+)\]|== (.+))$", line):
             subject = match[1] or match[2]
         elif match := re.match(r"(\w+):", line):
             heading = match[1]
-            found.setdefault(f"{subject} {heading}", [])
+            bullets.setdefault(f"{subject} {heading}", [])
         elif line.startswith(" * ") and heading in ("Publications", "Subscriptions", "Services"):
-            found[f"{subject} {heading}"].append(line[3:].split()[0])
-    return found
+            bullets[f"{subject} {heading}"].append(line[3:].split()[0])
+    return bullets
 
 
-def test_every_node_publishes_subscribes_and_provides_what_the_original_does(smartcar: Smartcar) -> None:
-    wanted = sections((smartcar.peers / "rosnode_info.txt").read_text())
-    nodes = {node for node in (key.split()[0] for key in wanted) if not node.startswith("/probe")}
+def test_topics_and_services_of_each_node_are_the_originals(smartcar: Smartcar) -> None:
+    expected = sections((smartcar.peers / "rosnode_info.txt").read_text())
+    nodes = {node for node in (key.split()[0] for key in expected) if not node.startswith("/probe")}
     assert "/arbotix" in nodes
-    kinds = ("Publications", "Subscriptions", "Services")
-    wanted = {f"{node} {kind}": sorted(wanted.get(f"{node} {kind}", [])) for node in nodes for kind in kinds}
+    headings = ("Publications", "Subscriptions", "Services")
+    expected = {
+        f"{node} {heading}": sorted(expected.get(f"{node} {heading}", [])) for node in nodes for heading in headings
+    }
 
-    def got() -> dict[str, list[str]]:
-        state = dict(zip(kinds, smartcar.master.call("getSystemState"), strict=True))
-        links = {key: state[key.split()[1]] for key in wanted}
-        return {key: sorted(name for name, nodes in links[key] if key.split()[0] in nodes) for key in wanted}
+    def actual() -> dict[str, list[str]]:
+        state: dict[str, Any] = dict(zip(headings, smartcar.master.call("getSystemState"), strict=True))
+        links = {key: state[key.split()[1]] for key in expected}
+        return {key: sorted(name for name, nodes in links[key] if key.split()[0] in nodes) for key in expected}
 
-    until(lambda: sum(map(len, got().values())) >= sum(map(len, wanted.values())))
-    assert got() == wanted
+    until(lambda: sum(map(len, actual().values())) >= sum(map(len, expected.values())))
+    assert actual() == expected
 
 
 def test_topics_have_the_originals_types(smartcar: Smartcar) -> None:
     text = (smartcar.peers / "rostopic_list_v.txt").read_text()
-    wanted = {match[1]: match[2] for match in re.finditer(r"\* (/\S+) \[(\S+)\]", text)}
-    assert dict(smartcar.master.call("getTopicTypes")) == wanted
+    expected = {match[1]: match[2] for match in re.finditer(r"\* (/\S+) \[(\S+)\]", text)}
+    assert dict(smartcar.master.call("getTopicTypes")) == expected
 
 
 def flat(tree: object, name: str = "") -> dict[str, object]:
@@ -164,15 +168,15 @@ def tree(node: XmlNode) -> object:
 
 
 def test_parameters_are_the_originals(smartcar: Smartcar) -> None:
-    wanted = flat(yaml.safe_load((smartcar.peers / "rosparam_dump.txt").read_text()))
-    got = flat(smartcar.master.call("getParam", "/"))
-    for params in (wanted, got):
+    expected = flat(yaml.safe_load((smartcar.peers / "rosparam_dump.txt").read_text()))
+    actual = flat(smartcar.master.call("getParam", "/"))
+    for params in (expected, actual):
         for name in [
             name for name in params if name.startswith(("/rosversion", "/rosdistro", "/run_id", "/roslaunch"))
         ]:
             del params[name]
         params["/robot_description"] = tree(parse_xml(str(params["/robot_description"]), name="robot_description"))
-    assert got == wanted
+    assert actual == expected
 
 
 def recorded(smartcar: Smartcar, name: str) -> Any:
@@ -181,32 +185,37 @@ def recorded(smartcar: Smartcar, name: str) -> Any:
 
 
 def test_fixed_joints_are_on_tf_static_as_in_the_original(smartcar: Smartcar) -> None:
-    (wanted,) = recorded(smartcar, "tf_static")["transforms"]
-    (got,) = smartcar.wait_for("/tf_static")[0].transforms
-    assert (got.header.frame_id, got.child_frame_id) == (wanted["header"]["frame_id"], wanted["child_frame_id"])
-    move, turn = wanted["transform"]["translation"], wanted["transform"]["rotation"]
-    assert [getattr(got.transform.translation, axis) for axis in "xyz"] == pytest.approx([move[a] for a in "xyz"])
-    assert [getattr(got.transform.rotation, axis) for axis in "xyzw"] == pytest.approx([turn[a] for a in "xyzw"])
+    (expected,) = recorded(smartcar, "tf_static")["transforms"]
+    (actual,) = smartcar.wait_for("/tf_static")[0].transforms
+    assert (actual.header.frame_id, actual.child_frame_id) == (
+        expected["header"]["frame_id"],
+        expected["child_frame_id"],
+    )
+    move, turn = expected["transform"]["translation"], expected["transform"]["rotation"]
+    assert [getattr(actual.transform.translation, axis) for axis in "xyz"] == pytest.approx([move[a] for a in "xyz"])
+    assert [getattr(actual.transform.rotation, axis) for axis in "xyzw"] == pytest.approx([turn[a] for a in "xyzw"])
 
 
-def test_wheels_are_on_tf_where_the_original_puts_them(smartcar: Smartcar) -> None:
-    wanted = recorded(smartcar, "tf")["transforms"]
+def test_wheel_transforms_are_the_originals(smartcar: Smartcar) -> None:
+    expected = recorded(smartcar, "tf")["transforms"]
 
     def of_wheels() -> list[Any]:
         return [m.transforms for m in smartcar.wait_for("/tf") if len(m.transforms) == 4]
 
     until(of_wheels)
-    got = of_wheels()[0]
-    assert [t.child_frame_id for t in got] == [t["child_frame_id"] for t in wanted]
-    for mine, theirs in zip(got, wanted, strict=True):
-        move, turn = theirs["transform"]["translation"], theirs["transform"]["rotation"]
-        assert [getattr(mine.transform.translation, a) for a in "xyz"] == pytest.approx([move[a] for a in "xyz"])
-        rotation = [getattr(mine.transform.rotation, a) for a in "xyzw"]
+    actual = of_wheels()[0]
+    assert [t.child_frame_id for t in actual] == [t["child_frame_id"] for t in expected]
+    for actual_transform, expected_transform in zip(actual, expected, strict=True):
+        move, turn = expected_transform["transform"]["translation"], expected_transform["transform"]["rotation"]
+        assert [getattr(actual_transform.transform.translation, a) for a in "xyz"] == pytest.approx(
+            [move[a] for a in "xyz"]
+        )
+        rotation = [getattr(actual_transform.transform.rotation, a) for a in "xyzw"]
         sign = math.copysign(1.0, rotation[3] * turn["w"])
         assert [sign * number for number in rotation] == pytest.approx([turn[a] for a in "xyzw"], abs=1e-9)
 
 
-def test_both_joint_state_publishers_say_what_the_originals_say(smartcar: Smartcar) -> None:
+def test_both_joint_state_publishers_have_the_originals_joints(smartcar: Smartcar) -> None:
     def names() -> set[tuple[str, ...]]:
         return {tuple(message.name) for message in smartcar.wait_for("/joint_states")}
 
@@ -219,8 +228,8 @@ def test_extra_frames_keep_their_slashes(smartcar: Smartcar) -> None:
     def frames() -> set[tuple[str, str]]:
         return {(t.header.frame_id, t.child_frame_id) for m in smartcar.wait_for("/tf") for t in m.transforms}
 
-    wanted = {("/base_link", "/left_front_link"), ("/base_link", "/right_front_link"), ("odom", "base_link")}
-    until(lambda: wanted <= frames())
+    expected = {("/base_link", "/left_front_link"), ("/base_link", "/right_front_link"), ("odom", "base_link")}
+    until(lambda: expected <= frames())
 
 
 def test_the_car_drives_and_never_stops_by_itself(smartcar: Smartcar) -> None:
@@ -230,7 +239,7 @@ def test_the_car_drives_and_never_stops_by_itself(smartcar: Smartcar) -> None:
     smartcar.forget()
     for _ in range(600):
         publisher.publish({"linear": {"x": 0.5}, "angular": {"z": 0.5}})
-        if smartcar.wait_for("/odom", len(smartcar.heard.get("/odom", [])) + 1)[-1].twist.twist.linear.x:
+        if smartcar.wait_for("/odom", len(smartcar.received.get("/odom", [])) + 1)[-1].twist.twist.linear.x:
             break
     publisher.unregister()
     start = smartcar.wait_for("/odom")[-1]

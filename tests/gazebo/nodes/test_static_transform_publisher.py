@@ -1,4 +1,4 @@
-"""Both static_transform_publishers, from their command lines."""
+"""The static_transform_publishers of tf and tf2, by their command lines."""
 
 import math
 from collections.abc import Callable
@@ -19,7 +19,7 @@ def run(kind: Callable[..., Any], line: str, params: dict[str, Any] | None = Non
     return node, run_to_end(kind(node, line.split(), NodeHost()).run())
 
 
-def test_the_old_one_repeats_with_slashes_kept_and_one_period_ahead() -> None:
+def test_tf_publisher_repeats_one_period_ahead_and_keeps_slashes() -> None:
     node, code = run(TfStaticTransformPublisher, "1 2 3 0 0 0 /base_link /left_front_link 100")
     assert code is None
     messages = node.sent("/tf")
@@ -32,7 +32,7 @@ def test_the_old_one_repeats_with_slashes_kept_and_one_period_ahead() -> None:
 
 
 @pytest.mark.parametrize("turn", ["1.5707963267948966 0 0", "0 0 0.7071067811865476 0.7071067811865476"])
-def test_a_turn_is_yaw_pitch_roll_or_a_quaternion(turn: str) -> None:
+def test_a_rotation_is_yaw_pitch_roll_or_a_quaternion(turn: str) -> None:
     for kind, topic, end in (
         (TfStaticTransformPublisher, "/tf", " 100"),
         (Tf2StaticTransformPublisher, "/tf_static", ""),
@@ -43,13 +43,13 @@ def test_a_turn_is_yaw_pitch_roll_or_a_quaternion(turn: str) -> None:
         assert (rotation.x, rotation.y, rotation.z, rotation.w) == pytest.approx((0.0, 0.0, half, half))
 
 
-def test_the_new_one_sends_once() -> None:
+def test_tf2_publisher_sends_once() -> None:
     node, code = run(Tf2StaticTransformPublisher, "1 2 3 0 0 0 a b")
     assert code == 0
     assert len(node.sent("/tf_static")) == 1
 
 
-def test_the_new_one_reads_a_parameter() -> None:
+def test_tf2_publisher_reads_a_parameter() -> None:
     tree = {
         "header": {"frame_id": "a"},
         "child_frame_id": "b",
@@ -68,7 +68,7 @@ def test_the_new_one_reads_a_parameter() -> None:
     )
 
 
-def test_the_old_one_says_that_a_frame_is_its_own_parent_and_goes_on() -> None:
+def test_tf_publisher_reports_equal_frames_and_continues() -> None:
     node, code = run(TfStaticTransformPublisher, "0 0 0 0 0 0 a a 100")
     assert code is None
     assert ("fatal", "target_frame and source frame are the same (a, a) this cannot work") in node.log.logged
@@ -86,7 +86,7 @@ def test_the_old_one_says_that_a_frame_is_its_own_parent_and_goes_on() -> None:
         (Tf2StaticTransformPublisher, "", 255),
     ],
 )
-def test_a_command_line_of_no_use_ends_it_with_a_sentence(kind: Callable[..., Any], line: str, code: int) -> None:
-    node, got = run(kind, line)
-    assert got == code
+def test_an_invalid_command_line_ends_it_with_an_error(kind: Callable[..., Any], line: str, code: int) -> None:
+    node, exit_code = run(kind, line)
+    assert exit_code == code
     assert node.log.logged[-1][0] in ("error", "fatal")

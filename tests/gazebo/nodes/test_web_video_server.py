@@ -1,4 +1,4 @@
-"""web_video_server, as a browser asks it."""
+"""web_video_server, requested as by a browser."""
 
 import http.client
 import io
@@ -18,17 +18,17 @@ IMAGE = "sensor_msgs/Image"
 
 
 @pytest.fixture
-def port(stage) -> int:
-    stage.client.advertise("/eye/image_raw", IMAGE, latch=True).publish({**RED, "data": bytes([255, 0, 0] * 8)})
-    stage.client.advertise("/eye/camera_info", "sensor_msgs/CameraInfo", latch=True)
-    stage.client.advertise("/mind", IMAGE)
-    stage.client.advertise("/mind/compressed", "sensor_msgs/CompressedImage", latch=True).publish(
+def port(graph) -> int:
+    graph.client.advertise("/eye/image_raw", IMAGE, latch=True).publish({**RED, "data": bytes([255, 0, 0] * 8)})
+    graph.client.advertise("/eye/camera_info", "sensor_msgs/CameraInfo", latch=True)
+    graph.client.advertise("/compressed_only", IMAGE)
+    graph.client.advertise("/compressed_only/compressed", "sensor_msgs/CompressedImage", latch=True).publish(
         {"format": "jpeg", "data": b"as it is"}
     )
-    stage.client.advertise("/odd", IMAGE, latch=True).publish({**RED, "encoding": "yuv422", "data": bytes(24)})
-    stage.loop.run(stage.client.wait_registered())
-    stage.start("web_video_server/web_video_server", port=0)
-    return port_of(stage, "web_video_server")
+    graph.client.advertise("/odd", IMAGE, latch=True).publish({**RED, "encoding": "yuv422", "data": bytes(24)})
+    graph.loop.run(graph.client.wait_registered())
+    graph.start("web_video_server/web_video_server", port=0)
+    return port_of(graph, "web_video_server")
 
 
 @contextmanager
@@ -57,11 +57,11 @@ def _part(response: http.client.HTTPResponse) -> tuple[dict[str, str], bytes]:
     return fields, data
 
 
-def test_it_lists_the_images(port: int) -> None:
+def test_the_index_lists_image_topics(port: int) -> None:
     text = _get(port, "/")[1].decode()
 
     assert '<li>/eye/<ul><li><a href="/stream_viewer?topic=/eye/image_raw">image_raw</a>' in text
-    assert '<a href="/snapshot?topic=/mind">' in text
+    assert '<a href="/snapshot?topic=/compressed_only">' in text
     assert "camera_info<" not in text
 
 
@@ -69,18 +69,18 @@ def test_it_lists_the_images(port: int) -> None:
     ("query", "content_type", "size"),
     [("", "image/jpeg", (4, 2)), ("&type=png", "image/png", (4, 2)), ("&width=8&quality=50", "image/jpeg", (8, 2))],
 )
-def test_it_streams_pictures(port: int, query: str, content_type: str, size: tuple[int, int]) -> None:
+def test_images_are_streamed(port: int, query: str, content_type: str, size: tuple[int, int]) -> None:
     with _opened(port, f"/stream?topic=/eye/image_raw{query}") as response:
         assert response.getheader("Content-Type") == "multipart/x-mixed-replace;boundary=boundarydonotcross"
         fields, data = _part(response)
 
     image = Image.open(io.BytesIO(data)).convert("RGB")
     assert (fields["Content-type"], fields["X-Timestamp"], image.size) == (content_type, "1.500000", size)
-    assert np.allclose(image.getpixel((1, 1)), (255, 0, 0), atol=3)
+    assert np.allclose(np.asarray(image)[1, 1], (255, 0, 0), atol=3)
 
 
 def test_compressed_images_are_passed_on(port: int) -> None:
-    with _opened(port, "/stream?topic=/mind&type=ros_compressed") as response:
+    with _opened(port, "/stream?topic=/compressed_only&type=ros_compressed") as response:
         assert _part(response)[1] == b"as it is"
 
 
@@ -91,7 +91,7 @@ def test_a_snapshot_is_one_picture(port: int) -> None:
     assert response.getheader("Content-Type") == "image/jpeg"
 
 
-def test_the_viewer_escapes_what_it_is_given(port: int) -> None:
+def test_the_viewer_escapes_its_query(port: int) -> None:
     text = _get(port, "/stream_viewer?topic=%3Cscript%3E&type=%22%3E")[1].decode()
 
     assert "<script>" not in text
@@ -101,7 +101,7 @@ def test_the_viewer_escapes_what_it_is_given(port: int) -> None:
 @pytest.mark.parametrize(
     ("path", "status", "text"),
     [
-        ("/stream?topic=/none", 404, "image topics: /eye/image_raw, /mind, /odd"),
+        ("/stream?topic=/none", 404, "image topics: /compressed_only, /eye/image_raw, /odd"),
         ("/stream?topic=/eye/camera_info", 415, "sensor_msgs/CameraInfo"),
         ("/stream?topic=/eye/image_raw&type=vp8", 404, "mjpeg, png, ros_compressed"),
         ("/stream?topic=/eye/image_raw&width=x", 400, "width"),
@@ -110,14 +110,14 @@ def test_the_viewer_escapes_what_it_is_given(port: int) -> None:
         ("/nothing", 404, "no such page"),
     ],
 )
-def test_what_cannot_be_is_told(port: int, path: str, status: int, text: str) -> None:
+def test_invalid_requests_are_reported(port: int, path: str, status: int, text: str) -> None:
     response, data = _get(port, path)
 
     assert response.status == status
     assert text in data.decode()
 
 
-def test_pages_elsewhere_are_refused(port: int) -> None:
+def test_pages_of_other_origins_are_refused(port: int) -> None:
     assert _get(port, "/snapshot?topic=/eye/image_raw", Origin="http://evil.example")[0].status == 403
     local, _ = _get(port, "/snapshot?topic=/eye/image_raw", Origin="http://localhost:8000")
     image, _ = _get(port, "/snapshot?topic=/eye/image_raw")
@@ -127,12 +127,12 @@ def test_pages_elsewhere_are_refused(port: int) -> None:
     assert image.getheader("Cross-Origin-Resource-Policy") == "same-site"
 
 
-def test_a_stream_that_is_left_ends(stage, port: int) -> None:
-    source = stage.client.advertise("/mind", IMAGE)
-    with _opened(port, "/stream?topic=/mind") as response:
-        stage.until(lambda: source.has_subscribers)
+def test_a_closed_stream_unsubscribes(graph, port: int) -> None:
+    source = graph.client.advertise("/compressed_only", IMAGE)
+    with _opened(port, "/stream?topic=/compressed_only") as response:
+        graph.until(lambda: source.has_subscribers)
         assert response.status == 200
-    stage.until(lambda: not source.has_subscribers)
+    graph.until(lambda: not source.has_subscribers)
 
 
 def test_depths_are_scaled(messages: Messages) -> None:
@@ -146,6 +146,6 @@ def test_depths_are_scaled(messages: Messages) -> None:
 @pytest.mark.parametrize(
     "wrong", [{"width": 0}, {"height": 10**6}, {"step": 1}, {"encoding": "bayer_rggb8"}, {"data": b""}]
 )
-def test_images_of_no_use_are_named(messages: Messages, wrong: dict[str, object]) -> None:
+def test_invalid_images_are_rejected(messages: Messages, wrong: dict[str, object]) -> None:
     with pytest.raises(PictureError):
         encode_picture(messages.new(IMAGE, {**RED, "data": bytes(24), **wrong}), Encoding())

@@ -71,7 +71,7 @@ def test_a_copied_devel_folder_counts_as_not_built(tmp_path: Path) -> None:
     found = find_node("arm", "drive", lambda _: package, env={})
 
     assert isinstance(found, MissingNode)
-    assert found.why.startswith(f"{program} was built on another machine: it is compiled for ")
-    assert f"C++ not compiled yet: {package}/CMakeLists.txt:1 builds it from src/drive.cpp" in found.why
+    assert found.reason.startswith(f"{program} was built on another machine: it is compiled for ")
+    assert f"C++ not compiled yet: {package}/CMakeLists.txt:1 builds it from src/drive.cpp" in found.reason
     _copied(program, b"", b"")
     assert find_node("arm", "drive", lambda _: package, env={}) == Executable(program)

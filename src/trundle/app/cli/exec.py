@@ -52,12 +52,12 @@ def main(args: argparse.Namespace) -> int:
         BuiltinReplacement,
         Executable,
         MissingNode,
+        command_prefix,
         find_node,
         lacks_rospy,
         missing_rospy_advice,
         same_named_programs,
         script_fault,
-        start_words,
     )
     from trundle.robots.packages import Packages
     from trundle.ros.rospy.environment import with_finder
@@ -80,7 +80,7 @@ def main(args: argparse.Namespace) -> int:
                 path = _chosen(path, same_named_programs(folder, path))
             if args.show_translation:
                 return _show_translation(path)
-            command = [*shlex.split(args.prefix), *start_words(path, os.environ), str(path), *args.arguments]
+            command = [*shlex.split(args.prefix), *command_prefix(path, os.environ), str(path), *args.arguments]
             if fault := script_fault(path):
                 print(f"trundle exec: warning: {path} {fault}", file=sys.stderr)
             if args.debug:

@@ -23,10 +23,10 @@ from .host import (
 )
 from .node_names import default_name as default_name
 from .python_interpreter import (
+    command_prefix as command_prefix,
     lacks_rospy as lacks_rospy,
     missing_ros_module as missing_ros_module,
     missing_rospy_advice as missing_rospy_advice,
     script_fault as script_fault,
-    start_words as start_words,
 )
 from .run import run_builtin_node as run_builtin_node

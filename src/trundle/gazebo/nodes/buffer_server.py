@@ -70,35 +70,35 @@ class BufferServer:
         end_ns = clock.now_ns() + to_nsec(goal.timeout)
         while True:
             try:
-                found = self._lookup(goal)
+                transform = self._lookup(goal)
             except TransformError as error:
                 if clock.now_ns() >= end_ns:
                     return ActionOutcome(result={"error": _error(error)})
             else:
-                return ActionOutcome(result={"transform": _stamped(found), "error": {"error": _NO_ERROR}})
+                return ActionOutcome(result={"transform": _stamped(transform), "error": {"error": _NO_ERROR}})
             await asyncio.sleep(_POLL_S)
 
     def _lookup(self, goal: "tf2_msgs.LookupTransformGoal") -> Transform:
         buffer, source_ns = self._buffer, to_nsec(goal.source_time)
-        for what in ("target_frame", "source_frame", "fixed_frame")[: 3 if goal.advanced else 2]:
-            check_frame_name(getattr(goal, what), "lookupTransform", what)
+        for field in ("target_frame", "source_frame", "fixed_frame")[: 3 if goal.advanced else 2]:
+            check_frame_name(getattr(goal, field), "lookupTransform", field)
         if not goal.advanced and goal.target_frame == goal.source_frame:
             return self._identity(goal.source_frame, source_ns)
         if not goal.advanced:
             return buffer.lookup_transform(goal.target_frame, goal.source_frame, source_ns)
-        then = buffer.lookup_transform(goal.fixed_frame, goal.source_frame, source_ns)
-        now = buffer.lookup_transform(goal.target_frame, goal.fixed_frame, to_nsec(goal.target_time))
-        pose = now.pose @ then.pose
+        source_transform = buffer.lookup_transform(goal.fixed_frame, goal.source_frame, source_ns)
+        target_transform = buffer.lookup_transform(goal.target_frame, goal.fixed_frame, to_nsec(goal.target_time))
+        pose = target_transform.pose @ source_transform.pose
         return Transform(
-            parent=now.parent,
-            child=then.child,
-            stamp_ns=now.stamp_ns,
+            parent=target_transform.parent,
+            child=source_transform.child,
+            stamp_ns=target_transform.stamp_ns,
             translation=pose.position,
             rotation=pose.quaternion,
         )
 
     def _identity(self, frame: str, stamp_ns: int) -> Transform:
-        """Identity transform of a frame, known or not."""
+        """Return the identity transform of a frame, even an unknown one."""
         latest = None if self._buffer.is_static(frame) else self._buffer.latest(frame)
         stamp_ns = stamp_ns or (latest.stamp_ns if latest is not None else 0)
         return Transform(

@@ -1,4 +1,4 @@
-"""usb_cam, cv_camera and gscam: pictures of this machine's camera, or of a video file in its place."""
+"""usb_cam, cv_camera and gscam: images of this machine's camera, or of a video file."""
 
 import asyncio
 import os
@@ -35,24 +35,24 @@ _YAML_NAMES = {
 
 
 class _Video:
-    """Pictures of a camera or a file, decoded by PyAV; on a thread of its own."""
+    """Images of a camera or a file, decoded by PyAV on a worker thread."""
 
     def __init__(self, source: str, *, size: tuple[int, int] | None, rate_hz: float | None) -> None:
         """Open.
 
         Args:
             source: path of a device or file.
-            size: width and height asked of a camera [pixels]; None: its own.
-            rate_hz: pictures a second asked of a camera, and of a file in place of its own.
+            size: width and height requested from a camera [px]; None: camera's default.
+            rate_hz: frame rate requested from a camera; for a file, replaces its frame rate.
 
         Raises:
-            UsageError: PyAV is not installed, or there is nothing to open.
+            UsageError: PyAV is not installed, or the source cannot be opened.
         """
         try:
             import av
             from av.error import FFmpegError
         except ModuleNotFoundError:
-            raise UsageError("pictures need PyAV: pip install av") from None
+            raise UsageError("images need PyAV: pip install av") from None
         self.is_camera = not os.path.isfile(source)
         options, kind = {"protocol_whitelist": "file"}, None
         name = f"file:{source}"
@@ -64,17 +64,17 @@ class _Video:
             self._container = av.open(name, format=kind, options=options)
             self._stream = self._container.streams.video[0]
         except (FFmpegError, OSError, IndexError) as error:
-            why = getattr(error, "strerror", None) or "it has no pictures"
-            raise UsageError(f"cannot open {source}: {why}; the path of a video file may take its place") from None
+            reason = getattr(error, "strerror", None) or "it has no images"
+            raise UsageError(f"cannot open {source}: {reason}; the path of a video file can replace it") from None
         self.rate_hz = rate_hz or float(self._stream.average_rate or 30)
         self._frames = self._container.decode(self._stream)
         self._lock = threading.Lock()
-        """Held while a picture is read: a container that is closed meanwhile ends the process."""
+        """Held while an image is read: closing the container meanwhile crashes the process."""
         self._is_closed = False
         self._errors = FFmpegError
 
     def next(self, encoding: str) -> NDArray[np.uint8] | None:
-        """Return the next picture (height, width, channels); None at the end of a file, or when the camera is gone."""
+        """Return the next image (height, width, channels); None at the end of a file, or without the camera."""
         with self._lock:
             if self._is_closed:
                 return None
@@ -85,7 +85,7 @@ class _Video:
         return None if frame is None else np.ascontiguousarray(frame.to_ndarray(format=_FORMATS[encoding]), np.uint8)
 
     def close(self) -> None:
-        """Close, once no picture is being read."""
+        """Close, once no image is being read."""
         with self._lock:
             self._is_closed = True
             self._container.close()
@@ -99,23 +99,23 @@ def _capture(source: str) -> tuple[str, str]:
     """Return FFmpeg's device kind and name for a camera.
 
     Raises:
-        UsageError: there is no such camera.
+        UsageError: no such camera.
     """
     if sys.platform == "darwin":
         return "avfoundation", re.sub(r"\D", "", source) or "0"
     if sys.platform == "win32":
-        raise UsageError(f"{source}: cameras are not read on Windows; the path of a video file may take its place")
+        raise UsageError(f"{source}: cameras are not read on Windows; the path of a video file can replace them")
     try:
         is_device = stat.S_ISCHR(os.stat(source).st_mode)
     except OSError:
         is_device = False
     if not is_device:
-        raise UsageError(f"there is no camera {source} here; the path of a video file may take its place")
+        raise UsageError(f"no camera {source}; the path of a video file can replace it")
     return "v4l2", source
 
 
 class CameraDriver:
-    """Publishes an image topic and its camera_info until the pictures end."""
+    """Publishes an image topic and its camera_info until the images end."""
 
     topic: ClassVar[str] = "~image_raw"
     info_topic: ClassVar[str] = "~camera_info"
@@ -129,24 +129,24 @@ class CameraDriver:
         self.encoding = "rgb8"
         self.frame = "camera"
         self.repeats = True
-        """True if a file begins again at its end."""
+        """True if a file restarts at its end."""
 
     def read(self, settings: RosParameters) -> None:
-        """Read the driver's own parameters.
+        """Read the driver's parameters.
 
         Raises:
-            ParamError: one is missing or invalid.
+            ParamError: a parameter is missing or invalid.
         """
         raise NotImplementedError
 
     async def run(self) -> int:
-        """Publish until cancelled, or the pictures end."""
+        """Publish until cancelled, or the images end."""
         node = self._node
         settings = await private_parameters(node)
         try:
             self.read(settings)
             if self.encoding not in _FORMATS:
-                raise ParamError(f"no encoding {self.encoding!r}; there are: {', '.join(_FORMATS)}")
+                raise ParamError(f"no encoding {self.encoding!r}; encodings: {', '.join(_FORMATS)}")
             info = _read_calibration(settings.text("camera_info_url", ""), node)
             video = await asyncio.to_thread(_Video, self.source, size=self.size, rate_hz=self.rate_hz)
         except TrundleError as error:
@@ -157,20 +157,20 @@ class CameraDriver:
         rate = Rate(node, video.rate_hz)
         try:
             while not node.closed.is_set():
-                picture = await asyncio.to_thread(video.next, self.encoding)
-                if picture is None:
+                image = await asyncio.to_thread(video.next, self.encoding)
+                if image is None:
                     if video.is_camera or not self.repeats:
-                        node.log.error(f"{self.source} has no more pictures")
+                        node.log.error(f"{self.source} has no more images")
                         return 1 if video.is_camera else 0
                     await asyncio.to_thread(video.close)
                     video = await asyncio.to_thread(_Video, self.source, size=self.size, rate_hz=self.rate_hz)
                     continue
                 header = {"stamp": node.clock.now_ns(), "frame_id": self.frame}
-                height, width = picture.shape[:2]
+                height, width = image.shape[:2]
                 images.publish(
                     {
                         "header": header, "height": height, "width": width, "encoding": self.encoding,
-                        "step": picture.strides[0], "data": picture.tobytes(),
+                        "step": image.strides[0], "data": image.tobytes(),
                     }
                 )  # fmt: skip
                 infos.publish({"header": header, "height": height, "width": width, **info})
@@ -185,7 +185,7 @@ class UsbCam(CameraDriver):
     """usb_cam/usb_cam_node.
 
     Parameters, with the original's defaults: video_device /dev/video0 (or a video file), image_width 640, image_height
-    480, framerate 30, camera_frame_id head_camera, camera_info_url; the others set up the device, and are not needed.
+    480, framerate 30, camera_frame_id head_camera, camera_info_url; the others set up the device and have no effect.
     """
 
     def read(self, settings: RosParameters) -> None:
@@ -215,7 +215,7 @@ class CvCamera(CameraDriver):
 
 
 class GsCam(CameraDriver):
-    """gscam/gscam: the device or file that a GStreamer pipeline begins with; its other elements are left out.
+    """gscam/gscam: the source device or file of a GStreamer pipeline; its other elements are ignored.
 
     Parameters, with the original's defaults: gscam_config (else the variable GSCAM_CONFIG), frame_id camera_frame,
     image_encoding rgb8 (or mono8), reopen_on_eof false, camera_info_url.
@@ -233,23 +233,23 @@ class GsCam(CameraDriver):
         pipeline = settings.text("gscam_config", "") or self._environment.get("GSCAM_CONFIG", "")
         if not pipeline:
             raise ParamError(f"{settings.where}: neither gscam_config nor the variable GSCAM_CONFIG is set")
-        named = _DEVICE.search(pipeline) or _LOCATION.search(pipeline)
-        if named is None and not _DEFAULT_SOURCE.search(pipeline):
-            what = "v4l2src device=… and filesrc location=… are"
-            raise ParamError(f"{settings.where}: the source of the pipeline {pipeline!r} is not known here; {what}")
-        self.source = "/dev/video0" if named is None else named[1]
+        match = _DEVICE.search(pipeline) or _LOCATION.search(pipeline)
+        if match is None and not _DEFAULT_SOURCE.search(pipeline):
+            supported = "v4l2src device=… and filesrc location=… are supported"
+            raise ParamError(f"{settings.where}: the source of the pipeline {pipeline!r} is unknown; {supported}")
+        self.source = "/dev/video0" if match is None else match[1]
         self.frame = settings.text("frame_id", "camera_frame").lstrip("/")
         self.encoding = settings.text("image_encoding", "rgb8")
         self.repeats = settings.flag("reopen_on_eof", default=False)
 
 
 def _read_calibration(url: str, node: Node) -> dict[str, Any]:
-    """Return the fields of a CameraInfo from a camera_calibration YAML; none, with a warning, where it is missing."""
+    """Return the CameraInfo fields in a camera_calibration YAML; if it is missing, warn and return none."""
     parts = urlsplit(url)
     if not url:
         return {}
     if parts.scheme not in ("", "file"):
-        node.log.warn(f"camera_info_url {url!r} is not read: a file:// URL is")
+        node.log.warn(f"camera_info_url {url!r} is not read; use a file:// URL")
         return {}
     path = Path(unquote(parts.path))
     try:

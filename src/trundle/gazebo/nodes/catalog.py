@@ -1,4 +1,4 @@
-"""Catalogue of built-in replacements for stock executables; each is imported only on use."""
+"""Catalog of built-in replacements for stock executables, imported on use."""
 
 BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("arbotix_controllers", "gripper_controller"): "trundle.gazebo.nodes.arbotix:GripperController",
@@ -150,7 +150,7 @@ NODELETS: dict[str, str] = {
 """Nodelet class as in launch files → "module:Class"."""
 
 WORLDS = frozenset(("gazebo_ros", type_) for type_ in ("gzserver", "gazebo", "debug", "gdbrun", "perf"))
-"""Nodes that simulate a world, and so publish /clock."""
+"""Nodes that simulate a world and publish /clock."""
 
 WINDOWS = frozenset(
     key
@@ -171,8 +171,8 @@ KEYBOARDS = frozenset(
 CLIENTS = frozenset({("gazebo_ros", "gzclient"), ("gazebo_ros", "gazebo")})
 """Nodes that open the page of the simulated world."""
 
-OURS_ALWAYS = frozenset({"gazebo_ros", "sound_play"})
-"""Packages that are replaced even if installed: their programs would start another simulator, or want GStreamer."""
+ALWAYS_REPLACED = frozenset({"gazebo_ros", "sound_play"})
+"""Packages that are replaced even if installed: their programs would start another simulator, or need GStreamer."""
 
 _IN_PYTHON = (
     "arbotix_",
@@ -194,4 +194,4 @@ _IN_PYTHON = (
 ROSCPP = frozenset(
     key for key in BUILTIN_NODES if not key[0].startswith(_IN_PYTHON) and key[1] not in ("spawn_model", "urdf_spawner")
 )
-"""Nodes whose originals use roscpp, which names loggers differently."""
+"""Nodes whose originals use roscpp, with other names of loggers."""

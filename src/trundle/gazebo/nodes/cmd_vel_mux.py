@@ -37,7 +37,7 @@ class CmdVelSubscriber:
 
 
 class CmdVelMux:
-    """Forwards one input at a time; `~active` names it, "idle" if none.
+    """Forwards one input at a time; `~active` publishes its name, or "idle".
 
     `~yaml_cfg_file` names a file with `subscribers` (name, topic, timeout, priority) and `publisher` (output); topics
     are private. An input stays active until it times out or one of higher priority publishes.
@@ -95,8 +95,10 @@ def _read(path: str) -> tuple[list[CmdVelSubscriber], str]:
         raise ParamError(f"yaml_cfg_file {path!r} cannot be read: {error}") from None
     settings = RosParameters(tree, path)
     sources = [
-        CmdVelSubscriber(each.text("name"), each.text("topic"), each.number("timeout"), each.number("priority"))
-        for each in settings.sections("subscribers")
+        CmdVelSubscriber(
+            section.text("name"), section.text("topic"), section.number("timeout"), section.number("priority")
+        )
+        for section in settings.sections("subscribers")
     ]
     if not sources:
         raise ParamError(f"{path}: no subscribers")

@@ -36,13 +36,16 @@ class CommandLineTool:
             "ROS_MASTER_URI": node.master_uri,
             "ROS_NAMESPACE": node.name.rpartition("/")[0],
         }
-        words: list[str] = []
+        name_and_remappings: list[str] = []
         if self.takes_remappings:
             await node.shutdown()  # the tool registers under this name itself
-            words = [f"__name:={node.name.rpartition('/')[2]}", *(f"{a}:={b}" for a, b in node.remappings.items())]
+            name_and_remappings = [
+                f"__name:={node.name.rpartition('/')[2]}",
+                *(f"{a}:={b}" for a, b in node.remappings.items()),
+            ]
         self._tree.watch()
         process = await asyncio.create_subprocess_exec(
-            *(sys.executable, "-m", "trundle", *self.command, *self._arguments, *words),
+            *(sys.executable, "-m", "trundle", *self.command, *self._arguments, *name_and_remappings),
             env=self._tree.environment(environment),
             stdin=subprocess.DEVNULL,
             start_new_session=os.name == "posix",

@@ -13,7 +13,7 @@ from trundle.ros import Message, Node, RosError
 from .host import NodeHost
 
 _PACKAGE = "controller_manager_msgs"
-_FAREWELL_S = 1.0
+_SHUTDOWN_TIMEOUT_S = 1.0
 _BEST_EFFORT, _STRICT = 1, 2
 
 
@@ -34,9 +34,8 @@ class _ControllerManagerClient:
     async def wait(self, timeout_s: float | None) -> None:
         """Wait for the services.
 
-        A launch file's timeout is meant for Gazebo: it is extended while the simulation loads, since the first convex
-        decomposition of large meshes takes long. The original's default of 30 s is too short for a slow machine; here
-        there is none.
+        While the simulation loads, the timeout of a launch file is extended, since the first convex decomposition of
+        large meshes takes long. The original's default of 30 s is too short for a slow machine; the default is none.
 
         Raises:
             RosError: timeout.
@@ -88,28 +87,28 @@ class Spawner:
     async def run(self) -> int:
         """Run until cancelled."""
         node = self._node
-        words = _ArgumentParser(prog="spawner", add_help=False)
-        words.add_argument("--stopped", action="store_true")
-        words.add_argument("--wait-for", metavar="topic")
-        words.add_argument("--namespace", default="")
-        words.add_argument("--timeout", type=float)
-        words.add_argument("--no-timeout", action="store_true")
-        words.add_argument("--shutdown-timeout", type=float, default=_FAREWELL_S)
-        words.add_argument("controllers", nargs="+")
+        parser = _ArgumentParser(prog="spawner", add_help=False)
+        parser.add_argument("--stopped", action="store_true")
+        parser.add_argument("--wait-for", metavar="topic")
+        parser.add_argument("--namespace", default="")
+        parser.add_argument("--timeout", type=float)
+        parser.add_argument("--no-timeout", action="store_true")
+        parser.add_argument("--shutdown-timeout", type=float, default=_SHUTDOWN_TIMEOUT_S)
+        parser.add_argument("controllers", nargs="+")
         try:
-            given = words.parse_args(self._arguments)
-            manager = _ControllerManagerClient(node, given.namespace)
+            options = parser.parse_args(self._arguments)
+            manager = _ControllerManagerClient(node, options.namespace)
             node.log.info("Controller Spawner: Waiting for service controller_manager/load_controller")
-            await manager.wait(None if given.no_timeout else given.timeout)
-            if given.wait_for:
-                await self._wait_for(given.wait_for)
-            await self._spawn(manager, given.controllers, stopped=given.stopped)
+            await manager.wait(None if options.no_timeout else options.timeout)
+            if options.wait_for:
+                await self._wait_for(options.wait_for)
+            await self._spawn(manager, options.controllers, stopped=options.stopped)
         except (UsageError, RosError) as error:
             node.log.error(f"Controller Spawner: {error}")
             return 1
         await node.closed.wait()
         with contextlib.suppress(RosError, OSError):
-            async with asyncio.timeout(given.shutdown_timeout):
+            async with asyncio.timeout(options.shutdown_timeout):
                 await manager.switch(stop=self._loaded, strictness=_BEST_EFFORT)
                 for name in reversed(self._loaded):
                     await manager.unload(name)
@@ -133,16 +132,16 @@ class Spawner:
 
     async def _wait_for(self, topic: str) -> None:
         """Wait for `true` on a std_msgs/Bool topic."""
-        said = asyncio.Event()
+        received = asyncio.Event()
 
         def on_message(message: Message) -> None:
             if message.data:
-                said.set()
+                received.set()
 
         self._node.log.info(f"Controller Spawner: Waiting for {topic}")
-        listening = self._node.subscribe(topic, "std_msgs/Bool", on_message, on_loop=True)
-        await said.wait()
-        listening.unregister()
+        subscription = self._node.subscribe(topic, "std_msgs/Bool", on_message, on_loop=True)
+        await received.wait()
+        subscription.unregister()
 
 
 class Unspawner:
@@ -156,23 +155,23 @@ class Unspawner:
     async def run(self) -> int:
         """Run until cancelled."""
         node = self._node
-        words = _ArgumentParser(prog="unspawner", add_help=False)
-        words.add_argument("--namespace", default="")
-        words.add_argument("controllers", nargs="+")
+        parser = _ArgumentParser(prog="unspawner", add_help=False)
+        parser.add_argument("--namespace", default="")
+        parser.add_argument("controllers", nargs="+")
         try:
-            given = words.parse_args(self._arguments)
-            manager = _ControllerManagerClient(node, given.namespace)
+            options = parser.parse_args(self._arguments)
+            manager = _ControllerManagerClient(node, options.namespace)
             await manager.wait(None)
-            if not await manager.switch(stop=given.controllers):
-                raise UsageError(f"could not stop {', '.join(given.controllers)}")
+            if not await manager.switch(stop=options.controllers):
+                raise UsageError(f"could not stop {', '.join(options.controllers)}")
         except (UsageError, RosError) as error:
             node.log.error(f"unspawner: {error}")
             return 1
-        node.log.info(f"Stopped controllers: {', '.join(given.controllers)}")
+        node.log.info(f"Stopped controllers: {', '.join(options.controllers)}")
         await node.closed.wait()
         with contextlib.suppress(RosError, OSError):
-            async with asyncio.timeout(_FAREWELL_S):
-                await manager.switch(start=given.controllers, strictness=_BEST_EFFORT)
+            async with asyncio.timeout(_SHUTDOWN_TIMEOUT_S):
+                await manager.switch(start=options.controllers, strictness=_BEST_EFFORT)
         return 0
 
 
@@ -186,25 +185,27 @@ class ControllerManagerTool:
 
     async def run(self) -> int:
         """Execute one command."""
-        words = _ArgumentParser(prog="controller_manager", add_help=False)
+        parser = _ArgumentParser(prog="controller_manager", add_help=False)
         commands = ("list", "list-types", "load", "unload", "start", "stop", "spawn", "kill", "reload-libraries")
-        words.add_argument("command", choices=commands)
-        words.add_argument("controllers", nargs="*")
+        parser.add_argument("command", choices=commands)
+        parser.add_argument("controllers", nargs="*")
         try:
-            given = words.parse_args(self._arguments)
+            options = parser.parse_args(self._arguments)
             manager = _ControllerManagerClient(self._node)
             await manager.wait(None)
-            return 0 if await self._do(manager, given.command, given.controllers) else 1
+            return 0 if await self._run_command(manager, options.command, options.controllers) else 1
         except (UsageError, RosError) as error:
             self._node.log.error(f"controller_manager: {error}")
             return 1
 
-    async def _do(self, manager: _ControllerManagerClient, command: str, names: list[str]) -> bool:
+    async def _run_command(self, manager: _ControllerManagerClient, command: str, names: list[str]) -> bool:
         match command:
             case "list":
-                for each in await manager.loaded():
-                    claims = [f"{c.hardware_interface}: {', '.join(c.resources)}" for c in each.claimed_resources]
-                    print(f"'{each.name}' - '{each.type}' ( {each.state} ) {'; '.join(claims)}".rstrip())
+                for controller in await manager.loaded():
+                    claims = [f"{c.hardware_interface}: {', '.join(c.resources)}" for c in controller.claimed_resources]
+                    print(
+                        f"'{controller.name}' - '{controller.type}' ( {controller.state} ) {'; '.join(claims)}".rstrip()
+                    )
                 return True
             case "list-types":
                 print("\n".join(await manager.types()))
@@ -212,21 +213,21 @@ class ControllerManagerTool:
             case "reload-libraries":
                 return True
             case _:
-                return all([await self._one(manager, command, name) for name in names])
+                return all([await self._execute(manager, command, name) for name in names])
 
-    async def _one(self, manager: _ControllerManagerClient, command: str, name: str) -> bool:
-        done = True
+    async def _execute(self, manager: _ControllerManagerClient, command: str, name: str) -> bool:
+        succeeded = True
         if command in ("load", "spawn"):
-            done = await manager.load(name)
+            succeeded = await manager.load(name)
         if command in ("start", "spawn"):
-            done = done and await manager.switch(start=[name])
+            succeeded = succeeded and await manager.switch(start=[name])
         if command in ("stop", "kill"):
-            done = await manager.switch(stop=[name])
+            succeeded = await manager.switch(stop=[name])
         if command in ("unload", "kill"):
-            done = done and await manager.unload(name)
-        if not done:
+            succeeded = succeeded and await manager.unload(name)
+        if not succeeded:
             print(f"could not {command} {name!r}; see the log of the robot's controller_manager", file=sys.stderr)
             return False
-        past = {"load": "Loaded", "unload": "Unloaded", "start": "Started", "stop": "Stopped", "spawn": "Spawned"}
-        print(f"{past.get(command, 'Killed')} {name!r} successfully")
+        past_tense = {"load": "Loaded", "unload": "Unloaded", "start": "Started", "stop": "Stopped", "spawn": "Spawned"}
+        print(f"{past_tense.get(command, 'Killed')} {name!r} successfully")
         return True

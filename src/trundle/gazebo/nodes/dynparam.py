@@ -28,9 +28,9 @@ class Dynparam:
     async def run(self) -> int:
         """Execute the command."""
         try:
-            args = _parser().parse_args(_shielded(self._arguments))
-        except SystemExit as end:  # argparse printed the error
-            return int(end.code or 0)
+            args = _parser().parse_args(_shield_negative_numbers(self._arguments))
+        except SystemExit as exit_:  # argparse printed the error
+            return int(exit_.code or 0)
         command: Callable[[Node, argparse.Namespace], Coroutine[None, None, None]] = args.command
         try:
             if "node" in args and self._node.resolve(args.node) not in await find_reconfigurable(self._node):
@@ -64,8 +64,8 @@ async def _set(node: Node, args: argparse.Namespace) -> None:
 
 async def _load(node: Node, args: argparse.Namespace) -> None:
     values = _mapping(read_input(args.file).decode())
-    wanted = {name: value for name, value in values.items() if name != "groups"}
-    await set_options(node, args.node, wanted, timeout_s=args.timeout)
+    options = {name: value for name, value in values.items() if name != "groups"}
+    await set_options(node, args.node, options, timeout_s=args.timeout)
 
 
 async def _set_from_parameters(node: Node, args: argparse.Namespace) -> None:
@@ -95,23 +95,23 @@ class _Loader(BoundedLoader):
     """YAML loader that reads the Python object dumped by the original as a mapping."""
 
 
-def _dumped(loader: yaml.SafeLoader, _suffix: str, node: yaml.Node) -> Any:
-    whole = loader.construct_mapping(cast(yaml.MappingNode, node), deep=True)
-    return whole.get("dictitems", {})
+def _construct_dumped(loader: yaml.SafeLoader, _suffix: str, node: yaml.Node) -> Any:
+    mapping = loader.construct_mapping(cast(yaml.MappingNode, node), deep=True)
+    return mapping.get("dictitems", {})
 
 
-_Loader.add_multi_constructor(_PYTHON_OBJECT, _dumped)
+_Loader.add_multi_constructor(_PYTHON_OBJECT, _construct_dumped)
 
 
-def _shielded(words: list[str]) -> list[str]:
-    """Protect negative numbers from argparse, which takes them for options."""
-    return [f" {word}" if word[:1] == "-" and word[1:2].isdigit() else word for word in words]
+def _shield_negative_numbers(arguments: list[str]) -> list[str]:
+    """Protect negative numbers from argparse, which would parse them as options."""
+    return [f" {argument}" if argument[:1] == "-" and argument[1:2].isdigit() else argument for argument in arguments]
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="dynparam", description="Options of running nodes.")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for name, command, words, about in (
+    for name, command, arguments, about in (
         ("list", _list, (), "nodes that have options"),
         ("get", _get, ("node",), "the options of a node"),
         ("set", _set, ("node", "parameter", "value"), "change one: NODE NAME VALUE, or several: NODE '{name: value}'"),
@@ -122,6 +122,6 @@ def _parser() -> argparse.ArgumentParser:
         sub = commands.add_parser(name, help=about, description=about)
         sub.set_defaults(command=command)
         sub.add_argument("-t", "--timeout", type=float, default=None, help="seconds to wait for the node")
-        for word in words:
-            sub.add_argument(word, nargs="?" if word == "value" else None)
+        for argument in arguments:
+            sub.add_argument(argument, nargs="?" if argument == "value" else None)
     return parser

@@ -20,14 +20,14 @@ from trundle.robots.packages import (
 from trundle.robots.repositories import repository_hint
 from trundle.ros import Node
 
-from .catalog import BUILTIN_NODES, NODELETS, OURS_ALWAYS
+from .catalog import ALWAYS_REPLACED, BUILTIN_NODES, NODELETS
 from .host import BuiltinNode, NodeHost
 from .python_interpreter import can_run, is_script
 from .unsupported_nodes import ALTERNATIVES, OVER_THE_WIRE
 
 _NOT_SEARCHED = frozenset({"__pycache__", "node_modules", "build"})
-_SOURCES_NAMED = 2
-_PROGRAMS_NAMED = 5
+_MAX_LISTED_SOURCES = 2
+_MAX_LISTED_PROGRAMS = 5
 BuiltinNodeClass: TypeAlias = Callable[[Node, list[str], NodeHost], BuiltinNode]
 FindPackage: TypeAlias = Callable[[str], Path | None]
 
@@ -59,9 +59,9 @@ class BuiltinReplacement:
 
 @dataclass(frozen=True, slots=True)
 class MissingNode:
-    """Neither; the launch continues without the node."""
+    """No executable and no replacement; the launch continues without the node."""
 
-    why: str
+    reason: str
 
 
 def find_node(
@@ -71,12 +71,12 @@ def find_node(
     *,
     env: Mapping[str, str],
     arguments: str = "",
-    words: Sequence[str] = (),
+    command_line: Sequence[str] = (),
 ) -> Executable | BuiltinReplacement | MissingNode:
     """Find a node: an executable in the package's folder, a built-in replacement, or a program in a build folder.
 
-    The replacement takes precedence over programs of installed packages, as its window needs no display and its
-    messages no sockets. It also replaces scripts in a source workspace whose ROS modules (rospy, messages) are missing.
+    A replacement takes precedence over programs of installed packages, since its window needs no display and its
+    messages no sockets. It also replaces scripts of a source workspace whose ROS modules (rospy, messages) are missing.
 
     Args:
         package: package name.
@@ -84,129 +84,137 @@ def find_node(
         find_package: returns a package's folder.
         env: environment of the process.
         arguments: command line, which names a nodelet's class.
-        words: command line with the node's remappings and name, for advice to run the real node elsewhere.
+        command_line: command line with the node's remappings and name, for advice on running the real node elsewhere.
     """
     target = BUILTIN_NODES.get((package, type_name))
-    if target is not None and package in OURS_ALWAYS:
+    if target is not None and package in ALWAYS_REPLACED:
         return BuiltinReplacement(target)
     folder = find_package(package)
-    plain: Path | None = None
+    not_executable: Path | None = None
     faults: list[str] = []
     """Programs that cannot run here, with the reason."""
     if folder is not None:
         for path in _files(folder, type_name):
             if not os.access(path, os.X_OK):
-                plain = plain or path
+                not_executable = not_executable or path
             elif fault := compiled_fault(path, env):
                 faults.append(f"{path} was built on another machine: {fault}")
             elif target is None or (folder.parent.name != "share" and can_run(path, env)):
                 return Executable(path)
     if target is not None:
-        missing = _nodelet(arguments, find_package, env, words) if type_name == "nodelet" else None
+        missing = _find_missing_nodelet(arguments, find_package, env, command_line) if type_name == "nodelet" else None
         return missing or BuiltinReplacement(target)
-    for built in () if folder is None else _built(package, type_name, folder, env):
+    for built in () if folder is None else _built_programs(package, type_name, folder, env):
         if (fault := compiled_fault(built, env)) is None:
             return Executable(built)
         faults.append(f"{built} was built on another machine: {fault}")
-    if plain is not None:
-        return Executable(plain) if is_script(plain) else MissingNode(f"{plain} is not executable; run chmod +x on it")
-    way_out = f"; {ALTERNATIVES[package]}" if package in ALTERNATIVES else ""
-    if way_out.endswith(OVER_THE_WIRE):
-        way_out = f"{way_out}: {package_in_container(package, _rosrun(package, type_name, words), env)}"
+    if not_executable is not None:
+        return (
+            Executable(not_executable)
+            if is_script(not_executable)
+            else MissingNode(f"{not_executable} is not executable; run chmod +x on it")
+        )
+    alternative = f"; {ALTERNATIVES[package]}" if package in ALTERNATIVES else ""
+    if alternative.endswith(OVER_THE_WIRE):
+        alternative = f"{alternative}: {package_in_container(package, _rosrun(package, type_name, command_line), env)}"
     if folder is not None:
-        why = faults[0] if faults else f"no executable {type_name!r} in {folder}"
-        why = f"{why}, and no stand-in for {package}/{type_name}"
-        hint = _to_compile(folder, package, type_name, env, words) or _programs_there(package, folder, env)
-        return MissingNode(f"{why}{hint}{way_out}")
-    known = sorted(name for owner, name in BUILTIN_NODES if owner == package)
-    there_is = f"; stand-ins of that package: {', '.join(known)}" if known else way_out
+        message = faults[0] if faults else f"no executable {type_name!r} in {folder}"
+        message = f"{message}, and no stand-in for {package}/{type_name}"
+        hint = _compile_hint(folder, package, type_name, env, command_line) or _program_hint(package, folder, env)
+        return MissingNode(f"{message}{hint}{alternative}")
+    stand_ins = sorted(name for owner, name in BUILTIN_NODES if owner == package)
+    available = f"; stand-ins of that package: {', '.join(stand_ins)}" if stand_ins else alternative
     is_fetched = package in STOCK_WITH_FILES or package not in (*STOCK, *ALTERNATIVES)
-    published = repository_hint(package) if is_fetched else ""
-    fetched = f"{published}: trundle pack get {package}" if published else ""
-    return MissingNode(f"no package {package!r}, and no stand-in for {package}/{type_name}{fetched}{there_is}")
+    repository = repository_hint(package) if is_fetched else ""
+    fetch_hint = f"{repository}: trundle pack get {package}" if repository else ""
+    return MissingNode(f"no package {package!r}, and no stand-in for {package}/{type_name}{fetch_hint}{available}")
 
 
-def _rosrun(package: str, name: str, words: Sequence[str]) -> str:
-    return shlex.join(["rosrun", package, name, *words])
+def _rosrun(package: str, name: str, arguments: Sequence[str]) -> str:
+    return shlex.join(["rosrun", package, name, *arguments])
 
 
-def _to_compile(folder: Path, package: str, name: str, env: Mapping[str, str], words: Sequence[str]) -> str:
-    """Hint to append for a missing program that its package's CMakeLists.txt builds."""
-    program = next((each for each in cmake_programs(folder) if each.name == name), None)
+def _compile_hint(folder: Path, package: str, name: str, env: Mapping[str, str], command_line: Sequence[str]) -> str:
+    """Return a hint for a missing program that its package's CMakeLists.txt builds; "" if it builds none."""
+    program = next((candidate for candidate in cmake_programs(folder) if candidate.name == name), None)
     if program is None:
         return ""
-    sources = ", ".join(program.sources[:_SOURCES_NAMED]) + (", …" if len(program.sources) > _SOURCES_NAMED else "")
+    sources = ", ".join(program.sources[:_MAX_LISTED_SOURCES]) + (
+        ", …" if len(program.sources) > _MAX_LISTED_SOURCES else ""
+    )
     target = f" (target {program.target!r})" if program.target != name else ""
-    line = source_in_container(folder, _rosrun(package, name, words), env)
-    where = f"{program.file}:{program.line}"
-    built = f"; C++ not compiled yet: {where} builds it{target} from {sources}; catkin_make compiles it"
-    return f"{built}, here or in a container: {line}"
+    line = source_in_container(folder, _rosrun(package, name, command_line), env)
+    location = f"{program.file}:{program.line}"
+    hint = f"; C++ not compiled yet: {location} builds it{target} from {sources}; catkin_make compiles it"
+    return f"{hint}, here or in a container: {line}"
 
 
-def _programs_there(package: str, folder: Path, env: Mapping[str, str]) -> str:
-    """Hint to append for a program that is neither in a package nor built by it."""
+def _program_hint(package: str, folder: Path, env: Mapping[str, str]) -> str:
+    """Return a hint that lists a package's programs, for a program that is neither in it nor built by it."""
     names = sorted(program_names(package, folder, env=env))
-    more = f" and {len(names) - _PROGRAMS_NAMED} more" if len(names) > _PROGRAMS_NAMED else ""
-    return f"; its programs: {', '.join(names[:_PROGRAMS_NAMED])}{more}" if names else ""
+    more = f" and {len(names) - _MAX_LISTED_PROGRAMS} more" if len(names) > _MAX_LISTED_PROGRAMS else ""
+    return f"; its programs: {', '.join(names[:_MAX_LISTED_PROGRAMS])}{more}" if names else ""
 
 
-def missing_nodelet(name: str, find_package: FindPackage, env: Mapping[str, str], words: Sequence[str] = ()) -> str:
+def missing_nodelet(
+    name: str, find_package: FindPackage, env: Mapping[str, str], command_line: Sequence[str] = ()
+) -> str:
     """Error message for a nodelet without replacement.
 
     Args:
-        name: of its class.
-        find_package: as `find_node`.
-        env: as `find_node`.
-        words: its arguments, remappings and name, for advice to run it elsewhere.
+        name: nodelet's class.
+        find_package: returns a package's folder.
+        env: environment of the process.
+        command_line: nodelet's arguments, remappings and name, for advice on running it elsewhere.
     """
-    what = f"nodelet {name}: compiled code without a stand-in; available: {', '.join(NODELETS)}"
+    message = f"nodelet {name}: compiled code without a stand-in; available: {', '.join(NODELETS)}"
     package, slash, _ = name.partition("/")
     if not slash:
-        return what
-    folder, command = find_package(package), _rosrun("nodelet", "nodelet", ["standalone", name, *words])
+        return message
+    folder, command = find_package(package), _rosrun("nodelet", "nodelet", ["standalone", name, *command_line])
     if folder is None or not os.path.isfile(folder / "CMakeLists.txt"):
         line = package_in_container(package, command, env)
     else:
         line = source_in_container(folder, command, env, needs="nodelet")
-    return f"{what}; {OVER_THE_WIRE}: {line}"
+    return f"{message}; {OVER_THE_WIRE}: {line}"
 
 
-def _nodelet(
-    arguments: str, find_package: FindPackage, env: Mapping[str, str], words: Sequence[str]
+def _find_missing_nodelet(
+    arguments: str, find_package: FindPackage, env: Mapping[str, str], command_line: Sequence[str]
 ) -> MissingNode | None:
-    """Missing nodelet class of a nodelet command line; None if it is available."""
-    after = [word for word in words if not word.startswith("--")]
+    """Return the missing nodelet class of a nodelet command line; None if it is available."""
+    positional = [argument for argument in command_line if not argument.startswith("--")]
     match arguments.split():
-        case ["load" | "standalone" as how, name, *_] if name not in NODELETS:
-            rest = after[3 if how == "load" else 2 :]  # the class, and the manager that would load it
-            return MissingNode(missing_nodelet(name, find_package, env, rest))
+        case ["load" | "standalone" as mode, name, *_] if name not in NODELETS:
+            remaining = positional[3 if mode == "load" else 2 :]  # without the class and its manager
+            return MissingNode(missing_nodelet(name, find_package, env, remaining))
         case _:
             return None
 
 
-def _built(package: str, name: str, folder: Path, env: Mapping[str, str]) -> Iterator[Path]:
-    """Programs installed by catkin or colcon outside the package's folder."""
+def _built_programs(package: str, name: str, folder: Path, env: Mapping[str, str]) -> Iterator[Path]:
+    """Yield programs installed by catkin or colcon outside the package's folder."""
     paths = (path for home in program_folders(package, folder, env) for path in _files(home, name))
     return (path for path in paths if os.access(path, os.X_OK))
 
 
 def program_names(package: str, folder: Path | None, *, env: Mapping[str, str]) -> set[str]:
-    """Names that `find_node` resolves in a package."""
-    found = {name for owner, name in BUILTIN_NODES if owner == package}
+    """Return the names that `find_node` resolves in a package."""
+    names = {name for owner, name in BUILTIN_NODES if owner == package}
     for home in [folder, *program_folders(package, folder, env)] if folder is not None else ():
         for root, folders, files in os.walk(home):
-            folders[:] = [each for each in folders if not each.startswith(".") and each not in _NOT_SEARCHED]
-            found.update(name for name in files if os.access(os.path.join(root, name), os.X_OK))
-    return found
+            folders[:] = [name for name in folders if not name.startswith(".") and name not in _NOT_SEARCHED]
+            names.update(name for name in files if os.access(os.path.join(root, name), os.X_OK))
+    return names
 
 
 def same_named_programs(folder: Path, program: Path) -> list[Path]:
-    """All programs of a package with the same name, including `program`."""
+    """Return all programs of a package with the same name, including `program`."""
     return [path for path in _files(folder, program.name) if os.access(path, os.X_OK)]
 
 
 def _files(folder: Path, name: str) -> Iterator[Path]:
-    """Files of this name in a package, in rosrun's search order; the name may contain folders."""
+    """Yield the files with a name in a package, in rosrun's search order; the name may contain folders."""
     direct = folder / name
     if "/" in name:
         if os.path.isfile(direct) and folder.resolve() in direct.resolve().parents:

@@ -39,7 +39,7 @@ class Display(Protocol):
         ...
 
     def open_panel(self, program: str) -> None:
-        """Open the panel that takes the place of a program: `rqt_graph`."""
+        """Open the panel that replaces a program, such as `rqt_graph`."""
         ...
 
     def plot(self, fields: Sequence[str]) -> None:
@@ -62,7 +62,7 @@ class Display(Protocol):
 
 
 class Simulator(Protocol):
-    """The simulation of a launch, on a thread of its own.
+    """The simulation of a launch, on its own thread.
 
     All methods but `open`, `begin`, `close`, `post` and `show` must be called on that thread.
     """
@@ -82,13 +82,13 @@ class Simulator(Protocol):
 
     @property
     def is_lockstep(self) -> bool:
-        """True if sim time waits for nodes, as at maximum speed; nodes then use sim time only, for repeatability."""
+        """True if sim time waits for nodes, as at maximum speed; nodes then use only sim time, for repeatability."""
         ...
 
     async def open(
         self, node: Node, world: str, *, paused: bool, env: Mapping[str, str], record: str | None = None
     ) -> None:
-        """Load a world; time stands still until `begin`.
+        """Load a world, with time paused until `begin`.
 
         Args:
             node: publishes /clock; its callbacks run on the simulation's thread.
@@ -103,11 +103,11 @@ class Simulator(Protocol):
         ...
 
     def begin(self) -> None:
-        """Let time advance, once everything that others may call is registered; thread-safe."""
+        """Start time, after all services are registered; thread-safe."""
         ...
 
     def close(self) -> None:
-        """Stop the simulation and join its thread; call neither on that thread nor on the graph's loop."""
+        """Stop the simulation and join its thread; must not be called on that thread or on the graph's loop."""
         ...
 
     def post(self, call: Callable[[], object]) -> None:
@@ -133,10 +133,10 @@ class Simulator(Protocol):
         ...
 
     def do(self, command: "Callable[[Simulation], object]") -> None:
-        """Give the simulation a command, which its timeline repeats.
+        """Run a command on the simulation; its timeline repeats the command.
 
         Raises:
-            TrundleError: of the command.
+            TrundleError: raised by the command.
         """
         ...
 
@@ -164,9 +164,9 @@ class NodeHost:
     env: Mapping[str, str] = field(default_factory=dict[str, str])
     """Environment set by the launch file for this node."""
     terminal: Terminal | None = None
-    """Terminal of the node's own; None: that of this process."""
+    """Terminal of the node; None: terminal of this process."""
     tree: ProcessTree = field(default_factory=ProcessTree)
-    """Tree of the node's own processes, which end with it."""
+    """Tree of the node's child processes, which end with the node."""
 
 
 class BuiltinNode(Protocol):

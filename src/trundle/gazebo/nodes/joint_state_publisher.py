@@ -30,7 +30,7 @@ _OPTIONS = (
 
 @dataclass(slots=True, kw_only=True)
 class FreeJoint:
-    """A joint whose state this node sets, or receives."""
+    """Joint whose state this node sets or receives."""
 
     lower: float
     upper: float
@@ -59,7 +59,7 @@ class FreeJoint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DependentJoint:
-    """A joint that follows another one."""
+    """Joint that follows another joint."""
 
     parent: str
     factor: float = 1.0
@@ -67,7 +67,7 @@ class DependentJoint:
 
 
 class JointSet:
-    """Joints selected from a URDF as by the original."""
+    """Joints of a URDF, selected by the rules of the original."""
 
     def __init__(self, options: RosParameters, profile: Distro) -> None:
         self.names: list[str] = []
@@ -130,7 +130,7 @@ class JointSet:
                 joint.effort = _at(message.effort, index, joint.effort)
 
     def resolve(self, name: str) -> tuple[FreeJoint, float, float]:
-        """Follow a chain of dependent joints to its free joint; returns that, factor and offset.
+        """Follow a chain of dependent joints; return its free joint, factor and offset.
 
         Raises:
             ParamError: the chain is cyclic, or ends at an unknown joint.
@@ -150,7 +150,7 @@ class JointSet:
         return self.free[name], factor, offset
 
     def message(self) -> dict[str, object]:
-        """JointState fields in file order; an array without any known value is omitted."""
+        """Return the JointState fields in file order; arrays without a known value are omitted."""
         joints = [(name, *self.resolve(name)) for name in self.names]
         fields: dict[str, Any] = {"name": [name for name, *_ in joints]}
         if self.dependent or any(joint.position is not None for joint in self.free.values()):
@@ -206,7 +206,7 @@ class JointStatePublisher:
             await rate.sleep()
 
     async def _options(self) -> dict[str, Any]:
-        """Look up each option as `~name`, then as `name` in the node's namespace, so that `/use_gui` is found."""
+        """Look up each option as `~name`, then as `name` in the node's namespace, such as `/use_gui`."""
         values: dict[str, Any] = {}
         for name in _OPTIONS:
             for candidate in (f"~{name}", name):
@@ -233,7 +233,7 @@ class JointStatePublisher:
     def _robot(self, options: RosParameters) -> XmlNode:
         name = f"{self._node.name}/robot_description"
         root = parse_xml(options.text("robot_description"), name=name)
-        robot = root.find("robot") or root  # the original looks for a <robot> anywhere: its own tests have it in <urdf>
+        robot = root.find("robot") or root  # like the original, whose tests nest it in <urdf>
         if robot.tag != "robot":
             raise DescriptionError(robot.at, f"a URDF starts with <robot>, not <{robot.tag}>")
         return robot

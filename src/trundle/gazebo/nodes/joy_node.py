@@ -1,4 +1,4 @@
-"""joy/joy_node: the page's joystick or a gamepad there; without a page, driven by `~set` only."""
+"""joy/joy_node: the page's joystick or gamepad; without a page, only `~set`."""
 
 import math
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from .rate import Rate
 _AXES, _BUTTONS = 8, 11
 """Axes and buttons of a common gamepad."""
 _IDLE_RATE_HZ = 1.0
-_WIDEST = 0.9
+_MAX_DEAD_ZONE = 0.9
 """Maximum dead zone."""
 
 
@@ -33,13 +33,13 @@ class JoyNode:
         node = self._node
         settings = await private_parameters(node)
         repeat_hz = settings.number("autorepeat_rate", 0.0)
-        self._dead_zone = min(max(settings.number("deadzone", 0.05), 0.0), _WIDEST)
+        self._dead_zone = min(max(settings.number("deadzone", 0.05), 0.0), _MAX_DEAD_ZONE)
         self._sticky = settings.flag("sticky_buttons", default=False)
         self._joy = node.advertise("joy", "sensor_msgs/Joy", queue_size=1)
-        asked = node.subscribe("~set", "sensor_msgs/Joy", self._set, queue_size=1)
+        set_topic = node.subscribe("~set", "sensor_msgs/Joy", self._set, queue_size=1)
         device = settings.text("dev", "/dev/input/js0")
-        said = f"{device} is not read; publish on {asked.topic} to move the joystick"
-        node.log.info(said if self._display is None else f"{said}, or use the page's joystick or a gamepad")
+        message = f"{device} is not read; publish on {set_topic.topic} to move the joystick"
+        node.log.info(message if self._display is None else f"{message}, or use the page's joystick or a gamepad")
         window = None
         if self._display is not None:
             self._display.offer_joystick(self._move)
@@ -69,15 +69,17 @@ class JoyNode:
 
     def _hold(self, axes: Sequence[float], buttons: Sequence[int]) -> None:
         """Set axes and buttons; axes are rescaled outside the dead zone, sticky buttons toggle on press."""
-        dead = self._dead_zone
-        self._axes = [math.copysign(max(abs(value) - dead, 0.0) / (1.0 - dead), value) for value in axes]
-        pressed, before = [int(value) for value in buttons], self._pressed
+        dead_zone = self._dead_zone
+        self._axes = [math.copysign(max(abs(value) - dead_zone, 0.0) / (1.0 - dead_zone), value) for value in axes]
+        pressed, last = [int(value) for value in buttons], self._pressed
         self._pressed = pressed
         if not self._sticky:
             self._buttons = pressed
             return
-        new = [now > was for now, was in zip_longest(pressed, before, fillvalue=0)]
-        self._buttons = [int(is_new) ^ held for is_new, held in zip_longest(new, self._buttons, fillvalue=0)]
+        presses = [
+            pressed_now > pressed_before for pressed_now, pressed_before in zip_longest(pressed, last, fillvalue=0)
+        ]
+        self._buttons = [int(is_press) ^ is_on for is_press, is_on in zip_longest(presses, self._buttons, fillvalue=0)]
 
     def _publish(self) -> None:
         header = {"stamp": self._node.clock.now_ns()}

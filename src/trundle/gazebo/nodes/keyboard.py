@@ -1,4 +1,4 @@
-"""Key presses for teleop nodes: of a terminal of the node's own, else of this process's, which one node reads."""
+"""Key presses for teleop nodes, from the node's terminal or else from this process's, for one node only."""
 
 import asyncio
 import os
@@ -14,25 +14,25 @@ _ARROWS = {"\x1b[A": "up", "\x1b[B": "down", "\x1b[C": "right", "\x1b[D": "left"
 
 
 class Keyboard:
-    """Reads keys in cbreak mode, so that Ctrl-C still ends the launch, or the node whose terminal it is."""
+    """Reads keys in cbreak mode, so that Ctrl-C still ends the launch, or the node of the terminal."""
 
-    _taken = False
+    _is_in_use = False
 
     def __init__(self, terminal: Terminal | None) -> None:
-        """`terminal`: the node's own; None: that of this process."""
+        """Create; `terminal` None: terminal of this process."""
         self._terminal = terminal
         self._keys: asyncio.Queue[str] = asyncio.Queue(maxsize=100)
 
     @property
     def is_available(self) -> bool:
-        """True if there is a terminal that no other node reads."""
+        """True if there is a terminal that no other node is reading."""
         if self._terminal is not None:
             return True
-        return find_spec("termios") is not None and sys.stdin.isatty() and not Keyboard._taken
+        return find_spec("termios") is not None and sys.stdin.isatty() and not Keyboard._is_in_use
 
     @staticmethod
     def advice(topic: str) -> str:
-        """Sentence for a node without a terminal, whose velocity commands go to a topic."""
+        """Return advice for a node without a terminal that publishes velocity commands on a topic."""
         return (
             f'no terminal to read keys from: launch-prefix="xterm -e" gives this node one on the page; '
             f"or publish on {topic}, as the page's drive disc does"
@@ -49,7 +49,7 @@ class Keyboard:
     def cbreak(self) -> Generator[None]:
         """Read keys for the duration of the context."""
         if self._terminal is None:
-            with self._own_cbreak():
+            with self._process_cbreak():
                 yield
             return
         task = asyncio.current_task()
@@ -67,7 +67,7 @@ class Keyboard:
             self._terminal.listen(None)
 
     @contextmanager
-    def _own_cbreak(self) -> Generator[None]:
+    def _process_cbreak(self) -> Generator[None]:
         """Set cbreak mode of this process's terminal for the duration of the context."""
         import termios
         import tty
@@ -75,7 +75,7 @@ class Keyboard:
         descriptor = sys.stdin.fileno()
         before = termios.tcgetattr(descriptor)
         loop = asyncio.get_running_loop()
-        Keyboard._taken = True
+        Keyboard._is_in_use = True
         tty.setcbreak(descriptor)
         loop.add_reader(descriptor, self._read, descriptor)
         try:
@@ -83,10 +83,10 @@ class Keyboard:
         finally:
             loop.remove_reader(descriptor)
             termios.tcsetattr(descriptor, termios.TCSADRAIN, before)
-            Keyboard._taken = False
+            Keyboard._is_in_use = False
 
     async def read_key(self, timeout_s: float | None = None) -> str | None:
-        """Next key: a character, 'up', 'down', 'left' or 'right'; None on timeout."""
+        """Return the next key: a character, 'up', 'down', 'left' or 'right'; None on timeout."""
         try:
             async with asyncio.timeout(timeout_s):
                 return await self._keys.get()

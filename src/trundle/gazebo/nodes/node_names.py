@@ -46,12 +46,12 @@ _ANONYMOUS = frozenset(
 )
 """Nodes with anonymous names; command-line tools, such as rostopic, name themselves."""
 
-_OF_A_TOPIC = {"drop": 0, "mux": 0, "relay": 0, "throttle": 1}
-"""Programs of topic_tools → index of the argument with the topic that names them."""
+_TOPIC_ARGUMENTS = {"drop": 0, "mux": 0, "relay": 0, "throttle": 1}
+"""Program of topic_tools → index of the argument with the topic in its name."""
 
 
 def default_name(package: str, executable: str, arguments: Sequence[str]) -> str:
-    """Default name of a node.
+    """Return the default name of a node.
 
     Args:
         package: package name.
@@ -65,8 +65,8 @@ def default_name(package: str, executable: str, arguments: Sequence[str]) -> str
     if package.startswith("rqt_"):
         language = "cpp" if package == "rqt_image_view" else "py"
         return f"rqt_gui_{language}_node_{os.getpid()}"
-    if package == "topic_tools" and executable in _OF_A_TOPIC:
-        topic = "".join(arguments[_OF_A_TOPIC[executable] :][:1]).rpartition("/")[2]
+    if package == "topic_tools" and executable in _TOPIC_ARGUMENTS:
+        topic = "".join(arguments[_TOPIC_ARGUMENTS[executable] :][:1]).rpartition("/")[2]
         return anonymous_name(f"{_legal(topic)}_{executable}" if topic else executable)
     base = _BASE_NAMES.get(key, _legal(executable.removesuffix(".py")))
     return anonymous_name(base) if key in _ANONYMOUS else base

@@ -12,11 +12,11 @@ from .host import NodeHost
 
 
 class Nodelet:
-    """Runs the nodelet given to load; those without replacement are reported by the launch and not started."""
+    """Runs the nodelet in its arguments; the launch reports nodelets without replacement and does not start them."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._node = node
-        self._arguments = [word for word in arguments if not word.startswith("--")]
+        self._arguments = [argument for argument in arguments if not argument.startswith("--")]
         self._host = host
 
     async def run(self) -> int:
@@ -34,8 +34,8 @@ class Nodelet:
                 return 1
             case ["unload", *_]:
                 return 0
-            case words:
+            case invalid:
                 node.log.error(
-                    f"usage: nodelet manager|load|standalone|unload CLASS [MANAGER]; got {' '.join(words)!r}"
+                    f"usage: nodelet manager|load|standalone|unload CLASS [MANAGER]; got {' '.join(invalid)!r}"
                 )
                 return 1

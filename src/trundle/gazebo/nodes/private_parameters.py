@@ -5,5 +5,5 @@ from trundle.ros import Node
 
 
 async def private_parameters(node: Node) -> RosParameters:
-    """Read everything below the node's name."""
+    """Read all parameters below the node's name."""
     return RosParameters(await node.params.get("~", {}), node.name)

@@ -1,4 +1,4 @@
-"""Python interpreters for ROS 1 scripts, whose shebang may name one that lacks rospy or no longer exists."""
+"""Python interpreters for ROS 1 scripts; the interpreter of a shebang may lack rospy or no longer exist."""
 
 import os
 import re
@@ -21,58 +21,58 @@ _IMPORTS_ROS = re.compile(
     rb"^\s*(?:import|from)\s+(?:ros\w+|actionlib|genpy|tf|tf2_\w+|\w+_(?:msgs|srvs)|\w+\.(?:msg|srv))\b", re.MULTILINE
 )
 _IMPORTS_TRUNDLE = re.compile(rb"^\s*(?:import|from)\s+trundle\b", re.MULTILINE)
-_WANTED = re.compile(rb"^\s*(?:import|from)\s+(rospy|roslib|\w+(?=\.(?:msg|srv|cfg)\b))", re.MULTILINE)
+_IMPORTED_ROS_MODULE = re.compile(rb"^\s*(?:import|from)\s+(rospy|roslib|\w+(?=\.(?:msg|srv|cfg)\b))", re.MULTILINE)
 """Modules of a ROS installation or a built workspace."""
-_IMPORTED = re.compile(rb"^[ \t]*(?:import|from)[ \t]+(\w+)", re.MULTILINE)
-_ASKS = re.compile(
+_IMPORTED_MODULE = re.compile(rb"^[ \t]*(?:import|from)[ \t]+(\w+)", re.MULTILINE)
+_GENERIC_SHEBANG = re.compile(
     rb"#!\s*(?:/usr/bin/env\s+(?=python)|(?=/))(python(?:2(?:\.\d)?|3)?|\S*/python(?:2(?:\.\d)?)?)\s*$", re.MULTILINE
 )
 """Shebangs that do not name one specific Python."""
-_FIRST_LINE = re.compile(rb"#!\s*(?:/usr/bin/env\s+)?(\S+)")
-_NOT_FOUND = re.compile(
+_SHEBANG = re.compile(rb"#!\s*(?:/usr/bin/env\s+)?(\S+)")
+_MISSING_MODULE = re.compile(
     r"^\s*(?:ModuleNotFoundError|ImportError): No module named '?"
     r"(rospy|roslib|rosgraph|actionlib|cv_bridge|dynamic_reconfigure|message_filters|tf|tf2_\w+|\w+_(?:msgs|srvs))\b",
     re.MULTILINE,
 )
-_NO_ROSPY = 79
+_EXIT_WITHOUT_ROSPY = 79
 _DEBIAN_PYTHON, _DEBIAN_MODULES = "/usr/bin/python3", "/usr/lib/python3/dist-packages"
 
 
 def can_run(program: Path, env: Mapping[str, str]) -> bool:
-    """True if the ROS modules that a program imports (rospy, messages) are installed."""
-    wanted = {os.fsdecode(name) for name in _WANTED.findall(_beginning(program))}
+    """Return True if the ROS modules that a program imports (rospy, messages) are installed."""
+    names = {os.fsdecode(name) for name in _IMPORTED_ROS_MODULE.findall(_read_beginning(program))}
     folders = [_DEBIAN_MODULES, *_python_path(env)]
-    return all(any(os.path.isdir(os.path.join(folder, name)) for folder in folders) for name in wanted)
+    return all(any(os.path.isdir(os.path.join(folder, name)) for folder in folders) for name in names)
 
 
 def lacks_rospy(program: Path, env: Mapping[str, str]) -> bool:
-    """True if a script imports rospy and its Python lacks it; runs that Python to check."""
-    beginning = _beginning(program)
-    written = _FIRST_LINE.match(beginning)
-    if written is None or not _IMPORTS_ROSPY.search(beginning):
+    """Return True if a script imports rospy and its Python lacks it; runs that Python to check."""
+    beginning = _read_beginning(program)
+    shebang = _SHEBANG.match(beginning)
+    if shebang is None or not _IMPORTS_ROSPY.search(beginning):
         return False
     command = interpreter(program, env)
     if len(command) > 1:
-        return False  # translated, and run with ours
-    python = shutil.which(next(iter(command), os.fsdecode(written[1])), path=env.get("PATH"))
+        return False  # translated, and run with this process's Python
+    python = shutil.which(next(iter(command), os.fsdecode(shebang[1])), path=env.get("PATH"))
     if python is None or not Path(python).name.startswith("python"):
         return False
-    ask = f"import importlib.util as u, sys; sys.exit({_NO_ROSPY} if u.find_spec('rospy') is None else 0)"
+    code = f"import importlib.util as u, sys; sys.exit({_EXIT_WITHOUT_ROSPY} if u.find_spec('rospy') is None else 0)"
     try:
-        done = subprocess.run([python, "-c", ask], env=dict(env), capture_output=True, check=False)
+        process = subprocess.run([python, "-c", code], env=dict(env), capture_output=True, check=False)
     except OSError:
         return False
-    return done.returncode == _NO_ROSPY
+    return process.returncode == _EXIT_WITHOUT_ROSPY
 
 
 def missing_ros_module(output: str) -> str | None:
-    """Missing ROS module named in the last output of a Python program, if any."""
-    found = _NOT_FOUND.findall(output)
-    return found[-1] if found else None
+    """Return the missing ROS module in the last output of a Python program, if any."""
+    names = _MISSING_MODULE.findall(output)
+    return names[-1] if names else None
 
 
 def missing_rospy_advice(module: str) -> str:
-    """Advice for a Python without ROS modules."""
+    """Return advice for a Python without a ROS module."""
     return (
         f"its Python has no {module}; `#!/usr/bin/env python3` as its first line runs it with Trundle's Python, and "
         f"`python -m pip install {rospy_requirements()}` brings ROS' packages to its own"
@@ -82,38 +82,38 @@ def missing_rospy_advice(module: str) -> str:
 def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
     """Return the interpreter command for a program; [] if its shebang suffices.
 
-    A script with a generic Python shebang, in a ROS package or with imports of ROS, gets a Python with rospy: its own,
-    else Debian's. Without an installed rospy, for modules and messages of a workspace that is not built, and where
-    there is no `python`, it gets this process's Python, as does a program that imports trundle. A Python 2 program is
-    translated, and run by this process's Python, unless a ROS of its own is on PYTHONPATH.
+    A script with a generic Python shebang, in a ROS package or with imports of ROS, runs with a Python with rospy: its
+    own, else Debian's. This process's Python runs it without an installed rospy, for modules and messages of a
+    workspace that is not built, without `python`, and if it imports trundle. A Python 2 program is translated and run
+    by this process's Python, unless PYTHONPATH has a ROS.
     """
-    beginning = _beginning(program)
-    asked = _ASKS.match(beginning)
-    if asked is None:
+    beginning = _read_beginning(program)
+    shebang = _GENERIC_SHEBANG.match(beginning)
+    if shebang is None:
         return []
     if _IMPORTS_TRUNDLE.search(beginning):
         return [sys.executable]
     has_rospy = any(map(_has_rospy, _python_path(env)))
-    if not has_rospy and not asked[1].endswith(b"3") and is_python2_file(program):
+    if not has_rospy and not shebang[1].endswith(b"3") and is_python2_file(program):
         return [sys.executable, str(RUN_PYTHON2)]
-    found = shutil.which(os.fsdecode(asked[1]), path=env.get("PATH", os.defpath))
+    python = shutil.which(os.fsdecode(shebang[1]), path=env.get("PATH", os.defpath))
     if not has_rospy and (_IMPORTS_ROS.search(beginning) or _is_in_package(program)):
-        is_debians = found is None or _is_debians(Path(found))
-        if found is not None and not is_debians and _brings_rospy(Path(found)):
+        is_debian = python is None or _is_debian_python(Path(python))
+        if python is not None and not is_debian and _has_own_rospy(Path(python)):
             return []
         if not _has_rospy(_DEBIAN_MODULES) or _needs_workspace(program, env):
             return [sys.executable]
-        return [] if found is not None and is_debians else [_DEBIAN_PYTHON]
-    return [] if found is not None else [sys.executable]
+        return [] if python is not None and is_debian else [_DEBIAN_PYTHON]
+    return [] if python is not None else [sys.executable]
 
 
 def is_script(program: Path) -> bool:
-    """True if a file begins with a line that names its interpreter."""
-    return _FIRST_LINE.match(_beginning(program)) is not None
+    """Return True if a file begins with a shebang."""
+    return _SHEBANG.match(_read_beginning(program)) is not None
 
 
 def script_fault(program: Path) -> str | None:
-    """Return why the system would not run a script, and what mends it; None: it runs it."""
+    """Return why the system cannot run a script, and the remedy; None: it can."""
     if not os.access(program, os.X_OK):
         return f"is not executable; it is run nevertheless, as after: chmod +x {shlex.quote(str(program))}"
     if _has_crlf(program):
@@ -121,20 +121,20 @@ def script_fault(program: Path) -> str | None:
     return None
 
 
-def start_words(program: Path, env: Mapping[str, str]) -> list[str]:
-    """Return the words before a program's name on its command line; [] if the system runs it as it is."""
-    words = interpreter(program, env)
-    if words or not is_script(program) or (os.access(program, os.X_OK) and not _has_crlf(program)):
-        return words
-    first, *more = _beginning(program).partition(b"\n")[0].strip()[2:].decode(errors="replace").split()
-    return more if Path(first).name == "env" and more else [first, *more]
+def command_prefix(program: Path, env: Mapping[str, str]) -> list[str]:
+    """Return the arguments before a program's name on its command line; [] if the system runs it directly."""
+    command = interpreter(program, env)
+    if command or not is_script(program) or (os.access(program, os.X_OK) and not _has_crlf(program)):
+        return command
+    program_, *options = _read_beginning(program).partition(b"\n")[0].strip()[2:].decode(errors="replace").split()
+    return options if Path(program_).name == "env" and options else [program_, *options]
 
 
 def _has_crlf(program: Path) -> bool:
-    return _beginning(program).partition(b"\n")[0].endswith(b"\r")
+    return _read_beginning(program).partition(b"\n")[0].endswith(b"\r")
 
 
-def _beginning(program: Path) -> bytes:
+def _read_beginning(program: Path) -> bytes:
     try:
         with open_file(program) as file:
             return file.read(100_000)
@@ -143,22 +143,24 @@ def _beginning(program: Path) -> bytes:
 
 
 def _needs_workspace(program: Path, env: Mapping[str, str]) -> bool:
-    """True if a program imports what Debian's Python lacks, and Trundle's finds in the packages around it."""
+    """Return True if a program imports modules that Debian's Python lacks and the packages around it have."""
     if not can_run(program, env):
         return True
-    names = _imported(program) - sys.stdlib_module_names
+    names = _imported_modules(program) - sys.stdlib_module_names
     folders = [_DEBIAN_MODULES, *_python_path(env), str(program.parent)]
-    lacking = {name for name in names if not any(map(os.path.exists, _module_files(name, folders)))}
-    if not lacking:
+    missing = {name for name in names if not any(map(os.path.exists, _module_files(name, folders)))}
+    if not missing:
         return False
     packages = Packages(env, start=program).ros_packages().items()
-    return any(module in lacking for name, folder in packages for module, _ in package_modules(name, folder))
+    return any(module in missing for name, folder in packages for module, _ in package_modules(name, folder))
 
 
-def _imported(program: Path) -> set[str]:
-    """Return the modules that a program imports, or the files beside it."""
-    beside = [each for each in program.parent.glob("*.py") if each != program]
-    return {os.fsdecode(name) for file in (program, *beside) for name in _IMPORTED.findall(_beginning(file))}
+def _imported_modules(program: Path) -> set[str]:
+    """Return the modules that a program and the files in its folder import."""
+    neighbors = [path for path in program.parent.glob("*.py") if path != program]
+    return {
+        os.fsdecode(name) for file in (program, *neighbors) for name in _IMPORTED_MODULE.findall(_read_beginning(file))
+    }
 
 
 def _is_in_package(program: Path) -> bool:
@@ -170,12 +172,12 @@ def _module_files(name: str, folders: Iterable[str]) -> Iterator[str]:
         yield from (os.path.join(folder, name), os.path.join(folder, f"{name}.py"))
 
 
-def _is_debians(python: Path) -> bool:
+def _is_debian_python(python: Path) -> bool:
     return python.parent.resolve() == Path(_DEBIAN_PYTHON).parent  # also the target of a virtual environment's link
 
 
-def _brings_rospy(python: Path) -> bool:
-    """True if a Python has a rospy of its own."""
+def _has_own_rospy(python: Path) -> bool:
+    """Return True if a Python has its own rospy."""
     return any(_has_rospy(folder) for folder in python.parent.parent.glob("lib/python3*/site-packages"))
 
 

@@ -1,4 +1,4 @@
-"""Loop rates with the originals' timing."""
+"""Loop rates with the timing of the originals."""
 
 from collections.abc import Callable
 
@@ -45,7 +45,7 @@ class RateDivider:
         self._next_ns = now_ns() + self._period_ns
 
     def due(self) -> bool:
-        """True if the period is over; starts the next one."""
+        """Return True if the period is over; then start the next one."""
         now = self._now_ns()
         if now + self._period_ns < self._next_ns:  # time jumped back
             self._next_ns = now + self._period_ns
@@ -58,14 +58,14 @@ class RateDivider:
 class LogThrottle:
     """Limits the rate of a warning."""
 
-    def __init__(self, node: Node, every_s: float) -> None:
+    def __init__(self, node: Node, period_s: float) -> None:
         self._node = node
-        self._every_ns = round(every_s * NS_PER_S)
+        self._period_ns = round(period_s * NS_PER_S)
         self._last_ns: int | None = None
 
     def warn(self, text: str) -> None:
         """Log a warning, unless one was logged within the period."""
         now = self._node.clock.now_ns()
-        if self._last_ns is None or now - self._last_ns >= self._every_ns or now < self._last_ns:
+        if self._last_ns is None or now - self._last_ns >= self._period_ns or now < self._last_ns:
             self._last_ns = now
             self._node.log.warn(text)

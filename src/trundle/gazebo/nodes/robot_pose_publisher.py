@@ -30,11 +30,11 @@ class RobotPosePublisher:
         buffer = TransformListener(node).buffer
         while not node.closed.is_set():
             try:
-                found = buffer.lookup_transform(world, base)
+                transform = buffer.lookup_transform(world, base)
             except TransformError:
                 pass  # no localisation yet
             else:
-                (x, y, z), (qw, qx, qy, qz) = found.translation, found.rotation
+                (x, y, z), (qw, qx, qy, qz) = transform.translation, transform.rotation
                 pose = {"position": {"x": x, "y": y, "z": z}, "orientation": {"w": qw, "x": qx, "y": qy, "z": qz}}
                 header = {"stamp": node.clock.now_ns(), "frame_id": world}
                 topic.publish({"header": header, "pose": pose} if is_stamped else pose)

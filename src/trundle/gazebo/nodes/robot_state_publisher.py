@@ -29,7 +29,7 @@ class RobotFrames:
     moving: dict[str, RobotJoint]
     fixed: dict[str, RobotJoint]
     mimics: dict[str, RobotJoint]
-    """Joints of `moving` that mimic another joint; one level deep, as in the original."""
+    """Joints of `moving` that mimic another joint, without chains, as in the original."""
     prefix: str = ""
 
     @staticmethod
@@ -45,17 +45,17 @@ class RobotFrames:
         )
 
     def positions(self, message: "sensor_msgs.JointState") -> dict[str, float]:
-        """Position of each joint in name order, mimic joints included."""
+        """Return the position of each joint in name order, with mimic joints."""
         positions = {str(name): float(position) for name, position in zip(message.name, message.position, strict=True)}
         for name, joint in self.mimics.items():
             assert joint.mimic is not None
             if joint.mimic.joint in positions:
-                followed = positions[joint.mimic.joint] * joint.mimic.multiplier + joint.mimic.offset
-                positions.setdefault(name, followed)
+                mimic_position = positions[joint.mimic.joint] * joint.mimic.multiplier + joint.mimic.offset
+                positions.setdefault(name, mimic_position)
         return dict(sorted(positions.items()))
 
     def transform(self, joint: RobotJoint, position: float, stamp_ns: int) -> Transform:
-        """Transform of a joint's child frame in its parent frame."""
+        """Return the transform of a joint's child frame in its parent frame."""
         pose = parent_from_child(joint, position)
         return Transform(
             parent=self._frame(joint.parent),
@@ -77,7 +77,7 @@ class RobotStatePublisher:
         del arguments, host
         self._node = node
         self._last_published_ns: dict[str, int] = {}
-        self._last_heard_ns = 0
+        self._last_received_ns = 0
         self._no_position = LogThrottle(node, 300.0)
         self._unknown = LogThrottle(node, 10.0)
         self._old = LogThrottle(node, 10.0)
@@ -114,7 +114,7 @@ class RobotStatePublisher:
                 self._broadcaster.send_transform(*fixed)
 
     async def _robot(self) -> Robot:
-        """Read robot_description from the nearest namespace upwards."""
+        """Read robot_description from the nearest parent namespace."""
         node = self._node
         name = await node.params.search("robot_description") or "robot_description"
         text = RosParameters({name: await node.params.get(name, None)}, "").text(name)
@@ -144,15 +144,15 @@ class RobotStatePublisher:
                 node.log.error("Robot state publisher ignored an invalid JointState message")
             return
         now, stamp_ns = node.clock.now_ns(), to_nsec(message.header.stamp)
-        if now < self._last_heard_ns:
+        if now < self._last_received_ns:
             node.log.warn(
                 "Moved backwards in time (probably because ROS clock was reset), re-publishing joint transforms!"
             )
             self._last_published_ns.clear()
-        self._last_heard_ns = now
+        self._last_received_ns = now
         if stamp_ns + _OLD_NS < now:
             self._old.warn(f"Received JointState is {(now - stamp_ns) / 1e9:f} seconds old.")
-        # Publishers send different joints: the joint published longest ago decides.
+        # Publishers send different joints; the joint published longest ago determines the interval.
         oldest_ns = min((self._last_published_ns.get(name, 0) for name in message.name), default=now)
         if not self._ignores_stamps and stamp_ns < min(oldest_ns, now) + self._interval_ns:
             return

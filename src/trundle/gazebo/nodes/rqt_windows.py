@@ -16,7 +16,7 @@ class Window:
     """Any rqt program: opens the page, if there is one."""
 
     panel = ""
-    """Program whose panel is opened; empty: none in particular."""
+    """Program whose panel is opened; empty: no panel."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         self._node = node
@@ -44,7 +44,7 @@ class ImageView(Window):
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         super().__init__(node, arguments, host)
-        self._seen = False
+        self._is_logged = False
 
     async def run(self) -> int:
         """Show until the page is closed."""
@@ -57,9 +57,9 @@ class ImageView(Window):
         display.show_image(self._node.resolve("image"))
 
     def _on_image(self, image: "sensor_msgs.Image") -> None:
-        if not self._seen:
+        if not self._is_logged:
             self._node.log.info(f"images of {image.width} × {image.height} pixels, {image.encoding}")
-        self._seen = True
+        self._is_logged = True
 
 
 class RqtImageView(Window):
@@ -98,19 +98,21 @@ class RqtPlot(Window):
     """rqt_plot: plots the given fields, `/topic/field:field`, separated by spaces or commas."""
 
     def _prepare(self, display: Display) -> None:
-        words = [word for given in self._arguments if not given.startswith("-") for word in given.split(",")]
-        display.plot([self._node.resolve(word) for word in words if word])
+        fields = [
+            field for argument in self._arguments if not argument.startswith("-") for field in argument.split(",")
+        ]
+        display.plot([self._node.resolve(field) for field in fields if field])
 
 
 class PanelWindow:
-    """A program whose window is one panel of the page; called as a class of nodes is."""
+    """A program whose window is one panel of the page; callable like a node class."""
 
     def __init__(self, program: str, summary: str) -> None:
         self._program = program
         self.__doc__ = f"{program}: {summary}."
 
     def __call__(self, node: Node, arguments: list[str], host: NodeHost) -> Window:
-        """Make a window that opens the panel."""
+        """Return a window that opens the panel."""
         window = Window(node, arguments, host)
         window.panel = self._program
         return window

@@ -12,8 +12,8 @@ async def run_builtin_node(replacement: BuiltinReplacement, node: Node, argument
     """Run a built-in node until it ends, is cancelled or killed, and shut it down; returns the exit code.
 
     Args:
-        replacement: from `find_node`.
-        node: node with name and remappings of the launch.
+        replacement: result of `find_node`.
+        node: node with the name and remappings of the launch.
         arguments: command line without program and remappings.
         host: services of this program.
     """
@@ -24,14 +24,14 @@ async def run_builtin_node(replacement: BuiltinReplacement, node: Node, argument
         await follow_time(node)
         distro = str(await node.params.get("/rosdistro", "")).strip()
         node.profile = DISTROS.get(distro, NOETIC)
-        running = asyncio.create_task(replacement.load()(node, arguments, host).run())
-        waiting = asyncio.create_task(killed.wait())
+        run_task = asyncio.create_task(replacement.load()(node, arguments, host).run())
+        kill_task = asyncio.create_task(killed.wait())
         try:
-            await asyncio.wait((running, waiting), return_when=asyncio.FIRST_COMPLETED)
-            return running.result() if running.done() else 0
+            await asyncio.wait((run_task, kill_task), return_when=asyncio.FIRST_COMPLETED)
+            return run_task.result() if run_task.done() else 0
         finally:
-            running.cancel()
-            waiting.cancel()
-            await asyncio.wait((running,))
+            run_task.cancel()
+            kill_task.cancel()
+            await asyncio.wait((run_task,))
     finally:
         await node.shutdown()

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from trundle.ros.message_types import std_srvs
 
 _SEND_FILE_PATH = "std_msgs/String path\n---\nbool success\n"
-_TAKES_A_VALUE = ("-d", "--display-config", "-f", "--fixed-frame", "-s", "--splash-screen", "--help-file", "-t")
+_OPTIONS_WITH_VALUE = ("-d", "--display-config", "-f", "--fixed-frame", "-s", "--splash-screen", "--help-file", "-t")
 
 
 class Rviz:
@@ -36,7 +36,7 @@ class Rviz:
         node.messages.add_service("rviz/SendFilePath", _SEND_FILE_PATH)
         node.advertise_service("~load_config", "rviz/SendFilePath", _refuse)
         node.advertise_service("~save_config", "rviz/SendFilePath", _refuse)
-        node.advertise_service("~reload_shaders", "std_srvs/Empty", _nothing)
+        node.advertise_service("~reload_shaders", "std_srvs/Empty", _empty_response)
         if self._display is None:
             # Registered, so that the graph is the same with and without a page.
             node.subscribe("/tf", "tf2_msgs/TFMessage", _ignore, queue_size=1)
@@ -48,15 +48,15 @@ class Rviz:
 
 
 def _options(arguments: list[str]) -> dict[str, str]:
-    """Parse options with values; a lone file is a config, as with `-d`."""
+    """Parse options with values; a file without an option is a config, as with `-d`."""
     options: dict[str, str] = {}
-    words = iter(arguments)
-    for word in words:
-        name, equals, value = word.partition("=")
-        if name in _TAKES_A_VALUE:
-            options[name] = value if equals else next(words, "")
-        elif not word.startswith("-") and "-d" not in options:
-            options["-d"] = word
+    remaining = iter(arguments)
+    for argument in remaining:
+        name, equals, value = argument.partition("=")
+        if name in _OPTIONS_WITH_VALUE:
+            options[name] = value if equals else next(remaining, "")
+        elif not argument.startswith("-") and "-d" not in options:
+            options["-d"] = argument
     return options
 
 
@@ -64,7 +64,7 @@ def _ignore(_message: Message) -> None:
     """No-op callback."""
 
 
-def _nothing(_request: "std_srvs.EmptyRequest") -> dict[str, object]:
+def _empty_response(_request: "std_srvs.EmptyRequest") -> dict[str, object]:
     return {}
 
 

@@ -1,4 +1,4 @@
-"""sound_play/soundplay_node.py: speaks and plays files by the machine's own programs."""
+"""sound_play/soundplay_node.py: speaks texts and plays files with installed programs."""
 
 import asyncio
 import os
@@ -35,9 +35,9 @@ _MAX_TEXT = 10_000
 
 @dataclass(frozen=True, slots=True)
 class _Sound:
-    """Program that plays a request."""
+    """Command line that plays a request."""
 
-    words: tuple[str, ...]
+    command: tuple[str, ...]
     text: str
     """Standard input of the program."""
     repeats: bool
@@ -46,15 +46,15 @@ class _Sound:
 class SoundPlay:
     """Plays `robotsound` and the action `sound_play` (sound_play/SoundRequest), the newest request at a time.
 
-    Texts are spoken by espeak or macOS' say, files played by paplay, pw-play, afplay, ffplay or aplay; where there is
-    none, the text is printed. The original's five sounds are spoken.
+    espeak or macOS' say speaks texts; paplay, pw-play, afplay, ffplay or aplay plays files; without these, the text is
+    logged. The original's five sounds are spoken.
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments
         self._node = node
         self._path = {**os.environ, **host.env}.get("PATH", os.defpath)
-        self._playing: asyncio.Task[None] | None = None
+        self._task: asyncio.Task[None] | None = None
 
     async def run(self) -> int:
         """Play until cancelled."""
@@ -64,24 +64,24 @@ class SoundPlay:
         try:
             await node.closed.wait()
         finally:
-            if self._playing is not None:
-                self._playing.cancel()
-                await asyncio.wait([self._playing])
+            if self._task is not None:
+                self._task.cancel()
+                await asyncio.wait([self._task])
         return 0
 
     def _begin(self, request: Any) -> "asyncio.Task[None]":
-        """End what is played, and play a request."""
-        if self._playing is not None:
-            self._playing.cancel()
-        self._playing = asyncio.get_running_loop().create_task(self._play(request))
-        return self._playing
+        """Stop the current sound, and play a request."""
+        if self._task is not None:
+            self._task.cancel()
+        self._task = asyncio.get_running_loop().create_task(self._play(request))
+        return self._task
 
     async def _on_goal(self, goal: Any, accept: Callable[[], None]) -> ActionOutcome:
         accept()
-        playing = self._begin(goal.sound_request)
-        await asyncio.wait([playing])
+        task = self._begin(goal.sound_request)
+        await asyncio.wait([task])
         result = {"playing": False, "stamp": self._node.clock.now_ns()}
-        return ActionOutcome(status="preempted" if playing.cancelled() else "succeeded", result=result)
+        return ActionOutcome(status="preempted" if task.cancelled() else "succeeded", result=result)
 
     async def _play(self, request: Any) -> None:
         if request.command == _STOP or request.sound == _ALL:
@@ -91,33 +91,35 @@ class SoundPlay:
             pass
 
     def _sound(self, request: Any) -> _Sound | None:
-        """Find the program for a request; None, with a line, where there is none."""
+        """Find the program for a request; without one, log that and return None."""
         volume = min(max(float(request.volume), 0.0), 1.0) if request.volume > 0.0 else 1.0
         is_file = request.sound == _FILE
         text = str(request.arg)[:_MAX_TEXT] if request.sound == _SAY else _SOUNDS.get(request.sound, "")
         path = Path(str(request.arg)).expanduser().absolute()
         if is_file and not path.is_file():
-            self._node.log.error(f"there is no sound {path}")
+            self._node.log.error(f"no sound file {path}")
             return None
         values = {"file": str(path), "volume": f"{volume:g}"}
         values |= {"volume200": str(round(100 * volume)), "volume65536": str(round(65536 * volume))}
-        for program, *words in _PLAYERS if is_file else _SPEAKERS:
-            if (found := shutil.which(program, path=self._path)) is not None:
+        for program, *arguments in _PLAYERS if is_file else _SPEAKERS:
+            if (program_path := shutil.which(program, path=self._path)) is not None:
                 return _Sound(
-                    (found, *(word.format_map(values) for word in words)), text, repeats=request.command == _START
+                    (program_path, *(argument.format_map(values) for argument in arguments)),
+                    text,
+                    repeats=request.command == _START,
                 )
-        what = f"plays {path}" if is_file else f"says: {text}"
+        action = f"plays {path}" if is_file else f"says: {text}"
         missing = ", ".join(program for program, *_ in (_PLAYERS if is_file else _SPEAKERS))
-        self._node.log.info(f"{what} (without a sound: none of {missing} is installed)")
+        self._node.log.info(f"{action} (silently: none of {missing} is installed)")
         return None
 
     async def _run(self, sound: _Sound) -> bool:
-        """Play to the end; False if it failed."""
+        """Play to the end; return False on failure."""
         with tempfile.TemporaryFile() as text, tempfile.TemporaryFile() as errors:
             text.write(sound.text.encode())
             text.seek(0)
             process = await asyncio.create_subprocess_exec(
-                *sound.words, stdin=text, stdout=subprocess.DEVNULL, stderr=errors
+                *sound.command, stdin=text, stdout=subprocess.DEVNULL, stderr=errors
             )
             try:
                 code = await process.wait()
@@ -128,5 +130,5 @@ class SoundPlay:
             if code:
                 errors.seek(0)
                 line = errors.read(_MAX_TEXT).decode(errors="replace").strip()
-                self._node.log.error(f"{sound.words[0]}: {line or code}")
+                self._node.log.error(f"{sound.command[0]}: {line or code}")
         return code == 0

@@ -95,26 +95,31 @@ class Tf2StaticTransformPublisher:
         """Read a geometry_msgs/TransformStamped from a parameter."""
         try:
             tree = await self._node.params.get(name)
-            move, turn = tree["transform"]["translation"], tree["transform"]["rotation"]
-            translation = (float(move["x"]), float(move["y"]), float(move["z"]))
-            rotation = (float(turn["w"]), float(turn["x"]), float(turn["y"]), float(turn["z"]))
+            position, orientation = tree["transform"]["translation"], tree["transform"]["rotation"]
+            translation = (float(position["x"]), float(position["y"]), float(position["z"]))
+            rotation = (
+                float(orientation["w"]),
+                float(orientation["x"]),
+                float(orientation["y"]),
+                float(orientation["z"]),
+            )
             parent, child = str(tree["header"]["frame_id"]), str(tree["child_frame_id"])
         except ParameterError as error:
             self._node.log.fatal(f"Could not read TF: {error}")
             return None
         except (KeyError, TypeError, ValueError) as error:
-            self._node.log.fatal(f"Could not read TF: parameter {name} is not a transform: {_what(error)}")
+            self._node.log.fatal(f"Could not read TF: parameter {name} is not a transform: {_describe(error)}")
             return None
         return self._transform(parent, child, translation, rotation)
 
 
-def _what(error: Exception) -> Any:
+def _describe(error: Exception) -> Any:
     return f"{error} is missing" if isinstance(error, KeyError) else error
 
 
-def _numbers(words: list[str]) -> list[float] | None:
+def _numbers(arguments: list[str]) -> list[float] | None:
     try:
-        numbers = [float(word) for word in words]
+        numbers = [float(argument) for argument in arguments]
     except ValueError:
         return None
     return numbers if all(map(math.isfinite, numbers)) else None
@@ -122,9 +127,9 @@ def _numbers(words: list[str]) -> list[float] | None:
 
 def _pose(values: list[float]) -> tuple[Vector3, Quaternion]:
     """Parse x y z yaw pitch roll, or x y z qx qy qz qw; the result's quaternion is wxyz."""
-    x, y, z, *turn = values
-    if len(turn) == 3:
-        yaw, pitch, roll = turn
+    x, y, z, *rotation = values
+    if len(rotation) == 3:
+        yaw, pitch, roll = rotation
         return (x, y, z), quaternion_from_rpy(roll, pitch, yaw)
-    qx, qy, qz, qw = turn
+    qx, qy, qz, qw = rotation
     return (x, y, z), (qw, qx, qy, qz)

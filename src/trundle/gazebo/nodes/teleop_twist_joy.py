@@ -11,8 +11,8 @@ from .private_parameters import private_parameters
 if TYPE_CHECKING:
     from trundle.ros.message_types import sensor_msgs
 
-_MOVES = {"x": ("linear", "x"), "y": ("linear", "y"), "z": ("linear", "z")}
-_TURNS = {"yaw": ("angular", "z"), "pitch": ("angular", "y"), "roll": ("angular", "x")}
+_LINEAR_AXES = {"x": ("linear", "x"), "y": ("linear", "y"), "z": ("linear", "z")}
+_ANGULAR_AXES = {"yaw": ("angular", "z"), "pitch": ("angular", "y"), "roll": ("angular", "x")}
 
 
 class TeleopTwistJoy:
@@ -30,8 +30,8 @@ class TeleopTwistJoy:
         self._enable = settings.integer("enable_button", 0)
         self._turbo = settings.integer("enable_turbo_button", -1)
         self._moves = [
-            *_axes(settings, "linear", _MOVES, single=("x", 1)),
-            *_axes(settings, "angular", _TURNS, single=("yaw", 0)),
+            *_axes(settings, "linear", _LINEAR_AXES, single=("x", 1)),
+            *_axes(settings, "angular", _ANGULAR_AXES, single=("yaw", 0)),
         ]
         self._commands = node.advertise("cmd_vel", "geometry_msgs/Twist", latch=True, queue_size=1)
         node.subscribe("joy", "sensor_msgs/Joy", self._on_joy, queue_size=1)

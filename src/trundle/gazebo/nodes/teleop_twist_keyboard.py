@@ -106,11 +106,11 @@ class TeleopTwistKeyboard:
         with keyboard.cbreak():
             try:
                 while True:
-                    waits = [released_s - now_s()] + ([1.0 / repeat_hz] if repeat_hz > 0.0 else [])
-                    key = await keyboard.read_key(None if math.isinf(min(waits)) else max(0.0, min(waits)))
+                    timeouts = [released_s - now_s()] + ([1.0 / repeat_hz] if repeat_hz > 0.0 else [])
+                    key = await keyboard.read_key(None if math.isinf(min(timeouts)) else max(0.0, min(timeouts)))
                     if key in _SPEEDS:
-                        faster, tighter = _SPEEDS[key]
-                        speed, turn = speed * faster, turn * tighter
+                        speed_factor, turn_factor = _SPEEDS[key]
+                        speed, turn = speed * speed_factor, turn * turn_factor
                         keyboard.print(f"currently:\tspeed {speed}\tturn {turn} ")
                     elif key is not None:
                         move = _MOVES.get(key, (0, 0, 0, 0))

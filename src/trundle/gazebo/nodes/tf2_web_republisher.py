@@ -1,4 +1,4 @@
-"""tf2_web_republisher: transforms for web pages, as often and as precisely as they ask."""
+"""tf2_web_republisher: transforms for web pages, at requested rates and thresholds."""
 
 import asyncio
 import math
@@ -29,7 +29,7 @@ _MAX_REQUESTS = 1000
 
 @dataclass(slots=True)
 class TransformPair:
-    """One transform that a client watches."""
+    """One transform watched by a client."""
 
     source: str
     target: str
@@ -39,7 +39,7 @@ class TransformPair:
 
 @dataclass(slots=True, kw_only=True)
 class TransformWatch:
-    """Transforms that a client watches; those that have changed enough are due."""
+    """Transforms watched by a client; a transform is due when it has changed enough."""
 
     pairs: list[TransformPair]
     angle: float
@@ -51,7 +51,7 @@ class TransformWatch:
 
     def due(self, look_up: Callable[[str, str], Transform]) -> list[tuple[TransformPair, Transform]]:
         """Return the transforms that have moved by more than a threshold since they were last returned."""
-        found: list[tuple[TransformPair, Transform]] = []
+        changed: list[tuple[TransformPair, Transform]] = []
         for pair in self.pairs:
             try:
                 transform = look_up(pair.target, pair.source)
@@ -63,15 +63,15 @@ class TransformWatch:
             pair.is_broken = False
             if pair.sent is None or self._has_moved(pair.sent, transform):
                 pair.sent = transform
-                found.append((pair, transform))
-        return found
+                changed.append((pair, transform))
+        return changed
 
     def _has_moved(self, old: Transform, new: Transform) -> bool:
         if self.distance == 0.0 or self.angle == 0.0:
             return True
         dot = abs(sum(a * b for a, b in zip(old.rotation, new.rotation, strict=True)))
-        turned = 2.0 * math.acos(min(dot, 1.0))
-        return math.dist(old.translation, new.translation) > self.distance or turned > self.angle
+        angle = 2.0 * math.acos(min(dot, 1.0))
+        return math.dist(old.translation, new.translation) > self.distance or angle > self.angle
 
 
 class Tf2WebRepublisher:
@@ -111,9 +111,9 @@ class Tf2WebRepublisher:
                 self._action.publish_feedback({"transforms": transforms}, goal=goal)
 
     async def _on_request(self, request: "tf2_web_republisher.RepublishTFsRequest") -> dict[str, Any]:
-        """Publish on a topic of its own, until it has had no subscribers for the timeout."""
+        """Publish on a new topic, until it has had no subscribers for the timeout."""
         if len(self._requests) >= _MAX_REQUESTS:
-            raise ServiceError(f"{_MAX_REQUESTS} requests are served already")
+            raise ServiceError(f"{_MAX_REQUESTS} requests are being served already")
         topic = self._node.resolve(f"~tf_repub_{self._count}")
         self._count += 1
         task = asyncio.create_task(self._republish(topic, _watch(request), to_nsec(request.timeout) / 1e9))
@@ -125,11 +125,11 @@ class Tf2WebRepublisher:
     async def _republish(self, topic: str, watch: TransformWatch, timeout_s: float) -> None:
         clock = self._node.clock
         publisher = self._node.advertise(topic, "tf2_web_republisher/TFArray", latch=True)
-        heard_ns = clock.now_ns()
-        while clock.now_ns() - heard_ns <= timeout_s * 1e9:
+        subscribed_ns = clock.now_ns()
+        while clock.now_ns() - subscribed_ns <= timeout_s * 1e9:
             await clock.sleep(watch.period_s)
             if publisher.has_subscribers:
-                heard_ns = clock.now_ns()
+                subscribed_ns = clock.now_ns()
             transforms = self._transforms(watch)
             if transforms:
                 publisher.publish({"transforms": transforms})
@@ -137,7 +137,7 @@ class Tf2WebRepublisher:
         self._node.log.info(f"No subscribers on {topic} for {timeout_s:g} seconds. Unadvertising it.")
 
     def _transforms(self, watch: TransformWatch) -> list[dict[str, Any]]:
-        """Messages of the transforms that are due, stamped now."""
+        """Return the messages of due transforms, with the current stamp."""
         now = self._node.clock.now_ns()
         messages = [_stamped(pair, transform, now) for pair, transform in watch.due(self._buffer.lookup_transform)]
         for text in watch.log:
@@ -147,14 +147,14 @@ class Tf2WebRepublisher:
 
 
 def _watch(
-    asked: "tf2_web_republisher.TFSubscriptionGoal | tf2_web_republisher.RepublishTFsRequest",
+    request: "tf2_web_republisher.TFSubscriptionGoal | tf2_web_republisher.RepublishTFsRequest",
 ) -> TransformWatch:
-    sources: Sequence[str] = asked.source_frames
-    rate = min(asked.rate, _MAX_RATE_HZ) if asked.rate > 0.0 else 1.0
+    sources: Sequence[str] = request.source_frames
+    rate = min(request.rate, _MAX_RATE_HZ) if request.rate > 0.0 else 1.0
     return TransformWatch(
-        pairs=[TransformPair(source.removeprefix("/"), asked.target_frame.removeprefix("/")) for source in sources],
-        angle=asked.angular_thres,
-        distance=asked.trans_thres,
+        pairs=[TransformPair(source.removeprefix("/"), request.target_frame.removeprefix("/")) for source in sources],
+        angle=request.angular_thres,
+        distance=request.trans_thres,
         period_s=1.0 / rate,
     )
 

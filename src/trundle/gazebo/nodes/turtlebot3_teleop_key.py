@@ -25,8 +25,8 @@ space key, s : force stop
 CTRL-C to quit
 """
 _STEPS = {"w": (0.01, 0.0), "x": (-0.01, 0.0), "a": (0.0, 0.1), "d": (0.0, -0.1)}
-_FASTEST = {"burger": (0.22, 2.84)}
-_OTHERS = (0.26, 1.82)
+_MAX_SPEEDS = {"burger": (0.22, 2.84)}
+_DEFAULT_MAX_SPEEDS = (0.26, 1.82)
 """Maximum speeds [m/s], [rad/s]."""
 _PERIOD_S = 0.1
 
@@ -45,7 +45,7 @@ class Turtlebot3TeleopKey:
         node = self._node
         settings = await private_parameters(node)
         model = settings.text("model", self._env.get("TURTLEBOT3_MODEL", "burger"))
-        fastest = _FASTEST.get(model, _OTHERS)
+        max_speeds = _MAX_SPEEDS.get(model, _DEFAULT_MAX_SPEEDS)
         commands = node.advertise("cmd_vel", "geometry_msgs/Twist", queue_size=10)
         keyboard = Keyboard(self._terminal)
         if not keyboard.is_available:
@@ -59,8 +59,8 @@ class Turtlebot3TeleopKey:
                 while True:
                     key = await keyboard.read_key(_PERIOD_S)
                     if key in _STEPS:
-                        pairs = zip(target, _STEPS[key], fastest, strict=True)
-                        linear, angular = (min(max(now + step, -most), most) for now, step, most in pairs)
+                        pairs = zip(target, _STEPS[key], max_speeds, strict=True)
+                        linear, angular = (min(max(value + step, -limit), limit) for value, step, limit in pairs)
                         target = (linear, angular)
                         keyboard.print(f"currently:\tlinear velocity {linear:.2f}\t angular velocity {angular:.2f} ")
                     elif key in (" ", "s"):

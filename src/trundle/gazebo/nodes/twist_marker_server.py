@@ -18,7 +18,7 @@ _MOVE_AXIS, _ROTATE_AXIS = 3, 5
 """Modes of InteractiveMarkerControl."""
 _HALF = math.sqrt(0.5)
 _AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 0.0, 1.0), "z": (0.0, 1.0, 0.0)}
-"""Axis → quaternion part that turns a control's x axis to it, with the same w (visualization_msgs)."""
+"""Axis → vector part of the quaternion that rotates a control's x axis to it; w is equal (visualization_msgs)."""
 _KEEP_ALIVE_HZ = 2.0
 
 
@@ -33,8 +33,8 @@ class TwistMarkerServer:
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
         self._node = node
-        self._number = 0
-        """Count of updates."""
+        self._update_count = 0
+        """Number of updates."""
 
     async def run(self) -> int:
         """Serve until cancelled."""
@@ -43,22 +43,22 @@ class TwistMarkerServer:
         self._frame, robot = settings.text("link_name", "base_link"), settings.text("robot_name", "robot")
         self._name = f"{robot}_twist_marker"
         self._scales = _by_axis(settings, "linear_scale", 1.0)
-        self._highest = _by_axis(settings, "max_positive_linear_velocity", 1.0)
-        self._lowest = _by_axis(settings, "max_negative_linear_velocity", -1.0)
+        self._max_velocities = _by_axis(settings, "max_positive_linear_velocity", 1.0)
+        self._min_velocities = _by_axis(settings, "max_negative_linear_velocity", -1.0)
         self._angular_scale = settings.number("angular_scale", 2.2)
-        self._max_turning = settings.number("max_angular_velocity", 2.2)
+        self._max_yaw_rate = settings.number("max_angular_velocity", 2.2)
         self._commands = node.advertise(f"{_TOPIC}/cmd_vel", "geometry_msgs/Twist", queue_size=1)
         self._updates = node.advertise(f"{_TOPIC}/update", "visualization_msgs/InteractiveMarkerUpdate", queue_size=100)
         marker = self._marker(f"twist controller for {robot}", settings.number("marker_size_scale", 1.0))
-        self._full = node.advertise(
+        self._full_updates = node.advertise(
             f"{_TOPIC}/update_full", "visualization_msgs/InteractiveMarkerInit", queue_size=100, latch=True
         )
-        self._full.publish({"server_id": node.name, "seq_num": 0, "markers": [marker]})
+        self._full_updates.publish({"server_id": node.name, "seq_num": 0, "markers": [marker]})
         kind = "visualization_msgs/InteractiveMarkerFeedback"
         node.subscribe(f"{_TOPIC}/feedback", kind, self._on_feedback, queue_size=100)
         rate = Rate(node, _KEEP_ALIVE_HZ)
         while not node.closed.is_set():
-            self._updates.publish({"server_id": node.name, "seq_num": self._number, "type": _KEEP_ALIVE})
+            self._updates.publish({"server_id": node.name, "seq_num": self._update_count, "type": _KEEP_ALIVE})
             await rate.sleep()
         return 0
 
@@ -76,20 +76,26 @@ class TwistMarkerServer:
     def _on_feedback(self, feedback: Any) -> None:
         if feedback.marker_name != self._name:
             return
-        position, q = feedback.pose.position, feedback.pose.orientation
-        yaw = math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
+        position, orientation = feedback.pose.position, feedback.pose.orientation
+        yaw = math.atan2(
+            2.0 * (orientation.w * orientation.z + orientation.x * orientation.y),
+            1.0 - 2.0 * (orientation.y * orientation.y + orientation.z * orientation.z),
+        )
         values = [yaw, *(getattr(position, axis) for axis in self._scales)]
         if not all(map(math.isfinite, values)):
             return
-        turning = min(max(yaw * self._angular_scale, -self._max_turning), self._max_turning)
+        yaw_rate = min(max(yaw * self._angular_scale, -self._max_yaw_rate), self._max_yaw_rate)
         linear = {
-            axis: min(max(getattr(position, axis) * scale, self._lowest.get(axis, -1.0)), self._highest.get(axis, 1.0))
+            axis: min(
+                max(getattr(position, axis) * scale, self._min_velocities.get(axis, -1.0)),
+                self._max_velocities.get(axis, 1.0),
+            )
             for axis, scale in self._scales.items()
         }
-        self._commands.publish({"linear": linear, "angular": {"z": turning}})
-        self._number += 1
+        self._commands.publish({"linear": linear, "angular": {"z": yaw_rate}})
+        self._update_count += 1
         pose = {"header": {"frame_id": self._frame}, "name": self._name, "pose": {"orientation": {"w": 1.0}}}
-        update = {"server_id": self._node.name, "seq_num": self._number, "type": _UPDATE, "poses": [pose]}
+        update = {"server_id": self._node.name, "seq_num": self._update_count, "type": _UPDATE, "poses": [pose]}
         self._updates.publish(update)
 
 
@@ -99,7 +105,7 @@ def _control(name: str, axis: str, mode: int) -> dict[str, Any]:
 
 
 def _by_axis(settings: RosParameters, name: str, default: float) -> Mapping[str, float]:
-    """Read a number, which is that of x, or numbers for axes."""
+    """Read a number, for x only, or a number per axis."""
     section = settings.section(name)
     if section.names():
         return {axis: section.number(axis) for axis in "xyz" if axis in section}

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 _KIND = "geometry_msgs/Twist"
 _DIAGNOSTICS_S = 1.0
-_HIGHEST = 255
+_MAX_PRIORITY = 255
 
 
 @dataclass(slots=True)
@@ -40,38 +40,38 @@ class TopicHandle:
         return self.lock or self.is_expired(now_ns)
 
 
-def read_topic_handles(value: object, what: str) -> list[TopicHandle]:
+def read_topic_handles(value: object, name: str) -> list[TopicHandle]:
     """Read a list of {name, topic, timeout, priority}.
 
     Raises:
         ParamError: the value is not such a list.
     """
     if not isinstance(value, list):
-        raise ParamError(f"parameter {what} is not a list of topics")
+        raise ParamError(f"parameter {name} is not a list of topics")
     sources: list[TopicHandle] = []
     for number, item in enumerate(value):
-        section = RosParameters(item, f"{what}[{number}]")
+        section = RosParameters(item, f"{name}[{number}]")
         sources.append(
             TopicHandle(
                 section.text("name"),
                 section.text("topic"),
                 section.number("timeout", 0.0),
-                min(max(section.integer("priority"), 0), _HIGHEST),
+                min(max(section.integer("priority"), 0), _MAX_PRIORITY),
             )
         )
     return sources
 
 
 def lock_priority(locks: Sequence[TopicHandle], now_ns: int) -> int:
-    """Highest priority of the active locks; inputs below it are masked."""
+    """Return the highest priority of the active locks; inputs below it are masked."""
     return max((lock.priority for lock in locks if lock.is_locked(now_ns)), default=0)
 
 
 def find_active_topic(sources: Sequence[TopicHandle], locks: Sequence[TopicHandle], now_ns: int) -> TopicHandle | None:
-    """Active input: unexpired, of the highest priority, the first of equal ones; priority 0 is never active."""
-    lowest = max(lock_priority(locks, now_ns), 1)
-    driving = [source for source in sources if not source.is_expired(now_ns) and source.priority >= lowest]
-    return max(driving, key=lambda source: source.priority, default=None)
+    """Return the active input: unexpired, with the highest priority, first among equals; priority 0 is never active."""
+    min_priority = max(lock_priority(locks, now_ns), 1)
+    candidates = [source for source in sources if not source.is_expired(now_ns) and source.priority >= min_priority]
+    return max(candidates, key=lambda source: source.priority, default=None)
 
 
 class TwistMux:

@@ -9,7 +9,7 @@ from trundle.base.http.page_address import AllowedNames, is_loopback
 from trundle.robots.parameters import ParamError, RosParameters
 
 _LOOPBACK = "127.0.0.1"
-_EVERYBODY = "*"
+_ANY_ORIGIN = "*"
 _BACKLOG = 128
 _MAX_PORT = 65535
 
@@ -27,9 +27,9 @@ class WebAddress:
     is_open: bool
     """True: `allowed_origins` is "*"; every request is served, as by the original."""
     token: str
-    """As the parameter sets it, else a random one."""
-    has_own_token: bool = False
-    """True if the parameter sets the token; it is then required on loopback, too."""
+    """Value of the parameter, else a random token."""
+    has_fixed_token: bool = False
+    """True if the parameter sets the token; it is then also required on loopback."""
     serves_null_origin: bool = False
 
     @property
@@ -38,13 +38,13 @@ class WebAddress:
         return not is_loopback(self.host)
 
     def access(self, server: str, port: int) -> Access:
-        """Access rules of the server at its actual port."""
+        """Return the access rules of the server at its actual port."""
         return Access(
             host=self.host,
             port=port,
             allowed=self.allowed,
             token=self.token,
-            needs_token=self.has_own_token,
+            needs_token=self.has_fixed_token,
             serves_local_pages=True,
             serves_null_origin=self.serves_null_origin,
             is_open=self.is_open,
@@ -58,24 +58,24 @@ class WebAddress:
 
     @property
     def warning(self) -> str | None:
-        """Sentence for the log of a server that serves without a token; None: it does not."""
-        if not self.is_open and (self.has_own_token or self.is_public):
+        """Warning of a server without a token, for its log; None: it requires one."""
+        if not self.is_open and (self.has_fixed_token or self.is_public):
             return None
-        who = "every machine that reaches it" if self.is_public else "every user of this machine"
-        return f"ROS has no access control: {who} may connect here; set ~token to ask for one"
+        clients = "every machine that reaches it" if self.is_public else "every user of this machine"
+        return f"ROS has no access control: {clients} may connect here; set ~token to require one"
 
     def url(self, scheme: str, port: int) -> str:
-        """URL of the server for the log; with the token if it is required, unless ~token sets it."""
+        """Return the server's URL for the log, with the token if it is required and not set by ~token."""
         host = f"[{self.host}]" if ":" in self.host else self.host
-        asks_token = not self.is_open and (self.has_own_token or self.is_public)
-        query = f"/?token={'…' if self.has_own_token else self.token}" if asks_token else ""
+        needs_token = not self.is_open and (self.has_fixed_token or self.is_public)
+        query = f"/?token={'…' if self.has_fixed_token else self.token}" if needs_token else ""
         return f"{scheme}://{host}:{port}{query}"
 
     def listen(self) -> socket.socket:
         """Bind and listen.
 
         Raises:
-            OSError: the port is taken, or there is no such address.
+            OSError: the port is in use, or the address does not exist.
         """
         family = socket.AF_INET6 if ":" in self.host else socket.AF_INET
         return socket.create_server((self.host, self.port), family=family, backlog=_BACKLOG)
@@ -85,35 +85,35 @@ def read_web_address(settings: RosParameters, *, port: int, address: str = "", n
     """Read the parameters.
 
     Args:
-        settings: the node's private parameters.
+        settings: node's private parameters.
         port: default port.
-        address: overrides the parameter, as a command line does.
-        null_origin: name of the flag that lets pages of files in.
+        address: overrides the parameter, as on a command line.
+        null_origin: name of the flag that allows pages from files.
 
     Raises:
-        ParamError: one is invalid.
-        UsageError: a name is not a host or an origin.
+        ParamError: a parameter is invalid.
+        UsageError: a name is neither a host nor an origin.
     """
-    asked = settings.integer("port", port, minimum=0)
-    if asked > _MAX_PORT:
-        raise ParamError(f"parameter {settings.where}/port must be ≤ {_MAX_PORT}, got {asked}")
-    origins = _names(settings, "allowed_origins")
+    port_number = settings.integer("port", port, minimum=0)
+    if port_number > _MAX_PORT:
+        raise ParamError(f"parameter {settings.where}/port must be ≤ {_MAX_PORT}, got {port_number}")
+    origins = _read_names(settings, "allowed_origins")
     token = settings.text("token", "")
     return WebAddress(
         host=address or settings.text("address", "") or _LOOPBACK,
-        port=asked,
+        port=port_number,
         allowed=AllowedNames(
-            hosts=_names(settings, "allowed_hosts"), origins=tuple(name for name in origins if name != _EVERYBODY)
+            hosts=_read_names(settings, "allowed_hosts"), origins=tuple(name for name in origins if name != _ANY_ORIGIN)
         ),
-        is_open=_EVERYBODY in origins,
+        is_open=_ANY_ORIGIN in origins,
         token=token or secrets.token_urlsafe(16),
-        has_own_token=bool(token),
+        has_fixed_token=bool(token),
         serves_null_origin=bool(null_origin) and settings.flag(null_origin, default=False),
     )
 
 
-def _names(settings: RosParameters, name: str) -> tuple[str, ...]:
-    """A list, or a text with commas."""
+def _read_names(settings: RosParameters, name: str) -> tuple[str, ...]:
+    """Read a list, or a text with commas."""
     if name not in settings:
         return ()
     try:

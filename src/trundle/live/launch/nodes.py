@@ -20,9 +20,9 @@ from trundle.gazebo.nodes import (
     Executable,
     MissingNode,
     NodeHost,
+    command_prefix,
     run_builtin_node,
     script_fault,
-    start_words,
 )
 from trundle.robots.launch import LaunchNode
 from trundle.robots.names import parse_arguments
@@ -127,7 +127,7 @@ class NodeStarter:
         if output is None:
             output = self.output or ("screen" if node.launch_prefix and not prefix.words else node.output)
         command = self._command(
-            node, label, path, env, (*prefix.words, *start_words(path, env)), extra_arguments, output
+            node, label, path, env, (*prefix.words, *command_prefix(path, env)), extra_arguments, output
         )
         return LaunchedNode(
             node=node,

@@ -1,4 +1,4 @@
-"""/gazebo's services that apply loads, by the motion after them."""
+"""/gazebo's services that apply loads, tested by the motion they cause."""
 
 import math
 from typing import Any
@@ -14,10 +14,10 @@ _BALL = f"""<sdf version="1.6"><model name="m"><pose>0 0 100 0 0 0</pose><link n
 _WHEEL = f"""<sdf version="1.6"><model name="m"><link name="rim"><inertial><mass>1</mass>{_INERTIA}</inertial></link>
 <joint name="turn" type="revolute"><parent>world</parent><child>rim</child><axis><xyz>0 0 1</xyz></axis></joint>
 </model></sdf>"""
-_HALF_S, _FOR_EVER = {"nanosec": 500_000_000}, {"sec": -1}
+_HALF_S, _UNLIMITED = {"nanosec": 500_000_000}, {"sec": -1}
 
 
-def _push(gazebo: Gazebo, force_n: float, **more: Any) -> Message:
+def _apply_force(gazebo: Gazebo, force_n: float, **more: Any) -> Message:
     fields = {"body_name": "ball::link", "wrench": {"force": {"x": force_n}}, **more}
     return gazebo.call("apply_body_wrench", "gazebo_msgs/ApplyBodyWrench", **fields)
 
@@ -30,16 +30,16 @@ def _after(gazebo: Gazebo, seconds: float) -> Message:
     return gazebo.state("ball").twist
 
 
-def test_a_push_in_the_world_acts_at_the_centre_of_mass_wherever_that_is(gazebo: Gazebo) -> None:
+def test_a_wrench_in_the_world_frame_acts_at_the_center_of_mass(gazebo: Gazebo) -> None:
     gazebo.spawn(_BALL, "ball", x=7.0)
-    assert _push(gazebo, 4.0, reference_frame="world", duration=_HALF_S).success
+    assert _apply_force(gazebo, 4.0, reference_frame="world", duration=_HALF_S).success
 
     twist = _after(gazebo, 0.6)
     assert twist.linear.x == pytest.approx(1.0, rel=1e-3)
     assert twist.angular.z == pytest.approx(0.0, abs=1e-9)
 
 
-def test_a_push_has_the_arm_of_its_point_and_the_axes_of_its_frame(gazebo: Gazebo) -> None:
+def test_a_wrench_has_its_reference_point_and_frame(gazebo: Gazebo) -> None:
     """2 N along the ball's x, a quarter turn from the world's, 0.5 m beside it: −1 N·m for half a second."""
     half = math.sqrt(0.5)
     gazebo.call(
@@ -49,7 +49,7 @@ def test_a_push_has_the_arm_of_its_point_and_the_axes_of_its_frame(gazebo: Gazeb
         model_xml=_BALL,
         initial_pose={"position": {"x": 7.0}, "orientation": {"z": half, "w": half}},
     )
-    _push(gazebo, 2.0, reference_frame="ball::link", reference_point={"y": 0.5}, duration=_HALF_S)
+    _apply_force(gazebo, 2.0, reference_frame="ball::link", reference_point={"y": 0.5}, duration=_HALF_S)
 
     twist = _after(gazebo, 0.001)
     assert twist.linear.y == pytest.approx(1.0 * gazebo.time_s, rel=0.3)
@@ -57,11 +57,11 @@ def test_a_push_has_the_arm_of_its_point_and_the_axes_of_its_frame(gazebo: Gazeb
     assert _after(gazebo, 0.6).angular.z == pytest.approx(-5.0, rel=1e-2)
 
 
-def test_a_push_waits_for_its_time_and_the_newest_pushes_alone(gazebo: Gazebo) -> None:
+def test_a_wrench_starts_at_its_time_and_the_newest_acts_alone(gazebo: Gazebo) -> None:
     """4 N for ever, but 12 N from 0.5 s to 1 s: 2 kg have 1 m/s, then 4 m/s, then 5 m/s at 1.5 s."""
     gazebo.spawn(_BALL, "ball")
-    _push(gazebo, 4.0, duration=_FOR_EVER)
-    _push(gazebo, 12.0, start_time=_HALF_S, duration=_HALF_S)
+    _apply_force(gazebo, 4.0, duration=_UNLIMITED)
+    _apply_force(gazebo, 12.0, start_time=_HALF_S, duration=_HALF_S)
 
     assert _after(gazebo, 1.5).linear.x == pytest.approx(4.0 + 2.0 * (gazebo.time_s - 1.0), rel=2e-3)
     gazebo.call("clear_body_wrenches", "gazebo_msgs/BodyRequest", body_name="ball::link")
@@ -69,9 +69,9 @@ def test_a_push_waits_for_its_time_and_the_newest_pushes_alone(gazebo: Gazebo) -
     assert _after(gazebo, gazebo.time_s + 0.2).linear.x == pytest.approx(speed, rel=1e-6)
 
 
-def test_a_push_goes_on_while_another_model_comes_and_ends_with_a_reset(gazebo: Gazebo) -> None:
+def test_a_wrench_continues_after_a_spawn_and_ends_with_a_reset(gazebo: Gazebo) -> None:
     gazebo.spawn(_BALL, "ball")
-    _push(gazebo, 4.0, duration=_FOR_EVER)
+    _apply_force(gazebo, 4.0, duration=_UNLIMITED)
     gazebo.spawn(_BALL, "other", x=3.0)
     assert _after(gazebo, 0.5).linear.x == pytest.approx(2.0 * gazebo.time_s, rel=2e-3)
 
@@ -79,10 +79,10 @@ def test_a_push_goes_on_while_another_model_comes_and_ends_with_a_reset(gazebo: 
     assert _after(gazebo, 0.2).linear.x == pytest.approx(0.0, abs=1e-9)
 
 
-def test_efforts_on_a_joint_add_up_until_they_are_cleared(gazebo: Gazebo) -> None:
+def test_joint_efforts_add_up_until_they_are_cleared(gazebo: Gazebo) -> None:
     gazebo.spawn(_WHEEL, "ball")
     for _ in range(2):
-        fields = {"joint_name": "turn", "effort": 0.05, "duration": _FOR_EVER}
+        fields = {"joint_name": "turn", "effort": 0.05, "duration": _UNLIMITED}
         assert gazebo.call("apply_joint_effort", "gazebo_msgs/ApplyJointEffort", **fields).success
 
     assert _after(gazebo, 0.5).angular.z == pytest.approx(gazebo.time_s, rel=5e-3)
@@ -91,6 +91,6 @@ def test_efforts_on_a_joint_add_up_until_they_are_cleared(gazebo: Gazebo) -> Non
     assert _after(gazebo, gazebo.time_s + 0.2).angular.z == pytest.approx(speed, rel=1e-6)
 
 
-def test_what_is_not_there_has_nothing_cleared(gazebo: Gazebo) -> None:
+def test_clearing_an_unknown_body_or_joint_succeeds(gazebo: Gazebo) -> None:
     gazebo.call("clear_body_wrenches", "gazebo_msgs/BodyRequest", body_name="nothing")
     gazebo.call("clear_joint_forces", "gazebo_msgs/JointRequest", joint_name="nothing")

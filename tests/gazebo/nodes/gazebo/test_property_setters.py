@@ -1,4 +1,4 @@
-"""/gazebo's services that change a running world, by the motion after them."""
+"""/gazebo's services that change a running world, tested by the motion after them."""
 
 import math
 from itertools import pairwise
@@ -23,11 +23,11 @@ _JOINT = {"joint_name": "turn"}
 
 def test_gravity_can_be_switched_off(gazebo: Gazebo) -> None:
     gazebo.spawn(_BALL, "ball")
-    kind = "gazebo_msgs/SetPhysicsProperties"
+    service_type = "gazebo_msgs/SetPhysicsProperties"
     now = gazebo.call("get_physics_properties", "gazebo_msgs/GetPhysicsProperties")
     assert gazebo.call(
         "set_physics_properties",
-        kind,
+        service_type,
         time_step=now.time_step,
         max_update_rate=0.0,
         gravity={"x": 0.5},
@@ -40,18 +40,18 @@ def test_gravity_can_be_switched_off(gazebo: Gazebo) -> None:
     twist = gazebo.state("ball").twist.linear
     assert twist.x == pytest.approx(0.5 * gazebo.time_s, rel=1e-3)
     assert twist.z == pytest.approx(0.0, abs=1e-9)
-    refused = gazebo.call("set_physics_properties", kind)
+    refused = gazebo.call("set_physics_properties", service_type)
     assert "time_step must be from 1e-06 to 1 s, got 0" in refused.status_message
 
 
-def test_the_time_step_is_another_one_and_what_ode_alone_has_is_kept_and_said(gazebo: Gazebo) -> None:
+def test_the_time_step_changes_and_ode_settings_are_kept_and_reported(gazebo: Gazebo) -> None:
     """/clock at every step shows it; bodies fall no faster."""
     gazebo.spawn(_BALL, "ball")
-    kind = "gazebo_msgs/GetPhysicsProperties"
-    now = gazebo.call("get_physics_properties", kind)
+    service_type = "gazebo_msgs/GetPhysicsProperties"
+    now = gazebo.call("get_physics_properties", service_type)
     assert (now.time_step, now.ode_config.sor_pgs_iters, now.ode_config.max_contacts) == (0.001, 50, 20)
     config = {name: getattr(now.ode_config, name) for name in OdeSettings().values}
-    answer = gazebo.call(
+    response = gazebo.call(
         "set_physics_properties",
         "gazebo_msgs/SetPhysicsProperties",
         time_step=0.004,
@@ -59,12 +59,12 @@ def test_the_time_step_is_another_one_and_what_ode_alone_has_is_kept_and_said(ga
         gravity=now.gravity,
         ode_config={**config, "sor_pgs_iters": 200, "erp": 0.8},
     )
-    assert answer.success
-    assert answer.status_message == (
+    assert response.success
+    assert response.status_message == (
         "physics engine updated; without effect here, where MuJoCo is the engine: sor_pgs_iters, erp"
     )
-    told = gazebo.call("get_physics_properties", kind)
-    assert (told.time_step, told.max_update_rate, told.ode_config.sor_pgs_iters) == (0.004, 0.0, 200)
+    properties = gazebo.call("get_physics_properties", service_type)
+    assert (properties.time_step, properties.max_update_rate, properties.ode_config.sor_pgs_iters) == (0.004, 0.0, 200)
     gazebo.call("unpause_physics")
     gazebo.until_s(1.0)
     gazebo.call("pause_physics")
@@ -76,24 +76,26 @@ def test_the_time_step_is_another_one_and_what_ode_alone_has_is_kept_and_said(ga
 
 def test_dynamic_reconfigure_changes_the_time_step_too(gazebo: Gazebo) -> None:
     values = {"time_step": 0.002, "gravity_z": 0.0, "erp": 0.5}
-    told = gazebo.loop.run(set_options(gazebo.client, "/gazebo", values, timeout_s=PATIENCE_S), timeout_s=PATIENCE_S)
+    properties = gazebo.loop.run(
+        set_options(gazebo.client, "/gazebo", values, timeout_s=PATIENCE_S), timeout_s=PATIENCE_S
+    )
 
-    assert {name: told[name] for name in values} == values
+    assert {name: properties[name] for name in values} == values
     assert gazebo.world.simulation.step_ns == 2_000_000
     now = gazebo.call("get_physics_properties", "gazebo_msgs/GetPhysicsProperties")
     assert (now.gravity.z, now.ode_config.erp) == (0.0, 0.5)
 
 
-def test_a_mass_is_felt_by_what_pushes(gazebo: Gazebo) -> None:
+def test_a_new_mass_changes_the_acceleration(gazebo: Gazebo) -> None:
     """4 N for half a second on 8 kg without gravity: a quarter of a metre a second."""
     gazebo.spawn(_BALL, "ball")
-    kind = "gazebo_msgs/SetLinkProperties"
+    service_type = "gazebo_msgs/SetLinkProperties"
     inertia = {"ixx": 1.0, "iyy": 1.0, "izz": 1.0}
     assert gazebo.call(
-        "set_link_properties", kind, link_name="ball::link", mass=8.0, gravity_mode=False, **inertia
+        "set_link_properties", service_type, link_name="ball::link", mass=8.0, gravity_mode=False, **inertia
     ).success
-    told = gazebo.call("get_link_properties", "gazebo_msgs/GetLinkProperties", link_name="ball::link")
-    assert (told.mass, told.gravity_mode, told.ixx) == (8.0, False, 1.0)
+    properties = gazebo.call("get_link_properties", "gazebo_msgs/GetLinkProperties", link_name="ball::link")
+    assert (properties.mass, properties.gravity_mode, properties.ixx) == (8.0, False, 1.0)
     push = {"body_name": "ball::link", "wrench": {"force": {"x": 4.0}}, "duration": {"nanosec": 500_000_000}}
     gazebo.call("apply_body_wrench", "gazebo_msgs/ApplyBodyWrench", **push)
     gazebo.call("unpause_physics")
@@ -101,37 +103,37 @@ def test_a_mass_is_felt_by_what_pushes(gazebo: Gazebo) -> None:
 
     twist = gazebo.state("ball").twist.linear
     assert (twist.x, twist.z) == (pytest.approx(0.25, rel=1e-3), pytest.approx(0.0, abs=1e-9))
-    nothing = gazebo.call("set_link_properties", kind, link_name="ball::link", mass=0.0, **inertia)
+    nothing = gazebo.call("set_link_properties", service_type, link_name="ball::link", mass=0.0, **inertia)
     assert "must be greater than 0" in nothing.status_message
 
 
-def test_a_joint_is_given_limits_damping_and_a_motor(gazebo: Gazebo) -> None:
+def test_joint_limits_damping_and_motor_are_set(gazebo: Gazebo) -> None:
     gazebo.spawn(_PENDULUM, "arm")
-    kind = "gazebo_msgs/SetJointProperties"
+    service_type = "gazebo_msgs/SetJointProperties"
     config = {"hiStop": [0.5], "loStop": [-0.5], "damping": [0.25], "fmax": [10.0], "vel": [2.0], "cfm": [0.1]}
-    answer = gazebo.call("set_joint_properties", kind, **_JOINT, ode_joint_config=config)
-    assert answer.success
-    assert answer.status_message.endswith("without effect here: cfm")
+    response = gazebo.call("set_joint_properties", service_type, **_JOINT, ode_joint_config=config)
+    assert response.success
+    assert response.status_message.endswith("without effect here: cfm")
     gazebo.call("unpause_physics")
     gazebo.until_s(1.0)
 
-    told = gazebo.call("get_joint_properties", "gazebo_msgs/GetJointProperties", **_JOINT)
-    assert list(told.damping) == [0.25]
-    assert told.position[0] == pytest.approx(0.5, abs=0.01)  # driven against its new stop
+    properties = gazebo.call("get_joint_properties", "gazebo_msgs/GetJointProperties", **_JOINT)
+    assert list(properties.damping) == [0.25]
+    assert properties.position[0] == pytest.approx(0.5, abs=0.01)  # driven against its new stop
     for wrong in ({"hiStop": [-1.0]}, {"damping": [-1.0]}, {"fmax": [1.0, 2.0]}):
-        assert not gazebo.call("set_joint_properties", kind, **_JOINT, ode_joint_config=wrong).success
+        assert not gazebo.call("set_joint_properties", service_type, **_JOINT, ode_joint_config=wrong).success
 
 
-def test_lights_are_changed_and_taken_away(gazebo: Gazebo) -> None:
+def test_lights_are_changed_and_deleted(gazebo: Gazebo) -> None:
     name = {"light_name": "sun"}
     before = gazebo.call("get_light_properties", "gazebo_msgs/GetLightProperties", **name)
     assert before.success
-    colour = {"r": 1.0, "g": 0.5, "b": 0.25, "a": 1.0}
+    color = {"r": 1.0, "g": 0.5, "b": 0.25, "a": 1.0}
     assert gazebo.call(
         "set_light_properties",
         "gazebo_msgs/SetLightProperties",
         **name,
-        diffuse=colour,
+        diffuse=color,
         attenuation_linear=0.5,
         direction={"z": -2.0},
     ).success
@@ -140,8 +142,8 @@ def test_lights_are_changed_and_taken_away(gazebo: Gazebo) -> None:
     assert gazebo.world.simulation.world.lights[0].direction == (0.0, 0.0, -1.0)
 
     assert gazebo.call("delete_light", "gazebo_msgs/DeleteLight", **name).success
-    gone = gazebo.call("get_light_properties", "gazebo_msgs/GetLightProperties", **name)
-    assert gone.status_message == "GetLightProperties: no light 'sun'; there are: none"
+    deleted = gazebo.call("get_light_properties", "gazebo_msgs/GetLightProperties", **name)
+    assert deleted.status_message == "GetLightProperties: no light 'sun'; lights: none"
 
 
 @pytest.mark.parametrize(
@@ -155,22 +157,22 @@ def test_lights_are_changed_and_taken_away(gazebo: Gazebo) -> None:
         ("fast", "noetic", 0.001),
     ],
 )
-def test_the_clock_ticks_as_often_as_its_parameter_says(
+def test_the_clock_is_published_at_its_frequency_parameter(
     bare_gazebo: Gazebo, rate: object, distro: str, period: float
 ) -> None:
     gazebo = bare_gazebo
     if rate is not None:
         gazebo.loop.run(gazebo.client.params.set("/gazebo/pub_clock_frequency", rate))
     gazebo.start(distro)
-    heard = gazebo.hear("/clock", "rosgraph_msgs/Clock")
+    messages = gazebo.hear("/clock", "rosgraph_msgs/Clock")
     gazebo.call("unpause_physics")
 
     def closest() -> float:
         """Least time between two messages received [s]; on a busy machine some are lost."""
-        stamps = [message.clock.sec + message.clock.nanosec * 1e-9 for message in heard]
+        stamps = [message.clock.sec + message.clock.nanosec * 1e-9 for message in messages]
         return min((b - a for a, b in pairwise(stamps)), default=math.inf)
 
     until(lambda: closest() == pytest.approx(period, abs=1e-9))
-    count = len(heard)
-    until(lambda: len(heard) > count + 20)
+    count = len(messages)
+    until(lambda: len(messages) > count + 20)
     assert closest() == pytest.approx(period, abs=1e-9)

@@ -16,17 +16,17 @@ _NO_VECTOR = {"x": math.nan}
 _NOWHERE = {"position": _NO_VECTOR}
 
 
-def test_links_of_models_within_models_are_found(gazebo: Gazebo) -> None:
+def test_links_of_nested_models_are_found(gazebo: Gazebo) -> None:
     gazebo.spawn(_NESTED, "outer", x=2.0)
     for name in ("outer::inner::b", "inner::b", "b"):
-        answer = gazebo.call("get_link_state", "gazebo_msgs/GetLinkState", link_name=name)
-        assert (answer.success, answer.link_state.pose.position.x) == (True, 3.0)
+        response = gazebo.call("get_link_state", "gazebo_msgs/GetLinkState", link_name=name)
+        assert (response.success, response.link_state.pose.position.x) == (True, 3.0)
 
     model = gazebo.call("get_model_properties", "gazebo_msgs/GetModelProperties", model_name="outer")
     assert (list(model.body_names), list(model.child_model_names)) == (["a"], ["inner"])
 
 
-def test_what_is_no_number_is_refused_and_the_world_stays_sound(gazebo: Gazebo) -> None:
+def test_numbers_that_are_not_finite_are_refused(gazebo: Gazebo) -> None:
     gazebo.spawn(_ARM, "arm")
     requests: tuple[tuple[str, str, dict[str, Any]], ...] = (
         ("spawn_sdf_model", "SpawnModel", {"model_name": "b", "model_xml": _ARM, "initial_pose": _NOWHERE}),
@@ -41,18 +41,18 @@ def test_what_is_no_number_is_refused_and_the_world_stays_sound(gazebo: Gazebo) 
         ("apply_body_wrench", "ApplyBodyWrench", {"body_name": "base", "wrench": {"torque": {"x": math.inf}}}),
         ("apply_joint_effort", "ApplyJointEffort", {"joint_name": "turn", "effort": math.nan}),
     )
-    for service, kind, fields in requests:
-        answer = gazebo.call(service, f"gazebo_msgs/{kind}", **fields)
-        assert not answer.success
-        assert answer.status_message.startswith(f"{kind}: finite numbers are needed, got ")
+    for service, type_name, fields in requests:
+        response = gazebo.call(service, f"gazebo_msgs/{type_name}", **fields)
+        assert not response.success
+        assert response.status_message.startswith(f"{type_name}: finite numbers are needed, got ")
     gazebo.call("unpause_physics")
     gazebo.until_s(0.05)
     assert math.isfinite(gazebo.state("arm").pose.position.z)
 
 
-def test_a_namespace_is_given_to_plugins_that_have_none(gazebo: Gazebo) -> None:
+def test_a_namespace_applies_to_plugins_without_one(gazebo: Gazebo) -> None:
     plugin = "<plugin name='p' filename='libgazebo_ros_joint_state_publisher.so'><jointName>turn</jointName>"
-    for number, (written, asked, topic) in enumerate(
+    for number, (written, namespace, topic) in enumerate(
         (
             ("", "/one", "/one/joint_states"),
             ("", "/", "/joint_states"),
@@ -60,14 +60,14 @@ def test_a_namespace_is_given_to_plugins_that_have_none(gazebo: Gazebo) -> None:
         )
     ):
         model = _ARM.replace("</model>", f"{plugin}{written}</plugin></model>")
-        assert gazebo.spawn(model, f"arm{number}", x=3.0 * number, robot_namespace=asked).success
-        heard = gazebo.hear(topic, "sensor_msgs/JointState")
+        assert gazebo.spawn(model, f"arm{number}", x=3.0 * number, robot_namespace=namespace).success
+        messages = gazebo.hear(topic, "sensor_msgs/JointState")
         gazebo.call("unpause_physics")
-        until(lambda heard=heard: heard)
-        assert list(heard[0].name) == ["turn"]
+        until(lambda messages=messages: messages)
+        assert list(messages[0].name) == ["turn"]
 
 
-def test_the_twist_of_a_model_state_is_that_of_each_links_own_origin(gazebo: Gazebo) -> None:
+def test_the_twist_of_a_model_state_is_set_at_each_links_origin(gazebo: Gazebo) -> None:
     body = "<inertial><pose>0 0.3 0 0 0 0</pose><mass>1</mass></inertial>"
     links = "".join(
         f'<link name="{name}"><pose>{x} 0 0 0 0 0</pose>{body}</link>' for name, x in (("near", 0), ("far", 2))

@@ -1,4 +1,4 @@
-"""spawn_model's command line, as every distribution has it."""
+"""spawn_model's command line, in every distribution's form."""
 
 from pathlib import Path
 
@@ -23,7 +23,7 @@ endsolid s
 _TRIMESH = {"mass": "2", "ixx": "0.1", "iyy": "0.2", "izz": "0.3", "gravity": "false", "material": "Gazebo/Blue"}
 
 
-def test_every_word_of_noetic_is_read() -> None:
+def test_every_option_of_noetic_is_read() -> None:
     line = (
         "-urdf -param robot_description -model arm -reference_frame table -gazebo_namespace /g -robot_namespace r "
         "-unpause -wait table -x 1 -y=2 -z -0.5 -R .1 -P .2 -Y .3 -J a 1 -J b -2 -package_to_model -b"
@@ -44,7 +44,7 @@ def test_every_word_of_noetic_is_read() -> None:
     assert request.flags == {"-unpause", "-package_to_model", "-b"}
 
 
-def test_what_indigo_called_gazebo_is_sdf() -> None:
+def test_indigos_gazebo_option_is_sdf() -> None:
     request = SpawnRequest.read(["-gazebo", "-stdin", "-model", "cup", "-namespace", "r"])
 
     assert (request.kind, request.source, request.is_old) == ("sdf", "-stdin", True)
@@ -58,21 +58,21 @@ def test_what_indigo_called_gazebo_is_sdf() -> None:
         ("-urdf -param p", "-model NAME is missing"),
         ("-urdf -param p -model", "-model needs a value"),
         ("-J a b -model a", "a number is needed: could not convert string to float: 'b'"),
-        ("-model a -colour red", "no option '-colour'"),
+        ("-model a -tint red", "no option '-tint'"),
     ],
 )
-def test_a_slip_is_named(line: str, reason: str) -> None:
-    with pytest.raises(UsageError) as slip:
+def test_invalid_options_are_reported(line: str, reason: str) -> None:
+    with pytest.raises(UsageError) as error:
         SpawnRequest.read(line.split())
-    assert str(slip.value) == reason
+    assert str(error.value) == reason
 
 
 def test_a_mesh_is_a_model_of_one_link(tmp_path: Path) -> None:
     mesh = tmp_path / "a cup.stl"
     mesh.write_text(_MESH)
-    line = ["-trimesh", "-file", str(mesh), "-model", "cup", "-trimesh_name", "body"]
-    for word, value in _TRIMESH.items():
-        line += [f"-trimesh_{word}", value]
+    line: list[str] = ["-trimesh", "-file", str(mesh), "-model", "cup", "-trimesh_name", "body"]
+    for option, value in _TRIMESH.items():
+        line += [f"-trimesh_{option}", value]
     request = SpawnRequest.read(line)
 
     (tmp_path / "cup.sdf").write_text(trimesh_sdf(request.texts["-file"], request.trimesh))
@@ -90,17 +90,17 @@ def test_a_mesh_is_a_model_of_one_link(tmp_path: Path) -> None:
     [
         ({"mass": "heavy"}, "-trimesh_mass: a number is needed, got 'heavy'"),
         ({"gravity": "maybe"}, "-trimesh_gravity must be true or false, got 'maybe'"),
-        ({"colour": "red"}, "no option '-trimesh_colour'"),
+        ({"tint": "red"}, "no option '-trimesh_tint'"),
     ],
 )
-def test_a_mesh_with_a_slip_is_refused(tmp_path: Path, change: dict[str, str], reason: str) -> None:
+def test_invalid_mesh_options_are_reported(tmp_path: Path, change: dict[str, str], reason: str) -> None:
     mesh = tmp_path / "cup.stl"
     mesh.write_text(_MESH)
-    with pytest.raises(UsageError) as slip:
+    with pytest.raises(UsageError) as error:
         trimesh_sdf(str(mesh), {**_TRIMESH, "name": "body", **change})
-    assert str(slip.value) == reason
+    assert str(error.value) == reason
 
 
-def test_a_mesh_needs_all_its_words(tmp_path: Path) -> None:
+def test_a_mesh_requires_all_its_options(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="-trimesh needs -trimesh_gravity, -trimesh_material, -trimesh_name"):
         trimesh_sdf(str(tmp_path), dict.fromkeys(("mass", "ixx", "iyy", "izz"), "1"))

@@ -1,11 +1,11 @@
-"""The filter against motions whose course mechanics gives, and against a batch solution."""
+"""The filter against motions known from mechanics, and against a batch solution."""
 
 import math
 
 import numpy as np
 import pytest
 
-from trundle.gazebo.nodes.robot_localization.kalman import SIZE, KalmanFilter, Measurement, wrapped
+from trundle.gazebo.nodes.robot_localization.kalman import SIZE, KalmanFilter, Measurement, wrap_angles
 from trundle.spatial import matrix_from_quaternion, quaternion_from_axis_angle, quaternion_from_rpy
 
 NONE = np.zeros((SIZE, SIZE))
@@ -29,7 +29,7 @@ def measured(values: dict[int, float], variance: float, **more: float) -> Measur
 
 
 def test_a_turning_body_drives_a_circle() -> None:
-    """1 m/s at 0.5 rad/s: after half a turn it is 4 m to the left, and looks back."""
+    """1 m/s at 0.5 rad/s: after half a turn it is 4 m to the left, and faces backward."""
     body = filter_at(vx=1.0, wz=0.5)
     for _ in range(1000):
         body.predict(2.0 * math.pi / 1000)
@@ -74,10 +74,10 @@ def test_repeated_measurements_give_their_mean_and_its_variance() -> None:
     assert body.covariance == pytest.approx(body.covariance.T)
 
 
-def test_headings_on_both_sides_of_pi_meet_behind() -> None:
+def test_headings_on_both_sides_of_pi_average_to_pi() -> None:
     body = filter_at(variance=1.0, yaw=math.pi - 0.1)
     body.correct(measured({5: -math.pi + 0.1}, 1.0))
-    assert wrapped(body.state[5:6] - math.pi)[0] == pytest.approx(0.0, abs=1e-9)
+    assert wrap_angles(body.state[5:6] - math.pi)[0] == pytest.approx(0.0, abs=1e-9)
 
 
 def test_an_outlier_is_rejected_beyond_its_threshold() -> None:

@@ -37,7 +37,7 @@ class ArbotixJoint(Protocol):
 
 
 class ArbotixController(Protocol):
-    """A controller that is updated in every cycle of the driver's loop."""
+    """A controller updated in every cycle of the driver's loop."""
 
     readings: list[JointReading]
 

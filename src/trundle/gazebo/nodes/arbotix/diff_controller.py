@@ -57,9 +57,9 @@ class DiffController:
         self._base_frame = settings.text("base_frame_id", "base_link")
         self._odom_frame = settings.text("odom_frame_id", "odom")
         self._divider = RateDivider(node.clock.now_ns, rate_hz)
-        self._then_ns = node.clock.now_ns()
+        self._last_ns = node.clock.now_ns()
         self._base = Unicycle()
-        # The original's names, whatever the robot calls its wheels; simulated wheels do not turn.
+        # The original's names, independent of the robot's; simulated wheels do not turn.
         self.readings = [JointReading(name="base_l_wheel_joint"), JointReading(name="base_r_wheel_joint")]
         node.subscribe("cmd_vel", "geometry_msgs/Twist", self._command)
         self._odom = node.advertise("odom", "nav_msgs/Odometry", queue_size=5)
@@ -78,8 +78,8 @@ class DiffController:
             self._base.speed, self._base.turn_rate = speed, turn_rate
 
     def _integrate(self, now_ns: int) -> None:
-        self._base.integrate(max(0, now_ns - self._then_ns) / 1e9)
-        self._then_ns = now_ns
+        self._base.integrate(max(0, now_ns - self._last_ns) / 1e9)
+        self._last_ns = now_ns
 
     def update(self) -> None:
         """Integrate and publish, if due."""
@@ -87,14 +87,14 @@ class DiffController:
         if not self._divider.due():
             return
         self._integrate(now)
-        half = self._base.heading / 2.0
+        half_yaw = self._base.heading / 2.0
         self._broadcaster.send_transform(
             Transform(
                 parent=self._odom_frame,
                 child=self._base_frame,
                 stamp_ns=self._node.clock.now_ns(),
                 translation=(self._base.x, self._base.y, 0.0),
-                rotation=(math.cos(half), 0.0, 0.0, math.sin(half)),
+                rotation=(math.cos(half_yaw), 0.0, 0.0, math.sin(half_yaw)),
             )
         )
         self._odom.publish(
@@ -104,7 +104,7 @@ class DiffController:
                 "pose": {
                     "pose": {
                         "position": {"x": self._base.x, "y": self._base.y, "z": 0.0},
-                        "orientation": {"x": 0.0, "y": 0.0, "z": math.sin(half), "w": math.cos(half)},
+                        "orientation": {"x": 0.0, "y": 0.0, "z": math.sin(half_yaw), "w": math.cos(half_yaw)},
                     }
                 },
                 "twist": {

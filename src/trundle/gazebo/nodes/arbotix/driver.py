@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class ArbotixDriver:
-    """Runs the controllers and joints in the node's parameters, in one loop as the original does."""
+    """Runs the controllers and joints in the node's parameters in one loop, like the original."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del arguments, host
@@ -101,7 +101,7 @@ class ArbotixDriver:
         return joints + [reading for controller in self._controllers for reading in controller.readings]
 
     def _publish_joint_states(self) -> None:
-        """Publish servos, then the controllers' joints; also without any joints."""
+        """Publish servos, then the controllers' joints; even without joints."""
         readings = self._readings()
         self._joint_states.publish(
             {
@@ -113,8 +113,8 @@ class ArbotixDriver:
         )
 
     def _publish_diagnostics(self) -> None:
-        parts = [*self._controllers, *self._joints.values()]
-        entries = [status for part in parts if (status := part.status()) is not None]
+        components = [*self._controllers, *self._joints.values()]
+        entries = [status for component in components if (status := component.status()) is not None]
         self._diagnostics.publish(
             {
                 "header": {"stamp": self._node.clock.now_ns()},

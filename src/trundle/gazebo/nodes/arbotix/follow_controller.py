@@ -14,9 +14,9 @@ from .servo_controller import Servo
 if TYPE_CHECKING:
     from trundle.ros.message_types import control_msgs, trajectory_msgs
 
-_EARLY_NS = 10_000_000
+_ARRIVAL_MARGIN_NS = 10_000_000
 """A point counts as reached this long before its time."""
-_NEAR_RAD = 0.001
+_TOLERANCE_RAD = 0.001
 
 
 class FollowController:
@@ -40,7 +40,7 @@ class FollowController:
         if missing := sorted(set(servos) - set(self._servos)):
             raise ParamError(f"no servo {missing[0]!r}; servos here: {', '.join(joints) or 'none'}")
         action = settings.text("action_name", "follow_joint_trajectory")
-        # Not below the controller's name: configurations write `action_name: arm_controller/follow_joint_trajectory`.
+        # Not below the controller's name: configurations have `action_name: arm_controller/follow_joint_trajectory`.
         self._server = ActionServer(node, action, "control_msgs/FollowJointTrajectory", self._on_goal)
         self._topic_task: asyncio.Task[ActionOutcome] | None = None
         for servo in self._servos.values():
@@ -89,18 +89,18 @@ class FollowController:
         rate = Rate(self._node, self._rate_hz)
         last = [self._servos[joint].reading.position for joint in self._joints]
         for point in trajectory.points:
-            wanted = [float(point.positions[index]) for index in order]
+            target = [float(point.positions[index]) for index in order]
             end_ns = start_ns + to_nsec(point.time_from_start)
-            while clock.now_ns() + _EARLY_NS < end_ns:
-                self._step(last, wanted, cycles=self._rate_hz * (end_ns - clock.now_ns()) / 1e9)
+            while clock.now_ns() + _ARRIVAL_MARGIN_NS < end_ns:
+                self._step(last, target, cycles=self._rate_hz * (end_ns - clock.now_ns()) / 1e9)
                 await rate.sleep()
         return ActionOutcome(text="Trajectory execution complete")
 
-    def _step(self, last: list[float], wanted: list[float], *, cycles: float) -> None:
-        """Interpolate one of the cycles left until the point."""
+    def _step(self, last: list[float], target: list[float], *, cycles: float) -> None:
+        """Interpolate one of the remaining cycles until the point."""
         for index, joint in enumerate(self._joints):
-            error = wanted[index] - last[index]
-            if abs(error) > _NEAR_RAD:
+            error = target[index] - last[index]
+            if abs(error) > _TOLERANCE_RAD:
                 last[index] += error / max(cycles, 1.0)
                 self._servos[joint].command(last[index])
 

@@ -15,7 +15,7 @@ from ..private_parameters import private_parameters
 if TYPE_CHECKING:
     from trundle.ros.message_types import control_msgs, sensor_msgs
 
-_NEAR_RAD = 0.02
+_TOLERANCE_RAD = 0.02
 """Tolerance of a reached command; servos count in ticks of 0.3 degrees."""
 _POLL_S = 0.05
 
@@ -37,8 +37,8 @@ class Gripper:
     pad_width_m: float = 0.01
     finger_length_m: float | None = None
     scale: float = 1.0
-    smallest_m: float = -math.inf
-    largest_m: float = math.inf
+    min_opening_m: float = -math.inf
+    max_opening_m: float = math.inf
     bounded: bool = False
     """True: openings are clamped to the limits; else rejected."""
 
@@ -49,9 +49,11 @@ class Gripper:
             ValueError: the opening is out of range.
         """
         if self.bounded:
-            opening_m = min(max(opening_m, self.smallest_m), self.largest_m)
-        if not self.smallest_m <= opening_m <= self.largest_m:
-            raise ValueError(f"{opening_m:g} m exceeds the opening limits {self.smallest_m:g} … {self.largest_m:g} m")
+            opening_m = min(max(opening_m, self.min_opening_m), self.max_opening_m)
+        if not self.min_opening_m <= opening_m <= self.max_opening_m:
+            raise ValueError(
+                f"{opening_m:g} m exceeds the opening limits {self.min_opening_m:g} … {self.max_opening_m:g} m"
+            )
         if self.finger_length_m is None:
             return {jaw.joint: opening_m * self.scale + jaw.center for jaw in self.jaws}
         sine = (opening_m - self.pad_width_m) / (2.0 * self.finger_length_m)
@@ -78,20 +80,20 @@ def read_gripper(settings: RosParameters) -> Gripper:
             _jaw(settings, "joint_right", "r_gripper_joint", "center_right", "invert_right", sign=-1.0),
         )
     else:
-        raise ParamError(f"no gripper model {model!r}; there are dualservo, parallel, singlesided")
+        raise ParamError(f"no gripper model {model!r}; models: dualservo, parallel, singlesided")
     return Gripper(
         jaws=jaws,
         pad_width_m=settings.number("pad_width", 0.01),
         finger_length_m=settings.number("finger_length", 0.02),
-        smallest_m=settings.number("min_opening", 0.0),
-        largest_m=settings.number("max_opening", 0.09),
+        min_opening_m=settings.number("min_opening", 0.0),
+        max_opening_m=settings.number("max_opening", 0.09),
         bounded=model == "singlesided",
     )
 
 
 def _jaw(settings: RosParameters, joint: str, default: str, center: str, invert: str, *, sign: float) -> Jaw:
-    turned = -sign if settings.flag(invert, default=False) else sign
-    return Jaw(joint=settings.text(joint, default), center=settings.number(center, 0.0), sign=turned)
+    direction = -sign if settings.flag(invert, default=False) else sign
+    return Jaw(joint=settings.text(joint, default), center=settings.number(center, 0.0), sign=direction)
 
 
 class GripperController:
@@ -135,15 +137,15 @@ class GripperController:
         for joint, command in commands.items():
             self._commands[joint].publish({"data": command})
         clock = self._node.clock
-        last, since_ns = dict(self._positions), clock.now_ns()
+        last, moved_ns = dict(self._positions), clock.now_ns()
         while True:
             await asyncio.sleep(_POLL_S)
-            here = {joint: self._positions.get(joint, math.inf) for joint in commands}
-            if all(abs(here[joint] - command) < _NEAR_RAD for joint, command in commands.items()):
+            positions = {joint: self._positions.get(joint, math.inf) for joint in commands}
+            if all(abs(positions[joint] - command) < _TOLERANCE_RAD for joint, command in commands.items()):
                 return ActionOutcome(result={"position": opening_m, "reached_goal": True})
             if any(self._positions.get(joint) != last.get(joint) for joint in commands):
-                last, since_ns = dict(self._positions), clock.now_ns()
-            elif clock.now_ns() - since_ns > max(self._stalled_s, 1.0) * 1e9:
-                if math.inf in here.values():
+                last, moved_ns = dict(self._positions), clock.now_ns()
+            elif clock.now_ns() - moved_ns > max(self._stalled_s, 1.0) * 1e9:
+                if math.inf in positions.values():
                     return ActionOutcome(status="aborted", text="joint_states lacks the gripper's position")
                 return ActionOutcome(result={"position": opening_m, "stalled": True})

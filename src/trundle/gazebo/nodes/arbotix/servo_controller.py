@@ -59,7 +59,7 @@ class Servo:
         self._moving = True
 
     def interpolate(self, rate_hz: float) -> None:
-        """Move by at most the speed limit's share of one cycle, rounded to ticks."""
+        """Move by at most one cycle at the speed limit, rounded to ticks."""
         if not self._moving:
             return
         limit = self._max_speed / rate_hz
@@ -109,12 +109,12 @@ class DynamixelServo(Servo):
             super().command(position)
 
     def interpolate(self, rate_hz: float) -> None:
-        now, before = self._node.clock.now_ns(), self.reading.position
+        now, last_position = self._node.clock.now_ns(), self.reading.position
         was_moving = self._moving
         super().interpolate(rate_hz)
         elapsed_s = (now - self._last_ns) / 1e9
-        moved = was_moving and elapsed_s > 0.0
-        self.reading.velocity = (self.reading.position - before) / elapsed_s if moved else 0.0
+        has_moved = was_moving and elapsed_s > 0.0
+        self.reading.velocity = (self.reading.position - last_position) / elapsed_s if has_moved else 0.0
         self._last_ns = now
 
     def relax(self, _request: "arbotix_msgs.RelaxRequest") -> dict[str, object]:

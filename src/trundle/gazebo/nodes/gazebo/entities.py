@@ -1,4 +1,4 @@
-"""Lookup of models, links and joints by /gazebo's names: `model`, `model::link`, `link` for the first of that name."""
+"""Lookup of models, links and joints by /gazebo's names: `model`, `model::link`, or `link` for the first match."""
 
 from trundle.base.diagnostics import UsageError
 from trundle.robots.model import Light, World
@@ -12,43 +12,43 @@ def find_link(simulation: Simulation, name: str) -> LinkHandle:
     """Find a link by scoped name, or the first one by plain name.
 
     Raises:
-        UsageError: no such name; lists those that exist.
+        UsageError: no such name; the message lists existing names.
     """
     for model in simulation.models:
         for link in model.links:
-            if _is_called(name, model.name, link.name):
+            if _matches(name, model.name, link.name):
                 return link
-    raise UsageError(f"no link {name!r}; there are: {_listed([n for n, _ in scoped_links(simulation)])}")
+    raise UsageError(f"no link {name!r}; links: {_name_list([n for n, _ in scoped_links(simulation)])}")
 
 
 def find_joint(simulation: Simulation, name: str) -> JointHandle:
     """Find a joint by plain or scoped name.
 
     Raises:
-        UsageError: no such name; lists those that exist.
+        UsageError: no such name; the message lists existing names.
     """
     for model in simulation.models:
         for joint in model.joints:
-            if _is_called(name, model.name, joint.name):
+            if _matches(name, model.name, joint.name):
                 return joint
     names = [joint.name for model in simulation.models for joint in model.joints]
-    raise UsageError(f"no joint {name!r}; there are: {_listed(names)}")
+    raise UsageError(f"no joint {name!r}; joints: {_name_list(names)}")
 
 
 def find_light(world: World, name: str) -> Light:
     """Find a light by name.
 
     Raises:
-        UsageError: no such name; lists those that exist.
+        UsageError: no such name; the message lists existing names.
     """
     for light in world.lights:
         if light.name == name:
             return light
-    raise UsageError(f"no light {name!r}; there are: {_listed([light.name for light in world.lights])}")
+    raise UsageError(f"no light {name!r}; lights: {_name_list([light.name for light in world.lights])}")
 
 
 def scoped_links(simulation: Simulation) -> list[tuple[str, LinkHandle]]:
-    """All links with their scoped names, in file order."""
+    """Return all links with their scoped names, in file order."""
     return [(f"{model.name}::{link.name}", link) for model in simulation.models for link in model.links]
 
 
@@ -56,13 +56,13 @@ def find_model(simulation: Simulation, name: str) -> ModelHandle:
     """Find a model by name.
 
     Raises:
-        UsageError: no such name; lists those that exist.
+        UsageError: no such name; the message lists existing names.
     """
     return simulation[name]
 
 
 def world_from_entity(simulation: Simulation, entity: str) -> Pose:
-    """Pose in the world of a model, a link, or the world itself.
+    """Return the pose of a model, a link or the world, in the world.
 
     Raises:
         UsageError: no such entity.
@@ -75,14 +75,14 @@ def world_from_entity(simulation: Simulation, entity: str) -> Pose:
 
 
 def is_world(entity: str) -> bool:
-    """True for names of the world."""
+    """Return True for names of the world."""
     return entity in _WORLD
 
 
-def _is_called(name: str, model: str, part: str) -> bool:
-    """True if a name, scoped or plain, matches a model's part, whose own name is scoped in nested models."""
+def _matches(name: str, model: str, part: str) -> bool:
+    """Return True if a scoped or plain name matches a model's part; names of parts of nested models are scoped."""
     return name in (f"{model}::{part}", part, part.rpartition("::")[2])
 
 
-def _listed(names: list[str]) -> str:
+def _name_list(names: list[str]) -> str:
     return ", ".join(names[:40]) or "none"

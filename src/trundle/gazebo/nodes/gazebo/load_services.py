@@ -18,24 +18,24 @@ if TYPE_CHECKING:
 
 def advertise_load_services(node: Node, simulator: Simulator) -> None:
     """Advertise apply_body_wrench, clear_body_wrenches, apply_joint_effort, clear_joint_forces (or _efforts)."""
-    efforts = _LoadServices(node, simulator)
-    advertise_status_service(node, "apply_body_wrench", "ApplyBodyWrench", efforts.apply_body_wrench, "")
+    services = _LoadServices(node, simulator)
+    advertise_status_service(node, "apply_body_wrench", "ApplyBodyWrench", services.apply_body_wrench, "")
     advertise_status_service(
-        node, "apply_joint_effort", "ApplyJointEffort", efforts.apply_joint_effort, "ApplyJointEffort: effort set"
+        node, "apply_joint_effort", "ApplyJointEffort", services.apply_joint_effort, "ApplyJointEffort: effort set"
     )
-    node.advertise_service("~clear_body_wrenches", "gazebo_msgs/BodyRequest", efforts.clear_body_wrenches)
-    node.advertise_service("~clear_joint_forces", "gazebo_msgs/JointRequest", efforts.clear_joint_forces)
-    node.advertise_service("~clear_joint_efforts", "gazebo_msgs/JointRequest", efforts.clear_joint_forces)
+    node.advertise_service("~clear_body_wrenches", "gazebo_msgs/BodyRequest", services.clear_body_wrenches)
+    node.advertise_service("~clear_joint_forces", "gazebo_msgs/JointRequest", services.clear_joint_forces)
+    node.advertise_service("~clear_joint_efforts", "gazebo_msgs/JointRequest", services.clear_joint_forces)
 
 
 class _LoadServices:
     def __init__(self, node: Node, simulator: Simulator) -> None:
         self._node = node
         self._simulator = simulator
-        self._wrenches = TimedLoads[LinkHandle, Wrench](simulator.simulation, _push)
-        self._efforts = TimedLoads[JointHandle, float](simulator.simulation, _turn)
-        for schedule in (self._wrenches, self._efforts):
-            simulator.post(schedule.start)
+        self._wrenches = TimedLoads[LinkHandle, Wrench](simulator.simulation, _apply_newest_wrench)
+        self._efforts = TimedLoads[JointHandle, float](simulator.simulation, _apply_effort_sum)
+        for loads in (self._wrenches, self._efforts):
+            simulator.post(loads.start)
 
     def apply_body_wrench(self, request: "gazebo_msgs.ApplyBodyWrenchRequest") -> dict[str, Any]:
         """Apply a wrench for a duration: force at the centre of mass, plus its moment from the reference point.
@@ -84,12 +84,12 @@ class _LoadServices:
         return {}
 
 
-def _push(link: LinkHandle, wrenches: list[Wrench]) -> None:
+def _apply_newest_wrench(link: LinkHandle, wrenches: list[Wrench]) -> None:
     """Apply the newest wrench only, as Link::SetForce does."""
     link.apply_wrench(wrenches[-1] if wrenches else Wrench())
 
 
-def _turn(joint: JointHandle, efforts: list[float]) -> None:
+def _apply_effort_sum(joint: JointHandle, efforts: list[float]) -> None:
     """Apply the sum of efforts, as Joint::SetForce does."""
     joint.command_effort(sum(efforts))
 

@@ -14,18 +14,18 @@ if TYPE_CHECKING:
 
 
 def pose_fields(pose: Pose) -> dict[str, object]:
-    """Fields of a geometry_msgs/Pose."""
+    """Return the fields of a geometry_msgs/Pose."""
     w, x, y, z = pose.quaternion
     return {"position": vector_fields(pose.position), "orientation": {"x": x, "y": y, "z": z, "w": w}}
 
 
 def vector_fields(vector: Vector3) -> dict[str, float]:
-    """Fields of a geometry_msgs/Vector3 or Point."""
+    """Return the fields of a geometry_msgs/Vector3 or Point."""
     return dict(zip("xyz", vector, strict=True))
 
 
 def twist_fields(twist: Twist) -> dict[str, object]:
-    """Fields of a geometry_msgs/Twist."""
+    """Return the fields of a geometry_msgs/Twist."""
     return {"linear": vector_fields(twist.linear), "angular": vector_fields(twist.angular)}
 
 
@@ -45,11 +45,15 @@ def read_pose(message: "geometry_msgs.Pose") -> Pose:
     Raises:
         UsageError: a number is not finite.
     """
-    q = message.orientation
-    expect_finite(q.w, q.x, q.y, q.z)
-    length = math.hypot(q.w, q.x, q.y, q.z)
-    turn = (q.w / length, q.x / length, q.y / length, q.z / length) if length > 0.0 else IDENTITY_QUATERNION
-    return Pose(read_vector(message.position), turn)
+    orientation = message.orientation
+    expect_finite(orientation.w, orientation.x, orientation.y, orientation.z)
+    length = math.hypot(orientation.w, orientation.x, orientation.y, orientation.z)
+    quaternion = (
+        (orientation.w / length, orientation.x / length, orientation.y / length, orientation.z / length)
+        if length > 0.0
+        else IDENTITY_QUATERNION
+    )
+    return Pose(read_vector(message.position), quaternion)
 
 
 def read_twist(message: "geometry_msgs.Twist") -> Twist:
@@ -62,21 +66,21 @@ def read_twist(message: "geometry_msgs.Twist") -> Twist:
 
 
 def advertise_status_service(
-    node: Node, name: str, kind: str, work: Callable[[Message], dict[str, object]], done: str
+    node: Node, name: str, kind: str, handler: Callable[[Message], dict[str, object]], status_message: str
 ) -> None:
-    """Advertise a service with `success` and `status_message`, as those of gazebo_ros.
+    """Advertise a service with `success` and `status_message`, like those of gazebo_ros.
 
     Args:
-        node: /gazebo.
+        node: node /gazebo.
         name: service name, in the node's namespace.
         kind: service type in gazebo_msgs, also the prefix of error messages.
-        work: handles a request and returns the response's other fields.
-        done: `status_message` on success.
+        handler: handles a request and returns the response's other fields.
+        status_message: `status_message` on success.
     """
 
     def handle(request: Message) -> dict[str, Any]:
         try:
-            return {"status_message": done, **work(request), "success": True}
+            return {"status_message": status_message, **handler(request), "success": True}
         except TrundleError as error:
             return {"success": False, "status_message": f"{kind}: {error}"}
 

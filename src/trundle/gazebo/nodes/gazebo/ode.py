@@ -1,10 +1,10 @@
-"""ODE's settings, which scripts read and write back; MuJoCo has no counterparts."""
+"""ODE's settings, which scripts read and write back; MuJoCo has no equivalents."""
 
 from trundle.ros import Message, Option
 
 Setting = bool | int | float
 
-_MANY = 10_000_000
+_MAX_VALUE = 10_000_000
 _SETTINGS: tuple[tuple[str, Setting, float, str], ...] = (
     ("auto_disable_bodies", False, 1, "Disable bodies at rest"),
     ("sor_pgs_precon_iters", 0, 10_000, "Preconditioning iterations of the solver"),
@@ -14,8 +14,8 @@ _SETTINGS: tuple[tuple[str, Setting, float, str], ...] = (
     ("cfm", 0.0, 10, "Constraint force mixing"),
     ("erp", 0.2, 10, "Error reduction"),
     ("contact_surface_layer", 0.001, 10, "Depth of contact without force [m]"),
-    ("contact_max_correcting_vel", 100.0, _MANY, "Maximum correcting velocity of contacts [m/s]"),
-    ("max_contacts", 20, _MANY, "Contacts between two bodies"),
+    ("contact_max_correcting_vel", 100.0, _MAX_VALUE, "Maximum correcting velocity of contacts [m/s]"),
+    ("max_contacts", 20, _MAX_VALUE, "Contacts between two bodies"),
 )
 """Name, Gazebo's default, maximum in gazebo_ros' cfg/Physics.cfg, description."""
 IGNORED = "without effect here, where MuJoCo is the engine: "
@@ -28,11 +28,11 @@ class OdeSettings:
         self.values: dict[str, Setting] = {name: value for name, value, _, _ in _SETTINGS}
 
     def update_config(self, config: Message) -> list[str]:
-        """Store the values of a gazebo_msgs/ODEPhysics; returns the names of those changed."""
+        """Store the values of a gazebo_msgs/ODEPhysics; returns the names of changed settings."""
         return self.update({name: getattr(config, name) for name in self.values})
 
     def update(self, values: dict[str, Setting]) -> list[str]:
-        """Store values; returns the names of those changed."""
+        """Store values; returns the names of changed settings."""
         changed = [name for name, value in values.items() if value != self.values[name]]
         self.values.update(values)
         return changed

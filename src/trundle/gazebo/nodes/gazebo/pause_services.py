@@ -10,19 +10,19 @@ from ..host import Simulator
 
 def advertise_pause_services(node: Node, simulator: Simulator) -> None:
     """Advertise pause_physics, unpause_physics, reset_simulation and reset_world."""
-    calls: dict[str, Callable[[], None]] = {
+    actions: dict[str, Callable[[], None]] = {
         "pause_physics": lambda: simulator.set_paused(True),
         "unpause_physics": lambda: simulator.set_paused(False),
         "reset_simulation": lambda: simulator.reset(time=True),
         "reset_world": lambda: simulator.reset(time=False),
     }
-    for name, call in calls.items():
-        node.advertise_service(f"~{name}", "std_srvs/Empty", _done(call))
+    for name, action in actions.items():
+        node.advertise_service(f"~{name}", "std_srvs/Empty", _handler(action))
 
 
-def _done(call: Callable[[], None]) -> Callable[[Message], dict[str, Any]]:
+def _handler(action: Callable[[], None]) -> Callable[[Message], dict[str, Any]]:
     def handle(_request: Message) -> dict[str, Any]:
-        call()
+        action()
         return {}
 
     return handle

@@ -11,9 +11,9 @@ from trundle.sim.sensors import CameraSensor
 from ..host import Simulator
 
 _PERIOD_S = 1.0
-"""Period chosen here: Gazebo's, which gazebo_ros forwards, was not found in a source."""
-_NO_PICTURES = -1.0
-"""`fps` of other sensors than cameras, as in GazeboRosApiPlugin::onPerformanceMetrics."""
+"""Publishing period [s]; no source gives Gazebo's, which gazebo_ros forwards."""
+_NO_FPS = -1.0
+"""`fps` of sensors other than cameras, as in GazeboRosApiPlugin::onPerformanceMetrics."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,13 +33,13 @@ class MetricsTopic:
     def __init__(self, node: Node, simulator: Simulator) -> None:
         self._simulator = simulator
         self._topic = node.advertise("~performance_metrics", "gazebo_msgs/PerformanceMetrics", queue_size=10)
-        self._before: _Sample | None = None
+        self._last: _Sample | None = None
         self._due_s = 0.0
 
     def due(self) -> bool:
-        """True if there are subscribers and a second has passed."""
+        """Return True if there are subscribers and a second has passed."""
         if not self._topic.has_subscribers or self._simulator.is_lockstep:
-            self._before = None
+            self._last = None
             return False
         if time.monotonic() < self._due_s:
             return False
@@ -48,23 +48,23 @@ class MetricsTopic:
 
     def publish(self) -> None:
         """Publish the rates since the last call; on the simulation's thread."""
-        simulator, before = self._simulator, self._before
+        simulator, last = self._simulator, self._last
         now_ns = simulator.simulation.time_ns
         readings = {id(sensor): sensor.reading_count for sensor in simulator.sensors}
-        self._before = now = _Sample(time.monotonic(), now_ns / 1e9, readings)
-        if before is None or now.sim_s < before.sim_s:  # first call, or time was reset
+        self._last = sample = _Sample(time.monotonic(), now_ns / 1e9, readings)
+        if last is None or sample.sim_s < last.sim_s:  # first call, or time was reset
             return
-        wall_s, sim_s = now.wall_s - before.wall_s, now.sim_s - before.sim_s
+        wall_s, sim_s = sample.wall_s - last.wall_s, sample.sim_s - last.sim_s
         sensors: list[dict[str, Any]] = []
         for sensor in simulator.sensors:
-            count = sensor.reading_count - before.readings.get(id(sensor), 0)
-            a_second = count / wall_s
+            count = sensor.reading_count - last.readings.get(id(sensor), 0)
+            real_rate = count / wall_s
             sensors.append(
                 {
                     "name": sensor.name,
                     "sim_update_rate": count / sim_s if sim_s else 0.0,
-                    "real_update_rate": a_second,
-                    "fps": a_second if isinstance(sensor, CameraSensor) else _NO_PICTURES,
+                    "real_update_rate": real_rate,
+                    "fps": real_rate if isinstance(sensor, CameraSensor) else _NO_FPS,
                 }
             )
         self._topic.publish({"header": {"stamp": now_ns}, "real_time_factor": sim_s / wall_s, "sensors": sensors})

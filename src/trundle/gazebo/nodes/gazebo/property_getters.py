@@ -27,7 +27,7 @@ _CONTINUOUS = 1
 def advertise_property_getters(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
     """Advertise the get_…_properties services."""
     properties = _PropertyGetters(simulator, ode)
-    for name, kind, work in (
+    for name, kind, handler in (
         ("get_world_properties", "GetWorldProperties", properties.get_world_properties),
         ("get_model_properties", "GetModelProperties", properties.get_model_properties),
         ("get_link_properties", "GetLinkProperties", properties.get_link_properties),
@@ -35,7 +35,7 @@ def advertise_property_getters(node: Node, simulator: Simulator, ode: OdeSetting
         ("get_physics_properties", "GetPhysicsProperties", properties.get_physics_properties),
         ("get_light_properties", "GetLightProperties", properties.get_light_properties),
     ):
-        advertise_status_service(node, name, kind, work, f"{kind}: got properties")
+        advertise_status_service(node, name, kind, handler, f"{kind}: got properties")
 
 
 class _PropertyGetters:
@@ -53,14 +53,14 @@ class _PropertyGetters:
 
     def get_model_properties(self, request: "gazebo_msgs.GetModelPropertiesRequest") -> dict[str, Any]:
         model = find_model(self._simulator.simulation, request.model_name)
-        own = [link for link in model.links if "::" not in link.name]
-        inner = [link for link in model.links if "::" in link.name]
+        links = [link for link in model.links if "::" not in link.name]
+        nested_links = [link for link in model.links if "::" in link.name]
         return {
             "canonical_body_name": model.links[0].name if model.links else "",
-            "body_names": [link.name for link in own],
-            "geom_names": [shape.name for link in own for shape in link.link.collisions],
+            "body_names": [link.name for link in links],
+            "geom_names": [shape.name for link in links for shape in link.link.collisions],
             "joint_names": [joint.name for joint in model.joints if "::" not in joint.name],
-            "child_model_names": list(dict.fromkeys(link.name.partition("::")[0] for link in inner)),
+            "child_model_names": list(dict.fromkeys(link.name.partition("::")[0] for link in nested_links)),
             "is_static": model.model.static,
         }
 
@@ -83,9 +83,9 @@ class _PropertyGetters:
     def get_joint_properties(self, request: "gazebo_msgs.GetJointPropertiesRequest") -> dict[str, Any]:
         handle = find_joint(self._simulator.simulation, request.joint_name)
         joint = handle.joint
-        endless = joint.type is JointType.REVOLUTE and joint.axis is not None and joint.axis.upper == math.inf
+        is_continuous = joint.type is JointType.REVOLUTE and joint.axis is not None and joint.axis.upper == math.inf
         return {
-            "type": _CONTINUOUS if endless else _JOINT_TYPES.get(joint.type, _JOINT_TYPES[JointType.REVOLUTE]),
+            "type": _CONTINUOUS if is_continuous else _JOINT_TYPES.get(joint.type, _JOINT_TYPES[JointType.REVOLUTE]),
             "damping": [axis.damping for axis in (joint.axis, joint.axis2) if axis is not None],
             "position": list(handle.positions),
             "rate": list(handle.velocities),

@@ -20,34 +20,34 @@ if TYPE_CHECKING:
     from trundle.ros.message_types import gazebo_msgs, std_msgs
     from trundle.sim.simulation import Simulation
 
-_NO_COUNTERPART = ("erp", "cfm", "stop_erp", "stop_cfm", "fudge_factor")
-"""Settings of ODE joints without counterparts in MuJoCo."""
+_NO_EQUIVALENT = ("erp", "cfm", "stop_erp", "stop_cfm", "fudge_factor")
+"""Settings of ODE joints without equivalents in MuJoCo."""
 _UPDATED = "physics engine updated"
-SHORTEST_S, LONGEST_S = 1e-6, 1.0
+MIN_STEP_S, MAX_STEP_S = 1e-6, 1.0
 """Limits of a world's <max_step_size>."""
 
 
 def advertise_property_setters(node: Node, simulator: Simulator, ode: OdeSettings) -> None:
     """Advertise set_physics_, set_link_, set_joint_ and set_light_properties, and delete_light."""
-    changes = _PropertySetters(simulator, ode)
-    for name, kind, work, done in (
-        ("set_physics_properties", "SetPhysicsProperties", changes.set_physics_properties, _UPDATED),
-        ("set_link_properties", "SetLinkProperties", changes.set_link_properties, "SetLinkProperties: properties set"),
+    services = _PropertySetters(simulator, ode)
+    for name, kind, handler, status_message in (
+        ("set_physics_properties", "SetPhysicsProperties", services.set_physics_properties, _UPDATED),
+        ("set_link_properties", "SetLinkProperties", services.set_link_properties, "SetLinkProperties: properties set"),
         (
             "set_joint_properties",
             "SetJointProperties",
-            changes.set_joint_properties,
+            services.set_joint_properties,
             "SetJointProperties: properties set",
         ),
         (
             "set_light_properties",
             "SetLightProperties",
-            changes.set_light_properties,
+            services.set_light_properties,
             "SetLightProperties: properties set",
         ),
-        ("delete_light", "DeleteLight", changes.delete_light, "DeleteLight: successfully deleted light"),
+        ("delete_light", "DeleteLight", services.delete_light, "DeleteLight: successfully deleted light"),
     ):
-        advertise_status_service(node, name, kind, work, done)
+        advertise_status_service(node, name, kind, handler, status_message)
 
 
 def set_physics(simulator: Simulator, *, step_s: float, gravity: Vector3, rate_hz: float) -> None:
@@ -56,16 +56,16 @@ def set_physics(simulator: Simulator, *, step_s: float, gravity: Vector3, rate_h
     Raises:
         UsageError: a value is out of range.
     """
-    if not SHORTEST_S <= step_s <= LONGEST_S:
-        raise UsageError(f"time_step must be from {SHORTEST_S:g} to {LONGEST_S:g} s, got {step_s:g}")
+    if not MIN_STEP_S <= step_s <= MAX_STEP_S:
+        raise UsageError(f"time_step must be from {MIN_STEP_S:g} to {MAX_STEP_S:g} s, got {step_s:g}")
     if not all(math.isfinite(value) for value in (*gravity, rate_hz)) or rate_hz < 0.0:
         raise UsageError("gravity and max_update_rate must be finite, the rate not below 0")
     world = simulator.simulation.world
-    before = world.physics
-    physics = replace(before, max_step_size_s=step_s, gravity=gravity, real_time_update_rate_hz=rate_hz)
+    previous = world.physics
+    physics = replace(previous, max_step_size_s=step_s, gravity=gravity, real_time_update_rate_hz=rate_hz)
     simulator.do(lambda simulation: simulation.edit(replace(world, physics=physics)))
     speed = rate_hz * step_s
-    if speed != before.real_time_update_rate_hz * before.max_step_size_s:
+    if speed != previous.real_time_update_rate_hz * previous.max_step_size_s:
         simulator.set_speed(speed or None)
 
 
@@ -100,26 +100,26 @@ class _PropertySetters:
             raise UsageError("a link's mass and its moments of inertia ixx, iyy and izz must be greater than 0")
         model = next(model.model for model in simulation.models if handle in model.links)
         link = replace(handle.link, inertial=inertial, gravity=bool(request.gravity_mode))
-        self._put(replace(model, links=_with(model.links, link)))
+        self._replace_model(replace(model, links=_replace_by_name(model.links, link)))
         return {}
 
     def set_joint_properties(self, request: "gazebo_msgs.SetJointPropertiesRequest") -> dict[str, Any]:
         """Set damping and limits of each axis, and ODE's joint motor (fmax, vel)."""
         simulation = self._simulator.simulation
         handle = find_joint(simulation, request.joint_name)
-        asked = request.ode_joint_config
+        config = request.ode_joint_config
         for name in ("damping", "hiStop", "loStop", "fmax", "vel"):
-            given = len(getattr(asked, name))
-            if given > len(handle.axes):
-                raise UsageError(f"{name} has {given} values; the joint has {len(handle.axes)} axes")
+            count = len(getattr(config, name))
+            if count > len(handle.axes):
+                raise UsageError(f"{name} has {count} values; the joint has {len(handle.axes)} axes")
         model = next((model.model for model in simulation.models if handle in model.joints), None)
         if model is None:
             raise UsageError(f"joint {handle.name!r} belongs to the world; its properties cannot be changed")
         joint = handle.joint
-        changed = replace(joint, axis=_axis(joint, 0, asked), axis2=_axis(joint, 1, asked))
+        changed = replace(joint, axis=_axis(joint, 0, config), axis2=_axis(joint, 1, config))
         if changed != joint:
-            self._put(replace(model, joints=_with(model.joints, changed)))
-        motors = [(float(effort), float(speed)) for effort, speed in zip(asked.fmax, asked.vel, strict=False)]
+            self._replace_model(replace(model, joints=_replace_by_name(model.joints, changed)))
+        motors = [(float(effort), float(speed)) for effort, speed in zip(config.fmax, config.vel, strict=False)]
 
         def drive(_: "Simulation") -> None:
             for axis, (effort, speed) in enumerate(motors):
@@ -127,12 +127,12 @@ class _PropertySetters:
 
         if motors:
             self._simulator.do(drive)
-        ignored = [name for name in _NO_COUNTERPART if len(getattr(asked, name))]
+        ignored = [name for name in _NO_EQUIVALENT if len(getattr(config, name))]
         note = f"SetJointProperties: properties set; without effect here: {', '.join(ignored)}"
         return {"status_message": note} if ignored else {}
 
     def set_light_properties(self, request: "gazebo_msgs.SetLightPropertiesRequest") -> dict[str, Any]:
-        """Set colours, attenuation, pose and direction."""
+        """Set colors, attenuation, pose and direction."""
         world = self._simulator.simulation.world
         light = find_light(world, request.light_name)
         direction = read_vector(request.direction)
@@ -141,44 +141,46 @@ class _PropertySetters:
         changed = replace(
             light,
             cast_shadows=bool(request.cast_shadows),
-            diffuse=_colour(request.diffuse),
-            specular=_colour(request.specular),
+            diffuse=_color(request.diffuse),
+            specular=_color(request.specular),
             constant=float(request.attenuation_constant),
             linear=float(request.attenuation_linear),
             quadratic=float(request.attenuation_quadratic),
             direction=(x / length, y / length, z / length) if length > 0.0 else light.direction,
             world_from_light=read_pose(request.pose),
         )
-        self._light(light, [changed])
+        self._replace_light(light, [changed])
         return {}
 
     def delete_light(self, request: "gazebo_msgs.DeleteLightRequest") -> dict[str, Any]:
         """Delete a light of the world."""
-        self._light(find_light(self._simulator.simulation.world, request.light_name), [])
+        self._replace_light(find_light(self._simulator.simulation.world, request.light_name), [])
         return {}
 
-    def _light(self, light: Light, now: list[Light]) -> None:
+    def _replace_light(self, light: Light, replacements: list[Light]) -> None:
         world = self._simulator.simulation.world
-        lights = tuple(new for old in world.lights for new in (now if old is light else [old]))
+        lights = tuple(
+            item for existing in world.lights for item in (replacements if existing is light else [existing])
+        )
         self._simulator.do(lambda simulation: simulation.edit(replace(world, lights=lights)))
 
-    def _put(self, model: Model) -> None:
+    def _replace_model(self, model: Model) -> None:
         world = self._simulator.simulation.world
-        models = tuple(model if there.name == model.name else there for there in world.models)
+        models = tuple(model if other.name == model.name else other for other in world.models)
         self._simulator.do(lambda simulation: simulation.edit(replace(world, models=models)))
 
 
-def _with(parts: "Sequence[Link] | Sequence[Joint]", part: "Link | Joint") -> Any:
-    return tuple(part if there.name == part.name else there for there in parts)
+def _replace_by_name(parts: "Sequence[Link] | Sequence[Joint]", part: "Link | Joint") -> Any:
+    return tuple(part if other.name == part.name else other for other in parts)
 
 
-def _axis(joint: Joint, number: int, asked: Message) -> JointAxis | None:
+def _axis(joint: Joint, number: int, config: Message) -> JointAxis | None:
     axis = (joint.axis, joint.axis2)[number]
     if axis is None:
         return None
 
     def value(name: str, default: float) -> float:
-        values = getattr(asked, name)
+        values = getattr(config, name)
         return float(values[number]) if len(values) > number else default
 
     lower, upper = value("loStop", axis.lower), value("hiStop", axis.upper)
@@ -190,5 +192,5 @@ def _axis(joint: Joint, number: int, asked: Message) -> JointAxis | None:
     return replace(axis, lower=lower, upper=upper, damping=damping)
 
 
-def _colour(colour: "std_msgs.ColorRGBA") -> tuple[float, float, float, float]:
-    return (float(colour.r), float(colour.g), float(colour.b), float(colour.a))
+def _color(color: "std_msgs.ColorRGBA") -> tuple[float, float, float, float]:
+    return (float(color.r), float(color.g), float(color.b), float(color.a))

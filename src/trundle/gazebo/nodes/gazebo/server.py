@@ -19,14 +19,14 @@ from .state_services import advertise_state_services
 from .state_topics import StateTopics
 
 _EMPTY_WORLD = "worlds/empty.world"
-_TAKES_A_VALUE = frozenset(
+_OPTIONS_WITH_VALUE = frozenset(
     {
         *("-e", "--physics", "-p", "--play", "-s", "--server-plugin", "-o", "--profile", "--seed", "--iters"),
         *("--record_path", "--record_period", "--record_filter", "--initial_sim_time", "--lockstep"),
     }
 )
-_WHAT_THIS_IS = re.compile(r"libgazebo_ros_(api_plugin|paths_plugin|init|factory|state)\.so$")
-"""Server plugins in command lines whose functions this node provides."""
+_PROVIDED_PLUGINS = re.compile(r"libgazebo_ros_(api_plugin|paths_plugin|init|factory|state)\.so$")
+"""Server plugins whose functions this node provides."""
 _UNSUPPORTED = {
     "-p": "playing a log",
     "--play": "playing a log",
@@ -69,7 +69,7 @@ class GazeboServer:
         node.deliver = simulator.post
         topics, metrics = StateTopics(node, simulator), MetricsTopic(node, simulator)
         self._advertise(simulator)
-        await node.wait_registered()  # a caller that finds one service finds all
+        await node.wait_registered()  # so that all services appear together
         simulator.begin()
         while not node.closed.is_set():
             if simulator.paused and not simulator.is_lockstep and topics.has_subscribers():
@@ -78,7 +78,7 @@ class GazeboServer:
                 simulator.post(metrics.publish)
             if simulator.is_lockstep:
                 await node.clock.sleep(topics.period_s)
-            else:  # wall time, since a paused world is published, too
+            else:  # wall time, since a paused world is also published
                 await asyncio.sleep(topics.period_s)
 
     def _advertise(self, simulator: Simulator) -> None:
@@ -94,25 +94,25 @@ class GazeboServer:
             advertise(self._node, simulator, ode)
 
     def _read_arguments(self) -> tuple[str, bool, str | None]:
-        """World, initial pause, and folder of recordings; options without effect are logged."""
+        """Return the world, the initial pause and the recordings' folder; options without effect are logged."""
         world, paused, record = _EMPTY_WORLD, False, None
-        words = iter(self._arguments)
-        for word in words:
-            option, equals, value = word.partition("=")
-            if option in _TAKES_A_VALUE and not equals:
-                value = next(words, "")
+        arguments = iter(self._arguments)
+        for argument in arguments:
+            option, equals, value = argument.partition("=")
+            if option in _OPTIONS_WITH_VALUE and not equals:
+                value = next(arguments, "")
             if option in ("-u", "--pause"):
                 paused = True
             elif option in ("-r", "--record"):
                 record = record or ""
             elif option == "--record_path":
                 record = value
-            elif option in _UNSUPPORTED and not _WHAT_THIS_IS.search(value):
-                self._node.log.warn(f"gzserver {word} {value}: {_UNSUPPORTED[option]} is not supported")
+            elif option in _UNSUPPORTED and not _PROVIDED_PLUGINS.search(value):
+                self._node.log.warn(f"gzserver {argument} {value}: {_UNSUPPORTED[option]} is not supported")
             elif option in ("-e", "--physics") and value not in ("ode", ""):
                 self._node.log.info(f"physics engine {value!r} is not available; using MuJoCo")
-            elif not word.startswith("-"):
-                world = word
+            elif not argument.startswith("-"):
+                world = argument
         return world, paused, record
 
 

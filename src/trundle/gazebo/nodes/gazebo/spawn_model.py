@@ -40,7 +40,7 @@ class SpawnModel:
             node.log.error(f"spawn_model: {error}")
             return 1
         if "-b" in request.flags:
-            await self._stay(request.texts["-model"], gazebo)
+            await self._delete_on_shutdown(request.texts["-model"], gazebo)
         return 0
 
     async def _spawn(self, request: SpawnRequest, gazebo: str) -> None:
@@ -51,7 +51,7 @@ class SpawnModel:
         service = f"{gazebo}/spawn_{kind}_model"
         node.log.info(f"Waiting for service {service}")
         await node.wait_for_service(service)
-        answer = await node.call_service(
+        response = await node.call_service(
             service,
             "gazebo_msgs/SpawnModel",
             {
@@ -62,10 +62,10 @@ class SpawnModel:
                 "reference_frame": texts.get("-reference_frame", ""),
             },
         )
-        _check(answer)
-        node.log.info(f"Spawn status: {answer.status_message}")
+        _check(response)
+        node.log.info(f"Spawn status: {response.status_message}")
         if request.joints:
-            answer = await node.call_service(
+            response = await node.call_service(
                 f"{gazebo}/set_model_configuration",
                 "gazebo_msgs/SetModelConfiguration",
                 {
@@ -75,13 +75,13 @@ class SpawnModel:
                     "joint_positions": list(request.joints.values()),
                 },
             )
-            _check(answer)
-            node.log.info(answer.status_message)
+            _check(response)
+            node.log.info(response.status_message)
         if "-unpause" in request.flags:
             await node.call_service(f"{gazebo}/unpause_physics", "std_srvs/Empty")
 
     async def _model(self, request: SpawnRequest) -> tuple[str, Literal["urdf", "sdf"]]:
-        """Text and format of the model."""
+        """Return the text and format of the model."""
         texts = request.texts
         source = request.source
         if request.kind == "trimesh":
@@ -113,18 +113,20 @@ class SpawnModel:
         """Wait until another model exists."""
         if model is None:
             return
-        found = asyncio.Event()
+        appeared = asyncio.Event()
 
         def on_message(message: Message) -> None:
             if model in message.name:
-                found.set()
+                appeared.set()
 
         self._node.log.info(f"Waiting for model {model} before proceeding.")
-        listening = self._node.subscribe(f"{gazebo}/model_states", "gazebo_msgs/ModelStates", on_message, queue_size=1)
-        await found.wait()
-        listening.unregister()
+        subscription = self._node.subscribe(
+            f"{gazebo}/model_states", "gazebo_msgs/ModelStates", on_message, queue_size=1
+        )
+        await appeared.wait()
+        subscription.unregister()
 
-    async def _stay(self, model: str, gazebo: str) -> None:
+    async def _delete_on_shutdown(self, model: str, gazebo: str) -> None:
         self._node.log.info("Waiting for shutdown to delete the model")
         try:
             await self._node.closed.wait()
@@ -133,9 +135,9 @@ class SpawnModel:
             await self._node.call_service(f"{gazebo}/delete_model", "gazebo_msgs/DeleteModel", fields, timeout_s=1.0)
 
 
-def _check(answer: Message) -> None:
-    if not answer.success:
-        raise UsageError(answer.status_message)
+def _check(response: Message) -> None:
+    if not response.success:
+        raise UsageError(response.status_message)
 
 
 def _read(file: str) -> str:

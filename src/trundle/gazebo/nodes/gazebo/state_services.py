@@ -20,20 +20,22 @@ _CONFIGURED = "SetModelConfiguration: success"
 def advertise_state_services(node: Node, simulator: Simulator) -> None:
     """Advertise the services of model and link states, and subscribe ~set_model_state and ~set_link_state."""
     states = _StateServices(simulator)
-    for name, kind, work, done in (
+    for name, kind, handler, status_message in (
         ("get_model_state", "GetModelState", states.get_model_state, "got properties"),
         ("get_link_state", "GetLinkState", states.get_link_state, "got state"),
         ("set_model_state", "SetModelState", states.set_model_state, "set model state done"),
         ("set_link_state", "SetLinkState", states.set_link_state, "success"),
     ):
-        advertise_status_service(node, name, kind, work, f"{kind}: {done}")
-    work = states.set_model_configuration
-    advertise_status_service(node, "set_model_configuration", "SetModelConfiguration", work, _CONFIGURED)
-    for name, kind, work in (
+        advertise_status_service(node, name, kind, handler, f"{kind}: {status_message}")
+    handler = states.set_model_configuration
+    advertise_status_service(node, "set_model_configuration", "SetModelConfiguration", handler, _CONFIGURED)
+    for name, kind, handler in (
         ("set_model_state", "ModelState", states.on_model_state),
         ("set_link_state", "LinkState", states.on_link_state),
     ):
-        node.subscribe(f"~{name}", f"gazebo_msgs/{kind}", lambda message, work=work: _tried(node, work, message))
+        node.subscribe(
+            f"~{name}", f"gazebo_msgs/{kind}", lambda message, handler=handler: _handle_or_log(node, handler, message)
+        )
 
 
 class _StateServices:
@@ -48,14 +50,14 @@ class _StateServices:
         return {
             "header": {"stamp": simulation.time_ns, "frame_id": request.relative_entity_name},
             "pose": pose_fields(frame.inverse() @ model.pose),
-            "twist": twist_fields(_seen_from(simulation, frame, request.relative_entity_name, model.pose, twist)),
+            "twist": twist_fields(_relative_twist(simulation, frame, request.relative_entity_name, model.pose, twist)),
         }
 
     def get_link_state(self, request: "gazebo_msgs.GetLinkStateRequest") -> dict[str, Any]:
         simulation = self._simulator.simulation
         link = find_link(simulation, request.link_name)
         frame = world_from_entity(simulation, request.reference_frame)
-        twist = _seen_from(simulation, frame, request.reference_frame, link.pose, link.twist)
+        twist = _relative_twist(simulation, frame, request.reference_frame, link.pose, link.twist)
         return {
             "link_state": {
                 "link_name": request.link_name,
@@ -75,27 +77,27 @@ class _StateServices:
         simulation = self._simulator.simulation
         model = find_model(simulation, state.model_name)
         frame = world_from_entity(simulation, state.reference_frame)
-        pose, twist = frame @ read_pose(state.pose), _turned(frame, read_twist(state.twist))
+        pose, twist = frame @ read_pose(state.pose), _rotate_to_world(frame, read_twist(state.twist))
 
-        def place(_: Simulation) -> None:
+        def apply(_: Simulation) -> None:
             model.set_pose(pose)
             if not model.model.static:
                 model.set_link_twists(twist)
 
-        self._simulator.do(place)
+        self._simulator.do(apply)
         return {}
 
     def on_link_state(self, state: "gazebo_msgs.LinkState") -> dict[str, Any]:
         simulation = self._simulator.simulation
         link = find_link(simulation, state.link_name)
         frame = world_from_entity(simulation, state.reference_frame)
-        pose, twist = frame @ read_pose(state.pose), _turned(frame, read_twist(state.twist))
+        pose, twist = frame @ read_pose(state.pose), _rotate_to_world(frame, read_twist(state.twist))
 
-        def place(_: Simulation) -> None:
+        def apply(_: Simulation) -> None:
             link.set_pose(pose)
             link.set_twist(twist)
 
-        self._simulator.do(place)
+        self._simulator.do(apply)
         return {}
 
     def set_model_configuration(self, request: "gazebo_msgs.SetModelConfigurationRequest") -> dict[str, Any]:
@@ -107,52 +109,52 @@ class _StateServices:
             name.rpartition("::")[2]: float(p)
             for name, p in zip(request.joint_names, request.joint_positions, strict=True)
         }
-        known = {joint.name for joint in model.joints}
+        existing = {joint.name for joint in model.joints}
 
-        def place(_: Simulation) -> None:
-            for name in joints.keys() & known:
+        def apply(_: Simulation) -> None:
+            for name in joints.keys() & existing:
                 model.joint(name).set_position(joints[name])
                 model.joint(name).set_velocity(0.0)
 
-        self._simulator.do(place)
-        absent = ", ".join(repr(name) for name in joints if name not in known)
-        note = f"{_CONFIGURED}; model {request.model_name!r} has no joint {absent}"  # which Gazebo ignores
-        return {"status_message": note} if absent else {}
+        self._simulator.do(apply)
+        missing = ", ".join(repr(name) for name in joints if name not in existing)
+        note = f"{_CONFIGURED}; model {request.model_name!r} has no joint {missing}"  # which Gazebo ignores
+        return {"status_message": note} if missing else {}
 
 
-def _turned(frame: Pose, twist: Twist) -> Twist:
+def _rotate_to_world(frame: Pose, twist: Twist) -> Twist:
     """Rotate a twist from a frame's axes to the world's."""
     return Twist(frame.transform_vector(twist.linear), frame.transform_vector(twist.angular))
 
 
-def _seen_from(simulation: Simulation, frame: Pose, entity: str, pose: Pose, twist: Twist) -> Twist:
-    """Twist relative to a moving entity, in its axes."""
-    reference = _carrier(simulation, entity)
+def _relative_twist(simulation: Simulation, frame: Pose, entity: str, pose: Pose, twist: Twist) -> Twist:
+    """Return a twist relative to a moving entity, in its axes."""
+    reference = _reference_link(simulation, entity)
     if reference is None:
         return twist
-    own = reference.twist
+    reference_twist = reference.twist
     arm = tuple(a - b for a, b in zip(pose.position, reference.pose.position, strict=True))
-    (wx, wy, wz), (x, y, z) = own.angular, (arm[0], arm[1], arm[2])
-    carried = (wy * z - wz * y, wz * x - wx * z, wx * y - wy * x)
-    linear = tuple(v - o - c for v, o, c in zip(twist.linear, own.linear, carried, strict=True))
-    angular = tuple(v - o for v, o in zip(twist.angular, own.angular, strict=True))
-    back = frame.inverse()
+    (wx, wy, wz), (x, y, z) = reference_twist.angular, (arm[0], arm[1], arm[2])
+    rotation_velocity = (wy * z - wz * y, wz * x - wx * z, wx * y - wy * x)
+    linear = tuple(v - o - c for v, o, c in zip(twist.linear, reference_twist.linear, rotation_velocity, strict=True))
+    angular = tuple(v - o for v, o in zip(twist.angular, reference_twist.angular, strict=True))
+    entity_from_world = frame.inverse()
     return Twist(
-        back.transform_vector((linear[0], linear[1], linear[2])),
-        back.transform_vector((angular[0], angular[1], angular[2])),
+        entity_from_world.transform_vector((linear[0], linear[1], linear[2])),
+        entity_from_world.transform_vector((angular[0], angular[1], angular[2])),
     )
 
 
-def _carrier(simulation: Simulation, entity: str) -> LinkHandle | None:
-    """Link that moves with an entity; None for the world."""
+def _reference_link(simulation: Simulation, entity: str) -> LinkHandle | None:
+    """Return the link that moves with an entity; None for the world."""
     for model in simulation.models:
         if model.name == entity:
             return model.base if model.links else None
     return None if is_world(entity) else find_link(simulation, entity)
 
 
-def _tried(node: Node, work: Any, message: Message) -> None:
+def _handle_or_log(node: Node, handler: Any, message: Message) -> None:
     try:
-        work(message)
+        handler(message)
     except TrundleError as error:
         node.log.error(str(error))

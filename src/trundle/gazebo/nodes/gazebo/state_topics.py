@@ -18,9 +18,9 @@ _ORDER = [0, 1, 2, 4, 5, 6, 3]
 
 
 class StateTopics:
-    """Both topics, published while they have subscribers; while paused, by the server.
+    """Both topics, published while they have subscribers; the server publishes them while paused.
 
-    In lockstep, a paused world is published only on new subscribers and model changes, for repeatability.
+    In lockstep, a paused world is published only for new subscribers and after model changes, for repeatability.
     """
 
     period_s = 0.01
@@ -28,8 +28,8 @@ class StateTopics:
     def __init__(self, node: Node, simulator: Simulator) -> None:
         self._simulator = simulator
         kinds: tuple[tuple[str, str, Callable[[Simulation], _Rows]], ...] = (
-            ("~model_states", "gazebo_msgs/ModelStates", _of_models),
-            ("~link_states", "gazebo_msgs/LinkStates", _of_links),
+            ("~model_states", "gazebo_msgs/ModelStates", _model_rows),
+            ("~link_states", "gazebo_msgs/LinkStates", _link_rows),
         )
         self._topics = [_StateTopic(node, simulator, name, kind, rows) for name, kind, rows in kinds]
 
@@ -81,7 +81,7 @@ class _StateTopic:
 
 
 class _Rows:
-    """Precomputed rows of a message; serialized directly, as a subscriber may need it at 1 kHz."""
+    """Precomputed rows of a message; serialized directly, since subscribers may need it at 1 kHz."""
 
     def __init__(self, rows: Sequence[tuple[str, int | None, Pose]]) -> None:
         """Prepare the rows.
@@ -99,7 +99,7 @@ class _Rows:
         ]
 
     def message(self, snapshot: Snapshot) -> bytes:
-        """Serialized message."""
+        """Return the serialized message."""
         poses, twists = np.zeros((self._count, 7)), np.zeros((self._count, 6))
         poses[self._moving] = snapshot.poses[self._links]
         twists[self._moving] = snapshot.twists[self._links]
@@ -109,12 +109,12 @@ class _Rows:
         return self._names + b"".join(_array(self._count, data) for data in numbers)
 
 
-def _of_models(simulation: Simulation) -> _Rows:
-    """Rows of models; twists are those of the canonical link, as in gazebo_ros."""
+def _model_rows(simulation: Simulation) -> _Rows:
+    """Return the rows of models; twists are the canonical link's, as in gazebo_ros."""
     return _Rows([_row(model) for model in simulation.models])
 
 
-def _of_links(simulation: Simulation) -> _Rows:
+def _link_rows(simulation: Simulation) -> _Rows:
     return _Rows([(name, link.index, Pose()) for name, link in scoped_links(simulation)])
 
 

@@ -20,21 +20,21 @@ class _ScheduledLoad(Generic[Target, Load]):
 
 
 class TimedLoads(Generic[Target, Load]):
-    """Timed loads on links or joints; a simulation hook that is active only while a load has yet to begin or end."""
+    """Timed loads on links or joints; a simulation hook that is active only until every load has ended."""
 
-    def __init__(self, simulation: Simulation, put: Callable[[Target, list[Load]], None]) -> None:
+    def __init__(self, simulation: Simulation, apply: Callable[[Target, list[Load]], None]) -> None:
         """Create; call `start` first.
 
         Args:
             simulation: clock of the loads.
-            put: replaces the loads on a target, oldest first.
+            apply: replaces the loads on a target, oldest first.
         """
         self._simulation = simulation
-        self._put = put
+        self._apply = apply
         self._jobs: list[_ScheduledLoad[Target, Load]] = []
-        self._acting: dict[Target, list[Load]] = {}
+        self._active_loads: dict[Target, list[Load]] = {}
         self._next_ns: int | None = None
-        """Next time a load begins or ends [ns]."""
+        """Next time at which a load begins or ends [ns]."""
 
     def start(self) -> None:
         """Register the hook."""
@@ -61,20 +61,20 @@ class TimedLoads(Generic[Target, Load]):
     def _reschedule(self) -> None:
         now = self._simulation.time_ns
         self._jobs = [job for job in self._jobs if job.target.is_valid and (job.end_ns is None or job.end_ns > now)]
-        acting: dict[Target, list[Load]] = {}
+        active_loads: dict[Target, list[Load]] = {}
         for job in self._jobs:
             if job.start_ns <= now:
-                acting.setdefault(job.target, []).append(job.load)
-        for target in {**self._acting, **acting}:
-            loads = acting.get(target, [])
-            if target.is_valid and loads != self._acting.get(target, []):
-                self._put(target, loads)
-        self._acting = acting
+                active_loads.setdefault(job.target, []).append(job.load)
+        for target in {**self._active_loads, **active_loads}:
+            loads = active_loads.get(target, [])
+            if target.is_valid and loads != self._active_loads.get(target, []):
+                self._apply(target, loads)
+        self._active_loads = active_loads
         times = [time for job in self._jobs for time in (job.start_ns, job.end_ns) if time is not None and time > now]
         self._next_ns = min(times, default=None)
 
     def _on_reset(self) -> None:
         """Drop all loads: a reset clears applied forces."""
         self._jobs.clear()
-        self._acting.clear()
+        self._active_loads.clear()
         self._next_ns = None

@@ -10,37 +10,37 @@ from xml.etree.ElementTree import Element, SubElement, tostring
 
 from trundle.base.diagnostics import UsageError
 
-_WORDS = ("mass", "ixx", "iyy", "izz", "gravity", "material", "name")
-_TRUE = {"true": "true", "1": "true", "false": "false", "0": "false"}
+_OPTIONS = ("mass", "ixx", "iyy", "izz", "gravity", "material", "name")
+_BOOLEANS = {"true": "true", "1": "true", "false": "false", "0": "false"}
 
 
-def trimesh_sdf(file: str, words: Mapping[str, str]) -> str:
+def trimesh_sdf(file: str, options: Mapping[str, str]) -> str:
     """Generate the model's SDF.
 
     Args:
         file: mesh file.
-        words: values of the `-trimesh_…` options by the name after `trimesh_`; all are required.
+        options: values of the `-trimesh_…` options by the name after `trimesh_`; all are required.
 
     Raises:
         UsageError: an option is missing, unknown or invalid, or the file does not exist.
     """
-    missing = [f"-trimesh_{word}" for word in _WORDS if word not in words]
-    unknown = [f"-trimesh_{word}" for word in words if word not in _WORDS]
+    missing = [f"-trimesh_{option}" for option in _OPTIONS if option not in options]
+    unknown = [f"-trimesh_{option}" for option in options if option not in _OPTIONS]
     if missing or unknown:
         raise UsageError(f"-trimesh needs {', '.join(missing)}" if missing else f"no option {unknown[0]!r}")
     if not os.path.isfile(file):
-        raise UsageError(f"-file {file}: there is no such file")
-    gravity = _TRUE.get(words["gravity"].lower())
+        raise UsageError(f"-file {file}: no such file")
+    gravity = _BOOLEANS.get(options["gravity"].lower())
     if gravity is None:
-        raise UsageError(f"-trimesh_gravity must be true or false, got {words['gravity']!r}")
+        raise UsageError(f"-trimesh_gravity must be true or false, got {options['gravity']!r}")
     sdf = Element("sdf", version="1.4")
-    link = SubElement(SubElement(sdf, "model", name="trimesh"), "link", name=words["name"])
+    link = SubElement(SubElement(sdf, "model", name="trimesh"), "link", name=options["name"])
     SubElement(link, "gravity").text = gravity
     inertial = SubElement(link, "inertial")
-    SubElement(inertial, "mass").text = _number("mass", words)
+    SubElement(inertial, "mass").text = _number("mass", options)
     inertia = SubElement(inertial, "inertia")
     for moment in ("ixx", "iyy", "izz"):
-        SubElement(inertia, moment).text = _number(moment, words)
+        SubElement(inertia, moment).text = _number(moment, options)
     for product in ("ixy", "ixz", "iyz"):
         SubElement(inertia, product).text = "0"
     for part in ("collision", "visual"):
@@ -48,12 +48,12 @@ def trimesh_sdf(file: str, words: Mapping[str, str]) -> str:
         mesh = SubElement(SubElement(shape, "geometry"), "mesh")
         SubElement(mesh, "uri").text = Path(file).absolute().as_uri()
         if part == "visual":
-            SubElement(SubElement(SubElement(shape, "material"), "script"), "name").text = words["material"]
+            SubElement(SubElement(SubElement(shape, "material"), "script"), "name").text = options["material"]
     return tostring(sdf, encoding="unicode")
 
 
-def _number(name: str, words: Mapping[str, str]) -> str:
+def _number(name: str, options: Mapping[str, str]) -> str:
     try:
-        return repr(float(words[name]))
+        return repr(float(options[name]))
     except ValueError:
-        raise UsageError(f"-trimesh_{name}: a number is needed, got {words[name]!r}") from None
+        raise UsageError(f"-trimesh_{name}: a number is needed, got {options[name]!r}") from None

@@ -19,7 +19,7 @@ from trundle.robots.meshes import ignored_decoder_warnings, why_undecoded
 
 _FREE, _OCCUPIED, _UNKNOWN = 0, 100, -1
 _MAX_BYTES = 256 * 1024 * 1024
-_LARGEST_PIXELS = 100_000_000
+_MAX_PIXELS = 100_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,25 +40,25 @@ def read_map(file: Path) -> OccupancyGrid:
         UsageError: a file or key is missing or invalid.
     """
     try:
-        described: Any = load_yaml(read_file(file).decode())
+        metadata: Any = load_yaml(read_file(file).decode())
     except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
         raise UsageError(f"map {file}: {error}") from None
-    if not isinstance(described, dict):
+    if not isinstance(metadata, dict):
         raise UsageError(f"map {file}: not a YAML mapping")
     try:
-        picture = file.parent / str(described["image"])
-        x, y, yaw = (float(v) for v in described["origin"])
-        resolution_m = float(described["resolution"])
-        negate = bool(int(described["negate"]))
-        occupied, free = float(described["occupied_thresh"]), float(described["free_thresh"])
+        image_path = file.parent / str(metadata["image"])
+        x, y, yaw = (float(v) for v in metadata["origin"])
+        resolution_m = float(metadata["resolution"])
+        negate = bool(int(metadata["negate"]))
+        occupied, free = float(metadata["occupied_thresh"]), float(metadata["free_thresh"])
     except KeyError as error:
         raise UsageError(f"map {file}: the key {error} is missing") from None
     except (TypeError, ValueError) as error:
         raise UsageError(f"map {file}: {error}") from None
-    mode = str(described.get("mode", "trinary"))
+    mode = str(metadata.get("mode", "trinary"))
     if mode not in ("trinary", "scale", "raw"):
-        raise UsageError(f"map {file}: no mode {mode!r}; there are trinary, scale, raw")
-    cells = read_cells(picture, negate=negate, occupied=occupied, free=free, mode=mode)
+        raise UsageError(f"map {file}: no mode {mode!r}; modes: trinary, scale, raw")
+    cells = read_cells(image_path, negate=negate, occupied=occupied, free=free, mode=mode)
     return OccupancyGrid(cells=cells, resolution_m=positive(resolution_m, file), origin=(x, y, yaw))
 
 
@@ -81,7 +81,7 @@ def read_cells(picture: Path, *, negate: bool, occupied: float, free: float, mod
         negate: True: light is occupied.
         occupied: threshold of occupancy [0, 1]; cells above are occupied.
         free: threshold of occupancy [0, 1]; cells below are free.
-        mode: cells in between become unknown (trinary) or a number (scale); raw uses grey values as occupancies.
+        mode: cells between the thresholds become unknown (trinary) or scaled (scale); raw: grey values are occupancies.
 
     Raises:
         UsageError: the file is not an image.
@@ -90,15 +90,15 @@ def read_cells(picture: Path, *, negate: bool, occupied: float, free: float, mod
 
 
 def _pixels(picture: Path) -> NDArray[np.float64]:
-    """Pixels (height, width, channels) 0 … 255; the last of two or four channels is alpha."""
+    """Return the pixels (height, width, channels) 0 … 255; the last of two or four channels is alpha."""
     try:
         with ignored_decoder_warnings(), Image.open(io.BytesIO(read_file(picture, max_bytes=_MAX_BYTES))) as image:
-            if image.width * image.height > _LARGEST_PIXELS:
+            if image.width * image.height > _MAX_PIXELS:
                 raise UsageError(
-                    f"{picture}: {image.width} × {image.height} pixels exceed the limit of {_LARGEST_PIXELS} for maps"
+                    f"{picture}: {image.width} × {image.height} pixels exceed the limit of {_MAX_PIXELS} for maps"
                 )
-            plain = image if image.mode in ("L", "LA", "RGB", "RGBA") else image.convert("L")
-            pixels = np.asarray(plain, dtype=np.float64)
+            converted = image if image.mode in ("L", "LA", "RGB", "RGBA") else image.convert("L")
+            pixels = np.asarray(converted, dtype=np.float64)
     except UsageError:
         raise
     except Exception as error:  # every decoder of Pillow has its own exceptions
@@ -108,23 +108,23 @@ def _pixels(picture: Path) -> NDArray[np.float64]:
 
 def _cells(pixels: NDArray[np.float64], *, negate: bool, occupied: float, free: float, mode: str) -> NDArray[np.int8]:
     has_opacity = pixels.shape[2] in (2, 4)
-    # In trinary mode, the original averages alpha with the colours.
-    colours = pixels[:, :, :-1] if has_opacity and mode != "trinary" else pixels
-    shade = 255.0 - colours.mean(axis=2) if negate else colours.mean(axis=2)
+    # In trinary mode, the original averages alpha with the colors.
+    channels = pixels[:, :, :-1] if has_opacity and mode != "trinary" else pixels
+    brightness = 255.0 - channels.mean(axis=2) if negate else channels.mean(axis=2)
     if mode == "raw":  # byte by byte: 255 is −1
-        return np.flipud(shade).astype(np.uint8).view(np.int8)
-    occupancy = (255.0 - shade) / 255.0
-    between = np.full_like(occupancy, _UNKNOWN)
+        return np.flipud(brightness).astype(np.uint8).view(np.int8)
+    occupancy = (255.0 - brightness) / 255.0
+    intermediate = np.full_like(occupancy, _UNKNOWN)
     if mode == "scale":
-        between = np.floor(1.0 + 98.0 * (occupancy - free) / (occupied - free))
+        intermediate = np.floor(1.0 + 98.0 * (occupancy - free) / (occupied - free))
         if has_opacity:
-            between[pixels[:, :, -1] < 1.0] = _UNKNOWN
-    cells = np.where(occupancy > occupied, _OCCUPIED, np.where(occupancy < free, _FREE, between))
+            intermediate[pixels[:, :, -1] < 1.0] = _UNKNOWN
+    cells = np.where(occupancy > occupied, _OCCUPIED, np.where(occupancy < free, _FREE, intermediate))
     return np.flipud(cells).astype(np.int8)
 
 
 def write_map(file: Path, grid: OccupancyGrid, *, occupied: int, free: int) -> None:
-    """Write NAME.pgm and NAME.yaml, `file` being NAME; cells between the thresholds [%] become unknown's grey.
+    """Write `file`.pgm and `file`.yaml; cells between the thresholds [%] have the grey of unknown cells.
 
     Raises:
         UsageError: a file cannot be written.

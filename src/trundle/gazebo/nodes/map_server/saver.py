@@ -34,25 +34,25 @@ class MapSaver:
             print(_USAGE)
             return 0
         options = {"-f": "map", "--occ": "65", "--free": "25"}
-        words = iter(self._arguments)
-        for word in words:
-            if word not in options:
+        arguments = iter(self._arguments)
+        for argument in arguments:
+            if argument not in options:
                 node.log.error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
                 return 1
-            options[word] = next(words, "")
+            options[argument] = next(arguments, "")
         try:
             occupied, free = int(options["--occ"]), int(options["--free"])
         except ValueError:
             occupied = free = -1
         if not 0 <= free < occupied <= 100:
-            node.log.error(f"{_USAGE}; --free must lie below --occ")
+            node.log.error(f"{_USAGE}; --free must be below --occ")
             return 1
-        heard: asyncio.Queue[Message] = asyncio.Queue()
+        messages: asyncio.Queue[Message] = asyncio.Queue()
         node.log.info("Waiting for the map")
-        node.subscribe("map", "nav_msgs/OccupancyGrid", heard.put_nowait, queue_size=1)
-        message = await heard.get()
+        node.subscribe("map", "nav_msgs/OccupancyGrid", messages.put_nowait, queue_size=1)
+        message = await messages.get()
         try:
-            await asyncio.to_thread(write_map, Path(options["-f"]), _grid_of(message), occupied=occupied, free=free)
+            await asyncio.to_thread(write_map, Path(options["-f"]), _read_grid(message), occupied=occupied, free=free)
         except UsageError as error:
             node.log.error(str(error))
             return 1
@@ -60,9 +60,12 @@ class MapSaver:
         return 0
 
 
-def _grid_of(message: "nav_msgs.OccupancyGrid") -> OccupancyGrid:
-    info, turn = message.info, message.info.origin.orientation
+def _read_grid(message: "nav_msgs.OccupancyGrid") -> OccupancyGrid:
+    info, orientation = message.info, message.info.origin.orientation
     cells = np.asarray(message.data, dtype=np.int8).reshape(info.height, info.width)
-    yaw = math.atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y**2 + turn.z**2))
-    where = info.origin.position
-    return OccupancyGrid(cells=cells, resolution_m=float(info.resolution), origin=(where.x, where.y, yaw))
+    yaw = math.atan2(
+        2.0 * (orientation.w * orientation.z + orientation.x * orientation.y),
+        1.0 - 2.0 * (orientation.y**2 + orientation.z**2),
+    )
+    position = info.origin.position
+    return OccupancyGrid(cells=cells, resolution_m=float(info.resolution), origin=(position.x, position.y, yaw))

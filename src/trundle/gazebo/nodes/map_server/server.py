@@ -97,7 +97,7 @@ def _read_picture(picture: Path, resolution: str, settings: RosParameters) -> Oc
 
 
 def metadata_fields(grid: OccupancyGrid, *, stamp_ns: int) -> dict[str, object]:
-    """Fields of a nav_msgs/MapMetaData."""
+    """Return the fields of a nav_msgs/MapMetaData."""
     x, y, yaw = grid.origin
     height, width = grid.cells.shape
     return {

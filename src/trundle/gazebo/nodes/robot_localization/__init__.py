@@ -1,4 +1,4 @@
-"""robot_localization: odometry, imus, poses and twists become one estimate of where the robot is."""
+"""robot_localization: fuses odometry, imus, poses and twists into an estimate of the robot's pose."""
 
 import lazy_loader
 

@@ -17,7 +17,7 @@ from .kalman import ANGLES, SIZE, Array, KalmanFilter, Measurement
 from .sources import KINDS, MessageReader, Source, read_sources
 
 _NOISE = (0.05, 0.05, 0.06, 0.03, 0.03, 0.06, 0.025, 0.025, 0.04, 0.01, 0.01, 0.02, 0.01, 0.01, 0.015)
-"""Default process noise: variances by which the state's elements grow in a second."""
+"""Default process noise: growth of the state's variances per second."""
 _START_VARIANCE, _SET_VARIANCE = 1e-9, 1e-6
 _WARNING_S = 5.0
 
@@ -79,7 +79,7 @@ class EkfLocalization:
         )
         self._sources = read_sources(settings)
         if not self._sources:
-            raise ParamError(f"{settings.where}: no sensor; odom0, pose0, twist0 or imu0 names the topic of the first")
+            raise ParamError(f"{settings.where}: no sensor; set odom0, pose0, twist0 or imu0 to a topic")
 
     def _subscribe(self, settings: RosParameters) -> None:
         node = self._node
@@ -107,7 +107,7 @@ class EkfLocalization:
     def _reset(self) -> None:
         self._filter = KalmanFilter(process_noise=self._noise, covariance=self._start, state=self._initial)
         self._time_ns: int | None = None
-        """Stamp of the estimate; None: nothing was measured yet."""
+        """Stamp of the estimate; None: no measurement yet."""
         self._now_ns = 0
         self._queue.clear()
         for source in self._sources:
@@ -119,13 +119,16 @@ class EkfLocalization:
             self._queue += self._reader.read(source, message, quaternion_from_rpy(roll, pitch, yaw))
 
     def _step(self, now_ns: int) -> None:
-        """Work off what was measured until now, and publish."""
+        """Process the measurements up to now, and publish."""
         if now_ns < self._now_ns:
             self._node.log.warn("time jumped back; the filter restarts")
             self._reset()
         self._now_ns = now_ns
-        due = sorted((each for each in self._queue if each.stamp_ns <= now_ns), key=lambda each: each.stamp_ns)
-        self._queue = [each for each in self._queue if each.stamp_ns > now_ns]
+        due = sorted(
+            (measurement for measurement in self._queue if measurement.stamp_ns <= now_ns),
+            key=lambda measurement: measurement.stamp_ns,
+        )
+        self._queue = [measurement for measurement in self._queue if measurement.stamp_ns > now_ns]
         for measurement in due:
             self._process(measurement)
         if self._time_ns is None or not self._is_on:
@@ -147,7 +150,7 @@ class EkfLocalization:
         try:
             self._filter.correct(measurement)
         except np.linalg.LinAlgError:
-            self._missing.warn("a measurement's covariance is of no use: it has no inverse")
+            self._missing.warn("a measurement is left out: its covariance is singular")
 
     def _predict(self, stamp_ns: int) -> None:
         if self._time_ns is not None and stamp_ns > self._time_ns:
@@ -155,7 +158,7 @@ class EkfLocalization:
             self._time_ns = stamp_ns
 
     def _find(self, target: str, source: str, stamp_ns: int) -> Pose | None:
-        """See `FrameLookup`; the latest transform where that of the time is not known."""
+        """See `FrameLookup`; without a transform at the time, the latest is used."""
         target, source = target.lstrip("/"), source.lstrip("/")
         if target == source:
             return Pose()
@@ -185,18 +188,18 @@ class EkfLocalization:
             }
         )
         if self._accelerations is not None:
-            spread = np.zeros((6, 6))
-            spread[:3, :3] = covariance[12:, 12:]
+            acceleration_covariance = np.zeros((6, 6))
+            acceleration_covariance[:3, :3] = covariance[12:, 12:]
             linear = {"linear": _xyz(state[12:].tolist())}
             body = {"stamp": stamp_ns, "frame_id": self._output}
             self._accelerations.publish(
-                {"header": body, "accel": {"accel": linear, "covariance": spread.ravel().tolist()}}
+                {"header": body, "accel": {"accel": linear, "covariance": acceleration_covariance.ravel().tolist()}}
             )
         if self._broadcaster is not None:
             self._send(self._broadcaster, world_from_base, stamp_ns)
 
     def _send(self, broadcaster: TransformBroadcaster, world_from_base: Pose, stamp_ns: int) -> None:
-        """Publish the pose as a transform: that of the odometry frame, where the world is the map."""
+        """Publish the pose as a transform; if the world is the map, the odometry frame's transform."""
         parent, child, pose = self._world, self._output, world_from_base
         if self._world == self._map and self._odom != self._world:
             odom_from_base = self._find(self._odom, self._output, stamp_ns)
@@ -214,20 +217,23 @@ class EkfLocalization:
 
     def _set_pose(self, message: Any) -> None:
         """Restart at a pose, at rest."""
-        q, position = message.pose.pose.orientation, message.pose.pose.position
+        orientation, position = message.pose.pose.orientation, message.pose.pose.position
         world_from_frame = self._find(self._world, message.header.frame_id or self._world, 0)
-        norm = math.hypot(q.w, q.x, q.y, q.z)
+        norm = math.hypot(orientation.w, orientation.x, orientation.y, orientation.z)
         if world_from_frame is None or not norm > 0.0:
             self._node.log.warn("set_pose is ignored: it has no orientation, or an unknown frame")
             return
-        turned = Pose((position.x, position.y, position.z), (q.w / norm, q.x / norm, q.y / norm, q.z / norm))
-        pose = world_from_frame @ turned
+        frame_from_pose = Pose(
+            (position.x, position.y, position.z),
+            (orientation.w / norm, orientation.x / norm, orientation.y / norm, orientation.z / norm),
+        )
+        pose = world_from_frame @ frame_from_pose
         self._reset()
         self._filter.state = np.array([*pose.position, *pose.rpy, *(0.0,) * 9])
         self._filter.covariance = _SET_VARIANCE * np.eye(SIZE)
-        spread = np.array(message.pose.covariance, dtype=float).reshape(6, 6)
-        if np.isfinite(spread).all():
-            self._filter.covariance[:6, :6] = spread
+        covariance = np.array(message.pose.covariance, dtype=float).reshape(6, 6)
+        if np.isfinite(covariance).all():
+            self._filter.covariance[:6, :6] = covariance
         self._time_ns = to_nsec(message.header.stamp) or self._node.clock.now_ns()
 
     def _on_set_pose(self, request: Any) -> dict[str, Any]:
@@ -235,9 +241,9 @@ class EkfLocalization:
         return {}
 
     def _on_toggle(self, request: Any) -> dict[str, Any]:
-        changes = bool(request.on) != self._is_on
+        has_changed = bool(request.on) != self._is_on
         self._is_on = bool(request.on)
-        return {"status": changes}
+        return {"status": has_changed}
 
 
 def _xyz(values: Sequence[float]) -> dict[str, float]:
@@ -245,7 +251,7 @@ def _xyz(values: Sequence[float]) -> dict[str, float]:
 
 
 def _matrix(settings: RosParameters, name: str, diagonal: Sequence[float]) -> Array:
-    """Read a (15, 15) matrix: all its values, or its diagonal."""
+    """Read a (15, 15) matrix from all its values or its diagonal."""
     if len(settings.items(name)) == SIZE * SIZE:
         return np.array(settings.numbers(name, SIZE * SIZE)).reshape(SIZE, SIZE)
     return np.diag(np.array(settings.numbers(name, SIZE, diagonal)))

@@ -17,7 +17,7 @@ ANGLES = slice(3, 6)
 _STEP = 1e-6
 """Step of numerical derivatives."""
 _MIN_VARIANCE = 1e-9
-"""Smallest variance of a measurement: no sensor is exact, and the gain would have no bound."""
+"""Minimum variance of a measurement, which bounds the gain."""
 _MIN_COS_PITCH = 1e-6
 Array = NDArray[np.float64]
 
@@ -34,7 +34,7 @@ class Measurement:
     covariance: Array
     """(n, n)"""
     max_distance: float = math.inf
-    """Mahalanobis distance from the estimate above which it is rejected."""
+    """Mahalanobis distance from the estimate above which the measurement is rejected."""
 
 
 class KalmanFilter:
@@ -44,72 +44,74 @@ class KalmanFilter:
         """Start with a state.
 
         Args:
-            process_noise: (15, 15), growth of the covariance in each second of prediction.
-            covariance: (15, 15) of the state.
-            state: see the module.
+            process_noise: (15, 15) growth of the covariance per second of prediction.
+            covariance: (15, 15) covariance of the state.
+            state: (15,) initial state; see the module.
         """
         self._process_noise = process_noise
         self.state: Array = np.array(state, dtype=float)
         self.covariance: Array = np.array(covariance, dtype=float)
 
     def predict(self, dt: float) -> None:
-        """Move on by a time [s] at constant acceleration and angular velocity."""
+        """Predict over a time [s] at constant acceleration and angular velocity."""
         steps = _STEP * np.eye(SIZE)
-        around = np.concatenate((steps, -steps), axis=1) + self.state[:, None]
-        moved = _motion(np.concatenate((around, self.state[:, None]), axis=1), dt)
-        slopes = (moved[:, :SIZE] - moved[:, SIZE:-1]) / (2.0 * _STEP)
-        self.state = moved[:, -1]
-        self.covariance = slopes @ self.covariance @ slopes.T + self._process_noise * dt
+        samples = np.concatenate((steps, -steps), axis=1) + self.state[:, None]
+        predicted = _motion(np.concatenate((samples, self.state[:, None]), axis=1), dt)
+        jacobian = (predicted[:, :SIZE] - predicted[:, SIZE:-1]) / (2.0 * _STEP)
+        self.state = predicted[:, -1]
+        self.covariance = jacobian @ self.covariance @ jacobian.T + self._process_noise * dt
         self._wrap()
 
     def start(self, measurement: Measurement) -> None:
-        """Take over what the first measurement has."""
-        at = list(measurement.indices)
-        self.state[at] = measurement.values
-        self.covariance[np.ix_(at, at)] = measurement.covariance
+        """Set the state's measured elements from the first measurement."""
+        indices = list(measurement.indices)
+        self.state[indices] = measurement.values
+        self.covariance[np.ix_(indices, indices)] = measurement.covariance
 
     def correct(self, measurement: Measurement) -> bool:
-        """Correct by a measurement; return False if it is too far from the estimate, and nothing changed."""
-        at = list(measurement.indices)
+        """Correct by a measurement; return False, with the state unchanged, if it is too far from the estimate."""
+        indices = list(measurement.indices)
         noise = measurement.covariance.copy()
         np.fill_diagonal(noise, np.maximum(np.abs(np.diagonal(noise)), _MIN_VARIANCE))
-        columns = self.covariance[:, at]
-        spread = np.linalg.inv(columns[at] + noise)
-        difference = measurement.values - self.state[at]
-        turned = [number for number, index in enumerate(at) if ANGLES.start <= index < ANGLES.stop]
-        difference[turned] = wrapped(difference[turned])
-        if float(difference @ spread @ difference) > measurement.max_distance**2:
+        columns = self.covariance[:, indices]
+        information = np.linalg.inv(columns[indices] + noise)
+        difference = measurement.values - self.state[indices]
+        angle_rows = [row for row, index in enumerate(indices) if ANGLES.start <= index < ANGLES.stop]
+        difference[angle_rows] = wrap_angles(difference[angle_rows])
+        if float(difference @ information @ difference) > measurement.max_distance**2:
             return False
-        gain = columns @ spread
+        gain = columns @ information
         self.state = self.state + gain @ difference
-        kept = np.eye(SIZE)
-        kept[:, at] -= gain
-        self.covariance = kept @ self.covariance @ kept.T + gain @ noise @ gain.T  # Joseph's form stays positive
+        correction = np.eye(SIZE)
+        correction[:, indices] -= gain
+        self.covariance = (
+            correction @ self.covariance @ correction.T + gain @ noise @ gain.T
+        )  # Joseph form: stays positive definite
         self._wrap()
         return True
 
     def _wrap(self) -> None:
-        self.state[ANGLES] = wrapped(self.state[ANGLES])
+        self.state[ANGLES] = wrap_angles(self.state[ANGLES])
 
 
-def wrapped(angles: Array) -> Array:
-    """Return angles [rad] within ±π."""
+def wrap_angles(angles: Array) -> Array:
+    """Wrap angles [rad] to ±π."""
     return (angles + math.pi) % (2.0 * math.pi) - math.pi
 
 
 def _motion(states: Array, dt: float) -> Array:
     """Return states (15, n) after a time [s]."""
-    moved = states.copy()
-    shift = states[6:9] * dt + 0.5 * states[12:15] * dt * dt
+    predicted = states.copy()
+    displacement = states[6:9] * dt + 0.5 * states[12:15] * dt * dt
     (sr, sp, sy), (cr, cp, cy) = np.sin(states[ANGLES]), np.cos(states[ANGLES])
-    x, y, z = shift
-    moved[0] += cy * cp * x + (cy * sp * sr - sy * cr) * y + (cy * sp * cr + sy * sr) * z
-    moved[1] += sy * cp * x + (sy * sp * sr + cy * cr) * y + (sy * sp * cr - cy * sr) * z
-    moved[2] += -sp * x + cp * sr * y + cp * cr * z
-    across = sr * states[10] + cr * states[11]
-    level = np.where(np.abs(cp) < _MIN_COS_PITCH, np.copysign(_MIN_COS_PITCH, cp), cp)
-    moved[3] += (states[9] + sp / level * across) * dt
-    moved[4] += (cr * states[10] - sr * states[11]) * dt
-    moved[5] += across / level * dt
-    moved[6:9] += states[12:15] * dt
-    return moved
+    x, y, z = displacement
+    predicted[0] += cy * cp * x + (cy * sp * sr - sy * cr) * y + (cy * sp * cr + sy * sr) * z
+    predicted[1] += sy * cp * x + (sy * sp * sr + cy * cr) * y + (sy * sp * cr - cy * sr) * z
+    predicted[2] += -sp * x + cp * sr * y + cp * cr * z
+    yaw_component = sr * states[10] + cr * states[11]
+    cos_pitch = np.where(np.abs(cp) < _MIN_COS_PITCH, np.copysign(_MIN_COS_PITCH, cp), cp)
+    predicted[3] += (states[9] + sp / cos_pitch * yaw_component) * dt
+    predicted[4] += (cr * states[10] - sr * states[11]) * dt
+    predicted[5] += yaw_component / cos_pitch * dt
+    predicted[6:9] += states[12:15] * dt
+    return predicted

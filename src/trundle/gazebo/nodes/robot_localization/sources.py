@@ -27,19 +27,19 @@ KINDS = {
     "twist": "geometry_msgs/TwistWithCovarianceStamped",
     "imu": "sensor_msgs/Imu",
 }
-"""Beginning of the parameter → type of its topic."""
+"""Prefix of the parameter → type of its topic."""
 _MAX_SOURCES = 100
-_FLAT_VARIANCE = 1e-6
+_PLANAR_VARIANCE = 1e-6
 """Variance of the elements that two_d_mode holds at zero."""
-_FLAT = {2, 3, 4, 8, 9, 10, 14}
-_SMALLEST_MASK = 1e-6
+_PLANAR_ZEROS = {2, 3, 4, 8, 9, 10, 14}
+_MIN_MASK = 1e-6
 
 
 class FrameLookup(Protocol):
-    """Finds the pose of a frame in another."""
+    """Lookup of the pose of a frame in another."""
 
     def __call__(self, target: str, source: str, stamp_ns: int, /) -> Pose | None:
-        """`target_from_source`; None: it is not known."""
+        """Return `target_from_source`; None: unknown."""
         ...
 
 
@@ -64,11 +64,11 @@ class Source:
 
     @property
     def kind(self) -> str:
-        """Beginning of its name: odom, pose, twist or imu."""
+        """Prefix of its name: odom, pose, twist or imu."""
         return self.name.rstrip("0123456789")
 
     def reset(self) -> None:
-        """Forget earlier messages."""
+        """Clear earlier messages."""
         self.previous = self.first = None
 
 
@@ -122,7 +122,7 @@ class MessageReader:
     find: FrameLookup
 
     def read(self, source: Source, message: Any, orientation: Quaternion) -> list[Measurement]:
-        """Return the measurements in a message; `orientation` is the filter's, for gravity without the imu's own."""
+        """Return the measurements in a message; `orientation`, the filter's, rotates gravity if an imu has none."""
         match source.kind:
             case "odom":
                 child = message.child_frame_id or self.base
@@ -134,19 +134,19 @@ class MessageReader:
             case _:
                 return self._imu(source, message, orientation)
 
-    def _pose(self, source: Source, message: Any, posed: Any) -> list[Measurement]:
-        p, quaternion = posed.pose.position, _quaternion(posed.pose.orientation)
-        (x, y, z), is_known = _finite([p.x, p.y, p.z])
-        wanted = source.mask[:6] * [*is_known, 1.0, 1.0, 1.0]
+    def _pose(self, source: Source, message: Any, pose_with_covariance: Any) -> list[Measurement]:
+        position, quaternion = pose_with_covariance.pose.position, _quaternion(pose_with_covariance.pose.orientation)
+        (x, y, z), is_known = _finite([position.x, position.y, position.z])
+        mask_in_frame = source.mask[:6] * [*is_known, 1.0, 1.0, 1.0]
         if quaternion is None:
-            wanted[3:] = 0.0
-        if not wanted.any():
+            mask_in_frame[3:] = 0.0
+        if not mask_in_frame.any():
             return []
         pose = Pose((x, y, z), quaternion or IDENTITY_QUATERNION)
         stamp_ns, frame = to_nsec(message.header.stamp), message.header.frame_id or self.world
-        covariance = _square(posed.covariance, 6)
+        covariance = _square(pose_with_covariance.covariance, 6)
         if source.differential:
-            is_whole = bool((wanted == source.mask[:6]).all())
+            is_whole = bool((mask_in_frame == source.mask[:6]).all())
             return self._difference(source, stamp_ns, pose, covariance) if is_whole else []
         if source.relative:
             source.first = source.first or pose
@@ -157,8 +157,10 @@ class MessageReader:
         pose = world_from_frame @ pose
         rotation = _blocks(matrix_from_quaternion(world_from_frame.quaternion), 2)
         values = np.array([*pose.position, *pose.rpy])
-        mask = np.abs(rotation @ wanted) > _SMALLEST_MASK
-        return self._measured(stamp_ns, 0, values, rotation @ covariance @ rotation.T, mask, source.max_pose_distance)
+        mask = np.abs(rotation @ mask_in_frame) > _MIN_MASK
+        return self._measurement(
+            stamp_ns, 0, values, rotation @ covariance @ rotation.T, mask, source.max_pose_distance
+        )
 
     def _difference(self, source: Source, stamp_ns: int, pose: Pose, covariance: Array) -> list[Measurement]:
         """Return the twist between a pose and the last one."""
@@ -166,65 +168,71 @@ class MessageReader:
         if last is None or stamp_ns <= last[0]:
             return []
         dt = (stamp_ns - last[0]) / 1e9
-        moved = last[1].inverse() @ pose
-        values = np.array([*moved.position, *moved.rpy]) / dt
-        spread = (covariance + last[2]) * dt
-        return self._measured(stamp_ns, 6, values, spread, source.mask[:6] > 0.0, source.max_twist_distance)
+        displacement = last[1].inverse() @ pose
+        values = np.array([*displacement.position, *displacement.rpy]) / dt
+        sum_covariance = (covariance + last[2]) * dt
+        return self._measurement(stamp_ns, 6, values, sum_covariance, source.mask[:6] > 0.0, source.max_twist_distance)
 
-    def _twist(self, source: Source, message: Any, twisted: Any, frame: str) -> list[Measurement]:
-        linear, angular = twisted.twist.linear, twisted.twist.angular
+    def _twist(self, source: Source, message: Any, twist_with_covariance: Any, frame: str) -> list[Measurement]:
+        linear, angular = twist_with_covariance.twist.linear, twist_with_covariance.twist.angular
         values = np.array([linear.x, linear.y, linear.z, angular.x, angular.y, angular.z])
-        covariance = _square(twisted.covariance, 6)
+        covariance = _square(twist_with_covariance.covariance, 6)
         return self._body_twist(source, to_nsec(message.header.stamp), frame, values, covariance)
 
     def _body_twist(
         self, source: Source, stamp_ns: int, frame: str, values: Array, covariance: Array
     ) -> list[Measurement]:
-        """Express a twist of a frame on the robot as the base's."""
+        """Convert a twist of a frame on the robot to the base's."""
         values, is_known = _finite(values)
-        wanted = source.mask[6:12] * is_known
-        base_from_frame = self.find(self.base, frame, stamp_ns) if wanted.any() else None
+        mask_in_frame = source.mask[6:12] * is_known
+        base_from_frame = self.find(self.base, frame, stamp_ns) if mask_in_frame.any() else None
         if base_from_frame is None:
             return []
         rotation = _blocks(matrix_from_quaternion(base_from_frame.quaternion), 2)
-        turned = rotation @ values
-        turned[:3] += np.cross(np.array(base_from_frame.position), turned[3:])
-        mask = np.abs(rotation @ wanted) > _SMALLEST_MASK
-        spread = rotation @ covariance @ rotation.T
-        return self._measured(stamp_ns, 6, turned, spread, mask, source.max_twist_distance)
+        base_values = rotation @ values
+        base_values[:3] += np.cross(np.array(base_from_frame.position), base_values[3:])
+        mask = np.abs(rotation @ mask_in_frame) > _MIN_MASK
+        base_covariance = rotation @ covariance @ rotation.T
+        return self._measurement(stamp_ns, 6, base_values, base_covariance, mask, source.max_twist_distance)
 
     def _imu(self, source: Source, message: Any, orientation: Quaternion) -> list[Measurement]:
-        """Read orientation, angular velocity and acceleration; covariances that begin with -1 mark absent ones."""
+        """Read orientation, angular velocity and acceleration; a covariance starting with -1 marks a missing value."""
         stamp_ns, frame = to_nsec(message.header.stamp), message.header.frame_id or self.base
         base_from_imu = self.find(self.base, frame, stamp_ns)
         if base_from_imu is None:
             return []
-        found: list[Measurement] = []
-        own = _quaternion(message.orientation)
-        if own is not None and message.orientation_covariance[0] != -1.0:
-            orientation = quaternion_product(own, conjugate(base_from_imu.quaternion))
+        measurements: list[Measurement] = []
+        imu_orientation = _quaternion(message.orientation)
+        if imu_orientation is not None and message.orientation_covariance[0] != -1.0:
+            orientation = quaternion_product(imu_orientation, conjugate(base_from_imu.quaternion))
             if source.mask[3:6].any():
-                found += self._orientation(source, stamp_ns, orientation, _square(message.orientation_covariance, 3))
-        rate, rates = message.angular_velocity, np.zeros((6, 6))
-        rates[3:, 3:] = _square(message.angular_velocity_covariance, 3)
-        if rates[3, 3] != -1.0:
-            turning = np.array([0.0, 0.0, 0.0, rate.x, rate.y, rate.z])
-            found += self._body_twist(source, stamp_ns, frame, turning, rates)
-        spread = _square(message.linear_acceleration_covariance, 3)
-        if source.mask[12:].any() and spread[0, 0] != -1.0:
+                measurements += self._orientation(
+                    source, stamp_ns, orientation, _square(message.orientation_covariance, 3)
+                )
+        rate, rate_covariance = message.angular_velocity, np.zeros((6, 6))
+        rate_covariance[3:, 3:] = _square(message.angular_velocity_covariance, 3)
+        if rate_covariance[3, 3] != -1.0:
+            twist = np.array([0.0, 0.0, 0.0, rate.x, rate.y, rate.z])
+            measurements += self._body_twist(source, stamp_ns, frame, twist, rate_covariance)
+        acceleration_covariance = _square(message.linear_acceleration_covariance, 3)
+        if source.mask[12:].any() and acceleration_covariance[0, 0] != -1.0:
             acceleration = message.linear_acceleration
             rotation = matrix_from_quaternion(base_from_imu.quaternion)
             values = rotation @ np.array([acceleration.x, acceleration.y, acceleration.z])
             if source.removes_gravity:
                 values = values - np.array(rotate(conjugate(orientation), (0.0, 0.0, self.gravity)))
-            mask = np.abs(rotation @ source.mask[12:]) > _SMALLEST_MASK
+            mask = np.abs(rotation @ source.mask[12:]) > _MIN_MASK
             limit = source.max_acceleration_distance
-            found += self._measured(stamp_ns, 12, values, rotation @ spread @ rotation.T, mask, limit)
-        return found
+            measurements += self._measurement(
+                stamp_ns, 12, values, rotation @ acceleration_covariance @ rotation.T, mask, limit
+            )
+        return measurements
 
-    def _orientation(self, source: Source, stamp_ns: int, orientation: Quaternion, spread: Array) -> list[Measurement]:
+    def _orientation(
+        self, source: Source, stamp_ns: int, orientation: Quaternion, orientation_covariance: Array
+    ) -> list[Measurement]:
         pose, covariance = Pose((0.0, 0.0, 0.0), orientation), np.zeros((6, 6))
-        covariance[3:, 3:] = spread
+        covariance[3:, 3:] = orientation_covariance
         if source.differential:
             return self._difference(source, stamp_ns, pose, covariance)
         if source.relative:
@@ -232,26 +240,26 @@ class MessageReader:
             pose = source.first.inverse() @ pose
         mask = np.array([False] * 3 + [value > 0.0 for value in source.mask[3:6]])
         values = np.array([*pose.position, *pose.rpy])
-        return self._measured(stamp_ns, 0, values, covariance, mask, source.max_pose_distance)
+        return self._measurement(stamp_ns, 0, values, covariance, mask, source.max_pose_distance)
 
-    def _measured(
+    def _measurement(
         self, stamp_ns: int, start: int, values: Array, covariance: Array, mask: Any, limit: float
     ) -> list[Measurement]:
-        """Make a measurement of the elements from `start` on that the mask has; two_d_mode adds zeros."""
-        chosen = {number for number in range(len(values)) if mask[number] and math.isfinite(values[number])}
-        if not chosen:
+        """Return a measurement of the masked elements from `start` on; two_d_mode adds zeros."""
+        measured = {index for index in range(len(values)) if mask[index] and math.isfinite(values[index])}
+        if not measured:
             return []
-        flat = {number for number in range(len(values)) if start + number in _FLAT} if self.two_d else set[int]()
+        planar = {index for index in range(len(values)) if start + index in _PLANAR_ZEROS} if self.two_d else set[int]()
         values, covariance = values.copy(), covariance.copy()
-        for number in flat:
-            values[number] = covariance[number, :] = covariance[:, number] = 0.0
-            covariance[number, number] = _FLAT_VARIANCE
-        at = sorted(chosen | flat)
+        for index in planar:
+            values[index] = covariance[index, :] = covariance[:, index] = 0.0
+            covariance[index, index] = _PLANAR_VARIANCE
+        selected = sorted(measured | planar)
         measurement = Measurement(
             stamp_ns=stamp_ns,
-            indices=tuple(start + number for number in at),
-            values=values[at],
-            covariance=covariance[np.ix_(at, at)],
+            indices=tuple(start + index for index in selected),
+            values=values[selected],
+            covariance=covariance[np.ix_(selected, selected)],
             max_distance=limit,
         )
         return [measurement] if np.isfinite(measurement.covariance).all() else []
@@ -263,9 +271,9 @@ def _blocks(matrix: Array, count: int) -> Array:
 
 
 def _finite(values: Any) -> tuple[Array, Array]:
-    """Return values with 0 for what is no number, and 1 for each that is one."""
-    known = np.isfinite(values)
-    return np.where(known, values, 0.0), known.astype(np.float64)
+    """Return the values with 0 for non-finite ones, and a mask: 1 for finite ones."""
+    is_finite = np.isfinite(values)
+    return np.where(is_finite, values, 0.0), is_finite.astype(np.float64)
 
 
 def _square(values: Any, size: int) -> Array:
@@ -273,6 +281,6 @@ def _square(values: Any, size: int) -> Array:
 
 
 def _quaternion(q: Any) -> Quaternion | None:
-    """Return a unit quaternion; None for zeros, by which senders mean that there is none."""
+    """Return a unit quaternion; None for zeros, which mean no orientation."""
     norm = math.hypot(q.w, q.x, q.y, q.z)
     return (q.w / norm, q.x / norm, q.y / norm, q.z / norm) if math.isfinite(norm) and norm > 0.0 else None

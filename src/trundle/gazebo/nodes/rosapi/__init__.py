@@ -1,4 +1,4 @@
-"""rosapi: services that tell web pages about the graph, its types and its parameters."""
+"""rosapi: services for web pages about the graph, its types and its parameters."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""State of the graph, as the master has it."""
+"""State of the graph, from the master."""
 
 import asyncio
 from collections.abc import Mapping
@@ -30,7 +30,7 @@ class GraphState:
 
 
 async def read_graph(node: Node) -> GraphState:
-    """Ask the master.
+    """Read the graph's state from the master.
 
     Raises:
         MasterUnreachableError: no answer.
@@ -41,12 +41,12 @@ async def read_graph(node: Node) -> GraphState:
 
 
 async def topic_types(node: Node) -> dict[str, str]:
-    """Topic → type; subscribers alone may leave it open."""
+    """Return topic → type, without topics of unknown type."""
     return {name: kind for name, kind in await node.master.call("getTopicTypes") if kind != "*"}
 
 
 async def service_type(node: Node, service: str) -> str:
-    """Type of a service; '' if it is not there."""
+    """Return the type of a service; '' if it does not exist."""
     try:
         uri = str(await node.master.call("lookupService", service))
         return (await probe_service(uri, service, node.name)).get("type", "")
@@ -55,16 +55,16 @@ async def service_type(node: Node, service: str) -> str:
 
 
 async def service_types(node: Node, services: list[str]) -> dict[str, str]:
-    """Service → type."""
+    """Return service → type."""
     types = await asyncio.gather(*(service_type(node, service) for service in services))
     return dict(zip(services, types, strict=True))
 
 
 def action_servers(topics: set[str]) -> list[str]:
-    """Namespaces with all five topics of an action."""
-    found: dict[str, set[str]] = {}
+    """Return the namespaces with all five topics of an action."""
+    topics_by_namespace: dict[str, set[str]] = {}
     for topic in topics:
         namespace, _, name = topic.rpartition("/")
         if namespace and name in _ACTION:
-            found.setdefault(namespace, set()).add(name)
-    return sorted(namespace for namespace, names in found.items() if names >= _ACTION)
+            topics_by_namespace.setdefault(namespace, set()).add(name)
+    return sorted(namespace for namespace, names in topics_by_namespace.items() if names >= _ACTION)

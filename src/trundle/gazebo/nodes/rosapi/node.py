@@ -16,13 +16,13 @@ from .type_details import type_details
 
 _GLOBS = ("topics_glob", "services_glob", "params_glob")
 _Fields = dict[str, Any]
-_Answer = Callable[[Message], Awaitable[_Fields]]
+_Handler = Callable[[Message], Awaitable[_Fields]]
 
 
 class Rosapi:
     """Services on topics, services, nodes, types and parameters.
 
-    Parameters topics_glob, services_glob and params_glob: patterns of what they tell.
+    Parameters topics_glob, services_glob and params_glob: patterns of the visible names.
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
@@ -40,15 +40,15 @@ class Rosapi:
         except UsageError as error:
             node.log.fatal(str(error))
             return 1
-        for name, (kind, answer) in self._services().items():
-            node.advertise_service(f"/rosapi/{name}", f"rosapi/{kind}", answer)
+        for name, (kind, handler) in self._services().items():
+            node.advertise_service(f"/rosapi/{name}", f"rosapi/{kind}", handler)
         await node.wait_registered()
         node.log.info("Rosapi started")
         await node.closed.wait()
         return 0
 
-    def _services(self) -> dict[str, tuple[str, _Answer]]:
-        """Name → type, function."""
+    def _services(self) -> dict[str, tuple[str, _Handler]]:
+        """Return name → type, handler."""
         return {
             "topics": ("Topics", self._get_topics),
             "topics_for_type": ("TopicsForType", self._topics_for_type),
@@ -80,7 +80,7 @@ class Rosapi:
     # -- topics
 
     async def _typed_topics(self) -> dict[str, str]:
-        """Public topics with their types, '' where it is not known."""
+        """Return the visible topics with their types, '' if unknown."""
         types = await topic_types(self._node)
         topics = (await read_graph(self._node)).topics
         return {name: types.get(name, "") for name in sorted(topics) if allows(self._topics_glob, name)}
@@ -219,8 +219,8 @@ class Rosapi:
 
     async def _search_param(self, request: Message) -> _Fields:
         is_public = allows(self._params_glob, request.name)
-        found = await self._node.params.search(request.name) if is_public and request.name else None
-        return {"global_name": found or ""}
+        name = await self._node.params.search(request.name) if is_public and request.name else None
+        return {"global_name": name or ""}
 
     async def _delete_param(self, request: Message) -> _Fields:
         if allows(self._params_glob, request.name) and await self._node.params.has(request.name):

@@ -21,7 +21,7 @@ _TIME_FIELDS: dict[str, Any] = {
 
 
 def type_details(messages: Messages, type_name: str) -> list[dict[str, object]]:
-    """Describe a type and all types within, each once, depth first.
+    """Describe a type and all its field types, each once, depth first.
 
     Raises:
         MessageError: no such type.
@@ -33,8 +33,8 @@ def _recurse(messages: Messages, type_name: str, seen: set[str]) -> list[dict[st
     if type_name in seen or type_name in _ATOMIC:
         return []
     seen.add(type_name)
-    own = _describe(messages, type_name)
-    return [own, *(inner for kind in own["fieldtypes"] for inner in _recurse(messages, kind, seen))]
+    details = _describe(messages, type_name)
+    return [details, *(inner for kind in details["fieldtypes"] for inner in _recurse(messages, kind, seen))]
 
 
 def _describe(messages: Messages, type_name: str) -> dict[str, Any]:
@@ -55,7 +55,7 @@ def _describe(messages: Messages, type_name: str) -> dict[str, Any]:
 
 
 def _length(bracket: str, rest: str) -> int:
-    """-1: no array; 0: of any length."""
+    """Return the length of an array; -1: no array; 0: any length."""
     return int(rest.rstrip("]") or 0) if bracket else -1
 
 
@@ -66,7 +66,7 @@ def _example(element: str, bracket: str) -> str:
 
 
 def _constant(kind: str, text: str) -> str:
-    """A constant as Python prints it."""
+    """Return a constant as Python prints it."""
     if kind == "bool":
         return str(text.strip().lower() in ("true", "1"))
     if kind.startswith("float"):

@@ -1,4 +1,4 @@
-"""rosbridge_server: the graph for web pages and programs that speak no ROS."""
+"""rosbridge_server: the graph for web pages and programs without ROS."""
 
 import lazy_loader
 

@@ -11,7 +11,7 @@ from trundle.ros import Message, Messages
 
 _UNSIGNED, _NEGATIVE, _BYTES, _TEXT, _LIST, _MAP, _TAG = range(7)
 _FALSE, _TRUE, _NULL, _DOUBLE = 0xF4, 0xF5, 0xF6, 0xFB
-_ONE_BYTE, _LARGEST_INLINE = 24, 23
+_ONE_BYTE, _MAX_INLINE = 24, 23
 _TYPED_ARRAYS: dict[str, tuple[int, str]] = {
     "uint16": (69, "<u2"),
     "uint32": (70, "<u4"),
@@ -44,7 +44,7 @@ def dump_cbor(value: object) -> bytes:
 
 
 def cbor_values(messages: Messages, message: Message, type_name: str) -> dict[str, object]:
-    """Fields of a message for `dump_cbor`."""
+    """Return the fields of a message for `dump_cbor`."""
     return {
         name: _field(messages, getattr(message, f"{name}_" if iskeyword(name) else name), kind)
         for name, kind in messages.fields(type_name).items()
@@ -73,7 +73,7 @@ def _array(messages: Messages, value: Any, element: str) -> Any:
 
 def _head(out: bytearray, major: int, number: int) -> None:
     """Write a major type with its argument."""
-    if number <= _LARGEST_INLINE:
+    if number <= _MAX_INLINE:
         out.append(major << 5 | number)
         return
     for power in range(4):

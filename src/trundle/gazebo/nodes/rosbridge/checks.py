@@ -1,11 +1,11 @@
-"""Checks of an operation's fields, in rosbridge_library's words."""
+"""Checks of an operation's fields, with rosbridge_library's messages."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from .errors import RosbridgeError
 
-_SHOWN = 200
+_MAX_SHOWN = 200
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,14 +21,14 @@ def check_fields(message: Mapping[str, object], fields: tuple[Field, ...]) -> No
     """Check that a message has the fields.
 
     Raises:
-        RosbridgeError: one is missing or of another type.
+        RosbridgeError: a field is missing or of another type.
     """
     for field in fields:
         if field.name not in message:
             if field.required:
                 raise RosbridgeError(f"Expected a {field.name} field but none was found.")
         elif not isinstance(message[field.name], field.types):
-            shown = str(message[field.name])[:_SHOWN]
+            shown = str(message[field.name])[:_MAX_SHOWN]
             raise RosbridgeError(f"Expected field {field.name} to be one of {field.types}. Invalid value: {shown}")
 
 

@@ -1,4 +1,4 @@
-"""Topics that tell who is connected."""
+"""Topics about the connected clients."""
 
 from trundle.ros import Node
 

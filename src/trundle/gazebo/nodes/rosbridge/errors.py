@@ -1,21 +1,21 @@
-"""Errors of rosbridge's operations, in rosbridge_library's words."""
+"""Errors of rosbridge's operations, with rosbridge_library's messages."""
 
 from collections.abc import Sequence
 
 
 class RosbridgeError(Exception):
-    """An operation fails; the client gets the text."""
+    """Failed operation; the client receives the text."""
 
 
 class FieldTypeError(RosbridgeError):
     """A value does not fit its field."""
 
     def __init__(self, root: str, path: Sequence[str], expected: str, value: object) -> None:
-        found = type(value)
+        received = type(value)
         if root == expected:
-            super().__init__(f"Expected a JSON object for type {root} but received a {found}")
+            super().__init__(f"Expected a JSON object for type {root} but received a {received}")
         else:
-            super().__init__(f"{root} message requires a {expected} for field {'.'.join(path)}, but got a {found}")
+            super().__init__(f"{root} message requires a {expected} for field {'.'.join(path)}, but got a {received}")
 
 
 class NoFieldError(RosbridgeError):
@@ -35,9 +35,10 @@ class TopicNotEstablishedError(RosbridgeError):
 class TypeConflictError(RosbridgeError):
     """A topic has another type."""
 
-    def __init__(self, topic: str, established: str, given: str) -> None:
+    def __init__(self, topic: str, established: str, requested: str) -> None:
         super().__init__(
-            f"Tried to register topic {topic} with type {given} but it is already established with type {established}"
+            f"Tried to register topic {topic} with type {requested} but it is already established with type "
+            f"{established}"
         )
 
 

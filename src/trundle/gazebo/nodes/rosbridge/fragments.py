@@ -1,4 +1,4 @@
-"""Fragments: long messages in parts, both ways."""
+"""Fragments: long messages in parts, in both directions."""
 
 import itertools
 import json
@@ -33,7 +33,7 @@ class Reassembly:
         """Add a fragment; returns the message once it is complete.
 
         Raises:
-            RosbridgeError: not a fragment, or it does not fit the others.
+            RosbridgeError: not a fragment, or inconsistent with the others.
         """
         key, number, total, text = (message.get(name) for name in ("id", "num", "total", "data"))
         if not isinstance(number, int) or not isinstance(total, int) or not isinstance(text, str) or key is None:
@@ -70,7 +70,7 @@ _numbers = itertools.count()
 
 
 def split(text: str, size: int, key: object) -> Iterator[str]:
-    """Split a message into fragments with `size` characters of it, or more where they would be too many."""
+    """Split a message into fragments of `size` characters, or more to limit their number."""
     size = max(size, -(-len(text) // _MAX_PARTS))
     key = next(_numbers) if key is None else key
     total = -(-len(text) // size)

@@ -21,13 +21,13 @@ _FLOATS = frozenset({"float32", "float64"})
 _PRIMITIVES = _INTEGERS | _FLOATS | {"bool", "string"}
 _TIMES = ("time", "duration")
 _BYTES = ("uint8", "char")
-_FITS: dict[type, frozenset[str]] = {
+_MATCHING_TYPES: dict[type, frozenset[str]] = {
     bool: frozenset({"bool"}),
     int: _INTEGERS | _FLOATS,
     float: _FLOATS,
     str: frozenset({"string"}),
 }
-"""Python type of a JSON value → ROS types that it fits."""
+"""Python type of a JSON value → matching ROS types."""
 
 _Convert = Callable[[Any], Any]
 
@@ -40,14 +40,14 @@ class JsonEncoder:
         self._converters: dict[str, _Convert] = {}
 
     def values(self, message: Message, type_name: str) -> dict[str, object]:
-        """Fields of a message."""
+        """Return the fields of a message."""
         return self._converter(type_name)(message)
 
     def _converter(self, kind: str) -> _Convert:
-        made = self._converters.get(kind)
-        if made is None:
-            made = self._converters[kind] = self._make(kind)
-        return made
+        converter = self._converters.get(kind)
+        if converter is None:
+            converter = self._converters[kind] = self._make(kind)
+        return converter
 
     def _make(self, kind: str) -> _Convert:
         element, bracket, _ = kind.partition("[")
@@ -88,13 +88,13 @@ def _finite(array: Any) -> list[float | None]:
 
 
 class JsonDecoder:
-    """JSON values as fields for `Messages.new`, checked as rosbridge_library does."""
+    """JSON values as fields for `Messages.new`, with rosbridge_library's checks."""
 
     def __init__(self, messages: Messages) -> None:
         self._messages = messages
 
     def fields(self, values: object, type_name: str, now_ns: int) -> dict[str, object]:
-        """Fields of a message; a given header is stamped now unless it has a stamp.
+        """Return the fields of a message; a header without a stamp gets the current time.
 
         Raises:
             RosbridgeError: a value does not fit.
@@ -112,7 +112,7 @@ class JsonDecoder:
         if kind in _TIMES:
             return _time(value, kind, root, path, now_ns)
         if kind in _PRIMITIVES:
-            if kind not in _FITS.get(type(value), ()):
+            if kind not in _MATCHING_TYPES.get(type(value), ()):
                 raise FieldTypeError(root, path, kind, value)
             return value
         return self._object(value, kind, root, path, now_ns)
@@ -144,9 +144,9 @@ def _time(value: object, kind: str, root: str, path: Sequence[str], now_ns: int)
     if value == "now" and kind == "time":
         return now_ns
     if not isinstance(value, Mapping):
-        return 0  # as there
-    given = {name: cast("Mapping[str, object]", value).get(name, 0) for name in ("secs", "nsecs")}
-    for name, number in given.items():
+        return 0  # as in rosbridge_library
+    parts = {name: cast("Mapping[str, object]", value).get(name, 0) for name in ("secs", "nsecs")}
+    for name, number in parts.items():
         if not isinstance(number, int):
             raise FieldTypeError(root, (*path, name), "int32", number)
-    return cast("dict[str, int]", given)
+    return cast("dict[str, int]", parts)

@@ -6,12 +6,12 @@ import re
 from .errors import RosbridgeError
 
 _MAX_CHARACTERS = 16 * 1024 * 1024
-"""Limit for an object that has not ended."""
+"""Limit for an incomplete object."""
 _SPECIAL = re.compile(r'["{}]|\\.', re.DOTALL)
 
 
 class ObjectSplitter:
-    """Finds where objects end, in time linear in the stream's length."""
+    """Splits a stream into objects, in time linear in its length."""
 
     def __init__(self) -> None:
         self._decoder = codecs.getincrementaldecoder("utf-8")("replace")
@@ -21,26 +21,26 @@ class ObjectSplitter:
         self._in_string = False
 
     def feed(self, data: bytes) -> list[str]:
-        """Add bytes; returns the objects that are complete.
+        """Add bytes; return the complete objects.
 
         Raises:
             RosbridgeError: the stream does not consist of objects, or one is too long.
         """
         self._text += self._decoder.decode(data)
-        found: list[str] = []
+        objects: list[str] = []
         while (end := self._find_end()) is not None:
-            found.append(self._text[:end])
+            objects.append(self._text[:end])
             self._text, self._scanned = self._text[end:], 0
         if len(self._text) > _MAX_CHARACTERS:
             raise RosbridgeError(f"an object has more than {_MAX_CHARACTERS} characters")
-        return found
+        return objects
 
     def _find_end(self) -> int | None:
-        """Position after the first object; None: it has not ended."""
+        """Return the position after the first object; None: it is incomplete."""
         if self._depth == 0:
             self._text = self._text.lstrip()
             if self._text and not self._text.startswith("{"):
-                raise RosbridgeError("what it sends are not JSON objects")
+                raise RosbridgeError("it does not send JSON objects")
         for match in _SPECIAL.finditer(self._text, self._scanned):
             self._scanned = match.end()
             character = match[0]
@@ -50,6 +50,6 @@ class ObjectSplitter:
                 self._depth += 1 if character == "{" else -1
                 if self._depth == 0:
                     return match.end()
-        # A backslash at the end waits for what it escapes.
+        # A backslash at the end waits for the character that it escapes.
         self._scanned = max(self._scanned, len(self._text) - self._text.endswith("\\"))
         return None

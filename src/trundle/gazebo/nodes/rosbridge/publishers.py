@@ -21,7 +21,7 @@ class _Shared:
     publisher: Publisher
     clients: set[int]
     latching_client: int | None
-    is_nodes_own: bool
+    was_advertised_before: bool
     created_s: float
     held: list[dict[str, object]] = field(default_factory=list[dict[str, object]])
     ending: asyncio.TimerHandle | None = None
@@ -32,7 +32,7 @@ class _Shared:
 
 
 class Publishers:
-    """Publishers by topic, until a while after the last client has left."""
+    """Publishers by topic, kept for a timeout after the last client has left."""
 
     def __init__(self, node: Node, unregister_timeout_s: float) -> None:
         self._node = node
@@ -40,25 +40,27 @@ class Publishers:
         self._decoder = JsonDecoder(node.messages)
         self._shared: dict[str, _Shared] = {}
 
-    async def register(self, client: int, topic: str, *, given: str | None, latch: bool, queue_size: int) -> str | None:
-        """Add a client to a topic's publisher; returns a warning.
+    async def register(
+        self, client: int, topic: str, *, requested_type: str | None, latch: bool, queue_size: int
+    ) -> str | None:
+        """Add a client to a topic's publisher; return a warning or None.
 
         Raises:
-            RosbridgeError: no type is known, or the topic has another.
+            RosbridgeError: the type is unknown, or the topic has another.
             RosError: no such type, or no master.
         """
         name = self._node.resolve(topic)
         shared = self._shared.get(name)
         warning = None
         if shared is None:
-            kind = await resolve_type(self._node, topic, given)
+            kind = await resolve_type(self._node, topic, requested_type)
             shared = self._shared.get(name) or self._advertise(
                 name, kind, client if latch else None, queue_size=queue_size
             )
         elif (latch and shared.latching_client != client) or (not latch and shared.latching_client is not None):
             warning = f"{topic} is registered already, {'' if shared.latching_client is not None else 'not '}latched"
-        if given is not None and shared.publisher.type != given.replace("/msg/", "/"):
-            raise TypeConflictError(topic, shared.publisher.type, given)
+        if requested_type is not None and shared.publisher.type != requested_type.replace("/msg/", "/"):
+            raise TypeConflictError(topic, shared.publisher.type, requested_type)
         if shared.ending is not None:
             shared.ending.cancel()
             shared.ending = None
@@ -69,14 +71,14 @@ class Publishers:
         """Publish on a registered topic; a new publisher's messages wait for its first subscriber.
 
         Raises:
-            RosbridgeError: the message does not fit.
+            RosbridgeError: the message does not match the type.
             MessageError: a number is out of range.
         """
         shared = self._shared[self._node.resolve(topic)]
         publisher = shared.publisher
         fields = self._decoder.fields(message, publisher.type, self._node.clock.now_ns())
         if shared.is_new and not publisher.has_subscribers and shared.latching_client is None:
-            self._node.messages.new(publisher.type, fields)  # to find faults
+            self._node.messages.new(publisher.type, fields)  # raises if invalid
             if len(shared.held) < _MAX_HELD:
                 shared.held.append(fields)
         else:
@@ -95,7 +97,7 @@ class Publishers:
     def _advertise(self, name: str, kind: str, latching_client: int | None, *, queue_size: int) -> _Shared:
         if len(self._shared) >= _MAX_TOPICS:
             raise RosbridgeError(f"{_MAX_TOPICS} topics are advertised already")
-        is_own = self._node.endpoints.publisher(name) is not None
+        was_advertised_before = self._node.endpoints.publisher(name) is not None
         publisher = self._node.advertise(
             name,
             kind,
@@ -103,7 +105,7 @@ class Publishers:
             queue_size=queue_size,
             on_connect=lambda _: self._publish_held(name),
         )
-        shared = _Shared(publisher, set(), latching_client, is_own, time.monotonic())
+        shared = _Shared(publisher, set(), latching_client, was_advertised_before, time.monotonic())
         self._shared[name] = shared
         return shared
 
@@ -116,5 +118,5 @@ class Publishers:
 
     def _end(self, name: str) -> None:
         shared = self._shared.pop(name)
-        if not shared.is_nodes_own:
+        if not shared.was_advertised_before:
             shared.publisher.unregister()

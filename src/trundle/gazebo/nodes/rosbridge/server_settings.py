@@ -7,7 +7,7 @@ from .shared import Options
 
 _UNSUPPORTED = {
     "bson_only_mode": "BSON is not supported; clients use JSON or CBOR",
-    "authenticate": "rosauth is not supported; ~token and ~allowed_origins say who is served",
+    "authenticate": "rosauth is not supported; use ~token and ~allowed_origins",
 }
 _FLAGS = frozenset({"bson_only_mode", "use_compression"})
 
@@ -38,11 +38,11 @@ def read_options(settings: RosParameters) -> Options:
     """Read the options of the protocol.
 
     Raises:
-        ParamError: one is invalid or not supported.
+        ParamError: a parameter is invalid or not supported.
     """
-    for name, why in _UNSUPPORTED.items():
+    for name, reason in _UNSUPPORTED.items():
         if settings.flag(name, default=False):
-            raise ParamError(f"parameter {settings.where}/{name}: {why}")
+            raise ParamError(f"parameter {settings.where}/{name}: {reason}")
     if "binary_encoder" in settings and settings.text("binary_encoder") not in ("default", "b64"):
         raise ParamError(f"parameter {settings.where}/binary_encoder: {_UNSUPPORTED['bson_only_mode']}")
     globs = {
@@ -60,7 +60,7 @@ def read_options(settings: RosParameters) -> Options:
 
 
 def _optional_integer(settings: RosParameters, name: str) -> int | None:
-    """A number, or the text None."""
+    """Read a number, or the text None."""
     if name not in settings:
         return None
     try:

@@ -1,4 +1,4 @@
-"""Services: calls of clients, and services that clients provide."""
+"""Services: calls by clients, and services provided by clients."""
 
 import asyncio
 import itertools
@@ -17,13 +17,13 @@ async def call_service(node: Node, encoder: JsonEncoder, name: str, arguments: o
     """Call a service, and return the fields of its response.
 
     Args:
-        node: calls.
-        encoder: of the response.
-        name: resolved.
-        arguments: fields by name or in order; anything else counts as none.
+        node: node that calls.
+        encoder: encoder of the response.
+        name: service's name.
+        arguments: fields by name or in order; any other value means no fields.
 
     Raises:
-        RosbridgeError: no such service, or arguments that do not fit.
+        RosbridgeError: no such service, or arguments that do not match its type.
         RosError: the call fails.
     """
     service = node.resolve(name)
@@ -39,19 +39,19 @@ async def call_service(node: Node, encoder: JsonEncoder, name: str, arguments: o
 
 
 def request_fields(node: Node, type_name: str, arguments: object) -> dict[str, object]:
-    """Fields of a request.
+    """Return the fields of a request.
 
     Raises:
-        RosbridgeError: the arguments do not fit.
+        RosbridgeError: the arguments do not match the type.
     """
-    given: object = arguments if isinstance(arguments, Mapping) else {}
+    values: object = arguments if isinstance(arguments, Mapping) else {}
     if isinstance(arguments, list):
-        given = dict(zip(node.messages.fields(type_name), cast("list[object]", arguments), strict=False))
-    return JsonDecoder(node.messages).fields(given, type_name, node.clock.now_ns())
+        values = dict(zip(node.messages.fields(type_name), cast("list[object]", arguments), strict=False))
+    return JsonDecoder(node.messages).fields(values, type_name, node.clock.now_ns())
 
 
 class ClientService:
-    """A service that a client provides."""
+    """A service provided by a client."""
 
     _numbers = itertools.count(1)
 
@@ -67,13 +67,13 @@ class ClientService:
         self._service: Service = node.advertise_service(name, type_name, self._answer)
 
     def respond(self, key: object, values: object) -> None:
-        """Pass on the client's response to a request.
+        """Forward the client's response to a request.
 
         Raises:
-            RosbridgeError: the response does not fit.
+            RosbridgeError: the response does not match the type.
         """
         fields = JsonDecoder(self._node.messages).fields(values, self._kind.response, self._node.clock.now_ns())
-        self._node.messages.new(self._kind.response, fields)  # to find faults
+        self._node.messages.new(self._kind.response, fields)  # raises if invalid
         pending = self._pending.get(str(key))
         if pending is None or pending.done():
             raise RosbridgeError(f"Service {self._name} has no request {str(key)[:100]!r}")
@@ -88,7 +88,7 @@ class ClientService:
 
     async def _answer(self, request: Message) -> dict[str, Any]:
         if len(self._pending) >= _MAX_PENDING:
-            raise ServiceError(f"{self._name}: {_MAX_PENDING} calls wait for the client already")
+            raise ServiceError(f"{self._name}: {_MAX_PENDING} calls are waiting for the client already")
         key = f"service_request:{self._name}:{next(self._numbers)}"
         pending = self._pending[key] = asyncio.get_running_loop().create_future()
         try:

@@ -21,7 +21,7 @@ _MAX_SERVICES = 100
 _MAX_CALLS = 1000
 _QUEUE_SIZE = 100
 _MAX_QUEUE_SIZE = 10_000
-_QUOTED = 500
+_MAX_QUOTED = 500
 
 Operation = Callable[[dict[str, Any]], Awaitable[None]]
 
@@ -39,7 +39,7 @@ class Outbox(Protocol):
 
 
 class Session:
-    """A client; used on the loop."""
+    """A client's session; used on the loop."""
 
     def __init__(self, number: int, shared: Shared, outbox: Outbox) -> None:
         self._number = number
@@ -75,7 +75,7 @@ class Session:
         try:
             message = json.loads(text)
         except (ValueError, RecursionError):
-            self._status.report("error", f"not a JSON object: {text[:_QUOTED]!r}")
+            self._status.report("error", f"not a JSON object: {text[:_MAX_QUOTED]!r}")
             return
         await self.handle(message)
 
@@ -89,7 +89,7 @@ class Session:
         operation = self._operations.get(name) if isinstance(name, str) else None
         names = list(self._operations)
         if "op" not in fields:
-            original = str(fields)[:_QUOTED]
+            original = str(fields)[:_MAX_QUOTED]
             self._status.report(
                 "error",
                 "Received a message without an op.  All messages require 'op' field with value one of: "
@@ -97,7 +97,7 @@ class Session:
                 key,
             )
         elif operation is None:
-            shown = str(name)[:_QUOTED]
+            shown = str(name)[:_MAX_QUOTED]
             self._status.report("error", f"Unknown operation: {shown}.  Allowed operations: {names}", key)
         else:
             try:
@@ -159,7 +159,7 @@ class Session:
         warning = await self._shared.publishers.register(
             self._number,
             message["topic"],
-            given=kind,
+            requested_type=kind,
             latch=bool(message.get("latch", False)),
             queue_size=min(max(message.get("queue_size", _QUEUE_SIZE), 1), _MAX_QUEUE_SIZE),
         )
@@ -219,14 +219,14 @@ class Session:
         call.add_done_callback(self._calls.discard)
 
     async def _answer_call(self, message: Mapping[str, Any], name: str, key: object) -> None:
-        answer: dict[str, Any] = {"op": "service_response", "service": message["service"]}
+        response: dict[str, Any] = {"op": "service_response", "service": message["service"]}
         try:
             values: Any = await call_service(self._node, self._shared.encoder, name, message.get("args", []))
-            answer |= {"values": values, "result": True}
+            response |= {"values": values, "result": True}
         except (RosbridgeError, TrundleError, RecursionError) as error:
             self._status.report("error", f"call_service {type(error).__name__}: {error}", key)
-            answer |= {"values": str(error), "result": False}
-        self._send(answer if key is None else {**answer, "id": key})
+            response |= {"values": str(error), "result": False}
+        self._send(response if key is None else {**response, "id": key})
 
     async def _advertise_service(self, message: dict[str, Any]) -> None:
         checks.check_fields(message, checks.ADVERTISE_SERVICE)
@@ -236,10 +236,10 @@ class Session:
         if len(self._services) >= _MAX_SERVICES:
             raise RosbridgeError(f"{_MAX_SERVICES} services are advertised already")
         self._node.messages.service(message["type"])
-        there = self._shared.services.get(name)
-        if there is not None:
+        existing = self._shared.services.get(name)
+        if existing is not None:
             self._status.report("warning", f"Duplicate service advertised. Overwriting {name}.", message.get("id"))
-            self._drop_service(name, there)
+            self._drop_service(name, existing)
         service = ClientService(self._node, name, message["type"], self._shared.encoder, self._send)
         self._services[name] = self._shared.services[name] = service
         self._status.report("info", f"Advertised service {name}.", message.get("id"))
@@ -272,12 +272,12 @@ class Session:
         if self._shared.services.get(name) is service:
             del self._shared.services[name]
 
-    # -- the protocol's own
+    # -- the protocol itself
 
     async def _defragment(self, message: dict[str, Any]) -> None:
-        whole = self._reassembly.add(message)
-        if whole is not None:
-            await self.receive(whole)
+        complete = self._reassembly.add(message)
+        if complete is not None:
+            await self.receive(complete)
 
     async def _set_level(self, message: dict[str, Any]) -> None:
         self._status.set_level(message.get("level"))
@@ -289,10 +289,10 @@ class Session:
                 raise RosbridgeError(f"fragment_size must be > 0, got {size}")
             self._fragment_size = size
 
-    def _is_hidden(self, what: str, name: str, globs: tuple[str, ...], action: str) -> bool:
+    def _is_hidden(self, entity: str, name: str, globs: tuple[str, ...], action: str) -> bool:
         if allows(globs, name):
             return False
-        self._status.report("warning", f"No match found for {what}, cancelling {action}: {name}")
+        self._status.report("warning", f"No match found for {entity}, cancelling {action}: {name}")
         return True
 
     def _send(self, message: dict[str, Any]) -> None:

@@ -1,4 +1,4 @@
-"""State that all clients of one rosbridge share."""
+"""State shared by all clients of one rosbridge."""
 
 from dataclasses import dataclass, field
 
@@ -15,7 +15,7 @@ class Options:
 
     fragment_timeout_s: float = 600.0
     fragment_size: int | None = None
-    """Longest message to a client before it is split; None: unlimited."""
+    """Maximum length of a message to a client before it is split; None: unlimited."""
     unregister_timeout_s: float = 10.0
     topics_glob: tuple[str, ...] = ()
     services_glob: tuple[str, ...] = ()
@@ -23,16 +23,16 @@ class Options:
 
 @dataclass(slots=True)
 class Shared:
-    """State of the node behind its clients."""
+    """State of the node, shared by its clients."""
 
     node: Node
     options: Options
     encoder: JsonEncoder = field(init=False)
     publishers: Publishers = field(init=False)
     services: dict[str, ClientService] = field(default_factory=dict[str, ClientService])
-    """By name as advertised."""
+    """Advertised name → service."""
 
     def __post_init__(self) -> None:
-        """Make the parts."""
+        """Create the encoder and the publishers."""
         self.encoder = JsonEncoder(self.node.messages)
         self.publishers = Publishers(self.node, self.options.unregister_timeout_s)

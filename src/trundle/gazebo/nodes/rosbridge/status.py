@@ -1,11 +1,11 @@
-"""Status messages to one client, and what the log says of it."""
+"""Status messages to one client, and log lines about it."""
 
 from collections.abc import Callable
 from typing import Literal, Protocol
 
 _LEVELS = {"none": 0, "error": 1, "warning": 2, "info": 3}
 _MAX_LOGGED = 200
-"""Lines of one client; a faulty program repeats itself."""
+"""Maximum number of log lines per client, against repeating errors."""
 
 Level = Literal["error", "warning", "info"]
 
@@ -21,7 +21,7 @@ class Log(Protocol):
 
 
 class Status:
-    """Reports up to a level, which the client sets."""
+    """Reports up to a level set by the client."""
 
     def __init__(self, number: int, log: Log, send: Callable[[dict[str, object]], None]) -> None:
         self._number = number
@@ -36,7 +36,7 @@ class Status:
             self._level = _LEVELS.get(level, self._level)
 
     def report(self, level: Level, text: str, key: object = None) -> None:
-        """Log a text, and send it if the client's level asks for it."""
+        """Log a text, and send it if the client's level includes it."""
         self._write(
             level, f"[Client {self._number}] {text}" if key is None else f"[Client {self._number}] [id: {key}] {text}"
         )
@@ -47,7 +47,7 @@ class Status:
     def _write(self, level: Level, text: str) -> None:
         self._logged += 1
         if self._logged == _MAX_LOGGED:
-            self._log.warn(f"[Client {self._number}] more than {_MAX_LOGGED} lines; no more of it are logged")
+            self._log.warn(f"[Client {self._number}] more than {_MAX_LOGGED} lines; further ones are not logged")
         if self._logged < _MAX_LOGGED:
             write = {"error": self._log.error, "warning": self._log.warn, "info": self._log.info}[level]
             write(text)

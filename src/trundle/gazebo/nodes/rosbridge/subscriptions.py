@@ -1,4 +1,4 @@
-"""A client's subscriptions: throttled, queued and encoded as it asks."""
+"""A client's subscriptions: throttled, queued and encoded by its settings."""
 
 import asyncio
 import time
@@ -19,7 +19,8 @@ from .topic_types import resolve_type
 _ANY = "*"
 _MAX_QUEUE = 10_000
 _COMPRESSIONS = ("cbor-raw", "cbor", "png")
-"""The first that one of a client's subscriptions asks for is used for all of them, as in rosbridge_library."""
+"""In order of precedence: all subscriptions of a client use the first that one of them requests, as in
+rosbridge_library."""
 
 Send = Callable[[str | bytes], bool]
 
@@ -48,11 +49,11 @@ class Subscription:
         """Call `subscribe` next.
 
         Args:
-            node: subscribes.
-            topic: as the client wrote it.
-            encoder: of messages.
-            send: takes a message for the client; False: it is too slow.
-            wait_idle: coroutine function that waits until the client is not.
+            node: node that subscribes.
+            topic: topic in the client's request.
+            encoder: encoder of messages.
+            send: queues a message for the client; False: the client is too slow.
+            wait_idle: coroutine function that waits until the client is not busy.
             kind: message type.
         """
         self._node = node
@@ -66,7 +67,7 @@ class Subscription:
         self._subscribed_kind = ""
         self._queue: deque[Message] = deque(maxlen=1)
         self._filled = asyncio.Event()
-        self._pump_task: asyncio.Task[None] | None = None
+        self._send_task: asyncio.Task[None] | None = None
         self._sent_s = 0.0
         self._throttle_s = 0.0
         self._queue_length = 0
@@ -79,7 +80,7 @@ class Subscription:
         return not self._settings
 
     def subscribe(self, key: object, settings: Settings) -> None:
-        """Add settings under an id; the least of all of them count."""
+        """Add settings under an id; the minimum of all settings counts."""
         self._settings[key] = settings
         self._update()
 
@@ -98,19 +99,19 @@ class Subscription:
         if self._subscription is not None:
             self._subscription.unregister()
             self._subscription = None
-        if self._pump_task is not None:
-            self._pump_task.cancel()
-            self._pump_task = None
+        if self._send_task is not None:
+            self._send_task.cancel()
+            self._send_task = None
 
     def _update(self) -> None:
         settings = self._settings.values()
-        self._throttle_s = max(min(each.throttle_ms for each in settings), 0.0) / 1e3
-        self._queue_length = max(min(min(each.queue_length for each in settings), _MAX_QUEUE), 0)
-        asked = {each.compression for each in settings}
-        self._compression = next((each for each in _COMPRESSIONS if each in asked), "none")
+        self._throttle_s = max(min(item.throttle_ms for item in settings), 0.0) / 1e3
+        self._queue_length = max(min(min(item.queue_length for item in settings), _MAX_QUEUE), 0)
+        requested = {item.compression for item in settings}
+        self._compression = next((item for item in _COMPRESSIONS if item in requested), "none")
         self._queue = deque(self._queue, maxlen=max(self._queue_length, 1))
-        if self._queue_length and self._pump_task is None:
-            self._pump_task = asyncio.get_running_loop().create_task(self._pump())
+        if self._queue_length and self._send_task is None:
+            self._send_task = asyncio.get_running_loop().create_task(self._send_queued())
         is_raw = self._compression == "cbor-raw" or not self._node.messages.has(self.kind)
         kind = _ANY if is_raw else self.kind
         if kind != self._subscribed_kind:
@@ -129,7 +130,7 @@ class Subscription:
     def _remaining_s(self) -> float:
         return self._sent_s + self._throttle_s - time.monotonic()
 
-    async def _pump(self) -> None:
+    async def _send_queued(self) -> None:
         """Send queued messages as the throttle and the client allow."""
         while True:
             self._filled.clear()
@@ -174,37 +175,37 @@ class Subscription:
 async def make_subscription(
     node: Node,
     topic: str,
-    given: str | None,
+    requested_type: str | None,
     *,
     encoder: JsonEncoder,
     send: Send,
     wait_idle: Callable[[], Awaitable[object]],
     is_raw: bool,
 ) -> Subscription:
-    """Make a subscription with the given or the established type.
+    """Return a subscription with the requested or the established type.
 
     Raises:
-        RosbridgeError: there is none, or the topic has another type.
+        RosbridgeError: the type is unknown, or the topic has another.
         RosError: no such type, or no master.
     """
-    kind = _ANY if is_raw and given is None else await resolve_type(node, topic, given)
-    if given is not None:
+    kind = _ANY if is_raw and requested_type is None else await resolve_type(node, topic, requested_type)
+    if requested_type is not None:
         node.messages.md5(kind)
     return Subscription(node, topic, encoder, send, wait_idle, kind)
 
 
 def dump_json(value: object) -> str:
-    """Encode as JSON; what is no Unicode is escaped."""
+    """Encode as JSON; invalid Unicode is replaced."""
     try:
         return msgspec.json.encode(value).decode()
     except UnicodeEncodeError:
-        return msgspec.json.encode(_replaced(value)).decode()
+        return msgspec.json.encode(_replace_surrogates(value)).decode()
 
 
-def _replaced(value: Any) -> Any:
-    """Replace lone surrogates, which stand for bytes of texts that are not UTF-8."""
+def _replace_surrogates(value: Any) -> Any:
+    """Replace lone surrogates, which represent bytes that are not UTF-8."""
     if isinstance(value, str):
         return value.encode("utf-8", "replace").decode()
     if isinstance(value, dict):
-        return {_replaced(key): _replaced(item) for key, item in value.items()}  # pyright: ignore[reportUnknownVariableType]
-    return [_replaced(item) for item in value] if isinstance(value, list) else value  # pyright: ignore[reportUnknownVariableType]
+        return {_replace_surrogates(key): _replace_surrogates(item) for key, item in value.items()}  # pyright: ignore[reportUnknownVariableType]
+    return [_replace_surrogates(item) for item in value] if isinstance(value, list) else value  # pyright: ignore[reportUnknownVariableType]

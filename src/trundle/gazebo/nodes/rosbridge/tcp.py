@@ -1,4 +1,4 @@
-"""rosbridge_tcp: the rosbridge protocol as JSON objects that follow each other in a TCP connection."""
+"""rosbridge_tcp: the rosbridge protocol as consecutive JSON objects in a TCP connection."""
 
 import asyncio
 import contextlib
@@ -23,8 +23,8 @@ from .shared import Shared
 _PORT = 9090
 _MAX_CLIENTS = 100
 _CHUNK = 1024 * 1024
-_GUESS_S = 1.0
-"""Delay before a connection without the token ends."""
+_REJECTION_DELAY_S = 1.0
+"""Delay before a connection without the token is closed, against guessing."""
 
 
 class RosbridgeTcp:
@@ -53,20 +53,20 @@ class RosbridgeTcp:
         except UsageError as error:
             node.log.fatal(str(error))
             return 1
-        self._token = address.token.encode() if address.has_own_token and not address.is_open else None
+        self._token = address.token.encode() if address.has_fixed_token and not address.is_open else None
         self._shared = Shared(node, options)
         self._clients = ClientList(node)
         try:
-            listening = address.listen()
+            socket_ = address.listen()
         except OSError as error:
             node.log.fatal(f"{address.host}:{address.port}: {error.strerror or error}; set ~port to another")
             return 1
-        server = await asyncio.start_server(self._accept, sock=listening)
+        server = await asyncio.start_server(self._accept, sock=socket_)
         try:
-            node.log.info(f"Rosbridge TCP server started on port {listening.getsockname()[1]}")
+            node.log.info(f"Rosbridge TCP server started on port {socket_.getsockname()[1]}")
             if address.warning is not None:
                 node.log.warn(address.warning)
-            await node.params.set("~actual_port", int(listening.getsockname()[1]))
+            await node.params.set("~actual_port", int(socket_.getsockname()[1]))
             await node.closed.wait()
         finally:
             server.close()
@@ -101,7 +101,7 @@ class RosbridgeTcp:
             self._tasks.discard(task)
 
     async def _receive_all(self, reader: asyncio.StreamReader, session: Session) -> None:
-        """Handle objects until the client leaves, or sends what is none: a browser's requests begin otherwise."""
+        """Handle objects until the client leaves or sends other data, such as a browser's request."""
         splitter, has_token = ObjectSplitter(), self._token is None
         while data := await reader.read(_CHUNK):
             try:
@@ -112,16 +112,16 @@ class RosbridgeTcp:
             for text in texts:
                 if has_token:
                     await session.receive(text)
-                elif compare_digest(_given_token(text), self._token or b""):
+                elif compare_digest(_read_token(text), self._token or b""):
                     has_token = True
                 else:
-                    self._node.log.warn("a client is disconnected: it has not begun with the token")
-                    await asyncio.sleep(_GUESS_S)
+                    self._node.log.warn("a client is disconnected: its first message is not the token")
+                    await asyncio.sleep(_REJECTION_DELAY_S)
                     return
 
 
-def _given_token(text: str) -> bytes:
-    """Return the token of a message that begins a connection; empty: it has none."""
+def _read_token(text: str) -> bytes:
+    """Return the token in the first message of a connection; empty: no token."""
     try:
         message = json.loads(text)
     except (ValueError, RecursionError):
@@ -131,10 +131,10 @@ def _given_token(text: str) -> bytes:
 
 
 def _check_public(address: WebAddress, name: str) -> None:
-    if address.is_public and not address.is_open and not address.has_own_token:
+    if address.is_public and not address.is_open and not address.has_fixed_token:
         raise ParamError(
             f"parameter {name}/host: without a token, every machine could drive the robot at {address.host}. "
-            "Set ~token, or ~allowed_origins to '*' if that is wanted"
+            "Set ~token, or ~allowed_origins to '*' to allow that"
         )
 
 

@@ -1,4 +1,4 @@
-"""Types of topics, as the master knows them."""
+"""Types of topics, from the master."""
 
 from trundle.ros import Node
 
@@ -7,16 +7,16 @@ from .errors import TopicNotEstablishedError, TypeConflictError
 _ANY = "*"
 
 
-async def resolve_type(node: Node, topic: str, given: str | None) -> str:
-    """Type of a topic: the given one, or that which the master knows.
+async def resolve_type(node: Node, topic: str, requested: str | None) -> str:
+    """Return the type of a topic: the requested one, or the master's.
 
     Raises:
-        RosbridgeError: none is known, or the topic has another type.
+        RosbridgeError: the type is unknown, or the topic has another.
     """
-    known = dict(await node.master.call("getTopicTypes")).get(node.resolve(topic), _ANY)
-    if given is None and known == _ANY:
+    established = dict(await node.master.call("getTopicTypes")).get(node.resolve(topic), _ANY)
+    if requested is None and established == _ANY:
         raise TopicNotEstablishedError(topic)
-    plain = str(known) if given is None else given.replace("/msg/", "/")
-    if known not in (_ANY, plain):
-        raise TypeConflictError(topic, str(known), plain)
-    return plain
+    kind = str(established) if requested is None else requested.replace("/msg/", "/")
+    if established not in (_ANY, kind):
+        raise TypeConflictError(topic, str(established), kind)
+    return kind

@@ -25,7 +25,7 @@ _PORT = 9090
 class RosbridgeWebsocket:
     """Server of the rosbridge protocol, version 2, over WebSockets; subscriptions as JSON, PNG or CBOR.
 
-    Parameters as in rosbridge_server, and allowed_origins, allowed_hosts and token, which say who is served.
+    Parameters as in rosbridge_server, and allowed_origins, allowed_hosts and token, which restrict the clients.
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
@@ -51,11 +51,11 @@ class RosbridgeWebsocket:
             return 1
         self._shared = Shared(node, options)
         self._clients = ClientList(node)
-        listening = await self._listen(address, retry_s)
-        port = int(listening.getsockname()[1])
+        socket_ = await self._listen(address, retry_s)
+        port = int(socket_.getsockname()[1])
         sockets = SocketOptions(serve=self._serve, ping_s=ping_s or None, compresses=compresses)
         server = WebServer(address.access("rosbridge", port), {}, sockets=sockets)
-        await server.start(listening, certificate)
+        await server.start(socket_, certificate)
         try:
             await node.params.set("~actual_port", port)
             scheme = "ws" if certificate is None else "wss"
@@ -68,14 +68,14 @@ class RosbridgeWebsocket:
         return 0
 
     async def _listen(self, address: WebAddress, retry_s: float) -> "socket.socket":
-        """Try until the port is free."""
+        """Retry until the port is free."""
         while True:
             try:
                 return address.listen()
             except OSError as error:
-                where = f"{address.host}:{address.port}"
-                why = error.strerror or str(error)
-                self._node.log.warn(f"Unable to start server at {where}: {why}. Retrying in {retry_s:g}s.")
+                address_text = f"{address.host}:{address.port}"
+                reason = error.strerror or str(error)
+                self._node.log.warn(f"Unable to start server at {address_text}: {reason}. Retrying in {retry_s:g}s.")
                 await self._node.clock.sleep(retry_s)
 
     async def _serve(self, client: SocketClient) -> None:
@@ -91,10 +91,10 @@ class RosbridgeWebsocket:
 
 
 def _certificate(settings: RosParameters) -> ssl.SSLContext | None:
-    """TLS of certfile and keyfile; None: neither is set.
+    """Return the TLS context of certfile and keyfile; None: neither is set.
 
     Raises:
-        UsageError: they cannot be read.
+        UsageError: the files cannot be read.
     """
     certificate, key = settings.text("certfile", ""), settings.text("keyfile", "")
     if not certificate and not key:
@@ -103,6 +103,6 @@ def _certificate(settings: RosParameters) -> ssl.SSLContext | None:
     try:
         context.load_cert_chain(certificate, key or None)
     except (OSError, ssl.SSLError) as error:
-        where = f"parameters {settings.where}/certfile and keyfile"
-        raise UsageError(f"{where}: no certificate and key in {certificate!r}, {key!r}: {error}") from None
+        parameters = f"parameters {settings.where}/certfile and keyfile"
+        raise UsageError(f"{parameters}: no certificate and key in {certificate!r}, {key!r}: {error}") from None
     return context

@@ -18,21 +18,21 @@ class Drop:
 
     async def run(self) -> int:
         """Drop until cancelled."""
-        node, words = self._node, self._arguments
-        counts = [int(word) for word in words[1:3] if word.isdecimal()]
-        if not 3 <= len(words) <= 4 or len(counts) != 2 or counts[1] < 1:
-            node.log.error(f"{_USAGE}; got {' '.join(words)!r}")
+        node, arguments = self._node, self._arguments
+        counts = [int(word) for word in arguments[1:3] if word.isdecimal()]
+        if not 3 <= len(arguments) <= 4 or len(counts) != 2 or counts[1] < 1:
+            node.log.error(f"{_USAGE}; got {' '.join(arguments)!r}")
             return 1
-        output = RawPublisher(node, words[3] if len(words) > 3 else f"{words[0]}_drop")
-        dropped, every = counts
+        output = RawPublisher(node, arguments[3] if len(arguments) > 3 else f"{arguments[0]}_drop")
+        dropped, period = counts
         count = 0
 
         def on_message(message: RawMessage) -> None:
             nonlocal count
             if count >= dropped:
                 output.publish(message)
-            count = (count + 1) % every
+            count = (count + 1) % period
 
-        RawSubscriber(node, words[0], on_message).subscribe()
+        RawSubscriber(node, arguments[0], on_message).subscribe()
         await node.closed.wait()
         return 0

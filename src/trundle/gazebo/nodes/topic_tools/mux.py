@@ -27,24 +27,26 @@ class Mux:
 
     async def run(self) -> int:
         """Forward until cancelled."""
-        node, words = self._node, self._arguments
-        if len(words) < 2:
-            node.log.error(f"usage: mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 …]; got {' '.join(words)!r}")
+        node, arguments = self._node, self._arguments
+        if len(arguments) < 2:
+            node.log.error(f"usage: mux OUT_TOPIC IN_TOPIC1 [IN_TOPIC2 …]; got {' '.join(arguments)!r}")
             return 1
         settings = await private_parameters(node)
-        self._output = RawPublisher(node, words[0], latch=settings.flag("latch", default=False))
-        self._said = node.advertise("mux/selected", "std_msgs/String", latch=True, queue_size=1)
-        for topic in words[1:]:
+        self._output = RawPublisher(node, arguments[0], latch=settings.flag("latch", default=False))
+        self._selected_topic = node.advertise("mux/selected", "std_msgs/String", latch=True, queue_size=1)
+        for topic in arguments[1:]:
             self._add(topic)
         self._begin(settings.text("initial_topic", ""))
         node.advertise_service("mux/select", "topic_tools/MuxSelect", self._select)
-        node.advertise_service(f"{words[0]}_select", "topic_tools/MuxSelect", self._select_legacy)
+        node.advertise_service(f"{arguments[0]}_select", "topic_tools/MuxSelect", self._select_legacy)
         node.advertise_service("mux/add", "topic_tools/MuxAdd", self._add_service)
         node.advertise_service("mux/delete", "topic_tools/MuxDelete", self._delete)
         node.advertise_service("mux/list", "topic_tools/MuxList", self._list)
         if settings.flag("lazy", default=False):
             await subscribe_lazily(
-                node, self._output, lambda: [(each, name == self._selected) for name, each in self._inputs.items()]
+                node,
+                self._output,
+                lambda: [(subscriber, name == self._selected) for name, subscriber in self._inputs.items()],
             )
         await node.closed.wait()
         return 0
@@ -72,9 +74,9 @@ class Mux:
         name = None if topic == _NONE else self._node.resolve(topic)
         if name is not None and name not in self._inputs:
             raise ServiceError(f"no input {name!r}; inputs: {', '.join(self._inputs) or 'none'}")
-        before, self._selected = self._selected, name
-        self._said.publish({"data": topic})
-        return before or ""
+        previous, self._selected = self._selected, name
+        self._selected_topic.publish({"data": topic})
+        return previous or ""
 
     def _select(self, request: "topic_tools.MuxSelectRequest") -> dict[str, Any]:
         return {"prev_topic": self._choose(request.topic)}

@@ -10,7 +10,7 @@ _POLL_S = 0.1
 
 
 class RawPublisher:
-    """Publisher with type and latching of the first message, which reaches subscribers only if latched."""
+    """Publisher with the type and latching of the first message, which reaches subscribers only if latched."""
 
     def __init__(self, node: Node, topic: str, *, latch: bool | None = None) -> None:
         """Create; `latch` overrides the messages' latching."""
@@ -74,13 +74,13 @@ async def subscribe_lazily(
     """Subscribe only while the output has subscribers; to all inputs until its type is known.
 
     Args:
-        node: runs until it is closed.
-        output: publisher.
-        inputs: returns all current inputs, each with True if it is forwarded.
+        node: node; the function returns when it is closed.
+        output: publisher of the output.
+        inputs: returns all current inputs, with True for those that are forwarded.
     """
     while not node.closed.is_set():
-        for source, chosen in inputs():
-            if not output.is_typed or (chosen and output.has_subscribers):
+        for source, is_selected in inputs():
+            if not output.is_typed or (is_selected and output.has_subscribers):
                 source.subscribe()
             else:
                 source.unsubscribe()

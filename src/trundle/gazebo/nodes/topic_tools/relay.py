@@ -31,35 +31,37 @@ class Relay:
         output = RawPublisher(node, target)
 
         def relay(message: RawMessage) -> None:
-            learns = not output.is_typed
+            is_first = not output.is_typed
             output.publish(message)
-            if learns and is_stealthy:  # until the next check; subscribers of the meantime get nothing
-                inlet.unsubscribe()
+            if is_first and is_stealthy:  # until the next check; interim subscribers receive nothing
+                subscriber.unsubscribe()
 
-        inlet = RawSubscriber(node, source, relay)
-        inlet.subscribe()
+        subscriber = RawSubscriber(node, source, relay)
+        subscriber.subscribe()
         if is_stealthy:
             monitored = node.resolve(settings.text("monitor_topic", source))
-            await self._hide(inlet, output, monitored, every_s=settings.number("monitor_rate", 1.0))
+            await self._relay_stealthily(subscriber, output, monitored, period_s=settings.number("monitor_rate", 1.0))
         elif settings.flag("lazy", default=False):
-            await subscribe_lazily(node, output, lambda: [(inlet, True)])
+            await subscribe_lazily(node, output, lambda: [(subscriber, True)])
         await node.closed.wait()
         return 0
 
-    async def _hide(self, inlet: RawSubscriber, output: RawPublisher, monitored: str, *, every_s: float) -> None:
-        """Subscribe only while another node subscribes to `monitored`; checks every `every_s` (the original: rate).
+    async def _relay_stealthily(
+        self, subscriber: RawSubscriber, output: RawPublisher, monitored: str, *, period_s: float
+    ) -> None:
+        """Subscribe only while another node subscribes to `monitored`, checked every `period_s` (the original: a rate).
 
-        Until the first message, which determines the output's type, stay subscribed.
+        The node stays subscribed until the first message, which determines the output's type.
         """
         node = self._node
-        ask = node.master.call
+        call = node.master.call
         while not node.closed.is_set():
-            _, subscribers, _ = await ask("getSystemState")
-            ask = node.master.poll
+            _, subscribers, _ = await call("getSystemState")
+            call = node.master.poll
             if not output.is_typed or any(
                 topic == monitored and set(nodes) - {node.name} for topic, nodes in subscribers
             ):
-                inlet.subscribe()
+                subscriber.subscribe()
             else:
-                inlet.unsubscribe()
-            await asyncio.sleep(max(every_s, 0.1))
+                subscriber.unsubscribe()
+            await asyncio.sleep(max(period_s, 0.1))

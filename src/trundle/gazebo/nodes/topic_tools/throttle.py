@@ -26,7 +26,7 @@ class MessageRateLimiter:
         self._last_ns = 0
 
     def allows(self, size: int) -> bool:
-        """True if a message of `size` bytes may pass now."""
+        """Return True if a message of `size` bytes may pass now."""
         del size
         now = self._now_ns()
         self._last_ns = min(self._last_ns, now)  # simulated time may jump back
@@ -49,7 +49,7 @@ class BandwidthLimiter:
         self._sent: deque[tuple[int, int]] = deque()
 
     def allows(self, size: int) -> bool:
-        """True if a message of `size` bytes may pass now."""
+        """Return True if a message of `size` bytes may pass now."""
         now = self._now_ns()
         while self._sent and not 0 <= now - self._sent[0][0] <= self._window_ns:
             self._sent.popleft()
@@ -71,34 +71,34 @@ class Throttle:
         """Throttle until cancelled."""
         node = self._node
         settings = await private_parameters(node)
-        # The program reads the first; its manual, and so launch files, name the second.
-        wall = settings.flag("wall_clock", default=settings.flag("use_wall_clock", default=False))
+        # The original reads the first; its manual, and therefore launch files, use the second.
+        is_wall_clock = settings.flag("wall_clock", default=settings.flag("use_wall_clock", default=False))
         latch = settings.flag("force_latch", default=False) if "force_latch" in settings else None
-        now_ns = time.time_ns if wall else lambda: node.clock.now_ns()
+        now_ns = time.time_ns if is_wall_clock else lambda: node.clock.now_ns()
         try:
-            gate, source, target = self._read(now_ns)
+            limiter, source, target = self._read(now_ns)
         except ValueError:
             node.log.error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 1
         output = RawPublisher(node, target, latch=latch)
 
         def on_message(message: RawMessage) -> None:
-            if gate.allows(len(message.data)):
+            if limiter.allows(len(message.data)):
                 output.publish(message)
 
-        inlet = RawSubscriber(node, source, on_message)
-        inlet.subscribe()
+        subscriber = RawSubscriber(node, source, on_message)
+        subscriber.subscribe()
         if settings.flag("lazy", default=False):
-            await subscribe_lazily(node, output, lambda: [(inlet, True)])
+            await subscribe_lazily(node, output, lambda: [(subscriber, True)])
         await node.closed.wait()
         return 0
 
     def _read(self, now_ns: Callable[[], int]) -> tuple[MessageRateLimiter | BandwidthLimiter, str, str]:
         match self._arguments:
             case ["messages", source, rate, *rest] if len(rest) <= 1 and float(rate) > 0.0:
-                gate = MessageRateLimiter(float(rate), now_ns)
+                limiter = MessageRateLimiter(float(rate), now_ns)
             case ["bytes", source, rate, window, *rest] if len(rest) <= 1:
-                gate = BandwidthLimiter(float(rate), float(window), now_ns)
+                limiter = BandwidthLimiter(float(rate), float(window), now_ns)
             case _:
                 raise ValueError
-        return gate, source, rest[0] if rest else f"{source}_throttle"
+        return limiter, source, rest[0] if rest else f"{source}_throttle"

@@ -27,15 +27,15 @@ class Transform:
     async def run(self) -> int:
         """Transform until cancelled."""
         node = self._node
-        words = [word for word in self._arguments if word != "--wait-for-start"]
+        arguments = [word for word in self._arguments if word != "--wait-for-start"]
         modules = ["numpy"]
-        if "--import" in words:
-            at = words.index("--import")
-            words, modules = words[:at], [*modules, *words[at + 1 :]]
-        if len(words) != 4:
+        if "--import" in arguments:
+            index = arguments.index("--import")
+            arguments, modules = arguments[:index], [*modules, *arguments[index + 1 :]]
+        if len(arguments) != 4:
             node.log.error(f"{_USAGE}; got {' '.join(self._arguments)!r}")
             return 1
-        source, target, type_name, text = words
+        source, target, type_name, text = arguments
         try:
             self._names = {name.partition(".")[0]: importlib.import_module(name) for name in modules}
             self._code = compile(text, "<expression>", "eval")
@@ -51,12 +51,12 @@ class Transform:
     async def _subscribe(self) -> None:
         """Wait for a topic that is a prefix of the input, the longest one; the rest is a field path."""
         parts = self._source.strip("/").split("/")
-        starts = [(count, "/" + "/".join(parts[:count])) for count in range(len(parts), 0, -1)]
-        ask = self._node.master.call
+        prefixes = [(count, "/" + "/".join(parts[:count])) for count in range(len(parts), 0, -1)]
+        call = self._node.master.call
         while True:
-            topics = {str(name) for name, _ in await ask("getTopicTypes")}
-            ask = self._node.master.poll
-            for count, name in starts:
+            topics = {str(name) for name, _ in await call("getTopicTypes")}
+            call = self._node.master.poll
+            for count, name in prefixes:
                 if name in topics:
                     self._fields = parts[count:]
                     self._node.subscribe(name, "*", self._on_message, queue_size=1)
@@ -77,7 +77,7 @@ class Transform:
             self._failed = True
 
     def _message(self, value: Any) -> Message:
-        """Message from the expression's result: a message, its fields in order, or the value of its only field."""
+        """Return the message of the expression's result: a message, its fields in order, or its only field's value."""
         if hasattr(value, "__msgtype__"):
             return value
         if isinstance(value, list | tuple):

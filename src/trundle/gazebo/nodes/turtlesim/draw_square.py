@@ -36,8 +36,8 @@ class DrawSquare:
             await rate.sleep()
         while True:
             start = self._pose
-            wanted = (start.x + _SIDE_M * math.cos(start.theta), start.y + _SIDE_M * math.sin(start.theta))
-            await self._until(rate, lambda p, to=wanted: math.dist((p.x, p.y), to) < 0.1, linear=1.0)
+            target = (start.x + _SIDE_M * math.cos(start.theta), start.y + _SIDE_M * math.sin(start.theta))
+            await self._until(rate, lambda p, to=target: math.dist((p.x, p.y), to) < 0.1, linear=1.0)
             heading = math.remainder(start.theta + math.pi / 2.0, math.tau)
             await self._until(
                 rate, lambda p, to=heading: abs(math.remainder(p.theta - to, math.tau)) < 0.01, angular=0.4

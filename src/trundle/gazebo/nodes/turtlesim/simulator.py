@@ -8,7 +8,7 @@ from trundle.spatial import NS_PER_S
 
 from ..host import NodeHost
 from ..rate import Rate
-from .turtle import Colour, Turtle
+from .turtle import Color, Turtle
 from .turtle_frame import SIZE_M, SIZE_PX, TurtleFrame
 
 if TYPE_CHECKING:
@@ -17,29 +17,29 @@ if TYPE_CHECKING:
 _TICK_NS = 16_000_000
 """Timer period of the original's window."""
 _MAX_BEHIND_NS = 2_000_000_000
-"""Limit of catching up; commands last one second, so all turtles stand by then."""
-_PICTURE_EVERY = 6
+"""Limit of catching up; commands last one second, so all turtles have stopped by then."""
+_UPDATES_PER_IMAGE = 6
 """Updates per image: ten images per second."""
-_BACKGROUND: Colour = (0x45, 0x56, 0xFF)
+_BACKGROUND: Color = (0x45, 0x56, 0xFF)
 _MAX_TURTLES = 1000
-_THINNEST_PX = 1
+_MIN_PEN_PX = 1
 """Width of a pen set without one."""
 
 
 class _SpawnedTurtle:
     """A turtle with its topics and services."""
 
-    def __init__(self, turtle: Turtle, pose: Publisher, colour: Publisher) -> None:
+    def __init__(self, turtle: Turtle, pose: Publisher, color: Publisher) -> None:
         self.turtle = turtle
         self.pose = pose
-        self.colour = colour
+        self.color = color
         self.commands: Subscription | None = None
         self.services: list[Service] = []
 
     def unregister(self) -> None:
         """Unregister the topics and services."""
         self.pose.unregister()
-        self.colour.unregister()
+        self.color.unregister()
         if self.commands is not None:
             self.commands.unregister()
         for service in self.services:
@@ -54,7 +54,7 @@ class TurtleSim:
         self._node = node
         self._display = host.display
         self._turtles: dict[str, _SpawnedTurtle] = {}
-        self._named = 0
+        self._name_count = 0
         """Number of generated names since the start; numbers are not reused."""
         self._background = _BACKGROUND
         self._picture = TurtleFrame(_BACKGROUND)
@@ -102,11 +102,11 @@ class TurtleSim:
             for registered in list(self._turtles.values()):
                 self._publish(registered)
             count += 1
-            if count % _PICTURE_EVERY == 0 and image.has_subscribers:
+            if count % _UPDATES_PER_IMAGE == 0 and image.has_subscribers:
                 image.publish(self._image())
 
     def _start(self) -> None:
-        self._named = 0
+        self._name_count = 0
         self._spawn(self._new_name(), Turtle(SIZE_M / 2.0, SIZE_M / 2.0, 0.0, size=SIZE_M))
 
     def _spawn(self, name: str, turtle: Turtle) -> None:
@@ -145,8 +145,8 @@ class TurtleSim:
 
     def _publish(self, registered: _SpawnedTurtle) -> None:
         turtle = registered.turtle
-        red, green, blue = self._picture.colour_at(turtle.x, turtle.y)
-        registered.colour.publish({"r": red, "g": green, "b": blue})
+        red, green, blue = self._picture.color_at(turtle.x, turtle.y)
+        registered.color.publish({"r": red, "g": green, "b": blue})
         registered.pose.publish(
             {
                 "x": turtle.x,
@@ -159,7 +159,7 @@ class TurtleSim:
 
     def _draw(self, turtle: Turtle, before: tuple[float, float]) -> None:
         if turtle.pen.on and before != (turtle.x, turtle.y):
-            self._picture.draw_line(before, (turtle.x, turtle.y), turtle.pen.colour, turtle.pen.width_px)
+            self._picture.draw_line(before, (turtle.x, turtle.y), turtle.pen.color, turtle.pen.width_px)
 
     def _teleport(self, turtle: Turtle, request: "turtlesim.TeleportAbsoluteRequest") -> None:
         before = (turtle.x, turtle.y)
@@ -172,7 +172,7 @@ class TurtleSim:
         self._draw(turtle, before)
 
     def _image(self) -> dict[str, Any]:
-        pixels = self._picture.with_turtles(each.turtle for each in self._turtles.values())
+        pixels = self._picture.with_turtles(registered.turtle for registered in self._turtles.values())
         return {
             "header": {"stamp": self._node.clock.now_ns()},
             "height": SIZE_PX,
@@ -213,8 +213,8 @@ class TurtleSim:
 
     def _new_name(self) -> str:
         while True:
-            self._named += 1
-            if (name := f"turtle{self._named}") not in self._turtles:
+            self._name_count += 1
+            if (name := f"turtle{self._name_count}") not in self._turtles:
                 return name
 
     def _kill(self, request: "turtlesim.KillRequest") -> dict[str, Any]:
@@ -229,5 +229,5 @@ def _set_pen(turtle: Turtle, request: "turtlesim.SetPenRequest") -> None:
     pen = turtle.pen
     pen.on = not request.off
     if pen.on:
-        pen.colour = (request.r, request.g, request.b)
-        pen.width_px = request.width or _THINNEST_PX
+        pen.color = (request.r, request.g, request.b)
+        pen.width_px = request.width or _MIN_PEN_PX

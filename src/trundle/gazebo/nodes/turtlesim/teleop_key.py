@@ -40,6 +40,6 @@ class TurtleTeleopKey:
         with keyboard.cbreak():
             while (key := await keyboard.read_key()) != "q":
                 if key in _MOVES:
-                    forwards, turn = _MOVES[key]
-                    commands.publish({"linear": {"x": forwards * linear}, "angular": {"z": turn * angular}})
+                    speed, yaw_rate = _MOVES[key]
+                    commands.publish({"linear": {"x": speed * linear}, "angular": {"z": yaw_rate * angular}})
         return 0

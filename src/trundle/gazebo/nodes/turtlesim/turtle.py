@@ -4,10 +4,10 @@ import math
 from collections import deque
 from dataclasses import dataclass
 
-Colour = tuple[int, int, int]
+Color = tuple[int, int, int]
 _COMMAND_TIMEOUT_NS = 1_000_000_000
 """A turtle stops after a second without commands."""
-_MAX_COMING = 100
+_MAX_PENDING = 100
 _Velocity = tuple[float, float, float]
 _REST: _Velocity = (0.0, 0.0, 0.0)
 
@@ -16,7 +16,7 @@ _REST: _Velocity = (0.0, 0.0, 0.0)
 class Pen:
     """Line style of a turtle's path."""
 
-    colour: Colour = (0xB3, 0xB8, 0xFF)
+    color: Color = (0xB3, 0xB8, 0xFF)
     width_px: int = 3
     on: bool = True
 
@@ -34,26 +34,26 @@ class Turtle:
         self._size = size
         self._command = _REST
         self._command_ns = 0
-        self._coming: deque[tuple[int, _Velocity]] = deque(maxlen=_MAX_COMING)
+        self._pending: deque[tuple[int, _Velocity]] = deque(maxlen=_MAX_PENDING)
         """Commands with their time of arrival [ns]."""
 
     def command(self, x: float, y: float, turn: float, *, now_ns: int) -> None:
         """Queue a velocity command [m/s, m/s, rad/s], valid for one second."""
-        self._coming.append((now_ns, (x, y, turn)))
+        self._pending.append((now_ns, (x, y, turn)))
 
     def update(self, dt_s: float, *, now_ns: int) -> None:
         """Move for `dt_s`, with the last command that arrived by `now_ns`."""
-        while self._coming and self._coming[0][0] <= now_ns:
-            self._command_ns, self._command = self._coming.popleft()
+        while self._pending and self._pending[0][0] <= now_ns:
+            self._command_ns, self._command = self._pending.popleft()
         if abs(now_ns - self._command_ns) > _COMMAND_TIMEOUT_NS:  # or time jumped back
             self._command = _REST
-        forwards, sideways, turn = self._command
+        forward, sideways, turn = self._command
         self.theta = _wrapped(self.theta + turn * dt_s)
         cos, sin = math.cos(self.theta), math.sin(self.theta)
-        x = self.x + (cos * forwards - sin * sideways) * dt_s
-        y = self.y + (sin * forwards + cos * sideways) * dt_s
+        x = self.x + (cos * forward - sin * sideways) * dt_s
+        y = self.y + (sin * forward + cos * sideways) * dt_s
         self.teleport(x, y, self.theta)
-        self.linear_velocity, self.angular_velocity = math.hypot(forwards, sideways), turn
+        self.linear_velocity, self.angular_velocity = math.hypot(forward, sideways), turn
 
     def teleport(self, x: float, y: float, theta: float) -> None:
         """Set the pose, clamped to the walls."""

@@ -45,7 +45,7 @@ class CppAddTwoIntsServer(AddTwoIntsServer):
 
 
 class AddTwoIntsClient:
-    """rospy_tutorials/add_two_ints_client: adds the two numbers of its command line, by default 1 and 3."""
+    """rospy_tutorials/add_two_ints_client: adds the two numbers in its arguments, by default 1 and 3."""
 
     kind = "rospy_tutorials/AddTwoInts"
 
@@ -55,7 +55,7 @@ class AddTwoIntsClient:
         self._arguments = arguments
 
     async def run(self) -> int:
-        """Call once; return 1 if the call fails or an argument is no number."""
+        """Call once; return 1 if the call fails or an argument is not a number."""
         node = self._node
         try:
             a, b = (int(word) for word in self._arguments or _DEFAULTS)
@@ -64,15 +64,15 @@ class AddTwoIntsClient:
             return 1
         try:
             await node.wait_for_service(_SERVICE)
-            answer = await node.call_service(_SERVICE, self.kind, {"a": a, "b": b})
+            response = await node.call_service(_SERVICE, self.kind, {"a": a, "b": b})
         except ServiceError as error:
             node.log.error(f"Failed to call service {_SERVICE}: {error}")
             return 1
-        self._print(a, b, answer)
+        self._print(a, b, response)
         return 0
 
-    def _print(self, a: int, b: int, answer: Any) -> None:
-        self._node.log.info(f"{a} + {b} = {answer.sum}")
+    def _print(self, a: int, b: int, response: Any) -> None:
+        self._node.log.info(f"{a} + {b} = {response.sum}")
 
 
 class CppAddTwoIntsClient(AddTwoIntsClient):
@@ -80,6 +80,6 @@ class CppAddTwoIntsClient(AddTwoIntsClient):
 
     kind = "roscpp_tutorials/TwoInts"
 
-    def _print(self, a: int, b: int, answer: Any) -> None:
+    def _print(self, a: int, b: int, response: Any) -> None:
         del a, b
-        self._node.log.info(f"Sum: {answer.sum}")
+        self._node.log.info(f"Sum: {response.sum}")

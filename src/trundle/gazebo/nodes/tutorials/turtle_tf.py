@@ -1,4 +1,4 @@
-"""Nodes of turtle_tf and turtle_tf2: turtles have frames, and one follows the other by them."""
+"""Nodes of turtle_tf and turtle_tf2: frames of turtles, and a turtle that follows another by tf."""
 
 import math
 from typing import TYPE_CHECKING
@@ -20,7 +20,7 @@ _RATE_HZ = 10.0
 
 
 class TurtleBroadcaster:
-    """Publishes a turtle's pose as a transform from `world`; the parameter `turtle`, or an argument, names it."""
+    """Publishes a turtle's pose as a transform from `world`; its name is the parameter `turtle` or an argument."""
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
         del host
@@ -69,7 +69,7 @@ class TurtleFollower:
             except TransformError:
                 pass  # not broadcast yet
             else:
-                turning, speed = _TURN_GAIN * math.atan2(y, x), _SPEED_GAIN * math.hypot(x, y)
-                commands.publish({"linear": {"x": speed}, "angular": {"z": turning}})
+                yaw_rate, speed = _TURN_GAIN * math.atan2(y, x), _SPEED_GAIN * math.hypot(x, y)
+                commands.publish({"linear": {"x": speed}, "angular": {"z": yaw_rate}})
             await rate.sleep()
         return 0

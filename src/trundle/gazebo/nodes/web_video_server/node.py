@@ -29,7 +29,7 @@ _HTML = "text/html; charset=utf-8"
 
 
 class _BadRequestError(Exception):
-    """A request that cannot be answered: status and text."""
+    """Request that cannot be answered: status and text."""
 
     def __init__(self, status: int, text: str) -> None:
         super().__init__(text)
@@ -40,7 +40,7 @@ class WebVideoServer:
     """Server of image topics: `/`, `/stream`, `/stream_viewer` and `/snapshot`, as MJPEG, PNG or as compressed.
 
     Parameters: port (8080), address, publish_rate, default_stream_type, and allowed_origins, allowed_hosts and token,
-    which say who is served.
+    which restrict the clients.
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
@@ -60,15 +60,15 @@ class WebVideoServer:
             return 1
         self._repeat_s = 1.0 / rate if rate > 0.0 else None
         try:
-            listening = address.listen()
+            socket_ = address.listen()
         except OSError as error:
-            where = f"{address.host}:{address.port}"
-            node.log.fatal(f"{where}: {error.strerror or error}; set {node.name}/port to another")
+            address_text = f"{address.host}:{address.port}"
+            node.log.fatal(f"{address_text}: {error.strerror or error}; set {node.name}/port to another")
             return 1
-        port = int(listening.getsockname()[1])
+        port = int(socket_.getsockname()[1])
         pages = {"/": self._list, "/stream": self._stream, "/stream_viewer": self._view, "/snapshot": self._snapshot}
         server = WebServer(address.access("web_video_server", port), pages)
-        await server.start(listening)
+        await server.start(socket_)
         try:
             await node.params.set("~actual_port", port)
             node.log.info(f"Waiting For connections on {address.url('http', port)}")
@@ -87,13 +87,14 @@ class WebVideoServer:
         infos = [topic for topic, kind in types.items() if kind == _CAMERA_INFO and topic.endswith("/camera_info")]
         groups: list[str] = []
         for base in sorted(topic.removesuffix("camera_info") for topic in infos):
-            own = [topic for topic in images if topic.startswith(base)]
-            images = [topic for topic in images if topic not in own]
-            lines = "".join(_links(topic, topic.removeprefix(base), token) for topic in own)
-            groups.append(f"<li>{escape(base)}<ul>{lines}</ul></li>")
-        others = "".join(_links(topic, topic, token) for topic in images)
+            topics = [topic for topic in images if topic.startswith(base)]
+            images = [topic for topic in images if topic not in topics]
+            links = "".join(_links(topic, topic.removeprefix(base), token) for topic in topics)
+            groups.append(f"<li>{escape(base)}<ul>{links}</ul></li>")
+        other_links = "".join(_links(topic, topic, token) for topic in images)
         return _page(
-            "ROS Image Topic List", f"<h1>Available ROS Image Topics:</h1><ul>{''.join(groups)}</ul><ul>{others}</ul>"
+            "ROS Image Topic List",
+            f"<h1>Available ROS Image Topics:</h1><ul>{''.join(groups)}</ul><ul>{other_links}</ul>",
         )
 
     async def _view(self, query: Mapping[str, str]) -> Reply:
@@ -115,15 +116,15 @@ class WebVideoServer:
             if kind == "ros_compressed":
                 self._node.log.warn(f"Could not find compressed image topic for {topic}, falling back to mjpeg")
             self._check_type(topic, types)
-            wanted = _encoding(query, "png" if kind == "png" else "jpeg")
+            encoding = _encoding(query, "png" if kind == "png" else "jpeg")
         except _BadRequestError as error:
             return _refusal(error)
-        content_type = f"image/{wanted.format}"
+        content_type = f"image/{encoding.format}"
         parts = stream(
             self._node,
             topic,
             _IMAGE,
-            lambda message: (content_type, encode_picture(message, wanted)),
+            lambda message: (content_type, encode_picture(message, encoding)),
             repeat_s=self._repeat_s,
         )
         return Reply(content_type=MULTIPART, parts=parts, fields=_NO_CACHE)
@@ -133,13 +134,13 @@ class WebVideoServer:
             types = await self._topic_types()
             topic = self._image_topic(query, types)
             self._check_type(topic, types)
-            wanted = _encoding(query, "jpeg")
+            encoding = _encoding(query, "jpeg")
         except _BadRequestError as error:
             return _refusal(error)
         newest = NewestMessage(self._node, topic, _IMAGE)
         try:
             message = await newest.get(_SNAPSHOT_S)
-            data = await asyncio.to_thread(encode_picture, message, wanted)
+            data = await asyncio.to_thread(encode_picture, message, encoding)
         except TimeoutError:
             return _refusal(_BadRequestError(504, f"no image on {topic} within {_SNAPSHOT_S:g} s"))
         except PictureError as error:
@@ -156,12 +157,12 @@ class WebVideoServer:
             return {}
 
     def _image_topic(self, query: Mapping[str, str], types: Mapping[str, str]) -> str:
-        """Topic of a request, which may lack the leading slash."""
-        asked = query.get("topic", "")
-        topic = asked if asked.startswith("/") else f"/{asked}"
+        """Return the topic of a request, which may lack the leading slash."""
+        requested = query.get("topic", "")
+        topic = requested if requested.startswith("/") else f"/{requested}"
         if topic not in types and f"{topic}/compressed" not in types:
             images = ", ".join(sorted(name for name, kind in types.items() if kind == _IMAGE)) or "none"
-            raise _BadRequestError(404, f"no topic {asked[:200]!r}; image topics: {images}")
+            raise _BadRequestError(404, f"no topic {requested[:200]!r}; image topics: {images}")
         return topic
 
     def _check_type(self, topic: str, types: Mapping[str, str]) -> None:
@@ -174,7 +175,7 @@ def _encoding(query: Mapping[str, str], file_format: Literal["jpeg", "png"]) -> 
     """Read a query.
 
     Raises:
-        _BadRequestError: not a number.
+        _BadRequestError: a value is not a number.
     """
     numbers: dict[str, int | None] = {}
     for name in ("width", "height", "quality"):
@@ -193,7 +194,7 @@ def _encoding(query: Mapping[str, str], file_format: Literal["jpeg", "png"]) -> 
 
 
 def _compressed(message: Message) -> tuple[str, bytes]:
-    """Pass on a compressed image."""
+    """Return the content type and data of a compressed image."""
     name = str(message.format)
     for part, content_type in (("jpeg", "image/jpeg"), ("jpg", "image/jpeg"), ("png", "image/png")):
         if part in name:

@@ -45,9 +45,9 @@ async def stream(
     """Stream a topic until closed, or until an image cannot be shown.
 
     Args:
-        node: subscribes.
-        topic: of images.
-        kind: its type.
+        node: node that subscribes.
+        topic: topic of images.
+        kind: topic's type.
         encode: encodes a message.
         repeat_s: time after which the last file is repeated; None: never.
     """
@@ -75,5 +75,5 @@ async def stream(
 
 
 def timestamp(message: Message) -> str:
-    """Time of a message's header [s]."""
+    """Return the stamp of a message's header [s]."""
     return f"{to_nsec(message.header.stamp) / 1e9:.6f}"
