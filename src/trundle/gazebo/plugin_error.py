@@ -8,7 +8,7 @@ from types import FrameType
 from trundle.base.diagnostics import TrundleError
 from trundle.gazebo.plugins import Hooks
 
-_OWN_PACKAGE = "trundle."
+_TRUNDLE_PACKAGE = "trundle."
 
 
 def plugin_error(error: Exception) -> TrundleError | None:
@@ -19,7 +19,7 @@ def plugin_error(error: Exception) -> TrundleError | None:
     """
     modules = _plugin_modules()
     frames = dropwhile(lambda frame: _module(frame[0]) not in modules, traceback.walk_tb(error.__traceback__))
-    plugin_frames = [frame for frame in frames if not _module(frame[0]).startswith(_OWN_PACKAGE)]
+    plugin_frames = [frame for frame in frames if not _module(frame[0]).startswith(_TRUNDLE_PACKAGE)]
     if not plugin_frames:
         return None
     code = plugin_frames[0][0].f_code
@@ -36,7 +36,7 @@ def _plugin_modules() -> set[str]:
         kind = kinds.pop()
         kinds += kind.__subclasses__()
         modules.add(kind.__module__)
-    return {name for name in modules if not name.startswith(_OWN_PACKAGE)}
+    return {name for name in modules if not name.startswith(_TRUNDLE_PACKAGE)}
 
 
 def _module(frame: FrameType) -> str:

@@ -11,7 +11,7 @@ MESSAGES = Messages()
 
 
 class FakeClock:
-    """Clock that advances only while a node sleeps, to its exact wake-up time plus what a test adds."""
+    """Clock that advances only while a node sleeps, to its exact wake-up time plus the delay that a test adds."""
 
     def __init__(self, *, start_ns: int = 1_000_000_000, end_ns: int, late_ns: Callable[[], int] = lambda: 0) -> None:
         self.ns = start_ns
@@ -45,7 +45,7 @@ class FakePublisher:
 
 
 class FakeLog:
-    """Keeps what is logged, with its level."""
+    """Log that keeps messages with their levels."""
 
     def __init__(self) -> None:
         self.logged: list[tuple[str, str]] = []

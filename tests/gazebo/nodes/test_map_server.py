@@ -15,12 +15,12 @@ _KEYS = "resolution: 0.05\norigin: [-1.0, -2.0, 0.5]\nnegate: 0\noccupied_thresh
 
 @pytest.fixture
 def picture(tmp_path: Path) -> Path:
-    """Black, gray and white above; white below."""
+    """Black, grey and white above; white below."""
     Image.fromarray(np.array([[0, 205, 255], [254, 254, 254]], dtype=np.uint8)).save(tmp_path / "map.pgm")
     return tmp_path / "map.yaml"
 
 
-def test_black_is_occupied_white_free_and_gray_unknown(picture: Path) -> None:
+def test_black_is_occupied_white_free_and_grey_unknown(picture: Path) -> None:
     picture.write_text(f"image: map.pgm\n{_KEYS}")
     grid = read_map(picture)
 

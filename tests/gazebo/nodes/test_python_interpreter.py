@@ -85,7 +85,7 @@ def test_scripts_with_unbuilt_workspace_modules_run_with_this_python(
 def test_a_package_script_gets_rospy_even_without_importing_it(
     tmp_path: Path, venv: Path, monkeypatch: pytest.MonkeyPatch, text: str
 ) -> None:
-    """Catkin's layout: a thin script, with rospy imported by its package's module or a neighboring file."""
+    """Catkin's layout: a thin script, with rospy imported by its package's module or a neighbouring file."""
     monkeypatch.setattr("trundle.gazebo.nodes.python_interpreter._DEBIAN_MODULES", str(tmp_path / "nothing"))
     package = tmp_path / "src" / "talking"
     script = _program(package / "scripts" / "node.py", f"#!/usr/bin/env python3\n{text}\n")
@@ -94,7 +94,7 @@ def test_a_package_script_gets_rospy_even_without_importing_it(
     assert interpreter(script, {"PATH": str(venv)}) == [sys.executable]
 
 
-def test_imports_of_a_neighboring_module_count(tmp_path: Path, debian: Path) -> None:
+def test_imports_of_a_neighbouring_module_count(tmp_path: Path, debian: Path) -> None:
     package = tmp_path / "src" / "talking"
     script = _program(package / "scripts" / "node.py", "#!/usr/bin/env python3\nimport near\n")
     (package / "scripts" / "near.py").write_text("import rospy\nfrom talking.words import WORD\n")

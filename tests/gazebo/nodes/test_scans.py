@@ -50,7 +50,7 @@ def image(messages: Any, encoding: str, pixels: Any, *, big: bool = False) -> An
     return messages.new("sensor_msgs/Image", {**fields, "step": pixels.strides[0], "data": list(pixels.tobytes())})
 
 
-def test_millimeters_and_byte_orders_are_read(messages) -> None:
+def test_millimetres_and_byte_orders_are_read(messages) -> None:
     pixels = np.array([[0, 1500]], dtype=">u2")
     depths = read_depths(image(messages, "16UC1", pixels, big=True))
     assert math.isnan(depths[0, 0])

@@ -99,7 +99,7 @@ def interpreter(program: Path, env: Mapping[str, str]) -> list[str]:
     python = shutil.which(os.fsdecode(shebang[1]), path=env.get("PATH", os.defpath))
     if not has_rospy and (_IMPORTS_ROS.search(beginning) or _is_in_package(program)):
         is_debian = python is None or _is_debian_python(Path(python))
-        if python is not None and not is_debian and _has_own_rospy(Path(python)):
+        if python is not None and not is_debian and _has_installed_rospy(Path(python)):
             return []
         if not _has_rospy(_DEBIAN_MODULES) or _needs_workspace(program, env):
             return [sys.executable]
@@ -157,9 +157,9 @@ def _needs_workspace(program: Path, env: Mapping[str, str]) -> bool:
 
 def _imported_modules(program: Path) -> set[str]:
     """Return the modules that a program and the files in its folder import."""
-    neighbors = [path for path in program.parent.glob("*.py") if path != program]
+    neighbours = [path for path in program.parent.glob("*.py") if path != program]
     return {
-        os.fsdecode(name) for file in (program, *neighbors) for name in _IMPORTED_MODULE.findall(_read_beginning(file))
+        os.fsdecode(name) for file in (program, *neighbours) for name in _IMPORTED_MODULE.findall(_read_beginning(file))
     }
 
 
@@ -176,8 +176,8 @@ def _is_debian_python(python: Path) -> bool:
     return python.parent.resolve() == Path(_DEBIAN_PYTHON).parent  # also the target of a virtual environment's link
 
 
-def _has_own_rospy(python: Path) -> bool:
-    """Return True if a Python has its own rospy."""
+def _has_installed_rospy(python: Path) -> bool:
+    """Return True if rospy is installed in a Python's environment."""
     return any(_has_rospy(folder) for folder in python.parent.parent.glob("lib/python3*/site-packages"))
 
 

@@ -30,7 +30,7 @@ def _after(gazebo: Gazebo, seconds: float) -> Message:
     return gazebo.state("ball").twist
 
 
-def test_a_wrench_in_the_world_frame_acts_at_the_center_of_mass(gazebo: Gazebo) -> None:
+def test_a_wrench_in_the_world_frame_acts_at_the_centre_of_mass(gazebo: Gazebo) -> None:
     gazebo.spawn(_BALL, "ball", x=7.0)
     assert _apply_force(gazebo, 4.0, reference_frame="world", duration=_HALF_S).success
 

@@ -86,7 +86,7 @@ def test_relative_poses_start_at_zero() -> None:
     assert second.values == pytest.approx((1.0, 0.0, 0.0), abs=1e-12)
 
 
-def test_a_sensor_off_the_center_measures_the_lever_arm_velocity() -> None:
+def test_a_sensor_off_the_centre_measures_the_lever_arm_velocity() -> None:
     """A wheel 1 m to the left of a base that turns at 0.5 rad/s moves backwards at 0.5 m/s."""
     twist = {"twist": {"linear": {"x": -0.5}, "angular": {"z": 0.5}}}
     message = MESSAGES.new(

@@ -136,8 +136,8 @@ class MessageReader:
 
     def _pose(self, source: Source, message: Any, pose_with_covariance: Any) -> list[Measurement]:
         position, quaternion = pose_with_covariance.pose.position, _quaternion(pose_with_covariance.pose.orientation)
-        (x, y, z), is_known = _finite([position.x, position.y, position.z])
-        mask_in_frame = source.mask[:6] * [*is_known, 1.0, 1.0, 1.0]
+        (x, y, z), is_finite = _finite([position.x, position.y, position.z])
+        mask_in_frame = source.mask[:6] * [*is_finite, 1.0, 1.0, 1.0]
         if quaternion is None:
             mask_in_frame[3:] = 0.0
         if not mask_in_frame.any():
@@ -183,8 +183,8 @@ class MessageReader:
         self, source: Source, stamp_ns: int, frame: str, values: Array, covariance: Array
     ) -> list[Measurement]:
         """Convert a twist of a frame on the robot to the base's."""
-        values, is_known = _finite(values)
-        mask_in_frame = source.mask[6:12] * is_known
+        values, is_finite = _finite(values)
+        mask_in_frame = source.mask[6:12] * is_finite
         base_from_frame = self.find(self.base, frame, stamp_ns) if mask_in_frame.any() else None
         if base_from_frame is None:
             return []

@@ -29,12 +29,12 @@ def type_details(messages: Messages, type_name: str) -> list[dict[str, object]]:
     return _recurse(messages, type_name, set())
 
 
-def _recurse(messages: Messages, type_name: str, seen: set[str]) -> list[dict[str, Any]]:
-    if type_name in seen or type_name in _ATOMIC:
+def _recurse(messages: Messages, type_name: str, visited: set[str]) -> list[dict[str, Any]]:
+    if type_name in visited or type_name in _ATOMIC:
         return []
-    seen.add(type_name)
+    visited.add(type_name)
     details = _describe(messages, type_name)
-    return [details, *(inner for kind in details["fieldtypes"] for inner in _recurse(messages, kind, seen))]
+    return [details, *(inner for kind in details["fieldtypes"] for inner in _recurse(messages, kind, visited))]
 
 
 def _describe(messages: Messages, type_name: str) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from .topic_types import resolve_type
 
 _HOLD_S = 1.0
 """Time after which a new publisher no longer holds messages for its first subscriber."""
-_MAX_HELD = 100
+_MAX_PENDING = 100
 _MAX_TOPICS = 1000
 
 
@@ -23,7 +23,7 @@ class _Shared:
     latching_client: int | None
     was_advertised_before: bool
     created_s: float
-    held: list[dict[str, object]] = field(default_factory=list[dict[str, object]])
+    pending: list[dict[str, object]] = field(default_factory=list[dict[str, object]])
     ending: asyncio.TimerHandle | None = None
 
     @property
@@ -79,8 +79,8 @@ class Publishers:
         fields = self._decoder.fields(message, publisher.type, self._node.clock.now_ns())
         if shared.is_new and not publisher.has_subscribers and shared.latching_client is None:
             self._node.messages.new(publisher.type, fields)  # raises if invalid
-            if len(shared.held) < _MAX_HELD:
-                shared.held.append(fields)
+            if len(shared.pending) < _MAX_PENDING:
+                shared.pending.append(fields)
         else:
             publisher.publish(self._node.messages.new(publisher.type, fields))
 
@@ -103,17 +103,17 @@ class Publishers:
             kind,
             latch=latching_client is not None,
             queue_size=queue_size,
-            on_connect=lambda _: self._publish_held(name),
+            on_connect=lambda _: self._publish_pending(name),
         )
         shared = _Shared(publisher, set(), latching_client, was_advertised_before, time.monotonic())
         self._shared[name] = shared
         return shared
 
-    def _publish_held(self, name: str) -> None:
+    def _publish_pending(self, name: str) -> None:
         shared = self._shared.get(name)
-        if shared is not None and shared.held:
-            held, shared.held = shared.held, []
-            for fields in held if shared.is_new else ():
+        if shared is not None and shared.pending:
+            pending, shared.pending = shared.pending, []
+            for fields in pending if shared.is_new else ():
                 shared.publisher.publish(fields)
 
     def _end(self, name: str) -> None:
