@@ -1,4 +1,4 @@
-"""C++ codec against rosbags' own code, for every type there is."""
+"""The C++ codec against rosbags' code, for every known type."""
 
 import dataclasses
 import math
@@ -34,17 +34,17 @@ def messages() -> Messages:
 
 @pytest.fixture(scope="module")
 def types(messages: Messages) -> list[str]:
-    """Every message type there is, those of services too."""
+    """All message types, including requests and responses of services."""
     services = [messages.service(name) for name in messages.service_names()]
-    return messages.type_names() + [half for kind in services for half in (kind.request, kind.response)]
+    return messages.type_names() + [part for kind in services for part in (kind.request, kind.response)]
 
 
-class Maker:
-    """Makes messages of a store's types of all that their fields may hold."""
+class MessageGenerator:
+    """Generator of random messages, with all values that fields may have."""
 
     def __init__(self, store: Any, seed: int) -> None:
         self.store = store
-        self.any = random.Random(seed)
+        self.random = random.Random(seed)
 
     def message(self, key: str) -> Any:
         message = self.store.types[key].__new__(self.store.types[key])
@@ -60,21 +60,21 @@ class Maker:
             return self.scalar(detail[0])
         (inner, of), count = detail
         if kind == Nodetype.SEQUENCE:
-            count = self.any.choice([0, 1, 2, 3])
+            count = self.random.choice([0, 1, 2, 3])
         if inner == Nodetype.BASE and of[0] != "string":
             if kind == Nodetype.SEQUENCE:
-                count = self.any.choice([0, 1, 7, 400])
+                count = self.random.choice([0, 1, 7, 400])
             return np.array([self.scalar(of[0]) for _ in range(count)], DTYPES.get(of[0], of[0]))
         return [self.value((inner, of)) for _ in range(count)]
 
     def scalar(self, kind: str) -> Any:
         if kind == "string":
-            return self.any.choice(TEXTS)
+            return self.random.choice(TEXTS)
         if kind.startswith("float"):
-            number = self.any.choice([*REALS, self.any.gauss(0, 100)])
+            number = self.random.choice([*REALS, self.random.gauss(0, 100)])
             return float(np.float32(number)) if kind == "float32" else number
         low, high = RANGES[kind]
-        number = self.any.choice([low, high, self.any.randint(low, high)])
+        number = self.random.choice([low, high, self.random.randint(low, high)])
         return bool(number) if kind == "bool" else number
 
 
@@ -96,63 +96,68 @@ def same(one: Any, other: Any) -> bool:
 
 
 def read_by_rosbags(store: Any, data: Any, key: str) -> Any:
-    """A message, or None where rosbags refuses."""
+    """Return a message; None if rosbags refuses the data."""
     try:
         return store.deserialize_ros1(data, key)
     except REFUSALS:
         return None
 
 
-def read_by_us(messages: Messages, data: Any, kind: str) -> Any:
+def read_by_trundle(messages: Messages, data: Any, kind: str) -> Any:
     try:
         return messages.deserialize(data, kind)
     except MessageError:
         return None
 
 
-def damaged(data: bytes, any_: random.Random) -> list[bytes]:
-    """Bytes cut short, with more behind, and with others in between."""
-    results = [data[: any_.randrange(len(data) + 1)] for _ in range(4)] + [data + b"\0", data[1:]]
+def damaged(data: bytes, source: random.Random) -> list[bytes]:
+    """Return damaged copies of bytes: truncated, extended and with other values."""
+    results = [data[: source.randrange(len(data) + 1)] for _ in range(4)] + [data + b"\0", data[1:]]
     for _ in range(8):
         changed = bytearray(data or b"\0")
-        for _ in range(any_.randint(1, 3)):
-            changed[any_.randrange(len(changed))] = any_.choice([0, 1, 4, 0x7F, 0x80, 0xFF, any_.randrange(256)])
+        for _ in range(source.randint(1, 3)):
+            changed[source.randrange(len(changed))] = source.choice([0, 1, 4, 0x7F, 0x80, 0xFF, source.randrange(256)])
         results.append(bytes(changed))
-    place = any_.randrange(len(data) + 1)  # a length of nearly 2^32, or one just too long
-    return [*results, data[:place] + b"\xff\xff\xff\xff" + data[place + 4 :], data[:place] + b"\1" + data[place + 1 :]]
+    offset = source.randrange(len(data) + 1)  # a length of nearly 2^32, or one just too long
+    return [
+        *results,
+        data[:offset] + b"\xff\xff\xff\xff" + data[offset + 4 :],
+        data[:offset] + b"\1" + data[offset + 1 :],
+    ]
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_bytes_and_values_are_those_of_rosbags(messages: Messages, types: list[str], seed: int) -> None:
+def test_bytes_and_values_match_rosbags(messages: Messages, types: list[str], seed: int) -> None:
     store = messages._store  # pyright: ignore[reportPrivateUsage]
-    maker = Maker(store, seed)
+    generator = MessageGenerator(store, seed)
     for kind in types:
         key = messages._key(kind)  # pyright: ignore[reportPrivateUsage]
-        message = maker.message(key)
+        message = generator.message(key)
         data = bytes(store.serialize_ros1(message, key))
 
         assert messages.serialize(message) == data, kind
         framed = b"".join(messages.codec(kind).frame(message))
         assert framed == len(data).to_bytes(4, "little") + data, kind
-        for buffer in (data, bytearray(data), memoryview(data), memoryview(b"12" + data)[2:]):
+        buffers: list[Any] = [data, bytearray(data), memoryview(data), memoryview(b"12" + data)[2:]]
+        for buffer in buffers:
             read = messages.deserialize(buffer, kind)
             assert same(read, store.deserialize_ros1(buffer, key)), kind
-            assert messages.serialize(read) == data, kind  # of arrays that lie anywhere
+            assert messages.serialize(read) == data, kind  # whose arrays may be unaligned
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_damaged_bytes_are_refused_where_rosbags_does(messages: Messages, types: list[str], seed: int) -> None:
+def test_damaged_bytes_are_refused_like_in_rosbags(messages: Messages, types: list[str], seed: int) -> None:
     store = messages._store  # pyright: ignore[reportPrivateUsage]
-    maker = Maker(store, seed)
+    generator = MessageGenerator(store, seed)
     for kind in types:
         key = messages._key(kind)  # pyright: ignore[reportPrivateUsage]
-        for data in damaged(bytes(messages.serialize(maker.message(key))), maker.any):
-            assert same(read_by_us(messages, data, kind), read_by_rosbags(store, data, key)), (kind, data)
+        for data in damaged(bytes(messages.serialize(generator.message(key))), generator.random):
+            assert same(read_by_trundle(messages, data, kind), read_by_rosbags(store, data, key)), (kind, data)
 
 
-def test_every_type_of_number_is_among_the_types(messages: Messages, types: list[str]) -> None:
+def test_the_types_have_fields_of_every_primitive_type(messages: Messages, types: list[str]) -> None:
     store = messages._store  # pyright: ignore[reportPrivateUsage]
     descs = [desc for kind in types for _, desc in store.fielddefs[messages._key(kind)][1]]  # pyright: ignore
     inner = [desc if desc[0] in (Nodetype.BASE, Nodetype.NAME) else desc[1][0] for desc in descs]
-    known = {desc[1][0] for desc in inner if desc[0] == Nodetype.BASE}
-    assert known == set(SIZEMAP) - {"float128"} | {"string"}
+    primitives = {desc[1][0] for desc in inner if desc[0] == Nodetype.BASE}
+    assert primitives == set(SIZEMAP) - {"float128"} | {"string"}

@@ -1,4 +1,4 @@
-"""Lists of numbers in place of arrays: written as arrays, or the invalid number is named."""
+"""Lists of numbers in array fields: written like arrays; an invalid number is reported."""
 
 import gc
 import math
@@ -42,28 +42,28 @@ def _message(messages: Messages, kind: str, data: Any) -> Any:
 
 @pytest.mark.parametrize("kind", EDGES)
 @pytest.mark.parametrize("count", [0, 1, 7, 5000])
-def test_a_list_is_written_as_the_array_it_stands_for(messages: Messages, kind: str, count: int) -> None:
+def test_a_list_is_written_like_an_equal_array(messages: Messages, kind: str, count: int) -> None:
     numbers = (EDGES[kind] * count)[:count]
     name, array = f"{kind.title()}s", np.array(numbers, DTYPES.get(kind, kind))
 
     written = messages.serialize(_message(messages, name, array))
 
-    for given in (numbers, tuple(numbers), UserList(numbers), list(array)):
-        message = _message(messages, name, given)
+    for values in (numbers, tuple(numbers), UserList(numbers), list(array)):
+        message = _message(messages, name, values)
         assert messages.serialize(message) == written
         assert b"".join(messages.codec(f"x_msgs/{name}").frame(message))[4:] == written
-        assert message.data is given
+        assert message.data is values
 
 
 @pytest.mark.parametrize("kind", EDGES)
-def test_plain_numbers_need_no_mending(messages: Messages, kind: str) -> None:
+def test_plain_numbers_need_no_conversion(messages: Messages, kind: str) -> None:
     name = f"{kind.title()}s"
     message = _message(messages, name, EDGES[kind])
     assert messages.codec(f"x_msgs/{name}").exact_frame(message)
 
 
 @pytest.mark.parametrize(
-    ("kind", "numbers", "stands_for"),
+    ("kind", "numbers", "expected"),
     [
         ("Float64", [True, 1], [1.0, 1.0]),
         ("Float64", [Fraction(1, 2), 1], [0.5, 1.0]),
@@ -76,16 +76,16 @@ def test_plain_numbers_need_no_mending(messages: Messages, kind: str) -> None:
         ("Bool", [1, 0], [True, False]),
     ],
 )
-def test_numbers_of_other_kinds_are_mended(
-    messages: Messages, kind: str, numbers: list[Any], stands_for: list[Any]
+def test_numbers_of_other_types_are_converted(
+    messages: Messages, kind: str, numbers: list[Any], expected: list[Any]
 ) -> None:
     data = messages.serialize(_message(messages, f"{kind}s", numbers))
-    assert messages.deserialize(data, f"x_msgs/{kind}s").data.tolist() == stands_for
-    assert messages.new(f"x_msgs/{kind}s", {"data": numbers}).data.tolist() == stands_for
+    assert messages.deserialize(data, f"x_msgs/{kind}s").data.tolist() == expected
+    assert messages.new(f"x_msgs/{kind}s", {"data": numbers}).data.tolist() == expected
 
 
 @pytest.mark.parametrize(
-    ("kind", "numbers", "why"),
+    ("kind", "numbers", "reason"),
     [
         ("Uint8s", [1, 256], r"field 'data\[1\]' is a uint8 \(0 to 255\), got 256"),
         ("Uint8s", [-1], r"field 'data\[0\]' is a uint8 \(0 to 255\), got -1"),
@@ -103,19 +103,19 @@ def test_numbers_of_other_kinds_are_mended(
         ("Three", [1.0] * 4, "field 'data' has exactly 3 elements, got 4"),
     ],
 )
-def test_a_number_that_does_not_fit_is_named(messages: Messages, kind: str, numbers: list[Any], why: str) -> None:
-    with pytest.raises(MessageError, match=why):
+def test_an_invalid_number_is_reported(messages: Messages, kind: str, numbers: list[Any], reason: str) -> None:
+    with pytest.raises(MessageError, match=reason):
         messages.serialize(_message(messages, kind, numbers))
 
 
-def test_a_field_within_a_list_of_messages_is_named(messages: Messages) -> None:
+def test_an_invalid_number_in_a_list_of_messages_is_reported(messages: Messages) -> None:
     many = messages.new("x_msgs/Many", {"data": [[[1.0, 2.0, 3.0]], [[4.0, 5.0, 6.0]]]})
     many.data[1].data = [4.0, 5.0, "six"]
     with pytest.raises(MessageError, match=r"field 'data\[1\].data\[2\]' is a float64, got 'six'"):
         messages.serialize(many)
 
 
-class _Restless:
+class _ClearingNumber:
     """Number that empties its list when it is converted."""
 
     def __init__(self, numbers: list[Any]) -> None:
@@ -131,22 +131,22 @@ class _Restless:
 
 
 @pytest.mark.parametrize("kind", ["Float64s", "Uint8s", "Bools"])
-def test_a_list_that_changes_while_it_is_written_does_no_harm(messages: Messages, kind: str) -> None:
+def test_a_list_that_changes_during_serialization_is_refused(messages: Messages, kind: str) -> None:
     numbers: list[Any] = []
-    numbers += [True, _Restless(numbers), *[True] * 100]
+    numbers += [True, _ClearingNumber(numbers), *[True] * 100]
     with pytest.raises(MessageError):
         messages.serialize(_message(messages, kind, numbers))
 
 
-def test_nothing_is_left_behind_by_lists(messages: Messages) -> None:
-    good = _message(messages, "Float64s", [float(i) for i in range(300)])
-    bad = _message(messages, "Float64s", [*(float(i) for i in range(300)), "x"])
+def test_serializing_lists_leaks_no_memory(messages: Messages) -> None:
+    valid = _message(messages, "Float64s", [float(i) for i in range(300)])
+    invalid = _message(messages, "Float64s", [*(float(i) for i in range(300)), "x"])
 
     def write_both() -> None:
         for _ in range(300):
-            messages.serialize(good)
+            messages.serialize(valid)
             with pytest.raises(MessageError):
-                messages.serialize(bad)
+                messages.serialize(invalid)
 
     def blocks() -> int:
         gc.collect()

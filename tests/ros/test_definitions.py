@@ -1,4 +1,4 @@
-"""Definitions that are shipped, and those of packages on the package path."""
+"""Shipped definitions, and those of packages on the package path."""
 
 import subprocess
 from pathlib import Path
@@ -11,10 +11,10 @@ SUMS = Path(__file__).parent / "data" / "md5sums.txt"
 """Type and md5 sum, as genmsg computes it from the original definitions of ROS Noetic."""
 
 
-def test_every_sum_is_the_originals(messages: Messages) -> None:
-    wanted = dict(line.split() for line in SUMS.read_text().splitlines())
-    ours = {name: messages.md5(name) if messages.has(name) else messages.service(name).md5sum for name in wanted}
-    assert ours == wanted
+def test_every_md5_sum_matches_noetic(messages: Messages) -> None:
+    expected = dict(line.split() for line in SUMS.read_text().splitlines())
+    sums = {name: messages.md5(name) if messages.has(name) else messages.service(name).md5sum for name in expected}
+    assert sums == expected
 
 
 _DEBIANS_SUMS = """
@@ -29,20 +29,20 @@ for path in glob.glob("/usr/lib/python3/dist-packages/*/*/_*.py"):
 
 
 @pytest.mark.real_ros
-def test_every_sum_is_that_of_debians_rospy(messages: Messages) -> None:
+def test_every_md5_sum_matches_debians_rospy(messages: Messages) -> None:
     """Sums as `rosmsg md5` prints them."""
     if not Path("/usr/lib/python3/dist-packages/std_msgs/msg").is_dir():
         pytest.skip("Debian's python3-std-msgs is not installed")
     done = subprocess.run(["/usr/bin/python3", "-c", _DEBIANS_SUMS], capture_output=True, text=True, timeout=100)
-    theirs = [line.split() for line in done.stdout.splitlines()]
+    sums = [line.split() for line in done.stdout.splitlines()]
     assert done.returncode == 0, done.stderr
-    assert len(theirs) > 30  # std_msgs alone has 34
+    assert len(sums) > 30  # std_msgs alone has 34
     assert [
-        (name, messages.service(name).md5sum if kind == "srv" else messages.md5(name)) for kind, name, _ in theirs
-    ] == [(name, md5) for _, name, md5 in theirs]
+        (name, messages.service(name).md5sum if kind == "srv" else messages.md5(name)) for kind, name, _ in sums
+    ] == [(name, md5) for _, name, md5 in sums]
 
 
-def test_whatever_is_shipped_can_be_read(messages: Messages) -> None:
+def test_every_shipped_type_can_be_built(messages: Messages) -> None:
     for name in messages.type_names():
         assert messages.serialize(messages.new(name)) is not None
     for name in messages.service_names():
@@ -53,7 +53,7 @@ def test_whatever_is_shipped_can_be_read(messages: Messages) -> None:
 
 @pytest.fixture
 def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A package of a user's own, with a message, a service and an action."""
+    """A user's package with messages, a service and an action."""
     package = tmp_path / "my_robot_msgs"
     for folder in ("msg", "srv", "action"):
         (package / folder).mkdir(parents=True)
@@ -66,7 +66,7 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return package
 
 
-def test_a_users_own_definitions_are_found_on_the_package_path(workspace: Path) -> None:
+def test_a_users_definitions_are_read_from_the_package_path(workspace: Path) -> None:
     messages = Messages()
     base = messages.new("my_robot_msgs/Base", {"wheels": [{"rpm": 1.0}, {"rpm": 2.0}]})
     again = messages.deserialize(messages.serialize(base), "my_robot_msgs/Base")
@@ -81,7 +81,7 @@ def test_a_users_own_definitions_are_found_on_the_package_path(workspace: Path) 
     assert "my_robot_msgs/Stop" in Messages().service_names()
 
 
-def test_a_type_that_is_nowhere_is_named_with_what_there_is(workspace: Path) -> None:
+def test_an_unknown_type_is_reported_with_the_known_ones(workspace: Path) -> None:
     with pytest.raises(MessageError, match=r"messages of my_robot_msgs: Base, DockAction, .*Wheel"):
         Messages().md5("my_robot_msgs/Whel")
     (workspace / "msg" / "Bad.msg").write_text("float64[\n")
@@ -90,7 +90,7 @@ def test_a_type_that_is_nowhere_is_named_with_what_there_is(workspace: Path) -> 
 
 
 @pytest.mark.parametrize(
-    ("text", "wanted"),
+    ("text", "expected"),
     [
         ("# where a thing is\nPoint position  # [m]\nQuaternion orientation\n", "with comments"),
         ("Point position\nfloat64 yaw\n", "as it is known here"),
@@ -98,29 +98,27 @@ def test_a_type_that_is_nowhere_is_named_with_what_there_is(workspace: Path) -> 
     ],
     ids=["the same type", "another", "none"],
 )
-def test_an_installed_definition_is_sent_along_with_its_comments(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, wanted: str
+def test_an_equal_installed_definition_is_used_with_its_comments(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, expected: str
 ) -> None:
-    """`rosbag check` compares a bag's text with the installed one; md5 sums and fields are unchanged."""
+    """`rosbag check` compares a bag's definition with the installed one; md5 sums and fields are unchanged."""
     monkeypatch.setattr("trundle.ros.messages.definition_search.DEBIAN_SHARE", "")
-    known = Messages().definition("geometry_msgs/Pose")
+    shipped = Messages().definition("geometry_msgs/Pose")
     file = tmp_path / "geometry_msgs" / "msg" / "Pose.msg"
     file.parent.mkdir(parents=True)
     file.write_text(text)
     monkeypatch.setenv("ROS_PACKAGE_PATH", f"/nowhere:{tmp_path}")
     messages = Messages()
-    head, _, rest = known.partition("=" * 80)
-    own, separator, others = messages.definition("geometry_msgs/Pose").partition("=" * 80)
-    assert own == (f"{text}\n" if wanted == "with comments" else head)
+    head, _, rest = shipped.partition("=" * 80)
+    text_sent, separator, others = messages.definition("geometry_msgs/Pose").partition("=" * 80)
+    assert text_sent == (f"{text}\n" if expected == "with comments" else head)
     assert separator + others == "=" * 80 + rest
     assert messages.md5("geometry_msgs/Pose") == Messages().md5("geometry_msgs/Pose")
     assert list(messages.fields("geometry_msgs/Pose")) == ["position", "orientation"]
 
 
-def test_an_installed_definition_without_fields_is_sent_along_too(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A generated action's feedback may hold nothing but its header; where that lacks, `rosbag check` falls over it."""
+def test_an_installed_definition_without_fields_is_used_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A generated action's feedback may consist of comments only; `rosbag check` fails without them."""
     file = tmp_path / "std_msgs" / "msg" / "Empty.msg"
     file.parent.mkdir(parents=True)
     file.write_text("# nothing to say\n")

@@ -14,7 +14,7 @@ from trundle.ros import Core, GraphLoop, MasterProxy, Messages, Node, RosError, 
 
 
 @pytest.fixture
-def six(messages: Messages) -> Iterator[Graph]:
+def ipv6_graph(messages: Messages) -> Iterator[Graph]:
     with suppress(OSError), socket.create_server(("::1", 0), family=socket.AF_INET6):
         with GraphLoop(messages=messages) as loop:
             core = Core(loop, port=0, host="::1")
@@ -25,22 +25,25 @@ def six(messages: Messages) -> Iterator[Graph]:
     pytest.skip("this machine has no IPv6")
 
 
-def test_messages_services_and_parameters_work(six: Graph, messages: Messages) -> None:
+def test_messages_and_services_work_over_ipv6(ipv6_graph: Graph, messages: Messages) -> None:
     got: list[str] = []
     with GraphLoop(messages=messages) as other:
-        talker, far = six.node("talker", host="::1"), Node("far", loop=other, master_uri=six.core.uri, host="::1")
+        talker, listener = (
+            ipv6_graph.node("talker", host="::1"),
+            Node("listener", loop=other, master_uri=ipv6_graph.core.uri, host="::1"),
+        )
         talker.advertise("/a", "std_msgs/String", latch=True).publish({"data": "six"})
         talker.advertise_service("~ask", "std_srvs/Trigger", lambda _: {"success": True})
-        six.ready(talker)
-        far.subscribe("/a", "std_msgs/String", lambda m: got.append(m.data))
-        six.until(lambda: got == ["six"])
-        assert other.run(far.call_service("/talker/ask", "std_srvs/Trigger"), PATIENCE_S).success
-        assert far.uri.startswith("http://[::1]:")
+        ipv6_graph.ready(talker)
+        listener.subscribe("/a", "std_msgs/String", lambda m: got.append(m.data))
+        ipv6_graph.until(lambda: got == ["six"])
+        assert other.run(listener.call_service("/talker/ask", "std_srvs/Trigger"), PATIENCE_S).success
+        assert listener.uri.startswith("http://[::1]:")
 
 
-def test_light_commands_reach_it(six: Graph) -> None:
-    proxy: Any = MasterProxy(six.core.uri)
-    assert proxy.call("getUri") == six.core.uri
+def test_the_blocking_proxy_reaches_the_master(ipv6_graph: Graph) -> None:
+    proxy: Any = MasterProxy(ipv6_graph.core.uri)
+    assert proxy.call("getUri") == ipv6_graph.core.uri
 
 
 @pytest.mark.parametrize(
@@ -62,7 +65,7 @@ def test_the_last_colon_separates_the_port(uri: str, host: str, port: int) -> No
 @pytest.mark.parametrize(
     "uri", ["", "http://", "http://::1", "http://[::1]", "http://a:65536/", "http://[::1:5/", "a:1"]
 )
-def test_what_is_no_address_is_refused(uri: str) -> None:
+def test_invalid_addresses_are_refused(uri: str) -> None:
     with pytest.raises(RosError, match="not a node's address"):
         host_and_port(uri)
     assert uri_host(uri) == ""
@@ -80,18 +83,18 @@ rospy.spin()
 
 @pytest.mark.real_ros
 @pytest.mark.skipif(not Path("/usr/bin/rostopic").exists(), reason="Debian's ROS 1 tools are not installed")
-def test_a_rospy_node_without_brackets_is_reached(six: Graph, tmp_path: Path) -> None:
-    node, got = six.node("ours", host="::1"), list[str]()
+def test_a_rospy_node_with_an_address_without_brackets_is_reached(ipv6_graph: Graph, tmp_path: Path) -> None:
+    node, got = ipv6_graph.node("ours", host="::1"), list[str]()
     node.subscribe("/up", "std_msgs/String", lambda m: got.append(m.data))
     node.advertise("/down", "std_msgs/String", latch=True).publish({"data": "hi"})
-    env = {"ROS_MASTER_URI": six.core.uri, "ROS_IPV6": "on", "ROS_IP": "::1", "HOME": str(tmp_path)}
+    env = {"ROS_MASTER_URI": ipv6_graph.core.uri, "ROS_IPV6": "on", "ROS_IP": "::1", "HOME": str(tmp_path)}
     with subprocess.Popen(["/usr/bin/python3", "-c", ROSPY], env=env, stderr=subprocess.DEVNULL) as process:
         try:
-            six.loop.run(node.wait_for_service("/ask"), PATIENCE_S)
-            answer = six.loop.run(node.call_service("/ask", "std_srvs/Trigger"), PATIENCE_S)
+            ipv6_graph.loop.run(node.wait_for_service("/ask"), PATIENCE_S)
+            answer = ipv6_graph.loop.run(node.call_service("/ask", "std_srvs/Trigger"), PATIENCE_S)
             assert answer.message == "six"
-            six.until(lambda: got == ["hi!"])
-            proxy = MasterProxy(six.core.uri)
+            ipv6_graph.until(lambda: got == ["hi!"])
+            proxy = MasterProxy(ipv6_graph.core.uri)
             assert str(proxy.call("lookupNode", "/bare")).startswith("http://::1:")
         finally:
             process.kill()

@@ -1,4 +1,4 @@
-"""Independent client libraries of another language join: rosnodejs and @foxglove/ros1, of authors who read the wire."""
+"""Independent JavaScript client libraries in our graph: rosnodejs and @foxglove/ros1."""
 
 import os
 import shutil
@@ -57,7 +57,7 @@ main().catch((error) => { console.error(error); process.exit(1); });
 
 
 def _share(folder: Path, messages: Messages) -> None:
-    """Message packages as an installed ROS has them."""
+    """Write message packages in the form of an installed ROS."""
     for package in ("std_msgs", "rosgraph_msgs", "std_srvs", "roscpp"):
         home = folder / package
         (home / "msg").mkdir(parents=True)
@@ -101,20 +101,20 @@ def test_topics_services_and_parameters_work_both_ways(
             answer = graph.loop.run(node.call_service("/js/set", "std_srvs/SetBool", {"data": True}), PATIENCE_S)
             assert (answer.success, answer.message) == (True, "from JavaScript")
 
-            def heard() -> bool:
+            def is_echoed() -> bool:
                 down.publish({"data": "hello"})
                 return "heard hello" in got
 
-            graph.until(heard)
+            graph.until(is_echoed)
             graph.until(lambda: graph.loop.run(node.params.get("/from_js", None)) == 7)
         finally:
             client.kill()
 
 
-def test_what_foxglove_and_lichtblick_are_made_of_talks_and_follows_parameters(
+def test_the_library_of_foxglove_publishes_subscribes_and_watches_parameters(
     graph: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Their requests come from node-fetch; one of Node's own `fetch`, marked as a browser's are, is served as well."""
+    """Its requests come from node-fetch; one of Node's `fetch`, with a browser's header fields, is served, too."""
     node_js = _node_with("@foxglove/ros1", monkeypatch)
     node = graph.node("ours")
     got: list[str] = []
@@ -128,12 +128,12 @@ def test_what_foxglove_and_lichtblick_are_made_of_talks_and_follows_parameters(
     with subprocess.Popen([node_js, "-e", FOXGLOVE], env={**os.environ, "ROS_MASTER_URI": graph.core.uri}) as client:
         try:
 
-            def heard() -> bool:
+            def is_echoed() -> bool:
                 assert client.poll() is None, "the client ended"
                 down.publish({"data": "hello"})
                 return "heard hello" in got
 
-            graph.until(heard)
+            graph.until(is_echoed)
             graph.until(lambda: value("/names") is not None)
             assert sorted(value("/names")) == ["/fetched_js", "/for_js", "/from_js"]
             assert (value("/from_js"), value("/fetched_js")) == ([1, "two", True], "yes")

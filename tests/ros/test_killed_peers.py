@@ -69,8 +69,8 @@ def _peer(graph: Any, role: str) -> Any:
     return _killed(graph, "-c", PEER, graph.core.uri, role)
 
 
-def _works(graph: Any, node: Any) -> None:
-    """Topics, services and parameters of a node are still there for others."""
+def _check_works(graph: Any, node: Any) -> None:
+    """Check that topics, services and parameters of a node still work for others."""
     got: list[str] = []
     publisher = node.advertise("/still", STRING)
     other = graph.node("other")
@@ -84,7 +84,7 @@ def _works(graph: Any, node: Any) -> None:
     graph.loop.run(other.params.set("/still", 1), PATIENCE_S)
 
 
-def test_a_subscriber(graph: Any) -> None:
+def test_a_killed_subscriber_is_disconnected(graph: Any) -> None:
     node = graph.node("n")
     publisher = node.advertise("/a", STRING, queue_size=3)
     with _peer(graph, "subscriber"):
@@ -92,30 +92,30 @@ def test_a_subscriber(graph: Any) -> None:
     for number in range(10):
         publisher.publish({"data": str(number) * 100_000})
     graph.until(lambda: publisher.subscribers == 0)
-    _works(graph, node)
+    _check_works(graph, node)
 
 
-def test_a_publisher_is_no_warning(graph: Any, capfd: pytest.CaptureFixture[str]) -> None:
-    """It is still registered, and nothing listens at its address: it ended, and the network is not at fault."""
-    heard: list[Any] = []
-    graph.node("n").subscribe("/a", STRING, heard.append)
+def test_a_killed_publisher_causes_no_warning(graph: Any, capfd: pytest.CaptureFixture[str]) -> None:
+    """It is still registered, but nothing listens at its address: it has ended, and the network works."""
+    received: list[Any] = []
+    graph.node("n").subscribe("/a", STRING, received.append)
     with _peer(graph, "publisher"):
-        graph.until(lambda: heard)
+        graph.until(lambda: received)
     time.sleep(_RETRIES_S)
     assert "no messages on /a" not in capfd.readouterr().err
 
 
-def test_a_service_while_it_is_called(graph: Any) -> None:
+def test_a_killed_service_fails_the_call(graph: Any) -> None:
     node = graph.node("n")
     with _peer(graph, "service"):
         graph.loop.run(node.wait_for_service("/theirs", PATIENCE_S), PATIENCE_S)
         answer = graph.loop.spawn(node.call_service("/theirs", EMPTY))
     with pytest.raises(ServiceError, match="/theirs"):
         answer.result(PATIENCE_S)
-    _works(graph, node)
+    _check_works(graph, node)
 
 
-def test_a_client_while_it_is_served(graph: Any) -> None:
+def test_a_client_killed_during_a_call_does_not_block_the_service(graph: Any) -> None:
     node, calls, may_answer = graph.node("n"), list[int](), asyncio.Event()
 
     async def answer(_: object) -> None:
@@ -130,25 +130,25 @@ def test_a_client_while_it_is_served(graph: Any) -> None:
     graph.loop.run(graph.node("next").call_service("/ours", EMPTY), PATIENCE_S)
     assert len(calls) == 2
     service.unregister()
-    _works(graph, node)
+    _check_works(graph, node)
 
 
-def test_one_that_watches_a_parameter(graph: Any) -> None:
-    """The master goes on setting it, and forgets a watcher whose place another node has taken."""
+def test_a_killed_watcher_does_not_block_parameter_updates(graph: Any) -> None:
+    """The master continues to set the parameter; another node may watch it."""
     node = graph.node("n")
-    told: list[object] = []
+    values: list[object] = []
     graph.loop.run(node.params.set("/p", 0), PATIENCE_S)
     with _peer(graph, "parameter"):
         graph.until(lambda: MasterProxy(graph.core.uri).call("hasParam", "/watched"))
     graph.ready(node)
-    graph.loop.run(node.params.watch("/p", lambda _, value: told.append(value)), PATIENCE_S)
+    graph.loop.run(node.params.watch("/p", lambda _, value: values.append(value)), PATIENCE_S)
     for number in range(1, 4):
         graph.loop.run(graph.node("setter").params.set("/p", number), PATIENCE_S)
-        graph.until(lambda number=number: told and told[-1] == number)
-    _works(graph, node)
+        graph.until(lambda number=number: values and values[-1] == number)
+    _check_works(graph, node)
 
 
-def test_one_that_waits_for_an_action(graph: Any) -> None:
+def test_a_killed_action_client_does_not_block_the_server(graph: Any) -> None:
     node, goals, may_end = graph.node("n"), list[int](), asyncio.Event()
 
     async def work(goal: Any, accept: Callable[[], None]) -> ActionOutcome:
@@ -169,19 +169,19 @@ def test_one_that_waits_for_an_action(graph: Any) -> None:
     graph.loop.call_soon(may_end.set)
     graph.until(lambda: results)
     assert list(results[0].result.sequence) == [0, 1, 1]
-    _works(graph, node)
+    _check_works(graph, node)
 
 
-def test_one_in_the_middle_of_a_call_to_the_master(graph: Any) -> None:
+def test_a_peer_killed_during_a_call_does_not_block_the_master(graph: Any) -> None:
     node = graph.node("n")
     proxy = MasterProxy(graph.core.uri)
     with _peer(graph, "master"):
         graph.until(lambda: proxy.call("hasParam", "/busy"))
-    _works(graph, node)
+    _check_works(graph, node)
 
 
-def test_a_recorder(graph: Any, tmp_path: Path) -> None:
-    """Its publishers go on; tests/app/cli/bag/test_bag.py tests the bag written until then."""
+def test_a_killed_recorder_does_not_block_publishers(graph: Any, tmp_path: Path) -> None:
+    """tests/app/cli/bag/test_bag.py tests the bag written until then."""
     node = graph.node("n")
     publisher = node.advertise("/a", STRING, queue_size=None)
     with _killed(graph, "-m", "trundle", "bag", "record", "-q", "-O", str(tmp_path / "x.bag"), "/a"):
@@ -189,4 +189,4 @@ def test_a_recorder(graph: Any, tmp_path: Path) -> None:
         for _ in range(100):
             publisher.publish({"data": "x" * 100_000})
     graph.until(lambda: publisher.subscribers == 0)
-    _works(graph, node)
+    _check_works(graph, node)

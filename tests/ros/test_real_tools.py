@@ -1,4 +1,4 @@
-"""Debian's own ROS 1 tools and rospy against this graph, and this graph's nodes against theirs."""
+"""Debian's ROS 1 tools and rospy against our graph, and our nodes against Debian's master."""
 
 import os
 import re
@@ -24,7 +24,7 @@ PATIENCE_S = 100.0
 
 
 class Real:
-    """Runs programs of the installed ROS in an environment of its own."""
+    """Runs programs of the installed ROS in a clean environment."""
 
     def __init__(self, uri: str, home: Path) -> None:
         self._environment = {
@@ -38,7 +38,7 @@ class Real:
         }
 
     def run(self, command: str, *arguments: str) -> str:
-        """Run a tool to its end; its standard output."""
+        """Run a tool to its end; return its standard output."""
         done = subprocess.run(
             [f"/usr/bin/{command}", *arguments],
             env=self._environment,
@@ -134,10 +134,10 @@ def test_rosnode_shows_connections_over_sockets(graph: Any, real: Real, talker: 
         assert process.stdout is not None
         assert process.stdout.readline() == 'data: "hello"\n'
         text = real.run("rosnode", "info", "/talker")
-    found = re.search(
+    link = re.search(
         r"topic: /chatter\n    \* to: /rostopic_\S+\n    \* direction: outbound \(\d+ - 127.0.0.1:\d+\) \[\d+\]", text
     )
-    assert found, text
+    assert link, text
 
 
 def test_rosparam_reads_and_writes(real: Real, talker: Node) -> None:
@@ -189,11 +189,11 @@ def test_a_rospy_node_publishes_subscribes_serves_and_calls(graph: Any, real: Re
         assert (answer.success, answer.message) == (True, "xx")
         graph.until(lambda: publisher.has_subscribers)
 
-        def sent() -> bool:
+        def is_echoed() -> bool:
             publisher.publish({"name": ["a"], "position": [1.5]})
             return bool(got)
 
-        graph.until(sent)
+        graph.until(is_echoed)
         assert re.fullmatch(r"\['a'\] \[1\.5\] \d+ sensor_msgs/JointState", got[0])
         assert ["/up", "std_msgs/String"] in graph.loop.run(_topics(node))
     graph.until(lambda: not publisher.has_subscribers)
@@ -224,7 +224,7 @@ NODE_CALLS: list[tuple[Any, ...]] = [
 ]
 
 
-def test_a_node_answers_each_call_as_rospys_does(graph: Any, real: Real) -> None:
+def test_a_node_answers_slave_api_calls_like_rospys(graph: Any, real: Real) -> None:
     node = graph.node("ours")
     node.advertise("/up", "std_msgs/String")
     node.subscribe("/down", "sensor_msgs/JointState", lambda _: None)
@@ -232,8 +232,8 @@ def test_a_node_answers_each_call_as_rospys_does(graph: Any, real: Real) -> None
 
     def answers(name: str) -> list[Any]:
         uri = graph.loop.run(call_value(node.master_uri, "lookupNode", "/x", name))
-        said = [[*words, *graph.loop.run(call(uri, *words))] for words in NODE_CALLS]
-        return [str(each).replace(name, "NAME") for each in said]
+        results = [[*words, *graph.loop.run(call(uri, *words))] for words in NODE_CALLS]
+        return [str(result).replace(name, "NAME") for result in results]
 
     with real.started("python3", "-c", ROSPY):
         graph.loop.run(node.wait_for_service("/real_service"), PATIENCE_S)
@@ -257,7 +257,7 @@ async def _topics(node: Node) -> list[list[str]]:
     return await call_value(node.master_uri, "getPublishedTopics", node.name, "")
 
 
-def test_nodes_live_with_the_real_master(graph: Any, tmp_path: Path) -> None:
+def test_nodes_work_with_debians_rosmaster(graph: Any, tmp_path: Path) -> None:
     if not Path("/usr/bin/rosmaster").exists():
         pytest.skip("Debian's python3-rosmaster is not installed")
     with socket.create_server(("127.0.0.1", 0)) as free:

@@ -1,4 +1,4 @@
-"""Whole frames are split off a receive buffer in one call; all else stays there."""
+"""Complete frames are split off a receive buffer in one call; the rest stays in the buffer."""
 
 import gc
 import socket
@@ -19,14 +19,14 @@ _LIMIT = 32
 
 @pytest.fixture
 def pair() -> Generator[tuple[socket.socket, socket.socket]]:
-    here, there = socket.socketpair()
-    with here, there:
-        there.setblocking(False)
-        yield here, there
+    sender, receiver = socket.socketpair()
+    with sender, receiver:
+        receiver.setblocking(False)
+        yield sender, receiver
 
 
 @pytest.mark.parametrize(
-    ("come", "contents"),
+    ("received", "contents"),
     [
         (ONE, [ONE[4:]]),
         (b"\0\0\0\0", [b""]),
@@ -38,15 +38,17 @@ def pair() -> Generator[tuple[socket.socket, socket.socket]]:
         (ONE + b"\x21\0\0\0" + b"x" * 33 + ONE, [ONE[4:]]),
     ],
 )
-def test_the_contents_of_the_whole_frames(pair: tuple[socket.socket, ...], come: bytes, contents: list[bytes]) -> None:
+def test_contents_of_complete_frames_are_returned(
+    pair: tuple[socket.socket, ...], received: bytes, contents: list[bytes]
+) -> None:
     room = memoryview(bytearray(64))
-    pair[0].sendall(come)
+    pair[0].sendall(received)
     parsed = sum(4 + len(content) for content in contents)
-    assert receive(pair[1].recv_into, room, room, 0, _LIMIT) == (contents, parsed, len(come))
-    assert room[: len(come)] == come
+    assert receive(pair[1].recv_into, room, room, 0, _LIMIT) == (contents, parsed, len(received))
+    assert room[: len(received)] == received
 
 
-def test_a_frame_that_began_before_is_finished(pair: tuple[socket.socket, ...]) -> None:
+def test_a_partly_received_frame_is_completed(pair: tuple[socket.socket, ...]) -> None:
     room = memoryview(bytearray(64))
     room[:3] = ONE[:3]
     pair[0].sendall(ONE[3:] + ONE[:2])
@@ -54,7 +56,7 @@ def test_a_frame_that_began_before_is_finished(pair: tuple[socket.socket, ...]) 
 
 
 @pytest.mark.parametrize("content", [b"\2\0\0\0x", b"\1\0\0\0\xff", b"\1\0\0\0xy", b""])
-def test_what_is_no_message_is_left_for_who_names_it(pair: tuple[socket.socket, ...], content: bytes) -> None:
+def test_an_invalid_message_is_left_in_the_buffer(pair: tuple[socket.socket, ...], content: bytes) -> None:
     read = Messages().codec("std_msgs/String").receive
     room = memoryview(bytearray(64))
     frame = len(content).to_bytes(4, "little") + content
@@ -64,7 +66,7 @@ def test_what_is_no_message_is_left_for_who_names_it(pair: tuple[socket.socket, 
     assert (parsed, count) == (len(ONE), 2 * len(ONE) + len(frame))
 
 
-def test_what_a_socket_raises_is_raised(pair: tuple[socket.socket, ...]) -> None:
+def test_socket_errors_are_raised(pair: tuple[socket.socket, ...]) -> None:
     room = memoryview(bytearray(64))
     with pytest.raises(BlockingIOError):
         receive(pair[1].recv_into, room, room, 0, _LIMIT)
@@ -72,25 +74,25 @@ def test_what_a_socket_raises_is_raised(pair: tuple[socket.socket, ...]) -> None
     assert receive(pair[1].recv_into, room, room, 0, _LIMIT) == ([], 0, 0)
 
 
-@pytest.mark.parametrize(("filled", "told"), [(0, -1), (0, 65), (60, 5), (0, 2**40), (-1, 8)])
-def test_no_more_is_read_than_there_is_room(filled: int, told: int) -> None:
+@pytest.mark.parametrize(("filled", "count"), [(0, -1), (0, 65), (60, 5), (0, 2**40), (-1, 8)])
+def test_an_invalid_count_of_received_bytes_returns_no_frame(filled: int, count: int) -> None:
     room = memoryview(bytearray(64))
-    assert receive(lambda _: told, room, room, filled, _LIMIT) == ([], 0, told)
+    assert receive(lambda _: count, room, room, filled, _LIMIT) == ([], 0, count)
 
 
-def test_nothing_is_left_behind() -> None:
+def test_receiving_leaks_no_memory() -> None:
     read = Messages().codec("std_msgs/String").receive
     room = memoryview(bytearray(64))
     frames = [ONE, ONE[:5], b"\5\0\0\0\2\0\0\0x"]
 
-    def put(frame: bytes) -> int:
+    def write(frame: bytes) -> int:
         room[: len(frame)] = frame
         return len(frame)
 
     def blocks() -> int:
         for frame in frames * 100:
-            for take in (read, receive):
-                take(lambda _, frame=frame: put(frame), room, room, 0, _LIMIT)
+            for read_frames in (read, receive):
+                read_frames(lambda _, frame=frame: write(frame), room, room, 0, _LIMIT)
         gc.collect()
         return sys.getallocatedblocks()
 

@@ -1,4 +1,4 @@
-"""Peers that are slow, gone, broken or hostile: nothing they send stops a node or the master."""
+"""Slow, dead, broken and hostile peers: nothing they send stops a node or the master."""
 
 import asyncio
 import gc
@@ -43,7 +43,7 @@ def _read_header(connection: socket.socket) -> dict[str, str]:
     return decode_header(data[4:])
 
 
-def _ends(connection: socket.socket) -> bool:
+def _is_closed(connection: socket.socket) -> bool:
     """Wait until the peer closes the connection."""
     try:
         while connection.recv(65536):
@@ -76,16 +76,16 @@ def _still_works(graph: Any, node: Any, topic: str = "/a") -> None:
     ],
     ids=["garbage", "get", "no length", "negative", "huge", "4 GB", "chunked", "endless head"],
 )
-def test_what_is_no_request_ends_that_connection_only(graph: Any, request_bytes: bytes) -> None:
+def test_an_invalid_request_ends_only_its_connection(graph: Any, request_bytes: bytes) -> None:
     with _connected(graph.core.port) as connection:
         with suppress(ConnectionError):
             connection.sendall(request_bytes)
-        assert _ends(connection)
+        assert _is_closed(connection)
     assert MasterProxy(graph.core.uri).call("getPid") == os.getpid()
 
 
 @pytest.mark.parametrize("body", [b"", b"<x/>", b"<?xml version='1.0'?><!DOCTYPE a [<!ENTITY b 'c'>]><a>&b;</a>"])
-def test_a_body_that_is_no_call_is_answered_with_a_fault(graph: Any, body: bytes) -> None:
+def test_an_invalid_call_is_answered_with_a_fault(graph: Any, body: bytes) -> None:
     with _connected(graph.core.port) as connection:
         connection.sendall(b"POST / HTTP/1.0\r\nContent-Length: %d\r\n\r\n%b" % (len(body), body))
         answer = b""
@@ -95,7 +95,7 @@ def test_a_body_that_is_no_call_is_answered_with_a_fault(graph: Any, body: bytes
     assert b"<fault>" in answer
 
 
-def test_half_a_request_waits_for_nobody(graph: Any) -> None:
+def test_an_incomplete_request_delays_no_other(graph: Any) -> None:
     with _connected(graph.core.port) as connection:
         connection.sendall(b"POST / HTTP/1.1\r\nContent-Le")
         assert MasterProxy(graph.core.uri).call("getPid") == os.getpid()
@@ -106,8 +106,8 @@ def test_five_hundred_connections_come_and_go(graph: Any) -> None:
     node.advertise("/a", STRING)
     for port in (graph.core.port, _tcpros_port(graph, node)):
         for _ in range(5):
-            several = [socket.create_connection(("127.0.0.1", port), timeout=PATIENCE_S) for _ in range(50)]
-            for connection in several:
+            connections = [socket.create_connection(("127.0.0.1", port), timeout=PATIENCE_S) for _ in range(50)]
+            for connection in connections:
                 connection.close()
     assert MasterProxy(graph.core.uri).call("getPid") == os.getpid()
     _still_works(graph, node)
@@ -127,15 +127,26 @@ def test_five_hundred_connections_come_and_go(graph: Any) -> None:
         encode_header({"topic": "/a", "md5sum": "0" * 32, "callerid": "/x", "type": "std_msgs/Int32"}),
         encode_header({"service": "/none", "md5sum": "*", "callerid": "/x"}),
     ],
-    ids=["garbage", "4 GB", "lies", "no =", "no caller", "no topic", "not here", "md5", "type", "no service"],
+    ids=[
+        "garbage",
+        "4 GB",
+        "wrong length",
+        "no =",
+        "no caller",
+        "no topic",
+        "other topic",
+        "md5",
+        "type",
+        "no service",
+    ],
 )
-def test_a_header_that_does_not_fit_ends_that_connection_only(graph: Any, data: bytes) -> None:
+def test_an_invalid_header_ends_only_its_connection(graph: Any, data: bytes) -> None:
     node = graph.node("n")
     node.advertise("/a", STRING)
     with _connected(_tcpros_port(graph, node)) as connection:
         connection.sendall(data)
         connection.shutdown(socket.SHUT_WR)
-        assert _ends(connection)
+        assert _is_closed(connection)
     _still_works(graph, node)
 
 
@@ -155,7 +166,7 @@ def test_a_header_that_does_not_fit_ends_that_connection_only(graph: Any, data: 
         ),
     ],
 )
-def test_a_refusal_says_why_in_rospys_words(graph: Any, header: dict[str, str], error: str) -> None:
+def test_a_refusal_has_rospys_error_text(graph: Any, header: dict[str, str], error: str) -> None:
     node = graph.node("n")
     node.advertise("/a", STRING)
     with _connected(_tcpros_port(graph, node)) as connection:
@@ -163,12 +174,12 @@ def test_a_refusal_says_why_in_rospys_words(graph: Any, header: dict[str, str], 
         assert _read_header(connection)["error"].startswith(error)
 
 
-def test_a_subscriber_that_never_reads_costs_only_its_own_messages(graph: Any, far: Any) -> None:
+def test_a_subscriber_that_never_reads_loses_only_its_own_messages(graph: Any, far: Any) -> None:
     node, reader = graph.node("n"), far.node("reader")
     publisher = node.advertise("/a", "std_msgs/UInt8MultiArray", queue_size=3)
     got: list[int] = []
-    with _connected(_tcpros_port(graph, node)) as deaf:
-        deaf.sendall(encode_header({"topic": "/a", "md5sum": "*", "callerid": "/deaf", "type": "*"}))
+    with _connected(_tcpros_port(graph, node)) as silent:
+        silent.sendall(encode_header({"topic": "/a", "md5sum": "*", "callerid": "/deaf", "type": "*"}))
         reader.subscribe("/a", "std_msgs/UInt8MultiArray", lambda m: got.append(int(m.data[0])))
         graph.until(lambda: publisher.subscribers == 2)
         for i in range(40):
@@ -176,33 +187,33 @@ def test_a_subscriber_that_never_reads_costs_only_its_own_messages(graph: Any, f
             graph.until(lambda i=i: got and got[-1] == i)
         assert publisher.dropped > 0
         links = next(links for topic, _, links in node.endpoints.statistics()[0] if topic == "/a")
-        waiting = 40 - publisher.dropped - min(sent for _, _, sent, _ in links)
-        assert waiting <= 3
+        queued = 40 - publisher.dropped - min(sent for _, _, sent, _ in links)
+        assert queued <= 3
     assert got == list(range(40))
 
 
-def test_a_publisher_that_promises_four_gigabytes_is_dropped(graph: Any, capfd: Any) -> None:
+def test_a_publisher_that_announces_four_gigabytes_is_disconnected(graph: Any, capfd: Any) -> None:
     node = graph.node("n")
     subscription = node.subscribe("/a", STRING, print)
     with socket.create_server(("127.0.0.1", 0)) as server:
         server.settimeout(PATIENCE_S)
-        liar = _LyingNode(graph, server.getsockname()[1])
+        fake_node = _FakeNode(graph, server.getsockname()[1])
         proxy = MasterProxy(graph.core.uri, "/liar")
-        proxy.call("registerPublisher", "/a", STRING, liar.uri)
+        proxy.call("registerPublisher", "/a", STRING, fake_node.uri)
         peer, _ = server.accept()
         with peer:
             peer.settimeout(PATIENCE_S)
             assert _read_header(peer)["callerid"] == "/n"
             peer.sendall(encode_header({"callerid": "/liar", "md5sum": MD5, "type": STRING}) + b"\xff\xff\xff\xff1234")
-            assert _ends(peer)
-        proxy.call("unregisterPublisher", "/a", liar.uri)
+            assert _is_closed(peer)
+        proxy.call("unregisterPublisher", "/a", fake_node.uri)
         graph.until(lambda: subscription.publishers == 0)
-        liar.stop(graph)
+        fake_node.stop(graph)
     _still_works(graph, node)
 
 
-class _LyingNode:
-    """Node that states a port of the test's as that of its topics."""
+class _FakeNode:
+    """Slave API that returns a port of the test as its TCPROS port."""
 
     def __init__(self, graph: Any, port: int) -> None:
         self._server = RpcServer(lambda _method, _arguments: (1, "", ["TCPROS", "127.0.0.1", port]))
@@ -224,19 +235,19 @@ with GraphLoop() as loop:
 """
 
 
-def test_a_publisher_that_is_killed_is_found_again_when_it_comes_back(graph: Any) -> None:
+def test_a_killed_publisher_is_connected_again_after_its_restart(graph: Any) -> None:
     got: set[str] = set()
     subscription = graph.node("n").subscribe("/a", STRING, lambda m: got.add(m.data))
-    for life in ("first", "second"):
-        with subprocess.Popen([sys.executable, "-c", PUBLISHER, graph.core.uri, life]) as process:
+    for run in ("first", "second"):
+        with subprocess.Popen([sys.executable, "-c", PUBLISHER, graph.core.uri, run]) as process:
             try:
-                graph.until(lambda life=life: life in got)
+                graph.until(lambda run=run: run in got)
             finally:
                 process.send_signal(signal.SIGKILL)
         graph.until(lambda: subscription.publishers == 0)
 
 
-def test_a_service_that_breaks_off_is_an_error_in_time(graph: Any) -> None:
+def test_a_service_that_does_not_answer_or_disconnects_is_an_error(graph: Any) -> None:
     node = graph.node("n")
     graph.ready(node)
     with socket.create_server(("127.0.0.1", 0)) as server:
@@ -253,7 +264,7 @@ def test_a_service_that_breaks_off_is_an_error_in_time(graph: Any) -> None:
             answer.result(PATIENCE_S)
 
 
-def test_stopping_a_busy_graph_leaves_nothing_behind(graph: Any, far: Any) -> None:
+def test_stopping_a_busy_graph_leaves_no_registration(graph: Any, far: Any) -> None:
     nodes = [far.node(f"n{i}") for i in range(10)]
     for node in nodes:
         node.advertise("/a", STRING)
@@ -265,8 +276,8 @@ def test_stopping_a_busy_graph_leaves_nothing_behind(graph: Any, far: Any) -> No
     assert not [name for table in state for name, _ in table if name == "/a"]
 
 
-def test_a_loop_that_is_left_in_the_middle_leaves_nothing_open(messages: Any) -> None:
-    """Half-opened servers, accepted connections and unfinished tasks: pytest's filter catches each."""
+def test_a_loop_stopped_during_startup_leaves_nothing_open(messages: Any) -> None:
+    """pytest's warning filter catches open servers, accepted connections and unfinished tasks."""
     for _ in range(5):
         loop = GraphLoop(messages=messages)
         loop.start()
@@ -283,10 +294,10 @@ def test_a_loop_that_is_left_in_the_middle_leaves_nothing_open(messages: Any) ->
         gc.collect()
 
 
-def test_a_server_whose_opening_is_cancelled_is_closed(messages: Any) -> None:
-    """At any moment: asyncio forgets a server that listens already."""
+def test_a_server_is_closed_if_its_start_is_cancelled(messages: Any) -> None:
+    """In any pass: asyncio leaks a server that listens already."""
 
-    async def open_and_give_up(passes: int) -> None:
+    async def start_and_cancel(passes: int) -> None:
         server = RpcServer(lambda _method, _arguments: (1, "", 0))
         task = asyncio.create_task(server.start("127.0.0.1", 0))
         for _ in range(passes):
@@ -297,28 +308,28 @@ def test_a_server_whose_opening_is_cancelled_is_closed(messages: Any) -> None:
 
     for passes in range(1, 12):
         with GraphLoop(messages=messages) as loop:
-            loop.run(open_and_give_up(passes))
+            loop.run(start_and_cancel(passes))
         del loop
         gc.collect()
 
 
 @pytest.mark.parametrize("server", ["master", "node"])
-def test_a_flood_of_silent_connections_shuts_nobody_out(
+def test_a_flood_of_silent_connections_blocks_no_client(
     graph: Any, monkeypatch: pytest.MonkeyPatch, server: str
 ) -> None:
     monkeypatch.setattr("trundle.ros.xmlrpc.rpc_server._MAX_CLIENTS", 20)
-    monkeypatch.setattr("trundle.ros.node.slave._MAX_NEWCOMERS", 20)
+    monkeypatch.setattr("trundle.ros.node.slave._MAX_PENDING_PEERS", 20)
     node = graph.node("n")
     node.advertise("/a", STRING)
     port = _tcpros_port(graph, node) if server == "node" else graph.core.port
     with ExitStack() as stack:
         flood = [stack.enter_context(_connected(port)) for _ in range(60)]
-        assert all(_ends(connection) for connection in flood[:40])
+        assert all(_is_closed(connection) for connection in flood[:40])
         assert MasterProxy(graph.core.uri).call("getPid") == os.getpid()
         _still_works(graph, node)
 
 
-def test_udpros_is_refused_politely(graph: Any) -> None:
+def test_udpros_is_refused_unless_tcpros_is_offered_too(graph: Any) -> None:
     node = graph.node("n")
     node.advertise("/a", STRING)
     graph.ready(node)
@@ -329,8 +340,8 @@ def test_udpros_is_refused_politely(graph: Any) -> None:
     assert (answer[0], answer[2][0]) == (1, "TCPROS")
 
 
-def test_two_hundred_topics_at_once_stay_bounded(graph: Any, far: Any) -> None:
-    """One subscriber reads each topic, another never does: nothing piles up but what the queues allow."""
+def test_queues_of_two_hundred_topics_stay_bounded(graph: Any, far: Any) -> None:
+    """One subscriber reads each topic, another never does: no more messages wait than the queues allow."""
     node, reader = graph.node("n"), far.node("reader")
     topics = [f"/t{i}" for i in range(200)]
     publishers = [node.advertise(topic, "std_msgs/UInt8MultiArray", queue_size=5) for topic in topics]
@@ -344,8 +355,8 @@ def test_two_hundred_topics_at_once_stay_bounded(graph: Any, far: Any) -> None:
     port = _tcpros_port(graph, node, "/t0")
     with ExitStack() as stack:
         for topic in topics[:50]:
-            deaf = stack.enter_context(_connected(port))
-            deaf.sendall(encode_header({"topic": topic, "md5sum": "*", "callerid": "/deaf", "type": "*"}))
+            silent = stack.enter_context(_connected(port))
+            silent.sendall(encode_header({"topic": topic, "md5sum": "*", "callerid": "/deaf", "type": "*"}))
         graph.until(lambda: all(p.subscribers == 1 + (p.topic in topics[:50]) for p in publishers))
         for number in range(1, 101):
             for publisher in publishers:
@@ -353,6 +364,6 @@ def test_two_hundred_topics_at_once_stay_bounded(graph: Any, far: Any) -> None:
             graph.until(lambda number=number: all(last == number for last in got.values()))
         for publisher in publishers[:50]:
             links = next(links for topic, _, links in node.endpoints.statistics()[0] if topic == publisher.topic)
-            fewest = min(sent for _, _, sent, _ in links)
-            assert 100 - publisher.dropped - fewest <= 5
+            min_sent = min(sent for _, _, sent, _ in links)
+            assert 100 - publisher.dropped - min_sent <= 5
     assert all(publisher.dropped == 0 for publisher in publishers[50:])

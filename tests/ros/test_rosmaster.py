@@ -1,4 +1,4 @@
-"""Debian's rosmaster and ours: every call, with valid and invalid arguments, has the same answer."""
+"""Every call, with valid and invalid arguments, has the same answer from Debian's rosmaster and from our master."""
 
 import socket
 import subprocess
@@ -32,7 +32,7 @@ METHODS = (
 Call = tuple[Any, ...]
 
 
-def _of_names() -> Iterator[Call]:
+def _name_calls() -> Iterator[Call]:
     for caller in ("/me", "me", "~me", "", "a b", 5):
         yield from (("getParam", caller, "/nope"), ("getUri", caller), ("lookupNode", caller, "/nobody"))
         yield from (("registerPublisher", caller, "/t9", STRING, ONE), ("unregisterPublisher", caller, "/t9", ONE))
@@ -47,7 +47,7 @@ def _of_names() -> Iterator[Call]:
         yield ("getPublishedTopics", "/p", name)
 
 
-def _of_types_and_addresses() -> Iterator[Call]:
+def _type_and_address_calls() -> Iterator[Call]:
     for kind in TYPES:
         yield from (("registerPublisher", "/p", "/ty", kind, ONE), ("registerSubscriber", "/s", "/ty", kind, ONE))
         yield from (("getTopicTypes", "/x"), ("getPublishedTopics", "/x", ""))
@@ -60,7 +60,7 @@ def _of_types_and_addresses() -> Iterator[Call]:
         yield ("subscribeParam", "/me", api, "/q")
 
 
-def _of_parameters() -> Iterator[Call]:
+def _parameter_calls() -> Iterator[Call]:
     for value in VALUES:
         yield from (("setParam", "/me", "/v", value), ("getParam", "/me", "/v"), ("getParam", "/me", "/v/a/b"))
         yield from (("hasParam", "/me", "/v/a"), ("getParamNames", "/me"), ("setParam", "/me", "/v/z", 3))
@@ -72,7 +72,7 @@ def _of_parameters() -> Iterator[Call]:
     yield from (("deleteParam", "/me", "/"), ("hasParam", "/me", "/"))
 
 
-def _of_registrations() -> Iterator[Call]:
+def _registration_calls() -> Iterator[Call]:
     yield from [("registerPublisher", "/a", "/t", STRING, ONE)] * 2
     yield from (("registerPublisher", "/b", "/t", "std_msgs/Int32", TWO), ("getTopicTypes", "/x"))
     yield from (("registerSubscriber", "/s", "/t", "std_msgs/Float32", ONE), ("getTopicTypes", "/x"))
@@ -90,13 +90,13 @@ def _of_registrations() -> Iterator[Call]:
 
 @pytest.fixture
 def rosmaster(tmp_path: Path) -> Iterator[str]:
-    """Debian's, at a port of its own."""
+    """URI of a running rosmaster of Debian."""
     with socket.create_server(("127.0.0.1", 0)) as probe:
         port = probe.getsockname()[1]
     uri = f"http://127.0.0.1:{port}"
     environment = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), "ROS_MASTER_URI": uri, "ROS_IP": "127.0.0.1"}
-    pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    with subprocess.Popen(["/usr/bin/rosmaster", "--core", "-p", str(port)], env=environment, **pipes) as process:
+    command, null = ["/usr/bin/rosmaster", "--core", "-p", str(port)], subprocess.DEVNULL
+    with subprocess.Popen(command, env=environment, stdout=null, stderr=null) as process:
         try:
             yield uri
         finally:
@@ -116,25 +116,26 @@ def _answer(master: Any, method: str, *arguments: Any) -> Any:
     return answer
 
 
-def test_every_answer_is_rosmasters(rosmaster: str, messages: Messages) -> None:
-    def is_there() -> bool:
+def test_every_answer_matches_rosmaster(rosmaster: str, messages: Messages) -> None:
+    def is_up() -> bool:
         try:
             return MasterProxy(rosmaster).call("getPid") > 0
         except MasterUnreachableError:
             return False
 
-    until(is_there)
+    until(is_up)
     different: list[Any] = []
     with GraphLoop(messages=messages) as loop:
         core = Core(loop, port=0, rosout=False)
         loop.run(core.start(), PATIENCE_S)
-        with xmlrpc.client.ServerProxy(rosmaster) as theirs, xmlrpc.client.ServerProxy(core.uri) as ours:
-            for master in (theirs, ours):
+        clients: list[Any] = [xmlrpc.client.ServerProxy(uri) for uri in (rosmaster, core.uri)]
+        with clients[0] as debians, clients[1] as ours:
+            for master in (debians, ours):
                 for name in master.getParamNames("/x")[2]:
                     master.deleteParam("/x", name)
-            for part in (_of_names, _of_types_and_addresses, _of_parameters, _of_registrations):
+            for part in (_name_calls, _type_and_address_calls, _parameter_calls, _registration_calls):
                 for call in part():
-                    answers = _answer(theirs, *call), _answer(ours, *call)
+                    answers = _answer(debians, *call), _answer(ours, *call)
                     if answers[0] != answers[1]:
                         different.append((call, *answers))
         loop.run(core.stop(), PATIENCE_S)

@@ -1,4 +1,4 @@
-"""A peer that the machine stops for a while, as a suspended or overloaded one, is waited for; one that ends is not."""
+"""Calls wait for a peer that is suspended or overloaded, and fail at once when it ends."""
 
 import os
 import signal
@@ -16,7 +16,7 @@ from tests.graphs import PATIENCE_S, until
 from trundle.ros import Core, GraphLoop, MasterProxy, MasterUnreachableError, Node, ServiceError
 
 _STOP_S = 7.0
-"""Longer than any limit that calls between nodes once had by default [s]."""
+"""Longer than usual timeouts of calls between nodes [s]."""
 _CORE = """
 import time
 from trundle.ros import Core, GraphLoop
@@ -42,7 +42,7 @@ pytestmark = pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="Windows 
 
 @contextmanager
 def _process(source: str, *words: str) -> Generator[tuple["subprocess.Popen[str]", str]]:
-    """Run a program; yield it and the first line that it prints."""
+    """Run a program; yield the process and the first line of its output."""
     command = [sys.executable, "-c", source, *words]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         try:
@@ -53,16 +53,14 @@ def _process(source: str, *words: str) -> Generator[tuple["subprocess.Popen[str]
 
 
 def _stop_for_a_while(process: "subprocess.Popen[str]") -> threading.Timer:
-    """Stop a process, and let it go on after a while."""
+    """Stop a process, and continue it after `_STOP_S`."""
     process.send_signal(signal.SIGSTOP)
     timer = threading.Timer(_STOP_S, lambda: os.kill(process.pid, signal.SIGCONT))
     timer.start()
     return timer
 
 
-def test_a_master_that_is_stopped_for_a_while_is_waited_for(
-    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_calls_wait_for_a_stopped_master(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     for module in ("base.waiting", "ros.node.pending_work", "ros.xmlrpc.proxy"):
         monkeypatch.setattr(f"trundle.{module}.PERIOD_S", 1.0)
     with _process(_CORE) as (process, uri), GraphLoop() as loop:
@@ -80,12 +78,12 @@ def test_a_master_that_is_stopped_for_a_while_is_waited_for(
         assert answers == [process.pid]
         timer.join()
         loop.run(node.shutdown(), PATIENCE_S)
-    said = capfd.readouterr().err
-    assert f"waiting for the answer of the ROS master at {uri} to getParam since " in said
-    assert f"waiting for the answer of {uri} to getPid since " in said
+    output = capfd.readouterr().err
+    assert f"waiting for the answer of the ROS master at {uri} to getParam since " in output
+    assert f"waiting for the answer of {uri} to getPid since " in output
 
 
-def test_a_master_that_ends_fails_the_call_at_once() -> None:
+def test_a_call_fails_at_once_when_the_master_ends() -> None:
     with _process(_CORE) as (process, uri), GraphLoop() as loop:
         node = Node("n", loop=loop, master_uri=uri)
         loop.run(node.wait_registered(), PATIENCE_S)
@@ -95,8 +93,8 @@ def test_a_master_that_ends_fails_the_call_at_once() -> None:
             loop.run(node.params.get("/run_id"), PATIENCE_S)
 
 
-def test_a_node_that_is_stopped_for_a_while_gets_its_calls_and_its_messages() -> None:
-    """The ROS master's update reaches it late, and so does the request; neither is given up."""
+def test_a_stopped_node_gets_its_calls_and_messages_later() -> None:
+    """Both the master's update and the request reach it late."""
     with GraphLoop() as loop:
         core = Core(loop, port=0)
         loop.run(core.start(), PATIENCE_S)
@@ -114,7 +112,7 @@ def test_a_node_that_is_stopped_for_a_while_gets_its_calls_and_its_messages() ->
             timer.join()
 
 
-def test_a_node_that_ends_fails_the_call_at_once() -> None:
+def test_a_call_fails_at_once_when_the_node_ends() -> None:
     with GraphLoop() as loop:
         core = Core(loop, port=0)
         loop.run(core.start(), PATIENCE_S)
@@ -127,7 +125,7 @@ def test_a_node_that_ends_fails_the_call_at_once() -> None:
                 loop.run(node.call_service("/theirs", "std_srvs/Trigger"), PATIENCE_S)
 
 
-def test_a_loop_that_stops_waits_for_a_callback_that_takes_long(
+def test_a_stopping_loop_waits_for_a_slow_callback(
     capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("trundle.base.waiting.PERIOD_S", 0.2)

@@ -1,6 +1,6 @@
 """Differences between ROS distributions: one table, chosen by `--distro` or by a running master's /rosdistro.
 
-Each distribution stands as of its last release. The changelogs named are at
+Each distribution is described as of its last release. The cited changelogs are at
 https://docs.ros.org/en/DISTRO/changelogs/PACKAGE/changelog.html.
 """
 
@@ -28,7 +28,7 @@ class Distro(NamedTuple):
     mirrored_diff_drive: bool
     """True if gazebo_ros_diff_drive swaps the left and right wheels where <legacyMode> is not given.
 
-    So up to Kinetic; not since gazebo_plugins 2.8.3, of Melodic (changelog, #707).
+    True up to Kinetic; not since gazebo_plugins 2.8.3, of Melodic (changelog, #707).
     """
     namespace_is_tf_prefix: bool
     """True if a namespace without tf_prefix is the prefix of its plugins' frames (diff_drive, camera, laser …); not

@@ -60,8 +60,8 @@ class MessageError(RosError):
 class DefinitionError(MessageError):
     """A message definition that cannot be parsed."""
 
-    def __init__(self, line: int, what: str) -> None:
-        super().__init__(what)
+    def __init__(self, line: int, reason: str) -> None:
+        super().__init__(reason)
         self.line = line
 
 

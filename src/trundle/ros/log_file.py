@@ -1,31 +1,31 @@
-"""Rotating log file written by a thread of its own, so that callers never wait for the disk."""
+"""Rotating log file, written by its own thread so that callers never wait for the disk."""
 
 import threading
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import BinaryIO
 
-_WAITING = 100_000
+_MAX_LINES = 100_000
 """Capacity of the queue [lines]."""
-_CLOSING_S = 1.0
+_CLOSE_S = 1.0
 
 
 class LogFile:
-    """Log file with rotated backups beside it as `name.1`, `name.2`, ….
+    """Log file with rotated backups `name.1`, `name.2`, … in its folder.
 
     Lines that cannot be written are dropped and counted; the next successful write reports the count.
     """
 
-    def __init__(self, path: Path, *, most_bytes: int, backups: int) -> None:
+    def __init__(self, path: Path, *, max_bytes: int, backups: int) -> None:
         """Create a log; the first line opens the file for appending.
 
         Args:
-            path: of the newest file.
+            path: newest file.
             most_bytes: size [bytes] at which the file is rotated.
-            backups: number of rotated files kept.
+            backups: number of rotated files to keep.
         """
         self._path = path
-        self._most_bytes = most_bytes
+        self._max_bytes = max_bytes
         self._backups = backups
         self._lines: SimpleQueue[str | None] = SimpleQueue()
         self._file: BinaryIO | None = None
@@ -36,15 +36,15 @@ class LogFile:
 
     def write(self, text: str) -> None:
         """Queue one or more lines for writing; callable from any thread."""
-        if self._lines.qsize() < _WAITING:
+        if self._lines.qsize() < _MAX_LINES:
             self._lines.put(text)
         else:
             self.lost += 1
 
     def close(self) -> None:
-        """Write queued lines, waiting at most 1 s, and close."""
+        """Write queued lines, for at most 1 s, and close."""
         self._lines.put(None)
-        self._thread.join(_CLOSING_S)
+        self._thread.join(_CLOSE_S)
 
     def _run(self) -> None:
         while (text := self._lines.get()) is not None:
@@ -81,7 +81,7 @@ class LogFile:
         data = memoryview(f"{line}\n".encode(errors="replace"))
         while data:
             data = data[self._file.write(data) :]
-        if self._file.tell() > self._most_bytes:
+        if self._file.tell() > self._max_bytes:
             self._close()
             for number in range(self._backups - 1, -1, -1):
                 older = self._backup_path(number)

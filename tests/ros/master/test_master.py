@@ -1,4 +1,4 @@
-"""The master's calls, with the codes and texts that clients read."""
+"""The master's calls, with their codes and texts."""
 
 import asyncio
 import xmlrpc.client
@@ -14,7 +14,7 @@ DEAD = "http://127.0.0.1:9/"
 
 @pytest.fixture
 def stdlib(graph: Any) -> Any:
-    """The standard library's client, which is rospy's."""
+    """The standard library's client, which rospy uses."""
     with xmlrpc.client.ServerProxy(graph.core.uri) as proxy:
         yield proxy
 
@@ -23,21 +23,21 @@ class Listener:
     """XML-RPC interface of a node that records its calls."""
 
     def __init__(self) -> None:
-        self.told: list[tuple[str, list[Any]]] = []
-        self.server = RpcServer(self._take)
+        self.calls: list[tuple[str, list[Any]]] = []
+        self.server = RpcServer(self._record)
 
     @property
     def uri(self) -> str:
         return f"http://127.0.0.1:{self.server.port}/"
 
-    def _take(self, method: str, arguments: list[Any]) -> Any:
-        self.told.append((method, arguments))
+    def _record(self, method: str, arguments: list[Any]) -> Any:
+        self.calls.append((method, arguments))
         return 1, "", 0
 
 
 @pytest.fixture
 def listeners(graph: Any) -> Any:
-    """Two such interfaces, listening."""
+    """Two listeners, started."""
     two = Listener(), Listener()
     for listener in two:
         graph.loop.run(listener.server.start("127.0.0.1", 0))
@@ -46,7 +46,7 @@ def listeners(graph: Any) -> Any:
         graph.loop.run(listener.server.stop())
 
 
-def test_registering_is_answered_as_by_rosmaster(stdlib: Any) -> None:
+def test_registrations_are_answered_as_by_rosmaster(stdlib: Any) -> None:
     assert stdlib.registerPublisher("/a", "/t", "std_msgs/String", DEAD) == [
         1,
         "Registered [/a] as publisher of [/t]",
@@ -76,9 +76,7 @@ def test_registering_is_answered_as_by_rosmaster(stdlib: Any) -> None:
         (("setParam", "/a", "/deep" * 1000, 3), -1, "ERROR: parameters nest deeper than 90"),
     ],
 )
-def test_what_is_refused_is_refused_in_rosmasters_words(
-    stdlib: Any, call: tuple[Any, ...], code: int, text: str
-) -> None:
+def test_refusals_have_rosmasters_texts(stdlib: Any, call: tuple[Any, ...], code: int, text: str) -> None:
     method, *arguments = call
     answer = getattr(stdlib, method)(*arguments)
     assert answer[0] == code
@@ -90,7 +88,7 @@ def test_an_unknown_method_is_a_fault(stdlib: Any) -> None:
         stdlib.doSomething("/a")
 
 
-def test_a_first_type_of_any_gives_way_to_a_real_one(stdlib: Any) -> None:
+def test_a_known_type_replaces_the_type_any(stdlib: Any) -> None:
     stdlib.registerSubscriber("/b", "/t", "*", DEAD)
     assert "/t" not in dict(stdlib.getTopicTypes("/x")[2])
     stdlib.registerPublisher("/a", "/t", "*", DEAD)
@@ -108,97 +106,96 @@ def test_parameters_resolve_against_the_caller(stdlib: Any) -> None:
 
 
 @pytest.mark.parametrize("value", [None, [1, None], {"a": {"b": None}}])
-def test_a_parameter_that_cannot_be_told_is_refused(graph: Any, value: Any) -> None:
+def test_a_parameter_that_xml_rpc_cannot_encode_is_refused(graph: Any, value: Any) -> None:
     """It would make its namespaces unreadable, for `rosparam dump` among others."""
-    with xmlrpc.client.ServerProxy(graph.core.uri, allow_none=True) as proxy:
+    client: Any = xmlrpc.client.ServerProxy(graph.core.uri, allow_none=True)
+    with client as proxy:
         code, text, _ = proxy.setParam("/x", "/nothing", value)
         assert (code, text.startswith("ERROR: parameter [value]")) == (-1, True)
         assert proxy.getParam("/x", "/")[0] == 1
 
 
-def test_several_calls_can_travel_together(stdlib: Any) -> None:
-    several = xmlrpc.client.MultiCall(stdlib)
-    several.setParam("/x", "/a", 1)
-    several.getParam("/x", "/a")
-    assert list(several()) == [[1, "parameter /a set", 0], [1, "Parameter [/a]", 1]]
+def test_a_multicall_returns_all_answers(stdlib: Any) -> None:
+    multicall: Any = xmlrpc.client.MultiCall(stdlib)
+    multicall.setParam("/x", "/a", 1)
+    multicall.getParam("/x", "/a")
+    assert list(multicall()) == [[1, "parameter /a set", 0], [1, "Parameter [/a]", 1]]
 
 
-def test_the_answers_of_several_calls_are_bounded(graph: Any, stdlib: Any) -> None:
-    """A few bytes ask for a long parameter each."""
+def test_the_answers_of_a_multicall_are_bounded(graph: Any, stdlib: Any) -> None:
+    """Each call of a few bytes requests a long parameter."""
     assert stdlib.setParam("/a", "/long", "x" * 1_000_000)[0] == 1
-    several = xmlrpc.client.MultiCall(stdlib)
+    multicall = xmlrpc.client.MultiCall(stdlib)
     for _ in range(100):
-        several.getParam("/a", "/long")
-    with pytest.raises(xmlrpc.client.Fault, match="call less at once"):
-        several()
+        multicall.getParam("/a", "/long")
+    with pytest.raises(xmlrpc.client.Fault, match="make fewer calls at once"):
+        multicall()
     stdlib.deleteParam("/a", "/long")
 
 
-def test_subscribers_are_told_of_publishers_and_a_dead_one_holds_up_nobody(
-    graph: Any, stdlib: Any, listeners: Any
-) -> None:
+def test_subscribers_get_publisher_updates_despite_a_dead_one(graph: Any, stdlib: Any, listeners: Any) -> None:
     listener = listeners[0]
     stdlib.registerSubscriber("/dead", "/t", "*", DEAD)
     stdlib.registerSubscriber("/alive", "/t", "*", listener.uri)
     stdlib.registerPublisher("/a", "/t", "std_msgs/String", "http://127.0.0.1:1/")
-    graph.until(lambda: listener.told)
-    assert listener.told[0] == ("publisherUpdate", ["/master", "/t", ["http://127.0.0.1:1/"]])
+    graph.until(lambda: listener.calls)
+    assert listener.calls[0] == ("publisherUpdate", ["/master", "/t", ["http://127.0.0.1:1/"]])
     stdlib.unregisterPublisher("/a", "/t", "http://127.0.0.1:1/")
-    graph.until(lambda: len(listener.told) > 1)
-    assert listener.told[1] == ("publisherUpdate", ["/master", "/t", []])
+    graph.until(lambda: len(listener.calls) > 1)
+    assert listener.calls[1] == ("publisherUpdate", ["/master", "/t", []])
 
 
-def test_followers_of_a_parameter_are_told_except_the_one_that_set_it(graph: Any, stdlib: Any, listeners: Any) -> None:
+def test_subscribers_of_a_parameter_get_updates_except_the_setter(graph: Any, stdlib: Any, listeners: Any) -> None:
     first, second = listeners
     assert stdlib.subscribeParam("/one", first.uri, "/a") == [1, "Subscribed to parameter [/a]", {}]
     stdlib.subscribeParam("/two", second.uri, "/a/b")
     stdlib.setParam("/one", "/a", {"b": 3})
-    graph.until(lambda: second.told)
-    assert second.told == [("paramUpdate", ["/master", "/a/b/", 3])]
+    graph.until(lambda: second.calls)
+    assert second.calls == [("paramUpdate", ["/master", "/a/b/", 3])]
     stdlib.deleteParam("/x", "/a")
-    graph.until(lambda: first.told)
-    assert first.told == [("paramUpdate", ["/master", "/a/", {}])]
+    graph.until(lambda: first.calls)
+    assert first.calls == [("paramUpdate", ["/master", "/a/", {}])]
 
 
-def test_who_sets_a_namespace_is_told_of_the_parts_it_follows(graph: Any, stdlib: Any, listeners: Any) -> None:
-    """As rosmaster does: a node that caches a part would keep the old value for ever."""
-    follower = listeners[0]
-    stdlib.subscribeParam("/one", follower.uri, "/a/b")
-    stdlib.subscribeParam("/one", follower.uri, "/a/c")
+def test_the_setter_of_a_namespace_gets_updates_of_subscribed_parts(graph: Any, stdlib: Any, listeners: Any) -> None:
+    """As in rosmaster: a node that caches a part would otherwise keep its old value."""
+    listener = listeners[0]
+    stdlib.subscribeParam("/one", listener.uri, "/a/b")
+    stdlib.subscribeParam("/one", listener.uri, "/a/c")
     stdlib.setParam("/one", "/a/c", 1)
     stdlib.setParam("/one", "/a", {"b": 3})
-    graph.until(lambda: len(follower.told) > 1)
-    assert follower.told == [("paramUpdate", ["/master", "/a/b/", 3]), ("paramUpdate", ["/master", "/a/c/", {}])]
+    graph.until(lambda: len(listener.calls) > 1)
+    assert listener.calls == [("paramUpdate", ["/master", "/a/b/", 3]), ("paramUpdate", ["/master", "/a/c/", {}])]
 
 
-def test_an_older_node_of_the_same_name_is_told_to_go(graph: Any, stdlib: Any, listeners: Any) -> None:
+def test_an_older_node_of_the_same_name_is_shut_down(graph: Any, stdlib: Any, listeners: Any) -> None:
     older = listeners[0]
     stdlib.registerPublisher("/twin", "/t", "std_msgs/String", older.uri)
     stdlib.registerSubscriber("/twin", "/u", "std_msgs/String", DEAD)
-    graph.until(lambda: older.told)
-    assert older.told == [("shutdown", ["/master", "[/twin] Reason: new node registered with same name"])]
+    graph.until(lambda: older.calls)
+    assert older.calls == [("shutdown", ["/master", "[/twin] Reason: new node registered with same name"])]
     state = stdlib.getSystemState("/x")[2]
     assert ["/t", ["/twin"]] not in state[0]
     assert ["/u", ["/twin"]] in state[1]
 
 
-def test_core_sets_what_roscore_sets(graph: Any) -> None:
+def test_core_sets_the_parameters_of_roscore(graph: Any) -> None:
     proxy = MasterProxy(graph.core.uri)
     assert proxy.call("getParam", "/rosdistro") == "noetic\n"
     assert proxy.call("getParam", "/run_id") == graph.core.run_id
     assert proxy.call("getSystemState")[0] == [["/rosout_agg", ["/rosout"]]]
 
 
-def test_the_master_answers_at_localhost_too(graph: Any) -> None:
+def test_the_master_answers_at_localhost(graph: Any) -> None:
     assert MasterProxy(f"http://localhost:{graph.core.port}").call("getPid") > 0
 
 
-def test_a_taken_port_is_one_sentence_with_a_way_out(graph: Any) -> None:
+def test_a_taken_port_is_reported_with_the_option_to_change_it(graph: Any) -> None:
     with pytest.raises(PortTakenError, match=f"port {graph.core.port} on 127.0.0.1 is taken.*-p PORT"):
         graph.loop.run(Core(graph.loop, port=graph.core.port).start())
 
 
-def test_the_blocking_proxy_says_who_does_not_answer(graph: Any) -> None:
+def test_the_blocking_proxy_names_the_master_that_does_not_answer(graph: Any) -> None:
     with pytest.raises(MasterUnreachableError, match=r"no ROS master answers at http://127.0.0.1:9/.*trundle core"):
         MasterProxy(DEAD).call("getPid")
     with pytest.raises(MasterUnreachableError, match="http://localhost:11311"):
@@ -207,7 +204,7 @@ def test_the_blocking_proxy_says_who_does_not_answer(graph: Any) -> None:
         MasterProxy(graph.core.uri).call("getParam", "/nope")
 
 
-def test_a_connection_is_kept_for_several_calls(graph: Any) -> None:
+def test_a_connection_serves_several_calls(graph: Any) -> None:
     async def two_calls() -> list[bytes]:
         reader, writer = await asyncio.open_connection("127.0.0.1", graph.core.port)
         body = xmlrpc.client.dumps(("/x",), "getPid").encode()

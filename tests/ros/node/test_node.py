@@ -31,7 +31,7 @@ from trundle.ros.transport.unix_sockets import unix_address
 STRING = "std_msgs/String"
 
 
-@pytest.fixture(params=["same process", "nearby", "TCP", "TCP without writev", "TCP with too many files"])
+@pytest.fixture(params=["same process", "Unix socket", "TCP", "TCP without writev", "TCP with too many files"])
 def pair(request: pytest.FixtureRequest, graph: Any, far: Any, monkeypatch: pytest.MonkeyPatch) -> tuple[Any, Any]:
     """A publishing and a subscribing node."""
     if request.param.startswith("TCP"):

@@ -1,4 +1,4 @@
-"""HTTP of the master and the nodes: programs of every library are served, web pages are not."""
+"""HTTP of the master and the nodes: serves programs of every client library, refuses web pages."""
 
 import os
 import socket
@@ -59,9 +59,9 @@ def test_web_pages_are_refused(fields: tuple[str, ...]) -> None:
     assert browser_refusal(parse_head(_head(fields)))
 
 
-def _exchange(port: int, sent: bytes) -> bytes:
+def _exchange(port: int, data: bytes) -> bytes:
     with socket.create_connection(("127.0.0.1", port), timeout=PATIENCE_S) as connection:
-        connection.sendall(sent)
+        connection.sendall(data)
         answer = b""
         while chunk := connection.recv(65536):
             answer += chunk
@@ -72,7 +72,7 @@ def _post(port: int, body: bytes, *fields: str) -> bytes:
     return _exchange(port, _head((*fields, f"Content-Length: {len(body)}", "Connection: close")) + body)
 
 
-def test_a_page_sets_no_parameter_and_the_log_says_so_once(graph: Any, caplog: pytest.LogCaptureFixture) -> None:
+def test_a_page_cannot_set_a_parameter_and_is_logged_once(graph: Any, caplog: pytest.LogCaptureFixture) -> None:
     call = encode_call("setParam", ["/page", "/evil", 1])
 
     fields = ("Origin: http://evil.example", "Content-Type: text/plain")
@@ -84,19 +84,21 @@ def test_a_page_sets_no_parameter_and_the_log_says_so_once(graph: Any, caplog: p
     assert [record.levelname for record in caplog.records if "web pages" in record.getMessage()] == ["WARNING"]
 
 
-def test_a_node_obeys_no_page(graph: Any) -> None:
+def test_a_page_cannot_shut_down_a_node(graph: Any) -> None:
     node = graph.node("n")
     graph.ready(node)
     call = encode_call("shutdown", ["/master", "evil"])
 
-    answer = _post(urlsplit(node.uri).port, call, "Origin: http://evil.example", "Content-Type: text/xml")
+    port = urlsplit(node.uri).port
+    assert port is not None
+    answer = _post(port, call, "Origin: http://evil.example", "Content-Type: text/xml")
 
     assert answer.startswith(b"HTTP/1.1 403 Forbidden\r\n")
     assert not node.is_shut_down
 
 
-def test_a_name_that_only_the_client_knows_reaches_the_master(graph: Any) -> None:
-    """Compose, Kubernetes, mDNS and NAT give a master names that it has never heard of."""
+def test_the_master_answers_at_any_host_name(graph: Any) -> None:
+    """Compose, Kubernetes, mDNS and NAT give a master names that are unknown to it."""
     call = encode_call("getPid", ["/robot"])
 
     answer = _post(graph.core.port, call, "Host: ros-master.fleet-7.svc:31311", "Content-Type: text/xml")
@@ -106,9 +108,9 @@ def test_a_name_that_only_the_client_knows_reaches_the_master(graph: Any) -> Non
 
 
 @pytest.mark.parametrize("method", ["OPTIONS", "GET"])
-def test_a_preflight_is_given_no_permission(graph: Any, method: str) -> None:
-    asked = ("Origin: http://evil.example", "Access-Control-Request-Method: POST")
-    for fields in (asked, ()):
+def test_a_preflight_request_is_refused(graph: Any, method: str) -> None:
+    preflight = ("Origin: http://evil.example", "Access-Control-Request-Method: POST")
+    for fields in (preflight, ()):
         answer = _exchange(graph.core.port, _head(fields, method))
 
         assert answer.startswith((b"HTTP/1.1 403 ", b"HTTP/1.1 501 "))
@@ -116,7 +118,7 @@ def test_a_preflight_is_given_no_permission(graph: Any, method: str) -> None:
 
 
 @pytest.mark.parametrize("method", ["GET", "POST", "OPTIONS", "PUT", "HEAD"])
-def test_http_at_a_topics_port_is_hung_up_on(graph: Any, method: str) -> None:
+def test_http_at_a_topics_port_is_disconnected(graph: Any, method: str) -> None:
     """The first four bytes announce a header of over 100 MB."""
     node = graph.node("n")
     node.advertise("/a", "std_msgs/String")
@@ -124,7 +126,7 @@ def test_http_at_a_topics_port_is_hung_up_on(graph: Any, method: str) -> None:
 
     port = blocking_call(node.uri, "requestTopic", "/me", "/a", [["TCPROS"]], timeout_s=PATIENCE_S)[2][2]
     answer = b""
-    with suppress(ConnectionError):  # it may be reset with the rest unread
+    with suppress(ConnectionError):  # it may be reset before all was read
         answer = _exchange(port, _head(("Origin: http://evil.example",), method))
     assert answer == b""
 
@@ -133,6 +135,6 @@ def test_http_at_a_topics_port_is_hung_up_on(graph: Any, method: str) -> None:
     "uri",
     [f"http://{'a' * 70}.example:80/", "http://a..b:80/", "rosrpc://\udcff:80", "http://a:99999/", "http://a:-1/"],
 )
-def test_an_address_that_no_socket_takes_is_refused(uri: str) -> None:
+def test_an_address_that_sockets_reject_is_refused(uri: str) -> None:
     with pytest.raises(WireError):
         host_and_port(uri)

@@ -1,4 +1,4 @@
-"""The XML-RPC server goes on while it decodes a large call."""
+"""The XML-RPC server serves other calls while it decodes a large one."""
 
 import asyncio
 
@@ -21,7 +21,7 @@ def test_a_small_call_is_answered_while_a_large_one_is_decoded() -> None:
         large.write(data[:-1])
         while large.transport.get_write_buffer_size() > 0:
             await asyncio.sleep(0.01)
-        await asyncio.sleep(0.1)  # it is all there but the last byte
+        await asyncio.sleep(0.1)  # all but the last byte has arrived
         large.write(data[-1:])
         small.write(request(uri, encode_call("small", [])))
         for reader, writer in connections:

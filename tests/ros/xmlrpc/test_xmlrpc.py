@@ -1,7 +1,8 @@
-"""XML-RPC text: values survive the round trip, and any input of a peer is read safely."""
+"""XML-RPC text: values survive a round trip, and any input of a peer is read safely."""
 
 import xmlrpc.client
 from datetime import datetime
+from typing import Any
 
 import pytest
 
@@ -37,12 +38,12 @@ def test_values_survive_the_round_trip(value: object) -> None:
 
 
 @pytest.mark.parametrize("value", [v for v in VALUES if not isinstance(v, bytes | datetime)], ids=repr)
-def test_the_standard_library_reads_what_is_written_and_writes_what_is_read(value: object) -> None:
+def test_calls_are_interchangeable_with_the_standard_library(value: Any) -> None:
     assert xmlrpc.client.loads(encode_call("m", [value])) == ((value,), "m")
     assert decode_call(xmlrpc.client.dumps((value,), "m").encode()) == ("m", [value])
 
 
-def test_a_value_without_a_type_is_a_string_as_roscpp_writes_it() -> None:
+def test_an_untyped_value_is_a_string() -> None:
     body = b"<?xml version='1.0'?><methodCall><methodName>m</methodName><params><param><value>/node</value></param>"
     assert decode_call(body + b"<param><value><i4>3</i4></value></param></params></methodCall>") == ("m", ["/node", 3])
 
@@ -53,7 +54,7 @@ def test_a_fault_is_raised_with_its_text() -> None:
 
 
 @pytest.mark.parametrize("value", [2**31, None, {1: 2}, object()], ids=["too large", "none", "key", "object"])
-def test_what_cannot_be_carried_is_named(value: object) -> None:
+def test_values_that_xml_rpc_cannot_carry_are_refused(value: object) -> None:
     with pytest.raises(ValueError, match=r"XML-RPC|keys"):
         encode_response(value)
 
@@ -79,13 +80,13 @@ BOMB = b"""<?xml version="1.0"?><!DOCTYPE x [<!ENTITY a "aaaaaaaaaa"><!ENTITY b 
     ],
     ids=range(11),
 )
-def test_what_is_no_call_is_refused_in_one_way(body: bytes) -> None:
+def test_invalid_calls_are_refused_with_one_exception(body: bytes) -> None:
     with pytest.raises(WireError):
         decode_call(body)
 
 
 @pytest.mark.parametrize("code", ["<array><data/></array>", "abc", "<double>1e999</double>", "<nil/>"])
-def test_a_fault_whose_code_is_no_number_is_a_fault(code: str) -> None:
+def test_a_fault_with_an_invalid_code_is_a_fault(code: str) -> None:
     member = f"<member><name>faultCode</name><value>{code}</value></member>"
     body = f"<methodResponse><fault><value><struct>{member}</struct></value></fault></methodResponse>"
     with pytest.raises(FaultError, match="fault 0"):

@@ -47,7 +47,7 @@ class LaunchLog(LogFile):
 
     def __init__(self, folder: Path) -> None:
         path = folder / f"roslaunch-{socket.gethostname()}-{os.getpid()}.log"
-        super().__init__(path, most_bytes=PYTHON_LOG_BYTES, backups=PYTHON_LOG_BACKUPS)
+        super().__init__(path, max_bytes=PYTHON_LOG_BYTES, backups=PYTHON_LOG_BACKUPS)
 
     def write(self, text: str) -> None:
         """Write a message with its time; links in it lose their tokens."""

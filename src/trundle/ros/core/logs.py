@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from ..message_types import rosgraph_msgs
 
 ROSOUT_BYTES, ROSOUT_BACKUPS = 100 * 1024 * 1024, 10
-"""Limits of the original rosout node."""
+"""Limits of roscore's rosout node."""
 PYTHON_LOG_BYTES, PYTHON_LOG_BACKUPS = 50_000_000, 4
-"""Limits in the original's python_logging.conf, for its master and roslaunch."""
+"""Limits in ROS' python_logging.conf, for rosmaster and roslaunch."""
 _OFF = ("", "0", "false", "off", "no")
 _LEVEL_NAMES = {number: name.upper() for name, number in LEVELS.items()}
 _BY_CALLER = {
@@ -44,14 +44,14 @@ class CoreLogs:
 
     def __init__(self, folder: Path, parameters: ParameterTree) -> None:
         self._parameters = parameters
-        self._master = LogFile(folder / "master.log", most_bytes=PYTHON_LOG_BYTES, backups=PYTHON_LOG_BACKUPS)
+        self._master = LogFile(folder / "master.log", max_bytes=PYTHON_LOG_BYTES, backups=PYTHON_LOG_BACKUPS)
         self._rosout: LogFile | None = None
         if os.environ.get("ROSOUT_DISABLE_FILE_LOGGING", "").lower() in _OFF:
-            self._rosout = LogFile(folder / "rosout.log", most_bytes=ROSOUT_BYTES, backups=ROSOUT_BACKUPS)
+            self._rosout = LogFile(folder / "rosout.log", max_bytes=ROSOUT_BYTES, backups=ROSOUT_BACKUPS)
             self._rosout.write(f"\n\n{time.time_ns() / 1e9:.9f}  Node Startup")
 
     def log_message(self, message: "rosgraph_msgs.Log") -> None:
-        """Log a rosgraph_msgs/Log in the format of the original rosout node."""
+        """Log a rosgraph_msgs/Log in the format of roscore's rosout node."""
         if self._rosout is not None:
             with_topics = not (
                 self._parameters.has("/rosout/omit_topics") and self._parameters.get("/rosout/omit_topics")
@@ -59,7 +59,7 @@ class CoreLogs:
             self._rosout.write(rosout_line(message, with_topics=with_topics))
 
     def log_master(self, text: str) -> None:
-        """Log a line of the master's own."""
+        """Log a line of the master."""
         self._master.write(python_log_line("rosmaster.master", text))
 
     def log_call(self, method: str, arguments: Sequence[Any], answer: Answer) -> None:
@@ -71,8 +71,8 @@ class CoreLogs:
             self.log_master(f"{_WITH_ADDRESS[method]} [{resolve_name(name, caller)}] {caller} {address}")
         elif method in _BY_CALLER:
             caller = arguments[0]
-            what, index = _BY_CALLER[method]
-            self.log_master(f"{what} [{resolve_name(arguments[index], caller)}] by {caller}")
+            label, index = _BY_CALLER[method]
+            self.log_master(f"{label} [{resolve_name(arguments[index], caller)}] by {caller}")
 
     def close(self) -> None:
         """Write queued lines and close."""
@@ -82,16 +82,16 @@ class CoreLogs:
 
 
 def rosout_line(message: "rosgraph_msgs.Log", *, with_topics: bool) -> str:
-    """Format a rosgraph_msgs/Log: stamp, level, node, file:line(function), the node's topics if wanted, text."""
+    """Format a rosgraph_msgs/Log: stamp, level, node, file:line(function), the node's topics if `with_topics`, text."""
     stamp = message.header.stamp
     topics = f"[topics: {', '.join(message.topics)}] " if with_topics else ""
     level = _LEVEL_NAMES.get(message.level, str(message.level))
-    place = f"[{message.file}:{message.line}({message.function})]"
-    return f"{stamp.sec}.{stamp.nanosec:09d} {level} {message.name} {place} {topics}{message.msg}"
+    location = f"[{message.file}:{message.line}({message.function})]"
+    return f"{stamp.sec}.{stamp.nanosec:09d} {level} {message.name} {location} {topics}{message.msg}"
 
 
 def python_log_line(logger: str, text: str) -> str:
-    """Format a line as Python's logging in the original does, stamped with local wall time."""
+    """Format a line like Python's logging in rosmaster and roslaunch, stamped with local wall time."""
     now_ms = time.time_ns() // 1_000_000
     stamp = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(now_ms // 1000))
     return f"[{logger}][INFO] {stamp},{now_ms % 1000:03d}: {text}"

@@ -1,4 +1,4 @@
-"""The ROS master with its parameter server: every call of the original, with its codes and texts.
+"""The ROS master with its parameter server: every call of rosmaster, with its codes and texts.
 
 Calls never block; updates to nodes are queued per node, so that a dead node delays no other.
 """
@@ -66,7 +66,7 @@ class Master:
         }
 
     async def start(self, port: int, host: str | None = None) -> None:
-        """Listen; port 0 takes any free one.
+        """Listen; port 0: any free port.
 
         Raises:
             PortTakenError: another program listens there.
@@ -99,7 +99,7 @@ class Master:
         """Execute several calls.
 
         Raises:
-            ParameterError: the answers together are longer than one answer may be.
+            ParameterError: the answers together exceed the size limit of one.
         """
         answers: list[Any] = []
         size = 0
@@ -107,7 +107,7 @@ class Master:
             answer = self.dispatch(str(call["methodName"]), list(call["params"]))
             size += encoded_bytes(answer)
             if size > MAX_BYTES:
-                raise ParameterError(f"the answers take more than {MAX_BYTES} bytes: call less at once")
+                raise ParameterError(f"the answers take more than {MAX_BYTES} bytes; make fewer calls at once")
             answers.append([answer])
         return answers
 
@@ -150,8 +150,8 @@ class Master:
         prefix = resolve_name(subgraph, caller) if subgraph else ""
         if prefix and not prefix.endswith("/"):
             prefix += "/"
-        found = [[t, self._types.get(t, ANY_TYPE)] for t in self._registry.publishers.entries if t.startswith(prefix)]
-        return 1, "current topics", found
+        names = [name for name in self._registry.publishers.entries if name.startswith(prefix)]
+        return 1, "current topics", [[name, self._types.get(name, ANY_TYPE)] for name in names]
 
     # -- topics and services
 
@@ -260,10 +260,10 @@ class Master:
             return 0, "Internal failure: invalid key", 0
         if not caller.startswith("/"):
             return 0, "Internal failure: namespace must be global", 0
-        found = self.parameters.search(caller, key)
-        if found is None:
+        name = self.parameters.search(caller, key)
+        if name is None:
             return -1, f"Cannot find parameter [{key}] in an upwards search", ""
-        return 1, f"Found [{found}]", found
+        return 1, f"Found [{name}]", name
 
     def _subscribe_param(self, caller: str, api: Any, key: Any) -> Answer:
         name, uri = _parameter(key, caller), _api("caller_api", api)
@@ -282,10 +282,10 @@ class Master:
     def _notify_param_subscribers(self, name: str, value: object, by: str | None) -> None:
         table = self._registry.parameters.entries
         for key, changed, new in updates(list(table), name, value):
+            # The node that set a namespace may subscribe to keys in it.
+            is_set_key = changed == _subscription_key(name)
             for node, uri in table[key]:
-                if node != by or changed != _subscription_key(
-                    name
-                ):  # the node that set a namespace may subscribe to keys in it
+                if node != by or not is_set_key:
                     self._slave_calls.send(uri, "paramUpdate", "/master", changed, new)
 
 
@@ -305,17 +305,17 @@ def _parameter(value: Any, caller: str) -> str:
     return resolve_name(_key(value), caller) or parent_namespace(caller)
 
 
-def _type(what: str, value: Any) -> str:
+def _type(argument: str, value: Any) -> str:
     if not isinstance(value, str) or not value:
-        raise BadArgumentError(f"ERROR: parameter [{what}] must be a non-empty string")
+        raise BadArgumentError(f"ERROR: parameter [{argument}] must be a non-empty string")
     if value != ANY_TYPE and value.count("/") != 1:
-        raise BadArgumentError(f"ERROR: parameter [{what}] is not a valid package resource name")
+        raise BadArgumentError(f"ERROR: parameter [{argument}] is not a valid package resource name")
     return value
 
 
-def _api(what: str, value: Any) -> str:
+def _api(argument: str, value: Any) -> str:
     if not isinstance(value, str) or not value:
-        raise BadArgumentError(f"ERROR: parameter [{what}] is not an XMLRPC URI")
+        raise BadArgumentError(f"ERROR: parameter [{argument}] is not an XMLRPC URI")
     if not value.startswith(("http://", "rosrpc://")):
-        raise BadArgumentError(f"ERROR: parameter [{what}] is not an RPC URI")
+        raise BadArgumentError(f"ERROR: parameter [{argument}] is not an RPC URI")
     return value

@@ -83,9 +83,9 @@ class ParameterTree:
         if key.startswith("/"):
             return key if self.has(key) else None
         first = _parts(key)[0]
-        above = _parts(namespace)
-        for count in range(len(above), -1, -1):
-            prefix = "/" + "/".join(above[:count])
+        namespaces = _parts(namespace)
+        for count in range(len(namespaces), -1, -1):
+            prefix = "/" + "/".join(namespaces[:count])
             if self.has(f"{prefix}/{first}"):
                 return f"{prefix.rstrip('/')}/{key}"
         return None
@@ -97,14 +97,18 @@ class ParameterTree:
     def _growth(self, name: str, value: object) -> int:
         """Change of the tree's size [bytes] if a value is set."""
         parts = _parts(name)
-        at: Any = self._root
+        current: Any = self._root
         for depth, part in enumerate(parts):
-            if not isinstance(at, dict):
-                return sum(_ITEM_BYTES + len(part) for part in parts[depth:]) + encoded_bytes(value) - encoded_bytes(at)
-            if part not in at:
+            if not isinstance(current, dict):
+                return (
+                    sum(_ITEM_BYTES + len(part) for part in parts[depth:])
+                    + encoded_bytes(value)
+                    - encoded_bytes(current)
+                )
+            if part not in current:
                 return sum(_ITEM_BYTES + len(part) for part in parts[depth:]) + encoded_bytes(value)
-            at = at[part]
-        return encoded_bytes(value) - encoded_bytes(at)
+            current = current[part]
+        return encoded_bytes(value) - encoded_bytes(current)
 
 
 def updates(subscribed: Iterable[str], name: str, value: object) -> list[Update]:
@@ -126,7 +130,7 @@ def updates(subscribed: Iterable[str], name: str, value: object) -> list[Update]
     return result
 
 
-def set_leaves(name: str, value: object, put: Callable[[str, object], None]) -> None:
+def set_leaves(name: str, value: object, set_value: Callable[[str, object], None]) -> None:
     """Set each value of a tree separately, keeping other keys of its namespaces (as rosparam does).
 
     Raises:
@@ -137,9 +141,9 @@ def set_leaves(name: str, value: object, put: Callable[[str, object], None]) -> 
         if not all(isinstance(key, str) for key in members):
             raise UsageError(f"YAML dictionaries must have string keys. Invalid dictionary is:\n{members}")
         for key, below in members.items():
-            set_leaves(f"{name.rstrip('/')}/{key}", below, put)
+            set_leaves(f"{name.rstrip('/')}/{key}", below, set_value)
     else:
-        put(name, value)
+        set_value(name, value)
 
 
 def _parts(name: str) -> list[str]:
@@ -160,7 +164,7 @@ def _is_deeper(value: Any, levels: int) -> bool:
     if levels < 0:
         return True
     below = value.values() if isinstance(value, dict) else value if isinstance(value, list | tuple) else ()
-    return any(_is_deeper(each, levels - 1) for each in below)
+    return any(_is_deeper(member, levels - 1) for member in below)
 
 
 def _with_slash(name: str) -> str:

@@ -30,12 +30,12 @@ class RegistrationTable:
 
     def remove_node(self, node: str) -> list[str]:
         """Remove all entries of a node; returns their names."""
-        touched = [name for name, entries in self.entries.items() if any(other == node for other, _ in entries)]
-        for name in touched:
+        names = [name for name, entries in self.entries.items() if any(other == node for other, _ in entries)]
+        for name in names:
             self.entries[name] = [entry for entry in self.entries[name] if entry[0] != node]
             if not self.entries[name]:
                 del self.entries[name]
-        return touched
+        return names
 
     def apis(self, name: str) -> list[str]:
         """Addresses registered under a name."""
@@ -76,14 +76,14 @@ class Registry:
         return replaced
 
     def register_service(self, name: str, node: str, api: str, service_api: str) -> str | None:
-        """Register a node as the provider of a service; returns as `register`."""
+        """Register a node as the provider of a service; returns what `register` does."""
         self.services.entries.pop(name, None)
         replaced = self.register(self.services, name, node, api)
         self.service_apis[name] = (node, service_api)
         return replaced
 
     def unregister(self, table: RegistrationTable, name: str, node: str, api: str) -> Answer:
-        """Remove an entry; a node without entries is forgotten."""
+        """Remove an entry, and the node if it has no other."""
         if node not in self.nodes:
             return 1, f"[{node}] is not a registered node", 0
         answer = table.remove(name, node, api)

@@ -1,6 +1,6 @@
 """Queue of slave API calls (publisherUpdate, paramUpdate, shutdown), one at a time per node, without blocking.
 
-A node that is slow, or suspended, is waited for until it answers or its connection breaks.
+A call to a slow or suspended node waits until the node answers or its connection breaks.
 """
 
 import asyncio
@@ -15,9 +15,9 @@ from ..xmlrpc.xmlrpc_text import FaultError
 
 _log = logging.getLogger(__name__)
 Pending: TypeAlias = Callable[[str], AbstractContextManager[None]]
-"""Context of work in progress, given its noun."""
-_MAX_WAITING = 256
-"""Most nodes that are waited for; beyond, the one waited for longest is given up: silent ones cost sockets."""
+"""Tracks work in progress, by its description."""
+_MAX_NODES = 256
+"""Maximum number of nodes with a call in progress, since each holds a socket; beyond it the oldest is cancelled."""
 _SUPERSEDABLE = ("publisherUpdate", "paramUpdate")
 """Methods whose newest call for a topic or parameter supersedes a queued one."""
 
@@ -27,16 +27,16 @@ class SlaveCalls:
 
     def __init__(self, pending: Pending) -> None:
         self._pending = pending
-        self._waiting: dict[str, list[tuple[str, tuple[Any, ...]]]] = {}
+        self._queues: dict[str, list[tuple[str, tuple[Any, ...]]]] = {}
         self._tasks: dict[asyncio.Task[None], None] = {}
-        """One for each node, the oldest first."""
+        """One per node, oldest first."""
 
     def send(self, uri: str, method: str, *arguments: object) -> None:
         """Queue a call; it replaces a queued call about the same topic or parameter."""
-        queue = self._waiting.get(uri)
+        queue = self._queues.get(uri)
         if queue is None:
-            self._waiting[uri] = queue = []
-            if len(self._tasks) >= _MAX_WAITING:
+            self._queues[uri] = queue = []
+            if len(self._tasks) >= _MAX_NODES:
                 next(iter(self._tasks)).cancel()
             task = asyncio.get_running_loop().create_task(self._run(uri, queue))
             self._tasks[task] = None
@@ -61,4 +61,4 @@ class SlaveCalls:
                     except (OSError, RosError, FaultError, ValueError) as error:
                         _log.debug("%s of %s: %s", method, uri, error)
         finally:
-            self._waiting.pop(uri, None)
+            self._queues.pop(uri, None)

@@ -11,7 +11,7 @@ MAX_BODY_BYTES = 64 * 1024 * 1024
 """Parameter trees with several robot descriptions take a few MB, far below this limit."""
 
 XML = "text/xml"
-_OWN_FETCH = ("node", "undici")
+_NODE_FETCH = ("node", "undici")
 """User agents of Node's `fetch`, which sends Sec-Fetch-Mode `cors` as browsers do."""
 _MAX_PORT = 65535
 _ADDRESS = re.compile(r"(?:http|rosrpc)://(?P<host>\[[^]/@]+\]|:?:?[^][/@?#:][^][/@?#]*):(?P<port>\d{1,5})(?:[/?#]|$)")
@@ -68,7 +68,7 @@ def parse_head(data: bytes) -> Head:
 
 
 def browser_refusal(head: Head) -> str | None:
-    """Return why a request is refused as possibly sent by a web page; None if a program sent it.
+    """Return the reason to refuse a request that a web page may have sent; None if a program sent it.
 
     A page can reach loopback. It cannot send text/xml to another origin without a preflight request, its POST carries
     an Origin, and current browsers add Sec-Fetch-Site. Programs: rospy, roscpp, rosnodejs, goroslib, rosjava and
@@ -78,10 +78,12 @@ def browser_refusal(head: Head) -> str | None:
     fields = head.fields
     agent, origin = fields.get("user-agent", ""), fields.get("origin")
     is_electron = "Electron/" in agent and origin in (None, "file://")  # Foxglove's and Lichtblick's desktop programs
-    marks = [] if is_electron else [name for name in fields if name == "origin" or name.startswith("sec-fetch-")]
-    if marks and not (marks == ["sec-fetch-mode"] and agent in _OWN_FETCH):
-        made_by = f"a page of {origin[:100]!r}" if origin else "a web page"
-        return f"{made_by} sent it, and web pages may not call ROS nodes"
+    browser_fields = (
+        [] if is_electron else [name for name in fields if name == "origin" or name.startswith("sec-fetch-")]
+    )
+    if browser_fields and not (browser_fields == ["sec-fetch-mode"] and agent in _NODE_FETCH):
+        sender = f"a page of {origin[:100]!r}" if origin else "a web page"
+        return f"{sender} sent it, and web pages may not call ROS nodes"
     kind = fields.get("content-type", XML).partition(";")[0].strip().lower()
     if kind != XML or (is_electron and "content-type" not in fields):
         return f"an XML-RPC call has the Content-Type {XML}, not {fields.get('content-type', 'none')[:100]!r}"
@@ -120,17 +122,17 @@ def host_and_port(uri: str) -> tuple[str, int]:
 
 
 def checked_address(host: str, port: int) -> tuple[str, int]:
-    """Return an address that a peer has given, if it is one: sockets raise other than OSError for some.
+    """Check and return a peer's address; for an invalid one, sockets may raise other exceptions than OSError.
 
     Raises:
         WireError: no host has such a name, or the port is out of range.
     """
     try:
         host.encode("idna")
-        is_one = 0 <= port <= _MAX_PORT
+        is_valid = 0 <= port <= _MAX_PORT
     except UnicodeError:
-        is_one = False
-    if not is_one:
+        is_valid = False
+    if not is_valid:
         raise WireError(f"not a node's address: host {host[:200]!r}, port {str(port)[:40]}")
     return host, port
 

@@ -16,12 +16,12 @@ class MasterProxy:
     """Blocking calls to the master, the parameter server or a node's slave API."""
 
     def __init__(self, uri: str | None = None, caller_id: str = "/trundle", *, timeout_s: float | None = None) -> None:
-        """Prepare.
+        """Create; each call connects anew.
 
         Args:
-            uri: of the server; ROS_MASTER_URI by default.
-            caller_id: the caller's name.
-            timeout_s: of each call; None: wait until it answers or the connection breaks, as ROS' own programs do.
+            uri: URI of the server; ROS_MASTER_URI by default.
+            caller_id: name of the calling node.
+            timeout_s: timeout of each call [s]; None: wait for the answer until the connection breaks, as ROS does.
         """
         self.uri = uri or master_uri_from_env()
         self._caller_id = caller_id

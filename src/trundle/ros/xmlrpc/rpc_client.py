@@ -1,4 +1,4 @@
-"""XML-RPC calls on asyncio, bounded in size; in time only where the caller says so."""
+"""XML-RPC calls on asyncio, of limited size, and with a timeout on request."""
 
 import asyncio
 import contextlib
@@ -27,7 +27,7 @@ async def call(uri: str, method: str, *arguments: object, timeout_s: float | Non
             if head.start[1] != "200":
                 raise WireError(f"{uri} answers {' '.join(head.start[1:])[:100]}")
             size = head.body_bytes
-            answer = await reader.readexactly(size) if size is not None else await _until_closed(reader)
+            answer = await reader.readexactly(size) if size is not None else await _read_until_closed(reader)
         except (asyncio.IncompleteReadError, asyncio.LimitOverrunError) as error:
             raise WireError(f"{uri} broke off its answer: {error}") from None
         finally:
@@ -41,7 +41,7 @@ async def call_value(uri: str, method: str, *arguments: object, timeout_s: float
 
     Raises:
         MasterError: the code is not 1.
-        OSError, WireError, FaultError: as `call`.
+        OSError, WireError, FaultError: see `call`.
     """
     return unpack_value(uri, method, await call(uri, method, *arguments, timeout_s=timeout_s))
 
@@ -61,7 +61,7 @@ def unpack_value(uri: str, method: str, answer: object) -> object:
     return value
 
 
-async def _until_closed(reader: asyncio.StreamReader) -> bytes:
+async def _read_until_closed(reader: asyncio.StreamReader) -> bytes:
     data = bytearray()
     while chunk := await reader.read(65536):
         data += chunk

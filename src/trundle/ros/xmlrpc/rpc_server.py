@@ -49,7 +49,7 @@ class RpcServer:
         self.port = 0
 
     async def start(self, host: str, port: int) -> None:
-        """Listen; port 0 takes any free one.
+        """Listen; port 0: any free port.
 
         Raises:
             PortTakenError: another program listens there.
@@ -61,8 +61,8 @@ class RpcServer:
         except OSError as error:
             if error.errno == errno.EADDRINUSE:
                 raise PortTakenError(host, port) from None
-            why = shortage(error) or error.strerror or error
-            raise RosError(f"cannot listen on {host}:{port}: {why}") from None
+            reason = shortage(error) or error.strerror or error
+            raise RosError(f"cannot listen on {host}:{port}: {reason}") from None
         self.port = self._server.sockets[0].getsockname()[1]
 
     @property
@@ -79,9 +79,9 @@ class RpcServer:
     async def _serve(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         self._clients[writer] = None
         if len(self._clients) > _MAX_CLIENTS:
-            silent = next(iter(self._clients))
-            del self._clients[silent]
-            silent.transport.abort()
+            idle_client = next(iter(self._clients))
+            del self._clients[idle_client]
+            idle_client.transport.abort()
         try:
             while self._is_serving and await self._exchange(reader, writer):
                 self._clients.pop(writer, None)
@@ -101,9 +101,11 @@ class RpcServer:
             first = await reader.readexactly(1)
         async with asyncio.timeout(_REQUEST_S):
             head = parse_head(first + await reader.readuntil(b"\r\n\r\n"))
-            if (why := browser_refusal(head)) is not None:
-                self._warn(why)
-                writer.write(answer("403 Forbidden", f"refused: {why}\n".encode(), keep_alive=False, kind="text/plain"))
+            if (reason := browser_refusal(head)) is not None:
+                self._warn(reason)
+                writer.write(
+                    answer("403 Forbidden", f"refused: {reason}\n".encode(), keep_alive=False, kind="text/plain")
+                )
                 return False
             refusal = _refusal(head)
             if refusal is not None:
@@ -117,11 +119,11 @@ class RpcServer:
             await writer.drain()
         return head.keeps_alive
 
-    def _warn(self, why: str) -> None:
+    def _warn(self, reason: str) -> None:
         """Log the first refusal only: a page can send thousands."""
         if not self._has_warned:
             self._has_warned = True
-            _log.warning("port %d refused an HTTP request: %s", self.port, why)
+            _log.warning("port %d refused an HTTP request: %s", self.port, reason)
 
     async def _answer(self, body: bytes) -> bytes:
         try:
