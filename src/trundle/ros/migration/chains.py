@@ -30,20 +30,20 @@ class Chains:
     def add(self, rule: MessageUpdateRule) -> None:
         """Add a rule, unless it contradicts an earlier one, which is logged."""
         chain = self._chains.setdefault(rule.old_type, Chain())
-        why_not = self._why_not_last(chain, rule) if rule.renames else _why_not_within(chain, rule)
-        if why_not:
-            self._warn(f"{rule.location}: {why_not}; this rule is ignored")
+        conflict = self._rename_conflict(chain, rule) if rule.renames else _update_conflict(chain, rule)
+        if conflict:
+            self._warn(f"{rule.location}: {conflict}; this rule is ignored")
         elif rule.renames:
             chain.rename = rule
         else:
-            chain.updates = sorted([*chain.updates, rule], key=lambda each: each.order)
+            chain.updates = sorted([*chain.updates, rule], key=lambda update: update.order)
 
     def items(self) -> list[tuple[str, Chain]]:
         """Types with their chains, in the order of their first rule."""
         return list(self._chains.items())
 
     def later_names(self, kind: str) -> set[str]:
-        """Names of a type after any of its rules, transitively, itself included."""
+        """All names of a type: its own, and those that rules rename it to, transitively."""
         names = {kind}
         chain = self._chains.get(kind)
         while chain is not None and chain.rename is not None:
@@ -51,7 +51,7 @@ class Chains:
             chain = self._chains.get(chain.rename.new_type)
         return names
 
-    def _why_not_last(self, chain: Chain, rule: MessageUpdateRule) -> str:
+    def _rename_conflict(self, chain: Chain, rule: MessageUpdateRule) -> str:
         if chain.rename is not None:
             return f"{chain.rename.location} renames {rule.old_type} already"
         if rule.old_type in self.later_names(rule.new_type):
@@ -63,7 +63,7 @@ class Chains:
         return ""
 
 
-def _why_not_within(chain: Chain, rule: MessageUpdateRule) -> str:
+def _update_conflict(chain: Chain, rule: MessageUpdateRule) -> str:
     for other in chain.updates:
         if other.order == rule.order:
             return f"{other.location} has order {rule.order} already"

@@ -1,4 +1,4 @@
-"""Message classes with genpy's interface, for which update rules are written.
+"""Message classes with genpy's interface, which update rules expect.
 
 Numbers in arrays are tuples, `uint8[]` is bytes, times have `secs` and `nsecs`; serialization is that of `Messages`.
 """
@@ -73,16 +73,16 @@ class RuleMessage(metaclass=MessageClass):
 
     def __init__(self, *values: object, **named: object) -> None:
         """Create a message from all fields in order, or from some by name; others are 0 or empty."""
-        made = type(self)
-        names = list(made.kinds)
+        cls = type(self)
+        names = list(cls.kinds)
         if values and (named or len(values) != len(names)):
-            raise TypeError(f"{made.kind} has {len(names)} fields ({', '.join(names)}), got {len(values)} values")
-        given = dict(zip(names, values, strict=True)) if values else named
-        for name in given:
+            raise TypeError(f"{cls.kind} has {len(names)} fields ({', '.join(names)}), got {len(values)} values")
+        fields = dict(zip(names, values, strict=True)) if values else named
+        for name in fields:
             if name not in names:
-                raise AttributeError(f"{made.kind} has no field {name!r}; fields here: {', '.join(names)}")
-        for name, kind in made.kinds.items():
-            setattr(self, name, given[name] if name in given else made.classes.default(kind))
+                raise AttributeError(f"{cls.kind} has no field {name!r}; fields here: {', '.join(names)}")
+        for name, kind in cls.kinds.items():
+            setattr(self, name, fields[name] if name in fields else cls.classes.default(kind))
 
     def serialize(self, buffer: BinaryIO) -> None:
         """Serialize the message."""
@@ -94,8 +94,8 @@ class RuleMessage(metaclass=MessageClass):
         Raises:
             MessageError: the data is not a message of this type.
         """
-        made = type(self)
-        _copy_fields(self, made.classes.read(data, made.kind))
+        cls = type(self)
+        _copy_fields(self, cls.classes.read(data, cls.kind))
         return self
 
     def __eq__(self, other: object) -> bool:
@@ -104,8 +104,8 @@ class RuleMessage(metaclass=MessageClass):
     __hash__ = None  # pyright: ignore[reportAssignmentType]  # mutable, as genpy's
 
     def __repr__(self) -> str:
-        made = type(self)
-        return f"{made.kind}({', '.join(f'{name}={getattr(self, name)!r}' for name in made.kinds)})"
+        cls = type(self)
+        return f"{cls.kind}({', '.join(f'{name}={getattr(self, name)!r}' for name in cls.kinds)})"
 
 
 class MessageClasses:
@@ -113,7 +113,7 @@ class MessageClasses:
 
     def __init__(self, messages: Messages) -> None:
         self._messages = messages
-        self._made: dict[str, MessageClass] = {}
+        self._message_classes: dict[str, MessageClass] = {}
         self._readers: dict[str, Callable[[Any], Any]] = {}
 
     @classmethod
@@ -138,20 +138,20 @@ class MessageClasses:
         Raises:
             MessageError: the type is unknown.
         """
-        if kind not in self._made:
-            self._made[kind] = self._make(kind)
-        return self._made[kind]
+        if kind not in self._message_classes:
+            self._message_classes[kind] = self._make(kind)
+        return self._message_classes[kind]
 
     def nested_classes(self, kind: str) -> dict[str, MessageClass]:
         """Classes of a type and all types it contains, by name."""
-        found: dict[str, MessageClass] = {}
-        waiting = [kind]
-        while waiting:
-            name = waiting.pop()
-            if name not in found and name not in BUILTIN:
-                found[name] = self.message_class(name)
-                waiting += [base_type(field) for field in self._messages.fields(name).values()]
-        return found
+        classes: dict[str, MessageClass] = {}
+        pending = [kind]
+        while pending:
+            name = pending.pop()
+            if name not in classes and name not in BUILTIN:
+                classes[name] = self.message_class(name)
+                pending += [base_type(field) for field in self._messages.fields(name).values()]
+        return classes
 
     def constants(self, kind: str) -> dict[str, tuple[str, str]]:
         """Constants of a type: name → (type, value as written)."""
@@ -212,8 +212,8 @@ class MessageClasses:
         base, bracket, _ = kind.partition("[")
         if not bracket:
             if base in _TIMES:
-                made = _TIMES[base]
-                return lambda value: made(value.sec, value.nanosec)
+                time_class = _TIMES[base]
+                return lambda value: time_class(value.sec, value.nanosec)
             return (lambda value: value) if base in BUILTIN else self._reader_of_messages(base)
         if base in _BYTES:
             return lambda array: array.tobytes()
@@ -221,14 +221,14 @@ class MessageClasses:
             return lambda array: tuple(array.tolist())
         if base == "bool":
             return lambda array: array.tolist()
-        each = self.reader(base)
-        return lambda items: [each(item) for item in items]
+        read = self.reader(base)
+        return lambda items: [read(item) for item in items]
 
     def _reader_of_messages(self, kind: str) -> Callable[[Any], Any]:
-        made = self.message_class(kind)
+        cls = self.message_class(kind)
 
         def read(value: Any) -> RuleMessage:
-            message = cast(RuleMessage, object.__new__(made))
+            message = cast(RuleMessage, object.__new__(cls))
             _copy_fields(message, value)
             return message
 
@@ -242,19 +242,19 @@ def base_type(kind: str) -> str:
 
 def _copy_fields(message: RuleMessage, value: Any) -> None:
     """Set a message's fields from a message of the type store."""
-    made = type(message)
-    for name, kind in made.kinds.items():
-        read = getattr(value, name) if hasattr(value, name) else getattr(value, f"{name}_")  # a Python keyword
-        setattr(message, name, made.classes.reader(kind)(read))
+    cls = type(message)
+    for name, kind in cls.kinds.items():
+        field = getattr(value, name) if hasattr(value, name) else getattr(value, f"{name}_")  # a Python keyword
+        setattr(message, name, cls.classes.reader(kind)(field))
 
 
-def from_bytes(made: MessageClass, data: bytes) -> RuleMessage:
+def from_bytes(cls: MessageClass, data: bytes) -> RuleMessage:
     """Deserialize without default values first, since fixed-size arrays may have any length.
 
     Raises:
         MessageError: the data is not a message of this type.
     """
-    return made.classes.reader(made.kind)(made.classes.read(data, made.kind))
+    return cls.classes.reader(cls.kind)(cls.classes.read(data, cls.kind))
 
 
 def to_bytes(message: RuleMessage) -> bytes:
@@ -263,21 +263,20 @@ def to_bytes(message: RuleMessage) -> bytes:
     Raises:
         MessageError: a field's value does not fit its type; the text names it.
     """
-    made = type(message)
-    return made.classes.write(made.kind, _fields(message, made, ""))
+    cls = type(message)
+    return cls.classes.write(cls.kind, _fields(message, cls, ""))
 
 
-def _fields(message: Any, made: MessageClass, path: str) -> dict[str, Any]:
+def _fields(message: Any, cls: MessageClass, path: str) -> dict[str, Any]:
     """Fields of a message, which may be any object with the same attributes."""
-    found: dict[str, Any] = {}
-    for name, kind in made.kinds.items():
-        here = f"{path}.{name}".lstrip(".")
+    fields: dict[str, Any] = {}
+    for name, kind in cls.kinds.items():
         try:
             value = getattr(message, name)
         except AttributeError:
-            raise MessageError(f"field {path or name!r} is a {made.kind}, got {message!r}") from None
-        found[name] = _field(value, kind, made.classes, here)
-    return found
+            raise MessageError(f"field {path or name!r} is a {cls.kind}, got {message!r}") from None
+        fields[name] = _field(value, kind, cls.classes, f"{path}.{name}".lstrip("."))
+    return fields
 
 
 def _field(value: Any, kind: str, classes: MessageClasses, path: str) -> Any:

@@ -1,4 +1,4 @@
-"""Generated rules: fields of the same name and type are copied; other fields are reported in a rule to complete."""
+"""Generated rules copy fields of the same name and type; a rule to complete reports the other fields."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from .classes import BUILTIN, MessageClass, RuleMessage, base_type
 from .rule import MessageUpdateRule, Rule, Rules, short_name
 
 CanMigrate = Callable[[str, str], bool]
-"""True if rules lead from one type name to the other."""
+"""Returns True if rules lead from one type name to the other."""
 _INDENT = "    "
 
 
@@ -25,7 +25,7 @@ class _Field:
 
 
 class GeneratedRule(Rule):
-    """Copies the fields that both types share; valid if those are all."""
+    """Copies the fields that both types share; valid if there are no others."""
 
     def __init__(self, migrator: Rules, old: MessageClass, new: MessageClass, may_become: CanMigrate) -> None:
         super().__init__(migrator, f"the rule from {old.kind} to {new.kind}")

@@ -58,7 +58,7 @@ class Migrator:
         self._link()
 
     def known_class(self, kind: str) -> MessageClass | None:
-        """Class of a known type."""
+        """Class of a known type; None if the type is unknown."""
         return self._known.message_class(kind) if self._known.has(kind) else None
 
     def target(self, old: MessageClass) -> MessageClass | None:
@@ -81,7 +81,7 @@ class Migrator:
     def rule_to_complete(self, rule: PlaceholderRule, kind: str) -> GeneratedRule | None:
         """Rule to complete, from an unmatched type to the known type `kind`; None if that is unknown."""
         known = self.known_class(kind)
-        return None if known is None else self._warned_generated(rule.old_class, known)
+        return None if known is None else self._generated_with_sub_rules(rule.old_class, known)
 
     def convert_bytes(self, data: bytes, old: MessageClass, new: MessageClass) -> bytes:
         """Convert a serialized message from one class to another.
@@ -93,9 +93,9 @@ class Migrator:
         path = self._can_migrate(old, new)
         if not path or old.md5sum == new.md5sum:
             return data
-        made = _apply_path(path, from_bytes(path[0].old, data))
+        message = _apply_path(path, from_bytes(path[0].old, data))
         with rule_errors(path[-1].rule):
-            return to_bytes(made)
+            return to_bytes(message)
 
     def convert(self, old: RuleMessage, new: MessageClass) -> RuleMessage:
         """See `Rules`."""
@@ -117,9 +117,9 @@ class Migrator:
     # -- linking
 
     def _link(self) -> None:
-        """Link each type's rules to one another, to those of the types they become, and to the known types."""
+        """Link the rules of each type to each other, to those of its later types, and to the known types."""
         steps: list[MigrationStep] = []
-        ends: list[MigrationStep] = []
+        last_steps: list[MigrationStep] = []
         for kind, chain in self._chains.items():
             last: MigrationStep | None = None
             for rule in chain.all_rules():
@@ -135,86 +135,86 @@ class Migrator:
                 steps.append(step)
                 last = step
             if last is not None:
-                ends.append(last)
-        for end in ends:
-            end.next = self._after(end)
-            steps += [end.next] if end.next else []
+                last_steps.append(last)
+        for last in last_steps:
+            last.next = self._after(last)
+            steps += [last.next] if last.next else []
         for step in dict.fromkeys(steps):
             step.rule.find_sub_paths(warns=isinstance(step.rule, MessageUpdateRule))
 
-    def _after(self, end: MigrationStep) -> MigrationStep | None:
+    def _after(self, last: MigrationStep) -> MigrationStep | None:
         """Step after a type's last rule: the latest reachable rule of its new name."""
-        assert end.new is not None
-        known = self.known_class(end.new.kind)
-        if known is not None and known.key == end.new.key:
+        assert last.new is not None
+        known = self.known_class(last.new.kind)
+        if known is not None and known.key == last.new.key:
             return None
-        to_known = None if known is None else MigrationStep(end.new, known, self._generated(end.new, known))
-        is_renamed = end.old.kind != end.new.kind
-        later = self._range(end.new.kind, end.new.kind) if is_renamed else []
+        to_known = None if known is None else MigrationStep(last.new, known, self._generated(last.new, known))
+        is_renamed = last.old.kind != last.new.kind
+        later = self._range(last.new.kind, last.new.kind) if is_renamed else []
         for step in reversed(later):
-            if step.old.key == end.new.key:
+            if step.old.key == last.new.key:
                 return step
         if to_known is not None and (to_known.rule.valid or (is_renamed and not later)):
             return to_known
         for step in reversed(later):
-            rule = self._generated(end.new, step.old)
+            rule = self._generated(last.new, step.old)
             if rule.valid:
-                return MigrationStep(end.new, step.old, rule, step)
-        return MigrationStep(end.new, None, PlaceholderRule(self, end.new) if to_known is None else to_known.rule)
+                return MigrationStep(last.new, step.old, rule, step)
+        return MigrationStep(last.new, None, PlaceholderRule(self, last.new) if to_known is None else to_known.rule)
 
     def _range(self, old_type: str, new_type: str) -> list[MigrationStep]:
         """Steps from the first rule of a type to the last that ends in another."""
         step = self._first.get(old_type)
-        found = [] if step is None else [step]
-        has_arrived = False
+        steps = [] if step is None else [step]
+        has_reached_new = False
         while step is not None and step.next is not None and step.next.new is not None:
             step = step.next
-            found.append(step)
+            steps.append(step)
             assert step.new is not None
-            is_there = step.new.kind == new_type
-            if has_arrived and not is_there:
+            is_new = step.new.kind == new_type
+            if has_reached_new and not is_new:
                 break
-            has_arrived |= is_there
-        return found
+            has_reached_new |= is_new
+        return steps
 
     # -- paths
 
     def _find(self, old: MessageClass, new: MessageClass | None) -> list[MigrationStep]:
         if new is None:
-            return self._lost(old)
+            return self._path_to_unknown(old)
         if old.key == new.key:
             return []
         steps = self._range(old.kind, new.kind)
-        return self._begun(self._ended(steps, new), old, new) if steps else [self._step(old, new)]
+        return self._from_old(self._to_new(steps, new), old, new) if steps else [self._step(old, new)]
 
-    def _ended(self, steps: list[MigrationStep], new: MessageClass) -> list[MigrationStep]:
-        """Steps up to the last one from which `new` is reached, and the rule to it."""
-        there = list(takewhile(lambda i: _type(steps[i].new) == new.kind, reversed(range(len(steps)))))
-        for i in there:
+    def _to_new(self, steps: list[MigrationStep], new: MessageClass) -> list[MigrationStep]:
+        """Steps up to the last one from which a rule leads to `new`, and that rule."""
+        ends = list(takewhile(lambda i: _type(steps[i].new) == new.kind, reversed(range(len(steps)))))
+        for i in ends:
             if _key(steps[i].new) == new.key:
                 return steps[: i + 1]
-        for i in there:
+        for i in ends:
             step = self._step(steps[i].new, new)
             if _is_complete(step):
                 return [*steps[: i + 1], step]
         return [*steps, self._step(steps[-1].new, new)]
 
-    def _begun(self, steps: list[MigrationStep], old: MessageClass, new: MessageClass) -> list[MigrationStep]:
-        """Steps from the last one that `old` reaches, after the rule to it."""
-        here = [i for i in reversed(range(len(steps))) if steps[i].old.kind == old.kind]
-        for i in here:
+    def _from_old(self, steps: list[MigrationStep], old: MessageClass, new: MessageClass) -> list[MigrationStep]:
+        """Steps from the last one to which a rule leads from `old`, after that rule."""
+        starts = [i for i in reversed(range(len(steps))) if steps[i].old.kind == old.kind]
+        for i in starts:
             if steps[i].old.key == old.key:
                 return steps[i:]
         step = self._step(old, new)
         if _is_complete(step):
             return [step]
-        for i in here:
+        for i in starts:
             step = self._step(old, steps[i].old)
             if _is_complete(step):
                 return [step, *steps[i:]]
         return [self._step(old, steps[0].old), *steps]
 
-    def _lost(self, old: MessageClass) -> list[MigrationStep]:
+    def _path_to_unknown(self, old: MessageClass) -> list[MigrationStep]:
         """Steps from a class without a known target, as far as rules lead."""
         steps = self._range(old.kind, "")
         for i in reversed(range(len(steps))):
@@ -226,15 +226,15 @@ class Migrator:
                 if steps[i].old.kind == old.kind and (step := self._step(old, steps[i].old)).rule.valid:
                     steps = [step, *steps[i:]]
                     break
-        end = steps[-1].new if steps else old
-        assert end is not None
-        return [*steps, MigrationStep(end, None, PlaceholderRule(self, end))]
+        last = steps[-1].new if steps else old
+        assert last is not None
+        return [*steps, MigrationStep(last, None, PlaceholderRule(self, last))]
 
     def _step(self, old: MessageClass | None, new: MessageClass) -> MigrationStep:
         assert old is not None
-        return MigrationStep(old, new, self._warned_generated(old, new))
+        return MigrationStep(old, new, self._generated_with_sub_rules(old, new))
 
-    def _warned_generated(self, old: MessageClass, new: MessageClass) -> GeneratedRule:
+    def _generated_with_sub_rules(self, old: MessageClass, new: MessageClass) -> GeneratedRule:
         rule = self._generated(old, new)
         rule.find_sub_paths(warns=False)
         return rule
@@ -245,14 +245,14 @@ class Migrator:
 
 def missing_rules(rules: Sequence[Rule]) -> list[Rule]:
     """Rules to complete among `rules` and their sub-rules, each once."""
-    found: dict[tuple[Key, Key | None], Rule] = {}
-    waiting = list(rules)
-    while waiting:
-        rule = waiting.pop(0)
+    missing: dict[tuple[Key, Key | None], Rule] = {}
+    pending = list(rules)
+    while pending:
+        rule = pending.pop(0)
         if not rule.valid:
-            found.setdefault((rule.old_class.key, _key(rule.new_class)), rule)
-        waiting = [*rule.sub_rules, *waiting]
-    return list(found.values())
+            missing.setdefault((rule.old_class.key, _key(rule.new_class)), rule)
+        pending = [*rule.sub_rules, *pending]
+    return list(missing.values())
 
 
 def _apply_path(path: Sequence[MigrationStep], message: Any) -> Any:
@@ -266,9 +266,9 @@ def _is_complete(step: MigrationStep) -> bool:
     return step.rule.valid and step.rule.sub_rules_valid
 
 
-def _type(made: MessageClass | None) -> str:
-    return "" if made is None else made.kind
+def _type(message_class: MessageClass | None) -> str:
+    return "" if message_class is None else message_class.kind
 
 
-def _key(made: MessageClass | None) -> Key | None:
-    return None if made is None else made.key
+def _key(message_class: MessageClass | None) -> Key | None:
+    return None if message_class is None else message_class.key

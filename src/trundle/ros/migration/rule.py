@@ -61,7 +61,7 @@ class Rule:
         return self.old_type != self.new_type
 
     def find_sub_paths(self, *, warns: bool = True) -> None:
-        """Find the rules of nested types."""
+        """Find the rules of the nested types."""
         self.sub_rules, self.sub_rules_valid = [], True
         for old_name, new_name in self.migrated_types:
             try:
@@ -93,20 +93,20 @@ class Rule:
             MigrationError: its types are not in `migrated_types`, or no rules lead from one to the other.
         """
         self._check_listed(old._type, new._type)
-        made = type(new) if isinstance(new, RuleMessage) else self.get_new_class(new._type)
-        _assign(new, self.migrator.convert(old, made))
+        new_class = type(new) if isinstance(new, RuleMessage) else self.get_new_class(new._type)
+        _assign(new, self.migrator.convert(old, new_class))
 
     def migrate_array(self, old: Sequence[Any], new: list[Any], new_name: str) -> None:
         """Migrate a list of nested messages; `new` is overwritten.
 
         Raises:
-            MigrationError: as `migrate`.
+            MigrationError: see `migrate`.
         """
-        made = self.get_new_class(new_name)
+        new_class = self.get_new_class(new_name)
         del new[:]
-        for each in old:
-            self._check_listed(each._type, made.kind)
-            new.append(self.migrator.convert(each, made))
+        for message in old:
+            self._check_listed(message._type, new_class.kind)
+            new.append(self.migrator.convert(message, new_class))
 
     def apply(self, old: RuleMessage) -> RuleMessage:
         """Convert a message.
@@ -148,17 +148,17 @@ class MessageUpdateRule(Rule):
         self.old_class, self.new_class = self.old_types[self.old_type], self.new_types[self.new_type]
 
 
-def short_name(name: str, of: str) -> str:
+def short_name(name: str, outer_type: str) -> str:
     """Nested type name as in rules: without std_msgs and without the outer type's package."""
     parts = name.split("/")
-    for left_out in ("std_msgs", of.partition("/")[0]):
-        if left_out in parts:
-            parts.remove(left_out)
+    for omitted in ("std_msgs", outer_type.partition("/")[0]):
+        if omitted in parts:
+            parts.remove(omitted)
     return "/".join(parts)
 
 
-def _class(types: dict[str, MessageClass], of: str, name: str) -> MessageClass:
-    package = of.partition("/")[0]
+def _class(types: dict[str, MessageClass], outer_type: str, name: str) -> MessageClass:
+    package = outer_type.partition("/")[0]
     for full in (name, f"std_msgs/{name}", f"{package}/{name}"):
         if full in types:
             return types[full]

@@ -87,8 +87,8 @@ class Time(TVal):
         return Time(0, self.to_nsec() + _ns(other))
 
     def __sub__(self, other: TVal) -> TVal:
-        made = Time if isinstance(other, Duration) else Duration
-        return made(0, self.to_nsec() - _ns(other))
+        result_class = Time if isinstance(other, Duration) else Duration
+        return result_class(0, self.to_nsec() - _ns(other))
 
 
 def _ns(instant: object) -> int:
