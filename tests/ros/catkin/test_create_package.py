@@ -1,4 +1,4 @@
-"""New packages: the same elements and commands as those of Debian's catkin_create_pkg, where it is installed."""
+"""New packages, compared with those of Debian's catkin_create_pkg where it is installed."""
 
 import re
 import subprocess
@@ -11,7 +11,7 @@ from trundle.base.diagnostics import UsageError
 from trundle.robots.packages import run_dependencies
 from trundle.ros.catkin import NewPackage, create_package, package_warnings
 
-_ORIGINAL = Path("/usr/bin/catkin_create_pkg")
+_DEBIANS_TOOL = Path("/usr/bin/catkin_create_pkg")
 
 
 def _manifest(path: Path) -> list[tuple[str, str]]:
@@ -22,11 +22,11 @@ def _manifest(path: Path) -> list[tuple[str, str]]:
 
 def _commands(path: Path) -> list[str]:
     text = re.sub(r"#[^\n]*", "", path.read_text())
-    return [re.sub(r"\s+", " ", found).strip() for found in re.findall(r"\w+\s*\([^)]*\)", text)]
+    return [re.sub(r"\s+", " ", command).strip() for command in re.findall(r"\w+\s*\([^)]*\)", text)]
 
 
 @pytest.mark.parametrize(
-    ("words", "package"),
+    ("arguments", "package"),
     [
         (["plain"], NewPackage(name="plain")),
         (
@@ -54,31 +54,33 @@ def _commands(path: Path) -> list[str]:
     ],
     ids=lambda value: value[0] if isinstance(value, list) else "",
 )
-def test_files_and_lines_are_the_originals(
-    words: list[str], package: NewPackage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_files_and_output_match_catkin_create_pkg(
+    arguments: list[str], package: NewPackage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    if not _ORIGINAL.exists():
+    if not _DEBIANS_TOOL.exists():
         pytest.skip("Debian's catkin is not installed (make system)")
-    theirs, ours = tmp_path / "theirs", tmp_path / "ours"
-    theirs.mkdir()
+    debians, ours = tmp_path / "debians", tmp_path / "ours"
+    debians.mkdir()
     monkeypatch.setenv("USER", "someone")
-    printed = subprocess.run([_ORIGINAL, *words], cwd=theirs, capture_output=True, text=True, check=True).stdout
+    output = subprocess.run([_DEBIANS_TOOL, *arguments], cwd=debians, capture_output=True, text=True, check=True).stdout
 
     lines = list(create_package(ours, package))
 
-    assert lines == printed.replace(str(theirs), str(ours)).splitlines()
-    names = sorted(path.relative_to(theirs) for path in theirs.rglob("*"))
+    assert lines == output.replace(str(debians), str(ours)).splitlines()
+    names = sorted(path.relative_to(debians) for path in debians.rglob("*"))
     assert sorted(path.relative_to(ours) for path in ours.rglob("*")) == names
     folder = package.name
     manifests = [
-        [pair for pair in _manifest(each / folder / "package.xml") if pair[0] != "maintainer" or package.maintainers]
-        for each in (ours, theirs)
+        [pair for pair in _manifest(parent / folder / "package.xml") if pair[0] != "maintainer" or package.maintainers]
+        for parent in (ours, debians)
     ]
     assert manifests[0] == manifests[1]
-    # The original's metapackages ask for an older CMake, and its include folder is a comment.
-    wanted = [each.replace("VERSION 2.8.3", "VERSION 3.0.2") for each in _commands(theirs / folder / "CMakeLists.txt")]
-    found = [each.replace("( include ", "( ") for each in _commands(ours / folder / "CMakeLists.txt")]
-    assert found == wanted
+    # Debian's metapackages require an older CMake, and its include folder is a comment.
+    expected = [
+        line.replace("VERSION 2.8.3", "VERSION 3.0.2") for line in _commands(debians / folder / "CMakeLists.txt")
+    ]
+    commands = [line.replace("( include ", "( ") for line in _commands(ours / folder / "CMakeLists.txt")]
+    assert commands == expected
 
 
 def test_nothing_is_overwritten(tmp_path: Path) -> None:
@@ -92,13 +94,13 @@ def test_nothing_is_overwritten(tmp_path: Path) -> None:
     assert not (tmp_path / "robot/package.xml").exists()
 
 
-def test_trundle_reads_what_is_written(tmp_path: Path) -> None:
+def test_trundle_reads_the_written_manifest(tmp_path: Path) -> None:
     list(create_package(tmp_path, NewPackage(name="robot", dependencies=("rospy", "std_msgs"))))
 
     assert run_dependencies(tmp_path / "robot") == ["rospy", "std_msgs"]
 
 
-def test_names_and_halves_of_message_packages_are_warned_of() -> None:
+def test_unusual_names_and_missing_message_packages_are_warned_of() -> None:
     warnings = list(package_warnings(NewPackage(name="Robot", dependencies=("message_generation",))))
 
     assert [re.split(r" does not| should", line)[0] for line in warnings] == [

@@ -1,4 +1,4 @@
-"""catkin_make: the devel space, what a shell gets from it, and the names of what is not compiled."""
+"""catkin_make: the devel space, its environment in a shell, and the report of C++ targets."""
 
 import os
 import re
@@ -12,7 +12,7 @@ import pytest
 from trundle.app.cli import main
 from trundle.ros.catkin import NewPackage, create_package
 
-_ORIGINAL = Path("/usr/bin/catkin_make")
+_DEBIANS_TOOL = Path("/usr/bin/catkin_make")
 _VARIABLES = ("CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PATH", "PYTHONPATH", "ROS_PACKAGE_PATH")
 
 
@@ -27,12 +27,12 @@ int main(int argc, char** argv) {
 
 @pytest.fixture
 def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A workspace with a package of Python and one of C++ that needs it."""
+    """A workspace with a Python package and a C++ package that depends on it."""
     for variable in (*_VARIABLES[:1], "ROS_PACKAGE_PATH", "TRUNDLE_SHELL"):
         monkeypatch.delenv(variable, raising=False)
     base = tmp_path / "ws"
-    for name, needs in (("alpha", ("zeta", "roscpp")), ("zeta", ("rospy",))):
-        list(create_package(base / "src", NewPackage(name=name, dependencies=needs)))
+    for name, dependencies in (("alpha", ("zeta", "roscpp")), ("zeta", ("rospy",))):
+        list(create_package(base / "src", NewPackage(name=name, dependencies=dependencies)))
     with (base / "src/alpha/CMakeLists.txt").open("a") as file:
         file.write("add_executable(drive src/drive.cpp)\nadd_library(wheel_plugin SHARED src/wheel.cc)\n")
     (base / "src/zeta/msg").mkdir()
@@ -49,25 +49,25 @@ def _make(*arguments: str) -> int:
 def test_a_workspace_gets_its_devel_space(workspace: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert _make() == 0
 
-    printed = capsys.readouterr()
-    lines = printed.out.splitlines()
+    output = capsys.readouterr()
+    lines = output.out.splitlines()
     spaces = ("Source src", "Build build", "Devel devel", "Install install")
-    named = (f"{name} space: {workspace / folder}" for name, folder in map(str.split, spaces))
-    assert lines[:5] == [f"Base path: {workspace}", *named]
+    lines_of_spaces = (f"{name} space: {workspace / folder}" for name, folder in map(str.split, spaces))
+    assert lines[:5] == [f"Base path: {workspace}", *lines_of_spaces]
     assert "-- ~~  traversing 2 packages in topological order:" in lines
     assert lines.index("-- ~~  - zeta") < lines.index("-- ~~  - alpha")
     assert "--   needs no building: 1 messages" in lines
     assert "--   program drive (src/drive.cpp; src/alpha/CMakeLists.txt:32): C++, not built" in lines
     assert "--   library wheel_plugin (src/wheel.cc; src/alpha/CMakeLists.txt:33): C++, not built" in lines
-    assert "2 C++ targets are not built; all else runs as it is" in printed.err
+    assert "2 C++ targets are not built; all else runs as it is" in output.err
     assert (workspace / "devel/.catkin").read_text() == str(workspace / "src")
     assert (workspace / "src/CMakeLists.txt").exists()
     assert (workspace / ".catkin_workspace").exists()
-    assert _make() == 0, "a second time it is the same"
+    assert _make() == 0, "a second run succeeds, too"
 
 
 @pytest.mark.parametrize(
-    ("needed", "known", "said"),
+    ("requirement", "available", "advice"),
     [
         (
             "no_such_arm",
@@ -77,34 +77,34 @@ def test_a_workspace_gets_its_devel_space(workspace: Path, capsys: pytest.Captur
         ("no_such_arm", "libroscpp-dev", "there is neither a C++ compiler nor catkin here, which ROS 1 brings"),
         ("zeta", "catkin", "apt install catkin, and then /usr/bin/catkin_make compiles them"),
     ],
-    ids=["Debian has all", "Debian lacks it", "the workspace has it"],
+    ids=["in Debian", "not in Debian", "in the workspace"],
 )
-def test_debian_s_packages_that_a_build_needs_are_named(
+def test_debian_packages_that_a_build_requires_are_listed(
     workspace: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
-    needed: str,
-    known: str,
-    said: str,
+    requirement: str,
+    available: str,
+    advice: str,
 ) -> None:
     cmake = workspace / "src/alpha/CMakeLists.txt"
-    cmake.write_text(f"find_package({needed} REQUIRED)\n{cmake.read_text()}")
+    cmake.write_text(f"find_package({requirement} REQUIRED)\n{cmake.read_text()}")
     programs = workspace / "programs"
     programs.mkdir()
-    (programs / "apt-cache").write_text(f'#!/bin/sh\n[ "$1" = pkgnames ] && printf "%s\\n" {known}\n')
+    (programs / "apt-cache").write_text(f'#!/bin/sh\n[ "$1" = pkgnames ] && printf "%s\\n" {available}\n')
     (programs / "apt-cache").chmod(0o755)
     monkeypatch.setenv("PATH", str(programs))
 
     assert _make() == 0
 
-    assert capsys.readouterr().err == f"-- 2 C++ targets are not built; all else runs as it is; {said}\n"
+    assert capsys.readouterr().err == f"-- 2 C++ targets are not built; all else runs as it is; {advice}\n"
 
 
 @pytest.mark.slow
 @pytest.mark.real_ros
-def test_a_node_that_debian_s_catkin_compiled_runs_in_a_launch(tmp_path: Path) -> None:
-    """First it is named with its source, as the launch goes on without it."""
-    if not _ORIGINAL.exists():
+def test_a_node_compiled_by_debians_catkin_runs_in_a_launch(tmp_path: Path) -> None:
+    """Before it is compiled, the launch reports its source and continues without it."""
+    if not _DEBIANS_TOOL.exists():
         pytest.skip("Debian's catkin is not installed (make system)")
     package = tmp_path / "ws/src/drive"
     list(create_package(package.parent, NewPackage(name="drive", dependencies=("roscpp",))))
@@ -123,32 +123,32 @@ def test_a_node_that_debian_s_catkin_compiled_runs_in_a_launch(tmp_path: Path) -
     env = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), "ROS_PACKAGE_PATH": str(package.parent)}
 
     def run(*words: str | Path) -> str:
-        there = {**env, "ROS_MASTER_URI": uri}
-        done = subprocess.run(words, cwd=tmp_path / "ws", env=there, capture_output=True, text=True, check=False)
+        environment = {**env, "ROS_MASTER_URI": uri}
+        done = subprocess.run(words, cwd=tmp_path / "ws", env=environment, capture_output=True, text=True, check=False)
         return done.stdout + done.stderr
 
     command = (sys.executable, "-m", "trundle", "launch", launch, "--headless")
     assert f"C++ not compiled yet: {package}/CMakeLists.txt:" in run(*command)
-    run(_ORIGINAL)
-    said = run(*command)
-    assert f"process  /r1/left  {tmp_path}/ws/devel/lib/drive/drive" in said
-    assert "/r1/left drives at 3" in said
+    run(_DEBIANS_TOOL)
+    output = run(*command)
+    assert f"process  /r1/left  {tmp_path}/ws/devel/lib/drive/drive" in output
+    assert "/r1/left drives at 3" in output
 
 
 @pytest.mark.parametrize("shell", ["sh", "bash"])
-def test_sourcing_it_makes_the_packages_found(workspace: Path, shell: str) -> None:
+def test_sourcing_the_setup_file_sets_the_package_path(workspace: Path, shell: str) -> None:
     assert _make() == 0
     name = "setup.bash" if shell == "bash" else "setup.sh"
 
-    printed = _sourced(shell, [workspace / "devel" / name])
+    output = _sourced(shell, [workspace / "devel" / name])
 
-    assert printed["CMAKE_PREFIX_PATH"] == str(workspace / "devel")
-    assert printed["ROS_PACKAGE_PATH"] == str(workspace / "src")
-    assert printed["LD_LIBRARY_PATH"] == str(workspace / "devel/lib")
-    assert printed["PATH"] == "/usr/bin:/bin"
+    assert output["CMAKE_PREFIX_PATH"] == str(workspace / "devel")
+    assert output["ROS_PACKAGE_PATH"] == str(workspace / "src")
+    assert output["LD_LIBRARY_PATH"] == str(workspace / "devel/lib")
+    assert output["PATH"] == "/usr/bin:/bin"
 
 
-def test_another_workspace_takes_its_place_or_extends_it(workspace: Path, tmp_path: Path) -> None:
+def test_another_workspace_replaces_or_extends_the_first(workspace: Path, tmp_path: Path) -> None:
     other = tmp_path / "other"
     list(create_package(other / "src", NewPackage(name="gamma")))
     assert _make() == 0
@@ -160,7 +160,7 @@ def test_another_workspace_takes_its_place_or_extends_it(workspace: Path, tmp_pa
     assert _sourced("bash", [first, Path(f"{second} --extend")])["ROS_PACKAGE_PATH"] == both
 
 
-def test_a_workspace_made_on_another_includes_it(
+def test_a_workspace_built_on_another_includes_it(
     workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert _make() == 0
@@ -174,7 +174,7 @@ def test_a_workspace_made_on_another_includes_it(
     assert local["ROS_PACKAGE_PATH"] == str(other / "src")
 
 
-def test_env_sh_runs_a_command_there(workspace: Path) -> None:
+def test_env_sh_runs_a_command_in_the_environment(workspace: Path) -> None:
     assert _make() == 0
 
     done = subprocess.run(
@@ -185,7 +185,7 @@ def test_env_sh_runs_a_command_there(workspace: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("prepare", "arguments", "said"),
+    ("prepare", "arguments", "message"),
     [
         ("", ["-C", "nowhere"], "The specified base path .*nowhere.* does not exist"),
         ("package.xml", [], "contains a package but"),
@@ -195,8 +195,8 @@ def test_env_sh_runs_a_command_there(workspace: Path) -> None:
         ("devel/.built_by", [], "was previously built by 'catkin build'"),
     ],
 )
-def test_what_is_wrong_is_said_in_the_originals_words(
-    workspace: Path, prepare: str, arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
+def test_errors_have_catkin_makes_texts(
+    workspace: Path, prepare: str, arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     if prepare:
         (workspace / prepare).parent.mkdir(exist_ok=True)
@@ -204,31 +204,31 @@ def test_what_is_wrong_is_said_in_the_originals_words(
 
     assert _make(*arguments) == 1
 
-    assert re.search(said, capsys.readouterr().err)
+    assert re.search(message, capsys.readouterr().err)
 
 
 @pytest.mark.slow
 @pytest.mark.real_ros
-def test_the_originals_devel_space_gives_the_same_environment(workspace: Path, tmp_path: Path) -> None:
-    if not _ORIGINAL.exists():
+def test_the_devel_space_of_debians_catkin_gives_the_same_environment(workspace: Path, tmp_path: Path) -> None:
+    if not _DEBIANS_TOOL.exists():
         pytest.skip("Debian's catkin is not installed (make system)")
-    theirs = tmp_path / "theirs"
-    list(create_package(theirs / "src", NewPackage(name="zeta")))
+    other = tmp_path / "other"
+    list(create_package(other / "src", NewPackage(name="zeta")))
     (workspace / "src/alpha/CATKIN_IGNORE").touch()
-    env = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), "PWD": str(theirs)}
-    subprocess.run([_ORIGINAL], cwd=theirs, env=env, check=True, capture_output=True, timeout=300)
+    env = {"PATH": "/usr/bin:/bin", "HOME": str(tmp_path), "PWD": str(other)}
+    subprocess.run([_DEBIANS_TOOL], cwd=other, env=env, check=True, capture_output=True, timeout=300)
     assert _make() == 0
 
-    original = _sourced("bash", [theirs / "devel/setup.bash"])
+    debians = _sourced("bash", [other / "devel/setup.bash"])
     ours = _sourced("bash", [workspace / "devel/setup.bash"])
 
     for variable in ("CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PATH"):
-        assert ours[variable] == original[variable].replace(str(theirs), str(workspace)), variable
-    made = {path.name for path in (theirs / "devel").iterdir()}
-    assert made - {path.name for path in (workspace / "devel").iterdir()} <= {"_setup_util.py", "cmake.lock", "share"}
-    kept = (theirs / "devel/setup.sh").read_text()
-    assert _make("-C", str(theirs)) == 0
-    assert (theirs / "devel/setup.sh").read_text() == kept, "what catkin itself made is kept"
+        assert ours[variable] == debians[variable].replace(str(other), str(workspace)), variable
+    names = {path.name for path in (other / "devel").iterdir()}
+    assert names - {path.name for path in (workspace / "devel").iterdir()} <= {"_setup_util.py", "cmake.lock", "share"}
+    text = (other / "devel/setup.sh").read_text()
+    assert _make("-C", str(other)) == 0
+    assert (other / "devel/setup.sh").read_text() == text, "files of catkin itself are kept"
 
 
 def _sourced(shell: str, files: list[Path]) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""A user's environment for shells: a home folder, and a master's port of the test's own."""
+"""A user's environment for shells: a home folder, and a free port for the master."""
 
 import os
 import socket
@@ -16,5 +16,5 @@ def env(tmp_path: Path) -> dict[str, str]:
         *("ROS_", "GAZEBO_", "TRUNDLE_", "CMAKE_", "PROMPT_COMMAND", "BASH_ENV"),
         *("BROWSER", "DISPLAY", "WAYLAND_DISPLAY"),  # or else a developer's browser opens
     )
-    kept = {key: value for key, value in os.environ.items() if not key.startswith(foreign)}
-    return {**kept, "HOME": str(tmp_path), "SHELL": "/bin/bash", "ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
+    inherited = {key: value for key, value in os.environ.items() if not key.startswith(foreign)}
+    return {**inherited, "HOME": str(tmp_path), "SHELL": "/bin/bash", "ROS_MASTER_URI": f"http://127.0.0.1:{port}"}

@@ -1,4 +1,4 @@
-"""A program in a pseudo-terminal, as a person sees it."""
+"""Programs in a pseudo-terminal."""
 
 import os
 import pty
@@ -18,24 +18,24 @@ _COLUMNS, _ROWS = 200, 50
 
 
 class Terminal:
-    """Types into a program, and waits for what it prints."""
+    """Types into a program and waits for its output."""
 
     def __init__(self, command: Sequence[str], env: Mapping[str, str], cwd: Path) -> None:
-        self._screen, inside = pty.openpty()
-        termios.tcsetwinsize(inside, (_ROWS, _COLUMNS))
+        self._screen, slave = pty.openpty()
+        termios.tcsetwinsize(slave, (_ROWS, _COLUMNS))
         self.process = subprocess.Popen(
             command,
             env=dict(env),
             cwd=cwd,
-            stdin=inside,
-            stdout=inside,
-            stderr=inside,
+            stdin=slave,
+            stdout=slave,
+            stderr=slave,
             start_new_session=True,
-            preexec_fn=_own_terminal,
+            preexec_fn=_set_controlling_terminal,
         )
-        os.close(inside)
+        os.close(slave)
         self.printed = ""
-        self._seen = 0
+        self._position = 0
 
     def __enter__(self) -> Self:
         return self
@@ -44,7 +44,7 @@ class Terminal:
         self.close()
 
     def close(self) -> None:
-        """Close the terminal, as a person does with its window."""
+        """Close the terminal, as closing its window does."""
         if self.process.poll() is None:
             os.killpg(self.process.pid, signal.SIGHUP)
             try:
@@ -63,20 +63,20 @@ class Terminal:
         self.keys(f"{line}\n")
 
     def expect(self, text: str, patience_s: float = PATIENCE_S) -> str:
-        """Wait until a text is printed after what was expected before, and return what came up to its end."""
+        """Wait for a text after the last expected one, and return the output up to its end."""
         due = time.monotonic() + patience_s
-        while (at := self.printed.find(text, self._seen)) < 0:
+        while (start := self.printed.find(text, self._position)) < 0:
             assert time.monotonic() < due, f"{text!r} does not appear:\n{self.printed}"
             self._read(0.2)
-        came = self.printed[self._seen : at + len(text)]
-        self._seen = at + len(text)
-        return came
+        output = self.printed[self._position : start + len(text)]
+        self._position = start + len(text)
+        return output
 
     def wait(self) -> int:
         """Wait for the end of the program; return its exit code."""
         due = time.monotonic() + PATIENCE_S
         while self.process.poll() is None:
-            assert time.monotonic() < due, f"it does not end:\n{self.printed}"
+            assert time.monotonic() < due, f"the program does not end:\n{self.printed}"
             self._read(0.2)
         self._read(0.0)
         return self.process.returncode
@@ -89,7 +89,7 @@ class Terminal:
                 time.sleep(timeout_s)
 
 
-def _own_terminal() -> None:
+def _set_controlling_terminal() -> None:
     """Make standard input the session's terminal, so that Ctrl-C reaches it."""
     import fcntl
 

@@ -1,4 +1,4 @@
-"""`trundle shell` and `trundle activate`: commands first on PATH, and no trace afterwards."""
+"""`trundle shell` and `trundle activate`: commands first on PATH, nothing left afterwards."""
 
 import shutil
 import subprocess
@@ -17,7 +17,7 @@ COMMANDS = """
     rospack roscd rosls rosversion rosclean roswtf rostest rviz rqt rqt_graph rqt_plot rqt_image_view rqt_console xacro
     check_urdf urdf_to_graphiz tf_echo view_frames tf_monitor catkin_create_pkg catkin_init_workspace catkin_make
     rosdep rosinstall wstool vcs apt apt-get sudo xterm x-terminal-emulator
-""".split()  # noqa: SIM905 - as the list is read
+""".split()  # noqa: SIM905 - more readable
 
 
 @pytest.fixture
@@ -40,36 +40,36 @@ def shell(run):
 
 @pytest.fixture
 def temporary(tmp_path: Path, env: dict[str, str]) -> Path:
-    """Folder of temporary files, which has to be empty in the end."""
+    """Folder of temporary files, which must be empty at the end."""
     folder = tmp_path / "temporary"
     folder.mkdir()
     env["TMPDIR"] = str(folder)
     return folder
 
 
-def test_every_command_of_the_tutorials_is_there() -> None:
+def test_every_command_of_the_tutorials_exists() -> None:
     assert set(COMMANDS) == set(ORIGINALS)
 
 
-def test_each_of_them_comes_first(shell, temporary: Path) -> None:
+def test_commands_are_first_on_path(shell, temporary: Path) -> None:
     done = shell(f"type -P {' '.join(COMMANDS)}")
 
     folders, names = zip(*(line.rsplit("/", 1) for line in done.stdout.splitlines()), strict=True)
     assert names == tuple(COMMANDS)
     assert {Path(folder).parent.parent for folder in folders} == {temporary}
-    assert list(temporary.iterdir()) == [], "nothing is left"
+    assert list(temporary.iterdir()) == [], "temporary files are removed"
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_each_of_them_has_help_under_its_own_name(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_each_command_has_help_under_its_name(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--as", name, "--help"]) == 0
 
-    printed = capsys.readouterr().out
-    assert "usage: " in printed
-    assert f"  {name}" in printed or ORIGINALS[name][1:], "the examples have its name"
+    output = capsys.readouterr().out
+    assert "usage: " in output
+    assert f"  {name}" in output or ORIGINALS[name][1:], "the examples have its name"
 
 
-def test_its_exit_code_is_that_of_the_command(shell) -> None:
+def test_the_exit_code_is_that_of_the_command(shell) -> None:
     assert shell("exit 7").returncode == 7
     assert shell("kill -TERM $$").returncode == 128 + 15
 
@@ -107,14 +107,14 @@ def test_tutorials_copy_files_of_packages_from_opt_ros(run, shell_name: str, tmp
 
     assert "empty_world.launch" in done.stdout
     assert "a b" in done.stdout
-    said = [line for line in done.stderr.splitlines() if line.startswith(("trundle: ", "rospack: "))]
-    assert said[0].startswith(f"trundle: {share}/gazebo_ros is ")
-    assert said[1].startswith("rospack: error: no package 'none_such'")
+    errors = [line for line in done.stderr.splitlines() if line.startswith(("trundle: ", "rospack: "))]
+    assert errors[0].startswith(f"trundle: {share}/gazebo_ros is ")
+    assert errors[1].startswith("rospack: error: no package 'none_such'")
     assert "function" not in done.stdout.splitlines()[-1]
 
 
-def test_a_python_of_the_users_own_has_rospy_and_what_it_needs(shell, tmp_path: Path) -> None:
-    """A virtual environment that does not have Trundle, of the Python that Trundle runs on."""
+def test_the_users_own_python_imports_rospy_and_its_libraries(shell, tmp_path: Path) -> None:
+    """A virtual environment without Trundle, of Trundle's Python version."""
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", "own"], cwd=tmp_path, check=True)
 
     done = shell("own/bin/python -c 'import rospy, numpy; print(rospy.Time(2), numpy.__name__)'")
@@ -122,8 +122,8 @@ def test_a_python_of_the_users_own_has_rospy_and_what_it_needs(shell, tmp_path: 
     assert done.stdout == "2000000000 numpy\n", done.stderr
 
 
-def test_scripts_that_open_windows_run_where_there_is_no_display(shell, tmp_path: Path) -> None:
-    """As `home_service.sh` of courses does, for every program of its own."""
+def test_scripts_that_open_terminals_run_without_a_display(shell, tmp_path: Path) -> None:
+    """Like `home_service.sh` of courses, which opens one for each program."""
     (tmp_path / "home_service.sh").write_text(
         "#!/bin/sh\nxterm -hold -e \"export POSE='-x 1' && env | grep ^POSE\" &\nwait\n"
         "x-terminal-emulator -T title -e echo 'two  words'\nxterm\necho $?\n"
@@ -136,19 +136,19 @@ def test_scripts_that_open_windows_run_where_there_is_no_display(shell, tmp_path
     assert "xterm needs a display, and there is none here" in done.stderr
 
 
-def test_xterm_is_the_machines_own_where_there_is_a_display(shell, tmp_path: Path) -> None:
-    own = tmp_path / "own/xterm"
-    own.parent.mkdir()
-    own.write_text('#!/bin/sh\necho "window: $@"\n')
-    own.chmod(0o755)
+def test_the_real_xterm_runs_with_a_display(shell, tmp_path: Path) -> None:
+    xterm = tmp_path / "real/xterm"
+    xterm.parent.mkdir()
+    xterm.write_text('#!/bin/sh\necho "window: $@"\n')
+    xterm.chmod(0o755)
 
-    done = shell(f"PATH=$TRUNDLE_SHELL/bin:{own.parent}:/usr/bin:/bin; xterm -e ls", DISPLAY=":9")
+    done = shell(f"PATH=$TRUNDLE_SHELL/bin:{xterm.parent}:/usr/bin:/bin; xterm -e ls", DISPLAY=":9")
 
     assert done.stdout == "window: -e ls\n", done.stderr
 
 
 @pytest.mark.parametrize("shell_name", ["bash", "zsh", "sh"])
-def test_activate_adds_the_commands_and_takes_them_away(run, shell_name: str, temporary: Path) -> None:
+def test_activate_adds_the_commands_and_deactivate_removes_them(run, shell_name: str, temporary: Path) -> None:
     if shutil.which(shell_name) is None:
         pytest.skip(f"{shell_name} is not installed")
     trundle = f"{sys.executable} -m trundle"
@@ -168,21 +168,21 @@ def test_activate_adds_the_commands_and_takes_them_away(run, shell_name: str, te
     assert list(temporary.iterdir()) == []
 
 
-def test_programs_in_it_import_rospy(shell) -> None:
+def test_programs_in_the_shell_import_rospy(shell) -> None:
     done = shell(
         f"{sys.executable} -c 'import rospy, std_msgs.msg; print(rospy.__name__, std_msgs.msg.String(\"hi\").data)'"
     )
     assert done.stdout == "rospy hi\n", done.stderr
 
 
-def test_a_bash_that_ends_removes_what_activate_made(run, temporary: Path) -> None:
+def test_bash_removes_the_activation_files_when_it_ends(run, temporary: Path) -> None:
     done = run("bash", "-c", f'eval "$({sys.executable} -m trundle activate)"; rosversion -d')
 
     assert done.stdout == "noetic\n"
     assert list(temporary.iterdir()) == []
 
 
-def test_activate_on_a_terminal_says_how_it_is_used(env: dict[str, str], tmp_path: Path, temporary: Path) -> None:
+def test_activate_on_a_terminal_prints_its_usage(env: dict[str, str], tmp_path: Path, temporary: Path) -> None:
     with Terminal([sys.executable, "-m", "trundle", "activate"], env, tmp_path) as terminal:
         terminal.expect('eval "$(trundle activate)"')
         assert terminal.wait() == 0
@@ -190,7 +190,7 @@ def test_activate_on_a_terminal_says_how_it_is_used(env: dict[str, str], tmp_pat
 
 
 @pytest.mark.parametrize("shell_name", ["bash", "zsh"])
-def test_a_shell_of_ones_own_reads_its_start_files_and_completes(
+def test_an_interactive_shell_reads_its_start_files_and_completes(
     env: dict[str, str], tmp_path: Path, temporary: Path, shell_name: str
 ) -> None:
     program = shutil.which(shell_name)
@@ -217,22 +217,22 @@ def test_a_shell_of_ones_own_reads_its_start_files_and_completes(
     assert list(temporary.iterdir()) == []
 
 
-def test_completion_knows_the_graphs_names(run, tmp_path: Path) -> None:
-    """As a shell asks for it: the line as typed, with the command's name in ROS."""
+def test_commands_are_completed(run, tmp_path: Path) -> None:
+    """As a shell requests it: the typed line, with the ROS command's name."""
     answer = tmp_path / "answer"
     (tmp_path / "my_robot").mkdir()
     (tmp_path / "my_robot/package.xml").write_text("<package><name>my_robot</name></package>")
-    for line, offered in (
+    for line, completion in (
         ("rostopic ec", "echo "),
         ("rosmsg show geometry_msgs/PointSt", "geometry_msgs/PointStamped "),
         ("rosrun turtlesim turtlesim_", "turtlesim_node "),
         ("gz sd", "sdf "),
         ("roscd my_ro", "my_robot "),
     ):
-        asked = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_IFS": "\n", "_ARGCOMPLETE_STDOUT_FILENAME": str(answer)}
+        variables = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_IFS": "\n", "_ARGCOMPLETE_STDOUT_FILENAME": str(answer)}
         name = line.partition(" ")[0]
         run(
             *(sys.executable, "-m", "trundle", "--as", name),
-            **{**asked, "COMP_LINE": line, "COMP_POINT": str(len(line)), "ROS_PACKAGE_PATH": str(tmp_path)},
+            **{**variables, "COMP_LINE": line, "COMP_POINT": str(len(line)), "ROS_PACKAGE_PATH": str(tmp_path)},
         )
-        assert [word for word in answer.read_text().split("\n") if word == offered] == [offered], line
+        assert [word for word in answer.read_text().split("\n") if word == completion] == [completion], line

@@ -1,6 +1,6 @@
-"""Commands of both tutorials, typed into `trundle shell` as they are printed.
+"""Commands of both tutorials, typed into `trundle shell` as printed.
 
-Left out are those that install software or open an editor, which need root, the net or a person:
+Omitted are commands that install software or open an editor, which need root, the net or a person:
 
     sudo apt-get install gazebo5, ros-indigo-…          (Trundle takes their place)
     wget … | sudo apt-key add -
@@ -17,13 +17,13 @@ from tests.ros.shell.terminal import Terminal
 
 pytestmark = pytest.mark.slow
 PATIENCE_S = 240.0
-"""Start of a launch or a world on a machine with much else to do."""
+"""Maximum start time of a launch or a world on a busy machine [s]."""
 TWIST = "'{linear: {x: 0.5, y: 0, z: 0}, angular: {x: 0, y: 0, z: 0.5}}'"
 
 
 @pytest.fixture
 def terminal(env: dict[str, str], tmp_path: Path):
-    """Open one more terminal with `trundle shell` in it; all are closed in the end."""
+    """Return a function that opens a terminal with `trundle shell`; all are closed at the end."""
     opened: list[Terminal] = []
     env |= {"TERM": "dumb", "PYTHONUNBUFFERED": "1"}
     (tmp_path / ".bashrc").write_text("PS1='$ '\n")
@@ -34,8 +34,8 @@ def terminal(env: dict[str, str], tmp_path: Path):
         return opened[-1]
 
     yield call
-    for each in opened:
-        each.close()
+    for shell in opened:
+        shell.close()
 
 
 def finish(terminal: Terminal, line: str, patience_s: float = PATIENCE_S) -> str:
@@ -46,7 +46,7 @@ def finish(terminal: Terminal, line: str, patience_s: float = PATIENCE_S) -> str
 
 
 def page_at(printed: str, terminal: Terminal) -> str:
-    """Return the page that is served at the URL after a text."""
+    """Return the page at the URL that is printed after a text."""
     terminal.expect(printed, PATIENCE_S)
     url = re.search(r"http://[\w.:/?=&-]+", terminal.expect("\n"))
     assert url is not None
@@ -82,12 +82,12 @@ def test_the_car_with_roslaunch(terminal, shared: Path) -> None:
     watcher.type("rviz -f odom")
     assert "<html" in page_at("see it at ", watcher)
 
-    for each in (watcher, driver, car):
-        each.keys("\x03")
-        each.expect("(trundle) $ ", PATIENCE_S)
-        each.type("exit")
-        assert each.wait() in (0, 130)
-        assert "Traceback" not in each.printed
+    for shell in (watcher, driver, car):
+        shell.keys("\x03")
+        shell.expect("(trundle) $ ", PATIENCE_S)
+        shell.type("exit")
+        assert shell.wait() in (0, 130)
+        assert "Traceback" not in shell.printed
 
 
 def test_the_telepresence_robot_in_gazebo(terminal, shared: Path, tmp_path: Path) -> None:
@@ -114,8 +114,8 @@ def test_the_telepresence_robot_in_gazebo(terminal, shared: Path, tmp_path: Path
 
     gazebo.keys("\x03")
     gazebo.expect("(trundle) $ ", PATIENCE_S)
-    for each in (robot, gazebo):
-        each.type("exit")
-        assert each.wait() in (0, 130)
-        assert "Traceback" not in each.printed
+    for shell in (robot, gazebo):
+        shell.type("exit")
+        assert shell.wait() in (0, 130)
+        assert "Traceback" not in shell.printed
     assert (tmp_path / ".gazebo/models/rp2w/model.sdf").is_file()

@@ -1,4 +1,4 @@
-"""catkin without CMake: packages, workspaces, and the devel space that makes their packages found."""
+"""catkin without CMake: packages, workspaces, and devel spaces, by which shells find the packages."""
 
 import lazy_loader
 

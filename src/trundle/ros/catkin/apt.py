@@ -1,15 +1,15 @@
-"""Debian's own packages of ROS 1, which Ubuntu has, too (https://wiki.ros.org/UpstreamPackages)."""
+"""Debian's packages of ROS 1, also in Ubuntu (https://wiki.ros.org/UpstreamPackages)."""
 
 import subprocess
 from collections.abc import Iterable
 
-_FORMS = ("lib{}-dev", "ros-{}", "{}", "python3-{}")
+_PATTERNS = ("lib{}-dev", "ros-{}", "{}", "python3-{}")
 _RENAMED = {"boost": "libboost-all-dev"}
-"""Libraries that CMake names otherwise than any of the forms."""
+"""Libraries whose packages match none of the patterns."""
 
 
 def debian_packages(requirements: Iterable[str]) -> dict[str, str]:
-    """Return apt's package for each name that CMake has to find, as far as this machine's apt knows one.
+    """Return the apt package of each name that CMake must find, if this machine's apt has one.
 
     Args:
         requirements: names of ROS packages and libraries; roscpp is in libroscpp-dev, Eigen3 in libeigen3-dev.
@@ -18,12 +18,12 @@ def debian_packages(requirements: Iterable[str]) -> dict[str, str]:
         listed = subprocess.run(["apt-cache", "pkgnames"], capture_output=True, text=True, check=False).stdout
     except OSError:
         return {}
-    known = set(listed.split())
-    found: dict[str, str] = {}
+    available = set(listed.split())
+    packages: dict[str, str] = {}
     for name in requirements:
         plain = name.lower().replace("_", "-")
-        forms = [_RENAMED.get(plain, ""), *(form.format(plain) for form in _FORMS)]
-        package = next((form for form in forms if form in known), None)
+        candidates = [_RENAMED.get(plain, ""), *(pattern.format(plain) for pattern in _PATTERNS)]
+        package = next((candidate for candidate in candidates if candidate in available), None)
         if package is not None:
-            found[name] = package
-    return found
+            packages[name] = package
+    return packages

@@ -1,4 +1,4 @@
-"""Parts of a package that run as they are, and those that would have to be compiled."""
+"""Parts of a package that run without building, and its C++ targets, which must be compiled."""
 
 import os
 from collections import Counter
@@ -37,34 +37,34 @@ class CppTarget:
     target: CMakeProgram
     is_library: bool
     built: Path | None
-    """The compiled program or library; None: it is not built."""
+    """The compiled file; None if it is not built."""
     fault: str | None
-    """Reason why this machine cannot load what is built."""
+    """Reason why this machine cannot load the compiled file."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PackageBuild:
-    """Findings on one package."""
+    """Build report of one package."""
 
     ready: tuple[str, ...]
-    """Counted parts that need no building: `2 messages`."""
+    """Parts that need no building, with their number: `2 messages`."""
     targets: tuple[CppTarget, ...]
     missing: tuple[str, ...]
-    """Packages that its CMakeLists.txt has to find and that are not installed."""
+    """Packages that its CMakeLists.txt requires and that are not installed."""
 
 
 def report_package(packages: Mapping[str, Path], name: str, environment: Mapping[str, str]) -> PackageBuild:
-    """Look at a package's files and the targets of its CMakeLists.txt.
+    """Report on a package's files and the targets of its CMakeLists.txt.
 
     Args:
-        packages: of the workspace, by name; they are built together.
-        name: of the package.
-        environment: names the folders of what is installed.
+        packages: name → folder of the workspace's packages, which are built together.
+        name: name of the package.
+        environment: variables that name the folders of installed packages.
     """
     folder = packages[name]
     counts: Counter[str] = Counter()
     for root, folders, files in os.walk(folder):
-        folders[:] = [each for each in folders if not each.startswith(".") and each not in _NOT_SEARCHED]
+        folders[:] = [child for child in folders if not child.startswith(".") and child not in _NOT_SEARCHED]
         for file in files:
             kind = _KINDS.get(Path(file).suffix.lower()) or _script(Path(root, file))
             counts.update([kind] if kind else [])
@@ -72,19 +72,22 @@ def report_package(packages: Mapping[str, Path], name: str, environment: Mapping
     homes = program_folders(name, folder, environment)
     shared = [home.parent for home in homes] + [Path(prefix, "lib") for prefix in prefixes]
     programs = [
-        _target(each, _existing(homes, each.name), environment, is_library=False) for each in cmake_programs(folder)
+        _target(program, _existing(homes, program.name), environment, is_library=False)
+        for program in cmake_programs(folder)
     ]
     libraries = [
-        _target(each, _existing(shared, f"lib{each.name}.so"), environment, is_library=True)
-        for each in cmake_libraries(folder)
-        if any(source.endswith(_SOURCES) or "*" in source for source in each.sources)
+        _target(library, _existing(shared, f"lib{library.name}.so"), environment, is_library=True)
+        for library in cmake_libraries(folder)
+        if any(source.endswith(_SOURCES) or "*" in source for source in library.sources)
     ]
     required = cmake_requirements(folder) if programs or libraries else []
     return PackageBuild(
         ready=tuple(f"{count} {kind}" for kind, count in sorted(counts.items())),
         targets=(*programs, *libraries),
         missing=tuple(
-            each for each in required if each not in packages and not _is_installed(each, [*prefixes, "/usr"])
+            package
+            for package in required
+            if package not in packages and not _is_installed(package, [*prefixes, "/usr"])
         ),
     )
 
@@ -104,6 +107,7 @@ def _existing(folders: list[Path], name: str) -> Path | None:
 
 def _is_installed(package: str, prefixes: list[str]) -> bool:
     """True if CMake would find a package's configuration file."""
-    places = ("share/{0}/cmake/{0}Config.cmake", "share/{0}/cmake/{0}-config.cmake", "include/{0}")
-    lower = (package, package.lower())
-    return any(os.path.exists(os.path.join(p, place.format(n))) for p in prefixes for place in places for n in lower)
+    patterns = ("share/{0}/cmake/{0}Config.cmake", "share/{0}/cmake/{0}-config.cmake", "include/{0}")
+    names = (package, package.lower())
+    paths = (os.path.join(p, pattern.format(n)) for p in prefixes for pattern in patterns for n in names)
+    return any(map(os.path.exists, paths))

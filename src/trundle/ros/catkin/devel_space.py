@@ -10,14 +10,14 @@ from trundle.base.diagnostics import UsageError
 
 from .workspace import Workspace
 
-_ORIGINALS_OWN = "_setup_util.py"
-"""File of a devel space that catkin itself made; its setup files are kept."""
+_CATKIN_FILE = "_setup_util.py"
+"""File that marks a devel space of catkin itself, whose setup files are kept."""
 _TOOL = "catkin_make"
 _SETUP_FILES = Path(__file__).with_name("setup_files")
 
 
 def write_devel_space(workspace: Workspace, environment: Mapping[str, str]) -> bool:
-    """Write the marker and setup files of a workspace; return False if catkin itself made them and they are kept.
+    """Write the marker and setup files of a workspace; return False if catkin itself wrote them, and keep those.
 
     Raises:
         UsageError: another tool built the workspace, or a file cannot be written.
@@ -28,20 +28,20 @@ def write_devel_space(workspace: Workspace, environment: Mapping[str, str]) -> b
             space.mkdir(exist_ok=True)
             _mark(space)
         (workspace.base / ".catkin_workspace").touch()
-        is_originals = (devel / _ORIGINALS_OWN).exists()
+        is_catkins = (devel / _CATKIN_FILE).exists()
         (devel / "lib").mkdir(exist_ok=True)
-        if not is_originals:
+        if not is_catkins:
             for name, text in _files(workspace, environment).items():
                 path = devel / name
                 write_atomically(path, text)
                 path.chmod(0o755 if name.endswith((".sh", ".bash", ".zsh")) else 0o644)
     except OSError as error:
         raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
-    return not is_originals
+    return not is_catkins
 
 
 def _mark(space: Path) -> None:
-    """Note the tool that made a space, as catkin's tools do for one another."""
+    """Write the file in which catkin's tools note which of them built a space."""
     marker = space / ".built_by"
     tool = marker.read_text(encoding="utf-8", errors="replace").strip() if marker.is_file() else _TOOL
     if tool != _TOOL:
@@ -75,6 +75,6 @@ def _sourced(devel: Path, shell: str) -> str:
 
 
 def underlays(devel: Path, environment: Mapping[str, str]) -> list[str]:
-    """Return the workspaces that were on CMAKE_PREFIX_PATH when this one was made."""
+    """Return the workspaces on CMAKE_PREFIX_PATH other than this one."""
     prefixes = environment.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
-    return [each for each in prefixes if each and Path(each) != devel]
+    return [prefix for prefix in prefixes if prefix and Path(prefix) != devel]

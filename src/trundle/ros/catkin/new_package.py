@@ -1,4 +1,4 @@
-"""New packages, as catkin_create_pkg makes them."""
+"""New packages, as catkin_create_pkg creates them."""
 
 import os
 import re
@@ -62,7 +62,7 @@ def create_package(parent: Path, package: NewPackage) -> Iterator[str]:
 
 
 def package_warnings(package: NewPackage) -> Iterator[str]:
-    """Yield what catkin warns of in a package that it creates all the same."""
+    """Yield catkin's warnings about a package, which it creates nevertheless."""
     if _CONVENTION.fullmatch(package.name) is None:
         yield (
             f'Package name "{package.name}" does not follow the naming conventions. It should start with a lower case '
@@ -85,13 +85,13 @@ def package_xml(package: NewPackage) -> str:
         "",
         "  <!-- whom to write to; more lines may follow -->",
         *(
-            f"  <maintainer email={quoteattr(f'{_mailbox(each)}@todo.todo')}>{escape(each)}</maintainer>"
-            for each in maintainers
+            f"  <maintainer email={quoteattr(f'{_mailbox(person)}@todo.todo')}>{escape(person)}</maintainer>"
+            for person in maintainers
         ),
         "",
         "  <!-- such as BSD, MIT or Apache-2.0 -->",
-        *(f"  <license>{escape(each)}</license>" for each in package.licences or ("TODO",)),
-        *(f"  <author>{escape(each)}</author>" for each in package.authors),
+        *(f"  <license>{escape(licence)}</license>" for licence in package.licences or ("TODO",)),
+        *(f"  <author>{escape(author)}</author>" for author in package.authors),
         "",
         "  <!-- to compile: build_depend; to run: exec_depend; both: depend -->",
         "  <buildtool_depend>catkin</buildtool_depend>",
@@ -115,12 +115,12 @@ def _dependencies(package: NewPackage) -> Iterator[tuple[str, str]]:
     system = {*package.system_dependencies, *(["boost"] if package.boost_components else [])}
     names = sorted({*package.dependencies, *system})
     for tag in ("build_depend", "build_export_depend", "exec_depend"):
-        own = {"build_depend": "message_generation", "exec_depend": "message_runtime"}.get(tag)
-        yield from ((tag, name) for name in names if name == own or name not in _MESSAGES)
+        message_package = {"build_depend": "message_generation", "exec_depend": "message_runtime"}.get(tag)
+        yield from ((tag, name) for name in names if name == message_package or name not in _MESSAGES)
 
 
 def cmake_lists(package: NewPackage) -> str:
-    """Return the build file: its commands are those of catkin_create_pkg's, the usual next ones are comments."""
+    """Return the build file, with the commands of catkin_create_pkg's, and the usual next ones as comments."""
     if package.is_metapackage:
         commands = f"project({package.name})\nfind_package(catkin REQUIRED)\ncatkin_metapackage()\n"
         return f"cmake_minimum_required(VERSION 3.0.2)\n{commands}"
@@ -154,7 +154,7 @@ def cmake_lists(package: NewPackage) -> str:
         ")",
         "",
         "include_directories(",
-        *(f"  {each}" for each in includes),
+        *(f"  {include}" for include in includes),
         ")",
         "",
         "# A node in C++",

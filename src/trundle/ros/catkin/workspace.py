@@ -30,10 +30,10 @@ class Workspace:
     install: Path
 
     def packages(self) -> dict[str, Path]:
-        """Return the packages of the sources, each after those that it needs to be built."""
-        found = Packages({"ROS_PACKAGE_PATH": str(self.source)}, start=self.source).ros_packages()
-        own = {name: folder for name, folder in found.items() if folder.is_relative_to(self.source)}
-        return {name: own[name] for name in _in_order(own)}
+        """Return the packages of the sources, each after its build dependencies."""
+        reachable = Packages({"ROS_PACKAGE_PATH": str(self.source)}, start=self.source).ros_packages()
+        packages = {name: folder for name, folder in reachable.items() if folder.is_relative_to(self.source)}
+        return {name: packages[name] for name in _in_order(packages)}
 
 
 def _in_order(packages: Mapping[str, Path]) -> list[str]:
@@ -59,7 +59,7 @@ def open_workspace(
     """Return the workspace of a folder; its spaces are named relative to it.
 
     Raises:
-        UsageError: the folder is not one, in catkin_make's words.
+        UsageError: the folder is not a workspace, in catkin_make's words.
     """
     if not base.is_dir():
         raise UsageError(f'The specified base path "{base}" does not exist')
@@ -86,9 +86,9 @@ def open_workspace(
 
 
 def init_workspace(source: Path, environment: Mapping[str, str]) -> str:
-    """Make the CMakeLists.txt at the top of the sources and return a line that says so.
+    """Create the CMakeLists.txt at the top of the sources and return a line about it.
 
-    It links to the one of an installed catkin, as the original's; without one it is written.
+    It is a link to an installed catkin's file, as with catkin; a file if catkin is not installed.
 
     Raises:
         UsageError: it exists or cannot be written.
@@ -97,7 +97,7 @@ def init_workspace(source: Path, environment: Mapping[str, str]) -> str:
     if target.exists():
         raise UsageError(f'File "{target}" already exists')
     try:
-        if target.is_symlink():  # to a catkin that is gone
+        if target.is_symlink():  # to a catkin no longer installed
             target.unlink()
         installed = _installed_toplevel(environment)
         if installed is None:

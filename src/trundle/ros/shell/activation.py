@@ -19,11 +19,12 @@ def write_activation(names: Iterable[str], *, functions: Iterable[str], python_p
 
     Args:
         names: commands that `trundle --as` runs.
-        functions: those that the shell runs itself, as they change its folder.
+        functions: commands that the shell runs itself, since they change its working directory.
         python_path: folder for PYTHONPATH, with ROS' Python packages.
         libraries: value of TRUNDLE_LIBRARIES, for other Pythons of this version.
 
-    Returns: the folder, which the caller removes, or the shell's function `trundle_deactivate`.
+    Returns:
+        The folder; the caller or the shell's function `trundle_deactivate` removes it.
     """
     folder = Path(mkdtemp(prefix="trundle-shell-"))
     commands = folder / "bin"
@@ -31,8 +32,8 @@ def write_activation(names: Iterable[str], *, functions: Iterable[str], python_p
     program = shlex.join(launcher())
     for name in (*names, "trundle"):
         file = commands / name
-        words = "" if name == "trundle" else f" --as {name}"
-        write_atomically(file, f'#!/bin/sh\nexec {program}{words} "$@"\n')
+        option = "" if name == "trundle" else f" --as {name}"
+        write_atomically(file, f'#!/bin/sh\nexec {program}{option} "$@"\n')
         file.chmod(0o755)
     completed = [*names, "trundle"]
     values = {
@@ -54,7 +55,7 @@ def _filled(text: str, values: Mapping[str, str]) -> str:
 
 
 def _completion(names: Sequence[str], shell: str) -> str:
-    """Return the shell's own code that asks a command for completions; bash's is zsh's, too."""
+    """Return the shell code that asks a command for completions; zsh uses bash's."""
     code = shellcode(list(names), shell=shell)
     if shell == _FISH:
         return code

@@ -1,4 +1,4 @@
-"""One shell with the commands, from its start to its end; nothing is left of it."""
+"""Runs a shell with the commands; removes its files at the end."""
 
 import os
 import shlex
@@ -15,7 +15,7 @@ from trundle.base.diagnostics import UsageError
 
 from .activation import write_activation
 
-_KNOWN = ("bash", "zsh", "fish")
+_SUPPORTED = ("bash", "zsh", "fish")
 Environment: TypeAlias = Mapping[str, str]
 
 
@@ -32,11 +32,11 @@ def run_shell(
 
     Args:
         names: commands to provide.
-        functions: those that the shell runs itself.
+        functions: commands that the shell runs itself.
         python_path: folder for PYTHONPATH, with ROS' Python packages.
         libraries: value of TRUNDLE_LIBRARIES, for other Pythons of this version.
         command: text to run; None: an interactive shell.
-        environment: SHELL names the shell.
+        environment: variables of the shell; SHELL names it.
 
     Raises:
         UsageError: there is no shell.
@@ -44,9 +44,9 @@ def run_shell(
     shell = find_shell(environment)
     folder = write_activation(names, functions=functions, python_path=python_path, libraries=libraries)
     try:
-        words, variables = _start(shell, folder, command)
-        with _ending_with_it() as start:
-            process = start([*words], {**environment, **variables})
+        arguments, variables = _start(shell, folder, command)
+        with _forwarded_signals() as start:
+            process = start([*arguments], {**environment, **variables})
             code = process.wait()
     finally:
         shutil.rmtree(folder, ignore_errors=True)
@@ -61,17 +61,17 @@ def find_shell(environment: Environment) -> str:
     """
     if os.name != "posix":
         raise UsageError("trundle shell needs bash, zsh or fish; on Windows, install Trundle in WSL")
-    own = environment.get("SHELL", "")
+    user_shell = environment.get("SHELL", "")
     path = environment.get("PATH", os.defpath)
-    candidates = [own] if os.path.basename(own) in _KNOWN else []
+    candidates = [user_shell] if os.path.basename(user_shell) in _SUPPORTED else []
     for name in (*candidates, "bash", "sh"):
-        if (found := shutil.which(name, path=path)) is not None:
-            return found
+        if (shell := shutil.which(name, path=path)) is not None:
+            return shell
     raise UsageError("no shell is found; set SHELL to the path of bash, zsh or fish")
 
 
 def _start(shell: str, folder: Path, command: str | None) -> tuple[list[str], dict[str, str]]:
-    """Return the words that start a shell, and variables that it needs; the user's own start files are read first."""
+    """Return the command that starts a shell, and its variables; the user's start files are read first."""
     kind = os.path.basename(shell)
     script = folder / ("activate.fish" if kind == "fish" else "activate.sh")
     sourced = f". {shlex.quote(str(script))}"
@@ -93,11 +93,11 @@ def _start(shell: str, folder: Path, command: str | None) -> tuple[list[str], di
 
 def _write_zsh_files(folder: Path, sourced: str) -> None:
     """Write start files that read the user's, from ZDOTDIR or the home folder."""
-    own = "${_TRUNDLE_ZDOTDIR:-$HOME}"
-    write_atomically(folder / ".zshenv", f"[ -f {own}/.zshenv ] && . {own}/.zshenv\n")
-    ends = 'if [ -n "$_TRUNDLE_ZDOTDIR" ]; then ZDOTDIR="$_TRUNDLE_ZDOTDIR"; else unset ZDOTDIR; fi\n'
+    home = "${_TRUNDLE_ZDOTDIR:-$HOME}"
+    write_atomically(folder / ".zshenv", f"[ -f {home}/.zshenv ] && . {home}/.zshenv\n")
+    restore = 'if [ -n "$_TRUNDLE_ZDOTDIR" ]; then ZDOTDIR="$_TRUNDLE_ZDOTDIR"; else unset ZDOTDIR; fi\n'
     compinit = "(( $+functions[compdef] )) || { autoload -Uz compinit && compinit -D }\n"
-    text = f"[ -f {own}/.zshrc ] && . {own}/.zshrc\n{compinit}{sourced}\n{ends}unset _TRUNDLE_ZDOTDIR\n"
+    text = f"[ -f {home}/.zshrc ] && . {home}/.zshrc\n{compinit}{sourced}\n{restore}unset _TRUNDLE_ZDOTDIR\n"
     write_atomically(folder / ".zshrc", text)
 
 
@@ -106,23 +106,23 @@ def _ignore(_number: int, _frame: object) -> None:
 
 
 @contextmanager
-def _ending_with_it() -> Generator[Callable[[list[str], Environment], subprocess.Popen[bytes]]]:
-    """Start a shell that alone gets Ctrl-C, and pass other ends of this process on to it."""
+def _forwarded_signals() -> Generator[Callable[[list[str], Environment], subprocess.Popen[bytes]]]:
+    """Yield a function that starts a shell; forward SIGTERM and SIGHUP to it, and leave Ctrl-C to it alone."""
     started: list[subprocess.Popen[bytes]] = []
 
-    def pass_on(number: int, _: object) -> None:
+    def forward(number: int, _: object) -> None:
         for process in started:
             process.send_signal(number)
 
-    def start(words: list[str], environment: Environment) -> subprocess.Popen[bytes]:
-        started.append(subprocess.Popen(words, env=dict(environment)))
+    def start(arguments: list[str], environment: Environment) -> subprocess.Popen[bytes]:
+        started.append(subprocess.Popen(arguments, env=dict(environment)))
         return started[0]
 
-    before = {number: signal.signal(number, pass_on) for number in (signal.SIGTERM, signal.SIGHUP)}
+    previous = {number: signal.signal(number, forward) for number in (signal.SIGTERM, signal.SIGHUP)}
     # A handler, and not SIG_IGN, which the shell would inherit.
-    before |= {number: signal.signal(number, _ignore) for number in (signal.SIGINT, signal.SIGQUIT)}
+    previous |= {number: signal.signal(number, _ignore) for number in (signal.SIGINT, signal.SIGQUIT)}
     try:
         yield start
     finally:
-        for number, handler in before.items():
+        for number, handler in previous.items():
             signal.signal(number, handler)
