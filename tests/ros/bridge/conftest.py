@@ -1,4 +1,4 @@
-"""End to end: from an SDF file to ROS messages."""
+"""Fixtures for tests of the whole path from an SDF file to ROS messages."""
 
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
@@ -20,36 +20,36 @@ from trundle.sim.simulation import Simulation
 def graph() -> Iterator[SimpleNamespace]:
     """Graph with a publishing and a subscribing node."""
     with running_graph() as running:
-        node, ear = running.node("sim"), running.node("ear")
-        yield SimpleNamespace(loop=running.loop, node=node, ear=ear)
-        for one in (ear, node):
-            running.loop.run(one.shutdown(), PATIENCE_S)
+        node, listener = running.node("sim"), running.node("listener")
+        yield SimpleNamespace(loop=running.loop, node=node, listener=listener)
+        for running_node in (listener, node):
+            running.loop.run(running_node.shutdown(), PATIENCE_S)
 
 
-Hear = Callable[..., Any]
-Described = Callable[..., Simulation]
+Receive = Callable[..., Any]
+LoadWorld = Callable[..., Simulation]
 
 
 @pytest.fixture
-def described(tmp_path: Path) -> Described:
-    """Read the content of a <world> from a file."""
+def load_world(tmp_path: Path) -> LoadWorld:
+    """Return a function that loads the content of a <world> from a file."""
 
-    def described(world: str, *, seed: int = 0, version: str = "1.6") -> Simulation:
+    def load_world(world: str, *, seed: int = 0, version: str = "1.6") -> Simulation:
         file = tmp_path / "w.sdf"
         file.write_text(f'<sdf version="{version}"><world name="w">{world}</world></sdf>')
         return trundle.load(str(file), seed=seed)
 
-    return described
+    return load_world
 
 
 @pytest.fixture
-def hear(graph: SimpleNamespace, described: Described) -> Hear:
-    """Simulate a world for a while and return the first message on each of some topics, and the frames there are."""
+def receive(graph: SimpleNamespace, load_world: LoadWorld) -> Receive:
+    """Return a function that simulates a world and returns the first message on each topic, and the static frames."""
 
-    def hear(
+    def receive(
         world: str, topics: Mapping[str, str], *, seconds: float = 0.1, seed: int = 0, version: str = "1.6"
     ) -> tuple[dict[str, Any], set[str]]:
-        sim = described(world, seed=seed, version=version)
+        sim = load_world(world, seed=seed, version=version)
         cameras = mount_cameras(sim, NativeRenderer)
         sensors = mount_sensors(sim)
         for sensor in (*cameras, *sensors):
@@ -58,16 +58,16 @@ def hear(graph: SimpleNamespace, described: Described) -> Hear:
         make_camera_topics(graph.node, static_broadcaster, cameras, FrameNames.from_world(sim.world))
         make_sensor_topics(graph.node, static_broadcaster, sensors, FrameNames.from_world(sim.world))
         static_broadcaster.send_transform(Transform(parent="world", child="the last"))
-        heard: dict[str, Any] = {}
+        received: dict[str, Any] = {}
         frames: set[str] = set()
-        graph.ear.subscribe(
+        graph.listener.subscribe(
             "/tf_static", "tf2_msgs/TFMessage", lambda m: frames.update(t.child_frame_id for t in m.transforms)
         )
         for topic, type_ in topics.items():
-            graph.ear.subscribe(topic, type_, lambda message, topic=topic: heard.setdefault(topic, message))
+            graph.listener.subscribe(topic, type_, lambda message, topic=topic: received.setdefault(topic, message))
             until(lambda topic=topic, type_=type_: graph.node.advertise(topic, type_).has_subscribers)
         sim.run(seconds)
-        until(lambda: heard.keys() == topics.keys() and "the last" in frames)
-        return heard, frames
+        until(lambda: received.keys() == topics.keys() and "the last" in frames)
+        return received, frames
 
-    return hear
+    return receive

@@ -1,4 +1,4 @@
-"""Instruments (sonars, barometers, magnetometers, radios, …), from the file to their messages."""
+"""Instruments (sonars, barometers, magnetometers, radios, …), from the file to the messages."""
 
 import math
 from typing import Any
@@ -8,7 +8,7 @@ import pytest
 
 from trundle.base.diagnostics import Diagnostics
 from trundle.robots.description import write_sdf, written_uri
-from trundle.sim.sensors import mount_sensors
+from trundle.sim.sensors import AirPressureSensor, AltimeterSensor, ForceTorqueSensor, WirelessSensor, mount_sensors
 from trundle.spatial import Twist, quaternion_from_rpy
 
 MASS = "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
@@ -25,10 +25,12 @@ def sensor(type_: str, inside: str = "", *, pose: str = "0 0 0 0 0 0", name: str
     return f'<sensor name="{name}" type="{type_}"><pose>{pose}</pose>{rate}{inside}</sensor>'
 
 
-def box(name: str, place: str, *, size: str = "1 1 1", retro: float = 0.0) -> str:
+def box(name: str, position: str, *, size: str = "1 1 1", retro: float = 0.0) -> str:
     shape = f"<geometry><box><size>{size}</size></box></geometry><laser_retro>{retro}</laser_retro>"
     collision = f'<collision name="c">{shape}</collision>'
-    return f'<model name="{name}"><static>1</static><pose>{place} 0 0 0</pose><link name="l">{collision}</link></model>'
+    return (
+        f'<model name="{name}"><static>1</static><pose>{position} 0 0 0</pose><link name="l">{collision}</link></model>'
+    )
 
 
 def noise(stddev: float) -> str:
@@ -43,97 +45,101 @@ SONAR = "<sonar><min>0.1</min><max>4</max><radius>1</radius></sonar>"
 
 
 @pytest.mark.parametrize(
-    ("place", "expected"),
+    ("position", "expected"),
     [("0 0 -3", 2.5), ("0 1.2 -3", math.hypot(2.8, 0.7)), ("0 4 -3", 4.0), ("0 0 -9", 4.0), ("0 0 3", 4.0)],
     ids=["below", "aside, in the cone", "aside, out of it", "too far", "above"],
 )
-def test_a_sonar_listens_down_its_z_axis(hear: Any, place: str, expected: float) -> None:
-    """A cube of one metre; the cone's radius is 1 m at 4 m, and 0.7 m, where a cube aside begins, at 2.8 m."""
+def test_a_sonar_measures_down_its_z_axis(receive: Any, position: str, expected: float) -> None:
+    """The target is a cube of 1 m; the cone's radius is 1 m at 4 m, and 0.7 m, the edge of a cube aside, at 2.8 m."""
     topic = "/bot/l/s/range"
-    world = bot(sensor("sonar", SONAR)) + box("thing", place)
-    heard, frames = hear(world, {topic: "sensor_msgs/Range"})
+    world = bot(sensor("sonar", SONAR)) + box("cube", position)
+    received, frames = receive(world, {topic: "sensor_msgs/Range"})
 
-    told = heard[topic]
-    assert told.range == pytest.approx(expected, abs=0.03)
-    assert (told.min_range, told.max_range) == pytest.approx((0.1, 4.0))
-    assert told.field_of_view == pytest.approx(2 * math.atan(0.25))
-    assert told.header.frame_id == "bot/s"
+    message = received[topic]
+    assert message.range == pytest.approx(expected, abs=0.03)
+    assert (message.min_range, message.max_range) == pytest.approx((0.1, 4.0))
+    assert message.field_of_view == pytest.approx(2 * math.atan(0.25))
+    assert message.header.frame_id == "bot/s"
     assert "bot/s" in frames
 
 
-def test_a_magnetometer_feels_the_world_s_field_along_its_axes(hear: Any) -> None:
+def test_a_magnetometer_measures_the_worlds_field_along_its_axes(receive: Any) -> None:
     topic = "/bot/l/s/magnetic_field"
     field = "<magnetic_field>1e-5 2e-5 -4e-5</magnetic_field>"
-    own = sensor("magnetometer", pose=f"0 0 0 0 0 {math.pi / 2}")
-    heard, frames = hear(field + bot(own), {topic: "sensor_msgs/MagneticField"})
+    magnetometer = sensor("magnetometer", pose=f"0 0 0 0 0 {math.pi / 2}")
+    received, frames = receive(field + bot(magnetometer), {topic: "sensor_msgs/MagneticField"})
 
-    felt = heard[topic].magnetic_field
-    assert (felt.x, felt.y, felt.z) == pytest.approx((2e-5, -1e-5, -4e-5), abs=1e-12)
-    assert heard[topic].header.frame_id in frames
+    measured = received[topic].magnetic_field
+    assert (measured.x, measured.y, measured.z) == pytest.approx((2e-5, -1e-5, -4e-5), abs=1e-12)
+    assert received[topic].header.frame_id in frames
 
 
-def test_an_altimeter_tells_height_above_its_start_and_how_it_grows(hear: Any) -> None:
-    """Free fall for a twentieth of a second from 7 m."""
+def test_an_altimeter_measures_height_above_its_start_and_vertical_velocity(receive: Any) -> None:
+    """Free fall from 7 m for 0.05 s."""
     topics = {
         "/bot/l/s/altitude": "geometry_msgs/Vector3Stamped",
         "/bot/l/s/vertical_velocity": "geometry_msgs/Vector3Stamped",
     }
-    heard, _ = hear(bot(sensor("altimeter"), pose="0 0 7 0 0 0", static=0), topics)
+    received, _ = receive(bot(sensor("altimeter"), pose="0 0 7 0 0 0", static=0), topics)
 
-    height, speed = (heard[topic].vector.z for topic in topics)
+    height, speed = (received[topic].vector.z for topic in topics)
     assert height == pytest.approx(-0.5 * 9.8 * 0.05**2, rel=0.03)
     assert speed == pytest.approx(-9.8 * 0.05, rel=0.01)
 
 
-def test_a_barometer_reads_the_standard_atmosphere(hear: Any) -> None:
+def test_a_barometer_measures_the_standard_atmosphere(receive: Any) -> None:
     """ISA: 89874.6 Pa at 1000 m."""
     topic = "/bot/l/s/air_pressure"
     inside = (
         f"<air_pressure><reference_altitude>900</reference_altitude><pressure>{noise(0.0)}</pressure></air_pressure>"
     )
-    heard, frames = hear(
+    received, frames = receive(
         bot(sensor("air_pressure", inside), pose="0 0 100 0 0 0"), {topic: "sensor_msgs/FluidPressure"}
     )
 
-    assert heard[topic].fluid_pressure == pytest.approx(89876.3, abs=0.5)
-    assert heard[topic].header.frame_id in frames
+    assert received[topic].fluid_pressure == pytest.approx(89876.3, abs=0.5)
+    assert received[topic].header.frame_id in frames
 
 
-def test_an_air_speed_sensor_feels_what_meets_it(hear: Any) -> None:
-    """Still in a head wind of 10 m/s: ρ v² / 2 of air of 1.225 kg/m³."""
+def test_an_air_speed_sensor_measures_dynamic_pressure(receive: Any) -> None:
+    """At rest in a head wind of 10 m/s: ρ v² / 2 with air of 1.225 kg/m³."""
     topic = "/bot/l/s/air_speed"
     wind = "<wind><linear_velocity>-10 3 0</linear_velocity></wind>"
-    heard, _ = hear(wind + bot(sensor("air_speed")), {topic: "sensor_msgs/FluidPressure"})
+    received, _ = receive(wind + bot(sensor("air_speed")), {topic: "sensor_msgs/FluidPressure"})
 
-    assert heard[topic].fluid_pressure == pytest.approx(0.5 * 1.225 * 100, rel=1e-3)
+    assert received[topic].fluid_pressure == pytest.approx(0.5 * 1.225 * 100, rel=1e-3)
 
 
-@pytest.mark.parametrize(("pitch", "sees"), [(0.0, True), (-0.4, True), (-math.pi / 2, False)])
-def test_a_logical_camera_lists_the_ground_unless_it_looks_straight_up(hear: Any, pitch: float, sees: bool) -> None:
-    own = "<logical_camera><near>0.5</near><far>6</far><horizontal_fov>1</horizontal_fov></logical_camera>"
-    eye = sensor("logical_camera", own, pose=f"0 0 1 0 {pitch} 0")
+@pytest.mark.parametrize(("pitch", "is_visible"), [(0.0, True), (-0.4, True), (-math.pi / 2, False)])
+def test_a_logical_camera_sees_the_ground_plane_unless_it_looks_straight_up(
+    receive: Any, pitch: float, is_visible: bool
+) -> None:
+    settings = "<logical_camera><near>0.5</near><far>6</far><horizontal_fov>1</horizontal_fov></logical_camera>"
+    camera = sensor("logical_camera", settings, pose=f"0 0 1 0 {pitch} 0")
     plane = "<geometry><plane><normal>0 0 1</normal></plane></geometry>"
     link = f'<link name="l"><collision name="c">{plane}</collision></link>'
     topic = "/bot/l/s/models"
-    heard, _ = hear(bot(eye) + f'<model name="ground"><static>1</static>{link}</model>', {topic: "tf2_msgs/TFMessage"})
+    received, _ = receive(
+        bot(camera) + f'<model name="ground"><static>1</static>{link}</model>', {topic: "tf2_msgs/TFMessage"}
+    )
 
-    assert [t.child_frame_id for t in heard[topic].transforms] == ["ground"] * sees
+    assert [t.child_frame_id for t in received[topic].transforms] == ["ground"] * is_visible
 
 
-def test_a_logical_camera_tells_models_in_its_pyramid_where_they_are(hear: Any) -> None:
-    """Models: one ahead, one partly inside, one outside, one too far; the sensor's own model is never seen."""
-    own = "<logical_camera><near>0.5</near><far>6</far><horizontal_fov>1</horizontal_fov></logical_camera>"
-    eye = sensor("logical_camera", own, pose=f"0 0 1 0 0 {math.pi / 2}")
-    things = box("ahead", "0 3 1.2") + box("rim", "2 3 1") + box("aside", "3 3 1") + box("far", "0 9 1")
+def test_a_logical_camera_publishes_poses_of_models_in_its_frustum(receive: Any) -> None:
+    """Models are ahead, partly inside, outside and too far; the sensor's own model is never included."""
+    settings = "<logical_camera><near>0.5</near><far>6</far><horizontal_fov>1</horizontal_fov></logical_camera>"
+    camera = sensor("logical_camera", settings, pose=f"0 0 1 0 0 {math.pi / 2}")
+    models = box("ahead", "0 3 1.2") + box("rim", "2 3 1") + box("aside", "3 3 1") + box("far", "0 9 1")
     topic = "/bot/l/s/models"
-    heard, frames = hear(bot(eye) + things, {topic: "tf2_msgs/TFMessage"})
+    received, frames = receive(bot(camera) + models, {topic: "tf2_msgs/TFMessage"})
 
-    seen = {t.child_frame_id: t.transform for t in heard[topic].transforms}
-    assert set(seen) == {"ahead", "rim"}
-    place = seen["ahead"].translation
-    assert (place.x, place.y, place.z) == pytest.approx((3, 0, 0.2), abs=1e-9)
-    assert seen["ahead"].rotation.z == pytest.approx(-math.sqrt(0.5))
-    assert {t.header.frame_id for t in heard[topic].transforms} == {"bot/s"} <= frames
+    transforms = {t.child_frame_id: t.transform for t in received[topic].transforms}
+    assert set(transforms) == {"ahead", "rim"}
+    translation = transforms["ahead"].translation
+    assert (translation.x, translation.y, translation.z) == pytest.approx((3, 0, 0.2), abs=1e-9)
+    assert transforms["ahead"].rotation.z == pytest.approx(-math.sqrt(0.5))
+    assert {t.header.frame_id for t in received[topic].transforms} == {"bot/s"} <= frames
 
 
 RADIO = "<transceiver><essid>{}</essid><frequency>2442</frequency><gain>3</gain><power>{}</power></transceiver>"
@@ -144,39 +150,40 @@ def levels(message: Any) -> dict[str, float]:
 
 
 @pytest.mark.parametrize("wall", [False, True])
-def test_a_receiver_hears_transmitters_by_gazebo_s_model(hear: Any, wall: bool) -> None:
-    """Power and gains, less free space at 1 m, less 60 dB a decade (120 behind a wall) and a random loss."""
-    sent = sensor("wireless_transmitter", RADIO.format("near", 40))
-    own = sensor("wireless_receiver", "<transceiver><gain>2</gain><sensitivity>-200</sensitivity></transceiver>")
-    deaf = sensor("wireless_transmitter", RADIO.format("other", 40).replace("2442", "5000"))
-    world = bot(own) + bot(sent, name="tx", pose="10 0 0 0 0 0") + bot(deaf, name="tx5", pose="3 0 0 0 0 0")
+def test_a_receiver_lists_transmitters_with_gazebos_signal_levels(receive: Any, wall: bool) -> None:
+    """Power and gains minus the free-space loss at 1 m, 60 dB per decade (120 behind a wall) and a random loss."""
+    near = sensor("wireless_transmitter", RADIO.format("near", 40))
+    receiver = sensor("wireless_receiver", "<transceiver><gain>2</gain><sensitivity>-200</sensitivity></transceiver>")
+    other = sensor("wireless_transmitter", RADIO.format("other", 40).replace("2442", "5000"))
+    world = bot(receiver) + bot(near, name="tx", pose="10 0 0 0 0 0") + bot(other, name="tx5", pose="3 0 0 0 0 0")
     topic = "/bot/l/s/nodes"
     barrier = box("wall", "5 0 0") if wall else ""
-    heard, frames = hear(world + barrier, {topic: "diagnostic_msgs/DiagnosticArray"})
+    received, frames = receive(world + barrier, {topic: "diagnostic_msgs/DiagnosticArray"})
 
-    (level,) = levels(heard[topic]).values()
-    assert levels(heard[topic]).keys() == {"near"}
-    free = 20 * math.log10(299_792_458 / 2442e6 / (4 * math.pi))
-    most = 40 + 3 + 2 + free - (120 if wall else 60)
-    assert most - 30 <= level <= most  # five deviations of the random loss
-    assert heard[topic].header.frame_id in frames
-
-
-def test_a_receiver_does_not_hear_what_is_too_weak(described: Any) -> None:
-    own = sensor("wireless_receiver", "<transceiver><sensitivity>0</sensitivity></transceiver>")
-    sent = bot(sensor("wireless_transmitter"), name="tx", pose="30 0 0 0 0 0")
-    sim = described(bot(own) + sent)
-    (receiver,) = mount_sensors(sim)
-
-    assert receiver.measure(sim.snapshot()).signals == ()
+    (level,) = levels(received[topic]).values()
+    assert levels(received[topic]).keys() == {"near"}
+    free_space = 20 * math.log10(299_792_458 / 2442e6 / (4 * math.pi))
+    max_level = 40 + 3 + 2 + free_space - (120 if wall else 60)
+    assert max_level - 30 <= level <= max_level  # five deviations of the random loss
+    assert received[topic].header.frame_id in frames
 
 
-def test_an_rfid_sensor_tells_the_tags_within_five_metres(hear: Any) -> None:
+def test_a_receiver_omits_signals_below_its_sensitivity(load_world: Any) -> None:
+    receiver = sensor("wireless_receiver", "<transceiver><sensitivity>0</sensitivity></transceiver>")
+    transmitter = bot(sensor("wireless_transmitter"), name="tx", pose="30 0 0 0 0 0")
+    sim = load_world(bot(receiver) + transmitter)
+    (mounted,) = mount_sensors(sim)
+
+    assert isinstance(mounted, WirelessSensor)
+    assert mounted.measure(sim.snapshot()).signals == ()
+
+
+def test_an_rfid_sensor_lists_the_tags_within_five_metres(receive: Any) -> None:
     tags = "".join(bot(sensor("rfidtag", name="t"), name=f"tag{x}", pose=f"{x} 0 0 0 0 0") for x in (1, 4, 6))
     topic = "/bot/l/s/tags"
-    heard, _ = hear(bot(sensor("rfid")) + tags, {topic: "diagnostic_msgs/DiagnosticArray"})
+    received, _ = receive(bot(sensor("rfid")) + tags, {topic: "diagnostic_msgs/DiagnosticArray"})
 
-    assert [status.name for status in heard[topic].status] == ["tag1::l::t", "tag4::l::t"]
+    assert [status.name for status in received[topic].status] == ["tag1::l::t", "tag4::l::t"]
 
 
 UP = "<localization>GRAV_UP</localization>"
@@ -200,49 +207,51 @@ UP = "<localization>GRAV_UP</localization>"
         ("<localization>GRAV_DOWN</localization>", (math.pi, 0, 0)),
     ],
 )
-def test_an_imu_tells_its_orientation_in_the_frame_that_it_names(hear: Any, reference: str, expected) -> None:
-    """The world's x axis is 30 degrees north of east, the imu's 0.3 rad further."""
+def test_an_imu_publishes_its_orientation_in_its_reference_frame(
+    receive: Any, reference: str, expected: tuple[float, float, float]
+) -> None:
+    """The world's x axis is 30 degrees north of east, the imu's is 0.3 rad further."""
     if reference:
         reference = f"<orientation_reference_frame>{reference}</orientation_reference_frame>"
-    place = "<spherical_coordinates><heading_deg>30</heading_deg></spherical_coordinates>"
+    location = "<spherical_coordinates><heading_deg>30</heading_deg></spherical_coordinates>"
     topic = "/bot/l/s/imu"
-    own = sensor("imu", f"<imu>{reference}</imu>")
-    heard, _ = hear(place + bot(own, pose="0 0 0 0 0 0.3"), {topic: "sensor_msgs/Imu"})
+    imu = sensor("imu", f"<imu>{reference}</imu>")
+    received, _ = receive(location + bot(imu, pose="0 0 0 0 0 0.3"), {topic: "sensor_msgs/Imu"})
 
-    turn = heard[topic].orientation
+    q = received[topic].orientation
     w, x, y, z = quaternion_from_rpy(*expected)
-    same = abs(turn.w * w + turn.x * x + turn.y * y + turn.z * z)
-    assert same == pytest.approx(1.0, abs=1e-9)
+    assert abs(q.w * w + q.x * x + q.y * y + q.z * z) == pytest.approx(1.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("rows", [1, 3])
-def test_rays_tell_how_bright_what_they_meet_is(hear: Any, rows: int) -> None:
+def test_rays_publish_the_laser_retro_of_surfaces(receive: Any, rows: int) -> None:
     scan = "<scan><horizontal><samples>3</samples><min_angle>-0.5</min_angle><max_angle>0.5</max_angle></horizontal>"
     scan += f"<vertical><samples>{rows}</samples><min_angle>0</min_angle><max_angle>0</max_angle></vertical></scan>"
-    own = sensor("ray", f"<ray>{scan}<range><min>0.1</min><max>9</max></range></ray>")
-    world = bot(own) + box("bright", "4 0 0", retro=250) + box("dull", "4 2.2 0")
+    lidar = sensor("ray", f"<ray>{scan}<range><min>0.1</min><max>9</max></range></ray>")
+    world = bot(lidar) + box("bright", "4 0 0", retro=250) + box("dull", "4 2.2 0")
     topic, type_ = ("/bot/l/s/scan", "LaserScan") if rows == 1 else ("/bot/l/s/points", "PointCloud2")
-    heard, _ = hear(world, {topic: f"sensor_msgs/{type_}"})
+    received, _ = receive(world, {topic: f"sensor_msgs/{type_}"})
 
-    told = heard[topic]
+    message = received[topic]
     if rows == 1:
-        assert list(told.intensities) == [0, 250, 0]
-        assert np.isfinite(told.ranges[1:]).all()
+        assert list(message.intensities) == [0, 250, 0]
+        assert np.isfinite(message.ranges[1:]).all()
     else:
-        points = np.frombuffer(told.data.tobytes(), dtype="<f4").reshape(-1, told.point_step // 4)
-        assert [field.name for field in told.fields] == ["x", "y", "z", "intensity"]
+        points = np.frombuffer(message.data.tobytes(), dtype="<f4").reshape(-1, message.point_step // 4)
+        assert [field.name for field in message.fields] == ["x", "y", "z", "intensity"]
         assert sorted(points[:, 3].tolist()) == [0, 0, 0, 250, 250, 250]
 
 
-def test_a_force_torque_sensor_has_noise_on_each_axis(described: Any) -> None:
+def test_a_force_torque_sensor_has_noise_on_each_axis(load_world: Any) -> None:
     settings = f"<force><x>{noise(2.0)}</x></force><torque><z>{noise(0.5)}</z></torque>"
-    own = f'<sensor name="f" type="force_torque"><force_torque>{settings}</force_torque></sensor>'
-    joint = f'<joint name="j" type="fixed"><parent>world</parent><child>l</child>{own}</joint>'
-    sim = described(f'<model name="bot"><link name="l">{MASS}</link>{joint}</model>')
-    (felt,) = mount_sensors(sim)
+    force_torque = f'<sensor name="f" type="force_torque"><force_torque>{settings}</force_torque></sensor>'
+    joint = f'<joint name="j" type="fixed"><parent>world</parent><child>l</child>{force_torque}</joint>'
+    sim = load_world(f'<model name="bot"><link name="l">{MASS}</link>{joint}</model>')
+    (mounted,) = mount_sensors(sim)
+    assert isinstance(mounted, ForceTorqueSensor)
     sim.run(0.01)
 
-    wrenches = [felt.measure(sim.snapshot()).wrench for _ in range(400)]
+    wrenches = [mounted.measure(sim.snapshot()).wrench for _ in range(400)]
     spread = np.std([[*w.force, *w.torque] for w in wrenches], axis=0)
     assert spread[[0, 5]] == pytest.approx([2.0, 0.5], rel=0.15)
     assert spread[[1, 2, 3, 4]] == pytest.approx([0, 0, 0, 0], abs=1e-9)
@@ -285,8 +294,10 @@ def test_a_force_torque_sensor_has_noise_on_each_axis(described: Any) -> None:
         ),
     ],
 )
-def test_settings_that_cannot_be_are_mended_aloud(described: Any, type_: str, inside: str, sentence: str) -> None:
-    sim = described(bot(sensor(type_, inside)))
+def test_impossible_settings_are_replaced_with_a_warning(
+    load_world: Any, type_: str, inside: str, sentence: str
+) -> None:
+    sim = load_world(bot(sensor(type_, inside)))
     (mounted,) = mount_sensors(sim)
 
     assert mounted.measure(sim.snapshot()).time_ns == 0
@@ -295,18 +306,18 @@ def test_settings_that_cannot_be_are_mended_aloud(described: Any, type_: str, in
     assert sentence in warning
 
 
-def test_a_force_torque_sensor_on_a_link_says_that_it_tells_nothing(described: Any) -> None:
-    sim = described(bot(sensor("force_torque")))
+def test_a_force_torque_sensor_on_a_link_is_reported_as_not_simulated(load_world: Any) -> None:
+    sim = load_world(bot(sensor("force_torque")))
 
     assert mount_sensors(sim) == []
     (warning,) = sim.report.warnings
     assert warning.endswith("sensor 's': force_torque sensors measure joints; not simulated on a link")
 
 
-def test_a_force_torque_sensor_names_the_direction_that_it_does_not_know(described: Any) -> None:
+def test_an_unknown_measure_direction_is_reported(load_world: Any) -> None:
     settings = "<force_torque><measure_direction>up</measure_direction></force_torque>"
     joint = f"<parent>world</parent><child>l</child>{sensor('force_torque', settings)}"
-    sim = described(f'<model name="m"><link name="l"/><joint name="j" type="fixed">{joint}</joint></model>')
+    sim = load_world(f'<model name="m"><link name="l"/><joint name="j" type="fixed">{joint}</joint></model>')
 
     (warning,) = sim.report.warnings
     assert warning.endswith("no measure_direction 'up': child_to_parent or parent_to_child; child_to_parent is used")
@@ -327,18 +338,19 @@ def test_a_force_torque_sensor_names_the_direction_that_it_does_not_know(describ
             "<temperature_gradient>1e300</temperature_gradient>",
             "1e300",
             101325.0,
-        ),  # so high that it matters for the earth's radius
+        ),  # so high that the earth's radius matters
     ],
 )
-def test_air_that_cannot_be_crushes_nothing(described: Any, air: str, height: str, expected: float) -> None:
-    own = sensor("air_pressure", f"<air_pressure><reference_altitude>{height}</reference_altitude></air_pressure>")
-    sim = described(f"<atmosphere>{air}</atmosphere>" + bot(own))
+def test_impossible_air_gives_a_finite_pressure(load_world: Any, air: str, height: str, expected: float) -> None:
+    settings = f"<air_pressure><reference_altitude>{height}</reference_altitude></air_pressure>"
+    sim = load_world(f"<atmosphere>{air}</atmosphere>" + bot(sensor("air_pressure", settings)))
     (barometer,) = mount_sensors(sim)
 
+    assert isinstance(barometer, AirPressureSensor)
     assert barometer.measure(sim.snapshot()).pressure == pytest.approx(expected)
 
 
-def test_settings_are_written_as_they_were_read(described: Any) -> None:
+def test_settings_survive_writing_and_reading(load_world: Any) -> None:
     quiet = f"<x>{noise(1.0)}</x>"
     inner = [
         sensor("sonar", SONAR, name="a"),
@@ -354,21 +366,22 @@ def test_settings_are_written_as_they_were_read(described: Any) -> None:
     inner.append(
         sensor("imu", f"<imu><orientation_reference_frame>{named}</orientation_reference_frame></imu>", name="i")
     )
-    sim = described(bot("".join(inner)))
-    was = sim.world.models[0].links[0].sensors
+    sim = load_world(bot("".join(inner)))
+    original = sim.world.models[0].links[0].sensors
     report = Diagnostics()
     text = write_sdf(sim.world, is_world=True, uri_of=written_uri, report=report)
-    again = text.partition("<world")[2].partition(">")[2].rpartition("</world>")[0]
-    now = described(again).world.models[0].links[0].sensors
+    content = text.partition("<world")[2].partition(">")[2].rpartition("</world>")[0]
+    reread = load_world(content).world.models[0].links[0].sensors
 
-    assert [(s.instrument, s.imu) for s in now] == [(s.instrument, s.imu) for s in was]
+    assert [(s.instrument, s.imu) for s in reread] == [(s.instrument, s.imu) for s in original]
     assert report.warnings == []
 
 
-def test_a_sensor_s_speed_is_that_of_its_own_point(described: Any) -> None:
-    """Half a metre from the axis of a link that turns at 2 rad/s: 1 m/s upwards."""
-    sim = described("<gravity>0 0 0</gravity>" + bot(sensor("altimeter", pose="0.5 0 0 0 0 0"), static=0))
+def test_a_sensors_velocity_is_that_of_its_position(load_world: Any) -> None:
+    """Half a metre from the axis of a link that rotates at 2 rad/s: 1 m/s upwards."""
+    sim = load_world("<gravity>0 0 0</gravity>" + bot(sensor("altimeter", pose="0.5 0 0 0 0 0"), static=0))
     sim["bot"].set_twist(Twist(angular=(0.0, -2.0, 0.0)))
-    (mounted,) = mount_sensors(sim)
+    (altimeter,) = mount_sensors(sim)
 
-    assert mounted.measure(sim.snapshot()).velocity == pytest.approx(1.0)
+    assert isinstance(altimeter, AltimeterSensor)
+    assert altimeter.measure(sim.snapshot()).velocity == pytest.approx(1.0)

@@ -47,7 +47,7 @@ def test_a_relative_pose_times_its_parent_is_the_child(parent: Pose, child: Pose
     assert again.quaternion == pytest.approx(child.quaternion, abs=1e-9)
 
 
-def test_a_robot_given_alone_keeps_its_links_plain_names() -> None:
+def test_frames_of_a_single_robot_are_plain_link_names() -> None:
     world = World(name="w", at=AT, models=(arm(), Model(name="ground_plane", at=AT, static=True, added=True)))
 
     frames = link_frames(world)
@@ -56,8 +56,8 @@ def test_a_robot_given_alone_keeps_its_links_plain_names() -> None:
     assert [(f.link, f.parent_link) for f in frames] == [(0, 1), (1, None)]
 
 
-def test_in_a_world_file_frames_carry_their_model() -> None:
-    """Two equal robots would otherwise both have a frame `base`."""
+def test_frames_of_a_world_file_have_the_model_as_prefix() -> None:
+    """Otherwise two equal robots would share the frame `base`."""
     world = World(name="w", at=AT, models=(arm("left arm"), arm("2nd")))
 
     names = [f.frame for f in link_frames(world)]
@@ -66,7 +66,7 @@ def test_in_a_world_file_frames_carry_their_model() -> None:
     assert names[0] == "left_arm/beam"
 
 
-def test_what_cannot_move_is_told_apart() -> None:
+def test_fixed_links_are_marked_as_not_moving() -> None:
     rigid = Joint(
         name="rod",
         type=JointType.REVOLUTE,
@@ -85,23 +85,23 @@ def sensor(name: str) -> Sensor:
     return Sensor(name=name, type="imu", at=AT)
 
 
-def frames_of_sensors(names: FrameNames, *places: tuple[str, str]) -> list[str]:
-    """Frames of sensors on links, given as (link, sensor)."""
-    by_link = {link: tuple(sensor(name) for on, name in places if on == link) for link, _ in places}
-    model = Model(name="bot", at=AT, links=tuple(Link(name=n, at=AT, sensors=each) for n, each in by_link.items()))
-    return [names.sensor(model, link, sensor(name), rest="_x" if name == "eye" else "") for link, name in places]
+def frames_of_sensors(names: FrameNames, *mounts: tuple[str, str]) -> list[str]:
+    """Return the frames of sensors, from tuples (link, sensor)."""
+    sensors = {link: tuple(sensor(name) for parent, name in mounts if parent == link) for link, _ in mounts}
+    model = Model(name="bot", at=AT, links=tuple(Link(name=n, at=AT, sensors=s) for n, s in sensors.items()))
+    return [names.sensor(model, link, sensor(name), rest="_x" if name == "eye" else "") for link, name in mounts]
 
 
-def test_sensors_of_one_name_have_frames_of_their_own() -> None:
-    """Two eyes of one model, and an imu on a nested model's link besides."""
-    told = frames_of_sensors(FrameNames(), ("left", "eye"), ("right", "eye"), ("arm::left", "imu"))
+def test_sensors_of_the_same_name_have_distinct_frames() -> None:
+    """Two cameras `eye` of one model, and an imu on a nested model's link."""
+    frames = frames_of_sensors(FrameNames(), ("left", "eye"), ("right", "eye"), ("arm::left", "imu"))
 
-    assert told == ["bot/left/eye_x", "bot/right/eye_x", "bot/imu"]
+    assert frames == ["bot/left/eye_x", "bot/right/eye_x", "bot/imu"]
 
 
-def test_no_sensor_has_the_frame_of_a_link() -> None:
-    """Links of a URDF that are lumped and not simulated count, too."""
+def test_a_sensor_named_like_a_link_has_another_frame() -> None:
+    """This includes lumped links of a URDF, which are not simulated."""
     robot = Robot(name="bot", at=AT, root="mast", links=(RobotLink(name="mast", at=AT),), joints=())
-    told = frames_of_sensors(FrameNames.from_robot(robot), ("base", "imu"), ("imu", "base"), ("base", "mast"))
+    frames = frames_of_sensors(FrameNames.from_robot(robot), ("base", "imu"), ("imu", "base"), ("base", "mast"))
 
-    assert told == ["imu_sensor", "base_sensor", "mast_sensor"]
+    assert frames == ["imu_sensor", "base_sensor", "mast_sensor"]

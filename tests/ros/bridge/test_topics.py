@@ -29,7 +29,7 @@ AT = Source("w.sdf", 1)
         ("", "camera_info", "left", "/m/base/s/left/camera_info"),
     ],
 )
-def test_a_topic_of_the_file_is_heeded(topic: str, output: str, part: str, expected: str) -> None:
+def test_the_topic_in_the_file_names_the_outputs(topic: str, output: str, part: str, expected: str) -> None:
     sensor = Sensor(name="s", type="imu", at=AT, topic=topic)
     assert sensor_topic(Model(name="m", at=AT), "base", sensor, output, main="imu", part=part) == expected
 
@@ -49,22 +49,22 @@ def test_a_topic_of_the_file_is_heeded(topic: str, output: str, part: str, expec
         ("rfid", "diagnostic_msgs/DiagnosticArray"),
     ],
 )
-def test_every_sensor_publishes_on_the_topic_that_the_file_names(hear: Any, type_: str, message: str) -> None:
+def test_every_sensor_publishes_on_the_topic_in_the_file(receive: Any, type_: str, message: str) -> None:
     scan = "<ray><scan><horizontal><samples>3</samples></horizontal></scan><range><max>5</max></range></ray>"
     inside = "<topic>here/it_is</topic><update_rate>20</update_rate>" + (scan if type_ == "ray" else "")
     shape = '<collision name="c"><geometry><sphere><radius>1</radius></sphere></geometry></collision>'
     link = f'<link name="l">{shape}<sensor name="s" type="{type_}">{inside}</sensor></link>'
-    heard, _ = hear(f'<model name="m"><static>1</static>{link}</model>', {"/here/it_is": message})
+    received, _ = receive(f'<model name="m"><static>1</static>{link}</model>', {"/here/it_is": message})
 
-    assert heard.keys() == {"/here/it_is"}
+    assert received.keys() == {"/here/it_is"}
 
 
 @pytest.mark.parametrize(("type_", "message"), [("imu", "sensor_msgs/Imu"), ("contact", "gazebo_msgs/ContactsState")])
-def test_the_settings_of_imus_and_contact_sensors_may_name_the_topic(hear: Any, type_: str, message: str) -> None:
+def test_imu_and_contact_settings_may_contain_the_topic(receive: Any, type_: str, message: str) -> None:
     shape = '<collision name="c"><geometry><sphere><radius>1</radius></sphere></geometry></collision>'
     sensor = f'<sensor name="s" type="{type_}"><{type_}><topic>/old</topic></{type_}></sensor>'
-    heard, _ = hear(
+    received, _ = receive(
         f'<model name="m"><static>1</static><link name="l">{shape}{sensor}</link></model>', {"/old": message}
     )
 
-    assert heard.keys() == {"/old"}
+    assert received.keys() == {"/old"}

@@ -15,7 +15,7 @@ _TERMS = 4
 
 
 def camera_info_message(camera: CameraSensor) -> dict[str, object]:
-    """Make image size, D, K, R and P.
+    """Return image size, D, K, R and P.
 
     A pinhole has gazebo_ros's principal point (w + 1)/2, (h + 1)/2 unless the file has <intrinsics>. P's fourth column
     holds the baseline of a multicamera's parallel cameras to the first. A wide-angle lens gets the model `equidistant`,
@@ -23,17 +23,17 @@ def camera_info_message(camera: CameraSensor) -> dict[str, object]:
     """
     optics = camera.optics
     pinhole = optics.intrinsics or _pinhole(camera)
-    bend = optics.distortion
-    model, coefficients = "plumb_bob", [bend.k1, bend.k2, bend.p1, bend.p2, bend.k3]
+    distortion = optics.distortion
+    model, coefficients = "plumb_bob", [distortion.k1, distortion.k2, distortion.p1, distortion.p2, distortion.k3]
     if optics.lens is not None:
         model = "equidistant"
         pinhole, coefficients = _wide(optics.lens, optics.horizontal_fov_rad, pinhole, optics.width_px)
     right, down = _baseline(camera)
-    given = optics.projection
-    if given is None:
+    projection = optics.projection
+    if projection is None:
         p = [pinhole.fx, pinhole.fy, pinhole.cx, pinhole.cy, 0.0 - pinhole.fx * right, 0.0 - pinhole.fy * down]
     else:
-        p = [given.fx, given.fy, given.cx, given.cy, given.tx, given.ty]
+        p = [projection.fx, projection.fy, projection.cx, projection.cy, projection.tx, projection.ty]
     return {
         "height": optics.height_px,
         "width": optics.width_px,
@@ -46,18 +46,18 @@ def camera_info_message(camera: CameraSensor) -> dict[str, object]:
 
 
 def _pinhole(camera: CameraSensor) -> PixelIntrinsics:
-    seen = camera.intrinsics
-    f = seen.focal_px
-    return PixelIntrinsics(fx=f, fy=f, cx=(seen.width_px + 1) / 2, cy=(seen.height_px + 1) / 2)
+    intrinsics = camera.intrinsics
+    f = intrinsics.focal_px
+    return PixelIntrinsics(fx=f, fy=f, cx=(intrinsics.width_px + 1) / 2, cy=(intrinsics.height_px + 1) / 2)
 
 
 def _wide(lens: Lens, fov_rad: float, pinhole: PixelIntrinsics, width_px: int) -> tuple[PixelIntrinsics, list[float]]:
     """Fit focal length and coefficients by least squares over the angles within the image's width."""
     angles = np.linspace(0.01, max(min(lens.cutoff_rad, fov_rad / 2), 0.02), 200)
     radii = radius_of(lens, fov_rad, angles) * width_px / 2
-    sound = np.isfinite(radii)
+    is_finite = np.isfinite(radii)
     powers = np.stack([angles ** (2 * i + 1) for i in range(_TERMS + 1)], axis=-1)
-    fitted, *_ = np.linalg.lstsq(powers[sound], radii[sound], rcond=None)
+    fitted, *_ = np.linalg.lstsq(powers[is_finite], radii[is_finite], rcond=None)
     focal = float(fitted[0])
     if not focal:
         return pinhole, [0.0] * _TERMS
@@ -69,8 +69,8 @@ def _baseline(camera: CameraSensor) -> tuple[float, float]:
     """Offset of the camera to the right of the multicamera's first one, and below it [m]; zero if not parallel."""
     first: Pose = camera.sensor.cameras[0].sensor_from_camera
     first_from_camera = first.inverse() @ camera.optics.sensor_from_camera
-    ahead, left, up = first_from_camera.position
-    turned = math.hypot(*first_from_camera.quaternion[1:])
-    if turned > _ALIGNED or abs(ahead) > _ALIGNED:
+    forward, left, up = first_from_camera.position
+    rotation = math.hypot(*first_from_camera.quaternion[1:])
+    if rotation > _ALIGNED or abs(forward) > _ALIGNED:
         return 0.0, 0.0
     return 0.0 - left, 0.0 - up

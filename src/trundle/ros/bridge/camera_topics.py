@@ -33,25 +33,25 @@ class CameraTopics:
         """Advertise, and send the optical frame.
 
         Args:
-            node: publishes the topics.
-            static_broadcaster: of the node's /tf_static.
-            camera: the sensor to publish.
-            names: names of frames.
+            node: node that publishes the topics.
+            static_broadcaster: broadcaster of the node's /tf_static.
+            camera: sensor to publish.
+            names: frame names.
         """
         model, link = camera.model, camera.link
-        carrier = names.link(model, link.name)
+        parent = names.link(model, link.name)
         part = f"/{camera.optics.name}" if camera.optics.name else ""
         optical_frame = camera.optics.optical_frame
-        there = names.find_link(model, optical_frame) if optical_frame else None
-        self.frame = there or (
+        link_frame = names.find_link(model, optical_frame) if optical_frame else None
+        self.frame = link_frame or (
             ros_name(optical_frame)
             if optical_frame
             else names.sensor(model, link.name, camera.sensor, rest=f"{part}_optical")
         )
         optical = camera.link_from_camera @ CAMERA_FROM_OPTICAL
-        if there is None:
+        if link_frame is None:
             static_broadcaster.send_transform(
-                Transform(parent=carrier, child=self.frame, translation=optical.position, rotation=optical.quaternion)
+                Transform(parent=parent, child=self.frame, translation=optical.position, rotation=optical.quaternion)
             )
         outputs = outputs_of(camera)
         main = outputs[0].name
@@ -63,8 +63,10 @@ class CameraTopics:
             self._topics.append((node.advertise(topic, row.type, queue_size=row.queue_size), row.encoder(camera)))
         camera.topics = {topic.topic: topic.type for topic, _ in self._topics}
         if camera.optics.triggered:
-            own = sensor_topic(model, link.name, camera.sensor, "trigger", main=main, part=camera.optics.name)
-            topic = global_topic(camera.optics.trigger_topic) if camera.optics.trigger_topic else own
+            if camera.optics.trigger_topic:
+                topic = global_topic(camera.optics.trigger_topic)
+            else:
+                topic = sensor_topic(model, link.name, camera.sensor, "trigger", main=main, part=camera.optics.name)
             trigger = camera.await_trigger()
             node.subscribe(topic, "std_msgs/Bool", lambda _: trigger(), queue_size=1)
         camera.listen(self._publish, enabled=lambda: any(topic.has_subscribers for topic, _ in self._topics))

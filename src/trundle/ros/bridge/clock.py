@@ -17,8 +17,8 @@ class ClockTopic:
         """Advertise.
 
         Args:
-            node: publishes /clock.
-            rate_hz: rate [Hz]; None: every step, for subscribers that need each.
+            node: node that publishes /clock.
+            rate_hz: rate [Hz]; None: every step, for subscribers that need every message.
         """
         self._period_ns = None if rate_hz is None else round(1e9 / rate_hz)
         self._publisher = node.advertise("/clock", "rosgraph_msgs/Clock", queue_size=StepPublisher.QUEUE_SIZE)

@@ -32,12 +32,12 @@ def _detection_2d(box: SeenBox, time_ns: int) -> dict[str, object]:
 def _detection_3d(box: SeenBox, time_ns: int) -> dict[str, object]:
     pose = _OPTICAL_FROM_CAMERA @ box.camera_from_box
     qw, qx, qy, qz = pose.quaternion
-    placed = {
+    pose_fields = {
         "position": dict(zip("xyz", pose.position, strict=True)),
         "orientation": {"x": qx, "y": qy, "z": qz, "w": qw},
     }
     return {
         "header": {"stamp": time_ns},
-        "results": [{"id": box.label, "score": 1.0, "pose": {"pose": placed}}],
-        "bbox": {"center": placed, "size": dict(zip("xyz", box.size, strict=True))},
+        "results": [{"id": box.label, "score": 1.0, "pose": {"pose": pose_fields}}],
+        "bbox": {"center": pose_fields, "size": dict(zip("xyz", box.size, strict=True))},
     }

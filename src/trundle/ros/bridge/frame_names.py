@@ -37,43 +37,42 @@ class FrameNames:
     plain: bool = False
     """True: a frame is its link's name, as for a single robot; False: `<model>/<link>`."""
     lumped: frozenset[str] = frozenset()
-    """Links of the URDF, including those that were lumped into others and are not simulated."""
+    """Links of the URDF, including lumped ones, which are not simulated."""
 
     @classmethod
     def from_world(cls, world: World, robot: Robot | None = None) -> Self:
-        """Names for `trundle run`: of its world, or of the single robot in it."""
+        """Names for `trundle run`, of its world or of the single robot in it."""
         return cls(plain=_has_plain_frames(world), lumped=_links_of(robot))
 
     @classmethod
     def from_robot(cls, robot: Robot) -> Self:
-        """Names for the one URDF of a launch, whose frames robot_state_publisher sends."""
+        """Names for a launch with one URDF, whose frames robot_state_publisher broadcasts."""
         return cls(plain=True, lumped=_links_of(robot))
 
     def link(self, model: Model, link: str) -> str:
         """Frame of a link."""
         return ros_name(link) if self.plain else f"{ros_name(model.name)}/{ros_name(link)}"
 
-    def sensor(self, model: Model, place: str, sensor: Sensor, *, rest: str = "") -> str:
-        """Frame of a sensor, different from those of other sensors and of links.
+    def sensor(self, model: Model, parent: str, sensor: Sensor, *, rest: str = "") -> str:
+        """Frame of a sensor, distinct from the frames of other sensors and of links.
 
-        The name has the link or joint as prefix if several sensors of the model share it, and the suffix `_sensor`
-        if a link has it.
+        It has the link or joint as a prefix if several sensors of the model have the same name, and the suffix
+        `_sensor` if a link has it.
 
         Args:
-            model: of the sensor.
-            place: link or joint that the sensor is on.
-            sensor: the sensor.
+            model: model of the sensor.
+            parent: link or joint of the sensor.
+            sensor: sensor of the frame.
             rest: suffix.
         """
-        own = ros_name(sensor.name)
-        everywhere = [each for owner in (*model.links, *model.joints) for each in owner.sensors]
-        has_namesakes = sum(ros_name(each.name) == own for each in everywhere) > 1
-        frame = self.link(model, (f"{place}/{sensor.name}" if has_namesakes else sensor.name) + rest)
-        is_taken = frame in self.lumped or frame in (self.link(model, link.name) for link in model.links)
-        return f"{frame}_sensor" if is_taken else frame
+        names = [ros_name(other.name) for owner in (*model.links, *model.joints) for other in owner.sensors]
+        is_unique = names.count(ros_name(sensor.name)) <= 1
+        frame = self.link(model, (sensor.name if is_unique else f"{parent}/{sensor.name}") + rest)
+        is_link = frame in self.lumped or frame in (self.link(model, link.name) for link in model.links)
+        return f"{frame}_sensor" if is_link else frame
 
     def find_link(self, model: Model, name: str) -> str | None:
-        """Frame of a link of that name, also of one of the URDF that is not simulated; None: no such link."""
+        """Frame of the link of a name, simulated or in the URDF only; None if there is no such link."""
         frames = {name, self.link(model, name)}
         links = {self.link(model, link.name) for link in model.links} | self.lumped
         return next((frame for frame in sorted(frames) if frame in links), None)
@@ -83,24 +82,24 @@ def _links_of(robot: Robot | None) -> frozenset[str]:
     return frozenset() if robot is None else frozenset(ros_name(link.name) for link in robot.links)
 
 
-def sensor_topic(model: Model, place: str, sensor: Sensor, output: str, *, main: str, part: str = "") -> str:
-    """Topic of a sensor's output: `/<model>/<place>/<sensor>/<output>`, unless the file has a <topic>.
+def sensor_topic(model: Model, parent: str, sensor: Sensor, output: str, *, main: str, part: str = "") -> str:
+    """Topic of a sensor's output: `/<model>/<parent>/<sensor>/<output>`, unless the file has a <topic>.
 
-    A <topic> is that of the main output; camera_info goes beside it, as in gz, other outputs below it.
+    A <topic> is the main output's; camera_info is its sibling, as in gz, and other outputs are below it.
 
     Args:
-        model: of the sensor.
-        place: link or joint that the sensor is on.
-        sensor: the sensor.
+        model: model of the sensor.
+        parent: link or joint of the sensor.
+        sensor: sensor of the topic.
         output: imu, scan, image_raw, …
-        main: the sensor's main output.
+        main: sensor's main output.
         part: camera of a multicamera.
     """
     parts = (part,) if part else ()
-    given = sensor.topic.strip().removeprefix("~").strip("/")
-    if not given or given in _NO_TOPIC:
-        return "/" + "/".join(ros_name(name) for name in (model.name, place, sensor.name, *parts, output))
-    topic = global_topic("/".join((given, *parts)))
+    base = sensor.topic.strip().removeprefix("~").strip("/")
+    if not base or base in _NO_TOPIC:
+        return "/" + "/".join(ros_name(name) for name in (model.name, parent, sensor.name, *parts, output))
+    topic = global_topic("/".join((base, *parts)))
     if output == main and not part:
         return topic
     if output == "camera_info" and not part:
@@ -114,7 +113,7 @@ def global_topic(name: str) -> str:
 
 
 def _has_plain_frames(world: World) -> bool:
-    """True if the file is a single robot, around which `run` added all else."""
+    """True if the file has a single robot, and `run` added the rest of the world."""
     return len([model for model in world.models if not model.added]) == 1 and any(m.added for m in world.models)
 
 
@@ -125,9 +124,9 @@ def link_frames(world: World) -> list[LinkFrame]:
     for model in world.models:
         start = len(frames)
         index = {link.name: start + i for i, link in enumerate(model.links)}
-        above = {joint.child: joint for joint in reversed(model.joints) if joint.parent in index}
+        parent_joints = {joint.child: joint for joint in reversed(model.joints) if joint.parent in index}
         for link in model.links:
-            joint = above.get(link.name)
+            joint = parent_joints.get(link.name)
             parent_link = None if joint is None else index[joint.parent]
             parent = WORLD_FRAME if joint is None else names.link(model, joint.parent)
             rigid = joint is not None and (

@@ -15,7 +15,7 @@ _KELVIN_STEP = 0.01
 
 
 def image_encoder(format_: str) -> Callable[[CameraReading], dict[str, object]]:
-    """Return the function that makes colour sensor_msgs/Image in one of SDF's pixel formats."""
+    """Return the function that makes color sensor_msgs/Image in one of SDF's pixel formats."""
     return lambda reading: _image(*pixels_in(format_, reading.rgb))
 
 
@@ -45,8 +45,8 @@ def _image(pixels: NDArray[np.generic], encoding: str) -> dict[str, object]:
 
 
 def point_cloud_encoder(camera: CameraSensor) -> Callable[[CameraReading], dict[str, object]]:
-    """Return the function that makes sensor_msgs/PointCloud2: a coloured point per pixel in the optical frame [m]; NaN
-    where there is no depth."""
+    """Return the function that makes sensor_msgs/PointCloud2: a colored point per pixel in the optical frame [m], NaN
+    without depth."""
     right, down = (np.ascontiguousarray(slopes, dtype=np.float32) for slopes in camera.projection.slopes())
     fields = [
         {"name": name, "offset": 4 * i, "datatype": _FLOAT32, "count": 1}

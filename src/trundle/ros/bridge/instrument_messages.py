@@ -50,13 +50,13 @@ def range_message(reading: SonarReading, sensor: SonarSensor) -> dict[str, objec
 def models_message(reading: LogicalCameraReading) -> dict[str, object]:
     """tf2_msgs/TFMessage: the pose of each model in view; each transform needs a header with the camera's frame."""
     transforms: list[dict[str, object]] = []
-    for seen in reading.models:
-        qw, qx, qy, qz = seen.camera_from_model.quaternion
-        placed = {
-            "translation": dict(zip("xyz", seen.camera_from_model.position, strict=True)),
+    for model in reading.models:
+        qw, qx, qy, qz = model.camera_from_model.quaternion
+        transform = {
+            "translation": dict(zip("xyz", model.camera_from_model.position, strict=True)),
             "rotation": {"x": qx, "y": qy, "z": qz, "w": qw},
         }
-        transforms.append({"child_frame_id": seen.name, "transform": placed})
+        transforms.append({"child_frame_id": model.name, "transform": transform})
     return {"transforms": transforms}
 
 
@@ -64,13 +64,13 @@ def nodes_message(reading: WirelessReading) -> dict[str, object]:
     """diagnostic_msgs/DiagnosticArray: the transmitters received."""
     status = [
         {
-            "name": heard.name,
+            "name": signal.name,
             "values": [
-                {"key": "frequency_mhz", "value": f"{heard.frequency_mhz:g}"},
-                {"key": "signal_level_dbm", "value": f"{heard.level_dbm:.3f}"},
+                {"key": "frequency_mhz", "value": f"{signal.frequency_mhz:g}"},
+                {"key": "signal_level_dbm", "value": f"{signal.level_dbm:.3f}"},
             ],
         }
-        for heard in reading.signals
+        for signal in reading.signals
     ]
     return {"status": status}
 

@@ -11,7 +11,7 @@ from .frame_names import WORLD_FRAME, FrameNames, sensor_topic
 from .sensor_topics import outputs_of
 
 _TF = "tf2_msgs/TFMessage"
-"""The message type whose headers are inside."""
+"""Message type with a header in each transform."""
 
 
 def make_sensor_topics(
@@ -51,23 +51,23 @@ class InstrumentTopics:
             message = encode(reading)
             if has_inner_headers:
                 transforms = cast("list[dict[str, object]]", message["transforms"])
-                topic.publish({"transforms": [{**each, "header": header} for each in transforms]})
+                topic.publish({"transforms": [{**transform, "header": header} for transform in transforms]})
             else:
                 topic.publish({**message, "header": header})
 
 
 def _send_frame(sensor: InstrumentSensor, static_broadcaster: StaticTransformBroadcaster, names: FrameNames) -> str:
-    """Send the frame in which a sensor measures, unless it is another link's or the world's; return it."""
+    """Broadcast the frame in which a sensor measures, unless it is a link's or the world's; return it."""
     match sensor:
         case AltimeterSensor() | ContactSensor():
             return WORLD_FRAME
         case ForceTorqueSensor():
-            own = _send_sensor_frame(sensor, sensor.link_from_sensor, static_broadcaster, names)
+            frame = _send_sensor_frame(sensor, sensor.link_from_sensor, static_broadcaster, names)
             parent = sensor.joint.parent
             return {
                 "child": names.link(sensor.model, sensor.link.name),
                 "parent": WORLD_FRAME if parent == "world" else names.link(sensor.model, parent),
-            }.get(sensor.settings.frame, own)
+            }.get(sensor.settings.frame, frame)
         case SonarSensor():  # x along the beam
             return _send_sensor_frame(sensor, sensor.link_from_beam, static_broadcaster, names)
         case _:
@@ -79,9 +79,9 @@ def _send_sensor_frame(
 ) -> str:
     """Send the static transform of the sensor's frame on its link; return the frame."""
     frame = names.sensor(sensor.model, sensor.parent_name, sensor.sensor)
-    carrier = names.link(sensor.model, sensor.link.name)
-    place, turn = link_from_sensor.position, link_from_sensor.quaternion
-    static_broadcaster.send_transform(Transform(parent=carrier, child=frame, translation=place, rotation=turn))
+    parent = names.link(sensor.model, sensor.link.name)
+    translation, rotation = link_from_sensor.position, link_from_sensor.quaternion
+    static_broadcaster.send_transform(Transform(parent=parent, child=frame, translation=translation, rotation=rotation))
     return frame
 
 

@@ -22,15 +22,15 @@ class JointStatesTopic:
         self.set_model(model)
 
     def set_model(self, model: ModelHandle | None) -> None:
-        """Take the joints' indices after the world was changed; None: the model was deleted."""
-        self._is_there = model is not None
+        """Update the joints' indices after a change of the world; None: the model was deleted."""
+        self._has_model = model is not None
         movable = [handle for handle in ([] if model is None else model.joints) if handle.joint.type in _MOVABLE]
         self._names = [ros_name(handle.name) for handle in movable]
         self._joints = np.array([handle.index for handle in movable], dtype=np.intp)
 
     def enabled(self) -> bool:
         """True if there is a model, and a subscriber."""
-        return self._is_there and self._publisher.has_subscribers
+        return self._has_model and self._publisher.has_subscribers
 
     def after_step(self, snapshot: Snapshot) -> None:
         """Publish."""

@@ -12,7 +12,7 @@ from .frame_names import LinkFrame, link_frames
 
 
 class LinkTransforms:
-    """Broadcasts each link's pose in its parent; rigid ones go out once, on /tf_static."""
+    """Broadcasts each link's pose in its parent; fixed ones once, on /tf_static."""
 
     period_ns = 20_000_000
     """50 Hz, robot_state_publisher's default."""
@@ -23,21 +23,21 @@ class LinkTransforms:
         """Send the static transforms, and prepare the others.
 
         Args:
-            node: publishes /tf.
-            static_broadcaster: of the node's /tf_static.
-            world: names the frames.
-            start: the initial state.
+            node: node that publishes /tf.
+            static_broadcaster: broadcaster of the node's /tf_static.
+            world: world with the links.
+            start: initial state.
         """
         self._broadcaster = TransformBroadcaster(node)
         self._static_broadcaster = static_broadcaster
         self.set_world(world, start)
 
     def set_world(self, world: World, now: Snapshot) -> None:
-        """Take the frames of a world that was changed, and send its static transforms.
+        """Update the frames after a change of the world, and send its static transforms.
 
         Args:
-            world: names the frames.
-            now: the present state.
+            world: world with the links.
+            now: present state.
         """
         frames = link_frames(world)
         self._moving = [frame for frame in frames if frame.is_moving]

@@ -30,11 +30,11 @@ def imu_message(reading: ImuReading) -> dict[str, object]:
 
 def scan_message(reading: RangeReading, period_s: float) -> dict[str, object]:
     """sensor_msgs/LaserScan of the first row of rays."""
-    fan = reading.scan.horizontal
+    horizontal = reading.scan.horizontal
     return {
-        "angle_min": fan.min_angle,
-        "angle_max": fan.max_angle,
-        "angle_increment": (fan.max_angle - fan.min_angle) / max(fan.values - 1, 1),
+        "angle_min": horizontal.min_angle,
+        "angle_max": horizontal.max_angle,
+        "angle_increment": (horizontal.max_angle - horizontal.min_angle) / max(horizontal.values - 1, 1),
         "scan_time": period_s,
         "range_min": reading.scan.min_m,
         "range_max": reading.scan.max_m,
@@ -46,9 +46,9 @@ def scan_message(reading: RangeReading, period_s: float) -> dict[str, object]:
 def points_message(reading: RangeReading) -> dict[str, object]:
     """sensor_msgs/PointCloud2 in the sensor's frame [m], without the rays that hit nothing."""
     ranges = reading.ranges.reshape(-1)
-    seen = np.isfinite(ranges)
-    places = directions_of(reading.scan)[seen] * ranges[seen, None]
-    points = np.column_stack([places, reading.intensities.reshape(-1)[seen]]).astype("<f4")
+    is_hit = np.isfinite(ranges)
+    positions = directions_of(reading.scan)[is_hit] * ranges[is_hit, None]
+    points = np.column_stack([positions, reading.intensities.reshape(-1)[is_hit]]).astype("<f4")
     return {
         "height": 1,
         "width": len(points),
@@ -65,13 +65,13 @@ def points_message(reading: RangeReading) -> dict[str, object]:
 
 def fix_message(reading: GpsReading, sensor: GpsSensor) -> dict[str, object]:
     """sensor_msgs/NavSatFix."""
-    across, up = sensor.variances
+    horizontal, vertical = sensor.variances
     return {
         "status": {"status": 0, "service": 1},
         "latitude": reading.latitude_deg,
         "longitude": reading.longitude_deg,
         "altitude": reading.altitude,
-        "position_covariance": [across, 0.0, 0.0, 0.0, across, 0.0, 0.0, 0.0, up],
+        "position_covariance": [horizontal, 0.0, 0.0, 0.0, horizontal, 0.0, 0.0, 0.0, vertical],
         "position_covariance_type": 2,
     }
 
@@ -83,22 +83,22 @@ def wrench_message(reading: ForceTorqueReading) -> dict[str, object]:
 
 def contacts_message(reading: ContactReading) -> dict[str, object]:
     """gazebo_msgs/ContactsState in the world frame; one state per step and pair of collisions."""
-    found: dict[tuple[int, str, str], list[ContactRecord]] = {}
-    for touch in reading.contacts:
-        found.setdefault((touch.time_ns, touch.own, touch.other), []).append(touch)
+    groups: dict[tuple[int, str, str], list[ContactRecord]] = {}
+    for contact in reading.contacts:
+        groups.setdefault((contact.time_ns, contact.own, contact.other), []).append(contact)
     states: list[dict[str, object]] = []
-    for (time_ns, own, other), touches in found.items():
-        total = sum((touch.wrench for touch in touches), start=Wrench())
+    for (time_ns, collision1, collision2), contacts in groups.items():
+        total = sum((contact.wrench for contact in contacts), start=Wrench())
         states.append(
             {
                 "info": f"time:{time_ns // NS_PER_S}.{time_ns % NS_PER_S:09}",
-                "collision1_name": own,
-                "collision2_name": other,
-                "wrenches": [_wrench(touch.wrench) for touch in touches],
+                "collision1_name": collision1,
+                "collision2_name": collision2,
+                "wrenches": [_wrench(contact.wrench) for contact in contacts],
                 "total_wrench": _wrench(total),
-                "contact_positions": [_vector(touch.position) for touch in touches],
-                "contact_normals": [_vector(touch.normal) for touch in touches],
-                "depths": [touch.depth for touch in touches],
+                "contact_positions": [_vector(contact.position) for contact in contacts],
+                "contact_normals": [_vector(contact.normal) for contact in contacts],
+                "depths": [contact.depth for contact in contacts],
             }
         )
     return {"states": states}

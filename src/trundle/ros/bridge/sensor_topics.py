@@ -22,13 +22,13 @@ from .instrument_messages import (
 from .sensor_messages import contacts_message, fix_message, imu_message, points_message, scan_message, wrench_message
 
 Encode: TypeAlias = Callable[[Any], dict[str, object]]
-"""From a reading to the message without its header."""
+"""Converts a reading to the fields of a message without its header."""
 _MAX_S = 1e30
 """Largest LaserScan.scan_time [s]."""
 
 
 class Condition(NamedTuple):
-    """Sensors of a type that have an output."""
+    """Condition of sensors of a type to have an output."""
 
     text: str
     """For the documentation; empty for the usual case."""
@@ -44,7 +44,7 @@ class SensorOutput(NamedTuple):
     """Message type."""
     queue_size: int
     encoder: Callable[[Any], Encode]
-    """From the sensor to the message function."""
+    """Returns the message function of a sensor."""
     condition: Condition | None = None
 
 
@@ -53,7 +53,7 @@ def _always(encode: Encode) -> Callable[[Any], Encode]:
     return lambda _: encode
 
 
-def _colours(camera: CameraSensor) -> Encode:
+def _color_image(camera: CameraSensor) -> Encode:
     return image_encoder(camera.optics.format)
 
 
@@ -62,11 +62,11 @@ def _info(camera: CameraSensor) -> Encode:
     return lambda _: calibration
 
 
-def _has_flat_boxes(camera: CameraSensor) -> bool:
+def _has_2d_boxes(camera: CameraSensor) -> bool:
     return camera.optics.box_type != "3d"
 
 
-def _has_solid_boxes(camera: CameraSensor) -> bool:
+def _has_3d_boxes(camera: CameraSensor) -> bool:
     return camera.optics.box_type == "3d"
 
 
@@ -90,24 +90,26 @@ def _range(sensor: SonarSensor) -> Encode:
     return partial(range_message, sensor=sensor)
 
 
-def _camera(name: str, type_: str, encoder: Callable[[Any], Encode], only: Condition | None = None) -> SensorOutput:
-    return SensorOutput(name, type_, 2, encoder, only)
+def _camera(
+    name: str, type_: str, encoder: Callable[[Any], Encode], condition: Condition | None = None
+) -> SensorOutput:
+    return SensorOutput(name, type_, 2, encoder, condition)
 
 
 _IMAGE, _INFO, _DIAGNOSTICS = "sensor_msgs/Image", "sensor_msgs/CameraInfo", "diagnostic_msgs/DiagnosticArray"
 _ONE_ROW, _ROWS = Condition("", _has_one_row), Condition("several rows of rays", _has_rows)
-_2D, _3D = Condition("", _has_flat_boxes), Condition("boxes of type `3d`", _has_solid_boxes)
+_2D, _3D = Condition("", _has_2d_boxes), Condition("boxes of type `3d`", _has_3d_boxes)
 
-_COLOURS = _camera("image_raw", _IMAGE, _colours)
+_COLOR = _camera("image_raw", _IMAGE, _color_image)
 _CALIBRATION = _camera("camera_info", _INFO, _info)
 _SCANS = (
     SensorOutput("scan", "sensor_msgs/LaserScan", 5, _scan, _ONE_ROW),
     SensorOutput("points", "sensor_msgs/PointCloud2", 2, _always(points_message), _ROWS),
 )
 _FIXES = (SensorOutput("fix", "sensor_msgs/NavSatFix", 5, _fix),)
-_COLOUR_CAMERA = (_COLOURS, _CALIBRATION)
+_COLOR_CAMERA = (_COLOR, _CALIBRATION)
 _DEPTH_CAMERA = (
-    _COLOURS,
+    _COLOR,
     _CALIBRATION,
     _camera("depth/image_raw", _IMAGE, _always(depth_image)),
     _camera("depth/camera_info", _INFO, _info),
@@ -122,12 +124,12 @@ _BOX_CAMERA = (
     _camera("boxes", "vision_msgs/Detection2DArray", _always(boxes_2d), _2D),
     _camera("boxes", "vision_msgs/Detection3DArray", _always(boxes_3d), _3D),
     _CALIBRATION,
-    _COLOURS,
+    _COLOR,
 )
 _THERMAL_CAMERA = (_camera("image_raw", _IMAGE, _always(thermal_image)), _CALIBRATION)
 
 SENSOR_TOPICS: dict[str, tuple[SensorOutput, ...]] = {
-    **dict.fromkeys(("camera", "multicamera", "wideanglecamera", "wide_angle_camera"), _COLOUR_CAMERA),
+    **dict.fromkeys(("camera", "multicamera", "wideanglecamera", "wide_angle_camera"), _COLOR_CAMERA),
     **dict.fromkeys(("depth", "depth_camera", "rgbd", "rgbd_camera"), _DEPTH_CAMERA),
     **dict.fromkeys(("segmentation", "segmentation_camera"), _SEGMENTATION_CAMERA),
     **dict.fromkeys(("boundingbox", "boundingbox_camera"), _BOX_CAMERA),

@@ -6,7 +6,7 @@ from trundle.ros import Publisher
 from trundle.sim.simulation import Simulation, Snapshot
 
 _MIN_PERIOD_NS = 10_000_000
-"""Every tenth step of Gazebo's: each call costs Python, and stand-ins use only the newest message [ns]."""
+"""Ten steps of Gazebo [ns]: each call runs Python, and stand-ins use only the newest message."""
 
 
 class StepPublisher:
@@ -17,7 +17,7 @@ class StepPublisher:
     """
 
     QUEUE_SIZE = 100
-    """10 in gazebo_ros, which sleeps before each step; here many steps follow one another at once."""
+    """10 in gazebo_ros, which sleeps before each step; here many steps run without a pause."""
 
     def __init__(self, topic: Publisher, publish: Callable[[Snapshot], None]) -> None:
         self._topic = topic
@@ -26,10 +26,10 @@ class StepPublisher:
     def attach(self, simulation: Simulation) -> None:
         """Start publishing; without subscribers, it does not shorten strides."""
         name, topic = self._topic.topic, self._topic
-        simulation.add_hook(_Tick(self._publish), period_ns=_MIN_PERIOD_NS, enabled=self._is_sparing, name=name)
+        simulation.add_hook(_Tick(self._publish), period_ns=_MIN_PERIOD_NS, enabled=self._needs_newest_only, name=name)
         simulation.add_hook(_Tick(self._publish), enabled=lambda: topic.needs_every_message, name=name)
 
-    def _is_sparing(self) -> bool:
+    def _needs_newest_only(self) -> bool:
         return self._topic.has_subscribers and not self._topic.needs_every_message
 
 
