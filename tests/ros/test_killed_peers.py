@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from tests.ros.conftest import PATIENCE_S
 
-from trundle.ros import ActionOutcome, ActionServer, MasterProxy, ServiceError
+from trundle.ros import ActionResult, ActionServer, MasterProxy, ServiceError
 
 STRING = "std_msgs/String"
 EMPTY = "std_srvs/Empty"
@@ -151,11 +151,11 @@ def test_a_killed_watcher_does_not_block_parameter_updates(graph: Any) -> None:
 def test_a_killed_action_client_does_not_block_the_server(graph: Any) -> None:
     node, goals, may_end = graph.node("n"), list[int](), asyncio.Event()
 
-    async def work(goal: Any, accept: Callable[[], None]) -> ActionOutcome:
+    async def work(goal: Any, accept: Callable[[], None]) -> ActionResult:
         accept()
         goals.append(goal.order)
         await may_end.wait()
-        return ActionOutcome(result={"sequence": [0, 1, 1]})
+        return ActionResult(result={"sequence": [0, 1, 1]})
 
     results: list[Any] = []
     ActionServer(node, "/do", "actionlib_tutorials/Fibonacci", work)

@@ -18,7 +18,7 @@ from .bags import (
     recover_messages as recover_messages,
     replaced_bag as replaced_bag,
 )
-from .clients.action_server import ActionOutcome as ActionOutcome, ActionServer as ActionServer
+from .clients.action_server import ActionResult as ActionResult, ActionServer as ActionServer
 from .clients.reconfigure_client import (
     find_reconfigurable as find_reconfigurable,
     read_options as read_options,

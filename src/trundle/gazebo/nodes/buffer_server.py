@@ -8,7 +8,7 @@ import yaml
 
 from trundle.robots.parameters import RosParameters
 from trundle.ros import (
-    ActionOutcome,
+    ActionResult,
     ActionServer,
     ConnectivityError,
     ExtrapolationError,
@@ -57,13 +57,13 @@ class BufferServer:
         buffer = TransformBuffer(settings.number("buffer_size", 120.0))
         self._buffer = TransformListener(node, buffer).buffer
         action = node.name if settings.flag("use_node_namespace", default=False) else _ACTION
-        ActionServer(node, action, "tf2_msgs/LookupTransform", self._on_goal, side_by_side=True)
+        ActionServer(node, action, "tf2_msgs/LookupTransform", self._on_goal, concurrent=True)
         if settings.flag("publish_frame_service", default=False):
             node.advertise_service("~tf2_frames", "tf2_msgs/FrameGraph", self._frames)
         await node.closed.wait()
         return 0
 
-    async def _on_goal(self, goal: "tf2_msgs.LookupTransformGoal", accept: Callable[[], None]) -> ActionOutcome:
+    async def _on_goal(self, goal: "tf2_msgs.LookupTransformGoal", accept: Callable[[], None]) -> ActionResult:
         """Retry until the lookup succeeds or times out; the goal succeeds either way, with the error in the result."""
         accept()
         clock = self._node.clock
@@ -73,9 +73,9 @@ class BufferServer:
                 transform = self._lookup(goal)
             except TransformError as error:
                 if clock.now_ns() >= end_ns:
-                    return ActionOutcome(result={"error": _error(error)})
+                    return ActionResult(result={"error": _error(error)})
             else:
-                return ActionOutcome(result={"transform": _stamped(transform), "error": {"error": _NO_ERROR}})
+                return ActionResult(result={"transform": _stamped(transform), "error": {"error": _NO_ERROR}})
             await asyncio.sleep(_POLL_S)
 
     def _lookup(self, goal: "tf2_msgs.LookupTransformGoal") -> Transform:

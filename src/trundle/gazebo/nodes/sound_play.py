@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from trundle.ros import ActionOutcome, ActionServer, Node
+from trundle.ros import ActionResult, ActionServer, Node
 
 from .host import NodeHost
 
@@ -76,12 +76,12 @@ class SoundPlay:
         self._task = asyncio.get_running_loop().create_task(self._play(request))
         return self._task
 
-    async def _on_goal(self, goal: Any, accept: Callable[[], None]) -> ActionOutcome:
+    async def _on_goal(self, goal: Any, accept: Callable[[], None]) -> ActionResult:
         accept()
         task = self._begin(goal.sound_request)
         await asyncio.wait([task])
         result = {"playing": False, "stamp": self._node.clock.now_ns()}
-        return ActionOutcome(status="preempted" if task.cancelled() else "succeeded", result=result)
+        return ActionResult(status="preempted" if task.cancelled() else "succeeded", result=result)
 
     async def _play(self, request: Any) -> None:
         if request.command == _STOP or request.sound == _ALL:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from trundle.ros import (
-    ActionOutcome,
+    ActionResult,
     ActionServer,
     Node,
     ServiceError,
@@ -88,7 +88,7 @@ class Tf2WebRepublisher:
         node = self._node
         self._buffer = TransformListener(node, TransformBuffer()).buffer
         self._action = ActionServer(
-            node, node.name, "tf2_web_republisher/TFSubscription", self._on_goal, side_by_side=True
+            node, node.name, "tf2_web_republisher/TFSubscription", self._on_goal, concurrent=True
         )
         node.advertise_service("republish_tfs", "tf2_web_republisher/RepublishTFs", self._on_request)
         try:
@@ -100,7 +100,7 @@ class Tf2WebRepublisher:
 
     async def _on_goal(
         self, goal: "tf2_web_republisher.TFSubscriptionGoal", accept: Callable[[], None]
-    ) -> ActionOutcome:
+    ) -> ActionResult:
         """Publish feedback until the goal is cancelled."""
         accept()
         watch = _watch(goal)

@@ -22,7 +22,7 @@ _MAX_GOALS = 1000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ActionOutcome:
+class ActionResult:
     """Terminal state and result of a goal."""
 
     status: Literal["succeeded", "aborted", "preempted", "rejected"] = "succeeded"
@@ -42,16 +42,16 @@ class _Goal:
 
 
 class ActionServer:
-    """Executes goals; unless `side_by_side`, a new goal preempts the previous one."""
+    """Executes goals; unless `concurrent`, a new goal preempts the previous one."""
 
     def __init__(
         self,
         node: Node,
         name: str,
         type_name: str,
-        work: Callable[[Message, Callable[[], None]], Awaitable[ActionOutcome]],
+        work: Callable[[Message, Callable[[], None]], Awaitable[ActionResult]],
         *,
-        side_by_side: bool = False,
+        concurrent: bool = False,
     ) -> None:
         """Advertise and subscribe the action's topics.
 
@@ -61,11 +61,11 @@ class ActionServer:
             type_name: action type, such as 'control_msgs/FollowJointTrajectory'.
             work: coroutine function of the goal and of `accept`, to be called on the loop when the goal is accepted;
                 cancelled when the goal is.
-            side_by_side: True: goals run concurrently; `work` may preempt them.
+            concurrent: True: goals run concurrently; `work` may preempt them.
         """
         self._node = node
         self._work = work
-        self._side_by_side = side_by_side
+        self._concurrent = concurrent
         self._goals: dict[str, _Goal] = {}
         self._numbers = itertools.count(1)
         self._result = node.advertise(f"{name}/result", f"{type_name}ActionResult", queue_size=50)
@@ -107,7 +107,7 @@ class ActionServer:
         if len(self._goals) >= _MAX_GOALS:
             self._node.log.error(f"more than {_MAX_GOALS} goals at once; a new goal is ignored")
             return
-        if not self._side_by_side:
+        if not self._concurrent:
             for other in self._goals.values():
                 self._stop(other)
         goal = _Goal(id={"stamp": stamp, "id": key}, stamp_ns=stamp, message=message.goal)
@@ -133,14 +133,14 @@ class ActionServer:
                 self._publish_status()
 
         try:
-            outcome = await self._work(message, accept)
+            result = await self._work(message, accept)
         except asyncio.CancelledError:
-            outcome = ActionOutcome(status="preempted")
-        goal.status, goal.text = _NUMBERS[outcome.status], outcome.text
+            result = ActionResult(status="preempted")
+        goal.status, goal.text = _NUMBERS[result.status], result.text
         goal.ended_ns = self._node.clock.now_ns()
         self._publish_status()
         header = {"stamp": goal.ended_ns}
-        self._result.publish({"header": header, "status": _status(goal), "result": outcome.result})
+        self._result.publish({"header": header, "status": _status(goal), "result": result.result})
 
     async def _publish_status_loop(self) -> None:
         while not self._node.closed.is_set():

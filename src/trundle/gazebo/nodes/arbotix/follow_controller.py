@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from trundle.robots.parameters import ParamError, RosParameters
-from trundle.ros import ActionOutcome, ActionServer, Node, to_nsec
+from trundle.ros import ActionResult, ActionServer, Node, to_nsec
 
 from ..rate import Rate
 from .controller import ArbotixJoint, DiagnosticStatus, JointReading
@@ -42,7 +42,7 @@ class FollowController:
         action = settings.text("action_name", "follow_joint_trajectory")
         # Not below the controller's name: configurations have `action_name: arm_controller/follow_joint_trajectory`.
         self._server = ActionServer(node, action, "control_msgs/FollowJointTrajectory", self._on_goal)
-        self._topic_task: asyncio.Task[ActionOutcome] | None = None
+        self._topic_task: asyncio.Task[ActionResult] | None = None
         for servo in self._servos.values():
             servo.is_controlled = lambda: self._active
         node.subscribe(f"{name}/command", "trajectory_msgs/JointTrajectory", self._command, queue_size=1)
@@ -56,7 +56,7 @@ class FollowController:
 
     async def _on_goal(
         self, goal: "control_msgs.FollowJointTrajectoryGoal", accept: Callable[[], None]
-    ) -> ActionOutcome:
+    ) -> ActionResult:
         accept()
         return await self._follow(goal.trajectory)
 
@@ -69,20 +69,20 @@ class FollowController:
             self._topic_task.cancel()
         self._topic_task = asyncio.get_running_loop().create_task(self._follow(trajectory))
 
-    async def _follow(self, trajectory: "trajectory_msgs.JointTrajectory") -> ActionOutcome:
+    async def _follow(self, trajectory: "trajectory_msgs.JointTrajectory") -> ActionResult:
         names = list(trajectory.joint_names)
         if missing := [joint for joint in self._joints if joint not in names]:
             text = f"Trajectory joint names does not match action controlled joints: {missing[0]!r} is missing"
             self._node.log.error(text)
-            return ActionOutcome(status="aborted", text=text)
+            return ActionResult(status="aborted", text=text)
         if not trajectory.points:
             self._node.log.error("Trajectory empty.")
-            return ActionOutcome(status="aborted", text="Trajectory empty.")
+            return ActionResult(status="aborted", text="Trajectory empty.")
         if len(names) > len(self._joints):
             self._node.log.warn("Extra joints in trajectory")
         order = [names.index(joint) for joint in self._joints]
         if any(len(point.positions) <= max(order) for point in trajectory.points):
-            return ActionOutcome(status="aborted", text="a point has fewer positions than there are joints")
+            return ActionResult(status="aborted", text="a point has fewer positions than there are joints")
         clock = self._node.clock
         start_ns = to_nsec(trajectory.header.stamp) or clock.now_ns()
         await clock.sleep_until(start_ns)
@@ -94,7 +94,7 @@ class FollowController:
             while clock.now_ns() + _ARRIVAL_MARGIN_NS < end_ns:
                 self._step(last, target, cycles=self._rate_hz * (end_ns - clock.now_ns()) / 1e9)
                 await rate.sleep()
-        return ActionOutcome(text="Trajectory execution complete")
+        return ActionResult(text="Trajectory execution complete")
 
     def _step(self, last: list[float], target: list[float], *, cycles: float) -> None:
         """Interpolate one of the remaining cycles until the point."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from trundle.robots.parameters import ParamError, RosParameters
-from trundle.ros import ActionOutcome, ActionServer, Node
+from trundle.ros import ActionResult, ActionServer, Node
 
 from ..host import NodeHost
 from ..private_parameters import private_parameters
@@ -126,14 +126,14 @@ class GripperController:
     def _on_joint_states(self, message: "sensor_msgs.JointState") -> None:
         self._positions.update(zip(message.name, map(float, message.position), strict=False))
 
-    async def _move(self, goal: "control_msgs.GripperCommandGoal", accept: Callable[[], None]) -> ActionOutcome:
+    async def _move(self, goal: "control_msgs.GripperCommandGoal", accept: Callable[[], None]) -> ActionResult:
         accept()
         opening_m = float(goal.command.position)
         try:
             commands = self._gripper.commands(opening_m)
         except ValueError as error:
             self._node.log.error(str(error))
-            return ActionOutcome(status="aborted", text=str(error))
+            return ActionResult(status="aborted", text=str(error))
         for joint, command in commands.items():
             self._commands[joint].publish({"data": command})
         clock = self._node.clock
@@ -142,10 +142,10 @@ class GripperController:
             await asyncio.sleep(_POLL_S)
             positions = {joint: self._positions.get(joint, math.inf) for joint in commands}
             if all(abs(positions[joint] - command) < _TOLERANCE_RAD for joint, command in commands.items()):
-                return ActionOutcome(result={"position": opening_m, "reached_goal": True})
+                return ActionResult(result={"position": opening_m, "reached_goal": True})
             if any(self._positions.get(joint) != last.get(joint) for joint in commands):
                 last, moved_ns = dict(self._positions), clock.now_ns()
             elif clock.now_ns() - moved_ns > max(self._stalled_s, 1.0) * 1e9:
                 if math.inf in positions.values():
-                    return ActionOutcome(status="aborted", text="joint_states lacks the gripper's position")
-                return ActionOutcome(result={"position": opening_m, "stalled": True})
+                    return ActionResult(status="aborted", text="joint_states lacks the gripper's position")
+                return ActionResult(result={"position": opening_m, "stalled": True})

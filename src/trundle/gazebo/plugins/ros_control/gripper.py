@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from trundle.ros import ActionOutcome, ActionServer
+from trundle.ros import ActionResult, ActionServer
 from trundle.sim.control import GripperLaw
 
 from .controller import ControllerContext, Endpoints, InStepController
@@ -42,9 +42,9 @@ class GripperController(InStepController):
         )
         self.laws = (self._law,)
         self._is_running = False
-        self._settle_goal: Callable[[ActionOutcome], None] | None = None
+        self._settle_goal: Callable[[ActionResult], None] | None = None
         self._server = ActionServer(
-            context.node, f"{context.name}/gripper_cmd", "control_msgs/GripperCommand", self._on_goal, side_by_side=True
+            context.node, f"{context.name}/gripper_cmd", "control_msgs/GripperCommand", self._on_goal, concurrent=True
         )
 
     @classmethod
@@ -75,16 +75,16 @@ class GripperController(InStepController):
         self._server.close()
         self._endpoints.close()
 
-    async def _on_goal(self, goal: "control_msgs.GripperCommandGoal", accept: Callable[[], None]) -> ActionOutcome:
+    async def _on_goal(self, goal: "control_msgs.GripperCommandGoal", accept: Callable[[], None]) -> ActionResult:
         """Run a goal to its end; on the loop."""
-        ended: asyncio.Future[ActionOutcome] = asyncio.get_running_loop().create_future()
+        ended: asyncio.Future[ActionResult] = asyncio.get_running_loop().create_future()
 
-        def settle(result: ActionOutcome) -> None:
+        def settle(result: ActionResult) -> None:
             self._node.loop.call_soon(lambda: None if ended.done() else ended.set_result(result))
 
         def begin() -> None:
             if not self._is_running:
-                settle(ActionOutcome(status="rejected", text="the controller is not running"))
+                settle(ActionResult(status="rejected", text="the controller is not running"))
                 return
             self._settle("preempted", reached=False)
             self._node.loop.call_soon(accept)
@@ -112,7 +112,7 @@ class GripperController(InStepController):
         self._law.watches = False
         joint = self._joint
         result = {"position": joint.position, "effort": joint.effort, "stalled": not reached, "reached_goal": reached}
-        settle(ActionOutcome(status=status, result=result))
+        settle(ActionResult(status=status, result=result))
 
 
 class EffortGripper(GripperController):

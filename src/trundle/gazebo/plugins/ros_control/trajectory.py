@@ -5,7 +5,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from trundle.ros import ActionOutcome, ActionServer, ServiceError, to_nsec
+from trundle.ros import ActionResult, ActionServer, ServiceError, to_nsec
 from trundle.sim.control import ToolboxPid, TrajectoryLaw
 
 from .controller import ControllerContext, Endpoints, InStepController, PublishTimer
@@ -57,7 +57,7 @@ class TrajectoryController(InStepController):
         self._paths: list[JointPath] = []
         self._goal = NO_GOAL
         """Number of the last goal of the action."""
-        self._settle_goal: Callable[[ActionOutcome], None] | None = None
+        self._settle_goal: Callable[[ActionResult], None] | None = None
         """Called once with the result of the action's goal."""
         self._is_running = False
         self._advertise(context)
@@ -74,9 +74,7 @@ class TrajectoryController(InStepController):
             node.advertise_service(f"{context.name}/query_state", "control_msgs/QueryTrajectoryState", self._query),
         )
         action = f"{context.name}/follow_joint_trajectory"
-        self._server = ActionServer(
-            node, action, "control_msgs/FollowJointTrajectory", self._on_goal, side_by_side=True
-        )
+        self._server = ActionServer(node, action, "control_msgs/FollowJointTrajectory", self._on_goal, concurrent=True)
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
@@ -195,12 +193,12 @@ class TrajectoryController(InStepController):
 
     async def _on_goal(
         self, goal: "control_msgs.FollowJointTrajectoryGoal", accept: Callable[[], None]
-    ) -> ActionOutcome:
+    ) -> ActionResult:
         """Run a goal to its end, on the loop; a rejected goal does not stop the current trajectory."""
         loop = asyncio.get_running_loop()
-        ended: asyncio.Future[ActionOutcome] = loop.create_future()
+        ended: asyncio.Future[ActionResult] = loop.create_future()
 
-        def settle(result: ActionOutcome) -> None:
+        def settle(result: ActionResult) -> None:
             self._node.loop.call_soon(lambda: None if ended.done() else ended.set_result(result))
 
         def begin() -> None:
@@ -232,7 +230,7 @@ class TrajectoryController(InStepController):
         self._goal += 1
         self._law.begin_goal(self._goal)
 
-    def _abandon(self, settle: Callable[[ActionOutcome], None]) -> None:
+    def _abandon(self, settle: Callable[[ActionResult], None]) -> None:
         """Hold after a goal was cancelled, unless another goal has replaced it."""
         if self._settle_goal is settle:
             self._settle_goal, self._law.watches = None, False
@@ -272,8 +270,8 @@ class TrajectoryController(InStepController):
         }
 
 
-def _action_result(status: Any, code: int, text: str) -> ActionOutcome:
-    return ActionOutcome(status=status, result={"error_code": code, "error_string": text}, text=text)
+def _action_result(status: Any, code: int, text: str) -> ActionResult:
+    return ActionResult(status=status, result={"error_code": code, "error_string": text}, text=text)
 
 
 class EffortTrajectory(TrajectoryController):
