@@ -1,4 +1,4 @@
-"""Python 2 programs: what they print translated, that nothing else is touched, and a node of theirs on a graph."""
+"""Python 2 programs: output of the translation, detection, and a node on a graph."""
 
 import os
 import signal
@@ -69,7 +69,7 @@ typed 5 4 [1]
 
 
 @pytest.fixture(autouse=True)
-def _own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
+def _separate_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
 
 
@@ -84,19 +84,19 @@ def _run(script: Path, *, typed: str = "") -> subprocess.CompletedProcess[str]:
     )
 
 
-def test_a_program_prints_what_python_2_prints_and_is_not_touched(tmp_path: Path) -> None:
+def test_a_program_prints_the_same_as_with_python_2_and_its_file_is_unchanged(tmp_path: Path) -> None:
     script = tmp_path / "old.py"
     script.write_text(_LANGUAGE)
     for _ in range(2):  # translated, then from the cache
         done = _run(script, typed="typed\n4\n")
         assert (done.returncode, done.stdout) == (0, _PRINTED), done.stderr
-        assert done.stderr.startswith(f"{script} is Python 2: translated; --show-translation prints what changed\n")
+        assert done.stderr.startswith(f"{script} is Python 2: translated; --show-translation prints the changes\n")
     assert script.read_text() == _LANGUAGE
     assert sorted(path.name for path in tmp_path.iterdir()) == ["cache", "old.py"]
 
 
 def test_a_traceback_shows_the_users_file_and_lines(tmp_path: Path) -> None:
-    """Also where the translation adds a line, as for a tuple among parameters."""
+    """Also where the translation adds a line, as for a tuple parameter."""
     script = tmp_path / "old.py"
     script.write_text("print 'a'\ndef f((a, b)):\n    c = a\n    return c.missing\n\nf((1, 2))\n")
     done = _run(script)
@@ -110,7 +110,7 @@ def test_a_traceback_shows_the_users_file_and_lines(tmp_path: Path) -> None:
     ]
 
 
-def test_a_missing_module_of_a_translated_program_is_told_where_it_comes_from(tmp_path: Path) -> None:
+def test_the_advice_for_a_missing_module_of_a_translated_program_names_its_source(tmp_path: Path) -> None:
     script = tmp_path / "old.py"
     script.write_text("print 'a'\nfrom PyQt4 import QtGui\n")
 
@@ -127,8 +127,8 @@ def test_a_missing_module_of_a_translated_program_is_told_where_it_comes_from(tm
 
 
 @pytest.mark.skipif(os.name != "posix", reason="Ctrl-C is a signal there")
-def test_a_program_that_is_interrupted_while_it_is_translated_says_nothing(tmp_path: Path) -> None:
-    """Ctrl-C in a launch meets programs that are still translated."""
+def test_a_program_that_is_interrupted_while_it_is_translated_prints_nothing(tmp_path: Path) -> None:
+    """Ctrl-C in a launch interrupts programs that are still being translated."""
     (tmp_path / "fissix.py").write_text("import os, time\nos.write(1, b'parsing')\ntime.sleep(100.0)\n")
     (tmp_path / "old.py").write_text("print 'a'\n")
     with subprocess.Popen(
@@ -145,7 +145,7 @@ def test_a_program_that_is_interrupted_while_it_is_translated_says_nothing(tmp_p
         assert process.stderr.read() == b""
 
 
-def test_division_is_pythons_own_where_it_is_imported() -> None:
+def test_division_is_unchanged_where_true_division_is_imported() -> None:
     assert translate("from __future__ import division\nprint 7 / 2\n", "a.py") == (
         "from __future__ import division\nprint(7 / 2)\n"
     )
@@ -171,12 +171,12 @@ def test_division_is_pythons_own_where_it_is_imported() -> None:
         ("def cmp(a, b): return 0\ncmp(1, 2)\n", False),
     ],
 )
-def test_programs_of_both_pythons_and_of_python_3_are_left_alone(source: str, is_old: bool) -> None:
+def test_programs_for_python_2_only_are_detected(source: str, is_old: bool) -> None:
     assert is_python2(source) == is_old
 
 
-def test_modules_beside_a_module_are_relative_within_packages_only(tmp_path: Path) -> None:
-    """The folder of a script may have an `__init__.py`, too, as those of tests have."""
+def test_imports_are_relative_only_within_packages(tmp_path: Path) -> None:
+    """A script's folder may also have an `__init__.py`, as folders of tests do."""
     folder = tmp_path / "scripts"
     folder.mkdir()
     (folder / "__init__.py").write_text("")
@@ -195,7 +195,7 @@ def test_modules_beside_a_module_are_relative_within_packages_only(tmp_path: Pat
 
 
 def test_a_node_and_the_modules_of_its_package_run_on_a_graph(tmp_path: Path) -> None:
-    """`trundle exec` of a script for a Python that this machine need not have."""
+    """`trundle exec` of a script for python2.7, which is not needed."""
     package = tmp_path / "src" / "old_robot"
     (package / "src" / "old_robot").mkdir(parents=True)
     (package / "scripts").mkdir()

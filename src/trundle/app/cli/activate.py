@@ -22,10 +22,10 @@ def main(args: argparse.Namespace) -> int:
     if sys.stdout.isatty():
         print('eval "$(trundle activate)" makes the commands available in this shell')
         return 0
-    from trundle.ros.rospy.environment import SITE, own_libraries
+    from trundle.ros.rospy.environment import SITE, python_libraries
     from trundle.ros.shell import write_activation
 
-    folder = write_activation(ORIGINALS, functions=FUNCTIONS, python_path=SITE, libraries=own_libraries())
+    folder = write_activation(ORIGINALS, functions=FUNCTIONS, python_path=SITE, libraries=python_libraries())
     if args.shell == "fish":
         print(f"source {shlex.quote(str(folder / 'activate.fish'))}")
         return 0

@@ -22,14 +22,14 @@ def main(args: argparse.Namespace) -> int:
     if args.list:
         print("\n".join(sorted(ORIGINALS)))
         return 0
-    from trundle.ros.rospy.environment import SITE, own_libraries
+    from trundle.ros.rospy.environment import SITE, python_libraries
     from trundle.ros.shell import run_shell
 
     return run_shell(
         ORIGINALS,
         functions=FUNCTIONS,
         python_path=SITE,
-        libraries=own_libraries(),
+        libraries=python_libraries(),
         command=args.command,
         environment=os.environ,
     )

@@ -1,4 +1,4 @@
-"""`PACKAGE.cfg` and `PACKAGE.cfg.NAMEConfig`: what catkin generates from a package's `cfg/NAME.cfg`."""
+"""`PACKAGE.cfg` and `PACKAGE.cfg.NAMEConfig`, which catkin generates from a package's `cfg/NAME.cfg`."""
 
 import os
 from importlib.machinery import ModuleSpec
@@ -13,12 +13,12 @@ class _ConfigReader(Protocol):
     """Functions of `dynamic_reconfigure.config_reader`."""
 
     def config_namespace(self, package: str, file: Path) -> dict[str, Any]:
-        """Names of the module that is generated from a .cfg file."""
+        """Namespace of the module that is generated from a .cfg file."""
         ...
 
 
 class _Loader:
-    """Loader of a generated module; without a file, of the package that holds them."""
+    """Loader of a generated module, or without a file of the package `PACKAGE.cfg`."""
 
     def __init__(self, package: str, file: Path | None) -> None:
         self._package = package
@@ -38,7 +38,7 @@ class _Loader:
 
 
 def find_cfg(fullname: str, package: str, name: str) -> ModuleSpec | None:
-    """Find the module of a package's configurations, or of one; None if the package has no such file."""
+    """Find `PACKAGE.cfg`, or with a name one of its modules; None if the package has no such file."""
     folder = find_package(package)
     if folder is None or not os.path.isdir(folder / "cfg"):
         return None

@@ -15,8 +15,8 @@ RUN_PYTHON2 = Path(__file__).parent / "python2/run.py"
 """Script that translates and runs a Python 2 script."""
 
 
-def own_libraries() -> str:
-    """Return the value of `LIBRARIES` for this Python."""
+def python_libraries() -> str:
+    """Value of `LIBRARIES` for this Python."""
     return f"{sys.implementation.cache_tag}:{sysconfig.get_path('purelib')}"
 
 
@@ -28,8 +28,8 @@ def with_finder(env: Mapping[str, str], package_folders: Iterable[Path] = ()) ->
         package_folders: folders of ROS packages, for ROS_PACKAGE_PATH where it is not set.
     """
     path = [folder for folder in env.get("PYTHONPATH", "").split(os.pathsep) if folder and folder != str(SITE)]
-    made = {**env, "PYTHONPATH": os.pathsep.join([str(SITE), *path]), LIBRARIES: own_libraries()}
+    result = {**env, "PYTHONPATH": os.pathsep.join([str(SITE), *path]), LIBRARIES: python_libraries()}
     folders = os.pathsep.join(map(str, package_folders))
     if folders and not env.get("ROS_PACKAGE_PATH"):
-        made["ROS_PACKAGE_PATH"] = folders
-    return made
+        result["ROS_PACKAGE_PATH"] = folders
+    return result

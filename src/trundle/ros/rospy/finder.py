@@ -1,7 +1,7 @@
-"""Finder at the end of `sys.meta_path`: what is installed wins.
+"""Finder at the end of `sys.meta_path`: installed packages win.
 
 It serves the packages in `modules/`, the Python modules of the ROS packages around the program, and `PACKAGE.msg` and
-`PACKAGE.srv` made from definitions. Loaded at the start of every process, so it imports the rest on first use.
+`PACKAGE.srv` generated from definitions. Loaded at the start of every process, so it imports the rest on first use.
 """
 
 import os
@@ -23,9 +23,9 @@ _MESSAGES = os.path.join(_HERE, "../../assets/messages")
 _BUNDLES, _DEFINITIONS = os.path.join(_MESSAGES, "standard"), os.path.join(_MESSAGES, "definitions")
 _KINDS = ("msg", "srv")
 _PARTIAL = frozenset({"genmsg", "genpy", "roslib", "rosunit"})
-"""Packages of which `missing_modules` lists modules."""
+"""Packages with modules that `missing_modules` lists."""
 _NOT_SEARCHED = frozenset({"java", "org", "sitecustomize", "trundle", "usercustomize"})
-"""Names that are in no ROS package; copy, pickle and platform try Jython's."""
+"""Names that no ROS package has; copy, pickle and platform try Jython's."""
 
 
 class RosFinder:
@@ -38,11 +38,11 @@ class RosFinder:
     def find_spec(
         self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Find a module; None if it is not one of ROS."""
+        """Find a module; None if it is not one of ROS' modules."""
         del path, target
         package, dot, rest = fullname.partition(".")
         if not dot:
-            return _find_shipped(fullname) or self._find_own(fullname)
+            return _find_shipped(fullname) or self._find_in_workspace(fullname)
         kind, _, name = rest.partition(".")
         if kind in _KINDS and (not name or name.startswith("_")):
             return self._find_messages(fullname, package, kind, name[1:])
@@ -73,13 +73,13 @@ class RosFinder:
         return self._search(find)
 
     def _defines(self, package: str) -> bool:
-        return _is_shipped(package) or bool(self._search(lambda: _defines_own(package)))
+        return _is_shipped(package) or bool(self._search(lambda: _has_definitions(package)))
 
-    def _find_own(self, name: str) -> ModuleSpec | None:
+    def _find_in_workspace(self, name: str) -> ModuleSpec | None:
         """Find a module or message package of the ROS packages around the program."""
         if name.startswith("_") or name in sys.stdlib_module_names or name in _NOT_SEARCHED:
             return None
-        return self._search(lambda: _find_own(name))
+        return self._search(lambda: _find_in_workspace(name))
 
     def _search(self, find: "Callable[[], Any]") -> "Any":
         if self._is_searching:
@@ -96,10 +96,10 @@ def install() -> None:
     if any(isinstance(finder, RosFinder) for finder in sys.meta_path):
         return
     sys.meta_path.append(RosFinder())
-    before = sys.excepthook
+    previous = sys.excepthook
 
     def advise(kind: type[BaseException], error: BaseException, trace: "TracebackType | None") -> None:
-        before(kind, error, trace)
+        previous(kind, error, trace)
         if isinstance(error, Exception):
             from .missing_libraries import advice
 
@@ -110,7 +110,7 @@ def install() -> None:
 
 
 def _loader(loader: "Any") -> "Loader":
-    """Loader by its methods; importlib.abc takes long to import."""
+    """Type a loader by its methods, as importlib.abc takes long to import."""
     return loader
 
 
@@ -125,41 +125,41 @@ class _MessagePackage:
 
 
 def _find_shipped(name: str) -> ModuleSpec | None:
-    found = PathFinder.find_spec(name, [MODULES]) if os.path.exists(os.path.join(MODULES, name)) else None
-    if found is None:
+    spec = PathFinder.find_spec(name, [MODULES]) if os.path.exists(os.path.join(MODULES, name)) else None
+    if spec is None:
         path = os.path.join(MODULES, f"{name}.py")
-        found = PathFinder.find_spec(name, [MODULES]) if os.path.isfile(path) else None
-    if found is not None and found.origin is not None:
-        return found
-    return _message_package(name, found) if found is not None or _is_shipped(name) else None
+        spec = PathFinder.find_spec(name, [MODULES]) if os.path.isfile(path) else None
+    if spec is not None and spec.origin is not None:
+        return spec
+    return _message_package(name, spec) if spec is not None or _is_shipped(name) else None
 
 
-def _find_own(name: str) -> ModuleSpec | None:
+def _find_in_workspace(name: str) -> ModuleSpec | None:
     from .package_folders import find_module
 
     path = find_module(name)
     if path is None:
-        return _message_package(name, None) if _defines_own(name) or _has_cfg(name) else None
+        return _message_package(name, None) if _has_definitions(name) or _has_cfg(name) else None
     from .python2.loader import with_translation
 
-    found = with_translation(
+    spec = with_translation(
         PathFinder.find_spec(name, [str(path.parent)]) if path.stem == name else _package_at(name, str(path))
     )
-    return found if found is None or found.origin is not None else _message_package(name, found)
+    return spec if spec is None or spec.origin is not None else _message_package(name, spec)
 
 
 def _package_at(name: str, folder: str) -> ModuleSpec | None:
-    """Package in a folder of another name, as setup.py's package_dir allows."""
+    """Package in a folder of another name, by setup.py's package_dir."""
     from importlib.util import spec_from_file_location
 
     init = os.path.join(folder, "__init__.py")
     return spec_from_file_location(name, init, submodule_search_locations=[folder]) if os.path.isfile(init) else None
 
 
-def _message_package(name: str, found: ModuleSpec | None) -> ModuleSpec:
+def _message_package(name: str, folder_spec: ModuleSpec | None) -> ModuleSpec:
     spec = ModuleSpec(name, _loader(_MessagePackage()), is_package=True)
-    if found is not None and found.submodule_search_locations is not None:
-        spec.submodule_search_locations = list(found.submodule_search_locations)
+    if folder_spec is not None and folder_spec.submodule_search_locations is not None:
+        spec.submodule_search_locations = list(folder_spec.submodule_search_locations)
     return spec
 
 
@@ -169,7 +169,7 @@ def _is_shipped(package: str) -> bool:
     )
 
 
-def _defines_own(package: str) -> bool:
+def _has_definitions(package: str) -> bool:
     from .message_sources import find_definitions
 
     return not find_definitions(package).is_empty

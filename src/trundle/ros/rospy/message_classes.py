@@ -1,4 +1,4 @@
-"""Classes of messages and services as genpy generates them, made from definitions."""
+"""Classes of messages and services, generated from definitions as by genpy."""
 
 import keyword
 import threading
@@ -50,10 +50,10 @@ def message_spec(type_name: str) -> MessageSpec:
     text = find_definitions(package).message(name)
     if text is None:
         raise MessageError(f"no message type {type_name!r}; put its package on ROS_PACKAGE_PATH")
-    return parsed(type_name, text)
+    return parse_definition(type_name, text)
 
 
-def parsed(type_name: str, text: str) -> MessageSpec:
+def parse_definition(type_name: str, text: str) -> MessageSpec:
     """Parse a definition; its errors name the type and the line.
 
     Raises:
@@ -71,20 +71,20 @@ def classes_from_text(type_name: str, definition: str) -> dict[str, type[Any]]:
     Raises:
         MessageError: the definition is invalid.
     """
-    own, *others = definition.split("=" * 80 + "\n")
-    specs = {type_name: parsed(type_name, own.removesuffix("\n"))}
+    main, *others = definition.split("=" * 80 + "\n")
+    specs = {type_name: parse_definition(type_name, main.removesuffix("\n"))}
     for other in others:
         head, _, text = other.partition("\n")
         name = head.removeprefix("MSG: ").strip()
-        specs[name] = parsed(name, text)
+        specs[name] = parse_definition(name, text)
 
     def find(name: str) -> MessageSpec:
         return specs.get(name) or message_spec(name)
 
-    made: dict[str, type[Any]] = {}
+    classes: dict[str, type[Any]] = {}
     for spec in specs.values():
-        _make(spec, find, "msg", made)
-    return made
+        _make(spec, find, "msg", classes)
+    return classes
 
 
 def _make_service(type_name: str) -> type[Any]:
@@ -93,7 +93,7 @@ def _make_service(type_name: str) -> type[Any]:
     if text is None:
         raise MessageError(f"no service type {type_name!r}; put its package on ROS_PACKAGE_PATH")
     halves = [
-        parsed(f"{type_name}{half}", part)
+        parse_definition(f"{type_name}{half}", part)
         for half, part in zip(("Request", "Response"), service_halves(text), strict=True)
     ]
     request, response = (_make(half, message_spec, "srv", module=f"{package}.srv._{name}") for half in halves)
@@ -115,17 +115,17 @@ def _make(
     spec: MessageSpec,
     find: Callable[[str], MessageSpec],
     kind: str,
-    made: dict[str, type[Any]] | None = None,
+    classes: dict[str, type[Any]] | None = None,
     *,
     module: str | None = None,
 ) -> type[Any]:
     """Make the class of a definition, after those of its fields."""
-    made = _classes if made is None else made
-    if spec.type in made:
-        return made[spec.type]
+    classes = _classes if classes is None else classes
+    if spec.type in classes:
+        return classes[spec.type]
     md5 = md5sum(spec, find)  # also refuses a type that contains itself
     inner = {
-        field.base: _make(find(field.base), find, "msg", made) if field.is_message else _TIMES[field.base]
+        field.base: _make(find(field.base), find, "msg", classes) if field.is_message else _TIMES[field.base]
         for field in spec.fields
         if field.is_message or field.base in _TIMES
     }
@@ -145,8 +145,8 @@ def _make(
         "__module__": module or f"{package}.{kind}._{name}",
         "__qualname__": name,
     }
-    made[spec.type] = type(name, (genpy.Message,), attributes)
-    return made[spec.type]
+    classes[spec.type] = type(name, (genpy.Message,), attributes)
+    return classes[spec.type]
 
 
 def attribute(field: Field) -> str:
@@ -159,7 +159,7 @@ def _initializer(spec: MessageSpec, inner: dict[str, type[Any]]) -> Callable[...
 
     Names in the code are those of fields, checked when the definition was parsed.
     """
-    names = {f"_t{number}": made for number, made in enumerate(inner.values())}
+    names = {f"_t{number}": cls for number, cls in enumerate(inner.values())}
     classes = dict(zip(inner, names, strict=True))
     fields = [(attribute(field), _default(field, classes)) for field in spec.fields]
     lines = ["def __init__(self, *args, **kwds):", "    if args or kwds:", "        _base(self, *args, **kwds)"]

@@ -1,7 +1,7 @@
 """Methods of every message class: serialization by the compiled codec.
 
-Values that it refuses and Python's `struct` takes (numpy arrays of other types, ranges, …) are written here, and what
-neither takes is named as genpy names it.
+Values that only Python's `struct` accepts (numpy arrays of other types, ranges, …) are serialized here; errors for
+other values are genpy's.
 """
 
 import struct
@@ -29,27 +29,27 @@ _TIME_LAYOUTS = {
 
 def codec(cls: Any) -> _message_codec.MessageCodec:
     """Codec of a message class, with arrays as genpy reads them; compiled on first use."""
-    found = cls.__dict__.get("_codec")
-    if found is None:
-        found = cls._codec = _compile(cls, plain_arrays=True)
-    return found
+    compiled = cls.__dict__.get("_codec")
+    if compiled is None:
+        compiled = cls._codec = _compile(cls, plain_arrays=True)
+    return compiled
 
 
 def numpy_codec(cls: Any) -> _message_codec.MessageCodec:
     """Codec of a message class that reads arrays of numbers as numpy arrays."""
-    found = cls.__dict__.get("_numpy_codec")
-    if found is None:
-        found = cls._numpy_codec = _compile(cls, plain_arrays=False)
-    return found
+    compiled = cls.__dict__.get("_numpy_codec")
+    if compiled is None:
+        compiled = cls._numpy_codec = _compile(cls, plain_arrays=False)
+    return compiled
 
 
 def is_plain(cls: Any) -> bool:
-    """True if a class serializes and deserializes as made here."""
+    """True if a class has the `serialize` and `deserialize` of this module."""
     return all(getattr(cls, name, None) is METHODS[name] for name in ("serialize", "deserialize"))
 
 
 def has_only_bytes(cls: Any) -> bool:
-    """True if a class is made here and its arrays of numbers are bytes, as in images and clouds of points."""
+    """True if a class is plain and its arrays of numbers are bytes, as in images and point clouds."""
     if not is_plain(cls):
         return False
     fields = cls._spec.fields
@@ -59,7 +59,7 @@ def has_only_bytes(cls: Any) -> bool:
 
 
 def encode(message: Any) -> bytes:
-    """Serialize a message of a class made here.
+    """Serialize a message of a generated class.
 
     Raises:
         genpy.SerializationError: a value does not fit its field; the text names the field.
@@ -120,7 +120,7 @@ def _write_one(base: str, value: Any, parts: list[bytes]) -> None:
     if base in _NUMBER_FORMATS:
         parts.append(struct.pack(f"<{_NUMBER_FORMATS[base]}", value))
     elif base == "string":
-        len(value)  # for its TypeError; what has a length and is no text raises AttributeError, as with genpy
+        len(value)  # raises TypeError as genpy; other values with a length raise AttributeError
         data = value if isinstance(value, bytes) else value.encode()
         parts += (struct.pack("<I", len(data)), data)
     elif base in _TIME_FORMATS:
@@ -157,7 +157,7 @@ def _add_layout(cls: Any, layouts: dict[str, Any]) -> int:
     return len(layouts) - 1
 
 
-# The methods, with the parameter names that genpy's have.
+# The methods, with genpy's parameter names.
 
 
 def _serialize(self: Any, buff: BinaryIO) -> None:

@@ -25,7 +25,7 @@ _PARTS = ("Action", "ActionGoal", "ActionResult", "ActionFeedback", "Goal", "Res
 
 
 class DefinitionFolder:
-    """Definitions in one folder with `msg/`, `srv/` and `action/`; read when asked for."""
+    """Definitions in one folder with `msg/`, `srv/` and `action/`; read on first use."""
 
     def __init__(self, package: str, folder: Path) -> None:
         self._package = package
@@ -63,7 +63,7 @@ class DefinitionFolder:
 
 
 class PublishedDefinitions:
-    """Definitions of a published package that is not here."""
+    """Definitions of a published package that is not on this machine."""
 
     def __init__(self, package: str) -> None:
         self.messages: dict[str, str] = {}
@@ -85,7 +85,7 @@ class PublishedDefinitions:
 
 
 class PackageDefinitions:
-    """Definitions of one package; the package's own folder is searched for what is not shipped."""
+    """Definitions of one package: shipped ones, and those in the package's folder."""
 
     def __init__(self, package: str) -> None:
         self._package = package
@@ -93,7 +93,7 @@ class PackageDefinitions:
         self._shipped = DefinitionFolder(package, _FOLDERS / package)
 
     @cached_property
-    def _own(self) -> DefinitionFolder | PublishedDefinitions:
+    def _unshipped(self) -> DefinitionFolder | PublishedDefinitions:
         folder = find_package(self._package)
         return PublishedDefinitions(self._package) if folder is None else DefinitionFolder(self._package, folder)
 
@@ -107,10 +107,10 @@ class PackageDefinitions:
         return not (self.names("msg") or self.names("srv"))
 
     def names(self, kind: str) -> list[str]:
-        """Names of the messages (`msg`) or services (`srv`): the shipped ones if there are any, else its own."""
-        folder = self._shipped if self._is_shipped else self._own
-        found = folder.messages if kind == "msg" else folder.services
-        return sorted({*found, *(self._bundle if kind == "msg" else ())})
+        """Names of the messages (`msg`) or services (`srv`): the shipped ones if any, else those in its folder."""
+        folder = self._shipped if self._is_shipped else self._unshipped
+        names = folder.messages if kind == "msg" else folder.services
+        return sorted({*names, *(self._bundle if kind == "msg" else ())})
 
     def message(self, name: str) -> str | None:
         """Text of a message; None if the package has none of this name.
@@ -120,7 +120,7 @@ class PackageDefinitions:
         """
         text = self._bundle.get(name)
         text = self._shipped.message(name) if text is None else text
-        return self._own.message(name) if text is None else text
+        return self._unshipped.message(name) if text is None else text
 
     def service(self, name: str) -> str | None:
         """Text of a service; None if the package has none of this name.
@@ -129,7 +129,7 @@ class PackageDefinitions:
             MessageError: its file cannot be read.
         """
         text = self._shipped.service(name)
-        return self._own.service(name) if text is None else text
+        return self._unshipped.service(name) if text is None else text
 
 
 @cache

@@ -15,12 +15,12 @@ _NUMBERS = tuple(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32
 PRIMITIVES = frozenset({"bool", "byte", "char", "string", "float32", "float64", "time", "duration", *_NUMBERS})
 SEPARATOR = "=" * 80
 _MAX_FIELDS = 5_000
-_DEEPEST = 100
+_MAX_DEPTH = 100
 """Limit of nested messages, far above real types."""
 
 
 class Constant(NamedTuple):
-    """A constant: name, type, value as written, value."""
+    """A constant: name, type, text of the value, value."""
 
     name: str
     type: str
@@ -110,13 +110,13 @@ def canonical_text(spec: MessageSpec, find: FindSpec, depth: int = 0) -> str:
     Raises:
         DefinitionError: the type contains itself.
     """
-    if depth > _DEEPEST:
+    if depth > _MAX_DEPTH:
         raise DefinitionError(1, f"{spec.type} contains itself, or nests too many messages")
     lines = [f"{constant.type} {constant.name}={constant.text}" for constant in spec.constants]
     for field in spec.fields:
         if field.is_message:
-            inner = md5(canonical_text(find(field.base), find, depth + 1).encode()).hexdigest()
-            lines.append(f"{inner} {field.name}")
+            field_md5 = md5(canonical_text(find(field.base), find, depth + 1).encode()).hexdigest()
+            lines.append(f"{field_md5} {field.name}")
         else:
             lines.append(f"{field.type} {field.name}")
     return "\n".join(lines)
@@ -130,15 +130,15 @@ def full_text(spec: MessageSpec, find: FindSpec) -> str:
 
 def _dependencies(spec: MessageSpec, find: FindSpec) -> Iterator[MessageSpec]:
     """All types that a type contains, each once, depth first."""
-    found: set[str] = set()
+    visited: set[str] = set()
     waiting = [field.base for field in spec.fields if field.is_message]
     while waiting:
         name = waiting.pop(0)
-        if name not in found:
-            found.add(name)
-            inner = find(name)
-            yield inner
-            waiting = [*(field.base for field in inner.fields if field.is_message), *waiting]
+        if name not in visited:
+            visited.add(name)
+            spec = find(name)
+            yield spec
+            waiting = [*(field.base for field in spec.fields if field.is_message), *waiting]
 
 
 def _field(line: str, package: str, number: int) -> Field:

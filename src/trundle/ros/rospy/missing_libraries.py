@@ -25,7 +25,7 @@ _PYPI = {
     "zmq": "pyzmq",
 }
 """Module → PyPI's name, where they differ."""
-_OF_THE_SYSTEM = {
+_SYSTEM_MODULES = {
     "gi": "apt install python3-gi",
     "tkinter": "apt install python3-tk",
     "RPi": "it is the Raspberry Pi's",
@@ -35,31 +35,31 @@ _OF_THE_SYSTEM = {
 
 
 def advice(error: Exception) -> str | None:
-    """Return how to go on after the error that ended a program; None if nothing is known."""
+    """Return advice for the error that ended a program, or None."""
     from .python2.advice import python2_advice
 
     return python2_advice(error) or library_advice(error)
 
 
 def library_advice(error: BaseException) -> str | None:
-    """Return what brings the module that a program lacks; None if the error is another."""
+    """Return how to install the module that a program lacks; None for another error."""
     if not isinstance(error, ModuleNotFoundError) or not error.name:
         return None
     return missing_module_advice(error.name, has_messages=_is_imported_for_messages(error.name, error))
 
 
 def _is_imported_for_messages(module: str, error: ModuleNotFoundError) -> bool:
-    """True if the failing line imports the module's messages, services or options, which ROS packages have."""
+    """True if the failing line imports the module's messages, services or options, as of a ROS package."""
     lines = (frame.line or "" for frame in traceback.extract_tb(error.__traceback__))
-    wanted = re.compile(rf"\b{re.escape(module)}\.(?:msg|srv|cfg)\b")
-    return any(wanted.search(line) for line in lines)
+    import_pattern = re.compile(rf"\b{re.escape(module)}\.(?:msg|srv|cfg)\b")
+    return any(import_pattern.search(line) for line in lines)
 
 
 def missing_module_advice(module: str, *, has_messages: bool = False) -> str:
-    """Return what brings a module that is not found; `has_messages`: a ROS package has it, published or not."""
+    """Return how to install a module that is not found; `has_messages`: it belongs to a ROS package."""
     name = module.partition(".")[0]
-    if name in _OF_THE_SYSTEM:
-        return f"trundle: no module {name!r}: {_OF_THE_SYSTEM[name]}"
+    if name in _SYSTEM_MODULES:
+        return f"trundle: no module {name!r}: {_SYSTEM_MODULES[name]}"
     from trundle.robots.repositories import shipped_index
 
     if name not in _PYPI and shipped_index().find(name, "noetic") is not None:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from trundle.robots.packages import Packages
 
 _MANIFESTS = ("package.xml", "manifest.xml", ".catkin_workspace")
-_DEEPEST = 8
+_MAX_PARENTS = 8
 
 
 def find_package(name: str) -> Path | None:
@@ -23,7 +23,7 @@ def find_package(name: str) -> Path | None:
 def find_module(name: str) -> Path | None:
     """Find a top-level Python module of a ROS package: the folder of a package, or a file.
 
-    As after catkin's build: what a setup.py lists; without setup.py, `src/NAME` of the package NAME.
+    As after catkin's build: the modules that setup.py lists; without setup.py `src/NAME` of the package NAME.
     """
     return _modules().get(name)
 
@@ -49,20 +49,20 @@ def _program_folder() -> Path | None:
 
 
 def _is_in_workspace(folder: Path) -> bool:
-    above = [folder, *folder.parents][:_DEEPEST]
-    return any(os.path.exists(parent / name) for parent in above for name in _MANIFESTS) or any(
-        os.path.isfile(parent / "src/CMakeLists.txt") for parent in above
+    parents = [folder, *folder.parents][:_MAX_PARENTS]
+    return any(os.path.exists(parent / name) for parent in parents for name in _MANIFESTS) or any(
+        os.path.isfile(parent / "src/CMakeLists.txt") for parent in parents
     )
 
 
 @cache
 def _modules() -> "Mapping[str, Path]":
-    found: dict[str, Path] = {}
+    modules: dict[str, Path] = {}
     for packages in _packages():
         for name, folder in packages.ros_packages().items():
             for module, path in package_modules(name, folder):
-                found.setdefault(module, path)
-    return found
+                modules.setdefault(module, path)
+    return modules
 
 
 def package_modules(package: str, folder: Path) -> "Iterator[tuple[str, Path]]":
@@ -71,6 +71,6 @@ def package_modules(package: str, folder: Path) -> "Iterator[tuple[str, Path]]":
         from .setup_file import read_setup
 
         yield from read_setup(folder / "setup.py")
-    own = folder / "src" / package
-    if os.path.isfile(own / "__init__.py"):
-        yield package, own
+    source = folder / "src" / package
+    if os.path.isfile(source / "__init__.py"):
+        yield package, source

@@ -1,4 +1,4 @@
-"""Python modules that a package's setup.py lists for catkin; the file is parsed, not run."""
+"""Python modules that a package's setup.py lists for catkin, by parsing the file, not running it."""
 
 import ast
 import os
@@ -9,7 +9,7 @@ from typing import Any
 from trundle.base.files import read_text
 
 _MAX_BYTES = 1_000_000
-_WANTED = ("packages", "package_dir", "py_modules")
+_KEYWORDS = ("packages", "package_dir", "py_modules")
 
 
 def read_setup(setup: Path) -> Iterator[tuple[str, Path]]:
@@ -18,21 +18,21 @@ def read_setup(setup: Path) -> Iterator[tuple[str, Path]]:
         tree = ast.parse(read_text(setup, max_bytes=_MAX_BYTES))
     except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):
         return
-    given = _keywords(tree)
-    folders: dict[str, str] = given.get("package_dir") or {}
-    for name in dict.fromkeys(str(name).partition(".")[0] for name in given.get("packages") or ()):
+    arguments = _keywords(tree)
+    folders: dict[str, str] = arguments.get("package_dir") or {}
+    for name in dict.fromkeys(str(name).partition(".")[0] for name in arguments.get("packages") or ()):
         path = setup.parent / folders.get(name, os.path.join(folders.get("", ""), name))
         if os.path.isdir(path):
             yield name, path
-    for name in given.get("py_modules") or ():
+    for name in arguments.get("py_modules") or ():
         path = setup.parent / folders.get("", "") / f"{str(name).replace('.', '/')}.py"
         if os.path.isfile(path):
             yield str(name), path
 
 
 def _keywords(tree: ast.AST) -> dict[str, Any]:
-    """Literal values of setup's keywords: of any call, and of `d['packages'] = …`."""
-    found: dict[str, Any] = {}
+    """Literal values of setup's keywords, in any call, and in `d['packages'] = …`."""
+    values: dict[str, Any] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.Call):
             pairs = [(keyword.arg, keyword.value) for keyword in node.keywords]
@@ -42,9 +42,9 @@ def _keywords(tree: ast.AST) -> dict[str, Any]:
         else:
             continue
         for name, value in pairs:
-            if name in _WANTED:
+            if name in _KEYWORDS:
                 try:
-                    found[str(name)] = ast.literal_eval(value)
+                    values[str(name)] = ast.literal_eval(value)
                 except (ValueError, TypeError, SyntaxError, RecursionError, MemoryError):
                     continue
-    return {name: value for name, value in found.items() if isinstance(value, dict if name == "package_dir" else list)}
+    return {name: value for name, value in values.items() if isinstance(value, dict if name == "package_dir" else list)}

@@ -1,1 +1,1 @@
-"""Python 2 programs: detected, translated in memory, run with Python 2's names. Entry points are the modules."""
+"""Python 2 programs: detected, translated in memory, and run with Python 2's names."""

@@ -1,4 +1,4 @@
-"""Advice for a Python 2 program that was started by Python 3 itself, which does not translate it."""
+"""Advice for a Python 2 program that Python 3 ran without translation."""
 
 import os
 import shlex
@@ -9,26 +9,26 @@ from trundle.ros.rospy.environment import RUN_PYTHON2
 
 from .cache import changes, is_python2_file
 
-_OF_PYTHON2 = (SyntaxError, NameError, ModuleNotFoundError, AttributeError, TypeError)
-"""Errors that Python 3 raises for what only Python 2 has."""
+_PYTHON2_ERRORS = (SyntaxError, NameError, ModuleNotFoundError, AttributeError, TypeError)
+"""Errors that Python 3 raises for Python 2's syntax and names."""
 
 
 def python2_advice(error: BaseException) -> str | None:
-    """Return how to run the program that raised an error; None if neither it nor its faulty module is Python 2."""
+    """Return how to run the program that raised an error; None if neither it nor the faulty module is Python 2."""
     program = sys.argv[0] if getattr(sys, "argv", None) else ""
-    if not isinstance(error, _OF_PYTHON2) or not os.path.isfile(program):
+    if not isinstance(error, _PYTHON2_ERRORS) or not os.path.isfile(program):
         return None
     files = (program, error.filename if isinstance(error, SyntaxError) else None)
-    found = next((file for file in files if file and file.endswith(".py") and _is_python2(file)), None)
-    if found is None:
+    python2_file = next((file for file in files if file and file.endswith(".py") and _is_python2(file)), None)
+    if python2_file is None:
         return None
     words = shlex.join([*_command(Path(os.path.realpath(program))), *sys.argv[1:]])
-    return f"trundle: {found} is Python 2; this runs it, translated: {words}"
+    return f"trundle: {python2_file} is Python 2; this runs it, translated: {words}"
 
 
 def _is_python2(file: str) -> bool:
     try:
-        changes(file)  # raises for a program that is wrong in both
+        changes(file)  # raises for a program that is invalid in both
     except (OSError, SyntaxError):
         return False
     return is_python2_file(file)

@@ -1,4 +1,4 @@
-"""Which files are Python 2, and their code; both are kept below the user's cache folder."""
+"""Detection and translation of Python 2 files, cached below the user's cache folder."""
 
 import contextlib
 import hashlib
@@ -15,16 +15,16 @@ from trundle.base.files import read_file
 from trundle.base.ownership import home_folder, is_owned_by_user
 
 _VERSION = 3
-"""Raised when the same file is translated otherwise."""
+"""Version of the translation, raised when its result changes."""
 _IS_PYTHON3 = b"3"
-"""Kept for a file that needs no translation."""
+"""Cached content for a file that needs no translation."""
 _MAX_BYTES = 4_000_000
 _MAX_FILES = 500
-_said: list[str] = []
+_announced: list[str] = []
 
 
 def is_python2_file(path: str | os.PathLike[str], *, in_package: bool = False) -> bool:
-    """True if a file is Python 2 source; False for what cannot be read. Arguments are those of `translated_code`."""
+    """True if a file is Python 2 source; False if it cannot be read. Arguments: see `translated_code`."""
     try:
         data = read_file(path, max_bytes=_MAX_BYTES)
     except OSError:
@@ -32,41 +32,41 @@ def is_python2_file(path: str | os.PathLike[str], *, in_package: bool = False) -
     if b"\0" in data:
         return False
     file = _file(data, path, in_package)
-    kept = _kept(file)
-    if kept is not None:
-        return kept != _IS_PYTHON3
+    cached = _read_cache(file)
+    if cached is not None:
+        return cached != _IS_PYTHON3
     from .detect import is_python2
 
     if not is_python2(_text(data)):
-        _keep(file, _IS_PYTHON3)
+        _write_cache(file, _IS_PYTHON3)
         return False
     return True
 
 
 def translated_code(path: str | os.PathLike[str], *, in_package: bool = False) -> CodeType:
-    """Code of a Python 2 file, with its name and lines; the first of a process is named on standard error.
+    """Code of a Python 2 file, with its name and lines; the first file of a process is named on standard error.
 
     Args:
-        path: of the file.
-        in_package: it is imported as a module of a package.
+        path: file's path.
+        in_package: True for a module of a package.
 
     Raises:
-        SyntaxError: it is neither Python 2 nor Python 3.
+        SyntaxError: the file is neither Python 2 nor Python 3.
     """
     data = read_file(path, max_bytes=_MAX_BYTES)
     file = _file(data, path, in_package)
-    kept = _kept(file)
-    if kept is not None:
+    cached = _read_cache(file)
+    if cached is not None:
         with contextlib.suppress(ValueError, EOFError, TypeError):
-            code = marshal.loads(kept)
+            code = marshal.loads(cached)
             if isinstance(code, CodeType):
-                _say(path)
+                _announce(path)
                 return code
     from .translate import compile_translated
 
     code = compile_translated(_text(data), os.fspath(path), in_package=in_package)
-    _keep(file, marshal.dumps(code))
-    _say(path)
+    _write_cache(file, marshal.dumps(code))
+    _announce(path)
     return code
 
 
@@ -77,15 +77,15 @@ def changes(path: str | os.PathLike[str]) -> str:
     return show_changes(_text(read_file(path)), os.fspath(path)) if is_python2_file(path) else ""
 
 
-def _say(path: str | os.PathLike[str]) -> None:
-    if not _said:
-        _said.append(os.fspath(path))
-        what = "is Python 2: translated; --show-translation prints what changed"
-        print(f"{_said[0]} {what}", file=sys.stderr, flush=True)
+def _announce(path: str | os.PathLike[str]) -> None:
+    if not _announced:
+        _announced.append(os.fspath(path))
+        text = "is Python 2: translated; --show-translation prints the changes"
+        print(f"{_announced[0]} {text}", file=sys.stderr, flush=True)
 
 
 def _text(data: bytes) -> str:
-    """Decode by its coding line; without one as UTF-8, and what is not that as Latin-1."""
+    """Decode by the coding line, else as UTF-8, else as Latin-1."""
     try:
         encoding, _ = tokenize.detect_encoding(io.BytesIO(data).readline)
         return data.decode(encoding)
@@ -99,7 +99,7 @@ def _file(data: bytes, path: str | os.PathLike[str], in_package: bool) -> Path:
     return Path(root) / "trundle" / "python2" / hashlib.sha256(key).hexdigest()
 
 
-def _kept(file: Path) -> bytes | None:
+def _read_cache(file: Path) -> bytes | None:
     if not is_owned_by_user(file.parent):  # another user's file could be any code
         return None
     try:
@@ -108,14 +108,14 @@ def _kept(file: Path) -> bytes | None:
         return None
 
 
-def _keep(file: Path, content: bytes) -> None:
+def _write_cache(file: Path, content: bytes) -> None:
     with contextlib.suppress(OSError):
         file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         if not is_owned_by_user(file.parent):
             return
-        half = file.with_name(f"{file.name}.{os.getpid()}")
-        half.write_bytes(content)
-        os.replace(half, file)
-        kept = list(file.parent.iterdir())
-        if len(kept) > _MAX_FILES:
-            min(kept, key=lambda each: each.stat().st_mtime).unlink()
+        part = file.with_name(f"{file.name}.{os.getpid()}")
+        part.write_bytes(content)
+        os.replace(part, file)
+        files = list(file.parent.iterdir())
+        if len(files) > _MAX_FILES:
+            min(files, key=lambda cached_file: cached_file.stat().st_mtime).unlink()

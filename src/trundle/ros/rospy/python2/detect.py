@@ -1,4 +1,4 @@
-"""Detects Python 2 source: it does not compile as Python 3, or uses names that only Python 2 has."""
+"""Detects Python 2 source, which does not compile as Python 3 or uses names that only Python 2 has."""
 
 import ast
 import re
@@ -12,7 +12,7 @@ _HINTS = re.compile(
     r"|time\.clock)\b"
 )
 _BOTH = re.compile(r"\bversion_info\b|\bPY[23]\b|\bsix\b|\bfuture\.|\bbuiltins\b|\bperf_counter\b|\bprocess_time\b")
-"""Names in programs that are made for both."""
+"""Names in programs for both versions."""
 _NAMES = frozenset(
     {"raw_input", "xrange", "unicode", "unichr", "basestring", "long", "execfile", "cmp", "reduce", "reload", "file"}
 )
@@ -25,12 +25,12 @@ _MODULES = frozenset(
 
 
 def is_python2(source: str) -> bool:
-    """True if a text is Python 2 and not Python 3."""
+    """True if source is Python 2 and not Python 3."""
     if _SHEBANG.match(source):
         return True
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of escapes in strings; compiling it shows them
+            warnings.simplefilter("ignore")  # about escapes in strings; compiling shows them
             tree = ast.parse(source)
     except (SyntaxError, ValueError):
         return True
@@ -48,7 +48,7 @@ def _uses_python2(tree: ast.Module) -> bool:
                 return True
             case ast.ImportFrom(module=str(module), level=0) if module in _MODULES:
                 return True
-            case ast.Call(func=ast.Attribute(value=ast.Name(id="time"), attr="clock")):  # gone since Python 3.8
+            case ast.Call(func=ast.Attribute(value=ast.Name(id="time"), attr="clock")):  # removed in Python 3.8
                 return True
             case ast.Attribute(attr=name) if name in _ATTRIBUTES:
                 names.add(name)
@@ -72,10 +72,10 @@ def _is_fallback(node: ast.Try) -> bool:
     """True if a missing module or name is caught, as in programs for both."""
     kinds = [handler.type for handler in node.handlers if handler.type is not None]
     caught = {name.id for kind in kinds for name in ast.walk(kind) if isinstance(name, ast.Name)}
-    statements = [*node.body, *(each for handler in node.handlers for each in handler.body)]
-    tried = [each for each in statements if isinstance(each, ast.Import | ast.ImportFrom)]
+    statements = [*node.body, *(statement for handler in node.handlers for statement in handler.body)]
+    imports = [statement for statement in statements if isinstance(statement, ast.Import | ast.ImportFrom)]
     return "NameError" in caught or bool(
-        caught & {"ImportError", "ModuleNotFoundError"} and any(map(_names_python2, tried))
+        caught & {"ImportError", "ModuleNotFoundError"} and any(map(_names_python2, imports))
     )
 
 

@@ -1,4 +1,4 @@
-"""Loads Python 2 modules of the user, translated; Python's own import finds them."""
+"""Loads the user's Python 2 modules translated; Python's own finder finds them."""
 
 import os
 import sys
@@ -10,7 +10,7 @@ _TRUNDLE = os.path.abspath(os.path.join(__file__, "../../../.."))
 _SYSTEM = tuple(
     os.path.join(os.path.realpath(folder), "") for folder in (sys.prefix, sys.base_prefix, "/usr", "/opt/ros", _TRUNDLE)
 )
-"""Folders whose modules are for this Python."""
+"""Folders whose modules are Python 3."""
 
 
 class TranslatingFinder:
@@ -24,7 +24,7 @@ class TranslatingFinder:
 
 
 def with_translation(spec: ModuleSpec | None) -> ModuleSpec | None:
-    """Let a spec's source be translated if it is Python 2 and the user's."""
+    """Replace the loader of a user's module by one that translates Python 2."""
     if spec is None or type(spec.loader) is not SourceFileLoader or spec.origin is None:
         return spec
     if not os.path.realpath(spec.origin).startswith(_SYSTEM):
@@ -35,12 +35,12 @@ def with_translation(spec: ModuleSpec | None) -> ModuleSpec | None:
 def install() -> None:
     """Put the finder before Python's, once."""
     if not any(isinstance(finder, TranslatingFinder) for finder in sys.meta_path):
-        places = [index for index, finder in enumerate(sys.meta_path) if finder is PathFinder]
-        sys.meta_path.insert(places[0] if places else len(sys.meta_path), TranslatingFinder())
+        indices = [index for index, finder in enumerate(sys.meta_path) if finder is PathFinder]
+        sys.meta_path.insert(indices[0] if indices else len(sys.meta_path), TranslatingFinder())
 
 
 class _Loader(SourceFileLoader):
-    """Python's loader of sources; translated code is not kept in __pycache__, where other Pythons would find it."""
+    """Python's source loader; translated code is not cached in __pycache__, where other Pythons would load it."""
 
     _is_translated = False
 

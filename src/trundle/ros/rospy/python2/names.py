@@ -15,17 +15,17 @@ from typing import Any
 
 @cache
 def python2_builtins() -> dict[str, Any]:
-    """Names for a module's `__builtins__`: Python 3's, with Python 2's in place of them."""
-    ours = (apply, cmp, execfile, filter, input, map, ord, reload, round, sorted, unicode, zip, range)
+    """Names for a module's `__builtins__`: Python 3's, replaced and extended by Python 2's."""
+    functions = (apply, cmp, execfile, filter, input, map, ord, reload, round, sorted, unicode, zip, range)
     helpers = (python2_divide, python2_divide_in_place, python2_divisor, python2_string_exception)
-    found = {**vars(builtins), **{each.__name__: each for each in (*ours, *helpers)}}
-    found.update(python2_by=cmp_to_key, basestring=str, long=int, unichr=chr, xrange=builtins.range, reduce=reduce)
-    found.update(raw_input=builtins.input, file=builtins.open, intern=sys.intern, buffer=memoryview)
-    return {**found, "StandardError": Exception}
+    names = {**vars(builtins), **{function.__name__: function for function in (*functions, *helpers)}}
+    names.update(python2_by=cmp_to_key, basestring=str, long=int, unichr=chr, xrange=builtins.range, reduce=reduce)
+    names.update(raw_input=builtins.input, file=builtins.open, intern=sys.intern, buffer=memoryview)
+    return {**names, "StandardError": Exception}
 
 
 def add_module_names() -> None:
-    """Add functions that `sys`, `string` and `time` have in Python 2 and not here."""
+    """Add names that `sys`, `types`, `string` and `time` have only in Python 2."""
     for module, values in (
         (sys, {"setdefaultencoding": _nothing, "exc_clear": _nothing, "maxint": sys.maxsize}),
         (types, {"StringType": str, "StringTypes": (str,), "UnicodeType": str, "IntType": int, "LongType": int}),
@@ -45,7 +45,7 @@ def add_module_names() -> None:
 
 
 def python2_divide(left: Any, right: Any) -> Any:
-    """`/`: ints floor, others divide truly; arrays by their dtypes."""
+    """`/`: floor division of ints and integer arrays, true division of other values."""
     if isinstance(left, int) and isinstance(right, int):
         return left // right
     numpy = sys.modules.get("numpy")
@@ -55,7 +55,7 @@ def python2_divide(left: Any, right: Any) -> Any:
 
 
 def python2_divide_in_place(left: Any, right: Any) -> Any:
-    """`/=`, for an array inside it."""
+    """`/=`; arrays are divided in place."""
     if not hasattr(left, "dtype"):
         return python2_divide(left, right) if isinstance(left, int) else operator.itruediv(left, right)
     numpy = sys.modules.get("numpy")
@@ -87,9 +87,9 @@ def python2_string_exception(text: str) -> type[Exception]:
 
 
 def _are_integer_arrays(numpy: Any, left: Any, right: Any) -> bool:
-    if not any(isinstance(each, numpy.ndarray | numpy.generic) for each in (left, right)):
+    if not any(isinstance(operand, numpy.ndarray | numpy.generic) for operand in (left, right)):
         return False
-    return all(numpy.asarray(each).dtype.kind in "iub" for each in (left, right))
+    return all(numpy.asarray(operand).dtype.kind in "iub" for operand in (left, right))
 
 
 class _TextClass(type):
@@ -101,7 +101,7 @@ class _TextClass(type):
 
 
 class unicode(metaclass=_TextClass):  # noqa: N801
-    """Text; a str is taken as it is, whatever its encoding."""
+    """Text; a str stays unchanged, whatever its encoding."""
 
 
 def apply(function: Callable[..., Any], args: Iterable[Any] = (), kwargs: dict[str, Any] | None = None) -> Any:
@@ -119,10 +119,10 @@ def execfile(path: str, scope: dict[str, Any] | None = None, names: dict[str, An
 
 
 def filter(function: Callable[[Any], Any] | None, values: Iterable[Any]) -> Any:
-    kept = list(builtins.filter(function, values))
+    matches = list(builtins.filter(function, values))
     if isinstance(values, str):
-        return "".join(kept)
-    return tuple(kept) if isinstance(values, tuple) else kept
+        return "".join(matches)
+    return tuple(matches) if isinstance(values, tuple) else matches
 
 
 def input(prompt: str = "") -> Any:
@@ -137,12 +137,12 @@ def map(function: Callable[..., Any] | None, *lists: Iterable[Any]) -> list[Any]
 
 
 def ord(letter: Any) -> int:
-    """`ord` of a character; of a byte, which is an int already, its value."""
+    """`ord` of a character; the value of a byte, which is an int."""
     return letter if isinstance(letter, int) else builtins.ord(letter)
 
 
 def range(*limits: Any) -> list[int]:
-    return list(builtins.range(*(int(each) for each in limits)))
+    return list(builtins.range(*(int(limit) for limit in limits)))
 
 
 def reload(module: Any) -> Any:
@@ -173,4 +173,4 @@ def _join(words: Iterable[str], separator: str = " ") -> str:
 
 
 def _nothing(*_: object) -> None:
-    """Do nothing: what was here has no counterpart and needs none."""
+    """Do nothing, in place of a function without a counterpart in Python 3."""

@@ -12,7 +12,7 @@ _INTERRUPTED = 130
 
 
 def main() -> None:
-    """Run the script that the arguments name."""
+    """Run the script of the command line."""
     del sys.argv[0]
     script = sys.argv[0]
     sys.path[0] = os.path.dirname(os.path.realpath(script))
@@ -39,7 +39,7 @@ def _load(script: str) -> tuple[CodeType, ModuleType]:
 
 
 def _show(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
-    """Print a traceback that begins in the script, and what brings a module that is missing."""
+    """Print a traceback from the script on, and how to install a missing module."""
     from trundle.ros.rospy.missing_libraries import library_advice
 
     while trace is not None and trace.tb_frame.f_code.co_filename == __file__:

@@ -9,7 +9,7 @@ from functools import cache
 from types import CodeType
 from typing import Any
 
-from .meaning import keep_meaning
+from .semantics import keep_semantics
 
 _FIXERS = """apply dict except exec funcattrs getcwdu has_key imports imports2 itertools
     itertools_imports metaclass methodattrs ne next nonzero numliterals paren print raise renames repr sys_exc throw
@@ -20,22 +20,22 @@ _INDENT = re.compile(r"^[ \t]+", re.MULTILINE)
 
 
 def translate(source: str, filename: str, *, in_package: bool = False) -> str:
-    """Translate Python 2 to Python 3, with the helpers of `names`.
+    """Translate Python 2 to Python 3, which uses the helpers of `names`.
 
     Args:
         source: text of the file.
-        filename: its path, beside which modules are looked for.
-        in_package: it is a module of a package, where `import name` may mean the module beside it.
+        filename: file's path, in whose folder modules are searched.
+        in_package: True for a module of a package, where `import name` may import a module of its folder.
 
     Raises:
-        SyntaxError: it is neither.
+        SyntaxError: the source is neither Python 2 nor Python 3.
     """
     text = source.replace("\r\n", "\n").replace("\r", "\n")
     if "\t" in text:
-        text = _INDENT.sub(lambda found: found[0].expandtabs(8), text)  # which Python 2 lets mix with spaces
+        text = _INDENT.sub(lambda match: match[0].expandtabs(8), text)  # Python 2 allows mixed tabs and spaces
     text = text if text.endswith("\n") else text + "\n"
-    tree = _parsed(text, filename, in_package)
-    return keep_meaning(str(tree), true_division=bool(_DIVISION.search(text)))
+    tree = _parse(text, filename, in_package)
+    return keep_semantics(str(tree), true_division=bool(_DIVISION.search(text)))
 
 
 def compile_translated(source: str, filename: str, *, in_package: bool) -> CodeType:
@@ -50,13 +50,13 @@ def compile_translated(source: str, filename: str, *, in_package: bool) -> CodeT
 
 
 def show_changes(source: str, filename: str) -> str:
-    """Unified diff of what the translation changes."""
+    """Unified diff of the translation."""
     new = translate(source, filename)
     names = filename, f"{filename} (translated)"
     return "\n".join(difflib.unified_diff(source.splitlines(), new.splitlines(), *names, lineterm=""))
 
 
-def _parsed(text: str, filename: str, in_package: bool) -> "Any":
+def _parse(text: str, filename: str, in_package: bool) -> "Any":
     from fissix.pgen2.parse import ParseError
     from fissix.pgen2.tokenize import TokenError
 
@@ -90,16 +90,16 @@ def _line_numbers(source: str, text: str) -> list[int]:
     old, new = source.splitlines(), text.splitlines()
     if len(old) == len(new):
         return list(range(len(new) + 2))
-    found = [0] * (len(new) + 2)
+    lines = [0] * (len(new) + 2)
     for _, start, end, first, last in difflib.SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
         for line in range(first, last):
-            found[line + 1] = min(start + (line - first), max(end - 1, start)) + 1
-    found[-1] = len(old)
-    return found
+            lines[line + 1] = min(start + (line - first), max(end - 1, start)) + 1
+    lines[-1] = len(old)
+    return lines
 
 
 def _renumber(tree: ast.AST, lines: list[int]) -> None:
-    """Number nodes by lines; columns are of the translated text, and left out."""
+    """Set the nodes' line numbers; columns would be those of the translated text, so they are unset."""
     for node in ast.walk(tree):
         if isinstance(node, ast.expr | ast.stmt | ast.excepthandler | ast.arg | ast.keyword | ast.alias):
             node.lineno = lines[node.lineno]

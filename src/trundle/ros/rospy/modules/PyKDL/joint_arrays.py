@@ -27,7 +27,7 @@ class JntArray:
         return 1
 
     def resize(self, size: int) -> None:
-        """Drop numbers index the end, or add zeros."""
+        """Drop numbers at the end, or add zeros."""
         self._values = (self._values + [0.0] * size)[:size]
 
     def __getitem__(self, index: int) -> float:
@@ -72,7 +72,7 @@ class Jacobian:
         return len(self._columns)
 
     def resize(self, columns: int) -> None:
-        """Drop columns index the end, or add zeros."""
+        """Drop columns at the end, or add zeros."""
         self._columns = [*self._columns, *(Twist() for _ in range(columns))][:columns]
 
     def __getitem__(self, index: tuple[int, int]) -> float:

@@ -1,6 +1,6 @@
 """md5 sums and full texts of definitions."""
 
-from trundle.ros.rospy.message_classes import message_spec, parsed
+from trundle.ros.rospy.message_classes import message_spec, parse_definition
 from trundle.ros.rospy.message_spec import MessageSpec, canonical_text, full_text, md5sum
 
 from .msg_loader import MsgContext, SrvSpec
@@ -30,7 +30,7 @@ def compute_full_text(msg_context: MsgContext, spec: MsgSpec | SrvSpec) -> str:
 
 
 def _parsed_spec(spec: MsgSpec) -> MessageSpec:
-    return parsed(spec.full_name, spec.text)
+    return parse_definition(spec.full_name, spec.text)
 
 
 def _find(msg_context: MsgContext, name: str) -> MessageSpec:

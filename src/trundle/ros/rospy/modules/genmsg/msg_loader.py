@@ -3,7 +3,7 @@
 from typing import Any
 
 from trundle.ros.errors import MessageError
-from trundle.ros.rospy.message_classes import message_spec, parsed
+from trundle.ros.rospy.message_classes import message_spec, parse_definition
 from trundle.ros.rospy.message_sources import find_definitions, service_halves
 
 from .base import InvalidMsgSpec
@@ -68,7 +68,7 @@ def load_msg_from_string(msg_context: MsgContext, text: str, full_name: str) -> 
         InvalidMsgSpec: it cannot be parsed.
     """
     try:
-        spec = _converted(parsed(full_name, text))
+        spec = _converted(parse_definition(full_name, text))
     except MessageError as error:
         raise InvalidMsgSpec(str(error)) from None
     msg_context.register(full_name, spec)

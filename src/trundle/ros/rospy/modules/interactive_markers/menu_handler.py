@@ -73,11 +73,11 @@ class MenuHandler:
         return self._set(handle, "visible", visible)
 
     def setCheckState(self, handle: int, check_state: int) -> bool:
-        """Set an entry's check check_box: NO_CHECKBOX, CHECKED or UNCHECKED; False if there is no such entry."""
+        """Set an entry's check box: NO_CHECKBOX, CHECKED or UNCHECKED; False if there is no such entry."""
         return self._set(handle, "check_state", check_state)
 
     def getCheckState(self, handle: int) -> int | None:
-        """State of an entry's check check_box; None if there is no such entry."""
+        """State of an entry's check box; None if there is no such entry."""
         return self.entry_contexts_[handle].check_state if handle in self.entry_contexts_ else None
 
     def getTitle(self, handle: int) -> str | None:

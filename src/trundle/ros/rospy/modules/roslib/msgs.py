@@ -19,7 +19,7 @@ from genmsg.msgs import (
 )
 from trundle.base.files import read_text
 from trundle.ros.errors import MessageError
-from trundle.ros.rospy.message_classes import parsed
+from trundle.ros.rospy.message_classes import parse_definition
 from trundle.ros.rospy.message_sources import find_definitions
 
 from .names import is_legal_resource_base_name, package_resource_name
@@ -91,7 +91,7 @@ def load_from_string(text: str, package_context: str = "", full_name: str = "", 
         MsgSpecException: it cannot be parsed.
     """
     try:
-        spec = parsed(f"{package_context}{SEP}{short_name}", text)
+        spec = parse_definition(f"{package_context}{SEP}{short_name}", text)
     except MessageError as error:
         raise MsgSpecException(str(error)) from None
     header = "std_msgs/Header" if "std_msgs/Header" in text else HEADER

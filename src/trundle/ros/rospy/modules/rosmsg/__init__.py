@@ -3,7 +3,7 @@
 from typing import Any
 
 from trundle.ros.errors import MessageError
-from trundle.ros.rospy.message_classes import message_class, message_spec, parsed, service_class
+from trundle.ros.rospy.message_classes import message_class, message_spec, parse_definition, service_class
 from trundle.ros.rospy.message_sources import find_definitions, service_halves
 
 MODE_MSG, MODE_SRV = ".msg", ".srv"
@@ -38,7 +38,7 @@ def get_srv_text(type_: str, raw: bool = False, rospack: Any = None) -> str:
     text = find_definitions(package).service(name)
     if text is None:
         raise ROSMsgException(f"Unable to load srv [{type_}]")
-    return text if raw else "---\n".join(_text(parsed(type_, half), "") for half in service_halves(text))
+    return text if raw else "---\n".join(_text(parse_definition(type_, half), "") for half in service_halves(text))
 
 
 def list_msgs(package: str, rospack: Any = None) -> list[str]:

@@ -1,4 +1,4 @@
-"""Meanings that Python 2 gives to syntax of both: `/`, exceptions that are strings, `__div__`."""
+"""Python 2's semantics of syntax that both versions have: `/`, exceptions that are strings, `__div__`."""
 
 import re
 from functools import cache
@@ -10,21 +10,21 @@ _FLOAT = re.compile(r"(?:\d+\.\d*|\.\d+)(?:[eE][-+]?\d+)?|\d+[eE][-+]?\d+")
 _SIMPLE = frozenset(" .[]'\"_")
 
 
-def keep_meaning(text: str, *, true_division: bool) -> str:
-    """Rewrite a text of Python 3 syntax so that it means what it does in Python 2.
+def keep_semantics(text: str, *, true_division: bool) -> str:
+    """Rewrite code in Python 3's syntax so that it keeps Python 2's semantics.
 
     Args:
-        text: with Python 3's syntax.
-        true_division: True if the file imports `division`; `/` is left then.
+        text: code in Python 3's syntax.
+        true_division: True if the file imports `division`; `/` stays unchanged.
     """
     driver, names = _driver()
     tree = driver.parse_string(text)
     for node in list(tree.post_order()):
         kind = names.get(node.type)
         if kind == "term" and not true_division:
-            _divide(node)
+            _replace_division(node)
         elif kind == "expr_stmt" and not true_division:
-            _divide_in_place(node)
+            _replace_augmented_division(node)
         elif kind == "power":
             _sort_by_key(node)
         elif kind in ("raise_stmt", "except_clause"):
@@ -50,7 +50,7 @@ def _leaf(text: str, prefix: str) -> Any:
     return Leaf(token.NAME, text, prefix=prefix)
 
 
-def _divide(node: Any) -> None:
+def _replace_division(node: Any) -> None:
     """`a * b / c % d` → `python2_divide(a * b, c) % d`; divisions by or of a float literal stay."""
     first, *rest = node.children
     prefix, text, changed = node.prefix, str(first)[len(node.prefix) :], False
@@ -65,12 +65,12 @@ def _divide(node: Any) -> None:
         node.replace(_leaf(text, prefix))
 
 
-def _divide_in_place(node: Any) -> None:
+def _replace_augmented_division(node: Any) -> None:
     """`a /= b` → `a = python2_divide_in_place(a, b)`; the target's object and index are evaluated once."""
     if len(node.children) != 3 or getattr(node.children[1], "value", "") != "/=":
         return
     target, value = str(node.children[0]).strip(), str(node.children[2]).strip()
-    if all(each.isalnum() or each in _SIMPLE for each in target):
+    if all(character.isalnum() or character in _SIMPLE for character in target):
         text = f"{target} = python2_divide_in_place({target}, {value})"
     else:
         text = f"{target} /= python2_divisor({value})"
@@ -96,7 +96,7 @@ def _name_string_exception(node: Any) -> None:
     """`raise "text"` and `except "text"` → a class of that name."""
     if len(node.children) < 2 or not str(node.children[1]).lstrip().startswith(('"', "'")):
         return
-    text, values = node.children[1], [str(each).strip() for each in node.children[3::2]]
+    text, values = node.children[1], [str(child).strip() for child in node.children[3::2]]
     call = f"python2_string_exception({str(text).strip()})"
     if node.children[0].value == "raise":
         node.replace(_leaf(f"raise {call}({', '.join(values[:1])})", node.prefix))
