@@ -2,9 +2,9 @@
 
     TRUNDLE_ROSPY_REPOSITORIES=FOLDER:… python -m tests.ros.rospy.compared_runs
 
-prints how many are the same. Each folder is one repository, as checked out. ORIGINAL_MODULES names folders with modules
-of the original that Debian's Python lacks, SHARED_MODULES such of other libraries, for both. Numbers are masked, for
-programs run at other times, but in messages whose values repeat from run to run.
+prints how many are the same. Each folder is one checked-out repository. ORIGINAL_MODULES names folders with modules of
+the original that Debian's Python lacks, SHARED_MODULES folders with other libraries, for both. Numbers are masked, for
+programs run at different times, except in messages whose values repeat from run to run.
 """
 
 import difflib
@@ -29,8 +29,9 @@ from tests.graphs import running_graph
 from tests.ros.rospy.original_messages import generate
 from tests.ros.rospy.programs import DEBIAN, environment
 
-REPOSITORIES = [Path(each) for each in os.environ.get("TRUNDLE_ROSPY_REPOSITORIES", "").split(os.pathsep) if each]
-_OBSERVER, _TURTLES = Path(__file__).parent / "observer.py", Path(__file__).parent / "turtles.py"
+REPOSITORIES = [Path(folder) for folder in os.environ.get("TRUNDLE_ROSPY_REPOSITORIES", "").split(os.pathsep) if folder]
+_PROGRAMS = Path(__file__).parents[2] / "data/compared_runs"
+_OBSERVER, _TURTLES = _PROGRAMS / "observer.py", _PROGRAMS / "turtles.py"
 _INSTALLED = Path("/usr/lib/python3/dist-packages")
 _START_S, _STOP_S, _OBSERVE_S = 25.0, 20.0, 150.0
 _NUMBER = re.compile(r" *-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -61,8 +62,8 @@ class Repository:
         env |= {"PYTHONUNBUFFERED": "1", "MPLBACKEND": "Agg", "QT_QPA_PLATFORM": "offscreen"}
         folders = [os.environ.get("SHARED_MODULES", "")]
         if python == DEBIAN:
-            packages = [each for each in self.packages if not (_INSTALLED / each.name).is_dir()]
-            sources = [str(each / "src") for each in packages if (each / "src" / each.name).is_dir()]
+            packages = [package for package in self.packages if not (_INSTALLED / package.name).is_dir()]
+            sources = [str(package / "src") for package in packages if (package / "src" / package.name).is_dir()]
             folders += [str(self.generated), *sources, os.environ.get("ORIGINAL_MODULES", "")]
         env["PYTHONPATH"] = os.pathsep.join(filter(None, [env.get("PYTHONPATH", ""), *folders]))
         return env
@@ -74,7 +75,7 @@ def find_programs(folder: Path) -> dict[str, Path]:
 
 
 def run(repository: Repository, python: str, program: Path) -> Run:
-    """Lines printed, messages published, service answers and exit code of a program."""
+    """Lines printed, messages published, service responses and exit code of a program."""
     with running_graph() as graph, tempfile.TemporaryDirectory() as home:
         env = repository.environment(python, graph.core.uri, Path(home))
         ours = repository.environment(sys.executable, graph.core.uri, Path(home))
@@ -90,7 +91,7 @@ def run(repository: Repository, python: str, program: Path) -> Run:
             )
             try:
                 command = [sys.executable, _OBSERVER, str(process.pid), str(_START_S)]
-                seen = subprocess.run(
+                observed = subprocess.run(
                     command, env=ours, stdout=subprocess.PIPE, text=True, timeout=_OBSERVE_S, check=True
                 )
                 code = _interrupt(process)
@@ -98,14 +99,14 @@ def run(repository: Repository, python: str, program: Path) -> Run:
                 _kill_session(process)
             streams = [(stream.seek(0), stream.read().decode(errors="replace"))[1] for stream in (out, err)]
     printed = {"stdout": mask(streams[0]), "stderr": mask(streams[1])}
-    return {**masked(json.loads(seen.stdout)), "exit code": code, **printed}
+    return {**masked(json.loads(observed.stdout)), "exit code": code, **printed}
 
 
-def masked(seen: Run) -> Run:
+def masked(observed: Run) -> Run:
     """Output of the observer; numbers are masked, except in the values of messages."""
-    published = {name: "\n".join(kept) for name, kept in seen["messages"].items()}
+    published = {name: "\n".join(texts) for name, texts in observed["messages"].items()}
     return {
-        **{what: _masked_value(value) for what, value in seen.items()},
+        **{kind: _masked_value(value) for kind, value in observed.items()},
         "messages": _by_masked_name({name: mask(text) for name, text in published.items()}),
         "values": _by_masked_name({name: _STAMP.sub(r"\1 #", text).splitlines() for name, text in published.items()}),
     }
@@ -116,23 +117,23 @@ def _masked_value(value: Any) -> Any:
         case str():
             return _NUMBER.sub(" #", value)
         case list():
-            return [_masked_value(each) for each in value]
+            return [_masked_value(item) for item in value]
         case dict():
-            return _by_masked_name({name: _masked_value(each) for name, each in value.items()})
+            return _by_masked_name({name: _masked_value(item) for name, item in value.items()})
         case _:
             return value
 
 
 def _by_masked_name(lists: Mapping[str, list[Any]]) -> dict[str, list[Any]]:
-    """Lists by name; those whose names differ in numbers alone are one, in the order of the names."""
-    found = defaultdict[str, list[Any]](list)
-    for name, each in sorted(lists.items()):
-        found[_NUMBER.sub(" #", name)] += each
-    return dict(found)
+    """Lists by name, merged where names differ only in numbers, in the order of the names."""
+    merged = defaultdict[str, list[Any]](list)
+    for name, lines in sorted(lists.items()):
+        merged[_NUMBER.sub(" #", name)] += lines
+    return dict(merged)
 
 
 def _kill_session(process: subprocess.Popen[bytes]) -> None:
-    """Kill a program and what it has started."""
+    """Kill a program and its child processes."""
     with suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
     process.wait()
@@ -154,7 +155,7 @@ def _turtles(program: Path, env: Mapping[str, str]) -> Generator[None]:
 
 
 def _interrupt(process: subprocess.Popen[bytes]) -> int | None:
-    """Exit code after Ctrl-C; None if it goes on."""
+    """Exit code after Ctrl-C; None if it keeps running."""
     process.send_signal(signal.SIGINT)
     try:
         return process.wait(_STOP_S)
@@ -177,17 +178,17 @@ def mask(text: str) -> list[str]:
 
 
 def compare(repository: Repository, program: Path) -> str:
-    """'same', 'not comparable: WHY', or the differences that two runs of each show."""
-    kept: list[str] = []
+    """'same', 'not comparable: REASON', or the differences that both of two runs show."""
+    differences: list[str] = []
     for attempt in range(2):
         original = run(repository, DEBIAN, program)
         if (reason := _why_not_comparable("\n".join(original["stderr"]))) is not None:
             return f"not comparable: {reason}"
-        found = list(_differences(original, run(repository, sys.executable, program)))
-        kept = found if attempt == 0 else [line for line in found if line in kept]
-        if not kept:
+        lines = list(_differences(original, run(repository, sys.executable, program)))
+        differences = lines if attempt == 0 else [line for line in lines if line in differences]
+        if not differences:
             return "same"
-    return "\n".join(["different", *kept])
+    return "\n".join(["different", *differences])
 
 
 def _why_not_comparable(errors: str) -> str | None:
@@ -197,31 +198,33 @@ def _why_not_comparable(errors: str) -> str | None:
 
 
 def _differences(original: Run, ours: Run) -> Iterator[str]:
-    for what in original:
-        expected, found = (json.dumps(each[what], indent=1, sort_keys=True).splitlines() for each in (original, ours))
-        for line in difflib.ndiff(expected, found):
+    for kind in original:
+        expected, actual = (
+            json.dumps(result[kind], indent=1, sort_keys=True).splitlines() for result in (original, ours)
+        )
+        for line in difflib.ndiff(expected, actual):
             if line.startswith(("-", "+")):
-                yield f"{what}: {line}"
+                yield f"{kind}: {line}"
 
 
 def compare_all(folders: Iterable[Path]) -> Iterator[tuple[str, str]]:
-    """Pairs (program, outcome); each repository by itself."""
+    """Pairs (program, verdict); each repository by itself."""
     for folder in folders:
         with tempfile.TemporaryDirectory() as generated, ThreadPoolExecutor(_AT_ONCE) as pool:
             repository = Repository(folder, Path(generated))
             generate(repository.packages, repository.generated)
             programs = find_programs(folder)
-            outcomes = pool.map(partial(compare, repository), programs.values())
-            yield from zip(programs, outcomes, strict=True)
+            verdicts = pool.map(partial(compare, repository), programs.values())
+            yield from zip(programs, verdicts, strict=True)
 
 
 def main() -> None:
-    """Compare the programs of the repositories; print each outcome, then the counts."""
-    outcomes = Counter[str]()
-    for name, outcome in compare_all(REPOSITORIES):
-        print(f"{name}: {outcome}", flush=True)
-        outcomes[outcome.partition("\n")[0].partition(":")[0]] += 1
-    print(dict(outcomes))
+    """Compare the programs of the repositories; print each verdict, then the counts."""
+    counts = Counter[str]()
+    for name, verdict in compare_all(REPOSITORIES):
+        print(f"{name}: {verdict}", flush=True)
+        counts[verdict.partition("\n")[0].partition(":")[0]] += 1
+    print(dict(counts))
 
 
 if __name__ == "__main__":

@@ -20,22 +20,22 @@ RUN = ROOT.parent / "rospy/run.py"
 ALONE = sorted((ROOT / "alone").glob("*.py"))
 """Programs without a node, which share a process."""
 NODES = sorted((ROOT / "node").glob("*.py"))
-PATIENCE_S = 180.0
+TIMEOUT_S = 180.0
 
 
 def run_alone(python: str, programs: list[Path], env: Mapping[str, str]) -> dict[str, str]:
     """Output of each program, run one after another in one process."""
     command = [python, str(RUN), *map(str, programs)]
-    done = subprocess.run(command, env=dict(env), capture_output=True, text=True, timeout=PATIENCE_S, check=False)
-    assert done.stdout.startswith("{"), done.stdout + done.stderr
-    return json.loads(done.stdout)
+    completed = subprocess.run(command, env=dict(env), capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
+    assert completed.stdout.startswith("{"), completed.stdout + completed.stderr
+    return json.loads(completed.stdout)
 
 
 def run_node(python: str, program: Path, env: Mapping[str, str]) -> str:
     """Output and exit code of a program that is a node."""
     command = [python, str(program)]
-    done = subprocess.run(command, env=dict(env), capture_output=True, text=True, timeout=PATIENCE_S, check=False)
-    return f"{done.stdout}exit code {done.returncode}\n"
+    completed = subprocess.run(command, env=dict(env), capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
+    return f"{completed.stdout}exit code {completed.returncode}\n"
 
 
 def _record(folders: list[str]) -> None:

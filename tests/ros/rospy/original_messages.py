@@ -13,15 +13,17 @@ _INSTALLED = sorted(Path("/usr/share").glob("*/msg"))
 
 def generate(packages: Iterable[Path], folder: Path) -> None:
     """Write `folder`/PACKAGE/msg and srv of every package that defines messages."""
-    found = [each for each in packages if any((each / kind).is_dir() for kind in ("msg", "srv", "action"))]
+    with_messages = [
+        package for package in packages if any((package / kind).is_dir() for kind in ("msg", "srv", "action"))
+    ]
     search = [f"-I{path.parent.name}:{path}" for path in _INSTALLED]
-    for package in found:
+    for package in with_messages:
         actions = folder / "actions" / package.name
         actions.mkdir(parents=True, exist_ok=True)
         for path in sorted(package.glob("action/*.action")):
             subprocess.run([DEBIAN, _ACTIONS, path, "-o", actions], check=True, capture_output=True)
-        search += [f"-I{package.name}:{each}" for each in (package / "msg", actions)]
-    for package in found:
+        search += [f"-I{package.name}:{folder}" for folder in (package / "msg", actions)]
+    for package in with_messages:
         messages = [*package.glob("msg/*.msg"), *(folder / "actions" / package.name).glob("*.msg")]
         for kind, files in (("msg", messages), ("srv", [*package.glob("srv/*.srv")])):
             if files:

@@ -20,9 +20,9 @@ from trundle.ros.rospy.environment import with_finder
 ROOT = Path(__file__).parents[2] / "data/rospy"
 EXPECTED = ROOT / "expected.json"
 DEBIAN = "/usr/bin/python3"
-PATIENCE_S = 180.0
+TIMEOUT_S = 180.0
 TOGETHER = {kind: sorted((ROOT / kind).glob("*.py")) for kind in ("alone", "node")}
-"""Programs that share a process: those without a node, and those that use one of the same name."""
+"""Programs that share a process: those without a node, and those whose nodes have the same name."""
 SINGLE = sorted((ROOT / "process").glob("*.py"))
 _ARGUMENTS = re.compile(r"^# arguments: (.*)$", re.MULTILINE)
 _ENVIRONMENT = re.compile(r"^# environment: (\w+)=(.*)$", re.MULTILINE)
@@ -39,19 +39,19 @@ def environment(python: str, uri: str, home: Path) -> dict[str, str]:
 def run_together(python: str, kind: str, env: Mapping[str, str]) -> dict[str, str]:
     """Output of each program, run one after another in one process."""
     command = [python, str(ROOT / "run.py"), *map(str, TOGETHER[kind])]
-    done = subprocess.run(command, env=dict(env), capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+    done = subprocess.run(command, env=dict(env), capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
     assert done.stdout.startswith("{"), done.stdout + done.stderr
     return json.loads(done.stdout)
 
 
 def run_single(python: str, program: Path, env: Mapping[str, str]) -> str:
-    """Output and exit code of a program, with the arguments and variables that it names."""
+    """Output and exit code of a program, with the arguments and variables in its comments."""
     text = program.read_text()
-    arguments = [word for found in _ARGUMENTS.findall(text) for word in shlex.split(found)]
-    given = {**env, **dict(_ENVIRONMENT.findall(text))}
-    given["PYTHONPATH"] = os.pathsep.join(filter(None, (str(ROOT), env.get("PYTHONPATH", ""))))
+    arguments = [word for line in _ARGUMENTS.findall(text) for word in shlex.split(line)]
+    env = {**env, **dict(_ENVIRONMENT.findall(text))}
+    env["PYTHONPATH"] = os.pathsep.join(filter(None, (str(ROOT), env.get("PYTHONPATH", ""))))
     command = [python, str(program), *arguments]
-    done = subprocess.run(command, env=given, capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+    done = subprocess.run(command, env=env, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
     return f"{done.stdout}exit code {done.returncode}\n"
 
 

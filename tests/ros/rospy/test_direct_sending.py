@@ -1,4 +1,4 @@
-"""Short messages are written to sockets in one step; all that is unusual takes the general way, in the same order."""
+"""Short messages are written to sockets in one step; other cases take the general path, in the same order."""
 
 import os
 import socket
@@ -37,9 +37,9 @@ class Peer:
 
 @pytest.fixture
 def peer() -> Generator[Peer]:
-    made = Peer()
-    with made.near, made.far:
-        yield made
+    peer = Peer()
+    with peer.near, peer.far:
+        yield peer
 
 
 def _sender(cls: Any, *peers: Peer) -> DirectSender:
@@ -83,24 +83,24 @@ def test_other_arguments_are_left_to_the_caller(
     assert (peer.received(), sender.sequence) == (b"", 0)
 
 
-def test_a_value_that_does_not_fit_is_left_to_who_names_it(peer: Peer) -> None:
+def test_a_message_with_a_wrong_value_is_left_to_the_caller(peer: Peer) -> None:
     message = Twist()
     message.linear.x = "fast"
     headless = Stamped()
     headless.header = None
-    for each in (message, headless):
-        assert _sender(type(each), peer).send((each,), {}) == NOT_SENT
+    for invalid in (message, headless):
+        assert _sender(type(invalid), peer).send((invalid,), {}) == NOT_SENT
     assert peer.received() == b""
 
 
 def test_a_long_message_is_left_to_the_queue(peer: Peer) -> None:
     sender = _sender(Text, peer)
     assert sender.send((Text("x" * 40_000),), {}) == NOT_SENT
-    assert sender.send((Text("x"),), {}) == NOT_SENT, "they are serialized once only"
+    assert sender.send((Text("x"),), {}) == NOT_SENT, "long messages were serialized here again"
     assert peer.received() == b""
 
 
-def test_nothing_is_sent_while_something_waits(peer: Peer) -> None:
+def test_nothing_is_sent_directly_while_messages_are_queued(peer: Peer) -> None:
     sender = _sender(Twist, peer)
     peer.direct.is_open = False
     assert sender.send((Twist(),), {}) == NOT_SENT
@@ -111,7 +111,7 @@ def test_nothing_is_sent_while_something_waits(peer: Peer) -> None:
     assert peer.received() == b""
 
 
-def test_what_the_kernel_does_not_take_is_kept(peer: Peer) -> None:
+def test_the_rest_of_a_message_sent_in_part_is_kept(peer: Peer) -> None:
     sender = _sender(Twist, peer)
     while (sent := sender.send((Twist(),), {})) == SENT:
         pass
@@ -126,7 +126,7 @@ def test_what_the_kernel_does_not_take_is_kept(peer: Peer) -> None:
 
 
 def test_a_field_that_runs_code_cannot_mix_messages(peer: Peer) -> None:
-    """The value of a field publishes on the topic itself."""
+    """A field's value publishes on the same topic when it is converted."""
 
     class Value:
         def __float__(self) -> float:
@@ -140,7 +140,7 @@ def test_a_field_that_runs_code_cannot_mix_messages(peer: Peer) -> None:
     assert (peer.received(), sender.sequence) == (_frame(Twist()), 1)
 
 
-def test_a_closed_peer_is_left_to_the_queue(peer: Peer) -> None:
+def test_a_message_to_a_closed_peer_is_left_to_the_queue(peer: Peer) -> None:
     os.close(peer.far.detach())
     assert _sender(Twist, peer).send((Twist(),), {}) == SENT_IN_PART
     assert peer.direct.take_rest() == _frame(Twist())

@@ -1,10 +1,11 @@
-"""How ROS' packages get into a Python: by PYTHONPATH, by trundle-rospy's .pth; what is installed wins."""
+"""ROS' packages are importable by PYTHONPATH and by trundle-rospy's .pth; installed packages win."""
 
 import os
 import signal
 import subprocess
 import sys
 import sysconfig
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -15,10 +16,10 @@ from trundle.ros.rospy.setup_file import read_setup
 _PTH = Path(__file__).parents[3] / "packaging/trundle-rospy/trundle_rospy.pth"
 
 
-def _printed(code: str, *, python: str | Path = sys.executable, cwd: Path | None = None, **env: str) -> str:
-    given = {name: value for name, value in os.environ.items() if not name.startswith("ROS")} | env
+def _output(code: str, env: Mapping[str, str], *, python: str | Path = sys.executable, cwd: Path | None = None) -> str:
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("ROS")} | dict(env)
     done = subprocess.run(
-        [python, "-W", "ignore", "-c", code], env=given, cwd=cwd, capture_output=True, text=True, check=False
+        [python, "-W", "ignore", "-c", code], env=environment, cwd=cwd, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
     return done.stdout.strip()
@@ -26,7 +27,7 @@ def _printed(code: str, *, python: str | Path = sys.executable, cwd: Path | None
 
 def test_a_child_process_imports_rospy_and_messages() -> None:
     code = "import rospy, std_msgs.msg; print(rospy.__name__, std_msgs.msg.String('a'))"
-    assert _printed(code, **with_finder({})) == 'rospy data: "a"'
+    assert _output(code, with_finder({})) == 'rospy data: "a"'
 
 
 def test_the_pythonpath_of_the_user_stays_in_effect(tmp_path: Path) -> None:
@@ -36,7 +37,7 @@ def test_the_pythonpath_of_the_user_stays_in_effect(tmp_path: Path) -> None:
     assert env["PYTHONPATH"] == f"{SITE}{os.pathsep}{tmp_path}"
     assert env["ROS_PACKAGE_PATH"] == str(tmp_path)
     assert with_finder({"ROS_PACKAGE_PATH": "/a"}, [tmp_path])["ROS_PACKAGE_PATH"] == "/a"
-    assert _printed("import rospy; print(mark, rospy.mine)", **env) == "5 True"
+    assert _output("import rospy; print(mark, rospy.mine)", env) == "5 True"
 
 
 def test_another_python_of_the_same_version_keeps_its_libraries(tmp_path: Path) -> None:
@@ -47,11 +48,11 @@ def test_another_python_of_the_same_version_keeps_its_libraries(tmp_path: Path) 
     (site / "gripper.py").write_text("own = True\n")
     code = "import gripper, std_msgs.msg; print(gripper.own, std_msgs.msg.String('a'))"
 
-    assert _printed(code, python=python, **with_finder({})) == 'True data: "a"'
+    assert _output(code, with_finder({}), python=python) == 'True data: "a"'
 
     other = {**with_finder({}), LIBRARIES: f"cpython-27:{sysconfig.get_path('purelib')}"}
     with pytest.raises(AssertionError, match="No module named 'std_msgs'"):
-        _printed(code, python=python, **other)
+        _output(code, other, python=python)
 
 
 @pytest.mark.parametrize(
@@ -63,7 +64,7 @@ def test_another_python_of_the_same_version_keeps_its_libraries(tmp_path: Path) 
         ("summit_xl_pad", "'summit_xl_pad' is a ROS package: trundle pack get summit_xl_pad"),
     ],
 )
-def test_a_missing_module_is_told_where_it_comes_from(module: str, advice: str) -> None:
+def test_the_advice_for_a_missing_module_names_its_source(module: str, advice: str) -> None:
     code = f"import sys; sys.modules.update(cv2=None) if {module!r}[:3] == 'cv2' else None; import {module}"
     words = [sys.executable, "-c", code]
     done = subprocess.run(words, env=with_finder(os.environ), capture_output=True, text=True, check=False)
@@ -73,8 +74,8 @@ def test_a_missing_module_is_told_where_it_comes_from(module: str, advice: str) 
     assert done.stderr.splitlines()[-1].endswith(advice)
 
 
-def test_a_compiled_module_of_a_package_that_is_here_is_told_as_such(tmp_path: Path) -> None:
-    """trac_ik_python wraps C++; fetching it a second time brings nothing."""
+def test_the_advice_for_a_missing_compiled_module_of_an_installed_package_is_to_build_it(tmp_path: Path) -> None:
+    """trac_ik_python wraps C++; fetching it again would not help."""
     (tmp_path / "trac_ik_python").mkdir()
     (tmp_path / "trac_ik_python/__init__.py").write_text("")
     program = tmp_path / "solve.py"
@@ -83,28 +84,28 @@ def test_a_compiled_module_of_a_package_that_is_here_is_told_as_such(tmp_path: P
     words = [sys.executable, program]
     done = subprocess.run(words, env=with_finder(os.environ), capture_output=True, text=True, check=False)
 
-    what = "trundle: the ROS package 'trac_ik_python' is here without 'trac_ik_python.trac_ik_wrap'; is that C++"
-    assert done.stderr.splitlines()[-1] == f"{what}, which is not built?"
+    text = "trundle: the ROS package 'trac_ik_python' is here without 'trac_ik_python.trac_ik_wrap'; is that C++"
+    assert done.stderr.splitlines()[-1] == f"{text}, which is not built?"
 
 
-def test_a_module_of_messages_that_nobody_publishes_is_a_ros_package(tmp_path: Path) -> None:
+def test_the_advice_for_messages_of_an_unknown_package_names_the_workspace(tmp_path: Path) -> None:
     program = tmp_path / "sensor.py"
     program.write_text("from no_such_mouse.msg import Light\n")
 
     words = [sys.executable, program]
     done = subprocess.run(words, env=with_finder(os.environ), capture_output=True, text=True, check=False)
 
-    what = "trundle: 'no_such_mouse' is a ROS package that is not here"
-    assert done.stderr.splitlines()[-1] == f"{what}: put it into the workspace's src, or on ROS_PACKAGE_PATH"
+    text = "trundle: 'no_such_mouse' is a ROS package that is not here"
+    assert done.stderr.splitlines()[-1] == f"{text}: put it into the workspace's src, or on ROS_PACKAGE_PATH"
 
 
-def test_the_pth_of_trundle_rospy_makes_them_importable(tmp_path: Path) -> None:
+def test_the_pth_of_trundle_rospy_makes_packages_importable(tmp_path: Path) -> None:
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", tmp_path / "venv"], check=True)
     site = next((tmp_path / "venv").glob("**/site-packages"))
     python = next(path for path in (tmp_path / "venv").glob("*/python*") if path.stem == "python")
     (site / "a.pth").write_text(f"import site; site.addsitedir({sysconfig.get_path('platlib')!r})\n")
     (site / _PTH.name).write_text(_PTH.read_text())
-    assert _printed("import rospy; print(rospy.__name__)", python=python) == "rospy"
+    assert _output("import rospy; print(rospy.__name__)", {}, python=python) == "rospy"
 
 
 def _package(folder: Path, name: str) -> Path:
@@ -114,7 +115,7 @@ def _package(folder: Path, name: str) -> Path:
 
 
 def test_messages_and_modules_of_the_workspace_need_no_build(tmp_path: Path) -> None:
-    """As the tutorials have them: messages, services and actions of one's own, modules below src."""
+    """As in the tutorials: the package's own messages, services and actions, and modules below src."""
     package = _package(tmp_path / "src", "beginner")
     for name, text in {
         "msg/Person.msg": "Header header\nstring name\nuint8 OLD=100\nOther[] others\n",
@@ -140,27 +141,27 @@ try:
 except ImportError as error:
     print(error)
 """
-    printed = _printed(code, cwd=package, **with_finder({})).splitlines()
+    printed = _output(code, with_finder({}), cwd=package).splitlines()
     assert printed[0] == "True 100 0.0 7"
     assert printed[1].startswith("['who'] True 3 header:")
     assert printed[-1].startswith("cannot import name 'Nobody' from 'beginner.msg'")
-    elsewhere = _printed(
-        "import extra; print(extra.value)", cwd=tmp_path, **with_finder({"ROS_PACKAGE_PATH": str(tmp_path)})
+    elsewhere = _output(
+        "import extra; print(extra.value)", with_finder({"ROS_PACKAGE_PATH": str(tmp_path)}), cwd=tmp_path
     )
     assert elsewhere == "7"
 
 
-def test_an_invalid_definition_is_named(tmp_path: Path) -> None:
+def test_the_error_of_an_invalid_definition_names_type_and_line(tmp_path: Path) -> None:
     package = _package(tmp_path, "broken")
     (package / "msg").mkdir()
     (package / "msg/Bad.msg").write_text("int32 a\nwhat is this\n")
     code = "import broken.msg\ntry: broken.msg.Bad\nexcept ImportError as error: print(error)"
-    said = _printed(code, cwd=package, **with_finder({}))
-    assert said.startswith("broken/Bad cannot be imported: the definition of broken/Bad cannot be read: line 2")
+    error = _output(code, with_finder({}), cwd=package)
+    assert error.startswith("broken/Bad cannot be imported: the definition of broken/Bad cannot be read: line 2")
 
 
 @pytest.mark.parametrize(
-    ("text", "found"),
+    ("text", "modules"),
     [
         (
             "d = generate_distutils_setup()\nd['packages'] = ['a']\nd['package_dir'] = {'': 'src'}\nsetup(**d)\n",
@@ -173,26 +174,26 @@ def test_an_invalid_definition_is_named(tmp_path: Path) -> None:
         ("setup(packages={'a': 1}, package_dir=['src'])", {}),
     ],
 )
-def test_setup_files_are_parsed_not_run(tmp_path: Path, text: str, found: dict[str, str]) -> None:
+def test_setup_files_are_parsed_not_run(tmp_path: Path, text: str, modules: dict[str, str]) -> None:
     for folder in ("src/a", "lib/x"):
         (tmp_path / folder).mkdir(parents=True)
     (tmp_path / "src/one.py").touch()
     (tmp_path / "setup.py").write_text(text)
-    assert dict(read_setup(tmp_path / "setup.py")) == {name: tmp_path / path for name, path in found.items()}
+    assert dict(read_setup(tmp_path / "setup.py")) == {name: tmp_path / path for name, path in modules.items()}
 
 
-def test_packages_are_not_searched_for_what_the_standard_library_tries_of_jython(tmp_path: Path) -> None:
+def test_packages_are_not_searched_for_jython_modules(tmp_path: Path) -> None:
     package = _package(tmp_path, "org")
     for name in ("__init__.py", "python/__init__.py", "python/core.py"):
         (package / "src/org" / name).parent.mkdir(parents=True, exist_ok=True)
         (package / "src/org" / name).write_text("PyStringMap = dict\n")
     code = "import copy, pickle, sys; print('org' in sys.modules)"
-    assert _printed(code, **with_finder({"ROS_PACKAGE_PATH": str(tmp_path)})) == "False"
+    assert _output(code, with_finder({"ROS_PACKAGE_PATH": str(tmp_path)})) == "False"
 
 
 @pytest.mark.skipif(os.name != "posix", reason="Ctrl-C is a signal there")
-def test_a_program_that_is_interrupted_while_python_starts_says_nothing(tmp_path: Path) -> None:
-    """Ctrl-C in a launch meets nodes that are still starting; Python calls that a fatal error of its own."""
+def test_a_program_that_is_interrupted_while_python_starts_prints_nothing(tmp_path: Path) -> None:
+    """Ctrl-C in a launch interrupts nodes that are still starting, which Python reports as a fatal error."""
     (tmp_path / "sitecustomize.py").write_text("import os, time; os.write(1, b'starting'); time.sleep(100.0)\n")
     env = with_finder({**os.environ, "PYTHONPATH": str(tmp_path)})
     with subprocess.Popen(

@@ -19,7 +19,7 @@ class Twice(LazyTransport):
         self.pub = self.advertise("out", String, queue_size=1)
 
     def subscribe(self):
-        self.sub = rospy.Subscriber("in", String, lambda said: self.pub.publish(2 * said.data))
+        self.sub = rospy.Subscriber("in", String, lambda message: self.pub.publish(2 * message.data))
 
     def unsubscribe(self):
         self.sub.unregister()
@@ -33,7 +33,7 @@ rospy.spin()
 @pytest.mark.parametrize("is_lazy", [True, False])
 def test_inputs_follow_the_outputs(is_lazy: bool, tmp_path: Path) -> None:
     (tmp_path / "twice.py").write_text(_NODE)
-    heard: list[str] = []
+    received: list[str] = []
     with running_graph() as graph:
         command = [sys.executable, str(tmp_path / "twice.py"), f"_lazy:={is_lazy}"]
         env = environment(sys.executable, graph.core.uri, tmp_path)
@@ -42,15 +42,15 @@ def test_inputs_follow_the_outputs(is_lazy: bool, tmp_path: Path) -> None:
             source = node.advertise("/in", "std_msgs/String")
             if not is_lazy:
                 graph.until(lambda: source.has_subscribers)
-            output = node.subscribe("/out", "std_msgs/String", lambda said: heard.append(said.data))
+            output = node.subscribe("/out", "std_msgs/String", lambda message: received.append(message.data))
             try:
                 graph.until(lambda: source.has_subscribers and output.publishers)
-                graph.until(lambda: source.publish({"data": "so "}) or heard)  # the node may not know yet who listens
+                graph.until(lambda: source.publish({"data": "so "}) or received)  # until the node knows its subscriber
                 output.unregister()
                 if is_lazy:
                     graph.until(lambda: not source.has_subscribers)
             finally:
                 program.terminate()
             _, errors = program.communicate(timeout=PATIENCE_S)
-    assert set(heard) == {"so so "}
+    assert set(received) == {"so so "}
     assert "Traceback" not in errors

@@ -1,7 +1,7 @@
-"""Programs on the Python libraries of ROS: they print what they print with the original packages.
+"""Programs that use ROS' Python libraries print the same as with the original packages.
 
-expected.json was recorded with Debian's packages, and with smach and ros_numpy of their repositories. What Debian
-installs beside rospy (actionlib, rosbag, sensor_msgs, tf, tf2) is compared again where it is installed.
+expected.json was recorded with Debian's packages, and with smach and ros_numpy of their repositories. Packages that
+Debian installs with rospy (actionlib, rosbag, sensor_msgs, tf, tf2) are compared again where they are installed.
 """
 
 import json
@@ -40,8 +40,8 @@ _EXPECTED: dict[str, str] = json.loads(EXPECTED.read_text())
 
 
 @pytest.mark.parametrize("python", [sys.executable, pytest.param(DEBIAN, marks=_REAL)], ids=["ours", "Debian's"])
-def test_programs_without_a_node_print_what_they_print_with_the_original(python: str, tmp_path: Path) -> None:
-    programs = [each for each in ALONE if python != DEBIAN or each.name in _DEBIAN_HAS]
+def test_programs_without_a_node_print_the_same_as_with_the_original(python: str, tmp_path: Path) -> None:
+    programs = [program for program in ALONE if python != DEBIAN or program.name in _DEBIAN_HAS]
     printed = run_alone(python, programs, environment(python, "http://localhost:1", tmp_path))
     assert set(printed) == {program.name for program in programs}
     assert {name: text for name, text in printed.items() if text != _EXPECTED[name]} == {}
@@ -58,9 +58,9 @@ def _nodes() -> list[object]:
 
 
 @pytest.mark.parametrize(("python", "program"), _nodes())
-def test_nodes_print_what_they_print_with_the_original(python: str, program: Path, tmp_path: Path) -> None:
+def test_nodes_print_the_same_as_with_the_original(python: str, program: Path, tmp_path: Path) -> None:
     expected, printed = _EXPECTED[program.name], ""
-    # Twice with the original: its action client loses a goal's transition that comes before send_goal returns.
+    # Twice with the original, whose action client loses a goal's transition that precedes the return of send_goal.
     for _ in range(2 if python == DEBIAN else 1):
         with running_graph() as graph:
             printed = run_node(python, program, environment(python, graph.core.uri, tmp_path))

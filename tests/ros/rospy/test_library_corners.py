@@ -1,4 +1,4 @@
-"""What the Python libraries of ROS do here beyond the originals, or without what those need."""
+"""Behavior of ROS' Python libraries beyond the originals', or without their dependencies."""
 
 import subprocess
 import sys
@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from tests.ros.rospy.programs import environment
 
-PATIENCE_S = 120.0
+TIMEOUT_S = 120.0
 
 
 def _run(code: str, folder: Path) -> str:
@@ -19,7 +19,7 @@ def _run(code: str, folder: Path) -> str:
         env=env,
         capture_output=True,
         text=True,
-        timeout=PATIENCE_S,
+        timeout=TIMEOUT_S,
         check=False,
     )
     return done.stdout + done.stderr
@@ -59,8 +59,8 @@ for bad in (
     except CvBridgeError as error:
         print("error:", error)
 """
-    said = _run(code, tmp_path).splitlines()
-    assert said[:10] == [
+    lines = _run(code, tmp_path).splitlines()
+    assert lines[:10] == [
         "bgr8 3 2 9",
         "[200, 0, 0] 60",
         "(2, 3, 4) [0, 0, 51400]",
@@ -70,11 +70,11 @@ for bad in (
         "png [0, 0, 200]",
         "[200, 0, 0] 16",
         "error: Unrecognized image encoding [nope]",
-        said[9],
+        lines[9],
     ]
-    assert all(line.startswith("error:") for line in said[8:])
-    assert len(said) == 14
-    assert "pip install opencv-python-headless" in said[-1]
+    assert all(line.startswith("error:") for line in lines[8:])
+    assert len(lines) == 14
+    assert "pip install opencv-python-headless" in lines[-1]
 
 
 def test_images_in_a_named_encoding_can_be_drawn_on(tmp_path: Path) -> None:
@@ -99,7 +99,7 @@ for source, pixel, target in (("bgr8", 3, "bgr8"), ("rgb8", 3, "bgr8"), ("mono8"
     ]  # fmt: skip
 
 
-def test_depth_is_shown_in_shades_of_grey(tmp_path: Path) -> None:
+def test_depth_is_displayed_as_gray_levels(tmp_path: Path) -> None:
     code = """
 import numpy as np
 from cv_bridge import cvtColorForDisplay
@@ -110,19 +110,19 @@ print(cvtColorForDisplay(np.array([[100, 1500]], np.uint16), "16UC1", "mono8", F
 print(cvtColorForDisplay(np.array([[257, 65535]], np.uint16), "16UC1", "mono8").tolist())
 print(cvtColorForDisplay(np.full((1, 1), 7.0), "64FC1", "bgr8", True).tolist())
 print(cvtColorForDisplay(np.array([[[1, 2, 3]]], np.uint8), "rgb8", "bgr8").tolist())
-for given in (("8UC1", "bgr8"), ("rgb8", "32FC1"), ("32SC1", "bgr8")):
+for encodings in (("8UC1", "bgr8"), ("rgb8", "32FC1"), ("32SC1", "bgr8")):
     try:
-        cvtColorForDisplay(np.zeros((1, 1), np.uint8), *given)
+        cvtColorForDisplay(np.zeros((1, 1), np.uint8), *encodings)
     except RuntimeError as error:
         print(error)
 """
-    said = _run(code, tmp_path).splitlines()
-    assert said[:6] == [
+    lines = _run(code, tmp_path).splitlines()
+    assert lines[:6] == [
         "[[0, 64], [255, 0]]", "[[0, 64], [255, 0]]", "[[0, 255]]", "[[1, 255]]", "[[[128, 128, 128]]]",
         "[[[3, 2, 1]]]",
     ]  # fmt: skip
-    assert [line.partition("isplay")[0] for line in said[6:]] == ["cv_bridge.cvtColorForD"] * 3
-    assert "[8UC1] is not a color format" in said[6]
+    assert [line.partition("isplay")[0] for line in lines[6:]] == ["cv_bridge.cvtColorForD"] * 3
+    assert "[8UC1] is not a color format" in lines[6]
 
 
 @pytest.fixture
@@ -162,21 +162,21 @@ print(decode_description(encode_description(c))["groups"]["limits"]["parameters"
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "error"),
     [
         ('gen.add("flow", double_t, 1, "twice", "much")', "cfg/Pump.cfg:10: error: TypeError: 'flow' has type double"),
         ("gen.add(", "cfg/Pump.cfg:10: error: SyntaxError"),
         ('gen.add("1st", int_t, 1, "bad")', "'1st' is not a parameter's name"),
     ],
 )
-def test_a_faulty_cfg_file_is_named_with_its_line(package: Path, line: str, said: str) -> None:
+def test_the_error_of_a_faulty_cfg_file_names_file_and_line(package: Path, line: str, error: str) -> None:
     file = package / "cfg/Pump.cfg"
     file.write_text(file.read_text().replace("exit(", "exit_code = (") + line + "\n")
-    assert said in _run("import pumps.cfg.PumpConfig", package.parent)
+    assert error in _run("import pumps.cfg.PumpConfig", package.parent)
 
 
-def test_results_of_tests_hold_whatever_they_print(tmp_path: Path) -> None:
-    """Names of files that are no UTF-8, and what XML does not have, too."""
+def test_results_files_of_tests_are_valid_xml_whatever_the_tests_print(tmp_path: Path) -> None:
+    """Such as invalid UTF-8, and characters that XML does not allow."""
     code = """
 import rosunit, unittest, xml.etree.ElementTree
 
@@ -191,7 +191,7 @@ print(ascii(xml.etree.ElementTree.parse("FOLDER/out.xml").getroot().find("system
     assert printed.splitlines()[-1] == r"'a? b? c\U0001f916\n'"
 
 
-def test_smach_takes_plain_userdata_only_from_the_network(tmp_path: Path) -> None:
+def test_smach_accepts_only_plain_userdata_from_the_network(tmp_path: Path) -> None:
     code = """
 import base64, os, pickle
 from smach_ros import local_data
@@ -209,7 +209,7 @@ for data in (base64.b64encode(pickle.dumps({"x": Evil()})).decode(), "!!", base6
 
 
 @pytest.mark.parametrize(
-    ("statement", "said"),
+    ("statement", "advice"),
     [
         ("import moveit_commander", "follow_joint_trajectory"),
         ("from PyKDL import ChainIdSolver_RNE", "cannot import name 'ChainIdSolver_RNE'"),
@@ -220,11 +220,11 @@ for data in (base64.b64encode(pickle.dumps({"x": Evil()})).decode(), "!!", base6
         ("from rosunit import pmon", "trundle test"),
     ],
 )
-def test_what_is_missing_is_named_with_a_way_out(statement: str, said: str, tmp_path: Path) -> None:
-    assert said in _run(statement, tmp_path)
+def test_errors_of_missing_modules_name_a_way_out(statement: str, advice: str, tmp_path: Path) -> None:
+    assert advice in _run(statement, tmp_path)
 
 
-def test_a_bag_that_is_appended_to_keeps_its_messages_until_it_is_closed(tmp_path: Path) -> None:
+def test_a_bag_that_is_appended_to_stays_unchanged_until_it_is_closed(tmp_path: Path) -> None:
     code = f"""
 import genpy, rosbag
 from std_msgs.msg import String
@@ -238,11 +238,11 @@ appending.close()
 print([m.message.data for m in rosbag.Bag(path)])
 """
     assert _run(code, tmp_path).splitlines() == ["['one']", "['one', 'two']"]
-    assert [each.name for each in tmp_path.iterdir() if each.suffix == ".bag"] == ["a.bag"]
+    assert [path.name for path in tmp_path.iterdir() if path.suffix == ".bag"] == ["a.bag"]
 
 
 def test_a_bag_that_is_written_is_not_overwritten(tmp_path: Path) -> None:
-    """Of two at once, the original makes one file that neither reads."""
+    """With the original, two writers produce one unreadable file."""
     code = f"""
 import genpy, rosbag
 from std_msgs.msg import String
@@ -261,7 +261,7 @@ left = None
 rosbag.Bag(path, "w").close()
 """
     assert _run(code, tmp_path).splitlines() == ["True", "True", "['one']"]
-    assert [each.name for each in tmp_path.iterdir() if "a.bag" in each.name] == ["a.bag"]
+    assert [path.name for path in tmp_path.iterdir() if "a.bag" in path.name] == ["a.bag"]
 
 
 def test_an_encrypted_bag_is_refused_with_the_way_out(tmp_path: Path) -> None:
@@ -295,7 +295,7 @@ except rosbag.ROSBagEncryptNotSupportedException as error:
     assert read.endswith("rosbag decrypt a.bag")
 
 
-def test_urdf_parser_py_and_angles_and_every_library_import(tmp_path: Path) -> None:
+def test_every_library_is_importable(tmp_path: Path) -> None:
     names = (
         "PyKDL actionlib angles cv_bridge diagnostic_updater dynamic_reconfigure.server dynamic_reconfigure.client "
         "image_geometry interactive_markers.interactive_marker_server interactive_markers.menu_handler laser_geometry "
@@ -306,13 +306,13 @@ def test_urdf_parser_py_and_angles_and_every_library_import(tmp_path: Path) -> N
     assert _run(code, tmp_path) == "all\n"
 
 
-def test_submodules_of_roslib_need_no_import_of_their_own(tmp_path: Path) -> None:
+def test_submodules_of_roslib_need_no_separate_import(tmp_path: Path) -> None:
     code = "import roslib\nprint(roslib.message.get_message_class('std_msgs/String').__name__, hasattr(roslib, 'no'))"
     assert _run(code, tmp_path) == "String False\n"
 
 
 def test_rates_and_bandwidths_of_topics_are_measured(tmp_path: Path) -> None:
-    """Programs give rostopic's meters to subscribers; a reset of time resets the meter."""
+    """Programs pass rostopic's meters to subscribers; a reset of time resets the meter."""
     code = """
 import rospy
 from rostopic import ROSTopicBandwidth, ROSTopicHz

@@ -1,4 +1,4 @@
-"""Long messages from another process of this machine, which come through memory that is written again."""
+"""Long messages from another process of this machine, through shared memory that is reused."""
 
 import subprocess
 import sys
@@ -10,7 +10,7 @@ from tests.graphs import PATIENCE_S, running_graph
 from tests.ros.rospy.programs import environment
 
 _COUNT, _LENGTH = 60, 100_000
-"""More than the shared memory holds at once."""
+"""More data than fits into the shared memory."""
 _NODE = """
 import rospy
 from {package}.msg import {name}
@@ -32,7 +32,9 @@ for message in kept:
         ("nav_msgs/OccupancyGrid", "tuple"),
     ],
 )
-def test_kept_messages_stay_as_they_came(kind: str, container: str, tmp_path: Path) -> None:
+def test_kept_messages_do_not_change_when_the_shared_memory_is_reused(
+    kind: str, container: str, tmp_path: Path
+) -> None:
     package, _, name = kind.partition("/")
     (tmp_path / "keeper.py").write_text(_NODE.format(package=package, name=name, count=_COUNT))
     with running_graph() as graph:
@@ -67,7 +69,7 @@ print(*kept)
 """
 
 
-def test_a_slow_callback_loses_nothing(tmp_path: Path) -> None:
+def test_a_slow_callback_loses_no_messages(tmp_path: Path) -> None:
     (tmp_path / "slow.py").write_text(_SLOW_NODE)
     names = [*map(str, range(300)), "last"]
     with running_graph() as graph:

@@ -1,4 +1,4 @@
-"""Message classes: the shipped definitions are those of rosbags, whatever a value is it comes back."""
+"""Message classes: definitions as in rosbags, serialization, and errors."""
 
 import io
 from importlib import import_module
@@ -13,7 +13,7 @@ from trundle.ros.rospy.message_sources import _BUNDLES, find_definitions
 from trundle.ros.rospy.message_spec import parse_message
 
 install()
-classes: Any = import_module("trundle.ros.rospy.message_classes")  # imports genpy, which is there after install()
+classes: Any = import_module("trundle.ros.rospy.message_classes")  # imports genpy, importable after install()
 
 
 def test_shipped_definitions_have_the_md5_sums_of_rosbags() -> None:
@@ -28,17 +28,18 @@ def test_shipped_definitions_have_the_md5_sums_of_rosbags() -> None:
 @pytest.mark.parametrize(
     "name", ["std_srvs/SetBool", "gazebo_msgs/SpawnModel", "nav_msgs/GetPlan", "tf2_msgs/FrameGraph"]
 )
-def test_so_do_services(name: str) -> None:
+def test_shipped_services_have_the_md5_sums_of_rosbags(name: str) -> None:
     assert classes.service_class(name)._md5sum == Messages().service(name).md5sum
 
 
-def test_long_arrays_are_sent_as_they_are_unless_they_may_change() -> None:
+def test_long_arrays_are_not_copied_unless_they_may_change() -> None:
     from trundle.ros.rospy.message_methods import frame
 
     image = classes.message_class("sensor_msgs/Image")
     pixels = bytes(100_000)
     pieces = frame(image(data=pixels))
     assert len(pieces) > 1
+    assert isinstance(pieces[1], memoryview)
     assert pieces[1].obj is pixels
     assert len(frame(image(data=bytearray(pixels)))) == 1
 
@@ -53,7 +54,7 @@ def test_text_that_is_not_utf_8_is_replaced() -> None:
 
 @pytest.mark.parametrize("text", ["what is this", "int32 a\nint32 a", "int32[-1] a", "float b", "int32 X=a"])
 def test_invalid_definitions_are_refused(text: str) -> None:
-    if text == "float b":  # the type of another package's message, which does not exist
+    if text == "float b":  # an unknown message type
         with pytest.raises(MessageError, match="no message type 'p/float'"):
             classes.classes_from_text("p/T", text)
         return

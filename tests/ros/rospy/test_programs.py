@@ -1,4 +1,4 @@
-"""Programs on rospy's API, corner by corner: they print what they print with the original.
+"""Programs that use rospy's API print the same as with the original.
 
 expected.json was recorded with Debian's rospy; where that is installed, it is compared again.
 """
@@ -27,7 +27,7 @@ _EXPECTED: dict[str, str] = json.loads(EXPECTED.read_text())
 
 @pytest.mark.parametrize("kind", TOGETHER)
 @pytest.mark.parametrize("python", _PYTHONS)
-def test_programs_print_what_they_print_with_the_original(python: str, kind: str, tmp_path: Path) -> None:
+def test_programs_print_the_same_as_with_the_original(python: str, kind: str, tmp_path: Path) -> None:
     with running_graph() as graph:
         printed = run_together(python, kind, environment(python, graph.core.uri, tmp_path))
     assert set(printed) == {program.name for program in TOGETHER[kind]}

@@ -1,4 +1,4 @@
-"""A Python 2 program under plain `python3` ends with the command that runs it."""
+"""A Python 2 program run by plain `python3` ends with the command that runs it."""
 
 import os
 import shlex
@@ -21,23 +21,23 @@ def _ended(program: Path, *words: str) -> str:
 @pytest.mark.parametrize(
     "text", ["print 'hello'\n", "for i in xrange(3):\n    print(i)\n", "import Queue\n", "print({1: 2}.has_key(1))\n"]
 )
-def test_a_program_of_python_2_names_trundle_exec(tmp_path: Path, text: str) -> None:
+def test_the_advice_for_a_python_2_program_is_trundle_exec(tmp_path: Path, text: str) -> None:
     package = tmp_path / "src/talker"
     (package / "scripts").mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>talker</name></package>")
     program = package / "scripts/talk.py"
     program.write_text(text)
 
-    said = f"trundle: {program} is Python 2; this runs it, translated: trundle exec talker talk.py _rate:=3"
-    assert _ended(program, "_rate:=3") == said
+    advice = f"trundle: {program} is Python 2; this runs it, translated: trundle exec talker talk.py _rate:=3"
+    assert _ended(program, "_rate:=3") == advice
 
 
-def test_outside_of_packages_the_named_command_runs_it(tmp_path: Path) -> None:
+def test_the_advised_command_runs_a_program_outside_of_packages(tmp_path: Path) -> None:
     program = tmp_path / "alone.py"
     program.write_text("print 'hello', 7 / 2\n")
 
-    said = f"trundle: {program} is Python 2; this runs it, translated: "
-    command = _ended(program).removeprefix(said)
+    advice = f"trundle: {program} is Python 2; this runs it, translated: "
+    command = _ended(program).removeprefix(advice)
 
     assert shlex.split(command) == [sys.executable, str(RUN_PYTHON2), str(program)]
     done = subprocess.run(shlex.split(command), capture_output=True, text=True, check=False)
@@ -45,7 +45,7 @@ def test_outside_of_packages_the_named_command_runs_it(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["print('a'\n", "undefined_name\n", "None.attribute\n"])
-def test_faults_of_python_3_programs_get_no_such_advice(tmp_path: Path, text: str) -> None:
+def test_errors_of_python_3_programs_get_no_such_advice(tmp_path: Path, text: str) -> None:
     program = tmp_path / "wrong.py"
     program.write_text(text)
     assert "Python 2" not in _ended(program)

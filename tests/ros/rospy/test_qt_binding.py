@@ -54,7 +54,7 @@ def _run(folder: Path, code: str) -> "subprocess.CompletedProcess[str]":
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("package", "name"), [("PyQt5", "pyqt"), ("PySide6", "pyside")])
-def test_a_window_of_either_binding_is_loaded_and_its_signals_arrive(tmp_path: Path, package: str, name: str) -> None:
+def test_a_window_is_loaded_and_receives_signals_with_either_binding(tmp_path: Path, package: str, name: str) -> None:
     if find_spec(package) is None:
         pytest.skip(f"{package} is not installed")
     other = "PySide6" if package == "PyQt5" else "PyQt5"
@@ -64,7 +64,7 @@ def test_a_window_of_either_binding_is_loaded_and_its_signals_arrive(tmp_path: P
     assert done.stdout == f"{name} at 7 True\n", done.stderr
 
 
-def test_without_qt_the_way_out_is_named(tmp_path: Path) -> None:
+def test_the_error_without_qt_names_the_packages_to_install(tmp_path: Path) -> None:
     hide = HIDE.format("PyQt5") + HIDE.format("PySide6")
 
     done = _run(tmp_path, hide + "import python_qt_binding")

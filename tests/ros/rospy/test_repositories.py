@@ -1,7 +1,7 @@
-"""Nodes of other repositories print, publish, answer and end as with Debian's rospy.
+"""Nodes of other repositories print, publish, respond and end as with Debian's rospy.
 
-TRUNDLE_ROSPY_REPOSITORIES names checked-out repositories; without it, programs of the test's own show that the
-comparison works.
+TRUNDLE_ROSPY_REPOSITORIES names checked-out repositories; without it, the test's own programs show that the comparison
+works.
 """
 
 from pathlib import Path
@@ -33,22 +33,20 @@ rospy.spin()
 
 @pytest.fixture(scope="module")
 def repositories(tmp_path_factory: pytest.TempPathFactory) -> dict[Path, Repository]:
-    made = {folder: Repository(folder, tmp_path_factory.mktemp("generated")) for folder in REPOSITORIES}
-    for repository in made.values():
+    repositories = {folder: Repository(folder, tmp_path_factory.mktemp("generated")) for folder in REPOSITORIES}
+    for repository in repositories.values():
         generate(repository.packages, repository.generated)
-    return made
+    return repositories
 
 
 @pytest.mark.skipif(not _PROGRAMS, reason="TRUNDLE_ROSPY_REPOSITORIES names no repositories")
 @pytest.mark.parametrize("name", _PROGRAMS)
-def test_nodes_of_repositories_do_what_they_do_with_the_original(
-    repositories: dict[Path, Repository], name: str
-) -> None:
+def test_nodes_of_repositories_behave_as_with_the_original(repositories: dict[Path, Repository], name: str) -> None:
     folder, program = _PROGRAMS[name]
-    outcome = compare(repositories[folder], program)
-    if outcome.startswith("not comparable"):
-        pytest.skip(outcome)
-    assert outcome == "same"
+    verdict = compare(repositories[folder], program)
+    if verdict.startswith("not comparable"):
+        pytest.skip(verdict)
+    assert verdict == "same"
 
 
 @pytest.mark.parametrize(
@@ -62,13 +60,13 @@ def test_nodes_of_repositories_do_what_they_do_with_the_original(
                 'messages: +   "words: \\"other\\""',
                 'values: -   "words: \\"one\\""',
                 'values: +   "words: \\"other\\""',
-                'answers: -   "words: \\"one\\""',
-                'answers: +   "words: \\"other\\""',
+                'responses: -   "words: \\"one\\""',
+                'responses: +   "words: \\"other\\""',
             },
         ),
     ],
 )
-def test_a_difference_in_what_a_node_publishes_and_answers_is_found(
+def test_differences_in_messages_and_service_responses_are_found(
     tmp_path: Path, words: str, differences: set[str]
 ) -> None:
     package = tmp_path / "repository/talking"
@@ -82,6 +80,6 @@ def test_a_difference_in_what_a_node_publishes_and_answers_is_found(
         (package / name).write_text(text)
     repository = Repository(package.parent, tmp_path / "generated")
     generate(repository.packages, repository.generated)
-    verdict, *found = compare(repository, package / "scripts/talker.py").splitlines()
+    verdict, *lines = compare(repository, package / "scripts/talker.py").splitlines()
     assert verdict == ("different" if differences else "same")
-    assert set(found) == differences
+    assert set(lines) == differences

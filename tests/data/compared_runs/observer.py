@@ -1,6 +1,6 @@
-"""Node that observes the nodes of a graph, sends them messages and requests, and prints what they did as JSON.
+"""Node that observes the nodes of a graph, sends them messages and requests, and prints the observations as JSON.
 
-    python tests/ros/rospy/observer.py PROCESS_ID START_S
+    python tests/data/compared_runs/observer.py PROCESS_ID START_S
 
 Waits until the graph has been unchanged for a while, then records the first messages of every topic, publishes a
 default message three times on topics that are only subscribed to, and calls every service with a default request.
@@ -20,7 +20,7 @@ _LOGGERS = ("/get_loggers", "/set_logger_level")
 _QUIET = ("/rosout", "/rosout_agg", "/clock", "/statistics")
 _OTHERS = {"/observer", "/rosout", "/turtlesim"}
 _SETTLED_S = 2.0
-_ANSWER_S = 10.0
+_RESPONSE_S = 10.0
 _FIRST, _LONG = 3, 10_000
 """Messages recorded of a topic, and characters of each."""
 master = rosgraph.Master("/observer")
@@ -35,24 +35,24 @@ def graph():
 
 
 def message_class(type_name):
-    """Class of a type; None if it is unknown, or not any type in particular."""
+    """Class of a type; None if it is unknown, or any type (*)."""
     return roslib.message.get_message_class(type_name) if "/" in type_name else None
 
 
 def record(topic, type_name):
-    """Keep the first messages of a topic."""
+    """Record the first messages of a topic."""
     cls = message_class(type_name)
-    kept = messages.setdefault(topic, [])
+    recorded = messages.setdefault(topic, [])
 
-    def keep(message):
-        if len(kept) < _FIRST:
-            kept.append(str(message)[:_LONG])
+    def append(message):
+        if len(recorded) < _FIRST:
+            recorded.append(str(message)[:_LONG])
 
-    return rospy.Subscriber(topic, cls, keep) if cls else None
+    return rospy.Subscriber(topic, cls, append) if cls else None
 
 
 def has_ended(process):
-    """True if a process has ended, or its parent has not asked yet how."""
+    """True if a process has ended, or is a zombie."""
     try:
         with open(f"/proc/{process}/stat") as file:
             return file.read().rpartition(")")[2].split()[0] == "Z"
@@ -61,12 +61,12 @@ def has_ended(process):
 
 
 def wait_settled(process, end):
-    """Wait until there is a node whose endpoints stay; False if there is none in time, or its process ended."""
-    before, since = None, time.time()
+    """Wait until a node's endpoints stay unchanged; False at the end, or if its process has ended."""
+    previous, since = None, time.time()
     while time.time() < end:
         now = graph()
-        if now != before:
-            before, since = now, time.time()
+        if now != previous:
+            previous, since = now, time.time()
         if any(now) and time.time() - since > _SETTLED_S:
             return True
         if has_ended(process):
@@ -86,45 +86,45 @@ def send(topics):
         time.sleep(0.3)
 
 
-def answer(name):
-    """Answer of a service to a default request; none where it takes too long."""
+def response(name):
+    """Response of a service to a default request, in a list; an empty list after a timeout."""
     cls = rosservice.get_service_class_by_name(name)
-    answers = []
+    responses = []
 
-    def ask():
+    def call():
         try:
-            answers.append(str(rospy.ServiceProxy(name, cls)()))
+            responses.append(str(rospy.ServiceProxy(name, cls)()))
         except rospy.ServiceException as error:
-            answers.append(f"ServiceException: {error}")
+            responses.append(f"ServiceException: {error}")
 
-    thread = threading.Thread(target=ask, daemon=True)
+    thread = threading.Thread(target=call, daemon=True)
     thread.start()
-    thread.join(_ANSWER_S)
-    return list(answers)
+    thread.join(_RESPONSE_S)
+    return list(responses)
 
 
 rospy.init_node("observer", disable_rosout=True)
-found = wait_settled(sys.argv[1], time.time() + float(sys.argv[2]))
+has_settled = wait_settled(sys.argv[1], time.time() + float(sys.argv[2]))
 publishers, subscribers, services = graph()
-answers = {}
-if found:
+responses = {}
+if has_settled:
     published = {topic for topic, _ in publishers}
     recording = [record(*pair) for pair in publishers if pair[0] not in _QUIET]
     time.sleep(_SETTLED_S)
     send([pair for pair in subscribers if pair[0] not in published and pair[0] not in _QUIET])
     names = [name for name, _ in services if not name.endswith(_LOGGERS)]
-    answers = {name: answer(name) for name in names}
+    responses = {name: response(name) for name in names}
     time.sleep(_SETTLED_S)
 print(
     json.dumps(
         {
-            "found": found,
+            "has_settled": has_settled,
             "publishers": publishers,
             "subscribers": subscribers,
             "services": [name for name, _ in services],
             "parameters": sorted(master.getParamNames()),
             "messages": messages,
-            "answers": answers,
+            "responses": responses,
         }
     )
 )

@@ -1,4 +1,4 @@
-"""Stands in for turtlesim beside programs that follow its turtles: spawn and kill, poses, and the turtles' frames."""
+"""Stand-in for turtlesim, for programs that follow its turtles: spawn and kill, poses, and the turtles' frames."""
 
 from geometry_msgs.msg import TransformStamped
 from std_srvs.srv import Empty
@@ -24,7 +24,7 @@ print("ready", flush=True)
 
 
 def tick(event):
-    """Publish where the turtles are."""
+    """Publish the poses of the turtles."""
     for x, name in enumerate(TURTLES, 1):
         poses[name].publish(Pose(x=x, y=5, theta=0.5))
         frame = TransformStamped(child_frame_id=name)
