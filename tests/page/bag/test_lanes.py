@@ -1,4 +1,4 @@
-"""Lanes of a bag: which parts of its time have messages of each topic, from the index."""
+"""Lanes of a bag: the intervals with messages of each topic, from the index."""
 
 import json
 from pathlib import Path
@@ -20,7 +20,7 @@ from trundle.ros import BagMessage, create_bag
 
 
 def test_a_client_gets_a_lane_for_each_topic(client: ProtocolClient) -> None:
-    """Ten seconds are 600 buckets: ten messages a second are a band each, the latched map is one."""
+    """Ten seconds are 600 buckets: ten messages a second are separate bands, the latched map is one band."""
     client.subscribe("trundle/lanes")
     client.until(lambda: client.payloads("trundle/lanes"))
 
@@ -33,7 +33,7 @@ def test_a_client_gets_a_lane_for_each_topic(client: ProtocolClient) -> None:
     assert [first for first, _ in lanes["topics"]["/text"]["bands"][:4]] == pytest.approx([0, 6, 12, 18], abs=1)
 
 
-def test_a_later_client_gets_them_too(client: ProtocolClient) -> None:
+def test_a_later_client_gets_the_lanes_too(client: ProtocolClient) -> None:
     for _ in range(2):
         number = client.subscribe("trundle/lanes")
         client.messages.clear()
@@ -42,7 +42,7 @@ def test_a_later_client_gets_them_too(client: ProtocolClient) -> None:
 
 
 @pytest.mark.parametrize("suffix", ["bag", "mcap"])
-def test_touching_buckets_are_one_band(tmp_path: Path, suffix: str) -> None:
+def test_adjacent_buckets_form_one_band(tmp_path: Path, suffix: str) -> None:
     """200 Hz for a second, nothing for eight, 200 Hz for a second."""
     path = tmp_path / f"gap.{suffix}"
     with create_bag(path) as writer:

@@ -1,4 +1,4 @@
-"""A bag on the page: its topics as bytes, what holds after a jump, and its clock."""
+"""Playback of a bag on the page: messages, the state after a jump, the clock."""
 
 import json
 import os
@@ -43,11 +43,11 @@ STATIC = [connection("/tf_static", "tf2_msgs/TFMessage", caller=caller) for call
 
 @pytest.fixture(scope="module", params=["bag", "mcap"])
 def bag(request: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Ten seconds: /text ten times a second, /tf once, the others near the beginning."""
+    """Ten seconds: /text at 10 Hz, /tf at 1 Hz, the others near the start."""
     path = tmp_path_factory.mktemp("bag") / f"drive.{request.param}"
     with create_bag(path) as writer:
-        for each in STATIC:
-            writer.write(BagMessage(each, START, b"\0\0\0\0"))
+        for static in STATIC:
+            writer.write(BagMessage(static, START, b"\0\0\0\0"))
         writer.write(BagMessage(MAP, START, text("map")))
         writer.write(BagMessage(RARE, START + S // 2, text("rare")))
         for tick in range(101):
@@ -59,7 +59,7 @@ def bag(request: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def text(value: str) -> bytes:
-    """Bytes of a std_msgs/String."""
+    """Return the bytes of a std_msgs/String."""
     return len(value).to_bytes(4, "little") + value.encode()
 
 
@@ -75,17 +75,17 @@ def client(bag: Path) -> Iterator[ProtocolClient]:
 
 
 def times(client: ProtocolClient, topic: str) -> list[float]:
-    """Times of a topic's messages since the beginning [s]."""
+    """Return the times of a topic's messages since the start [s]."""
     return [(time_ns - START) / S for name, time_ns, _ in client.messages if name == topic]
 
 
 def ask(client: ProtocolClient, number: int, **fields: Any) -> dict[str, Any]:
     client.send("trundle/request", id=number, **fields)
-    client.until(lambda: any(each.get("id") == number for each in client.jsons))
-    return next(each for each in client.jsons if each.get("id") == number)
+    client.until(lambda: any(message.get("id") == number for message in client.jsons))
+    return next(message for message in client.jsons if message.get("id") == number)
 
 
-def test_a_browser_without_webgl_is_told_that_no_pictures_come(bag: Path) -> None:
+def test_pictures_of_a_bag_are_refused(bag: Path) -> None:
     playing = BagFile(path=os.fsencode(bag), speed=1.0, paused=True)
     with (
         PageServer.start(Session(title="b", kind="bag"), at=PageAddress(port=0), bag=playing) as page,
@@ -96,7 +96,7 @@ def test_a_browser_without_webgl_is_told_that_no_pictures_come(bag: Path) -> Non
         assert answer.read() == b"only browsers with WebGL can draw a bag\n"
 
 
-def test_topics_are_offered_with_their_types(client: ProtocolClient) -> None:
+def test_topics_are_advertised_with_their_types(client: ProtocolClient) -> None:
     client.until(lambda: {"/text", "/rare", "/map", "/tf", "/tf_static"} <= client.channels.keys())
 
     offer = client.channels["/text"]
@@ -104,7 +104,7 @@ def test_topics_are_offered_with_their_types(client: ProtocolClient) -> None:
     assert offer["schema"] == TYPES.definition("std_msgs/String")
 
 
-def test_after_a_jump_comes_what_holds_then(client: ProtocolClient) -> None:
+def test_the_state_at_the_new_time_is_sent_after_a_jump(client: ProtocolClient) -> None:
     for topic in ("/text", "/rare", "/map", "/tf", "/tf_static", "trundle/state"):
         client.subscribe(topic)
     client.until(lambda: times(client, "/text"))
@@ -123,7 +123,7 @@ def test_after_a_jump_comes_what_holds_then(client: ProtocolClient) -> None:
     assert state["timeline"] == {"start_ns": START, "end_ns": START + 10 * S}
 
 
-def test_messages_are_played_in_order_as_the_bytes_that_were_recorded(client: ProtocolClient) -> None:
+def test_messages_are_played_in_order_with_unchanged_bytes(client: ProtocolClient) -> None:
     client.subscribe("/text")
     client.until(lambda: times(client, "/text"))
     ask(client, 1, request="speed", factor=20.0)
@@ -138,7 +138,7 @@ def test_messages_are_played_in_order_as_the_bytes_that_were_recorded(client: Pr
     assert client.payloads("/text")[:40] == [text(str(tick)) for tick in ticks]
 
 
-def test_a_later_client_gets_what_holds_and_a_step_is_a_tenth_of_a_second(client: ProtocolClient) -> None:
+def test_later_clients_get_the_state_and_a_step_is_a_tenth_of_a_second(client: ProtocolClient) -> None:
     client.subscribe("/text")
     client.until(lambda: times(client, "/text"))
     ask(client, 1, request="seek", time_ns=START + 3 * S)
@@ -153,13 +153,13 @@ def test_a_later_client_gets_what_holds_and_a_step_is_a_tenth_of_a_second(client
     assert client.payloads("/map") == [text("map")]
 
 
-def test_a_bag_has_no_joints_to_move(client: ProtocolClient) -> None:
+def test_requests_to_move_joints_are_refused(client: ProtocolClient) -> None:
     answer = ask(client, 1, request="joint", model="m", joint="j", position=1.0)
 
     assert (answer["ok"], answer["error"]) == (False, "a recording does not support this request")
 
 
-def test_reading_goes_on_where_it_stopped(bag: Path) -> None:
+def test_reading_continues_without_seeking(bag: Path) -> None:
     with open_bag(bag) as reader:
         cursor = BagCursor(reader)
         topics = frozenset({"/text"})
@@ -179,8 +179,8 @@ def test_an_empty_bag_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("suffix", ["bag", "mcap"])
-def test_a_stamp_of_zero_makes_a_bag_long_and_nothing_else(tmp_path: Path, suffix: str) -> None:
-    """Recorders write it while simulated time has not begun."""
+def test_a_bag_with_a_stamp_of_zero_can_be_played(tmp_path: Path, suffix: str) -> None:
+    """Recorders write such stamps before simulated time starts."""
     path = tmp_path / f"long.{suffix}"
     with create_bag(path) as writer:
         writer.write(BagMessage(TEXT, 0, text("early")))

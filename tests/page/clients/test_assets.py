@@ -1,4 +1,4 @@
-"""Files that clients fetch: those of packages and around the source, and no others."""
+"""Files that clients fetch: only those of packages and around the source."""
 
 import json
 import os
@@ -40,7 +40,7 @@ def client(robot: Path) -> Iterator[ProtocolClient]:
 
 
 def _fetch(client: ProtocolClient, uri: str) -> tuple[bytes, str]:
-    """Content and error."""
+    """Return content and error."""
     client.binaries.clear()
     client.send("fetchAsset", uri=uri, requestId=17)
     client.until(lambda: client.binaries)
@@ -79,8 +79,8 @@ def test_other_files_are_refused_with_the_reason(client: ProtocolClient, uri: st
     assert error
 
 
-def test_many_large_files_arrive_one_after_another(client: ProtocolClient) -> None:
-    """More than a queue holds."""
+def test_large_files_arrive_one_after_another(client: ProtocolClient) -> None:
+    """Together they exceed the limit of a queue."""
     client.binaries.clear()
     for number in range(40):
         client.send("fetchAsset", uri="package://robot/meshes/large.stl", requestId=number)
@@ -89,7 +89,7 @@ def test_many_large_files_arrive_one_after_another(client: ProtocolClient) -> No
     assert [struct.unpack_from("<BIB", data)[1:] for data in client.binaries] == [(n, 0) for n in range(40)]
 
 
-def test_the_65th_file_that_is_waited_for_is_refused(client: ProtocolClient) -> None:
+def test_the_65th_pending_request_is_refused(client: ProtocolClient) -> None:
     client.binaries.clear()
     for number in range(100):
         client.send("fetchAsset", uri="package://robot/meshes/large.stl", requestId=number)
@@ -101,7 +101,7 @@ def test_the_65th_file_that_is_waited_for_is_refused(client: ProtocolClient) -> 
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="needs file names that are no UTF-8")
-def test_a_folder_whose_name_is_no_utf_8_is_read(tmp_path: Path) -> None:
+def test_files_in_a_folder_whose_name_is_not_utf_8_are_sent(tmp_path: Path) -> None:
     folder = Path(os.fsdecode(os.fsencode(tmp_path) + b"/w\xff"))
     folder.mkdir()
     (folder / "box.stl").write_bytes(b"solid box")

@@ -1,4 +1,4 @@
-"""The send queue of a client: what waits, what is dropped, what never is."""
+"""The send queue of a client: queued, dropped and undroppable messages."""
 
 import asyncio
 import socket
@@ -24,7 +24,7 @@ class Peer:
         self.outbox = Outbox(ours, broken=self.broken.append, dropped=self.dropped.append)
 
     async def read(self, count: int) -> list[bytes]:
-        """Read frames; their payloads."""
+        """Read frames; return their payloads."""
         data = bytearray()
         payloads: list[bytes] = []
         while len(payloads) < count:
@@ -36,7 +36,7 @@ class Peer:
 
 
 def _frame(data: bytearray) -> bytes | None:
-    """Take a frame from received bytes, as RFC 6455, 5.2 lays it out."""
+    """Remove a frame from received bytes and return its payload: RFC 6455, 5.2."""
     if len(data) < 2:
         return None
     extra = {126: 2, 127: 8}.get(data[1], 0)
@@ -78,25 +78,25 @@ def test_a_message_arrives_whole(size: int) -> None:
     _run(work)
 
 
-def test_a_frame_says_its_length_in_the_shortest_form() -> None:
+def test_a_frames_length_has_the_shortest_form() -> None:
     assert [len(frame_header(BINARY, size)) for size in (0, 125, 126, 65535, 65536, 2**32)] == [2, 2, 4, 4, 10, 10]
 
 
-def test_a_slow_client_loses_the_oldest_of_a_stream_and_keeps_the_rest() -> None:
+def test_a_slow_client_loses_only_the_oldest_messages_of_streams() -> None:
     async def work(peer: Peer) -> None:
         peer.outbox.send(BINARY, (bytes(8 * MB),))  # fills the kernel's buffer
         for number in range(20):
             peer.outbox.send(BINARY, (bytes([number]) * MB,), "cloud")
-            peer.outbox.send(BINARY, (b"kept" + bytes([number]),))
+            peer.outbox.send(BINARY, (b"keep" + bytes([number]),))
             peer.outbox.send(BINARY, (b"tf" + bytes([number]),), "tf")
         assert set(peer.dropped) == {"cloud"}
-        kept = 20 - len(peer.dropped)
-        payloads = (await peer.read(1 + kept + 40))[1:]
+        remaining = 20 - len(peer.dropped)
+        payloads = (await peer.read(1 + remaining + 40))[1:]
 
         clouds = [payload[0] for payload in payloads if len(payload) == MB]
-        assert clouds == list(range(20 - kept, 20))
-        assert 1 <= kept <= MAX_STREAM_BYTES // MB
-        assert [payload[4] for payload in payloads if payload.startswith(b"kept")] == list(range(20))
+        assert clouds == list(range(20 - remaining, 20))
+        assert 1 <= remaining <= MAX_STREAM_BYTES // MB
+        assert [payload[4] for payload in payloads if payload.startswith(b"keep")] == list(range(20))
         assert [payload[2] for payload in payloads if payload.startswith(b"tf")] == list(range(20))
 
     _run(work)
@@ -114,7 +114,7 @@ def test_the_newest_message_of_a_stream_is_sent_however_long() -> None:
     _run(work)
 
 
-def test_a_client_that_reads_nothing_is_given_up() -> None:
+def test_a_client_that_reads_nothing_is_disconnected() -> None:
     async def work(peer: Peer) -> None:
         message = bytes(16 * MB)
         for _ in range(MAX_BYTES // len(message) + 3):
@@ -128,7 +128,7 @@ def test_a_client_that_reads_nothing_is_given_up() -> None:
     _run(work)
 
 
-def test_a_client_that_is_gone_is_reported_once() -> None:
+def test_a_disconnected_client_is_reported_once() -> None:
     async def work(peer: Peer) -> None:
         peer.socket.close()
         for _ in range(3):
@@ -139,7 +139,7 @@ def test_a_client_that_is_gone_is_reported_once() -> None:
     _run(work)
 
 
-def test_draining_waits_until_all_is_sent() -> None:
+def test_drain_waits_until_everything_is_sent() -> None:
     async def work(peer: Peer) -> None:
         peer.outbox.send(BINARY, (bytes(8 * MB),))
         draining = asyncio.create_task(peer.outbox.drain(60.0))

@@ -1,4 +1,4 @@
-"""Polls of an owner that writes at its own pace, in time that a test counts."""
+"""Times of polls for an owner that writes periodically, with a simulated clock."""
 
 import itertools
 
@@ -10,7 +10,7 @@ RUN_S = 20.0
 
 
 def polls(period_s: float) -> tuple[int, list[float]]:
-    """Poll an owner that writes every `period_s`; return the number of polls and the age of what each brought [s]."""
+    """Poll an owner that writes every `period_s`; return the number of polls, and the age of each new message [s]."""
     timing, now_s, writes, ages = PollTiming(), 0.0, itertools.count(1), list[float]()
     next_s = next(writes) * period_s
     for count in itertools.count():
@@ -26,15 +26,15 @@ def polls(period_s: float) -> tuple[int, list[float]]:
 
 
 @pytest.mark.parametrize("period_s", [0.033, 0.034, 0.04, 0.05])
-def test_an_owner_is_polled_soon_after_it_wrote_and_seldom_between(period_s: float) -> None:
+def test_polls_follow_soon_after_writes_and_are_few(period_s: float) -> None:
     count, ages = polls(period_s)
 
-    assert len(ages) == pytest.approx(RUN_S / period_s, abs=2), "all that was written is read"
+    assert len(ages) == pytest.approx(RUN_S / period_s, abs=2), "every message is read"
     assert count < 1.3 * len(ages)
     assert sum(ages) / len(ages) < 0.008
 
 
-def test_an_owner_with_nothing_to_say_is_polled_at_its_pace() -> None:
+def test_an_idle_owner_is_polled_at_its_period() -> None:
     count, _ = polls(10 * RUN_S)
 
     assert count == pytest.approx(RUN_S / 0.033, rel=0.02)

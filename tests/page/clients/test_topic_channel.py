@@ -1,4 +1,4 @@
-"""The subscription of a topic's channel, with a node that only counts."""
+"""The subscription of a topic's channel, with a node that counts."""
 
 import asyncio
 from typing import Any, cast
@@ -12,13 +12,13 @@ from trundle.ros import Node
 
 
 class CountingNode:
-    """Counts subscriptions that begin and end."""
+    """Counts subscriptions that start and end."""
 
     def __init__(self) -> None:
-        self.begun = self.ended = 0
+        self.started = self.ended = 0
 
     def subscribe(self, *_: Any, **__: Any) -> "CountingNode":
-        self.begun += 1
+        self.started += 1
         return self
 
     def unregister(self) -> None:
@@ -26,7 +26,7 @@ class CountingNode:
 
 
 async def _visit(node: CountingNode, *, again: bool) -> None:
-    """Subscribe and unsubscribe, at once subscribe again or not, and wait longer than a subscription lingers."""
+    """Subscribe, unsubscribe, optionally resubscribe at once, and wait longer than a subscription lingers."""
     channel = TopicChannel(
         "/a", "a/B", md5sum="", definition="", is_certain=True, now_ns=lambda: 0, retype=lambda *_: None
     )
@@ -40,13 +40,13 @@ async def _visit(node: CountingNode, *, again: bool) -> None:
 
 
 @pytest.mark.parametrize(("again", "ended"), [(True, 0), (False, 1)])
-def test_a_subscription_outlives_a_client_that_subscribes_again(
+def test_a_subscription_outlives_its_last_client_for_a_while(
     again: bool, ended: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Else it would lose messages between two connections; one that nobody wants ends a little later."""
+    """Otherwise messages would be lost between two connections; without clients, it ends a little later."""
     monkeypatch.setattr(topic_channel, "_LINGER_S", 0.02)
     node = CountingNode()
 
     asyncio.run(_visit(node, again=again))
 
-    assert (node.begun, node.ended) == (1, ended)
+    assert (node.started, node.ended) == (1, ended)

@@ -1,10 +1,11 @@
-"""The dead man's switch: whatever ends, the robot gets one zero."""
+"""The dead man's switch: however driving ends, the robot gets one zero."""
 
 import os
 import signal
 import threading
 import time
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import pytest
 from tests.graphs import Graph, running_graph, until
@@ -15,24 +16,24 @@ from trundle.page import GraphAddress, PageServer, Session
 from trundle.ros import Node
 
 STOP_S = 0.5
-"""Bar: time from the end of commands to the zero."""
+"""Limit of the time from the end of commands to the zero."""
 
 
 class Robot:
-    """Listener of velocities, with the time at which each came."""
+    """Subscriber to velocities, with their times of arrival."""
 
     def __init__(self, node: Node, topic: str, type_name: str = "geometry_msgs/Twist") -> None:
-        self.heard: list[tuple[float, float, float]] = []
+        self.received: list[tuple[float, float, float]] = []
         self._is_stamped = type_name.endswith("Stamped")
-        node.subscribe(topic, type_name, self._hear)
+        node.subscribe(topic, type_name, self._receive)
 
-    def _hear(self, message: object) -> None:
-        twist = message.twist if self._is_stamped else message  # pyright: ignore[reportAttributeAccessIssue]
-        self.heard.append((time.monotonic(), twist.linear.x, twist.angular.z))
+    def _receive(self, message: Any) -> None:
+        twist = message.twist if self._is_stamped else message
+        self.received.append((time.monotonic(), twist.linear.x, twist.angular.z))
 
     @property
     def velocities(self) -> list[tuple[float, float]]:
-        return [(linear, angular) for _, linear, angular in self.heard]
+        return [(linear, angular) for _, linear, angular in self.received]
 
 
 @pytest.fixture(scope="module")
@@ -58,8 +59,8 @@ def robot(graph: Graph, request: pytest.FixtureRequest) -> Iterator[Robot]:
 
 
 def _drive(client: ProtocolClient, robot: Robot, velocity: tuple[float, float] = (0.5, -0.25)) -> None:
-    """Drive until the robot has heard it."""
-    before = len(robot.heard)
+    """Drive until the robot has received the velocity."""
+    before = len(robot.received)
 
     def command() -> bool:
         client.send("trundle/drive", topic="/cmd_vel", linear=velocity[0], angular=velocity[1])
@@ -69,17 +70,17 @@ def _drive(client: ProtocolClient, robot: Robot, velocity: tuple[float, float] =
 
 
 def _until_stopped(robot: Robot) -> float:
-    """Time of the first zero."""
+    """Return the time of the first zero."""
     end = time.monotonic() + 60
     while time.monotonic() < end:
         if (0.0, 0.0) in robot.velocities:
-            return next(stamp for stamp, linear, angular in robot.heard if (linear, angular) == (0.0, 0.0))
+            return next(stamp for stamp, linear, angular in robot.received if (linear, angular) == (0.0, 0.0))
         time.sleep(0.002)
     raise AssertionError("no zero came")
 
 
 def _assert_one_stop(robot: Robot) -> None:
-    """One zero came, and nothing after it."""
+    """Assert that the robot got one zero, and nothing after it."""
     _until_stopped(robot)
     time.sleep(0.5)
     assert robot.velocities.count((0.0, 0.0)) == 1
@@ -97,9 +98,9 @@ def test_commands_arrive_and_release_stops(drive_page: PageServer, robot: Robot)
 def test_silence_stops(drive_page: PageServer, robot: Robot) -> None:
     with ProtocolClient(drive_page.url) as client:
         _drive(client, robot)
-        last = robot.heard[-1][0]
+        last = robot.received[-1][0]
         stopped = _until_stopped(robot)
-        assert stopped - last > 0.25  # not before the silence
+        assert stopped - last > 0.25  # not before the timeout
         _assert_one_stop(robot)
 
 
@@ -110,7 +111,7 @@ def test_a_closed_socket_stops(drive_page: PageServer, robot: Robot) -> None:
         _assert_one_stop(robot)
 
 
-def test_a_client_that_did_not_drive_stops_nothing(drive_page: PageServer, robot: Robot) -> None:
+def test_a_leaving_client_that_did_not_drive_sends_no_zero(drive_page: PageServer, robot: Robot) -> None:
     with ProtocolClient(drive_page.url) as driver:
         _drive(driver, robot)
         with ProtocolClient(drive_page.url) as other:
@@ -121,7 +122,7 @@ def test_a_client_that_did_not_drive_stops_nothing(drive_page: PageServer, robot
         assert (0.0, 0.0) not in robot.velocities
 
 
-def test_of_two_drivers_the_last_one_stops(drive_page: PageServer, robot: Robot) -> None:
+def test_the_robot_stops_when_its_last_driver_ends(drive_page: PageServer, robot: Robot) -> None:
     with ProtocolClient(drive_page.url) as one, ProtocolClient(drive_page.url) as two:
         _drive(one, robot)
         _drive(two, robot, (0.1, 0.0))
@@ -154,7 +155,7 @@ def test_the_end_of_the_server_stops(drive_page: PageServer, robot: Robot, end: 
     assert robot.velocities[-1] == (0.0, 0.0)
 
 
-def test_a_server_that_goes_on_is_watched_again(drive_page: PageServer, robot: Robot) -> None:
+def test_a_resumed_server_is_watched_again(drive_page: PageServer, robot: Robot) -> None:
     with ProtocolClient(drive_page.url) as client:
         for _ in range(2):
             _drive(client, robot)
@@ -163,7 +164,7 @@ def test_a_server_that_goes_on_is_watched_again(drive_page: PageServer, robot: R
             os.kill(drive_page.process_id, signal.SIGCONT)
 
 
-def test_a_topic_of_stamped_twists_gets_those(graph: Graph, drive_page: PageServer) -> None:
+def test_stamped_twists_are_published_on_topics_of_that_type(graph: Graph, drive_page: PageServer) -> None:
     node = graph.node("stamped_robot")
     robot = Robot(node, "/stamped", "geometry_msgs/TwistStamped")
     graph.ready(node)
@@ -181,12 +182,12 @@ def test_a_topic_of_stamped_twists_gets_those(graph: Graph, drive_page: PageServ
 @pytest.mark.parametrize(
     ("fields", "reason"),
     [
-        ({"topic": "/chatter"}, "carries std_msgs/String"),
+        ({"topic": "/chatter"}, "its type is std_msgs/String"),
         ({"topic": "no name"}, "cannot be driven"),
         ({"linear": "fast"}, "cannot be read"),
     ],
 )
-def test_what_cannot_be_driven_is_named(
+def test_invalid_topics_and_velocities_are_refused(
     graph: Graph, drive_page: PageServer, fields: dict[str, object], reason: str
 ) -> None:
     node = graph.node("chatter")
@@ -200,7 +201,7 @@ def test_what_cannot_be_driven_is_named(
     graph.loop.run(node.shutdown())
 
 
-def test_without_a_graph_nothing_is_driven() -> None:
+def test_driving_without_a_graph_is_refused() -> None:
     with (
         PageServer.start(Session(title="t", kind="log"), at=PageAddress(port=0)) as page,
         ProtocolClient(page.url) as client,

@@ -1,4 +1,4 @@
-"""Stops and reports of driving, part by part: the order of events that a whole page hides."""
+"""Order of stops and reports of driving, tested on single parts."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -21,16 +21,16 @@ FORWARD = Drive(topic=TOPIC, linear=0.5, angular=0.0)
 
 
 class Events:
-    """Reports to the owner and velocities at the robot, in their order."""
+    """Reports to the owner and velocities at the robot, in order."""
 
     def __init__(self) -> None:
-        self.seen: list[object] = []
+        self.log: list[object] = []
 
     def report(self, topics: dict[str, str]) -> None:
-        self.seen.append(set(topics))
+        self.log.append(set(topics))
 
     def subscribe(self, node: Node) -> None:
-        node.subscribe(TOPIC, TWIST, lambda twist: self.seen.append(twist.linear.x), on_loop=True)
+        node.subscribe(TOPIC, TWIST, lambda twist: self.log.append(twist.linear.x), on_loop=True)
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def shared_graph() -> Iterator[Graph]:
 
 @pytest.fixture
 def graph(shared_graph: Graph) -> Iterator[Graph]:
-    """The graph, without the nodes of the tests before."""
+    """The graph, without nodes of earlier tests."""
     yield shared_graph
     for node in list(shared_graph.loop.local.members):
         if isinstance(node, Node) and node.name in ("/page", "/robot", "/other"):
@@ -54,7 +54,7 @@ def page(graph: Graph) -> Node:
 
 
 def _call(graph: Graph, function: Callable[[], object]) -> None:
-    """Call a function on the loop, where the page's server is."""
+    """Call a function on the loop of the page's server."""
 
     async def call() -> None:
         function()
@@ -63,42 +63,42 @@ def _call(graph: Graph, function: Callable[[], object]) -> None:
 
 
 def _driven_robot(graph: Graph, page: Node) -> tuple[Driving, Events]:
-    """A robot that is being driven."""
+    """Return a driven robot."""
     events = Events()
     driving = Driving(events.report)
     events.subscribe(graph.node("robot"))
 
     def drive() -> bool:
         _call(graph, lambda: driving.drive(CLIENT, FORWARD, {}))
-        return 0.5 in events.seen
+        return 0.5 in events.log
 
     _call(graph, lambda: driving.set_node(page))
     until(drive)
-    events.seen.clear()
+    events.log.clear()
     return driving, events
 
 
-def test_a_server_that_was_suspended_reports_before_it_moves_the_robot(graph: Graph, page: Node) -> None:
+def test_a_resumed_server_reports_before_it_moves_the_robot(graph: Graph, page: Node) -> None:
     driving, events = _driven_robot(graph, page)
-    time.sleep(0.2)  # nobody polls: reports are overdue
+    time.sleep(0.2)  # without polls, reports are overdue
 
     _call(graph, lambda: driving.drive(CLIENT, FORWARD, {}))
 
-    until(lambda: 0.5 in events.seen)
-    assert events.seen == [{TOPIC}, 0.5]
+    until(lambda: 0.5 in events.log)
+    assert events.log == [{TOPIC}, 0.5]
 
 
-def test_a_robot_is_reported_as_driven_until_its_zero_has_gone_out(graph: Graph, page: Node) -> None:
+def test_a_robot_is_reported_as_driven_until_its_zero_is_sent(graph: Graph, page: Node) -> None:
     driving, events = _driven_robot(graph, page)
 
     _call(graph, lambda: driving.release(CLIENT, TOPIC))
 
-    until(lambda: len(events.seen) == 2)
-    assert events.seen == [0.0, set()]
+    until(lambda: len(events.log) == 2)
+    assert events.log == [0.0, set()]
 
 
 def test_a_robot_that_connects_after_the_release_is_stopped(graph: Graph, page: Node) -> None:
-    """It may have heard a command by a connection that has broken since."""
+    """It may have received a command by an earlier connection."""
     events = Events()
     driving = Driving(events.report)
     _call(graph, lambda: driving.set_node(page))
@@ -107,19 +107,19 @@ def test_a_robot_that_connects_after_the_release_is_stopped(graph: Graph, page: 
 
     events.subscribe(graph.node("robot"))
 
-    until(lambda: 0.0 in events.seen)
+    until(lambda: 0.0 in events.log)
 
 
-def test_another_node_leaves_no_robot_driving(graph: Graph, page: Node) -> None:
-    """A robot that does not register again at a new master hears the old node alone."""
+def test_a_new_node_stops_driven_robots(graph: Graph, page: Node) -> None:
+    """A robot that does not register again at a new master receives only from the old node."""
     driving, events = _driven_robot(graph, page)
 
     _call(graph, lambda: driving.set_node(graph.node("other")))
 
-    until(lambda: 0.0 in events.seen)
+    until(lambda: 0.0 in events.log)
 
 
-def test_a_client_that_goes_leaves_the_topics_that_others_drive(graph: Graph, page: Node) -> None:
+def test_a_leaving_client_does_not_end_topics_that_others_drive(graph: Graph, page: Node) -> None:
     driving, _ = _driven_robot(graph, page)
     publishers = ClientPublishers(is_shared=lambda topic: topic in driving.topics)
     channels = tuple(
@@ -131,15 +131,15 @@ def test_a_client_that_goes_leaves_the_topics_that_others_drive(graph: Graph, pa
     _call(graph, lambda: publishers.set_node(page))
     _call(graph, lambda: publishers.advertise(CLIENT, Advertise(channels=channels), {}))
     until(lambda: publishers.topics == {TOPIC, "/own"})
-    own = page.advertise("/own", TWIST)
+    publisher = page.advertise("/own", TWIST)
     _call(graph, lambda: publishers.forget(CLIENT))
 
     assert page.advertise(TOPIC, TWIST) is driven
-    assert page.advertise("/own", TWIST) is not own
+    assert page.advertise("/own", TWIST) is not publisher
 
 
 def test_a_robot_that_connects_long_after_the_servers_end_is_stopped(graph: Graph, page: Node) -> None:
-    """On a busy machine the connection may take seconds."""
+    """On a busy machine, connecting may take seconds."""
     stop = DriveStop(page)
     stop.follow({TOPIC: TWIST})
     stop.end()
@@ -148,18 +148,18 @@ def test_a_robot_that_connects_long_after_the_servers_end_is_stopped(graph: Grap
     events = Events()
     events.subscribe(graph.node("robot"))
 
-    until(lambda: events.seen == [0.0])
+    until(lambda: events.log == [0.0])
 
 
-def test_the_end_of_a_server_that_had_been_silent_stops_again(graph: Graph, page: Node) -> None:
+def test_robots_are_stopped_again_when_a_silent_server_ends(graph: Graph, page: Node) -> None:
     stop = DriveStop(page)
     events = Events()
     events.subscribe(graph.node("robot"))
     publisher = page.advertise(TOPIC, TWIST)
     until(lambda: publisher.has_subscribers)
     stop.follow({TOPIC: TWIST})
-    until(lambda: events.seen == [0.0])
+    until(lambda: events.log == [0.0])
 
     stop.end()
 
-    until(lambda: events.seen == [0.0, 0.0])
+    until(lambda: events.log == [0.0, 0.0])

@@ -1,4 +1,4 @@
-"""Clients that leave before their questions are answered."""
+"""Clients that leave before their requests are answered."""
 
 from urllib.parse import urlsplit
 
@@ -11,7 +11,7 @@ from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
 
 
-def test_a_client_that_asks_and_leaves_at_once_leaves_nothing_on_the_terminal(
+def test_a_client_that_leaves_during_a_request_causes_no_output(
     capfd: pytest.CaptureFixture[str],
 ) -> None:
     questions = SEPARATOR.join(
@@ -31,7 +31,7 @@ def test_a_client_that_asks_and_leaves_at_once_leaves_nothing_on_the_terminal(
     ):
         address = urlsplit(socket_url(page.url))
         assert address.port is not None
-        capfd.readouterr()  # a slow start
+        capfd.readouterr()  # warnings about a slow start
         for _ in range(20):
             send_web_socket(address.port, f"/?{address.query}", "trundle.v1", questions)
         assert page.alive

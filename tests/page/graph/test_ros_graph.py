@@ -1,4 +1,4 @@
-"""The page as a node of a real graph: topics, services, parameters, the graph itself."""
+"""The page as a node of a real graph: topics, services, parameters, the connection graph."""
 
 import base64
 import json
@@ -44,7 +44,7 @@ def client(graph_page: PageServer) -> Iterator[ProtocolClient]:
         yield client
 
 
-def test_a_topic_arrives_as_the_bytes_that_were_published(graph: Graph, client: ProtocolClient) -> None:
+def test_messages_arrive_with_unchanged_bytes(graph: Graph, client: ProtocolClient) -> None:
     node = graph.node("talker")
     publisher = node.advertise("/chat", "std_msgs/String")
     client.subscribe("/chat")
@@ -61,7 +61,7 @@ def test_a_topic_arrives_as_the_bytes_that_were_published(graph: Graph, client: 
     client.until(lambda: "/chat" not in client.channels)
 
 
-def test_many_clients_share_one_subscription_that_ends_with_the_last(graph: Graph, graph_page: PageServer) -> None:
+def test_clients_share_one_subscription(graph: Graph, graph_page: PageServer) -> None:
     node = graph.node("sharer")
     publisher = node.advertise("/shared", "std_msgs/String")
     with ProtocolClient(graph_page.url) as one, ProtocolClient(graph_page.url, protocol=FOXGLOVE) as two:
@@ -79,7 +79,7 @@ def test_many_clients_share_one_subscription_that_ends_with_the_last(graph: Grap
     publisher.unregister()
 
 
-def test_latched_messages_are_sent_to_clients_that_come_later(graph: Graph, graph_page: PageServer) -> None:
+def test_later_clients_get_latched_messages(graph: Graph, graph_page: PageServer) -> None:
     nodes = [graph.node(f"mapper{i}") for i in range(2)]
     publishers = [node.advertise("/latched", "std_msgs/String", latch=True) for node in nodes]
     for number, publisher in enumerate(publishers):
@@ -95,15 +95,15 @@ def test_latched_messages_are_sent_to_clients_that_come_later(graph: Graph, grap
         publisher.unregister()
 
 
-def test_a_type_that_only_its_publisher_knows_has_its_definition(graph: Graph, client: ProtocolClient) -> None:
-    """Neither shipped nor on the package path."""
+def test_an_unknown_type_has_its_publishers_definition(graph: Graph, client: ProtocolClient) -> None:
+    """The type is neither shipped nor on the package path."""
     definition = "uint8 a\nPart part\n" + "=" * 80 + "\nMSG: nowhere_msgs/Part\nuint8 b\n"
     node = graph.node("stranger")
     publisher = node.advertise("/strange", "nowhere_msgs/Thing", raw_type=("0" * 32, definition))
     client.subscribe("/strange")
     graph.until(lambda: publisher.has_subscribers)
 
-    def arrives() -> bool:  # the first listener is the page's question for the definition, which takes no message
+    def arrives() -> bool:  # the first connection is the page's probe for the definition, which receives no message
         publisher.publish(b"\1\2")
         return b"\1\2" in client.payloads("/strange")
 
@@ -113,9 +113,7 @@ def test_a_type_that_only_its_publisher_knows_has_its_definition(graph: Graph, c
     publisher.unregister()
 
 
-def test_a_type_of_another_version_is_offered_anew_as_its_publisher_has_it(
-    graph: Graph, client: ProtocolClient
-) -> None:
+def test_a_topic_of_another_version_of_its_type_is_advertised_again(graph: Graph, client: ProtocolClient) -> None:
     node = graph.node("outdated")
     publisher = node.advertise("/outdated", "std_msgs/String", raw_type=("1" * 32, "uint8 data\n"))
     client.subscribe("/outdated")
@@ -138,18 +136,18 @@ def test_a_type_of_another_version_is_offered_anew_as_its_publisher_has_it(
 
 def test_clients_publish(graph: Graph, client: ProtocolClient) -> None:
     node = graph.node("listener")
-    heard: list[str] = []
-    node.subscribe("/goal", "std_msgs/String", lambda m: heard.append(m.data))
+    received: list[str] = []
+    node.subscribe("/goal", "std_msgs/String", lambda m: received.append(m.data))
     channel = {"id": 7, "topic": "/goal", "encoding": "ros1", "schemaName": "std_msgs/String"}
     client.send("advertise", channels=[channel])
     body = struct.pack("<BII", 1, 7, 2) + b"go"
 
     def publish() -> bool:
         client.socket.send(body)
-        return bool(heard)
+        return bool(received)
 
     client.until(publish)
-    assert set(heard) == {"go"}
+    assert set(received) == {"go"}
     client.socket.send(struct.pack("<BII", 1, 7, 99) + b"go")
     client.until(lambda: any("is not published" in status["message"] for status in client.statuses))
     client.send("unadvertise", channelIds=[7])
@@ -164,12 +162,12 @@ async def _published(node: Node) -> list[list[str]]:
     ("change", "reason"),
     [
         ({"schemaName": "no_msgs/None"}, "no message type"),
-        ({"topic": "not a name"}, "not the name of a topic"),
-        ({"topic": ""}, "not the name of a topic"),
-        ({"encoding": "json"}, "encoded as ros1"),
+        ({"topic": "not a name"}, "invalid topic name"),
+        ({"topic": ""}, "invalid topic name"),
+        ({"encoding": "json"}, "encoding must be ros1"),
     ],
 )
-def test_a_topic_that_cannot_be_published_is_named(client: ProtocolClient, change: dict[str, str], reason: str) -> None:
+def test_invalid_client_topics_are_refused(client: ProtocolClient, change: dict[str, str], reason: str) -> None:
     channel = {"id": 1, "topic": "/t", "encoding": "ros1", "schemaName": "std_msgs/String"} | change
     client.send("advertise", channels=[channel])
     client.until(lambda: client.statuses)
@@ -183,7 +181,7 @@ def _call(client: ProtocolClient, name: str, body: bytes, call_id: int = 3) -> N
     client.socket.send(header + b"ros1" + body)
 
 
-def test_services_are_offered_and_called(graph: Graph, client: ProtocolClient) -> None:
+def test_services_are_advertised_and_called(graph: Graph, client: ProtocolClient) -> None:
     node = graph.node("server")
     service = node.advertise_service("/enable", "std_srvs/SetBool", lambda r: {"success": r.data, "message": "ok"})
     _call(client, "/enable", b"\1")
@@ -197,7 +195,7 @@ def test_services_are_offered_and_called(graph: Graph, client: ProtocolClient) -
     client.until(lambda: "/enable" not in client.services)
 
 
-def test_a_service_that_fails_says_why(graph: Graph, client: ProtocolClient) -> None:
+def test_a_failed_service_call_has_its_reason(graph: Graph, client: ProtocolClient) -> None:
     def fail(_: object) -> None:
         raise ServiceError("the arm is folded")
 
@@ -254,17 +252,17 @@ def test_parameters_are_set_deleted_and_watched(graph: Graph, client: ProtocolCl
         assert "/other" not in json.dumps(watcher.jsons)
 
 
-def test_a_number_that_no_float_holds_is_refused(client: ProtocolClient) -> None:
+def test_a_number_beyond_the_range_of_floats_is_refused(client: ProtocolClient) -> None:
     client.send("setParameters", parameters=[{"name": "/huge", "value": 10**400, "type": "float64"}], id="h")
     assert _values(client, "h") == []
     client.until(lambda: any("/huge is not set" in status["message"] for status in client.statuses))
 
 
-def test_a_first_message_reaches_the_subscribers_that_there_are(graph: Graph, client: ProtocolClient) -> None:
-    """A goal is published once, at the moment its topic is advertised."""
-    heard: list[list[str]] = [[], []]
+def test_the_first_message_reaches_all_present_subscribers(graph: Graph, client: ProtocolClient) -> None:
+    """A goal is published once, right after its topic is advertised."""
+    received: list[list[str]] = [[], []]
     nodes = [graph.node(f"hearer{i}") for i in range(2)]
-    for node, texts in zip(nodes, heard, strict=True):
+    for node, texts in zip(nodes, received, strict=True):
         node.subscribe("/first_goal", "std_msgs/String", lambda message, texts=texts: texts.append(message.data))
     graph.ready(*nodes)
     client.send("subscribeConnectionGraph")
@@ -273,36 +271,36 @@ def test_a_first_message_reaches_the_subscribers_that_there_are(graph: Graph, cl
     client.send("advertise", channels=[channel])
     for text in ("a", "b"):
         client.socket.send(struct.pack("<BII", 1, 1, 1) + text.encode())
-    graph.until(lambda: heard == [["a", "b"], ["a", "b"]])
+    graph.until(lambda: received == [["a", "b"], ["a", "b"]])
     client.socket.send(struct.pack("<BII", 1, 1, 1) + b"c")
-    graph.until(lambda: heard == [["a", "b", "c"], ["a", "b", "c"]])
+    graph.until(lambda: received == [["a", "b", "c"], ["a", "b", "c"]])
 
 
 def _subscribers(client: ProtocolClient, topic: str) -> tuple[str, list[str]] | None:
-    """Type and nodes of a subscribed topic as the graph's updates tell them."""
-    known: tuple[str, list[str]] | None = None
+    """Return type and nodes of a subscribed topic by the graph's updates."""
+    latest: tuple[str, list[str]] | None = None
     for message in client.jsons:
         if message["op"] == "connectionGraphUpdate":
             for entry in message["subscribedTopics"]:
                 if entry["name"] == topic:
-                    known = (entry["type"], entry["subscriberIds"])
-    return known
+                    latest = (entry["type"], entry["subscriberIds"])
+    return latest
 
 
-def test_the_connection_graph_is_told_and_updated(graph: Graph, client: ProtocolClient) -> None:
+def test_the_connection_graph_is_sent_and_updated(graph: Graph, client: ProtocolClient) -> None:
     node = graph.node("drawer")
     publisher = node.advertise("/drawn", "std_msgs/String")
     graph.ready(node)
     client.send("subscribeConnectionGraph")
 
     def nodes() -> dict[str, list[str]]:
-        known: dict[str, list[str]] = {}
+        latest: dict[str, list[str]] = {}
         for message in client.jsons:
             if message["op"] == "connectionGraphUpdate":
-                known |= {topic["name"]: topic["publisherIds"] for topic in message["publishedTopics"]}
+                latest |= {topic["name"]: topic["publisherIds"] for topic in message["publishedTopics"]}
                 for name in message["removedTopics"]:
-                    known.pop(name, None)
-        return known
+                    latest.pop(name, None)
+        return latest
 
     client.until(lambda: nodes().get("/drawn") == ["/drawer"])
     publisher.unregister()
@@ -335,7 +333,7 @@ def test_simulated_time_is_the_time_of_messages(graph: Graph, graph_page: PageSe
 
 
 @pytest.mark.slow
-def test_a_master_that_comes_late_dies_and_returns() -> None:
+def test_the_page_joins_late_and_restarted_masters() -> None:
     with running_graph() as graph:
         uri, port = graph.core.uri, int(graph.core.uri.rstrip("/").rpartition(":")[2])
         graph.loop.run(graph.core.stop(), 60)
@@ -353,11 +351,11 @@ def test_a_master_that_comes_late_dies_and_returns() -> None:
                     client.subscribe("/chat")
                 count = len(client.payloads("/chat"))
 
-                def heard(count: int = count, publisher: Any = publisher) -> bool:
+                def arrives(count: int = count, publisher: Any = publisher) -> bool:
                     publisher.publish({"data": "x"})
                     return len(client.payloads("/chat")) > count
 
-                client.until(heard)
+                client.until(arrives)
                 client.jsons.clear()
                 client.statuses.clear()
                 graph.loop.run(node.shutdown(), 60)
@@ -368,7 +366,7 @@ def test_a_master_that_comes_late_dies_and_returns() -> None:
 
 
 def test_messages_of_the_master_arrive_decoded_the_same(graph: Graph, client: ProtocolClient) -> None:
-    """A header with a stamp, arrays and strings: nothing is lost on the way."""
+    """A message with a stamped header, arrays and strings arrives unchanged."""
     node = graph.node("scanner")
     publisher = node.advertise("/scan", "sensor_msgs/LaserScan")
     client.subscribe("/scan")
@@ -385,10 +383,10 @@ BAD_ADDRESSES = [f"http://{'a' * 70}.example:80/", "http://robot..example:80/"]
 
 
 @pytest.mark.parametrize("uri", BAD_ADDRESSES)
-def test_a_node_with_an_address_that_is_none_hides_no_other(
+def test_a_node_with_an_invalid_address_does_not_hide_others(
     graph: Graph, client: ProtocolClient, uri: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    """Its topic's type and its service's can be asked for nowhere."""
+    """The types of its topic and service cannot be probed."""
     master, service_uri = MasterProxy(graph.core.uri, "/stray"), uri.replace("http", "rosrpc")
     master.call("registerPublisher", "/stray_topic", "stray_msgs/Unknown", uri)
     master.call("registerService", "/stray_service", service_uri, uri)
@@ -401,7 +399,7 @@ def test_a_node_with_an_address_that_is_none_hides_no_other(
     assert "Traceback" not in capfd.readouterr().err
 
 
-def test_a_publisher_at_a_port_that_is_none_hides_no_other(graph: Graph, client: ProtocolClient) -> None:
+def test_a_publisher_at_an_invalid_port_does_not_hide_others(graph: Graph, client: ProtocolClient) -> None:
     server = RpcServer(lambda _method, _arguments: (1, "", ["TCPROS", "127.0.0.1", 99_999]))
     graph.loop.run(server.start("127.0.0.1", 0))
     uri = f"http://127.0.0.1:{server.port}/"

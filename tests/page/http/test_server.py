@@ -1,4 +1,4 @@
-"""HTTP of the page: its session, the client's files, policies, and who is refused."""
+"""HTTP of the page: its session, the client's files, policies and refusals."""
 
 import gzip
 import http.client
@@ -9,6 +9,7 @@ import urllib.request
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, suppress
+from email.message import Message
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -24,14 +25,14 @@ from trundle.base.http.access import Access, PageRequest
 from trundle.base.http.page_address import AllowedNames, PageAddress
 from trundle.page import PageServer, Session
 from trundle.page.http.client_files import CLIENT, ClientFiles
+from trundle.page.http.client_slots import MAX_CONTROLLING
 from trundle.page.http.content_policy import response_fields
-from trundle.page.http.places import MAX_CONTROLLING
 from trundle.page.world.draft_info import FileUrl
 
 EVIL = "http://evil.example"
 
 
-def _get(url: str, **fields: str) -> tuple[int, str, http.client.HTTPMessage]:
+def _get(url: str, **fields: str) -> tuple[int, str, Message]:
     request = urllib.request.Request(url, headers={name.title(): value for name, value in fields.items()})
     try:
         with urllib.request.urlopen(request, timeout=30) as answer:
@@ -41,7 +42,7 @@ def _get(url: str, **fields: str) -> tuple[int, str, http.client.HTTPMessage]:
             return error.code, error.read().decode(), error.headers
 
 
-def test_the_session_says_what_the_page_is_for(page: PageServer) -> None:
+def test_session_json_holds_the_session(page: PageServer) -> None:
     session = json.loads(_get(page_url(page.url, "/session.json"))[1])
 
     assert session == {
@@ -57,12 +58,12 @@ def test_the_session_says_what_the_page_is_for(page: PageServer) -> None:
 
 
 def _bare(page: PageServer) -> str:
-    """Address of a page without its token."""
+    """Return a page's URL without its token."""
     return page.url.partition("/?")[0]
 
 
-def test_a_page_gets_in_by_the_token_from_wherever_it_is(page: PageServer) -> None:
-    """Foxglove's, on the web and on the desktop, have other origins."""
+def test_a_token_grants_access_from_any_origin(page: PageServer) -> None:
+    """Foxglove's pages, on the web and on the desktop, have other origins."""
     here = _bare(page)
     for origin in (EVIL, "null", here.replace("127.0.0.1", "localhost"), f"{here}.evil.example", here):
         assert _get(f"{here}/session.json", origin=origin)[0] == 403
@@ -104,7 +105,7 @@ def test_no_address_answers_without_the_token(page: PageServer, path: str, statu
         assert _get(page_url(page.url, path), **fields)[0] == status
 
 
-def test_a_browser_without_the_token_is_asked_for_the_link(page: PageServer) -> None:
+def test_a_browser_without_a_token_gets_a_form_for_the_link(page: PageServer) -> None:
     status, body, fields = _get(_bare(page), accept="text/html,*/*")
 
     assert status == 403
@@ -115,8 +116,8 @@ def test_a_browser_without_the_token_is_asked_for_the_link(page: PageServer) -> 
     assert _get(f"{_bare(page)}/session.json", accept="text/html,*/*")[1].startswith("refused: this page asks for its")
 
 
-def test_wrong_tokens_are_answered_late_and_the_right_one_at_once(page: PageServer) -> None:
-    """Guesses wait for each other's end as well: too many at once are turned away."""
+def test_wrong_tokens_are_answered_with_a_delay(page: PageServer) -> None:
+    """Concurrent guesses wait for each other, and too many are refused."""
     with ThreadPoolExecutor(80) as pool:
         guesses = [pool.submit(_get, f"{_bare(page)}/session.json?token={number}") for number in range(80)]
         assert _get(page_url(page.url, "/session.json"))[0] == 200
@@ -126,7 +127,7 @@ def test_wrong_tokens_are_answered_late_and_the_right_one_at_once(page: PageServ
     assert _get(f"{_bare(page)}/session.json?token=guess")[0] == 403
 
 
-def test_a_name_that_leads_here_but_is_not_ours_is_refused(page: PageServer) -> None:
+def test_foreign_host_names_are_refused(page: PageServer) -> None:
     status, body, _ = _get(page.url, host="evil.example:8080")
 
     assert (status, body) == (
@@ -137,12 +138,12 @@ def test_a_name_that_leads_here_but_is_not_ours_is_refused(page: PageServer) -> 
     assert _get(page.url, host="localhost:9000")[0] == 200
 
 
-def test_an_image_of_this_page_and_a_link_of_another_are_served(page: PageServer) -> None:
-    asked: list[dict[str, str]] = [
+def test_own_images_and_links_from_other_pages_are_served(page: PageServer) -> None:
+    requests: list[dict[str, str]] = [
         {"sec-fetch-mode": "no-cors", "sec-fetch-site": "same-origin"},
         {"sec-fetch-mode": "navigate", "sec-fetch-site": "cross-site"},
     ]
-    for fields in asked:
+    for fields in requests:
         assert _get(page_url(page.url, "/session.json"), **fields)[0] == 200
 
 
@@ -154,7 +155,7 @@ def open_page() -> Iterator[PageServer]:
         yield page
 
 
-def test_the_token_opens_and_the_cookie_keeps_open(open_page: PageServer) -> None:
+def test_the_token_sets_a_cookie_that_grants_access(open_page: PageServer) -> None:
     bare = f"http://{urlsplit(open_page.url).netloc}"
     assert _get(bare)[0] == 403
     for origin in (bare, "https://studio.example"):
@@ -164,15 +165,15 @@ def test_the_token_opens_and_the_cookie_keeps_open(open_page: PageServer) -> Non
     status, _, fields = _get(open_page.url)
 
     assert status == 200
-    kept = str(fields["Set-Cookie"]).partition(";")[0]
-    assert _get(bare, cookie=kept)[0] == 200
-    with ProtocolClient(bare, origin=Origin(bare), additional_headers={"Cookie": kept}) as client:
+    cookie = str(fields["Set-Cookie"]).partition(";")[0]
+    assert _get(bare, cookie=cookie)[0] == 200
+    with ProtocolClient(bare, origin=Origin(bare), additional_headers={"Cookie": cookie}) as client:
         client.until(lambda: client.jsons)
     with pytest.raises(InvalidStatus):
-        ProtocolClient(bare, origin=Origin(EVIL), additional_headers={"Cookie": kept})
+        ProtocolClient(bare, origin=Origin(EVIL), additional_headers={"Cookie": cookie})
 
 
-def test_a_socket_without_a_known_protocol_is_refused(page: PageServer) -> None:
+def test_unknown_subprotocols_are_refused(page: PageServer) -> None:
     with pytest.raises(InvalidStatus) as refused:
         ProtocolClient(page.url, protocol="chat")
 
@@ -180,7 +181,7 @@ def test_a_socket_without_a_known_protocol_is_refused(page: PageServer) -> None:
     assert b"trundle.v1" in (refused.value.response.body or b"")
 
 
-def test_a_field_that_stands_twice_is_refused(page: PageServer) -> None:
+def test_duplicate_header_fields_are_refused(page: PageServer) -> None:
     connection = http.client.HTTPConnection(urlsplit(page.url).netloc, timeout=30)
     connection.putrequest("GET", f"/?{urlsplit(page.url).query}", skip_host=True)
     for name, value in (("Host", "localhost"), ("Origin", EVIL), ("Origin", EVIL)):
@@ -212,7 +213,7 @@ def test_the_documents_policy_has_no_eval_and_blobs_for_textures() -> None:
     assert policy["frame-ancestors"] == ["'self'"]
 
 
-def test_a_workers_policy_lets_it_connect_to_nothing() -> None:
+def test_workers_must_not_open_connections() -> None:
     access = Access(host="127.0.0.1", port=80)
     request = PageRequest(target="/assets/decoder.worker-1a2b.js", host="127.0.0.1:80")
     policy = _policy(response_fields(access, request, path=request.target))
@@ -223,8 +224,8 @@ def test_a_workers_policy_lets_it_connect_to_nothing() -> None:
 
 @needs_client
 @pytest.mark.parametrize("encoding", ["gzip, deflate", "identity"])
-def test_scripts_are_sent_compressed_to_who_takes_that(page: PageServer, encoding: str) -> None:
-    """They may be kept for ever, since their names change with them."""
+def test_scripts_are_sent_compressed_to_browsers_that_accept_it(page: PageServer, encoding: str) -> None:
+    """Browsers may cache them for ever, as their names contain a hash of the content."""
     script = max((CLIENT / "assets").glob("*.js"), key=lambda file: file.stat().st_size)
     request = urllib.request.Request(
         page_url(page.url, f"/assets/{script.name}"), headers={"Accept-Encoding": encoding}
@@ -241,7 +242,7 @@ def test_scripts_are_sent_compressed_to_who_takes_that(page: PageServer, encodin
     assert body == script.read_bytes()
 
 
-def test_the_clients_files_are_found_by_their_path(tmp_path: Path) -> None:
+def test_files_of_the_client_are_found_by_path(tmp_path: Path) -> None:
     (tmp_path / "assets").mkdir()
     for name in ("index.html", "assets/a.js", "assets/a.js.gz"):
         (tmp_path / name).write_text(name)
@@ -258,7 +259,7 @@ def _policy(fields: dict[str, str]) -> dict[str, list[str]]:
     return {part.split()[0]: part.split()[1:] for part in parts}
 
 
-def test_more_clients_than_there_are_places_are_refused_until_one_leaves(page: PageServer) -> None:
+def test_clients_beyond_the_limit_are_refused_until_one_leaves(page: PageServer) -> None:
     with ExitStack() as stack:
         clients = [stack.enter_context(ProtocolClient(page.url)) for _ in range(MAX_CONTROLLING)]
         with pytest.raises(InvalidStatus) as refused:
@@ -273,8 +274,8 @@ def test_more_clients_than_there_are_places_are_refused_until_one_leaves(page: P
     pytest.fail("the server answers no client any more")
 
 
-def test_a_crowd_that_may_only_look_leaves_room_for_those_who_may_more(page: PageServer) -> None:
-    """Its oldest one is dropped for the newest."""
+def test_view_only_clients_do_not_use_up_the_slots_of_others(page: PageServer) -> None:
+    """The newest view-only client replaces the oldest."""
     with ExitStack() as stack:
         crowd = [stack.enter_context(ProtocolClient(page.view_url)) for _ in range(95)]
         owner = stack.enter_context(ProtocolClient(page.url))
@@ -285,19 +286,19 @@ def test_a_crowd_that_may_only_look_leaves_room_for_those_who_may_more(page: Pag
         assert _get(page_url(page.url, "/session.json"))[0] == 200
 
 
-def test_pictures_of_those_who_only_look_leave_room_for_others(page: PageServer) -> None:
-    """They cannot have models drawn, which they cannot insert."""
+def test_pictures_for_view_only_clients_do_not_delay_others(page: PageServer) -> None:
+    """View-only clients get no pictures of models, as they cannot insert them."""
     view, control = (page_url(url, "/camera.png?width=64&height=48") for url in (page.view_url, page.url))
     with ThreadPoolExecutor(8) as pool:
         looking = [pool.submit(_get, view) for _ in range(6)]
-        asked = []
+        requests = []
         end = time.monotonic() + PATIENCE_S
-        while len(asked) < 2 and time.monotonic() < end:
-            asked += page.requests()
+        while len(requests) < 2 and time.monotonic() < end:
+            requests += page.requests()
         done = pool.submit(_get, control)
-        while len(asked) < 3 and time.monotonic() < end:
-            asked += page.requests()
-        for request in asked:
+        while len(requests) < 3 and time.monotonic() < end:
+            requests += page.requests()
+        for request in requests:
             page.respond(request.id, "no renderer here")
         assert "no renderer here" in done.result()[1]
         refused = [answer.result()[1] for answer in looking]

@@ -1,4 +1,4 @@
-"""Edits of a model's SDF: what they write, what they refuse, what is taken back."""
+"""Edits of a model's SDF: written values, refusals, undo."""
 
 import os
 from pathlib import Path
@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from trundle.base.diagnostics import UsageError
+from trundle.page import Value
 from trundle.page.model_editor.draft import Draft
 from trundle.page.model_editor.new_parts import new_model
 from trundle.page.model_editor.overview import draft_overview
@@ -36,7 +37,7 @@ def cart(tmp_path: Path) -> Draft:
     return draft
 
 
-def test_comments_and_unknown_elements_stay(tmp_path: Path) -> None:
+def test_comments_and_unknown_elements_are_kept(tmp_path: Path) -> None:
     draft = _draft(SOURCE.encode(), tmp_path)
 
     draft.set(("link", "body"), "inertial/mass", (3.0,))
@@ -46,7 +47,7 @@ def test_comments_and_unknown_elements_stay(tmp_path: Path) -> None:
 
 
 def test_mass_density_and_size_determine_the_inertia(cart: Draft) -> None:
-    """A cube of edge a has m a² / 6; a size that is changed keeps the density."""
+    """A cube of edge a has m a² / 6; a change of size keeps the density."""
     cart.set(CHASSIS, "inertial/mass", (6.0,))
     assert cart.checked.model.links[0].inertial.moments == pytest.approx((1.0, 1.0, 1.0))
 
@@ -62,7 +63,7 @@ def test_mass_density_and_size_determine_the_inertia(cart: Draft) -> None:
     assert cart.checked.model.links[0].inertial.moments[0] == 5.0
 
 
-def test_one_number_of_several_is_set(cart: Draft) -> None:
+def test_one_component_of_a_vector_is_set(cart: Draft) -> None:
     cart.set(CHASSIS, "collision/geometry/box/size", (None, 3.0, None))
 
     link = cart.checked.model.links[0]
@@ -81,7 +82,7 @@ def test_a_renamed_link_keeps_its_joint_and_plugin(cart: Draft) -> None:
         cart.set(("link", "tyre"), "@name", "chassis")
 
 
-def test_a_removed_link_takes_its_joints_with_it_and_both_come_back(cart: Draft) -> None:
+def test_removing_a_link_removes_its_joints_and_undo_restores_both(cart: Draft) -> None:
     before = cart.text
 
     cart.remove(WHEEL)
@@ -97,7 +98,7 @@ def test_a_removed_link_takes_its_joints_with_it_and_both_come_back(cart: Draft)
 
 
 @pytest.mark.parametrize(
-    ("part", "field", "value", "said"),
+    ("part", "field", "value", "error"),
     [
         (("joint", "wheel_joint"), "@type", "wobbly", "one of"),
         (CHASSIS, "inertial/mass", (-1.0,), "from 1e-09"),
@@ -109,28 +110,28 @@ def test_a_removed_link_takes_its_joints_with_it_and_both_come_back(cart: Draft)
         (("link",), "inertial/mass", (1.0,), "alternates tags and names"),
     ],
 )
-def test_what_cannot_be_is_refused_and_nothing_changes(
-    cart: Draft, part: tuple[str, ...], field: str, value: object, said: str
+def test_invalid_values_are_refused_and_change_nothing(
+    cart: Draft, part: tuple[str, ...], field: str, value: Value, error: str
 ) -> None:
     before, title = cart.text, cart.undo_title
 
-    with pytest.raises(UsageError, match=said):
+    with pytest.raises(UsageError, match=error):
         cart.set(part, field, value)
 
     assert (cart.text, cart.undo_title) == (before, title)
 
 
-def test_findings_stand_at_their_part(cart: Draft) -> None:
-    """trundle check names a line; the part around it is the one that a person must mend."""
+def test_findings_belong_to_the_part_at_their_line(cart: Draft) -> None:
+    """`trundle check` reports a line; the finding belongs to the part around it."""
     cart.set(WHEEL, "inertial/inertia/izz", (99.0,))
 
-    found = {part.part: part.findings for part in draft_overview(cart).parts if part.findings}
+    findings = {part.part: part.findings for part in draft_overview(cart).parts if part.findings}
 
-    assert list(found) == [WHEEL]
-    assert "inertia" in found[WHEEL][0].text
+    assert list(findings) == [WHEEL]
+    assert "inertia" in findings[WHEEL][0].text
 
 
-def test_a_joint_gets_the_axes_of_its_type(cart: Draft) -> None:
+def test_a_joints_axes_match_its_type(cart: Draft) -> None:
     joint = ("joint", "wheel_joint")
 
     cart.set(joint, "@type", "universal")
@@ -139,7 +140,7 @@ def test_a_joint_gets_the_axes_of_its_type(cart: Draft) -> None:
     assert b"<axis" not in cart.text
 
 
-def test_a_sensor_comes_with_its_publisher(cart: Draft) -> None:
+def test_a_new_sensor_has_a_publisher(cart: Draft) -> None:
     sensor = cart.add(CHASSIS, "sensor", "gpu_ray")
 
     assert sensor == (*CHASSIS, "sensor", "lidar")
@@ -152,8 +153,8 @@ def test_a_sensor_comes_with_its_publisher(cart: Draft) -> None:
         cart.add((), "plugin", "libgazebo_ros_laser.so")
 
 
-def test_a_link_is_placed_in_the_world(cart: Draft) -> None:
-    """The model stands at x = 2 m."""
+def test_a_link_is_moved_to_a_pose_in_the_world(cart: Draft) -> None:
+    """The model is at x = 2 m."""
     cart.move(WHEEL, Pose((2.0, 1.0, 0.5)))
     assert cart.checked.model.links[1].model_from_link.position == pytest.approx((0.0, 1.0, 0.5))
 
@@ -163,7 +164,7 @@ def test_a_link_is_placed_in_the_world(cart: Draft) -> None:
     assert cart.world_from_model.position == (2.0, 0.0, 0.0)
 
 
-def test_names_with_markup_are_text(cart: Draft) -> None:
+def test_names_with_markup_are_escaped(cart: Draft) -> None:
     cart.set(CHASSIS, "@name", 'a"<b>&amp;')
 
     assert cart.checked.model.links[0].name == 'a"<b>&amp;'

@@ -1,4 +1,4 @@
-"""Profile of a simulation, by a wall clock that only its parts move."""
+"""Profile of a simulation, with a wall clock that only its parts advance."""
 
 import time
 from pathlib import Path
@@ -21,7 +21,7 @@ GROUND = """<model name="ground"><static>1</static><link name="l"><collision nam
 
 
 class Clock:
-    """Wall time by hand."""
+    """Wall clock that tests advance."""
 
     now_ns = 0
 
@@ -45,7 +45,7 @@ class Work:
 
 
 class Publishes(Work):
-    """Hook that publishes for 5 ms more."""
+    """Hook that also publishes for 5 ms."""
 
     def __init__(self, clock: Clock, loop: GraphLoop) -> None:
         super().__init__(clock)
@@ -64,11 +64,11 @@ def clock() -> Clock:
 
 
 def times_ms(profile: Profile) -> dict[str, float]:
-    """Wall times that are not zero [ms], by group and name."""
+    """Return nonzero wall times [ms] by group and name."""
     return {f"{part.group}: {part.name}": part.wall_s * 1e3 for part in profile.parts if part.wall_s > 0}
 
 
-def test_each_hook_is_charged_with_its_own_time(tmp_path: Path, clock: Clock) -> None:
+def test_each_hook_gets_its_own_time(tmp_path: Path, clock: Clock) -> None:
     sim, _ = loaded(tmp_path, FALLING)
     sim.add_hook(Work(clock), period_ns=100 * MS, name="mine")
     sim.add_hook(Work(clock), period_ns=500 * MS)
@@ -84,7 +84,7 @@ def test_each_hook_is_charged_with_its_own_time(tmp_path: Path, clock: Clock) ->
     assert "    50.000  other    mine" in str(read)
 
 
-def test_a_command_counts_as_a_callback_and_the_rest_between_strides_as_waiting(tmp_path: Path, clock: Clock) -> None:
+def test_commands_count_as_callbacks_and_time_between_strides_as_waiting(tmp_path: Path, clock: Clock) -> None:
     sim, _ = loaded(tmp_path, FALLING)
     profile = StrideProfile(sim, None, wall_ns=clock)
     profile.start()
@@ -96,12 +96,12 @@ def test_a_command_counts_as_a_callback_and_the_rest_between_strides_as_waiting(
     assert times_ms(profile.read()) == pytest.approx({"waiting: Waiting": 7, "ros: Callbacks of messages": 2})
 
 
-def test_sensors_are_named_and_what_listeners_do_is_not_theirs(tmp_path: Path, clock: Clock) -> None:
+def test_sensors_are_named_without_the_time_of_their_listeners(tmp_path: Path, clock: Clock) -> None:
     imu = '<sensor name="imu" type="imu"><update_rate>10</update_rate></sensor>'
     sim, (camera, sensor) = loaded(tmp_path, model("m", BOX + CAMERA + imu))
     camera.listen(list[object]().append)
     sensor.listen(Work(clock).after_step)
-    with StrideProfile(sim, None) as profile:  # by the wall clock: drawing takes time
+    with StrideProfile(sim, None) as profile:  # with the real wall clock: drawing takes time
         sim.run(1.0)
     parts = {(part.group, part.name): part.wall_s for part in profile.read().parts}
     assert parts["cameras", "m::l::cam"] > 0
@@ -112,7 +112,7 @@ def test_sensors_are_named_and_what_listeners_do_is_not_theirs(tmp_path: Path, c
     assert times_ms(profile.read()) == pytest.approx({"ros: Readings sent": 30})
 
 
-def test_images_that_are_drawn_together_are_charged_in_equal_shares(tmp_path: Path, clock: Clock) -> None:
+def test_cameras_drawn_together_share_the_time_equally(tmp_path: Path, clock: Clock) -> None:
     sim, _ = loaded(tmp_path, FALLING)
     profile = StrideProfile(sim, None, wall_ns=clock)
     profile.start()
@@ -127,7 +127,7 @@ def test_images_that_are_drawn_together_are_charged_in_equal_shares(tmp_path: Pa
 
 
 def test_physics_is_split_by_mujocos_timers(tmp_path: Path) -> None:
-    """A box at rest on the ground is tested for contact, and held by constraints."""
+    """A box at rest on the ground needs collision detection and constraints."""
     sim, _ = loaded(tmp_path, GROUND + FALLING.replace("<link", "<pose>0 0 0.5 0 0 0</pose><link"))
     with StrideProfile(sim, None) as profile:
         sim.run(0.1)
@@ -141,7 +141,7 @@ def test_physics_is_split_by_mujocos_timers(tmp_path: Path) -> None:
     assert sum(part.wall_s for part in read.parts) == pytest.approx(read.wall_s)
 
 
-def test_a_message_that_a_plugin_publishes_is_not_charged_to_the_plugin(tmp_path: Path, clock: Clock) -> None:
+def test_publishing_time_is_not_counted_as_the_plugins(tmp_path: Path, clock: Clock) -> None:
     sim, _ = loaded(tmp_path, FALLING)
     with GraphLoop() as loop:
         sim.add_hook(Publishes(clock, loop), period_ns=500 * MS, name="plugin")
@@ -153,7 +153,7 @@ def test_a_message_that_a_plugin_publishes_is_not_charged_to_the_plugin(tmp_path
     assert sim.profiler is None
 
 
-def test_parts_of_a_renamed_model_have_its_new_name(tmp_path: Path, clock: Clock) -> None:
+def test_parts_of_a_renamed_model_have_the_new_name(tmp_path: Path, clock: Clock) -> None:
     imu = '<sensor name="imu" type="imu"><update_rate>10</update_rate></sensor>'
     sim, (camera, _) = loaded(tmp_path, model("m", BOX + CAMERA + imu) + model("mm", BOX))
     camera.listen(list[object]().append)
@@ -168,7 +168,7 @@ def test_parts_of_a_renamed_model_have_its_new_name(tmp_path: Path, clock: Clock
     assert not any(name.startswith("m::") for name in names)
 
 
-def test_the_graph_s_thread_is_measured_beside_the_parts(tmp_path: Path, clock: Clock) -> None:
+def test_the_graphs_thread_is_measured_in_parallel(tmp_path: Path, clock: Clock) -> None:
     sim, _ = loaded(tmp_path, FALLING)
     with GraphLoop() as loop, StrideProfile(sim, loop, wall_ns=clock) as profile:
         loop.run(_busy(0.02))
@@ -177,11 +177,11 @@ def test_the_graph_s_thread_is_measured_beside_the_parts(tmp_path: Path, clock: 
 
     assert read.graph_s is not None
     assert read.graph_s >= 0.02
-    assert "beside   graph's thread" in str(read)
+    assert "parallel graph's thread" in str(read)
 
 
 async def _busy(seconds: float) -> None:
-    """Compute for so much processor time."""
+    """Compute for a duration of processor time."""
     end = time.thread_time() + seconds
     while time.thread_time() < end:
         pass

@@ -21,7 +21,7 @@ needs_viewer = pytest.mark.skipif(not REPLAY_FILES[0].exists(), reason="the page
 
 @pytest.fixture(scope="module")
 def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Half a second of a falling ball, in a file whose name is markup."""
+    """Half a second of a falling ball, in a file whose name contains markup."""
     folder = tmp_path_factory.mktemp("log")
     (folder / "w.sdf").write_text(BOUNCE)
     path = folder / "a<b>&.log"
@@ -37,26 +37,26 @@ def converted(log: Path, to: str, output: Path) -> bytes:
 
 def part(page: str, name: str) -> str:
     """Return the content of a script element."""
-    found = re.search(rf'<script [^>]*id="{name}">(.*?)</script>', page, re.DOTALL)
-    assert found is not None, name
-    return found[1]
+    match = re.search(rf'<script [^>]*id="{name}">(.*?)</script>', page, re.DOTALL)
+    assert match is not None, name
+    return match[1]
 
 
-def test_a_glb_falls_as_the_ball_did(log: Path, tmp_path: Path) -> None:
+def test_the_animation_of_a_glb_follows_the_recording(log: Path, tmp_path: Path) -> None:
     glb = Glb(converted(log, "glb", tmp_path / "ball.glb"))
 
     (animation,) = glb.tree["animations"]
     (channel,) = animation["channels"]
     sampler = animation["samplers"][channel["sampler"]]
-    times, places = glb.array(sampler["input"])[:, 0], glb.array(sampler["output"])
+    times, positions = glb.array(sampler["input"])[:, 0], glb.array(sampler["output"])
     assert glb.tree["nodes"][channel["target"]["node"]]["name"] == "ball::l"
     assert times[[0, -1]] == pytest.approx([0.0, 0.5])
-    assert places[:21, 2] == pytest.approx(1.0 - 9.8 / 2 * times[:21] ** 2, abs=0.005)  # until it bounces
+    assert positions[:21, 2] == pytest.approx(1.0 - 9.8 / 2 * times[:21] ** 2, abs=0.005)  # until it bounces
 
 
 @needs_viewer
-def test_a_page_holds_all_that_it_shows(log: Path, tmp_path: Path) -> None:
-    """Nothing is loaded from elsewhere, and the recording's name is text."""
+def test_a_replay_page_is_self_contained(log: Path, tmp_path: Path) -> None:
+    """It loads nothing, and the recording's name is escaped."""
     page = converted(log, "html", tmp_path / "ball.html").decode()
 
     about = json.loads(part(page, "about"))
@@ -69,11 +69,13 @@ def test_a_page_holds_all_that_it_shows(log: Path, tmp_path: Path) -> None:
 
 
 @needs_viewer
-def test_one_recording_makes_one_page(log: Path, tmp_path: Path) -> None:
+def test_replay_pages_are_reproducible(log: Path, tmp_path: Path) -> None:
     assert converted(log, "html", tmp_path / "a.html") == converted(log, "html", tmp_path / "b.html")
 
 
-def test_only_a_recording_has_a_replay(log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_only_recordings_are_converted_to_replays(
+    log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(("convert", str(log), "--to", "sdf")) == 1
     assert "is a recording; it is converted to glb or html" in capsys.readouterr().err
     assert main(("convert", str(log.parent / "w.sdf"), "--to", "html")) == 1

@@ -1,26 +1,26 @@
-"""Requests of a person reach the owner, and its answers the person."""
+"""Requests of clients reach the owner, and its answers the clients."""
 
 from tests.page_client import ProtocolClient
 
 from trundle.page import MoveJoint, PageServer, Pause, Play, Request, Step
 
 
-def _taken(page: PageServer, client: ProtocolClient, count: int) -> list[Request]:
-    taken: list[Request] = []
+def _requests(page: PageServer, client: ProtocolClient, count: int) -> list[Request]:
+    requests: list[Request] = []
 
     def enough() -> bool:
-        taken.extend(page.requests())
-        return len(taken) >= count
+        requests.extend(page.requests())
+        return len(requests) >= count
 
     client.until(enough)
-    return taken
+    return requests
 
 
 def test_a_request_is_answered_with_its_own_id(page: PageServer) -> None:
     with ProtocolClient(page.url) as client:
         client.send("trundle/request", id=5, request="play")
         client.send("trundle/request", id="b", request="joint", model="arm", joint="elbow", position=0.5)
-        first, second = _taken(page, client, 2)
+        first, second = _requests(page, client, 2)
         page.respond(first.id)
         page.respond(second.id, "arm has no joint 'elbow'")
         client.until(lambda: len([m for m in client.jsons if m["op"] == "trundle/response"]) == 2)
@@ -35,9 +35,9 @@ def test_a_request_is_answered_with_its_own_id(page: PageServer) -> None:
 def test_requests_of_two_clients_do_not_mix(page: PageServer) -> None:
     with ProtocolClient(page.url) as one, ProtocolClient(page.url) as two:
         one.send("trundle/request", id=1, request="pause")
-        (first,) = _taken(page, one, 1)
+        (first,) = _requests(page, one, 1)
         two.send("trundle/request", id=1, request="step", count=3)
-        (second,) = _taken(page, two, 1)
+        (second,) = _requests(page, two, 1)
         page.respond(second.id)
         two.last("trundle/response")
         one.settle()
@@ -48,7 +48,7 @@ def test_requests_of_two_clients_do_not_mix(page: PageServer) -> None:
     assert [len([m for m in c.jsons if m["op"] == "trundle/response"]) for c in (one, two)] == [1, 1]
 
 
-def test_a_request_that_is_none_is_refused_at_once(page: PageServer) -> None:
+def test_an_invalid_request_is_refused_at_once(page: PageServer) -> None:
     with ProtocolClient(page.url) as client:
         client.send("trundle/request", id=1, request="step", count=0)
         answer = client.last("trundle/response")
@@ -58,17 +58,17 @@ def test_a_request_that_is_none_is_refused_at_once(page: PageServer) -> None:
     assert page.requests() == []
 
 
-def test_the_65th_request_that_waits_is_refused(page: PageServer) -> None:
+def test_the_65th_pending_request_is_refused(page: PageServer) -> None:
     with ProtocolClient(page.url) as client:
         for number in range(65):
             client.send("trundle/request", id=number, request="play")
         assert client.last("trundle/response") == {
             "op": "trundle/response", "id": 64, "ok": False, "error": "64 requests are pending",
         }  # fmt: skip
-        assert len(_taken(page, client, 64)) == 64
+        assert len(_requests(page, client, 64)) == 64
 
 
-def test_a_request_of_another_version_is_refused_with_a_sentence(page: PageServer) -> None:
+def test_an_unknown_request_is_refused_with_advice(page: PageServer) -> None:
     with ProtocolClient(page.url) as client:
         client.send("trundle/request", id=1, request="dance")
         assert client.last("trundle/response")["error"] == (
@@ -77,7 +77,7 @@ def test_a_request_of_another_version_is_refused_with_a_sentence(page: PageServe
         assert page.requests() == []
 
 
-def test_a_definition_is_answered_by_the_server(page: PageServer) -> None:
+def test_the_server_answers_requests_for_definitions(page: PageServer) -> None:
     with ProtocolClient(page.url) as client:
         client.send("trundle/request", id=1, request="definition", type="geometry_msgs/PointStamped")
         assert "MSG: std_msgs/Header" in client.last("trundle/response")["definition"]
@@ -87,7 +87,7 @@ def test_a_definition_is_answered_by_the_server(page: PageServer) -> None:
     assert "no message type 'no_msgs/None'" in client.last("trundle/response")["error"]
 
 
-def test_other_clients_are_not_offered_what_is_the_pages_own(page: PageServer) -> None:
+def test_other_clients_get_no_channels_of_trundle(page: PageServer) -> None:
     for protocol in ("foxglove.websocket.v1", "foxglove.sdk.v1"):
         with ProtocolClient(page.url, protocol=protocol) as client:
             client.send("trundle/request", id=1, request="play")

@@ -1,4 +1,4 @@
-"""A page's server that keeps what it is given."""
+"""Fake of the page's server that records calls."""
 
 import queue
 from typing import Any, cast
@@ -15,7 +15,7 @@ from trundle.page.world.streams import SeriesHead
 
 
 class FakeServer:
-    """Stands for `trundle.page.PageServer`; everything is watched."""
+    """Fake of `trundle.page.PageServer`; by default, every stream is watched."""
 
     url = "http://localhost:1"
     generation = 0
@@ -24,7 +24,7 @@ class FakeServer:
     def __init__(self) -> None:
         self.watched: set[str] | None = None
         self.pending: list[Request] = []
-        self._asked: dict[int, PageAction] = {}
+        self._actions: dict[int, PageAction] = {}
         self.answers: dict[int, str | None] = {}
         self.fields: dict[int, dict[str, Any]] = {}
         self.worlds: list[tuple[dict[str, Any], dict[str, bytes]]] = []
@@ -43,9 +43,9 @@ class FakeServer:
         self.is_closed = False
 
     def ask(self, action: PageAction) -> int:
-        """A person asks; return the request's id."""
+        """Add a client's request; return its id."""
         self.pending.append(Request(len(self.pending) + len(self.answers), action))
-        self._asked[self.pending[-1].id] = action
+        self._actions[self.pending[-1].id] = action
         return self.pending[-1].id
 
     def requests(self, **_: object) -> list[Request]:
@@ -59,8 +59,8 @@ class FakeServer:
         self.notices.append((notice_id, text))
 
     def respond(self, request_id: int, error: str | None = None, answer: Answer = DONE) -> None:
-        if error is None and request_id in self._asked:
-            assert isinstance(answer, self._asked[request_id].answer), "a request is answered as its class says"
+        if error is None and request_id in self._actions:
+            assert isinstance(answer, self._actions[request_id].answer), "the answer has a type of the request's class"
         self.fields[request_id] = sent(answer)
         self.answers[request_id] = error
 
@@ -105,11 +105,11 @@ class FakeServer:
 
 
 def sent(message: msgspec.Struct) -> dict[str, Any]:
-    """Message as a client gets it."""
+    """Return a message as a client gets it."""
     return msgspec.json.decode(msgspec.json.encode(message))
 
 
 def shared_page() -> tuple[SharedPage, FakeServer]:
-    """A page without ROS, on a server that keeps what it is given."""
+    """Return a page without ROS, with a fake server."""
     server = FakeServer()
     return SharedPage(say=print, server=cast(PageServer, server)), server

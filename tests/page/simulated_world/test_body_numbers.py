@@ -1,4 +1,4 @@
-"""Numbers of bodies as models come and go."""
+"""Body numbers while models are added and removed."""
 
 import numpy as np
 
@@ -30,7 +30,7 @@ def test_a_number_stays_when_an_earlier_model_is_deleted() -> None:
     assert bodies.rows(poses(7.0))[:, 0].tolist() == [5.0, 7.0]
 
 
-def test_a_freed_number_is_used_again_only_after_another_change() -> None:
+def test_a_freed_number_is_reused_only_after_another_change() -> None:
     bodies = BodyNumbers()
     bodies.update(["a::l", "b::l"])
     bodies.update(["b::l"])

@@ -1,4 +1,4 @@
-"""Contacts as the page gets them."""
+"""Rows of contacts for the page."""
 
 from pathlib import Path
 
@@ -17,7 +17,7 @@ _WORLD = f"""<model name="floor"><static>1</static><link name="l">{_SHAPE.format
 
 
 def _rows(folder: Path) -> ContactRows:
-    """Return the contacts of a crate of 2 kg that rests."""
+    """Return the contact rows of a resting crate of 2 kg."""
     sim, _ = loaded(folder, _WORLD)
     bodies = BodyNumbers()
     bodies.update(sim.engine.compiled.link_names)
@@ -33,7 +33,7 @@ def test_the_forces_of_a_resting_crate_carry_its_weight(tmp_path: Path) -> None:
     assert abs(rows[:, 7].sum()) == pytest.approx(2 * 9.8, rel=0.02)
 
 
-def test_of_too_many_contacts_the_strongest_are_sent(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_only_the_strongest_of_too_many_contacts_are_sent(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     contacts = _rows(tmp_path)
     forces = np.abs(contacts.read()[:, 7])
     monkeypatch.setattr(contact_rows, "MAX_CONTACTS", 2)

@@ -1,4 +1,4 @@
-"""The draft of a model beside a running world, by requests of the page."""
+"""Editing a draft of a model of a running world, by requests of the page."""
 
 import os
 import queue
@@ -30,7 +30,7 @@ _PATIENCE_S = 30.0
 
 
 class Editor:
-    """Asks, and waits for the answer as the page's owner does."""
+    """Makes requests, and waits for their answers as the page's owner does."""
 
     def __init__(self, folder: Path) -> None:
         (folder / "yard.sdf").write_text(WORLD)
@@ -48,7 +48,7 @@ class Editor:
         self._answers.put((error, answer))
 
     def ask(self, action: DraftAction) -> dict[str, Any]:
-        """Return the answer's fields, with `error` where it was refused."""
+        """Make a request; return the answer's fields, or `error` for a refusal."""
         self.drafting.handle(1, action, self.simulation)
         end = time.monotonic() + _PATIENCE_S
         while time.monotonic() < end:
@@ -60,7 +60,7 @@ class Editor:
             self.shown += self.drafting.poll(self.world, self.edits)
             if error is not None:
                 return {"error": error}
-            assert isinstance(answer, action.answer), "a request is answered as its class says"
+            assert isinstance(answer, action.answer), "the answer has a type of the request's class"
             return sent(answer)
         raise AssertionError(f"no answer to {action}")
 
@@ -72,7 +72,7 @@ def editor(tmp_path: Path) -> Iterator[Editor]:
     editor.drafting.close()
 
 
-def test_a_model_is_edited_in_its_place_and_replaced(editor: Editor) -> None:
+def test_a_finished_draft_replaces_its_original(editor: Editor) -> None:
     assert editor.ask(BeginDraft(model="crate")) == {}
     draft = editor.shown[-1].info
     assert draft is not None
@@ -93,7 +93,7 @@ def test_a_model_is_edited_in_its_place_and_replaced(editor: Editor) -> None:
     assert not editor.drafting.is_open
 
 
-def test_what_was_changed_while_it_ran_is_in_the_draft(editor: Editor) -> None:
+def test_a_draft_includes_edits_made_while_the_world_ran(editor: Editor) -> None:
     edit(SetMass(model="crate", link="body", mass=4.0), editor.simulation)
 
     editor.ask(BeginDraft(model="crate"))
@@ -103,8 +103,8 @@ def test_what_was_changed_while_it_ran_is_in_the_draft(editor: Editor) -> None:
     assert next(part for part in draft.parts if part.tag == "link").mass == 4.0
 
 
-def test_a_draft_that_cannot_be_spawned_leaves_the_model(editor: Editor) -> None:
-    """Plugins cannot be started here."""
+def test_a_draft_that_cannot_be_spawned_keeps_its_original(editor: Editor) -> None:
+    """This world cannot start plugins."""
     editor.ask(BeginDraft(model="crate"))
     editor.ask(AddPart(into=(), kind="plugin", type="libgazebo_ros_p3d.so"))
 
@@ -115,19 +115,19 @@ def test_a_draft_that_cannot_be_spawned_leaves_the_model(editor: Editor) -> None
     assert editor.ask(LeaveDraft()) == {}
 
 
-def test_a_draft_s_code_is_asked_for_once_and_again_when_it_changes(
+def test_a_drafts_code_needs_consent_again_after_a_change(
     editor: Editor, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """An answer with an error means that it went on to the world, where plugins cannot be started here."""
+    """An error means that the draft passed the question: this world cannot start plugins."""
     monkeypatch.setenv("TRUNDLE_PLUGIN_PATH", str(tmp_path))
     (tmp_path / "code.py").write_text("first = 1")
     editor.ask(BeginDraft(model="crate"))
     editor.ask(AddPart(into=(), kind="plugin", type="code.py"))
-    asked = editor.ask(FinishDraft())
-    assert asked["code"] == [str(tmp_path / "code.py")]
+    question = editor.ask(FinishDraft())
+    assert question["code"] == [str(tmp_path / "code.py")]
     assert editor.ask(FinishDraft(consent="true"))["code"]
     (tmp_path / "code.py").write_text("second = 2")
-    again = editor.ask(FinishDraft(consent=asked["consent"]))
+    again = editor.ask(FinishDraft(consent=question["consent"]))
     assert again["code"]
 
     assert "would not run here" in editor.ask(FinishDraft(consent=again["consent"]))["error"]
@@ -135,14 +135,14 @@ def test_a_draft_s_code_is_asked_for_once_and_again_when_it_changes(
     editor.ask(LeaveDraft())
 
 
-def test_an_empty_model_is_not_put_into_the_world(editor: Editor) -> None:
+def test_an_empty_model_is_not_inserted(editor: Editor) -> None:
     editor.ask(BeginDraft(model=None))
 
     assert "no links yet" in editor.ask(FinishDraft())["error"]
     assert "no shape 'wheel'" in editor.ask(AddPart(into=(), kind="link", type="wheel"))["error"]
 
 
-def test_no_file_is_replaced_unasked(editor: Editor, tmp_path: Path) -> None:
+def test_files_are_replaced_only_after_confirmation(editor: Editor, tmp_path: Path) -> None:
     editor.ask(BeginDraft(model="crate"))
 
     assert editor.ask(SaveDraft(folder="models/crate")) == {"file": "models/crate"}
@@ -159,6 +159,6 @@ def test_no_file_is_replaced_unasked(editor: Editor, tmp_path: Path) -> None:
         assert "below the folder" in editor.ask(SaveDraft(folder=name))["error"]
 
 
-def test_no_edit_without_a_draft(editor: Editor) -> None:
+def test_edits_without_a_draft_are_refused(editor: Editor) -> None:
     with pytest.raises(UsageError, match="no model is being edited"):
         editor.drafting.handle(1, LeaveDraft(), editor.simulation)

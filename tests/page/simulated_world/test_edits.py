@@ -1,4 +1,4 @@
-"""Edits from the page: what they do to the simulation, their bounds, and that a timeline repeats them."""
+"""Edits from the page: effects, bounds, and repetition by the timeline."""
 
 from pathlib import Path
 from typing import Any
@@ -47,8 +47,8 @@ def sim(tmp_path: Path) -> Simulation:
     return loaded(tmp_path, _WORLD)[0]
 
 
-def test_a_model_is_moved_so_that_a_link_is_where_it_was_put(sim: Simulation) -> None:
-    """The joints stay as they are, and a quaternion need not be normalized."""
+def test_a_model_is_moved_by_the_pose_of_a_link(sim: Simulation) -> None:
+    """Joint positions are unchanged, and the quaternion need not be normalized."""
     sim["cart"].joint("lift").set_position(0.25)
     edit(SetPose("cart", "base", (3, 4, 5), (2, 0, 0, 2)), sim)
 
@@ -58,13 +58,13 @@ def test_a_model_is_moved_so_that_a_link_is_where_it_was_put(sim: Simulation) ->
     assert sim["cart"].pose.quaternion == pytest.approx((0.5**0.5, 0, 0, 0.5**0.5))
 
 
-def test_a_nested_model_moves_with_the_one_around_it(sim: Simulation) -> None:
+def test_moving_a_nested_model_moves_the_outermost_one(sim: Simulation) -> None:
     edit(SetPose("outer::inner", "l", (0, 0, 2), (1, 0, 0, 0)), sim)
 
     assert sim["outer"].pose.position == pytest.approx((0, -5, 2))
 
 
-def test_velocity_force_and_efforts_move_things(sim: Simulation) -> None:
+def test_velocities_wrenches_and_efforts_move_bodies(sim: Simulation) -> None:
     edit(SetTwist("cart", (1, 0, 0), (0, 0, 0)), sim)
     assert sim["cart"].twist.linear == pytest.approx((1, 0, 0))
     edit(ApplyWrench("outer::inner", "l", (0, 0, 3), (0, 0, 0), 0.1), sim)
@@ -75,7 +75,7 @@ def test_velocity_force_and_efforts_move_things(sim: Simulation) -> None:
     assert sim["cart"].joint("lift").velocity > 0.01
 
 
-def test_one_model_is_put_back_as_it_came_and_no_other(sim: Simulation) -> None:
+def test_a_reset_affects_one_model(sim: Simulation) -> None:
     cart, outer = sim["cart"], sim["outer"]
     edit(SetPose("cart", "base", (3, 4, 5), (2, 0, 0, 2)), sim)
     edit(SetPose("outer", "inner::l", (0, 0, 2), (1, 0, 0, 0)), sim)
@@ -94,7 +94,7 @@ def test_one_model_is_put_back_as_it_came_and_no_other(sim: Simulation) -> None:
     assert outer.pose.position == pytest.approx((0, -5, 2))
 
 
-def test_a_reset_is_undone_to_the_state_before_one_at_a_time(sim: Simulation) -> None:
+def test_resets_are_undone_one_at_a_time(sim: Simulation) -> None:
     cart, edits = sim["cart"], _model_edits(sim)
     first = Pose((3.0, 4.0, 5.0), (0.6, 0.0, 0.0, 0.8))
     cart.set_pose(first)
@@ -118,20 +118,20 @@ def test_a_reset_is_undone_to_the_state_before_one_at_a_time(sim: Simulation) ->
         edits.handle(UndoReset("cart"))
 
 
-def test_a_reset_that_is_undone_leaves_motors_and_loads_as_they_were(sim: Simulation, tmp_path: Path) -> None:
-    """The model goes on as one that was not reset: pushed for 0.4 s, its joint at 0.5 m/s for good."""
+def test_undoing_a_reset_restores_motor_commands_and_wrenches(sim: Simulation, tmp_path: Path) -> None:
+    """The model behaves like one that was not reset: pushed for 0.4 s, its joint driven at 0.5 m/s."""
     other = loaded(tmp_path, _WORLD)[0]
-    for each in (sim, other):
-        edit(MoveJoint("cart", "lift", velocity=0.5), each)
-        edit(ApplyWrench("cart", "base", (5, 0, 0), (0, 0, 1), 0.4), each)
-        each.run(0.3)
+    for simulation in (sim, other):
+        edit(MoveJoint("cart", "lift", velocity=0.5), simulation)
+        edit(ApplyWrench("cart", "base", (5, 0, 0), (0, 0, 1), 0.4), simulation)
+        simulation.run(0.3)
     edits = _model_edits(sim)
     edits.handle(ResetModel("cart"))
     sim.run(0.2)
     assert sim["cart"].joint("lift").position == pytest.approx(0.0)
     edits.handle(UndoReset("cart"))
-    for each in (sim, other):
-        each.run(0.5)
+    for simulation in (sim, other):
+        simulation.run(0.5)
 
     for link, same in zip(sim["cart"].links, other["cart"].links, strict=True):
         assert link.pose.position == pytest.approx(same.pose.position, abs=1e-6)
@@ -140,7 +140,7 @@ def test_a_reset_that_is_undone_leaves_motors_and_loads_as_they_were(sim: Simula
     assert sim["cart"].joint("lift").velocity == pytest.approx(0.5, abs=1e-3)
 
 
-def test_a_state_is_given_to_no_model_with_other_joints(sim: Simulation) -> None:
+def test_a_state_is_not_restored_to_a_model_with_other_joints(sim: Simulation) -> None:
     edits = _model_edits(sim)
     edits.handle(ResetModel("cart"))
     sim.delete("cart")
@@ -149,7 +149,7 @@ def test_a_state_is_given_to_no_model_with_other_joints(sim: Simulation) -> None
         edits.handle(UndoReset("cart"))
 
 
-def test_mass_takes_the_inertia_with_it(sim: Simulation) -> None:
+def test_inertia_scales_with_the_mass(sim: Simulation) -> None:
     edit(SetMass("cart", "base", 4.0), sim)
 
     inertial = sim["cart"].link("base").link.inertial
@@ -157,7 +157,7 @@ def test_mass_takes_the_inertia_with_it(sim: Simulation) -> None:
     assert inertial.moments == pytest.approx((0.4, 0.6, 0.8))
 
 
-def test_friction_lights_gravity_wind_and_time_step(sim: Simulation) -> None:
+def test_friction_lights_gravity_wind_and_time_step_can_be_set(sim: Simulation) -> None:
     edit(SetFriction("cart", "base", 0.25, 0.5), sim)
     edit(SetLight("sun", (1, 0.5, 0), 2.0), sim)
     edit(SetPhysics(gravity=(0, 0, -1.6)), sim)
@@ -173,7 +173,7 @@ def test_friction_lights_gravity_wind_and_time_step(sim: Simulation) -> None:
 
 
 @pytest.mark.parametrize(
-    ("action", "said"),
+    ("action", "error"),
     [
         (SetTwist("cat", (0, 0, 0), (0, 0, 0)), "'cat'"),
         (SetMass("cart", "wheel", 1.0), "'base', 'arm'"),
@@ -182,8 +182,8 @@ def test_friction_lights_gravity_wind_and_time_step(sim: Simulation) -> None:
         (MoveJoint("cart", "hinge", position=1.0), "'lift'"),
     ],
 )
-def test_what_is_not_there_is_refused_with_what_is(sim: Simulation, action: EditAction, said: str) -> None:
-    with pytest.raises(UsageError, match=said):
+def test_unknown_names_are_refused_with_the_known_ones(sim: Simulation, action: EditAction, error: str) -> None:
+    with pytest.raises(UsageError, match=error):
         edit(action, sim)
 
 
@@ -202,13 +202,13 @@ def test_what_is_not_there_is_refused_with_what_is(sim: Simulation, action: Edit
         {"request": "wrench", "model": "m", "link": "l", "force": [0, 0, 1e12], "torque": [0, 0, 0], "duration": 1},
     ],
 )
-def test_numbers_that_would_destroy_the_state_are_no_requests(fields: dict[str, Any]) -> None:
+def test_requests_with_numbers_out_of_bounds_are_invalid(fields: dict[str, Any]) -> None:
     with pytest.raises(msgspec.ValidationError):
         msgspec.json.decode(msgspec.json.encode(fields), type=EditAction)
 
 
 def test_a_timeline_repeats_every_edit(sim: Simulation) -> None:
-    """Gone back to before them, the world is as it was; gone on from there, it is the same to the last bit."""
+    """Seeking to before the edits restores the state; running on from there repeats it bitwise."""
     timeline = Timeline(sim)
 
     def do(action: EditAction, until_ns: int) -> None:

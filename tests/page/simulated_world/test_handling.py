@@ -1,4 +1,4 @@
-"""Models that a person at the page carries, pulls and holds: what they do meanwhile, and what they do when let go."""
+"""Models that a user of the page carries, pulls and holds, and lets go."""
 
 from pathlib import Path
 
@@ -46,8 +46,8 @@ def sim(tmp_path: Path) -> Simulation:
     return loaded(tmp_path, _WORLD)[0]
 
 
-def test_what_is_carried_stays_where_it_is_put_until_it_is_let_go(sim: Simulation) -> None:
-    """It falls from rest afterwards: half of g t² in a second."""
+def test_a_carried_model_stays_at_its_pose_until_let_go(sim: Simulation) -> None:
+    """Afterwards it falls from rest: g t² / 2 in a second."""
     sim.run(0.5)
     edit(Carry("cart", "base", (1, 2, 3), _UPRIGHT), sim)
     assert sim["cart"].pose.position == pytest.approx((1, 2, 3))
@@ -63,14 +63,14 @@ def test_what_is_carried_stays_where_it_is_put_until_it_is_let_go(sim: Simulatio
     assert sim["cart"].pose.position == pytest.approx((1, 2, 9 - 4.9), abs=0.02)
 
 
-def test_what_is_fixed_is_carried_without_a_hook(sim: Simulation) -> None:
+def test_a_fixed_model_is_carried_without_a_hook(sim: Simulation) -> None:
     edit(Carry("wall", "l", (7, 0, 1), _UPRIGHT), sim)
     sim.run(0.1)
     assert sim["wall"].pose.position == pytest.approx((7, 0, 1))
     assert handled_models(sim) == []
 
 
-def test_a_pull_is_a_spring_whose_stretch_is_the_weight(sim: Simulation) -> None:
+def test_a_pulling_spring_stretches_by_the_models_weight(sim: Simulation) -> None:
     """At rest the spring carries the model: m g = 40 m x."""
     edit(Pull("cart", "base", (0, 0, 0), (0, 0, 6)), sim)
     sim.run(10.0)
@@ -80,20 +80,20 @@ def test_a_pull_is_a_spring_whose_stretch_is_the_weight(sim: Simulation) -> None
     assert sim["cart"].twist.linear[2] == pytest.approx(-1.96, abs=0.1)
 
 
-def test_a_light_part_is_pulled_without_trembling(sim: Simulation) -> None:
-    """And far away: the spring's force is bounded."""
+def test_a_light_link_is_pulled_without_oscillation(sim: Simulation) -> None:
+    """This includes distant targets, as the spring's force is bounded."""
     edit(Pull("cart", "arm", (0.3, 0, 0), (0, 1000, 5)), sim)
     sim.run(2.0)
     assert 10 < sim["cart"].link("arm").pose.position[1] < 1000
 
 
-def test_what_is_fixed_cannot_be_pulled(sim: Simulation) -> None:
+def test_a_fixed_model_cannot_be_pulled(sim: Simulation) -> None:
     with pytest.raises(UsageError, match="'l' is fixed to the world"):
         edit(Pull("wall", "l", (0, 0, 0), (0, 0, 1)), sim)
 
 
-def test_what_is_held_stays_in_the_air_and_its_joints_move(sim: Simulation) -> None:
-    """It can be moved, and is freed again."""
+def test_a_held_model_stays_in_the_air_while_its_joints_move(sim: Simulation) -> None:
+    """It can be moved, and freed again."""
     edit(HoldModel("cart", on=True), sim)
     edit(SetPose("cart", "base", (0, 0, 4), _UPRIGHT), sim)
     assert handling.is_held(sim, "cart")
@@ -107,7 +107,7 @@ def test_what_is_held_stays_in_the_air_and_its_joints_move(sim: Simulation) -> N
         edit(HoldModel("wall", on=True), sim)
 
 
-def test_a_joint_and_a_light_are_placed(sim: Simulation) -> None:
+def test_joint_positions_and_light_poses_are_set(sim: Simulation) -> None:
     edit(PlaceJoint("cart", "lift", 0.5), sim)
     assert sim["cart"].joint("lift").position == 0.5
     edit(PlaceLight("lamp", (1, 1, 1), (2, 0, 0, 0)), sim)
@@ -116,8 +116,8 @@ def test_a_joint_and_a_light_are_placed(sim: Simulation) -> None:
         edit(PlaceLight("sun", (1, 1, 1), _UPRIGHT), sim)
 
 
-def test_a_person_who_fell_silent_lets_go(sim: Simulation) -> None:
-    """A second after the last request, by the wall clock."""
+def test_a_carried_model_is_let_go_after_a_timeout(sim: Simulation) -> None:
+    """The timeout is a second of wall time after the last request."""
     wall_s = [0.0]
     timeline = Timeline(sim)
     controls = SimulationControls(BareWorld(sim, timeline=timeline), None, wall_ns=lambda: round(wall_s[0] * 1e9))
@@ -140,7 +140,7 @@ def test_a_person_who_fell_silent_lets_go(sim: Simulation) -> None:
 
 
 def test_a_timeline_repeats_a_pull(sim: Simulation) -> None:
-    """The timeline repeats the pull without requests, and lets go as before; the bytes are the same."""
+    """The timeline repeats the pull and its end without requests, bitwise the same."""
     timeline = Timeline(sim)
     wall_s = [0.0]
     controls = SimulationControls(BareWorld(sim, timeline=timeline), None, wall_ns=lambda: round(wall_s[0] * 1e9))
@@ -161,7 +161,7 @@ def test_a_timeline_repeats_a_pull(sim: Simulation) -> None:
     assert handled_models(sim) == []
 
 
-def test_a_copy_is_in_the_state_of_the_model(sim: Simulation) -> None:
+def test_a_copy_has_the_state_of_its_model(sim: Simulation) -> None:
     sim["cart"].joint("lift").set_position(0.25)
     sim.run(0.3)
     model_edits(sim).handle(CopyModel("cart", "cart_0", (2, 0, 0)))
@@ -175,7 +175,7 @@ def test_a_copy_is_in_the_state_of_the_model(sim: Simulation) -> None:
 
 
 @pytest.mark.parametrize("is_held", [False, True])
-def test_what_was_deleted_is_put_back_as_it_was(sim: Simulation, is_held: bool) -> None:
+def test_a_restored_model_has_its_former_state(sim: Simulation, is_held: bool) -> None:
     edits = model_edits(sim)
     sim.run(0.3)
     edit(HoldModel("cart", on=is_held), sim)
@@ -189,14 +189,14 @@ def test_what_was_deleted_is_put_back_as_it_was(sim: Simulation, is_held: bool) 
         edits.handle(RestoreModel("wall"))
 
 
-def test_where_no_sensor_can_be_started_none_is_copied(tmp_path: Path) -> None:
+def test_models_with_sensors_are_not_copied_where_sensors_cannot_start(tmp_path: Path) -> None:
     sim = loaded(tmp_path, model("eye", CAMERA, static=False))[0]
     with pytest.raises(UsageError, match="'eye_0' has sensors or plugins, which would not run here"):
         model_edits(sim).handle(CopyModel("eye", "eye_0", (2, 0, 0)))
 
 
-def test_what_is_tied_to_another_model_is_not_moved_alone(sim: Simulation) -> None:
-    """Its joint would hold it where it is, as in Gazebo."""
+def test_a_model_fixed_to_another_is_not_moved_alone(sim: Simulation) -> None:
+    """The joint would hold it in place, as in Gazebo."""
     tie = Joint(name="tie", type=JointType.FIXED, parent="wall::l", child="cart::base", at=Source("test"))
     sim.attach(tie)
     with pytest.raises(UsageError, match="'cart' is fixed to 'wall::l' by joint 'tie'"):

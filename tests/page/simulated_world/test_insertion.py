@@ -1,4 +1,4 @@
-"""Insertion of models, shapes and lights into a running world, by requests of the page."""
+"""Inserting models, shapes and lights into a running world, by requests of the page."""
 
 import shutil
 from collections.abc import Mapping
@@ -26,9 +26,9 @@ CONFIG = "<model><name>A crate</name><sdf version='1.6'>model.sdf</sdf><descript
 
 
 def answered(insertion: Insertion, action: InsertAction) -> dict[str, Any]:
-    """Insert, and return the answer as a client gets it."""
+    """Execute a request, and return the answer as a client gets it."""
     answer = insertion.handle(action)
-    assert isinstance(answer, action.answer), "a request is answered as its class says"
+    assert isinstance(answer, action.answer), "the answer has a type of the request's class"
     return sent(answer)
 
 
@@ -44,7 +44,7 @@ class Contents(BareWorld):
         self.simulation.spawn(model)
 
     def robot(self, model: str) -> None:
-        assert any(each.name == model for each in self.simulation.models)
+        assert any(present.name == model for present in self.simulation.models)
 
 
 @pytest.fixture
@@ -94,7 +94,7 @@ def test_models_of_the_model_path_are_listed(insertion: Insertion, tmp_path: Pat
 def test_an_uploaded_model_comes_first_and_is_inserted(
     insertion: Insertion, packages: Packages, simulation: Simulation, tmp_path: Path
 ) -> None:
-    """Its text may read its own files, as that of every model does, and no others."""
+    """Its SDF may refer to its own files, like that of every model, and no others."""
     _put_crate(tmp_path)
     (tmp_path / "models").rename(tmp_path / "uploads")
     insertion.handle(ListModels())
@@ -114,7 +114,7 @@ def test_an_uploaded_model_comes_first_and_is_inserted(
     assert any("reads only below its own folders" in str(finding) for finding in simulation.report.findings)
 
 
-def test_a_model_stands_at_the_point_under_a_free_name(
+def test_a_model_is_inserted_at_a_point_under_an_unused_name(
     insertion: Insertion, simulation: Simulation, tmp_path: Path
 ) -> None:
     _put_crate(tmp_path)
@@ -126,7 +126,7 @@ def test_a_model_stands_at_the_point_under_a_free_name(
 
 
 @pytest.mark.parametrize("shape", ["box", "sphere", "cylinder"])
-def test_a_simple_shape_stands_on_the_floor(insertion: Insertion, simulation: Simulation, shape: str) -> None:
+def test_a_simple_shape_is_inserted_on_the_floor(insertion: Insertion, simulation: Simulation, shape: str) -> None:
     name = answered(insertion, InsertModel(model=shape, position=(1.0, 0.0, 0.0), is_shape=True))["name"]
 
     assert simulation[name].pose.position == (1.0, 0.0, 0.5)
@@ -140,22 +140,22 @@ def _insert(insertion: Insertion, consent: str | None = None, model: str = "crat
     return answered(insertion, InsertModel(model=model, position=(0.0, 0.0, 0.0), consent=consent))
 
 
-def test_a_model_with_code_is_asked_for_first(insertion: Insertion, simulation: Simulation, tmp_path: Path) -> None:
+def test_a_model_with_code_needs_consent(insertion: Insertion, simulation: Simulation, tmp_path: Path) -> None:
     _put_crate(tmp_path, CODED.format(1))
     code = tmp_path / "models/crate/code.py"
     code.write_text("")
 
-    asked = _insert(insertion)
+    question = _insert(insertion)
     before = [model.name for model in simulation.models]
 
-    assert (asked["code"], before) == ([str(code)], [])
-    assert _insert(insertion, asked["consent"]) == {"name": "crate"}
+    assert (question["code"], before) == ([str(code)], [])
+    assert _insert(insertion, question["consent"]) == {"name": "crate"}
 
 
-def test_consent_counts_once_and_for_what_was_shown(
+def test_consent_is_valid_once_and_for_the_listed_code(
     insertion: Insertion, simulation: Simulation, tmp_path: Path
 ) -> None:
-    """Neither a word that is invented or used, nor one for other code, other parameters or another model, runs it."""
+    """Invented and used tokens, and those for other code, parameters or models, do not run it."""
     _put_crate(tmp_path, CODED.format(1))
     folder = tmp_path / "models/crate"
     (folder / "code.py").write_text("first = 1")
@@ -173,10 +173,10 @@ def test_consent_counts_once_and_for_what_was_shown(
     assert [model.name for model in simulation.models] == ["crate"]
 
 
-def test_uploaded_code_is_no_plugin_before_a_person_agrees(
+def test_uploaded_code_is_not_loaded_before_consent(
     insertion: Insertion, packages: Packages, environment: dict[str, str], tmp_path: Path
 ) -> None:
-    """By no path: neither a copy of a model, nor a service that spawns one."""
+    """Neither copying a model nor a spawn service loads it."""
     _put_crate(tmp_path, CODED.format(1))
     (tmp_path / "models").rename(tmp_path / "uploads")
     held = tmp_path / "uploads/crate/code.py.held"
@@ -184,11 +184,11 @@ def test_uploaded_code_is_no_plugin_before_a_person_agrees(
     packages.add_models(tmp_path / "uploads")
     (tag,) = insertion._read("crate")[0].plugins
 
-    asked = _insert(insertion)
-    assert asked["code"] == [str(held.with_suffix(""))]
+    question = _insert(insertion)
+    assert question["code"] == [str(held.with_suffix(""))]
     assert find_user_file(tag, environment) is None
     held.write_text("second = 2")
-    assert _insert(insertion, asked["consent"])["code"]
+    assert _insert(insertion, question["consent"])["code"]
     assert find_user_file(tag, environment) is None
     assert _insert(insertion, _insert(insertion)["consent"]) == {"name": "crate"}
     code = find_user_file(tag, environment)
@@ -196,22 +196,24 @@ def test_uploaded_code_is_no_plugin_before_a_person_agrees(
     assert code.read_text() == "second = 2"
 
 
-def test_lights_come_and_go(insertion: Insertion, edits: ModelEdits, simulation: Simulation) -> None:
+def test_lights_are_inserted_deleted_and_restored(
+    insertion: Insertion, edits: ModelEdits, simulation: Simulation
+) -> None:
     def heights() -> dict[str, tuple[float, float, float]]:
         return {light.name: light.world_from_light.position for light in simulation.world.lights}
 
     name = answered(insertion, InsertLight(type="spot", position=(1.0, 2.0, 0.0)))["name"]
-    there = heights()
+    before = heights()
     edits.handle(DeleteLight(light=name))
-    gone = heights()
+    after = heights()
     edits.handle(RestoreLight(light=name))
 
-    assert there[name] == (1.0, 2.0, 2.0)
-    assert name not in gone
-    assert heights() == there
+    assert before[name] == (1.0, 2.0, 2.0)
+    assert name not in after
+    assert heights() == before
 
 
-def test_what_is_not_there_is_a_sentence(insertion: Insertion, edits: ModelEdits) -> None:
+def test_unknown_names_are_refused(insertion: Insertion, edits: ModelEdits) -> None:
     with pytest.raises(UsageError, match="no model 'nothing' on the model path"):
         insertion.handle(InsertModel(model="nothing", position=(0.0, 0.0, 0.0)))
     with pytest.raises(UsageError, match="no shape 'cone'; there are: box, sphere, cylinder"):

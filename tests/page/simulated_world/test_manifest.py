@@ -32,7 +32,7 @@ def manifest(sim: Simulation, sensors=()) -> dict[str, Any]:
     return sent(world_manifest(sim, sensors, bodies))
 
 
-def test_a_model_is_told_with_places_in_its_file(tmp_path: Path) -> None:
+def test_models_have_source_locations(tmp_path: Path) -> None:
     sim, _ = loaded(tmp_path, model("floor") + CART)
 
     floor, cart = manifest(sim)["models"]
@@ -53,18 +53,18 @@ def test_a_model_is_told_with_places_in_its_file(tmp_path: Path) -> None:
     assert plugin["parameters"] == [["topic", "cmd"], ["noise/stddev", "0.5"], ["wheel", "a"], ["wheel", ""]]
 
 
-def test_plugins_of_one_name_are_told_apart(tmp_path: Path) -> None:
+def test_plugins_of_the_same_name_are_numbered(tmp_path: Path) -> None:
     tags = "".join(f'<plugin name="drive" filename="lib{i}.so"/>' for i in range(3))
     sim, _ = loaded(tmp_path, f'<model name="cart"><link name="base"/>{tags}</model>{tags}')
 
-    found = manifest(sim)
+    shown = manifest(sim)
 
-    for plugins in (found["models"][0]["plugins"], found["plugins"]):
-        assert [each["name"] for each in plugins] == ["drive", "drive (2)", "drive (3)"]
-        assert [each["filename"] for each in plugins] == ["lib0.so", "lib1.so", "lib2.so"]
+    for plugins in (shown["models"][0]["plugins"], shown["plugins"]):
+        assert [plugin["name"] for plugin in plugins] == ["drive", "drive (2)", "drive (3)"]
+        assert [plugin["filename"] for plugin in plugins] == ["lib0.so", "lib1.so", "lib2.so"]
 
 
-def test_nested_models_are_told_as_they_were_written(tmp_path: Path) -> None:
+def test_nested_models_are_nested_in_the_manifest(tmp_path: Path) -> None:
     inner = """<model name="arm"><link name="upper"/><link name="lower"/><joint name="elbow" type="revolute">
 <parent>upper</parent><child>lower</child><axis><xyz>0 1 0</xyz></axis></joint>
 <model name="hand"><link name="palm"/></model></model>"""
@@ -78,7 +78,7 @@ def test_nested_models_are_told_as_they_were_written(tmp_path: Path) -> None:
 
     (arm,) = robot["models"]
     (hand,) = arm["models"]
-    assert [[(link["name"], link["body"]) for link in each["links"]] for each in (robot, arm, hand)] == [
+    assert [[(link["name"], link["body"]) for link in part["links"]] for part in (robot, arm, hand)] == [
         [("base", 0)],
         [("upper", 1), ("lower", 2)],
         [("palm", 3)],
@@ -104,20 +104,27 @@ def test_joints_with_one_axis_have_a_row(tmp_path: Path) -> None:
 def test_sensors_and_cameras_name_their_topics(tmp_path: Path) -> None:
     sim, sensors = loaded(tmp_path, model("eye", lidar() + CAMERA))
 
-    found = manifest(sim, sensors)
+    shown = manifest(sim, sensors)
 
-    (link,) = found["models"][0]["links"]
+    (link,) = shown["models"][0]["links"]
     by_name = {sensor["name"]: sensor for sensor in link["sensors"]}
-    told = {"name": "cam", "type": "camera", "rate": 5.0, "topic": "/eye/l/cam/image_raw", "series": [], "plugins": []}
-    assert by_name["cam"].items() >= told.items()
+    expected = {
+        "name": "cam",
+        "type": "camera",
+        "rate": 5.0,
+        "topic": "/eye/l/cam/image_raw",
+        "series": [],
+        "plugins": [],
+    }
+    assert by_name["cam"].items() >= expected.items()
     assert by_name["scan"]["topic"] is None  # nothing publishes it without ROS
-    (camera,) = found["cameras"]
+    (camera,) = shown["cameras"]
     assert (camera["name"], camera["topic"], camera["body"]) == ("cam", "/eye/l/cam/image_raw", 0)
     assert camera["pose"] == pytest.approx([0.5, 0.0, 0.0, 0.0, 0.0, 1.0])
     assert (camera["width"], camera["height"], camera["horizontal_fov"]) == (8, 6, 1.0)
 
 
-def test_topics_are_those_of_the_graph(tmp_path: Path) -> None:
+def test_topics_are_those_on_the_graph(tmp_path: Path) -> None:
     plugin = """<plugin name="p" filename="libgazebo_ros_camera.so"><cameraName>front</cameraName>
 <imageTopicName>picture</imageTopicName></plugin>"""
     camera = CAMERA.replace("</sensor>", plugin + "</sensor>")
@@ -126,42 +133,42 @@ def test_topics_are_those_of_the_graph(tmp_path: Path) -> None:
         mounted = sim._sensors
         sensors = [*mounted.cameras, *mounted.instruments]
 
-        found = manifest(sim, sensors)
+        shown = manifest(sim, sensors)
 
-    topics = {sensor["name"]: sensor["topic"] for sensor in found["models"][0]["links"][0]["sensors"]}
+    topics = {sensor["name"]: sensor["topic"] for sensor in shown["models"][0]["links"][0]["sensors"]}
     assert topics["scan"] == "/eye/l/scan/scan"
-    assert topics["cam"] == found["cameras"][0]["topic"]
+    assert topics["cam"] == shown["cameras"][0]["topic"]
     assert topics["cam"].endswith("front/picture")
 
 
-def test_lights_scene_and_frames(tmp_path: Path) -> None:
+def test_the_manifest_has_lights_scene_and_frames(tmp_path: Path) -> None:
     lights = """<light name="sun" type="directional"/><light name="lamp" type="point"/><scene>
 <ambient>0.1 0.2 0.3 1</ambient><shadows>0</shadows><grid>0</grid><sky/>
 <fog><type>linear</type><color>1 0 0 1</color><start>2</start><end>9</end><density>0.5</density></fog></scene>"""
     inner = '<light name="torch" type="spot"><spot><inner_angle>0.1</inner_angle></spot></light>'
     sim, _ = loaded(tmp_path, lights + model("m", inner))
 
-    found = manifest(sim)
+    shown = manifest(sim)
 
-    assert [(light["name"], light["type"]) for light in found["lights"]] == [
+    assert [(light["name"], light["type"]) for light in shown["lights"]] == [
         ("sun", "directional"),
         ("lamp", "point"),
         ("m::l::torch", "spot"),
     ]
-    assert found["scene"]["ambient"] == pytest.approx((0.1, 0.2, 0.3))
-    assert (found["scene"]["sky"], found["scene"]["shadows"], found["scene"]["grid"]) == (True, False, False)
-    fog = found["scene"]["fog"]
+    assert shown["scene"]["ambient"] == pytest.approx((0.1, 0.2, 0.3))
+    assert (shown["scene"]["sky"], shown["scene"]["shadows"], shown["scene"]["grid"]) == (True, False, False)
+    fog = shown["scene"]["fog"]
     assert fog == {"type": "linear", "color": [1.0, 0.0, 0.0], "start": 2.0, "end": 9.0, "density": 0.5}
-    assert found["frames"] == [{"frame": "m/l", "parent": "world", "body": 0}]
+    assert shown["frames"] == [{"frame": "m/l", "parent": "world", "body": 0}]
 
 
-def test_the_page_frames_the_robot_not_the_ball_before_it() -> None:
+def test_the_robot_is_the_model_with_the_most_joints() -> None:
     sim = trundle.load("rp2w_at_home.world")
 
-    found = manifest(sim)
+    shown = manifest(sim)
 
-    assert found["robot"] is not None
-    assert sim.engine.compiled.link_names[found["robot"]] == "rp2w::chassis"
+    assert shown["robot"] is not None
+    assert sim.engine.compiled.link_names[shown["robot"]] == "rp2w::chassis"
 
 
 def test_a_world_of_static_models_has_no_robot(tmp_path: Path) -> None:

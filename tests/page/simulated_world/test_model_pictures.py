@@ -1,4 +1,4 @@
-"""Pictures of models for the page: by their content, kept on disk, and made again when a file changes."""
+"""Pictures of models for the page: content, cache, and redrawing after a file changes."""
 
 import io
 import json
@@ -42,7 +42,7 @@ def _middle(png: bytes) -> list[int]:
     return [int(value) for value in image[SIZE_PX // 2, SIZE_PX // 2]]
 
 
-def test_a_picture_shows_the_model_and_is_made_again_when_a_file_changes(packages: Packages, folder: Path) -> None:
+def test_a_picture_shows_the_model_and_is_redrawn_after_a_file_changes(packages: Packages, folder: Path) -> None:
     red, green, blue = _middle(cached_picture("crate", packages))
     assert red > 60 > max(green, blue)
     (folder / "model.sdf").write_text(_MODEL.format("0 1 0 1"))
@@ -57,7 +57,9 @@ def test_a_picture_is_drawn_once(packages: Packages, monkeypatch: pytest.MonkeyP
     assert cached_picture("crate", packages) == first
 
 
-def test_the_cache_keeps_what_was_used_last(packages: Packages, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_cache_keeps_recently_used_pictures(
+    packages: Packages, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(model_pictures, "_MAX_FILES", 2)
     for number in range(4):
         os.utime(folder / "model.sdf", ns=(number, number))
@@ -65,7 +67,7 @@ def test_the_cache_keeps_what_was_used_last(packages: Packages, folder: Path, mo
     assert len(list((folder.parent.parent / "cache").rglob("*.png"))) == 2
 
 
-def test_a_shape_is_a_glb_where_the_model_would_stand(packages: Packages) -> None:
+def test_a_shape_is_a_glb_at_the_models_pose(packages: Packages) -> None:
     glb = model_glb("crate", packages)
     magic, version, length = struct.unpack_from("<4sII", glb)
     (size,) = struct.unpack_from("<I", glb, 12)
@@ -74,7 +76,9 @@ def test_a_shape_is_a_glb_where_the_model_would_stand(packages: Packages) -> Non
     assert [1, 2, 3] in [node.get("translation") for node in nodes]
 
 
-def test_what_cannot_be_shown_is_a_sentence(packages: Packages, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_models_that_cannot_be_shown_are_refused_with_a_reason(
+    packages: Packages, monkeypatch: pytest.MonkeyPatch
+) -> None:
     with pytest.raises(UsageError, match="no model 'nothing' on the model path"):
         cached_picture("nothing", packages)
     monkeypatch.setattr(model_pictures, "_MAX_GLB_BYTES", 100)

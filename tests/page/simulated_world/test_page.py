@@ -1,4 +1,4 @@
-"""The feed of a page and its requests, with a server that keeps what it is given."""
+"""Streams and requests of a simulation's page, with a fake server."""
 
 import io
 import json
@@ -50,7 +50,7 @@ CART = """<model name="cart"><link name="base"/><link name="wheel"><pose>0 0 1 0
 
 
 class Clock:
-    """Wall time by hand."""
+    """Wall clock that tests advance."""
 
     now_ns = 10**9
 
@@ -59,7 +59,7 @@ class Clock:
 
 
 class Shown:
-    """A simulation with a page."""
+    """Simulation with a page."""
 
     def __init__(self, sim: Simulation, sensors: Any = (), recorder: Any = None, timeline: Any = None) -> None:
         self.sim, self.clock = sim, Clock()
@@ -73,7 +73,7 @@ class Shown:
         self.page.update(self.pacer, paused=self.paused)
 
     def wait_world(self, generation: int) -> dict[str, Any]:
-        """The manifest of a generation; making it takes a thread a moment."""
+        """Wait for the manifest of a generation, which a thread makes."""
         while not self.server.worlds or self.server.worlds[-1][0]["generation"] < generation:
             self.update(0.1)
             time.sleep(0.001)
@@ -90,7 +90,7 @@ def cart(tmp_path: Path) -> Shown:
     return Shown(loaded(tmp_path, CART)[0])
 
 
-def test_the_world_comes_with_its_files(cart: Shown) -> None:
+def test_the_manifest_has_files(cart: Shown) -> None:
     manifest = cart.wait_world(1)
 
     assert [file["id"] for file in manifest["files"]] == ["", "cart"]
@@ -110,8 +110,8 @@ def test_a_texture_that_cannot_be_read_is_reported(tmp_path: Path) -> None:
     )
 
 
-def test_warnings_about_the_files_are_notices_with_their_line(tmp_path: Path) -> None:
-    """The page counts them, and lists each."""
+def test_warnings_about_files_are_notices_with_lines(tmp_path: Path) -> None:
+    """The page counts and lists them."""
     shown = Shown(loaded(tmp_path, '<model name="m"><link name="l"><hue>3</hue></link></model>')[0])
     shown.update()
     ((name, text),) = shown.server.notices
@@ -124,7 +124,7 @@ def test_warnings_about_the_files_are_notices_with_their_line(tmp_path: Path) ->
     assert shown.server.notices[2:] == [("file/1", "cart.sdf:7: mass must be > 0 kg")]
 
 
-def test_poses_are_those_of_the_simulation(cart: Shown) -> None:
+def test_poses_match_the_simulation(cart: Shown) -> None:
     cart.sim.run(0.5)
     cart.update()
 
@@ -133,7 +133,7 @@ def test_poses_are_those_of_the_simulation(cart: Shown) -> None:
     assert poses == pytest.approx(cart.sim.snapshot().poses)
 
 
-def test_poses_go_out_thirty_times_a_second_and_joints_ten_times(cart: Shown) -> None:
+def test_poses_are_sent_at_30_hz_and_joints_at_10_hz(cart: Shown) -> None:
     for _ in range(1000):
         cart.update(0.001)
 
@@ -142,7 +142,7 @@ def test_poses_go_out_thirty_times_a_second_and_joints_ten_times(cart: Shown) ->
     assert len(cart.server.states) == 1  # nothing changed
 
 
-def test_nothing_is_put_that_nobody_watches(cart: Shown) -> None:
+def test_unwatched_streams_are_not_put(cart: Shown) -> None:
     cart.server.watched = set()
     cart.update()
 
@@ -162,7 +162,7 @@ def test_joints_have_position_velocity_and_effort(cart: Shown) -> None:
     assert axle.velocity > 0.0
 
 
-def test_spawned_models_get_numbers_and_deleted_ones_leave_the_others_theirs(tmp_path: Path) -> None:
+def test_body_numbers_stay_when_models_are_spawned_and_deleted(tmp_path: Path) -> None:
     sim, _ = loaded(tmp_path, model("a", BOX) + model("b", BOX))
     shown = Shown(sim)
     shown.wait_world(1)
@@ -190,7 +190,7 @@ def test_pause_step_and_play(cart: Shown) -> None:
     assert not cart.paused
 
 
-def test_many_steps_are_done_a_hundred_at_a_time_until_play_ends_them(cart: Shown) -> None:
+def test_steps_are_done_a_hundred_at_a_time_until_play(cart: Shown) -> None:
     cart.ask(Step(250))
     assert cart.sim.steps == 100
     for _ in range(5):
@@ -203,7 +203,7 @@ def test_many_steps_are_done_a_hundred_at_a_time_until_play_ends_them(cart: Show
     assert cart.sim.steps == 350
 
 
-def test_steps_are_done_up_to_a_time_that_is_ahead(cart: Shown) -> None:
+def test_run_to_steps_up_to_a_future_time(cart: Shown) -> None:
     assert cart.ask(RunTo(150_500_000)) is None
     assert cart.paused
     for _ in range(3):
@@ -228,14 +228,14 @@ def test_reset_of_time_poses_or_both(cart: Shown, what: Any, time_ns: int, heigh
     assert cart.sim["cart"].link("wheel").pose.position[2] == pytest.approx(fallen if height is None else height)
 
 
-def test_speed_and_its_end(cart: Shown) -> None:
+def test_the_speed_is_set_and_unlimited(cart: Shown) -> None:
     cart.ask(SetSpeed(2.5))
     assert cart.pacer.speed == cart.server.states[-1].speed == 2.5
     cart.ask(SetSpeed(None))
     assert cart.pacer.speed is None
 
 
-def test_a_joint_is_moved_and_one_that_cannot_is_named(cart: Shown) -> None:
+def test_joints_are_moved_and_unknown_ones_refused(cart: Shown) -> None:
     assert cart.ask(MoveJoint(model="cart", joint="axle", position=0.7)) is None
     cart.sim.run(3.0)
     assert cart.sim["cart"].joint("axle").position == pytest.approx(0.7, abs=0.01)
@@ -254,7 +254,7 @@ def test_a_joint_of_a_nested_model_is_moved(tmp_path: Path) -> None:
     assert "no joint 'm::none'" in (shown.ask(MoveJoint(model="outer::m", joint="none", position=1.0)) or "")
 
 
-def test_actors_bones_move_as_bodies_beyond_the_links(tmp_path: Path) -> None:
+def test_bones_of_actors_follow_the_links_in_poses(tmp_path: Path) -> None:
     (tmp_path / "column.dae").write_text(bending_column())
     actor = """<actor name="bender"><skin><filename>column.dae</filename></skin><animation name="bend">
 <filename>column.dae</filename></animation></actor>"""
@@ -273,7 +273,7 @@ def test_actors_bones_move_as_bodies_beyond_the_links(tmp_path: Path) -> None:
     assert [glb.nodes()[f"bender::bone {i}"]["extras"]["body"] for i in range(2)] == [2, 3]
 
 
-def test_a_warning_stands_until_a_person_goes_on(cart: Shown) -> None:
+def test_a_warning_is_shown_until_a_user_plays(cart: Shown) -> None:
     cart.page.warn("it is unstable")
     cart.ask(Pause())
     assert [text for _, text in cart.server.notices] == ["it is unstable"]
@@ -282,14 +282,14 @@ def test_a_warning_stands_until_a_person_goes_on(cart: Shown) -> None:
     assert [text for _, text in cart.server.notices] == ["it is unstable", None]
 
 
-def test_what_this_simulation_does_not_do_is_refused(cart: Shown) -> None:
+def test_unsupported_requests_are_refused(cart: Shown) -> None:
     assert (cart.ask(Reload()) or "").startswith("this world cannot be reloaded")
     assert cart.ask(Record(True)) == "this simulation does not support this request"
     assert cart.server.states[-1].recording is UNSET
 
 
 def test_pictures_are_drawn_for_browsers_without_webgl(tmp_path: Path) -> None:
-    """A red ball at the robot's place, in the middle of the picture; the world's background at its edge."""
+    """A red ball as the robot is in the middle of the picture; the world's background is at its edge."""
     ball = """<model name="ball"><link name="link"><visual name="v">
 <geometry><sphere><radius>0.5</radius></sphere></geometry>
 <material><ambient>1 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material></visual></link></model>"""
@@ -307,8 +307,8 @@ def test_pictures_are_drawn_for_browsers_without_webgl(tmp_path: Path) -> None:
     assert rgb[1, 1].min() > 4 * rgb[24, 32].min()
 
 
-def test_a_picture_of_any_shape_holds_a_tall_robot(tmp_path: Path) -> None:
-    """A red pole of 1.6 m, whose first link is at its foot, as the RP2W's."""
+def test_a_tall_robot_fits_into_pictures_of_any_aspect_ratio(tmp_path: Path) -> None:
+    """The robot is a red pole of 1.6 m, whose first link is at its foot, like the RP2W's."""
     pole = """<model name="pole"><link name="foot"/><link name="mast"><pose>0 0 1.6 0 0 0</pose><visual name="v">
 <pose>0 0 -0.8 0 0 0</pose><geometry><cylinder><radius>0.05</radius><length>1.6</length></cylinder></geometry>
 <material><ambient>1 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material></visual></link>
@@ -326,7 +326,7 @@ def test_a_picture_of_any_shape_holds_a_tall_robot(tmp_path: Path) -> None:
         assert rows[-1] - rows[0] > min(width, height) // 4
 
 
-def test_recording_is_begun_and_shown(tmp_path: Path) -> None:
+def test_recording_is_started_and_shown(tmp_path: Path) -> None:
     class Recorder:
         since_ns: int | None = None
 
@@ -344,7 +344,7 @@ def test_recording_is_begun_and_shown(tmp_path: Path) -> None:
     assert shown.server.states[-1].recording is None
 
 
-def test_it_goes_back_and_on_recorded_all_the_while(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_seeking_back_and_running_on_keeps_recording(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     sim = loaded(tmp_path, CART)[0]
     recording = PageRecording(sim, lambda _: None)
@@ -368,11 +368,11 @@ def test_it_goes_back_and_on_recorded_all_the_while(tmp_path: Path, monkeypatch:
 
     times = read_state_log(next(tmp_path.rglob("state.log"))).times
     assert times[-1] == pytest.approx(0.15, abs=0.02)
-    assert times.min() == pytest.approx(0.02, abs=0.02)  # recorded again from where it went back to
+    assert times.min() == pytest.approx(0.02, abs=0.02)  # recorded again from the time of the seek
     assert "not part of the timeline" in (shown.ask(Seek(10**12)) or "")
 
 
-def test_an_edit_after_going_back_to_the_beginning_is_shown(tmp_path: Path) -> None:
+def test_an_edit_after_seeking_to_the_start_is_shown(tmp_path: Path) -> None:
     sim = loaded(tmp_path, CART)[0]
     shown = Shown(sim, timeline=Timeline(sim))
     shown.wait_world(1)
@@ -398,22 +398,22 @@ def test_a_camera_is_drawn_only_while_it_is_watched(tmp_path: Path) -> None:
     assert shown.server.images[-1][2].shape == (6, 8, 3)
 
 
-def test_lines_of_plugins_and_rays_are_put_with_their_names(tmp_path: Path) -> None:
+def test_lines_of_plugins_and_rays_have_names(tmp_path: Path) -> None:
     sim, sensors = loaded(tmp_path, model("eye", lidar()) + model("wall", BOX.replace("visual", "collision")))
     shown = Shown(sim, sensors)
     sim.lines["m::way"] = DebugLine(rgb=(1.0, 0.5, 0.0), points=[(0.0, 0.0, 0.0), (1.0, 2.0, 3.0)])
     sim.run(0.3)
     shown.update()
 
-    way, rays = shown.server.lines[-1][1]
-    assert (way.id, way.rgba) == ("m::way", (255, 128, 0, 255))
-    assert way.points.tolist() == [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]]
+    path, rays = shown.server.lines[-1][1]
+    assert (path.id, path.rgba) == ("m::way", (255, 128, 0, 255))
+    assert path.points.tolist() == [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]]
     assert rays.id == "eye::l::scan"
     shown.server.watched = {LINES}
     assert sim.lines_are_shown
 
 
-def test_a_browser_gets_the_world_its_files_poses_and_pictures(tmp_path: Path) -> None:
+def test_a_client_gets_the_world_its_files_poses_and_pictures(tmp_path: Path) -> None:
     sim, sensors = loaded(tmp_path, model("eye", CAMERA + BOX) + model("ball", BOX, static=False))
     shared = SharedPage(say=print, at=PageAddress(port=0))
     with (
@@ -442,11 +442,11 @@ def test_a_browser_gets_the_world_its_files_poses_and_pictures(tmp_path: Path) -
             assert Glb(content).tree if url.endswith(".glb") else content
 
         client.send("trundle/request", id=1, request="pause")
-        run(lambda: any(each.get("id") == 1 for each in client.jsons))
+        run(lambda: any(message.get("id") == 1 for message in client.jsons))
         assert {"op": "trundle/response", "id": 1, "ok": True} in client.jsons
 
 
-def test_meshes_that_are_missing_are_named(tmp_path: Path) -> None:
+def test_missing_meshes_are_named_in_a_notice(tmp_path: Path) -> None:
     visuals = "".join(
         f'<visual name="{name}"><geometry><mesh><uri>{name}</uri></mesh></geometry></visual>'
         for name in ("lost.stl", "gone.dae")

@@ -1,4 +1,4 @@
-"""What a page is called: the world, its file, or its robot."""
+"""Titles of a page: the world's name, its file or its robot."""
 
 from pathlib import Path
 
@@ -20,7 +20,7 @@ _CAR = '<model name="car"><link name="base"/><link name="wheel"/><joint name="ax
         ("model.sdf", _CAR, ("car", "car")),
     ],
 )
-def test_the_page_has_the_name_that_says_most(
+def test_the_title_is_the_most_specific_name(
     file: str, content: str, names: tuple[str, str | None], tmp_path: Path
 ) -> None:
     (tmp_path / file).write_text(f'<sdf version="1.6">{content}</sdf>')

@@ -1,4 +1,4 @@
-"""Profiles for the page, measured while someone looks."""
+"""Profiles for the page, measured while they are watched."""
 
 from pathlib import Path
 from typing import cast
@@ -15,7 +15,7 @@ S = 1_000_000_000
 
 
 class Loop:
-    """Loop of a run whose clock advances by hand: 20 ms of page, then a stride that takes as long as it simulates."""
+    """Loop of a run with a simulated wall clock: 20 ms of page, then a stride in real time."""
 
     def __init__(self, folder: Path) -> None:
         self.now_ns = 0
@@ -34,7 +34,7 @@ class Loop:
             self.sim.run(stride_s)
 
     def page_s(self) -> list[float]:
-        """Wall time of the page in each profile that was sent."""
+        """Return the page's wall time in each sent profile."""
         return [
             next(part["wall_s"] for part in profile["parts"] if part["group"] == "page")
             for profile in self.server.profiles
@@ -55,7 +55,7 @@ def test_a_profile_of_each_second_is_sent(loop: Loop) -> None:
     assert [profile["wall_s"] for profile in loop.server.profiles] == pytest.approx([1.0, 1.0])
 
 
-def test_nothing_is_measured_while_nobody_looks_or_time_stands_still(loop: Loop) -> None:
+def test_nothing_is_measured_while_unwatched_or_paused(loop: Loop) -> None:
     loop.server.watched = set()
     for _ in range(25):
         loop.turn()
@@ -68,8 +68,8 @@ def test_nothing_is_measured_while_nobody_looks_or_time_stands_still(loop: Loop)
     assert loop.server.profiles == []
 
 
-def test_flat_out_only_a_second_of_simulation_time_is_measured(loop: Loop) -> None:
-    """Ten simulated seconds in each of wall time: each profile has about one."""
+def test_at_full_speed_only_a_second_of_simulation_time_is_measured(loop: Loop) -> None:
+    """At ten simulated seconds per second of wall time, each profile has about one simulated second."""
     for _ in range(40):
         loop.stream.begin_page()
         loop.now_ns += S // 20

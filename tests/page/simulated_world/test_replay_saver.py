@@ -1,4 +1,4 @@
-"""Replays that people at the page ask for: answered whatever they ask, and few at once."""
+"""Requests for replays: each is answered, and few are made at a time."""
 
 import threading
 from typing import Any
@@ -16,12 +16,12 @@ def _never() -> RecordedMotion:
     raise AssertionError("no poses are copied for what is refused")
 
 
-def test_few_wait_and_each_is_answered(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pending_replays_are_limited_and_each_is_answered(monkeypatch: pytest.MonkeyPatch) -> None:
     answers: dict[int, Any] = {}
-    is_made = threading.Event()
+    may_finish = threading.Event()
 
     def replay_page(*_: object, **__: object) -> str:
-        is_made.wait()
+        may_finish.wait()
         raise ZeroDivisionError("a world that is not foreseen")
 
     monkeypatch.setattr(pose_history, "replay_page", replay_page)
@@ -31,7 +31,7 @@ def test_few_wait_and_each_is_answered(monkeypatch: pytest.MonkeyPatch) -> None:
     saver.save(2, SaveReplay(view="[" * 4000), lambda: motion)
     with pytest.raises(UsageError, match="2 replays are being made already"):
         saver.save(3, SaveReplay(), _never)
-    is_made.set()
+    may_finish.set()
     saver._thread.shutdown(wait=True)
 
     assert answers[1] == "the replay cannot be made: ZeroDivisionError: a world that is not foreseen"

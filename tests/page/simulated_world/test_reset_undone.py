@@ -1,4 +1,4 @@
-"""A robot that was reset by a person, who takes that back, drives on as if nothing had been."""
+"""A robot whose reset is undone drives on as if it had not been reset."""
 
 from pathlib import Path
 
@@ -16,8 +16,8 @@ from trundle.sim.simulation import Simulation
 from trundle.sim.timeline import Timeline
 
 
-def test_a_robot_drives_on_and_its_plugins_know_what_they_knew(tmp_path: Path) -> None:
-    """Its drive has reached half of the speed that it was told; a plugin of its user pushes it by chance."""
+def test_undoing_a_reset_restores_the_robot_and_its_plugins(tmp_path: Path) -> None:
+    """The drive has reached half of the commanded speed; a user's plugin pushes the robot randomly."""
     (tmp_path / "push.py").write_text(PUSH, encoding="utf-8")
     (tmp_path / "robots.world").write_text(world(2), encoding="utf-8")
     with trundle.load(str(tmp_path / "robots.world"), plugins=True, ros=True) as simulation, GraphLoop() as loop:
@@ -28,7 +28,7 @@ def test_a_robot_drives_on_and_its_plugins_know_what_they_knew(tmp_path: Path) -
         now_ns = simulation.time_ns + seconds(0.25)
         timeline.advance(now_ns)
         timeline.advance(now_ns + seconds(1))
-        expected = _places(simulation)
+        expected = _states(simulation)
         assert simulation["robot0"].pose.position[0] > 0.3
 
         timeline.seek(now_ns)
@@ -36,10 +36,10 @@ def test_a_robot_drives_on_and_its_plugins_know_what_they_knew(tmp_path: Path) -
         assert simulation["robot0"].pose.position == pytest.approx((0.0, 0.0, 0.1), abs=1e-9)
         edits.handle(UndoReset("robot0"))
         timeline.advance(now_ns + seconds(1))
-        np.testing.assert_allclose(_places(simulation), expected, atol=2e-3)
+        np.testing.assert_allclose(_states(simulation), expected, atol=2e-3)
 
 
-def _places(simulation: Simulation) -> NDArray[np.float64]:
-    """Position, orientation and velocity of both robots; equal but for the depth of contacts."""
+def _states(simulation: Simulation) -> NDArray[np.float64]:
+    """Return position, orientation and velocity of both robots."""
     robots = (simulation["robot0"], simulation["robot1"])
     return np.array([[*each.pose.position, *each.pose.quaternion, *each.twist.linear] for each in robots])

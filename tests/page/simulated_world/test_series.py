@@ -1,4 +1,4 @@
-"""Values of a simulation that are plotted by name."""
+"""Plotted values of a simulation."""
 
 from pathlib import Path
 from typing import Any, cast
@@ -14,6 +14,7 @@ from trundle.robots.description import load_text
 from trundle.robots.model import flattened
 from trundle.robots.packages import Packages
 from trundle.sim.sensors import mount_sensors
+from trundle.sim.sensors.imu import ImuSensor
 from trundle.sim.simulation import Simulation
 
 WORLD = """<sdf version="1.6"><world name="w">
@@ -58,20 +59,20 @@ def columns(server: FakeServer) -> dict[str, Any]:
     return dict(zip(("time", *head["names"]), rows.T, strict=True))
 
 
-def test_a_box_on_the_floor_is_held_by_its_weight(
+def test_a_resting_box_has_pose_and_contact_values(
     simulation: Simulation, sampled: tuple[SeriesSampler, FakeServer]
 ) -> None:
-    """A name may have a dot of its own; a model has the values of its first link."""
+    """Names may contain dots; a model has the values of its first link."""
     sampler, server = sampled
     server.plotted = ("box.pose.x", "box::l.1.contact.force.z", "box::l.1.contact.count", "box::l.1.pose.yaw")
     run(simulation, sampler, 50)
 
-    found = columns(server)
-    assert found["time"] == pytest.approx(np.arange(1, 51) * 0.02)
-    assert found["box.pose.x"] == pytest.approx(1.0, abs=1e-3)
-    assert found["box::l.1.pose.yaw"] == pytest.approx(0.5, abs=1e-3)
-    assert found["box::l.1.contact.force.z"][-1] == pytest.approx(2 * 9.8, rel=0.02)
-    assert found["box::l.1.contact.count"][-1] >= 3
+    values = columns(server)
+    assert values["time"] == pytest.approx(np.arange(1, 51) * 0.02)
+    assert values["box.pose.x"] == pytest.approx(1.0, abs=1e-3)
+    assert values["box::l.1.pose.yaw"] == pytest.approx(0.5, abs=1e-3)
+    assert values["box::l.1.contact.force.z"][-1] == pytest.approx(2 * 9.8, rel=0.02)
+    assert values["box::l.1.contact.count"][-1] >= 3
 
 
 def test_joints_and_sensors_are_sampled_with_their_units(
@@ -81,15 +82,15 @@ def test_joints_and_sensors_are_sampled_with_their_units(
     server.plotted = ("arm::hinge.position", "arm::hinge.velocity", "box::l.1::imu.linear_acceleration.z")
     run(simulation, sampler, 20)
 
-    found, head = columns(server), server.series[-1][1]
+    values, head = columns(server), server.series[-1][1]
     assert head["units"] == ["rad", "rad/s", "m/s²"]
-    change = np.diff(found["arm::hinge.position"])[5:] / 0.02
-    middle = (found["arm::hinge.velocity"][1:] + found["arm::hinge.velocity"][:-1])[5:] / 2
+    change = np.diff(values["arm::hinge.position"])[5:] / 0.02
+    middle = (values["arm::hinge.velocity"][1:] + values["arm::hinge.velocity"][:-1])[5:] / 2
     assert change == pytest.approx(middle, rel=0.01)
-    assert found["box::l.1::imu.linear_acceleration.z"][-1] == pytest.approx(9.8, abs=0.1)
+    assert values["box::l.1::imu.linear_acceleration.z"][-1] == pytest.approx(9.8, abs=0.1)
 
 
-def test_what_is_not_there_is_said_with_what_is(
+def test_unknown_values_have_a_reason_with_the_known_ones(
     simulation: Simulation, sampled: tuple[SeriesSampler, FakeServer]
 ) -> None:
     sampler, server = sampled
@@ -108,7 +109,7 @@ def test_nothing_is_measured_while_nothing_is_plotted(
     sampler, server = sampled
     server.plotted = ("box::l.1::imu.orientation.yaw",)
     run(simulation, sampler, 5)
-    (imu,) = (hook for hook in simulation.hooks if getattr(hook, "name", "") == "imu")
+    (imu,) = (hook for hook in simulation.hooks if isinstance(hook, ImuSensor))
     server.plotted = ()
     sampler.sample(paused=False)
     count = imu.reading_count
@@ -119,10 +120,10 @@ def test_nothing_is_measured_while_nothing_is_plotted(
     assert len(server.series) == 1
 
 
-def test_rows_of_a_past_that_is_looked_at_are_not_sampled_again(
+def test_seeking_back_while_paused_samples_nothing(
     simulation: Simulation, sampled: tuple[SeriesSampler, FakeServer]
 ) -> None:
-    """Scrubbing back shows what was; going on from there samples again."""
+    """Seeking back shows recorded rows; running on from there samples again."""
     sampler, server = sampled
     server.plotted = ("arm::hinge.position",)
     saved = simulation.save()

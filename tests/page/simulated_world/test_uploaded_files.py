@@ -1,4 +1,4 @@
-"""Uploaded models beside a saved file."""
+"""Uploaded models next to a saved file."""
 
 import shutil
 from pathlib import Path
@@ -20,7 +20,7 @@ from trundle.spatial import Pose
 
 @pytest.fixture
 def uploads(tmp_path: Path) -> Path:
-    """Models `cart`, `wheel` and `lamp`; `cart` names the files of `wheel`, no model those of `lamp`."""
+    """Models `cart`, `wheel` and `lamp`; `cart` refers to files of `wheel`, no model to those of `lamp`."""
     for name, text in (("cart", "model://wheel/wheel.obj"), ("wheel", "model://cart/"), ("lamp", "")):
         (tmp_path / "uploads" / name).mkdir(parents=True)
         (tmp_path / "uploads" / name / "model.sdf").write_text(f"<sdf><uri>{text}</uri></sdf>")
@@ -36,33 +36,31 @@ def packages(tmp_path: Path, uploads: Path) -> Packages:
 
 
 @pytest.mark.parametrize("uri", ["model://cart", "model://cart/model.sdf", "package://cart/model.sdf"])
-def test_what_a_document_names_is_needed_with_what_that_names(packages: Packages, uploads: Path, uri: str) -> None:
+def test_needed_uploads_include_indirect_references(packages: Packages, uploads: Path, uri: str) -> None:
     needed = needed_uploads(f"<sdf><uri>{uri}</uri></sdf>".encode(), packages)
 
     assert needed == {name: uploads / name for name in ("cart", "wheel")}
 
 
-def test_a_longer_name_is_another(packages: Packages) -> None:
+def test_a_longer_model_name_is_no_reference(packages: Packages) -> None:
     assert needed_uploads(b"<uri>model://cart2/x.obj</uri><uri>model://lamps</uri>", packages) == {}
 
 
-def test_a_file_s_path_is_named_as_model_finds_it(packages: Packages, uploads: Path) -> None:
+def test_file_uris_of_uploads_become_model_uris(packages: Packages, uploads: Path) -> None:
     text = f"<uri>file://{uploads}/wheel/wheel.obj</uri>".encode()
 
     assert with_upload_uris(text, packages) == b"<uri>model://wheel/wheel.obj</uri>"
 
 
-def test_copies_are_in_folders_of_the_models_names(packages: Packages, uploads: Path, tmp_path: Path) -> None:
-    found = copies(needed_uploads(b"<uri>model://wheel</uri>", packages), tmp_path / "worlds")
+def test_copies_are_in_folders_named_after_the_models(packages: Packages, uploads: Path, tmp_path: Path) -> None:
+    files = copies(needed_uploads(b"<uri>model://wheel</uri>", packages), tmp_path / "worlds")
 
-    assert found[tmp_path / "worlds/wheel/wheel.obj"] == uploads / "wheel/wheel.obj"
-    assert {path.relative_to(tmp_path / "worlds").parts[0] for path in found} == {"cart", "wheel"}
+    assert files[tmp_path / "worlds/wheel/wheel.obj"] == uploads / "wheel/wheel.obj"
+    assert {path.relative_to(tmp_path / "worlds").parts[0] for path in files} == {"cart", "wheel"}
 
 
-def test_a_model_is_saved_with_the_uploaded_mesh_that_it_shows(
-    packages: Packages, uploads: Path, tmp_path: Path
-) -> None:
-    """Whichever folder it is saved in, its mesh is found once the uploads are gone."""
+def test_a_model_is_saved_with_its_uploaded_mesh(packages: Packages, uploads: Path, tmp_path: Path) -> None:
+    """In any folder, its mesh is found after the uploads are removed."""
     cube = "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1)) + "f 1 2 4 3\nf 5 6 8 7\n"
     (uploads / "wheel" / "wheel.obj").write_text(cube)
     (uploads / "wheel" / "model.config").write_text("<model><name>w</name><sdf>model.sdf</sdf></model>")

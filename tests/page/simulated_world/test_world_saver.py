@@ -1,4 +1,4 @@
-"""Where worlds are saved, and where they are not."""
+"""Paths where worlds are saved, and refusals."""
 
 import threading
 from collections.abc import Callable
@@ -29,13 +29,13 @@ Ask = Callable[[Path, SaveWorld], dict[str, Any]]
         "a.sdf ", "a\\b.sdf", "C:a.sdf", "a\n.sdf", "a\0.sdf", "x" * 150 + ".sdf", "file.sdf/", "dir.sdf",
     ],
 )  # fmt: skip
-def test_names_that_lead_elsewhere_are_refused(tmp_path: Path, name: str) -> None:
+def test_paths_out_of_the_folder_are_refused(tmp_path: Path, name: str) -> None:
     (tmp_path / "dir.sdf").mkdir()
     with pytest.raises(UsageError):
         find_world(tmp_path, name)
 
 
-def test_links_that_lead_out_are_refused(tmp_path: Path) -> None:
+def test_symbolic_links_out_of_the_folder_are_refused(tmp_path: Path) -> None:
     root, outside = tmp_path / "root", tmp_path / "outside"
     root.mkdir()
     outside.mkdir()
@@ -58,7 +58,7 @@ def _answer(simulation: Simulation, root: Path, request: SaveWorld) -> dict[str,
     done = threading.Event()
 
     def respond(request_id: int, error: str | None = None, answer: Answer = DONE) -> None:
-        assert error is not None or isinstance(answer, SaveWorld.answer), "a request is answered as its class says"
+        assert error is not None or isinstance(answer, SaveWorld.answer), "the answer has a type of the request's class"
         answers.append({"id": request_id, "error": error, **sent(answer)})
         done.set()
 
@@ -69,7 +69,7 @@ def _answer(simulation: Simulation, root: Path, request: SaveWorld) -> dict[str,
     return answers[0]
 
 
-def test_a_file_is_replaced_only_when_a_person_agrees(tmp_path: Path, ask: Ask) -> None:
+def test_a_file_is_replaced_only_after_confirmation(tmp_path: Path, ask: Ask) -> None:
     assert ask(tmp_path, SaveWorld("worlds/mine.sdf"))["file"] == "worlds/mine.sdf"
     file = tmp_path / "worlds" / "mine.sdf"
     file.write_text("precious")
@@ -79,7 +79,7 @@ def test_a_file_is_replaced_only_when_a_person_agrees(tmp_path: Path, ask: Ask) 
     assert '<model name="cart"' in file.read_text()
 
 
-def test_an_equal_copy_is_not_in_the_way(tmp_path: Path) -> None:
+def test_an_equal_copy_need_not_be_replaced(tmp_path: Path) -> None:
     (tmp_path / "a.obj").write_text("v 0 0 0")
     files = {tmp_path / "copies" / name: tmp_path / "a.obj" for name in "123456"}
 
@@ -95,7 +95,7 @@ def test_an_equal_copy_is_not_in_the_way(tmp_path: Path) -> None:
     assert {copy.read_text() for copy in files} == {"v 0 0 0"}
 
 
-def test_a_refusal_says_why_and_a_download_writes_nothing(tmp_path: Path, ask: Ask) -> None:
+def test_a_refusal_has_a_reason_and_a_download_writes_nothing(tmp_path: Path, ask: Ask) -> None:
     assert "below the folder where Trundle was started" in ask(tmp_path, SaveWorld("../a.sdf"))["error"]
     assert '<model name="cart"' in ask(tmp_path, SaveWorld(None))["sdf"]
     assert list(tmp_path.iterdir()) == []

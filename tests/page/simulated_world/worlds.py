@@ -1,4 +1,4 @@
-"""Worlds, loaded with their sensors."""
+"""Small worlds with their sensors."""
 
 from pathlib import Path
 from typing import Any
@@ -14,24 +14,24 @@ BOX = '<visual name="v"><geometry><box><size>1 1 1</size></box></geometry></visu
 
 
 def lidar() -> str:
-    """A lidar whose rays are shown."""
+    """Return a lidar whose rays are shown."""
     return """<sensor name="scan" type="ray"><visualize>1</visualize><update_rate>10</update_rate><ray>
 <scan><horizontal><samples>3</samples><min_angle>-1</min_angle><max_angle>1</max_angle></horizontal></scan>
 <range><min>0.1</min><max>9</max></range></ray></sensor>"""
 
 
 def model(name: str, inside: str = "", *, static: bool = True) -> str:
-    """A model of one link."""
+    """Return a model of one link."""
     return f'<model name="{name}"><static>{int(static)}</static><link name="l">{inside}</link></model>'
 
 
 def world(inside: str) -> str:
-    """An SDF file."""
+    """Return an SDF file."""
     return f'<sdf version="1.6"><world name="w">{inside}</world></sdf>'
 
 
 def loaded(folder: Path, inside: str) -> tuple[Simulation, list[Any]]:
-    """A simulation, and its sensors started."""
+    """Return a simulation and its running sensors."""
     (folder / "w.sdf").write_text(world(inside))
     sim = trundle.load(str(folder / "w.sdf"))
     sensors = [*mount_cameras(sim, NativeRenderer), *mount_sensors(sim)]

@@ -1,4 +1,4 @@
-"""Upload of models over HTTP: kept until the page ends, and refused to those who may not."""
+"""Upload of models over HTTP: stored until the page ends, and refused to view-only clients."""
 
 import http.client
 import io
@@ -51,7 +51,7 @@ def _post(url: str, files: dict[str, bytes], *, kind: str = "multipart/form-data
 
 
 def _uploads(page: PageServer) -> Path:
-    """Return the folder, of which the owner hears before the upload is answered."""
+    """Return the folder of uploads, which the owner knows before the upload is answered."""
     with ProtocolClient(page.url) as client:
         client.send("trundle/request", id=1, request="models")
         client.until(page.requests)
@@ -59,26 +59,26 @@ def _uploads(page: PageServer) -> Path:
     return page.uploads
 
 
-def test_an_archive_becomes_a_model_and_another_of_its_name_takes_its_place(page: PageServer) -> None:
+def test_an_archive_becomes_a_model_and_replaces_an_earlier_upload(page: PageServer) -> None:
     assert _post(page.url, {"cart.zip": CART}, origin=page.url.partition("/?")[0]) == (
         200,
         '{"models":["cart"]}',
     )
     folder = _uploads(page)
-    assert sorted(each.name for each in (folder / "cart").iterdir()) == ["model.config", "model.sdf"]
+    assert sorted(file.name for file in (folder / "cart").iterdir()) == ["model.config", "model.sdf"]
     files = {"cart/model.config": CONFIG.encode(), "cart/model.sdf": b"<sdf></sdf>", "cart/meshes/w.stl": b"solid"}
     assert _post(page.url, files) == (200, '{"models":["cart"]}')
     assert (folder / "cart/model.sdf").read_bytes() == b"<sdf></sdf>"
     assert (folder / "cart/meshes/w.stl").read_bytes() == b"solid"
-    assert [each.name for each in folder.parent.parent.glob("trundle-upload-*")] == []
+    assert [file.name for file in folder.parent.parent.glob("trundle-upload-*")] == []
 
 
-def test_code_in_it_is_held(page: PageServer) -> None:
-    """A file of that name is no plugin; a person is asked first."""
+def test_uploaded_code_is_held(page: PageServer) -> None:
+    """A held file is not loaded as a plugin until the user consents."""
     files = {"coded/model.sdf": b"<sdf/>", "coded/code.py": b"", "coded/scripts/more.PY": b""}
     assert _post(page.url, files)[0] == 200
     folder = _uploads(page) / "coded"
-    assert {each.name for each in folder.rglob("*.*")} == {"model.config", "model.sdf", "code.py.held", "more.PY.held"}
+    assert {file.name for file in folder.rglob("*.*")} == {"model.config", "model.sdf", "code.py.held", "more.PY.held"}
 
 
 def test_a_single_file_is_a_model(page: PageServer) -> None:
@@ -91,23 +91,25 @@ def test_a_single_file_is_a_model(page: PageServer) -> None:
     [
         ({"cart.zip": zipped({"readme.txt": ""})}, "no model.config, .sdf or .urdf in it"),
         ({"cart.zip": b"PK"}, "the archive cannot be unpacked"),
-        ({"cart.zip": zipped({"../model.sdf": ""})}, "is no path of a file"),
-        ({"../cart.sdf": b""}, "is no path of a file"),
-        ({"\udcff/model.config": b"", "\udcff/model.sdf": b""}, "is no path of a file"),
+        ({"cart.zip": zipped({"../model.sdf": ""})}, "is not a valid path"),
+        ({"../cart.sdf": b""}, "is not a valid path"),
+        ({"\udcff/model.config": b"", "\udcff/model.sdf": b""}, "is not a valid path"),
         ({"ground_plane/model.config": b"", "ground_plane/m.sdf": b""}, "is on the model path already"),
         ({".hidden": b""}, "no model.config"),
         ({}, "no file was sent"),
     ],
 )
-def test_a_refusal_says_why_and_keeps_nothing(page: PageServer, files: dict[str, bytes], reason: str) -> None:
+def test_a_refused_upload_has_a_reason_and_stores_nothing(
+    page: PageServer, files: dict[str, bytes], reason: str
+) -> None:
     _post(page.url, {"cart.zip": CART})
     before = sorted(_uploads(page).parent.rglob("*"))
-    status, said = _post(page.url, files)
-    assert (status, reason in said) == (400, True), said
+    status, body = _post(page.url, files)
+    assert (status, reason in body) == (400, True), body
     assert sorted(_uploads(page).parent.rglob("*")) == before
 
 
-def test_a_body_that_is_no_form_is_refused(page: PageServer) -> None:
+def test_a_body_that_is_not_a_form_is_refused(page: PageServer) -> None:
     assert _post(page.url, {"cart.zip": CART}, kind="text/plain")[0] == 400
     for broken in ("multipart/form-data", "multipart/form-data; boundary=other"):
         connection = http.client.HTTPConnection(urlsplit(page.url).netloc, timeout=60)
@@ -118,7 +120,7 @@ def test_a_body_that_is_no_form_is_refused(page: PageServer) -> None:
     assert _post(page.url, {"cart.zip": CART}, content_encoding="gzip")[0] == 400
 
 
-def test_who_only_looks_and_who_has_no_token_uploads_nothing(page: PageServer) -> None:
+def test_uploads_need_a_token_with_full_access(page: PageServer) -> None:
     files = {"intruder.zip": zipped({"intruder/model.config": "", "intruder/model.sdf": ""})}
     assert _post(page.view_url, files) == (403, "this link is view-only")
     bare = page.url.partition("?")[0]
@@ -137,13 +139,13 @@ def graph_page() -> Iterator[PageServer]:
         yield page
 
 
-def test_without_a_simulation_or_the_token_nothing_is_taken(graph_page: PageServer) -> None:
+def test_uploads_without_a_simulation_or_a_token_are_refused(graph_page: PageServer) -> None:
     assert _post(graph_page.url, {"cart.zip": CART}) == (400, "models can only be inserted into a simulation")
     assert _post(graph_page.url.partition("?")[0], {"cart.zip": CART})[0] == 403
     assert graph_page.uploads is None
 
 
-def test_all_is_removed_when_the_page_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_uploads_are_removed_when_the_page_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     with PageServer.start(Session(title="t", kind="simulation"), at=PageAddress(port=0)) as page:
         assert _post(page.url, {"cart.zip": CART})[0] == 200

@@ -1,4 +1,4 @@
-"""People at one page, as the protocol shows them to each other."""
+"""Users of one page, as the protocol lists them."""
 
 import json
 from typing import Any
@@ -20,7 +20,7 @@ def _join(url: str) -> ProtocolClient:
     return client
 
 
-def test_each_sees_who_is_there_and_what_they_selected(page: PageServer) -> None:
+def test_clients_get_the_list_of_users_and_their_selections(page: PageServer) -> None:
     link = {"kind": "link", "model": "cart", "link": "base"}
     with _join(page.url) as one, _join(page.view_url) as two:
         one.send("trundle/presence", selection=link)
@@ -36,7 +36,7 @@ def test_each_sees_who_is_there_and_what_they_selected(page: PageServer) -> None
         two.until(lambda: _people(two)["people"][0]["selection"] is None)
 
 
-def test_a_number_is_free_again_when_its_person_has_left(page: PageServer) -> None:
+def test_numbers_of_users_who_left_are_reused(page: PageServer) -> None:
     with _join(page.url) as one, _join(page.url) as two:
         one.socket.close()
         two.until(lambda: [person["number"] for person in _people(two)["people"]] == [2])
@@ -44,7 +44,7 @@ def test_a_number_is_free_again_when_its_person_has_left(page: PageServer) -> No
             assert _people(three)["you"] == 1
 
 
-def test_who_only_speaks_the_protocol_is_not_counted(page: PageServer) -> None:
+def test_foxglove_clients_are_not_listed(page: PageServer) -> None:
     with _join(page.url) as one, ProtocolClient(page.url) as silent:
         silent.until(lambda: silent.channels)
         silent.send("trundle/presence", selection={"kind": "model", "model": "cart"})
@@ -53,7 +53,7 @@ def test_who_only_speaks_the_protocol_is_not_counted(page: PageServer) -> None:
         assert len(_people(one)["people"]) == 1
 
 
-def test_what_is_no_selection_is_refused_in_words(page: PageServer) -> None:
+def test_invalid_selections_are_refused_with_a_reason(page: PageServer) -> None:
     selections: list[Any] = [
         1,
         {"kind": "robot"},

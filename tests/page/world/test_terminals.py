@@ -1,4 +1,4 @@
-"""Terminals of nodes as the protocol shows them: the end of the output first, then what is new; keys come back."""
+"""Terminals of nodes over the protocol: the end of the output, then new output; input from clients."""
 
 import struct
 from collections.abc import Iterator
@@ -35,7 +35,7 @@ def terminal(terminals: PageTerminals, server: PageServer) -> Terminal:
 
 
 def _read(client: ProtocolClient, terminals: PageTerminals, server: PageServer, end: int) -> list[tuple[int, bytes]]:
-    """Return the output that a client got, each with the number of its first byte, once it has it up to an end."""
+    """Wait for the output up to byte `end`; return its pieces, each with the number of its first byte."""
 
     def has_all() -> bool:
         terminals.update(server)
@@ -50,14 +50,14 @@ def _first(payload: bytes) -> int:
     return int(struct.unpack_from("<QHH", payload)[0])
 
 
-def test_a_client_gets_the_end_of_the_output_and_then_what_is_new(
+def test_a_client_gets_the_end_of_the_output_and_then_new_output(
     terminals: PageTerminals, terminal: Terminal, server: PageServer
 ) -> None:
     terminal.write("a" * 300_000)
-    kept = len(terminal.scrollback)
+    length = len(terminal.scrollback)
     with ProtocolClient(server.view_url) as client:
         client.subscribe(TOPIC)
-        assert _read(client, terminals, server, 300_000)[-1] == (300_000 - kept, b"a" * kept)
+        assert _read(client, terminals, server, 300_000)[-1] == (300_000 - length, b"a" * length)
         terminal.write("news")
         assert _read(client, terminals, server, 300_004)[-1] == (300_000, b"news")
         with ProtocolClient(server.url) as later:
@@ -65,9 +65,7 @@ def test_a_client_gets_the_end_of_the_output_and_then_what_is_new(
             assert _read(later, terminals, server, 300_004)[-1][1].endswith(b"aanews")
 
 
-def test_keys_and_sizes_reach_the_terminal_they_are_for(
-    terminals: PageTerminals, terminal: Terminal, server: PageServer
-) -> None:
+def test_input_and_sizes_reach_their_terminal(terminals: PageTerminals, terminal: Terminal, server: PageServer) -> None:
     keys: list[str] = []
     terminal.listen(keys.append)
     with ProtocolClient(server.url) as client:
@@ -84,7 +82,7 @@ def test_keys_and_sizes_reach_the_terminal_they_are_for(
     assert (terminal.columns, terminal.rows) == (100, 30)
 
 
-def test_the_session_names_the_terminals_and_their_ends(
+def test_the_session_lists_the_terminals_and_their_ends(
     terminals: PageTerminals, terminal: Terminal, server: PageServer
 ) -> None:
     with ProtocolClient(server.url) as client:

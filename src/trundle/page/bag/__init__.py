@@ -1,1 +1,1 @@
-"""Recorded messages, played as a graph's."""
+"""Playback of a bag's messages as topics."""

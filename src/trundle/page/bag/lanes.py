@@ -1,4 +1,4 @@
-"""Channel of a bag's lanes: when each topic has messages, by the bag's index."""
+"""Channel of a bag's lanes: times of each topic's messages, from the bag's index."""
 
 import asyncio
 from collections.abc import Mapping, Sequence
@@ -15,7 +15,7 @@ from ..clients.channel import Channel, Client
 from ..world.streams import LANES
 
 _BUCKETS = 600
-"""Parts of the bag's duration; a part with a message is drawn whole."""
+"""Number of intervals of the bag's duration; an interval with a message is drawn whole."""
 
 
 class Lane(msgspec.Struct, frozen=True):
@@ -23,7 +23,7 @@ class Lane(msgspec.Struct, frozen=True):
 
     count: int
     bands: list[tuple[int, int]]
-    """First and last bucket of each stretch without an empty bucket."""
+    """First and last bucket of each run of nonempty buckets."""
 
 
 class Lanes(msgspec.Struct, frozen=True):
@@ -35,7 +35,7 @@ class Lanes(msgspec.Struct, frozen=True):
 
 
 class LanesChannel(Channel):
-    """Lanes of a bag; the index is read for the first client, by a reader and a thread of its own."""
+    """Lanes of a bag; the index is read for the first client, with its own reader and thread."""
 
     def __init__(self, path: Path) -> None:
         super().__init__(LANES, encoding="json", is_droppable=False, trundle_only=True)
@@ -58,18 +58,18 @@ class LanesChannel(Channel):
 
 
 def read_lanes(path: Path) -> Lanes:
-    """Read when the topics of a bag have messages; where the file is damaged, no topic has a lane."""
+    """Read the times of a bag's messages; in a damaged file, no topic has a lane."""
     try:
         with open_bag(path) as bag:
             bucket_ns = (bag.end_ns - bag.start_ns) // _BUCKETS + 1
             topics = {topic: _lane(stamps, bag.start_ns, bucket_ns) for topic, stamps in bag.stamps_ns().items()}
             return Lanes(bag.start_ns, bucket_ns, topics)
-    except (TrundleError, OSError):  # playback says what is wrong
+    except (TrundleError, OSError):  # playback reports the error
         return Lanes(0, 1, {})
 
 
 def _lane(stamps_ns: Sequence[int], start_ns: int, bucket_ns: int) -> Lane:
     """Return the lane of a topic's ascending stamps [ns]."""
     buckets = np.unique((np.array(stamps_ns, dtype=np.int64) - start_ns) // bucket_ns)
-    stretches = np.split(buckets, np.flatnonzero(np.diff(buckets) > 1) + 1)
-    return Lane(len(stamps_ns), [(int(each[0]), int(each[-1])) for each in stretches if len(each)])
+    runs = np.split(buckets, np.flatnonzero(np.diff(buckets) > 1) + 1)
+    return Lane(len(stamps_ns), [(int(run[0]), int(run[-1])) for run in runs if len(run)])

@@ -1,4 +1,4 @@
-"""A bag on the page: its topics, played and sought by its clients."""
+"""Playback of a bag on the page."""
 
 import asyncio
 from collections.abc import Iterable
@@ -18,33 +18,33 @@ from ..requests.request import PageAction, Reset, Seek, Step
 from ..wire import BagFile
 from ..world.streams import STATE
 from .lanes import LanesChannel
-from .reader import BagCursor, is_kept
+from .reader import BagCursor, is_latched
 
 _STEP_NS = 100_000_000
-"""A step of a bag [ns]."""
+"""Duration of a step [ns]."""
 _MAX_STEPS = 1_000_000
-"""Steps of a bag at most, which are longer then: a stamp of zero makes a bag fifty years long."""
-_MOST_NS = 2_000_000_000
-"""Longest part that is read at once [ns]; time waits for slower reading."""
+"""Limit of steps in a bag, beyond which they are longer: a stamp of zero makes a bag fifty years long."""
+_MAX_READ_NS = 2_000_000_000
+"""Limit of the span that is read at once [ns]; playback waits for slower reading."""
 _PAUSE_S = 0.5
-"""A longer time between two polls does not count as played: there was no client."""
+"""Interval between two polls beyond which playback does not advance: no client was connected."""
 _STATE_PERIOD_S = 0.1
 _CONDITION = "bag"
 
 
 class BagTopic(Channel):
-    """Channel of a topic of the bag; a client gets what holds when it subscribes."""
+    """Channel of a bag's topic; a client gets the topic's state at subscription."""
 
     def __init__(self, connection: BagConnection) -> None:
         super().__init__(
             connection.topic,
             schema_name=connection.type,
             schema=connection.definition,
-            is_droppable=is_droppable(connection.topic, connection.type) and not is_kept(connection),
+            is_droppable=is_droppable(connection.topic, connection.type) and not is_latched(connection),
         )
         self.md5sum = connection.md5sum
         self.has_new_client = False
-        """True if a client has come since the last message."""
+        """True if a client has subscribed since the state was last sent."""
 
     def subscribe(self, client: Client) -> None:
         super().subscribe(client)
@@ -65,7 +65,7 @@ class BagState(Channel):
         self._due_s, self._sent = 0.0, b""
 
     def send(self, now_s: float) -> None:
-        """Send the state, if it is due and has changed."""
+        """Send the state if it is due and has changed."""
         state = msgspec.json.encode(self._playback.state)
         if now_s >= self._due_s and state != self._sent:
             self._due_s, self._sent = now_s + _STATE_PERIOD_S, state
@@ -73,10 +73,10 @@ class BagState(Channel):
 
 
 class BagSource:
-    """Topics of one bag; used on the loop only, but for reading."""
+    """Plays one bag; used on the loop only, except for reading."""
 
     def __init__(self, bag: BagReader, options: BagFile, hub: Hub) -> None:
-        """Offer the topics of a bag that has messages."""
+        """Advertise the topics of a bag, which has at least one message."""
         self._hub = hub
         step_ns = max(_STEP_NS, (bag.end_ns - bag.start_ns) // _MAX_STEPS)
         times_ns = np.arange(bag.start_ns, bag.end_ns, step_ns, dtype=np.int64)
@@ -90,7 +90,7 @@ class BagSource:
         self._cursor = BagCursor(bag)
         self._reader = ThreadPoolExecutor(1, thread_name_prefix="trundle-bag")
         self._reading: asyncio.Task[None] | None = None
-        self._shown_ns = self._playback.time_ns - 1
+        self._sent_ns = self._playback.time_ns - 1
         self._jumped = True
         self._polled_s: float | None = None
 
@@ -100,22 +100,22 @@ class BagSource:
         return self._playback.time_ns
 
     def handle(self, action: PageAction) -> None:
-        """Do what a person asks for.
+        """Execute a request.
 
         Raises:
-            UsageError: a bag cannot do it.
+            UsageError: a bag does not support it.
         """
         self._playback.handle(action)
         match action:
             case Seek() | Reset():
                 self._jumped = True
-            case Step(count) if count * _STEP_NS > _MOST_NS:
+            case Step(count) if count * _STEP_NS > _MAX_READ_NS:
                 self._jumped = True
             case _:
                 pass
 
     def poll(self, now_s: float, time_ns: int) -> bool:
-        """Play, and read what is to be sent; it goes out when it is read."""
+        """Advance the playback, and start reading the messages to send."""
         del time_ns
         elapsed_s = 0.0 if self._polled_s is None else now_s - self._polled_s
         self._polled_s = now_s
@@ -126,32 +126,32 @@ class BagSource:
         return False
 
     async def _show(self) -> None:
-        """Send the messages up to now; after a jump, and to new clients, what holds now."""
+        """Send the messages up to the current time; after a jump and for new clients, the state at that time."""
         watched = {topic for topic, channel in self._topics.items() if channel.clients}
         target_ns = self._playback.time_ns
-        jumped = self._jumped or target_ns < self._shown_ns
+        jumped = self._jumped or target_ns < self._sent_ns
         self._jumped = False
-        if not jumped and target_ns - self._shown_ns > _MOST_NS:
-            target_ns = self._playback.time_ns = self._shown_ns + _MOST_NS
-        fresh = watched if jumped else {topic for topic in watched if self._topics[topic].has_new_client}
-        after_ns, self._shown_ns = self._shown_ns, target_ns
-        for topic in fresh:
+        if not jumped and target_ns - self._sent_ns > _MAX_READ_NS:
+            target_ns = self._playback.time_ns = self._sent_ns + _MAX_READ_NS
+        stale = watched if jumped else {topic for topic in watched if self._topics[topic].has_new_client}
+        after_ns, self._sent_ns = self._sent_ns, target_ns
+        for topic in stale:
             self._topics[topic].has_new_client = False
-        messages = await self._read(frozenset(watched - fresh), frozenset(fresh), after_ns, target_ns)
+        messages = await self._read(frozenset(watched - stale), frozenset(stale), after_ns, target_ns)
         for message in messages:
             channel = self._topics[message.connection.topic]
             if message.connection.md5sum == channel.md5sum:
                 channel.publish(message.stamp_ns, (message.data,))
 
     async def _read(
-        self, topics: frozenset[str], fresh: frozenset[str], after_ns: int, until_ns: int
+        self, topics: frozenset[str], stale: frozenset[str], after_ns: int, until_ns: int
     ) -> Iterable[BagMessage]:
         def read() -> list[BagMessage]:
-            state = self._cursor.read_state(fresh, until_ns) if fresh else []
+            state = self._cursor.read_state(stale, until_ns) if stale else []
             return state + (self._cursor.read(topics, after_ns, until_ns) if topics and until_ns > after_ns else [])
 
         try:
             return await asyncio.get_running_loop().run_in_executor(self._reader, read)
         except (TrundleError, OSError) as error:
-            self._hub.set_condition(_CONDITION, f"the bag cannot be read on: {error}")
+            self._hub.set_condition(_CONDITION, f"the bag cannot be read further: {error}")
             return ()

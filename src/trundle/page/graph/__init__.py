@@ -1,1 +1,1 @@
-"""The ROS graph, as clients see it and call it."""
+"""The ROS graph for clients: topics, services and parameters."""

@@ -14,21 +14,21 @@ Nodes: TypeAlias = Mapping[str, tuple[str, ...]]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MasterState:
-    """Answer of a master at one moment."""
+    """State of a master at one time."""
 
     publishers: Nodes = field(default_factory=dict[str, tuple[str, ...]])
     subscribers: Nodes = field(default_factory=dict[str, tuple[str, ...]])
     services: Nodes = field(default_factory=dict[str, tuple[str, ...]])
     types: Mapping[str, str] = field(default_factory=dict[str, str])
-    """Topic → type; '*' where only subscribers of any type are known."""
+    """Topic → type; '*' if only subscribers to any type are known."""
 
 
 async def read_state(node: Node) -> MasterState:
-    """Ask the master.
+    """Read the master's state.
 
     Raises:
-        MasterUnreachableError: no answer.
-        MasterError: another answer.
+        MasterUnreachableError: the master does not answer.
+        MasterError: the master answers with an error.
     """
     publishers, subscribers, services = cast(
         list[list[tuple[str, list[str]]]], await node.master.call("getSystemState")
@@ -43,7 +43,7 @@ async def read_state(node: Node) -> MasterState:
 
 
 def graph_update(before: MasterState, after: MasterState) -> ConnectionGraphUpdate | None:
-    """Return the message from one state to the next; None: nothing changed."""
+    """Return the changes from one state to the next; None: nothing changed."""
     published = _changes(before.publishers, after.publishers)
     subscribed = _changes(before.subscribers, after.subscribers)
     provided = {name: nodes for name, nodes in _changes(before.services, after.services).items() if nodes}
@@ -66,7 +66,7 @@ def graph_update(before: MasterState, after: MasterState) -> ConnectionGraphUpda
 
 
 def _changes(before: Nodes, after: Nodes) -> Nodes:
-    """Return the names whose nodes are others, with those after."""
+    """Return the names whose nodes have changed, with their new nodes."""
     names = sorted(before.keys() | after.keys())
     return {name: after.get(name, ()) for name in names if before.get(name, ()) != after.get(name, ())}
 

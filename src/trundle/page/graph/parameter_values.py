@@ -1,4 +1,4 @@
-"""Parameters between the parameter server's types and the protocol's."""
+"""Conversion of parameters between the parameter server's types and the protocol's."""
 
 import base64
 import binascii
@@ -13,7 +13,7 @@ _NUMBERS = (int, float)
 
 
 def flatten(name: str, value: object) -> Iterator[tuple[str, object]]:
-    """Yield a parameter, or those of a namespace."""
+    """Yield a parameter, or all parameters of a namespace."""
     if isinstance(value, Mapping) and value:
         for key, inner in value.items():
             yield from flatten(f"{name.rstrip('/')}/{key}", inner)
@@ -22,7 +22,7 @@ def flatten(name: str, value: object) -> Iterator[tuple[str, object]]:
 
 
 def to_parameter(name: str, value: object) -> Parameter:
-    """Convert a value of the parameter server; floats that are whole keep their type by its name."""
+    """Convert a value of the parameter server; the type's name distinguishes whole floats from integers."""
     match value:
         case bytes():
             return Parameter(name, base64.b64encode(value).decode(), "byte_array")
@@ -37,11 +37,11 @@ def to_parameter(name: str, value: object) -> Parameter:
 
 
 def from_parameter(parameter: Parameter) -> object:
-    """Convert a value of a client.
+    """Convert a client's value.
 
     Raises:
-        ValueError: its type says otherwise.
-        OverflowError: no float is as large.
+        ValueError: the value does not have the declared type.
+        OverflowError: a number exceeds the range of floats.
     """
     value = parameter.value
     match parameter.type:
@@ -55,7 +55,7 @@ def from_parameter(parameter: Parameter) -> object:
         case "float64" if _is_number(value):
             return float(value)  # pyright: ignore[reportArgumentType]
         case "float64_array" if isinstance(value, list) and all(map(_is_number, value)):
-            return [float(each) for each in value]
+            return [float(number) for number in value]
         case kind:
             raise ValueError(f"{str(value)[:100]!r} is not a {kind}")
 
@@ -70,5 +70,5 @@ def _is_float_array(values: list[object]) -> bool:
 
 
 def _plain(value: object) -> object:
-    """Return a nested value as JSON can hold it."""
+    """Return a nested value in JSON's types."""
     return msgspec.to_builtins(value, enc_hook=str)

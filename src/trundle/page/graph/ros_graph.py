@@ -1,4 +1,4 @@
-"""The ROS graph as the page sees it: a node that outlives its master, and what clients ask of the graph."""
+"""The page's node on the ROS graph, which survives restarts of the master, and the clients' requests to the graph."""
 
 import asyncio
 import contextlib
@@ -49,11 +49,11 @@ from .topic_table import TopicTable
 
 _PERIOD_S = 1.0
 _log = logging.getLogger(__name__)
-_ANSWER_S = 5.0
-"""Silence of the master [s] after which the page warns; its answer is awaited without a limit."""
+_WARN_AFTER_S = 5.0
+"""Time without an answer of the master after which the page warns [s]; the wait itself has no limit."""
 _CONDITION = "master"
 _MAX_TASKS = 64
-"""Questions about parameters that one client waits for."""
+"""Limit of one client's pending requests for parameters."""
 
 
 class RosGraph:
@@ -86,29 +86,29 @@ class RosGraph:
 
     @property
     def node_name(self) -> str:
-        """Name of the page's node on the graph."""
+        """Name of the page's node."""
         return self._node.name
 
     async def run(self) -> None:
-        """Follow the graph while there are clients."""
+        """Follow the graph while clients are connected."""
         while True:
             await self._hub.wait_client()
             try:
                 await self._refresh()
-            except Exception:  # a bug, which the page survives
+            except Exception:  # a bug must not end the page
                 _log.exception("the graph could not be read")
             self._refresh_now.clear()
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(self._refresh_now.wait(), _PERIOD_S)
 
     async def stop(self) -> None:
-        """Stop robots that are driven, and leave the graph."""
+        """Stop driven robots, and leave the graph."""
         self._driving.stop()
         await self._node.shutdown()
 
     async def _refresh(self) -> None:
-        """Read the master's state; without a master, everything stays as it was."""
-        late = asyncio.get_running_loop().call_later(_ANSWER_S, self._say_unanswered)
+        """Read the master's state; without a master, nothing changes."""
+        warning = asyncio.get_running_loop().call_later(_WARN_AFTER_S, self._warn_unanswered)
         try:
             registered = await self._wait_registered()
             state = await read_state(self._node)
@@ -118,13 +118,15 @@ class RosGraph:
                 state = await read_state(self._node)
             await self._parameters.refresh(self._node)
         except MasterUnreachableError:
-            self._say_unanswered()
+            self._warn_unanswered()
             return
         except (MasterError, ValueError, TypeError) as error:
-            self._hub.set_condition(_CONDITION, f"the ROS master at {self._address.master_uri} answers: {error}")
+            self._hub.set_condition(
+                _CONDITION, f"the ROS master at {self._address.master_uri} answers with an error: {error}"
+            )
             return
         finally:
-            late.cancel()
+            warning.cancel()
         self._hub.set_condition(_CONDITION, None)
         before, self._state, self._has_state = self._state, state, True
         await self._topics.update(self._node, state)
@@ -134,19 +136,19 @@ class RosGraph:
             for client in self._graph_clients:
                 client.send(update)
 
-    def _say_unanswered(self) -> None:
+    def _warn_unanswered(self) -> None:
         uri = self._address.master_uri
         self._hub.set_condition(_CONDITION, f"no ROS master answers at {uri}; trying again every second")
 
     async def _wait_registered(self) -> tuple[set[str], set[str]]:
-        """Wait until the master knows this node's topics; return those subscribed to and those published."""
+        """Wait until the master has registered this node's topics; return the subscribed and the published ones."""
         registered = self._topics.subscribed, self._publishers.topics | self._driving.topics
         if not self._node.is_shut_down:
             await self._node.wait_registered()
         return registered
 
     def _is_registered(self, registered: tuple[set[str], set[str]], state: MasterState) -> bool:
-        """False if the master has forgotten this node: it is another one than before."""
+        """True if the master has this node's registrations; a restarted master has not."""
         subscribed, published = registered
         name = self._node.name
         return all(name in state.subscribers.get(topic, ()) for topic in subscribed) and all(
@@ -191,12 +193,12 @@ class RosGraph:
     # -- clients
 
     def join(self, client: Connection) -> None:
-        """Offer services to a new client, and look at the graph at once."""
+        """Advertise services to a new client, and read the graph's state at once."""
         self._services.offer(client)
         self._refresh_now.set()
 
     def leave(self, client: Connection) -> None:
-        """Stop robots and end topics and calls of a client that has gone."""
+        """Stop robots, and end topics and calls of a client that has disconnected."""
         self._driving.forget(client)
         self._publishers.forget(client)
         self._services.forget(client)
@@ -213,7 +215,7 @@ class RosGraph:
         elif opcode == CLIENT_SERVICE_CALL:
             self._services.call(self._node, client, message)
         else:
-            client.send_status(ERROR, f"there is no binary message with opcode {opcode}")
+            client.send_status(ERROR, f"unknown opcode {opcode} of a binary message")
 
     def operate(self, client: Connection, operation: ClientOperation) -> None:
         """Handle a text message of a client that concerns the graph."""
@@ -238,28 +240,28 @@ class RosGraph:
             case UnsubscribeConnectionGraph():
                 self._graph_clients.discard(client)
             case Drive() if client.speaks_trundle:
-                if self._has_state:  # else the type of the topic is not known yet; the command is repeated
+                if self._has_state:  # before, the topic's type is unknown; the client repeats the command
                     self._driving.drive(client, operation, self._state.types)
             case Release(topic) if client.speaks_trundle:
                 self._driving.release(client, topic)
             case _:
-                client.send_status(ERROR, "this is for clients that speak trundle.v1")
+                client.send_status(ERROR, "this needs the subprotocol trundle.v1")
 
     def _spawn(self, client: Connection, work: Coroutine[Any, Any, None]) -> None:
-        """Do something for a client that waits for the master."""
+        """Start a task for a client that waits for the master."""
         tasks = self._tasks.setdefault(client, set())
         if len(tasks) >= _MAX_TASKS:
             work.close()
-            client.send_status(ERROR, f"{_MAX_TASKS} questions about parameters wait already")
+            client.send_status(ERROR, f"{_MAX_TASKS} requests for parameters are pending")
             return
-        task = asyncio.get_running_loop().create_task(_answered(client, work))
+        task = asyncio.get_running_loop().create_task(_report_errors(client, work))
         tasks.add(task)
         task.add_done_callback(tasks.discard)
-        task.add_done_callback(lambda _: work.close())  # which a task that is cancelled at once has not begun
+        task.add_done_callback(lambda _: work.close())  # a task that is cancelled at once never starts it
 
 
-async def _answered(client: Connection, work: Coroutine[Any, Any, None]) -> None:
-    """Finish work; what the master refuses is answered with a status message."""
+async def _report_errors(client: Connection, work: Coroutine[Any, Any, None]) -> None:
+    """Do work for a client, and send errors of the master as status messages."""
     try:
         await work
     except RosError as error:

@@ -1,4 +1,4 @@
-"""The graph's services: offered with their types, called with the bytes that clients send."""
+"""The graph's services: advertised with their types, called with clients' bytes."""
 
 import asyncio
 import itertools
@@ -19,12 +19,12 @@ from ..clients.server_messages import (
 from .master_state import MasterState
 
 MAX_IN_FLIGHT = 64
-"""Calls of one client that wait for an answer."""
-_PROBES = 8
-"""Providers asked at the same time."""
+"""Limit of one client's pending calls."""
+_MAX_PROBES = 8
+"""Limit of providers probed at the same time."""
 _ATTEMPTS = 5
 _LOGGERS = {"get_loggers": "roscpp/GetLoggers", "set_logger_level": "roscpp/SetLoggerLevel"}
-"""Types of services that every node has."""
+"""Types of the services of every node."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,16 +36,16 @@ class _Service:
 
 
 class ServiceTable:
-    """Services by id; ids are never used twice."""
+    """Services with unique ids."""
 
     def __init__(self, hub: Hub) -> None:
         self._hub = hub
         self._ids = itertools.count(1)
         self._services: dict[str, _Service] = {}
         self._providers: dict[str, tuple[str, ...]] = {}
-        """Service → provider, of all that were asked, known or not."""
+        """Service → providers, for all probed services, whether or not their type is known."""
         self._failures: dict[str, int] = {}
-        """Attempts to ask a provider that failed."""
+        """Service → number of failed probes."""
         self._calls: dict[Connection, set[asyncio.Task[None]]] = {}
 
     def offer(self, client: Connection) -> None:
@@ -54,12 +54,12 @@ class ServiceTable:
             client.send(AdvertiseServices(tuple(service.offer for service in self._services.values())))
 
     async def update(self, node: Node, state: MasterState) -> None:
-        """Offer new services and withdraw those that are gone."""
+        """Advertise new services and unadvertise removed ones."""
         new = {name: nodes for name, nodes in state.services.items() if self._providers.get(name) != nodes}
         self._remove([name for name in self._services if name not in state.services or name in new])
         self._providers = {name: nodes for name, nodes in state.services.items() if name not in new}
-        turns = asyncio.Semaphore(_PROBES)
-        kinds = await asyncio.gather(*(self._find_kind(node, name, turns) for name in new))
+        probes = asyncio.Semaphore(_MAX_PROBES)
+        kinds = await asyncio.gather(*(self._find_kind(node, name, probes) for name in new))
         retried = {name for name in new if 0 < self._failures.get(name, 0) < _ATTEMPTS}
         self._providers |= {name: nodes for name, nodes in new.items() if name not in retried}
         self._failures = {name: count for name, count in self._failures.items() if name in state.services}
@@ -75,25 +75,25 @@ class ServiceTable:
     def call(self, node: Node, client: Connection, message: bytes) -> None:
         """Call a service with a client's message."""
         if len(message) < SERVICE_HEADER.size:
-            client.send_status(WARNING, "a call of a service is shorter than its header")
+            client.send_status(WARNING, "a service call is shorter than its header")
             return
         _, service_id, call_id, length = SERVICE_HEADER.unpack_from(message)
         body = SERVICE_HEADER.size + length
         calls = self._calls.setdefault(client, set())
         service = next((service for service in self._services.values() if service.id == service_id), None)
         if service is None:
-            self._fail(client, service_id, call_id, f"there is no service {service_id}")
+            self._fail(client, service_id, call_id, f"no service {service_id}")
         elif message[SERVICE_HEADER.size : body] != ENCODING.encode():
-            self._fail(client, service_id, call_id, f"requests are encoded as {ENCODING}")
+            self._fail(client, service_id, call_id, f"the encoding must be {ENCODING}")
         elif len(calls) >= MAX_IN_FLIGHT:
-            self._fail(client, service_id, call_id, f"{MAX_IN_FLIGHT} calls wait already")
+            self._fail(client, service_id, call_id, f"{MAX_IN_FLIGHT} calls are pending")
         else:
             task = asyncio.get_running_loop().create_task(self._call(node, client, service, call_id, message[body:]))
             calls.add(task)
             task.add_done_callback(calls.discard)
 
     def forget(self, client: Connection) -> None:
-        """Cancel the calls of a client that has gone."""
+        """Cancel the calls of a client that has disconnected."""
         for task in self._calls.pop(client, ()):
             task.cancel()
 
@@ -109,12 +109,12 @@ class ServiceTable:
     def _fail(self, client: Connection, service_id: int, call_id: int, message: str) -> None:
         client.send(ServiceCallFailure(service_id=service_id, call_id=call_id, message=message))
 
-    async def _find_kind(self, node: Node, name: str, turns: asyncio.Semaphore) -> ServiceType | None:
-        """Return a service's type; None: its provider does not answer, or its definition is not known."""
+    async def _find_kind(self, node: Node, name: str, probes: asyncio.Semaphore) -> ServiceType | None:
+        """Return a service's type; None: its provider does not answer, or its definition is unknown."""
         try:
             type_name = _LOGGERS.get(name.rpartition("/")[2])
             if type_name is None:
-                async with turns:
+                async with probes:
                     uri = str(await node.master.call("lookupService", name))
                     type_name = (await probe_service(uri, name, node.name)).get("type", "")
             kind = await asyncio.to_thread(node.messages.service, type_name)
@@ -122,7 +122,7 @@ class ServiceTable:
             return kind
         except MessageError:
             return None
-        except RosError:  # a provider that is just starting: it is asked again, a few times
+        except RosError:  # the provider may be starting: it is probed again, a few times
             self._failures[name] = self._failures.get(name, 0) + 1
             return None
 
@@ -133,7 +133,7 @@ class ServiceTable:
 
 
 def _schemas(node: Node, kind: ServiceType) -> tuple[str, str]:
-    """Definitions of request and response; raises MessageError if one is not known."""
+    """Return the definitions of request and response; raises MessageError if one is unknown."""
     return node.messages.definition(kind.request), node.messages.definition(kind.response)
 
 

@@ -1,4 +1,4 @@
-"""Channels of the graph's topics, offered as topics come and go."""
+"""Channels of the graph's topics, added and removed with their publishers."""
 
 import asyncio
 
@@ -10,51 +10,51 @@ from .master_state import MasterState
 
 
 class TopicTable:
-    """One channel per published topic."""
+    """Channels, one for each published topic."""
 
     def __init__(self, hub: Hub) -> None:
         self._hub = hub
         self._channels: dict[str, TopicChannel] = {}
         self._unknown: set[tuple[str, str, tuple[str, ...]]] = set()
-        """Topic, type and publishers that could not say what the type is."""
+        """Topic, type and publishers whose probe returned no definition."""
         self._node: Node | None = None
 
     @property
     def subscribed(self) -> set[str]:
-        """Topics that are subscribed to."""
+        """Subscribed topics."""
         return {topic for topic, channel in self._channels.items() if channel.is_subscribed}
 
     def set_node(self, node: Node) -> None:
-        """Use another node from now on."""
+        """Use another node."""
         self._node = node
         for channel in self._channels.values():
             channel.set_node(node)
 
     async def update(self, node: Node, state: MasterState) -> None:
-        """Offer new topics and withdraw those that are not published any more."""
-        wanted = {topic: state.types[topic] for topic in state.publishers if state.types.get(topic, "*") != "*"}
-        self._remove([c for topic, c in self._channels.items() if wanted.get(topic) != c.schema_name])
-        new = [(topic, kind) for topic, kind in wanted.items() if topic not in self._channels]
-        made = await asyncio.gather(*(self._make(node, *pair, state.publishers[pair[0]]) for pair in new))
+        """Advertise new topics and unadvertise those that are no longer published."""
+        types = {topic: state.types[topic] for topic in state.publishers if state.types.get(topic, "*") != "*"}
+        self._remove([c for topic, c in self._channels.items() if types.get(topic) != c.schema_name])
+        new = [(topic, kind) for topic, kind in types.items() if topic not in self._channels]
+        created = await asyncio.gather(*(self._create(node, *pair, state.publishers[pair[0]]) for pair in new))
         if node is self._node:
-            self._add([channel for channel in made if channel is not None and channel.topic not in self._channels])
+            self._add([channel for channel in created if channel is not None and channel.topic not in self._channels])
         for topic, channel in self._channels.items():
             channel.set_publishers(state.publishers.get(topic, ()))
 
-    async def _make(self, node: Node, topic: str, type_name: str, publishers: tuple[str, ...]) -> TopicChannel | None:
-        """Make a channel with the definition known here, else with that of a publisher."""
+    async def _create(self, node: Node, topic: str, type_name: str, publishers: tuple[str, ...]) -> TopicChannel | None:
+        """Create a channel with the local definition of its type, or else with the publisher's."""
         try:
             definition = await asyncio.to_thread(node.messages.definition, type_name)
             return self._channel(topic, type_name, node.messages.md5(type_name), definition, is_certain=False)
         except MessageError:
             pass
-        if (question := (topic, type_name, publishers)) in self._unknown:
+        if (probe := (topic, type_name, publishers)) in self._unknown:
             return None
         try:
             header = await probe_publisher(node, publishers[0], topic)
             md5sum, definition = header["md5sum"], header["message_definition"]
         except (RosError, KeyError):
-            self._unknown.add(question)
+            self._unknown.add(probe)
             return None
         return self._channel(topic, type_name, md5sum, definition, is_certain=True)
 
@@ -65,7 +65,7 @@ class TopicTable:
         )  # fmt: skip
 
     def _replace(self, channel: TopicChannel, message: RawMessage) -> None:
-        """Replace a topic by one with the definition that its publisher sends."""
+        """Replace a topic's channel by one with the publisher's definition."""
         if self._channels.get(channel.topic) is channel and message.definition:
             self._remove([channel])
             type_name = message.type if message.type != "*" else channel.schema_name

@@ -1,1 +1,1 @@
-"""HTTP and the client's files."""
+"""HTTP server and the client's files."""

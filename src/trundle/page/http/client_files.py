@@ -5,7 +5,7 @@ from pathlib import Path
 
 CLIENT = Path(__file__).parents[1] / "client"
 REPLAY_FILES = tuple(CLIENT / "replay" / name for name in ("replay.js", "replay.css", "licenses.txt"))
-"""Script, style sheet and licences of the viewer that each replay contains."""
+"""Script, style sheet and licences of the viewer in each replay."""
 _TYPES = {
     ".glb": "model/gltf-binary",
     ".js": "text/javascript",
@@ -20,11 +20,11 @@ MISSING = (
 
 
 _COMPRESSED = ".gz"
-"""Ending of a file beside another one, which aiohttp sends in its place to browsers that take it."""
+"""Suffix of compressed copies, which aiohttp sends to browsers that accept them."""
 
 
 class ClientFiles:
-    """Files below a folder, by their path in a URL; others cannot be named."""
+    """Files below a folder by URL path."""
 
     def __init__(self, folder: Path = CLIENT) -> None:
         self._files = {
@@ -34,7 +34,7 @@ class ClientFiles:
         }
 
     def find(self, path: str) -> Path | None:
-        """Return the file of a URL's path without its first slash; the empty path is that of the document."""
+        """Return the file of a URL's path without its first slash; the empty path means the document."""
         return self._files.get(path or "index.html")
 
 
@@ -44,5 +44,5 @@ def content_type(path: Path) -> str:
 
 
 def is_immutable(path: str) -> bool:
-    """True for files whose name holds a hash of their content, which a browser may keep."""
+    """True for files whose name contains a hash of their content, which browsers may cache."""
     return path.startswith("assets/")

@@ -8,13 +8,13 @@ _COMMON = "object-src 'none'; base-uri 'none'; form-action 'none'"
 def response_fields(access: Access, request: PageRequest, *, path: str) -> dict[str, str]:
     """Return the header fields of a response.
 
-    The document runs the client's own scripts and nothing else; `blob:` is for textures of glTF files. Workers decode
-    messages of others and may open no connection.
+    The document runs only the client's own scripts; `blob:` is for textures of glTF files. Workers decode untrusted
+    messages and must not open connections.
     """
     fields = access.response_fields(request)
-    given = fields["Content-Security-Policy"]
-    framers = next(part for part in given.split("; ") if part.startswith("frame-ancestors"))
-    connect = next(part for part in given.split("; ") if part.startswith("connect-src"))
+    directives = fields["Content-Security-Policy"].split("; ")
+    framers = next(directive for directive in directives if directive.startswith("frame-ancestors"))
+    connect = next(directive for directive in directives if directive.startswith("connect-src"))
     if is_worker(path):
         policy = f"default-src 'none'; script-src 'self'; connect-src 'none'; {framers}; {_COMMON}"
     else:
@@ -26,6 +26,6 @@ def response_fields(access: Access, request: PageRequest, *, path: str) -> dict[
 
 
 def is_worker(path: str) -> bool:
-    """True for the script of a worker: Vite keeps `worker` in its name."""
+    """True for the script of a worker: Vite keeps `worker` in its file name."""
     name = path.rpartition("/")[2]
     return name.endswith(".js") and "worker" in name

@@ -1,4 +1,4 @@
-"""The page's port."""
+"""Listening socket of the page."""
 
 import os
 import socket
@@ -11,14 +11,14 @@ _BACKLOG = 128
 
 
 class AddressError(Exception):
-    """The address cannot be served; the text says why."""
+    """The address cannot be bound; the text is the reason."""
 
 
 def listen(at: PageAddress) -> socket.socket:
-    """Bind the port asked for, else 8080 or the next free one.
+    """Bind the requested port, by default 8080 or the next free one.
 
     Raises:
-        AddressError: there is no such host, or the port is taken.
+        AddressError: there is no such host, or the port is in use.
     """
     try:
         family, _, _, _, (address, *_) = socket.getaddrinfo(at.host, None, type=socket.SOCK_STREAM)[0]
@@ -47,7 +47,7 @@ def _bind(family: socket.AddressFamily, address: str, port: int) -> socket.socke
     """Bind and listen.
 
     Raises:
-        OSError: the port is taken.
+        OSError: the port is in use.
     """
     listening = socket.socket(family, socket.SOCK_STREAM)
     try:

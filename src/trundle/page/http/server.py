@@ -24,25 +24,25 @@ from ..requests.world import RenderModel
 from ..uploads.upload_folder import UploadedModels
 from ..view_only import REFUSAL
 from .client_files import MISSING, ClientFiles, content_type, is_immutable
+from .client_slots import MAX_CONTROLLING, ClientSlots
 from .content_policy import response_fields
-from .places import MAX_CONTROLLING, Places
 
 _MAX_MESSAGE_BYTES = 16 * 1024 * 1024
-"""Longest message of a client."""
-_MAX_LOOKERS_PICTURES = 2
-"""Pictures at once for clients that may only look."""
-_FAREWELL_S = 1.0
+"""Limit of a client's message."""
+_MAX_VIEW_ONLY_PICTURES = 2
+"""Limit of concurrent pictures for view-only clients."""
+_CLOSE_TIMEOUT_S = 1.0
 _log = logging.getLogger(__name__)
 _TEXT = "text/plain"
-_KEPT = "private, max-age=31536000, immutable"
-"""For files whose name holds a hash of their content."""
+_IMMUTABLE = "private, max-age=31536000, immutable"
+"""Cache-Control of files whose name contains a hash of their content."""
 
 
 class Page(Protocol):
     """Content of the page."""
 
     def session_json(self, is_view_only: bool) -> bytes:
-        """Return what `/session.json` says."""
+        """Return the content of `/session.json`."""
         ...
 
     def world_files(self) -> Mapping[str, bytes]:
@@ -58,7 +58,7 @@ class Page(Protocol):
         ...
 
     async def upload(self, parts: MultipartReader) -> list[str]:
-        """Receive a model and return the names of what can be inserted now; raises UsageError."""
+        """Receive a model and return the names of the models that can now be inserted; raises UsageError."""
         ...
 
     def join(self, outbox: Outbox, *, speaks_trundle: bool, is_view_only: bool) -> Connection:
@@ -81,13 +81,13 @@ class HttpServer:
         self._page = page
         self._access = access
         self._files = files
-        self._places = Places()
-        self._lookers_pictures = 0
+        self._slots = ClientSlots()
+        self._view_only_pictures = 0
         self._guard = Guard(access, is_page=True)
 
     async def start(self, listening: socket.socket) -> None:
         """Serve connections of a listening socket."""
-        logging.getLogger("aiohttp").setLevel(logging.CRITICAL)  # it answers nonsense from the net with tracebacks
+        logging.getLogger("aiohttp").setLevel(logging.CRITICAL)  # it logs tracebacks for malformed requests
         app = web.Application(middlewares=[self._answer])
         app.router.add_get("/session.json", self._session)
         app.router.add_get("/world/{name:.*}", self._world_file)
@@ -104,9 +104,9 @@ class HttpServer:
     async def _answer(
         self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
     ) -> web.StreamResponse:
-        """Refuse what the guard refuses, and add the header fields of the others."""
-        if (refused := await self._guard.refuse(request)) is not None:
-            return refused
+        """Refuse requests that the guard rejects, and add header fields to the other responses."""
+        if (refusal := await self._guard.refuse(request)) is not None:
+            return refusal
         try:
             response = await handler(request)
         except web.HTTPException as error:
@@ -120,20 +120,20 @@ class HttpServer:
 
     async def _session(self, request: web.Request) -> web.StreamResponse:
         session = self._page.session_json(self._is_view_only(request))
-        return _fresh(web.Response(body=session, content_type="application/json"))
+        return _uncached(web.Response(body=session, content_type="application/json"))
 
     async def _world_file(self, request: web.Request) -> web.StreamResponse:
         file = self._page.world_files().get(request.path) or self._page.world_files().get(request.path[1:])
         if file is None:
             raise web.HTTPNotFound(reason="no such file in this world")
         response = web.Response(body=file, content_type=content_type(Path(request.path)))
-        response.headers["Cache-Control"] = _KEPT
+        response.headers["Cache-Control"] = _IMMUTABLE
         return response
 
     async def _camera(self, request: web.Request) -> web.StreamResponse:
         try:
             view = msgspec.convert(dict(request.query), RenderView, strict=False)
-            with self._picture_place(request):
+            with self._picture_slot(request):
                 picture = await self._page.render(view)
         except msgspec.ValidationError as error:
             raise web.HTTPBadRequest(reason=f"not a view: {error}") from None
@@ -142,20 +142,20 @@ class HttpServer:
         return web.Response(body=picture, content_type="image/png", headers={"Cache-Control": "no-store"})
 
     @contextmanager
-    def _picture_place(self, request: web.Request) -> Generator[None]:
-        """Take a place among the pictures that are drawn.
+    def _picture_slot(self, request: web.Request) -> Generator[None]:
+        """Count a picture that is being drawn.
 
         Raises:
-            PictureError: those that clients who may only look can have are taken.
+            PictureError: view-only clients have too many pictures being drawn.
         """
         count = int(self._is_view_only(request))
-        if self._lookers_pictures + count > _MAX_LOOKERS_PICTURES:
-            raise PictureError(f"{_MAX_LOOKERS_PICTURES} pictures are being drawn already")
-        self._lookers_pictures += count
+        if self._view_only_pictures + count > _MAX_VIEW_ONLY_PICTURES:
+            raise PictureError(f"{_MAX_VIEW_ONLY_PICTURES} pictures are being drawn already")
+        self._view_only_pictures += count
         try:
             yield
         finally:
-            self._lookers_pictures -= count
+            self._view_only_pictures -= count
 
     async def _model_picture(self, request: web.Request) -> web.StreamResponse:
         return await self._render_model(request, "picture", "image/png")
@@ -181,7 +181,7 @@ class HttpServer:
             return web.Response(status=403, text=f"{REFUSAL}\n", content_type=_TEXT)
         try:
             if request.content_type != "multipart/form-data":
-                raise UsageError("send the files of a model as a form")
+                raise UsageError("send a model's files as multipart/form-data")
             names = await self._page.upload(await request.multipart())
         except (UsageError, ValueError, HttpProcessingError, web.RequestPayloadError) as error:
             return web.Response(status=400, text=f"{' '.join(str(error).split())}\n", content_type=_TEXT)
@@ -193,21 +193,21 @@ class HttpServer:
             return await self._web_socket(request)
         file = self._files.find(path)
         if file is None and not path:
-            return _fresh(web.Response(text=MISSING, content_type="text/html"))
+            return _uncached(web.Response(text=MISSING, content_type="text/html"))
         if file is None:
             raise web.HTTPNotFound(reason="no such file")
         response = web.FileResponse(file, headers={"Content-Type": content_type(file)})
-        response.headers["Cache-Control"] = _KEPT if is_immutable(path) else "no-cache"
+        response.headers["Cache-Control"] = _IMMUTABLE if is_immutable(path) else "no-cache"
         return response
 
     async def _web_socket(self, request: web.Request) -> web.StreamResponse:
         """Serve one client of the protocol."""
         offered = [name.strip() for name in request.headers.get("Sec-WebSocket-Protocol", "").split(",")]
         if not any(name in SUBPROTOCOLS for name in offered):
-            raise web.HTTPBadRequest(reason=f"this page speaks {', '.join(SUBPROTOCOLS)}")
+            raise web.HTTPBadRequest(reason=f"use a subprotocol of: {', '.join(SUBPROTOCOLS)}")
         is_view_only = self._is_view_only(request)
-        if not self._places.has_room(is_view_only=is_view_only):
-            raise web.HTTPServiceUnavailable(reason=f"{MAX_CONTROLLING} clients are served already")
+        if not self._slots.has_room(is_view_only=is_view_only):
+            raise web.HTTPServiceUnavailable(reason=f"{MAX_CONTROLLING} clients are connected already")
         web_socket = web.WebSocketResponse(
             protocols=SUBPROTOCOLS, compress=False, autoping=False, autoclose=False, max_msg_size=_MAX_MESSAGE_BYTES,
             decode_text=False,
@@ -216,27 +216,27 @@ class HttpServer:
         transport = request.transport
         if transport is None:
             return web_socket
-        own: socket.socket = transport.get_extra_info("socket").dup()
+        duplicate: socket.socket = transport.get_extra_info("socket").dup()
         client = self._page.join(
-            Outbox(own, broken=lambda _: transport.abort(), dropped=lambda stream: client.count_drop(stream)),
+            Outbox(duplicate, broken=lambda _: transport.abort(), dropped=lambda stream: client.count_drop(stream)),
             speaks_trundle=web_socket.ws_protocol == TRUNDLE,
             is_view_only=is_view_only,
         )
         try:
-            with self._places.taken(transport.abort, is_view_only=is_view_only):
+            with self._slots.occupied(transport.abort, is_view_only=is_view_only):
                 while await self._receive(client, await web_socket.receive()):
                     pass
         except Exception:
             _log.exception("a client could not be served")
         finally:
-            self._page.leave(client)  # first: a robot that it drove is stopped now
-            await client.outbox.drain(_FAREWELL_S)
+            self._page.leave(client)  # first: this stops a robot that it drove
+            await client.outbox.drain(_CLOSE_TIMEOUT_S)
             client.outbox.close()
-            transport.abort()  # aiohttp then writes no closing frame of its own
+            transport.abort()  # otherwise aiohttp would write its own closing frame
         return web_socket
 
     async def _receive(self, client: Connection, message: WSMessage) -> bool:
-        """Handle a message; False: the connection ends."""
+        """Handle a message; return False at the end of the connection."""
         match message.type:
             case WSMsgType.TEXT | WSMsgType.BINARY:
                 data = message.data if isinstance(message.data, bytes) else bytes(message.data)
@@ -253,7 +253,7 @@ class HttpServer:
         return True
 
 
-def _fresh(response: web.Response) -> web.Response:
-    """Have browsers ask again each time."""
+def _uncached(response: web.Response) -> web.Response:
+    """Make browsers revalidate a response each time."""
     response.headers["Cache-Control"] = "no-cache"
     return response

@@ -1,1 +1,1 @@
-"""Profile of a running simulation: where its wall time goes."""
+"""Profile of a running simulation: the wall time of its parts."""

@@ -8,13 +8,13 @@ from ..world.profile import Group
 
 
 class LoopPart(Enum):
-    """Parts of a run beside its strides."""
+    """Parts of a run outside of its strides."""
 
     PAGE = "page"
     PUBLISHING = "publishing"
-    """Encoding and sending of messages by plugins."""
+    """Encoding and sending messages of plugins."""
     DELIVERY = "delivery"
-    """Setting the nodes' time after the strides, and flat out the wait for their callbacks."""
+    """Setting the nodes' time after the strides and, at full speed, waiting for their callbacks."""
 
 
 _NAMES: dict[object, tuple[Group, str]] = {
@@ -32,7 +32,7 @@ _BASES: dict[str, Group] = {
     "trundle.sim.sensors.live_sensor.LiveSensor": "sensors",
     "trundle.gazebo.plugins.plugin.Hooks": "plugins",
 }
-"""By name, so that a simulation without plugins does not load their module."""
+"""Base class → group; classes by name, so that a simulation without plugins does not load their module."""
 
 
 def group_and_name(part: object, simulation: Simulation) -> tuple[Group, str]:

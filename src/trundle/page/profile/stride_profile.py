@@ -1,4 +1,4 @@
-"""Profiler of a simulation: charges the wall time of its strides to what they call."""
+"""Profiler of a simulation: attributes the wall time of its strides to their parts."""
 
 import time
 from collections.abc import Callable, Generator
@@ -13,14 +13,14 @@ from ..world.profile import Profile, ProfilePart
 from .part_names import LoopPart, group_and_name
 from .physics_shares import PhysicsShares
 
-if TYPE_CHECKING:  # a simulation without a graph starts without its modules
+if TYPE_CHECKING:  # without a graph, its modules are not loaded
     from trundle.ros import GraphLoop
 
 _PHYSICS = StridePart.PHYSICS
 
 
 class StrideProfile:
-    """Profiler of one simulation, on its thread; in a `with` statement it measures from the beginning to the end."""
+    """Profiler of one simulation, on its thread; as a context manager, it measures inside the `with` statement."""
 
     def __init__(
         self,
@@ -29,11 +29,11 @@ class StrideProfile:
         *,
         wall_ns: Callable[[], int] = time.perf_counter_ns,
     ) -> None:
-        """Prepare; `start` begins.
+        """Create it; `start` starts measuring.
 
         Args:
-            simulation: the running one.
-            loop: of the nodes of its plugins; None: without ROS.
+            simulation: running simulation.
+            loop: graph's loop, with the nodes of plugins; None: without ROS.
             wall_ns: the wall clock [ns].
         """
         self._simulation = simulation
@@ -50,18 +50,18 @@ class StrideProfile:
 
     @property
     def simulated_ns(self) -> int:
-        """Simulated time since the beginning [ns]."""
-        return self._simulation.simulated_ns - self._begin[0]
+        """Simulated time since the start [ns]."""
+        return self._simulation.simulated_ns - self._start[0]
 
     def start(self) -> None:
-        """Begin."""
+        """Start measuring."""
         self._simulation.profiler = self
         if self._loop is not None:
             self._loop.publish_timer = self._publishing
         self.restart()
 
     def stop(self) -> None:
-        """End; strides cost what they did before."""
+        """Stop measuring."""
         if self.is_on:
             self._simulation.profiler = None
             if self._loop is not None:
@@ -69,29 +69,29 @@ class StrideProfile:
             self._physics.stop()
 
     def restart(self) -> None:
-        """Forget what was measured."""
+        """Discard the measurements."""
         self._physics.stop()
         self._physics = PhysicsShares(self._simulation)
         self._parts: dict[int, object] = {}
         self._costs: dict[int, float] = {}
-        """Wall time of parts [ns]; both by the part's id."""
+        """Wall time of parts [ns], by the part's id as above."""
         self._inner_ns = 0
-        """Time charged already since the last lap [ns]."""
-        self._begin = (self._simulation.simulated_ns, self._simulation.simulated_steps)
-        self._graph_begin_ns = self._graph_ns
-        self._begin_ns = self._last_ns = self._wall_ns()
+        """Time attributed already since the last lap [ns]."""
+        self._start = (self._simulation.simulated_ns, self._simulation.simulated_steps)
+        self._graph_start_ns = self._graph_ns
+        self._start_ns = self._last_ns = self._wall_ns()
 
     @property
     def _graph_ns(self) -> int | None:
         return None if self._loop is None else self._loop.processor_ns
 
     def _graph_s(self) -> float | None:
-        """Processor time of the graph's thread since the beginning [s]."""
-        begin_ns, now_ns = self._graph_begin_ns, self._graph_ns
-        return None if begin_ns is None or now_ns is None else (now_ns - begin_ns) / NS_PER_S
+        """Processor time of the graph's thread since the start [s]."""
+        start_ns, now_ns = self._graph_start_ns, self._graph_ns
+        return None if start_ns is None or now_ns is None else (now_ns - start_ns) / NS_PER_S
 
     def lap(self, *parts: object) -> None:
-        """Charge the time since the last lap to parts, in equal shares; see `trundle.sim.simulation.Profiler`."""
+        """Attribute the time since the last lap to parts, equally; see `trundle.sim.simulation.Profiler`."""
         now = self._wall_ns()
         spent = now - self._last_ns - self._inner_ns
         self._last_ns, self._inner_ns = now, 0
@@ -109,35 +109,35 @@ class StrideProfile:
 
     @contextmanager
     def _publishing(self) -> Generator[None]:
-        """Charge a message that is published amid another part; those of other threads take no time of this one."""
+        """Attribute the time of publishing a message within another part, unless another thread publishes it."""
         if get_ident() != self._thread:
             yield
             return
-        begin = self._wall_ns()
+        start = self._wall_ns()
         try:
             yield
         finally:
-            spent = self._wall_ns() - begin
+            spent = self._wall_ns() - start
             self._charge(LoopPart.PUBLISHING, spent)
             self._inner_ns += spent
 
     def read(self) -> Profile:
-        """Return what was measured since the last call, up to the last lap, and begin again."""
+        """Return the measurements since the last call, up to the last lap, and restart."""
         simulation = self._simulation
         profile = Profile(
-            wall_s=(self._last_ns - self._begin_ns) / NS_PER_S,
+            wall_s=(self._last_ns - self._start_ns) / NS_PER_S,
             simulated_s=self.simulated_ns / NS_PER_S,
-            steps=simulation.simulated_steps - self._begin[1],
+            steps=simulation.simulated_steps - self._start[1],
             contacts=simulation.engine.contact_count,
             bodies=len(simulation.engine.compiled.link_names),
             asleep=simulation.engine.asleep,
             graph_s=self._graph_s(),
-            parts=tuple(sorted(self._measured(), key=lambda part: -part.wall_s)),
+            parts=tuple(sorted(self._profile_parts(), key=lambda part: -part.wall_s)),
         )
         self.restart()
         return profile
 
-    def _measured(self) -> list[ProfilePart]:
+    def _profile_parts(self) -> list[ProfilePart]:
         physics: list[ProfilePart] = []
         others: dict[tuple[object, ...], ProfilePart] = {}
         for key, spent_ns in self._costs.items():

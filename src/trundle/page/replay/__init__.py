@@ -1,1 +1,1 @@
-"""Recordings as files that other programs open: animated glTF, and a page that needs no server."""
+"""Recordings as files for other programs: animated glTF, and an HTML page that needs no server."""

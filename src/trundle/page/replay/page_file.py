@@ -1,4 +1,4 @@
-"""Recording as one HTML file, which shows it without Trundle and without a network."""
+"""Recording as one HTML file that plays it without Trundle and without a network."""
 
 import base64
 import gzip
@@ -47,16 +47,16 @@ class ReplayAbout(msgspec.Struct, frozen=True, kw_only=True):
     """Simulated time [s]."""
     scene: SceneSettings
     view: Mapping[str, object] | None
-    """The view at first, as in an .rviz file; None: all that moves is framed."""
+    """Initial view, as in an .rviz file; None: everything that moves is in view."""
 
 
 def replay_page(motion: RecordedMotion, report: Diagnostics, *, view: Mapping[str, object] | None = None) -> str:
-    """Return the HTML.
+    """Return a recording as HTML.
 
     Args:
-        motion: what it shows.
-        report: takes shapes that are not drawn.
-        view: the view from which it is seen first, as an .rviz file has it; None: all that moves is framed.
+        motion: recorded motion.
+        report: receives warnings about shapes that cannot be drawn.
+        view: initial view, as in an .rviz file; None: everything that moves is in view.
 
     Raises:
         UsageError: the viewer is not built.
@@ -73,18 +73,18 @@ def replay_page(motion: RecordedMotion, report: Diagnostics, *, view: Mapping[st
         scene=scene_settings(motion.world),
         view=view,
     )
-    own = _inert(script)
+    inert_script = _inert(script)
     return _PAGE.substitute(
-        policy=policy_of_viewer(own),
+        policy=policy_of_viewer(inert_script),
         title=escape(motion.title),
         style=style,
         about=msgspec.json.encode(about).decode().replace("<", "\\u003c"),
         world=base64.b64encode(world).decode(),
-        script=own,
+        script=inert_script,
         licenses=_inert(licenses),
     )
 
 
 def _inert(text: str) -> str:
-    """Return a script or text in which nothing ends the element around it."""
+    """Escape a script or text so that nothing in it ends the surrounding element."""
     return re.sub("<(/script|!--)", r"\\x3C\1", text, flags=re.IGNORECASE)

@@ -28,16 +28,16 @@ class RecordedMotion(Struct, frozen=True, eq=False, kw_only=True):
     times: _Array
     """(N,) ascending [s]"""
     poses: _Array
-    """(N, bodies, 7) x y z [m], qw qx qy qz in the world, of the links, then of the actors' bones."""
+    """(N, bodies, 7) x y z [m], qw qx qy qz in the world; first the links, then the actors' bones."""
 
 
 def motion_of_log(log: StateLog, simulation: Simulation, title: str) -> RecordedMotion:
-    """Return the motion in a state log; actors move as their scripts say.
+    """Return the motion in a state log; actors move by their scripts.
 
     Args:
-        log: with at least one row.
-        simulation: of its world.
-        title: of the recording.
+        log: state log with at least one row.
+        simulation: simulation of the log's world.
+        title: recording's title.
     """
     bones = ActorBones(simulation.world)
 
@@ -50,7 +50,7 @@ def motion_of_log(log: StateLog, simulation: Simulation, title: str) -> Recorded
 
 
 def animated_world(motion: RecordedMotion, report: Diagnostics) -> bytes:
-    """Return recorded motion as a GLB with an animation; a world without lights has those that cameras see by."""
+    """Return recorded motion as an animated GLB; a world without lights gets the default lights of cameras."""
     scene = scene_from_world(motion.world, report)
     scene = replace(scene, lights=scene.lights or DEFAULT_LIGHTS)
     report_unreadable_textures(scene, report)

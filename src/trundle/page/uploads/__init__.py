@@ -1,1 +1,1 @@
-"""Models that a browser sends."""
+"""Models uploaded by browsers."""

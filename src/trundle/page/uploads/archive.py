@@ -1,4 +1,4 @@
-"""Unpacking of a model's .zip, of which every byte may be hostile."""
+"""Unpacking an untrusted .zip of a model."""
 
 import os
 import stat
@@ -14,26 +14,26 @@ from .tree import MAX_FILES, UploadTree
 
 _CHUNK_BYTES = 1024 * 1024
 _MAX_DIRECTORY_BYTES = 4 * _CHUNK_BYTES
-"""Longest table of contents, which `ZipFile` reads whole."""
+"""Limit of the central directory, which `ZipFile` reads whole."""
 _ENCRYPTED = 1
-"""Flag of an entry."""
+"""Flag of encrypted entries."""
 
 
 class _BoundedReads(FileIO):
-    """File that refuses to return very much at once."""
+    """File that refuses large reads."""
 
     def read(self, size: int | None = -1, /) -> bytes:
-        wanted = os.fstat(self.fileno()).st_size - self.tell() if size is None or size < 0 else size
-        if wanted > _MAX_DIRECTORY_BYTES:
+        requested = os.fstat(self.fileno()).st_size - self.tell() if size is None or size < 0 else size
+        if requested > _MAX_DIRECTORY_BYTES:
             raise UsageError(f"it has more than {MAX_FILES} files")
         return super().read(size) or b""
 
 
 def unpack(archive: Path, tree: UploadTree) -> None:
-    """Write an archive's files into a tree; sizes are counted as they are unpacked, not as the archive says.
+    """Write an archive's files into a tree; their sizes are counted while unpacking, not read from the archive.
 
     Raises:
-        UsageError: it is no archive, is damaged, or has entries that are refused.
+        UsageError: the file is not an archive, is damaged, or has entries that are refused.
     """
     try:
         with _BoundedReads(archive) as file, ZipFile(file) as packed:
@@ -56,12 +56,12 @@ def _unpack_entry(packed: ZipFile, entry: ZipInfo, tree: UploadTree) -> None:
 
 
 def _refusal(entry: ZipInfo) -> str | None:
-    """Return why an entry is not unpacked."""
+    """Return the reason to refuse an entry; None: it is accepted."""
     kind = stat.S_IFMT(entry.external_attr >> 16)
     if kind not in (0, stat.S_IFREG):
-        return "is a link, or no file at all"
+        return "is not a regular file"
     if entry.flag_bits & _ENCRYPTED:
-        return "asks for a password"
+        return "is encrypted"
     if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
-        return "is packed by a method other than deflate"
+        return "is compressed by a method other than deflate"
     return None

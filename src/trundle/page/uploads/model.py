@@ -1,4 +1,4 @@
-"""Models in the files of an upload: their folders, each with a model.config."""
+"""Finding the models in an upload: folders with a model.config."""
 
 from pathlib import Path
 from xml.sax.saxutils import escape
@@ -12,24 +12,24 @@ _SUFFIXES = (".sdf", ".urdf")
 def find_models(root: Path, title: str) -> dict[str, Path]:
     """Return the folder of each model by name.
 
-    Where no folder has a model.config, the only .sdf or .urdf is the model's file, and gets one.
+    Without any model.config, one is written for the only .sdf or .urdf.
 
     Args:
-        root: folder of the files.
-        title: name of a model whose files are not in a folder of their own.
+        root: folder of the uploaded files.
+        title: name of a model whose files are directly in `root`.
 
     Raises:
-        UsageError: there is no model, or it is not said which file is the model's.
+        UsageError: there is no model, or several files could be the model.
     """
-    found: dict[str, Path] = {}
+    folders: dict[str, Path] = {}
     for config in sorted(root.rglob(_CONFIG), key=lambda path: len(path.parts)):
         folder = config.parent
-        if not any(folder.is_relative_to(other) for other in found.values()):
-            found.setdefault(title if folder == root else folder.name, folder)
-    if found:
-        return found
-    inside = list(root.iterdir())
-    folder = inside[0] if len(inside) == 1 and inside[0].is_dir() else root
+        if not any(folder.is_relative_to(other) for other in folders.values()):
+            folders.setdefault(title if folder == root else folder.name, folder)
+    if folders:
+        return folders
+    entries = list(root.iterdir())
+    folder = entries[0] if len(entries) == 1 and entries[0].is_dir() else root
     name = title if folder == root else folder.name
     _write_config(folder, name)
     return {name: folder}
@@ -40,6 +40,6 @@ def _write_config(folder: Path, name: str) -> None:
     if not files:
         raise UsageError("no model.config, .sdf or .urdf in it")
     if len(files) > 1:
-        raise UsageError(f"a model.config is to say which file is the model: {', '.join(files[:5])}")
+        raise UsageError(f"several files may be the model: {', '.join(files[:5])}; add a model.config that names one")
     text = f"<model><name>{escape(name)}</name><sdf version='1.6'>{escape(files[0])}</sdf></model>\n"
     (folder / _CONFIG).write_text(text, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Models that people upload by the browser: a folder of temporary files, which ends with the page."""
+"""Temporary folder of uploaded models, removed at the end of the page."""
 
 import asyncio
 import os
@@ -20,7 +20,7 @@ from .tree import MAX_BYTES, UploadTree
 
 _MAX_RUN_BYTES = 4 * MAX_BYTES
 _CHUNK_BYTES = 256 * 1024
-_PATIENCE_S = 600.0
+_TIMEOUT_S = 600.0
 _ARCHIVE = ".zip"
 
 
@@ -28,31 +28,31 @@ class UploadedModels(msgspec.Struct, frozen=True):
     """Answer to an upload."""
 
     models: tuple[str, ...]
-    """Names of what can be inserted now."""
+    """Names of the models that can now be inserted."""
 
 
 class Uploads:
-    """Takes one upload at a time; used on the loop only."""
+    """Receives one upload at a time; used on the loop only."""
 
-    def __init__(self, made: Callable[[Path], None], environment: Mapping[str, str]) -> None:
-        """Prepare.
+    def __init__(self, on_created: Callable[[Path], None], environment: Mapping[str, str]) -> None:
+        """Create it, without a folder.
 
         Args:
-            made: called with the folder once there is one; each of its folders is a model.
-            environment: has the model path, whose models are not hidden by uploaded ones.
+            on_created: called with the folder after its creation; each of its folders is a model.
+            environment: variables with the model path, whose models cannot be replaced by uploads.
         """
-        self._made, self._environment = made, environment
+        self._on_created, self._environment = on_created, environment
         self._folder: Path | None = None
         self._is_busy = False
 
     async def receive(self, parts: MultipartReader) -> list[str]:
-        """Receive a model's files, or its .zip, and return the names of what `model://` finds now.
+        """Receive a model's files or its .zip, and return the names of the models that `model://` now finds.
 
         Args:
-            parts: files of a form; the name of each field is a path.
+            parts: form with a file in each field; the field's name is the path.
 
         Raises:
-            UsageError: there is no model in it, or it is refused; the text says why.
+            UsageError: the upload has no model or is refused.
         """
         if self._is_busy:
             raise UsageError("another model is being uploaded")
@@ -61,18 +61,18 @@ class Uploads:
             folder = self._open_folder()
             with tempfile.TemporaryDirectory(prefix="trundle-upload-", dir=folder.parent) as staging:
                 tree = UploadTree(Path(staging) / "sent", max_bytes=_MAX_RUN_BYTES - _size(folder))
-                async with asyncio.timeout(_PATIENCE_S):
+                async with asyncio.timeout(_TIMEOUT_S):
                     first = await _write_parts(parts, tree)
                 return await asyncio.to_thread(self._install, tree, first, folder)
         except TimeoutError:
-            raise UsageError(f"it did not come within {_PATIENCE_S:.0f} s") from None
+            raise UsageError(f"the upload took more than {_TIMEOUT_S:.0f} s") from None
         except OSError as error:
-            raise UsageError(f"it cannot be kept: {error.strerror}") from None
+            raise UsageError(f"the upload cannot be stored: {error.strerror}") from None
         finally:
             self._is_busy = False
 
     def _install(self, tree: UploadTree, first: str, folder: Path) -> list[str]:
-        """Move the models of an upload into the folder, in place of earlier ones of their names."""
+        """Move the models of an upload into the folder, replacing earlier ones of the same names."""
         archive, root = tree.root / first, tree.root
         if first.lower().endswith(_ARCHIVE) and archive.is_file():
             opened = UploadTree(root.with_name("opened"), max_bytes=_MAX_RUN_BYTES - _size(folder))
@@ -83,38 +83,38 @@ class Uploads:
         known = Packages(self._environment, start=Path.cwd()).models()
         for name in models:
             if not is_portable(name):
-                raise UsageError(f"{name!r} is no name of a folder")
+                raise UsageError(f"{name!r} is not a valid folder name")
             if name in known and not is_stand_in(known[name] / name):
-                raise UsageError(f"a model {name!r} is on the model path already; give its folder another name")
-        for name, there in models.items():
-            _hold_code(there)
+                raise UsageError(f"a model {name!r} is on the model path already; rename the uploaded folder")
+        for name, source in models.items():
+            _hold_code(source)
             if (folder / name).exists():
                 (folder / name).rename(tree.root.with_name(f"before {name}"))
-            there.rename(folder / name)
+            source.rename(folder / name)
         return list(models)
 
     def _open_folder(self) -> Path:
-        """Return the folder, made on the first upload."""
+        """Return the folder, which is created for the first upload."""
         if self._folder is None:
             self._folder = Path(tempfile.mkdtemp(prefix="trundle-models-")) / "models"
             self._folder.mkdir()
-            self._made(self._folder)
+            self._on_created(self._folder)
         return self._folder
 
     def close(self) -> None:
-        """Remove all that was uploaded."""
+        """Remove all uploads."""
         if self._folder is not None:
             shutil.rmtree(self._folder.parent, ignore_errors=True)
 
 
 def _hold_code(folder: Path) -> None:
-    """Rename the files of code of a model, so that nothing runs them before a person agrees."""
-    for file in [each for each in folder.rglob("*") if each.suffix.lower() == ".py"]:
+    """Rename a model's files of code, so that nothing runs them before the user consents."""
+    for file in [file for file in folder.rglob("*") if file.suffix.lower() == ".py"]:
         file.rename(f"{file}{HELD}")
 
 
 async def _write_parts(parts: MultipartReader, tree: UploadTree) -> str:
-    """Write the files of a form into a tree; return the first of their names: of a file, or of their folder."""
+    """Write a form's files into a tree; return the first part of the first file's path."""
     tree.root.mkdir()
     first = ""
     while (part := await parts.next()) is not None:
@@ -135,4 +135,4 @@ async def _write_parts(parts: MultipartReader, tree: UploadTree) -> str:
 
 def _size(folder: Path) -> int:
     """Return the size of a folder's files [B]."""
-    return sum(os.lstat(os.path.join(home, name)).st_size for home, _, names in os.walk(folder) for name in names)
+    return sum(os.lstat(os.path.join(parent, name)).st_size for parent, _, names in os.walk(folder) for name in names)

@@ -1,1 +1,1 @@
-"""Streams of the simulated world, which only our own client reads."""
+"""Streams of the simulated world, for Trundle's own client."""

@@ -13,16 +13,16 @@ _STAMP = struct.Struct("<III")
 """Sequence number, seconds, nanoseconds."""
 _SIZE = struct.Struct("<II")
 _STEP = struct.Struct("<BII")
-"""Big endian or not, bytes per row, bytes of all rows."""
+"""Big endian flag, bytes per row, bytes of all rows."""
 _ENCODINGS = {1: b"mono8", 3: b"rgb8", 4: b"rgba8"}
 _NS = 1_000_000_000
 
 
 class CameraChannel(StreamChannel):
-    """Topic of a camera, whose pixels come through a mailbox."""
+    """Topic of a camera whose pixels come from a mailbox."""
 
     def __init__(self, topic: str, *, schema: str) -> None:
-        """Create; `schema` is the definition of sensor_msgs/Image."""
+        """Create it; `schema` is the definition of sensor_msgs/Image."""
         super().__init__(topic, encoding="ros1", period_s=0.0, schema_name=TYPE, schema=schema)
         self._frame_id = topic.strip("/").rpartition("/")[0].replace("/", "_").encode()
         self._sequence = 0

@@ -1,4 +1,4 @@
-"""Channels of what the owner puts here: the simulated world, its poses, joints, lines and clock."""
+"""Channels of the owner's data: the simulated world, its poses, joints, lines and clock."""
 
 from collections.abc import Sequence, Set
 
@@ -13,12 +13,12 @@ from ..mailbox import Mailbox
 from .streams import ARRAY_HEADER, CONTACTS, JOINTS, LINES, PERFORMANCE, POSES, RANGES, SERIES, STATE, WORLD
 
 _XYZ_XYZW = [0, 1, 2, 4, 5, 6, 3]
-"""Columns of a pose on the wire, of x y z qw qx qy qz."""
+"""Order of a pose's columns on the wire, as indices into x y z qw qx qy qz."""
 _NO_GENERATION = -1
 
 
 class WorldChannel(Channel):
-    """Manifest, and the files that it names."""
+    """Manifest and its files."""
 
     def __init__(self) -> None:
         super().__init__(WORLD, encoding="json", is_droppable=False, trundle_only=True)
@@ -28,12 +28,12 @@ class WorldChannel(Channel):
         self._manifest: bytes | None = None
 
     def set(self, manifest: bytes, generation: int, urls: Set[str]) -> None:
-        """Replace the manifest, and forget the files that it does not name.
+        """Replace the manifest, and remove the files that it does not name.
 
         Args:
-            manifest: JSON.
-            generation: of the world.
-            urls: of the files that it names.
+            manifest: manifest as JSON.
+            generation: world's generation.
+            urls: URLs of the files in the manifest.
         """
         self.files = {url: content for url, content in self.files.items() if url in urls}
         self.generation = generation
@@ -47,24 +47,24 @@ class WorldChannel(Channel):
 
 
 class StreamChannel(Channel):
-    """Channel that a mailbox feeds; a client whose last message still waits gets the newest one later."""
+    """Channel fed by a mailbox; a client with a queued message gets the newest one later."""
 
     def __init__(self, topic: str, *, encoding: str, period_s: float, schema_name: str = "", schema: str = "") -> None:
-        """Create; new messages go out at most every `period_s`."""
+        """Create it; messages are sent at most once per `period_s`."""
         super().__init__(
             topic, encoding=encoding, schema_name=schema_name, schema=schema, trundle_only=encoding != ENCODING
         )
         self._period_s = period_s
         self._due_s = 0.0
-        self._box: Mailbox | None = None
+        self._mailbox: Mailbox | None = None
         self._read: bytes | None = None
-        """Message that was read and not sent."""
+        """Message that is read but not sent."""
         self._behind: set[Client] = set()
-        """Clients that lack something of the newest message."""
+        """Clients that do not have the whole newest message."""
 
-    def open(self, box: Mailbox) -> None:
-        """Read from another mailbox from now on."""
-        self._box = box
+    def open(self, mailbox: Mailbox) -> None:
+        """Replace the mailbox."""
+        self._mailbox = mailbox
 
     def subscribe(self, client: Client) -> None:
         super().subscribe(client)
@@ -75,11 +75,11 @@ class StreamChannel(Channel):
         self._behind.discard(client)
 
     def poll(self, now_s: float, time_ns: int) -> bool:
-        """Send what came, if it is due; return True if something came.
+        """Read the mailbox, and send the newest message if it is due; return True if there was a new one.
 
         Args:
             now_s: monotonic time [s].
-            time_ns: time of the message [ns].
+            time_ns: message's time [ns].
         """
         if not self.clients:
             return False
@@ -100,48 +100,48 @@ class StreamChannel(Channel):
         return is_new
 
     def send_late(self, client: Client, time_ns: int) -> None:
-        """Keep a new message from a client whose last one still waits: it gets the newest one after that."""
+        """Drop a new message for a client with a queued one; the client gets the newest one later."""
         del time_ns
         client.count_drop(self)
         self._behind.add(client)
 
     def receive(self) -> bytes | None:
         """Read the mailbox; return a new message."""
-        message = None if self._box is None else self._box.read()
+        message = None if self._mailbox is None else self._mailbox.read()
         if message is not None:
             self._read = message
         return message
 
     def is_current(self, message: bytes) -> bool:
-        """False if a message cannot be sent yet."""
+        """True if a message can be sent now."""
         del message
         return True
 
     def encode_change(self, message: bytes) -> Sequence[Buffer]:
-        """Encode a new message for clients that have the last one."""
+        """Encode a new message for clients that have the previous one."""
         self._newest = message
         return (message,)
 
     def encode_whole(self) -> Sequence[Buffer]:
-        """Encode the newest message for clients that do not have the last one; empty before the first."""
+        """Encode the newest message for clients that do not have the previous one; empty before the first."""
         return (self._newest,) if self._newest else ()
 
     _newest = b""
 
 
 class RowsChannel(StreamChannel):
-    """Channel of rows that belong to a generation of the world."""
+    """Channel of rows for one generation of the world."""
 
     def __init__(self, topic: str, world: WorldChannel, *, period_s: float) -> None:
         super().__init__(topic, encoding=topic.replace("/", "."), period_s=period_s)
         self._world = world
 
     def is_current(self, message: bytes) -> bool:
-        return ARRAY_HEADER.unpack_from(message)[1] == self._world.generation  # else its manifest is on the way
+        return ARRAY_HEADER.unpack_from(message)[1] == self._world.generation  # a newer one's manifest is on its way
 
 
 class PosesChannel(RowsChannel):
-    """Poses: all of them first and for a slow client, then only those that changed."""
+    """Poses: all at first and for slow clients, then only changed ones."""
 
     def __init__(self, world: WorldChannel) -> None:
         super().__init__(POSES, world, period_s=0.0)
@@ -149,7 +149,7 @@ class PosesChannel(RowsChannel):
         self._rows: NDArray[np.float64] = np.empty((0, 7))
 
     def send_late(self, client: Client, time_ns: int) -> None:
-        """Queue all poses, in order with tf, which is drawn beside them; the queue may drop those before."""
+        """Queue all poses, so that they stay in order with tf; the queue may drop earlier ones."""
         client.send_message(self, time_ns, self.encode_whole())
 
     def encode_change(self, message: bytes) -> Sequence[Buffer]:
@@ -178,7 +178,7 @@ class StateChannel(StreamChannel):
         """Simulated time [ns]."""
 
     def poll(self, now_s: float, time_ns: int) -> bool:
-        is_new = self.receive() is not None  # the time counts for other channels too
+        is_new = self.receive() is not None  # other channels use the time, too
         return super().poll(now_s, time_ns) or is_new
 
     def receive(self) -> bytes | None:
@@ -189,27 +189,27 @@ class StateChannel(StreamChannel):
 
 
 def line_channels() -> tuple[StreamChannel, ...]:
-    """Channels of lines: what is drawn always, and what range sensors measure."""
+    """Return the channels of lines that are always drawn, and of range sensors' lines."""
     return tuple(StreamChannel(topic, encoding=LINES.replace("/", "."), period_s=0.0) for topic in (LINES, RANGES))
 
 
 def contacts_channel(world: WorldChannel) -> RowsChannel:
-    """Channel of contacts."""
+    """Return the channel of contacts."""
     return RowsChannel(CONTACTS, world, period_s=0.0)
 
 
 def series_channel() -> StreamChannel:
-    """Channel of plotted values, 20 Hz; each message has the rows of about a second."""
+    """Return the channel of plotted values, 20 Hz; each message has the rows of about a second."""
     return StreamChannel(SERIES, encoding=SERIES.replace("/", "."), period_s=0.05)
 
 
 def performance_channel() -> StreamChannel:
-    """Channel of profiles, as they come."""
+    """Return the channel of profiles."""
     return StreamChannel(PERFORMANCE, encoding="json", period_s=0.0)
 
 
 def joints_channel(world: WorldChannel) -> RowsChannel:
-    """Channel of joints, 10 Hz."""
+    """Return the channel of joints, 10 Hz."""
     return RowsChannel(JOINTS, world, period_s=0.1)
 
 

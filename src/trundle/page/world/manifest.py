@@ -1,4 +1,4 @@
-"""Manifest of a simulated world: what the page's client knows of it, but for what moves."""
+"""Manifest of a simulated world: everything that the page's client shows, except motion."""
 
 from typing import TypeAlias
 
@@ -12,7 +12,7 @@ SixNumbers: TypeAlias = tuple[float, float, float, float, float, float]
 
 
 class Fog(Struct, frozen=True, kw_only=True):
-    """Fog, with SDF's meaning."""
+    """Fog, as in SDF."""
 
     type: str
     color: Triple
@@ -35,7 +35,7 @@ class SceneSettings(Struct, frozen=True, kw_only=True):
 
 
 class PhysicsSettings(Struct, frozen=True, kw_only=True):
-    """Settings of the physics that can be edited."""
+    """Editable settings of the physics."""
 
     gravity: Triple
     """[m/s²]"""
@@ -46,19 +46,19 @@ class PhysicsSettings(Struct, frozen=True, kw_only=True):
 
 
 class PluginInfo(Struct, frozen=True, kw_only=True):
-    """A plugin, as it was written."""
+    """Plugin, as in its file."""
 
     name: str
-    """The second of one name has a number behind it."""
+    """Name, with a number for the second plugin of the same name."""
     filename: str
     source: str | None
     """`file:line`"""
     parameters: tuple[tuple[str, str], ...]
-    """Path below its element (`noise/stddev`) and text."""
+    """Path in the plugin's element (`noise/stddev`) and text."""
 
 
 class SensorInfo(Struct, frozen=True, kw_only=True):
-    """A sensor of a link, or of the joint above it."""
+    """Sensor of a link, or of its parent joint."""
 
     name: str
     type: str
@@ -73,25 +73,25 @@ class SensorInfo(Struct, frozen=True, kw_only=True):
 
 
 class LinkInfo(Struct, frozen=True, kw_only=True):
-    """A link."""
+    """Link."""
 
     name: str
     body: int
-    """Number among the poses."""
+    """Body number: row in `trundle/poses`."""
     mass: float
     """[kg]"""
     inertia: SixNumbers
     """ixx iyy izz ixy ixz iyz [kg·m²]."""
     inertial_pose: SixNumbers
     friction: tuple[float, float] | None
-    """mu and mu2; None: it has no collision."""
+    """mu and mu2; None: no collisions."""
     source: str | None
     """`file:line`"""
     sensors: tuple[SensorInfo, ...]
 
 
 class JointInfo(Struct, frozen=True, kw_only=True):
-    """A joint."""
+    """Joint."""
 
     name: str
     type: str
@@ -102,22 +102,22 @@ class JointInfo(Struct, frozen=True, kw_only=True):
     upper: float | None
     """[rad or m]; None: no limit."""
     pose: SixNumbers
-    """Frame of the joint in the child's."""
+    """Pose of the joint's frame in the child's."""
     axes: tuple[Triple, ...]
     """Directions in the child's frame."""
     index: int | None
-    """Row in `trundle/joints`; None: it has no single axis."""
+    """Row in `trundle/joints`; None: no single axis."""
     source: str | None
     """`file:line`"""
 
 
 class ModelInfo(Struct, frozen=True, kw_only=True):
-    """A model, with those nested in it."""
+    """Model, with nested models."""
 
     name: str
     static: bool
     held: bool = False
-    """True if its base is fixed where it is, until it is freed."""
+    """True if the model is held: its base is fixed to the world."""
     source: str | None
     """`file:line`"""
     links: tuple[LinkInfo, ...] = ()
@@ -127,27 +127,27 @@ class ModelInfo(Struct, frozen=True, kw_only=True):
 
 
 class LightInfo(Struct, frozen=True, kw_only=True):
-    """A light of the world itself, or `model::link::name` of one on a link."""
+    """Light of the world, or of a link with the name `model::link::name`."""
 
     name: str
     type: str
     body: int | None
-    """Body in whose frame its pose is; None: the world's."""
+    """Body in whose frame the pose is; None: the world frame."""
     pose: SixNumbers
     direction: Triple
-    """Direction of the light in its own frame."""
+    """Direction in the light's frame."""
     diffuse: Triple
     """Color, 0 to 1."""
     intensity: float
 
 
 class CameraInfo(Struct, frozen=True, kw_only=True):
-    """A camera."""
+    """Camera."""
 
     name: str
     topic: str
     body: int
-    """Body in whose frame its pose is."""
+    """Body in whose frame the pose is."""
     pose: SixNumbers
     horizontal_fov: float
     """[rad]"""
@@ -156,15 +156,15 @@ class CameraInfo(Struct, frozen=True, kw_only=True):
     height: int
     """[px]"""
     near: float
-    """Nearest that it draws [m]."""
+    """Near clipping distance [m]."""
     far: float
-    """Farthest that it draws [m]."""
+    """Far clipping distance [m]."""
     rate: float
     """[Hz]"""
 
 
 class FrameInfo(Struct, frozen=True, kw_only=True):
-    """A frame of tf that moves with a body."""
+    """tf frame that moves with a body."""
 
     frame: str
     parent: str
@@ -172,23 +172,23 @@ class FrameInfo(Struct, frozen=True, kw_only=True):
 
 
 class Manifest(Struct, frozen=True, kw_only=True):
-    """Simulated world; generation, file, files and draft are set as it is shown."""
+    """Simulated world; generation, file, files and draft are set later."""
 
     generation: int = 0
-    """Number that poses, joints and contacts of this world repeat."""
+    """Number that is also in the headers of this world's poses, joints and contacts."""
     name: str
     file: str | None = None
-    """Path to save the world at; None: it cannot be written."""
+    """Path to offer for saving the world; None: not writable."""
     files: tuple[FileUrl, ...] = ()
-    """In the order in which the models came."""
+    """Files of the lights and of the models, in the order of the models."""
     collisions: str | None = None
     """URL of a GLB."""
     resources: tuple[str, ...] = ()
-    """URLs of the meshes and images that these files name."""
+    """URLs of the meshes and images that these files refer to."""
     scene: SceneSettings
     physics: PhysicsSettings
     robot: int | None = None
-    """Body that is framed first."""
+    """Body number of the robot, on which the view centres first."""
     models: tuple[ModelInfo, ...] = ()
     plugins: tuple[PluginInfo, ...] = ()
     """Plugins of the world itself."""
@@ -196,4 +196,4 @@ class Manifest(Struct, frozen=True, kw_only=True):
     cameras: tuple[CameraInfo, ...] = ()
     frames: tuple[FrameInfo, ...] = ()
     draft: DraftInfo | None = None
-    """Copy of a model that is edited, in whose place it is shown."""
+    """Copy of a model that is being edited, shown in place of the original."""

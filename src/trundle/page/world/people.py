@@ -1,4 +1,4 @@
-"""Channel of the people at the page: who is there, what each has selected, and who may only look."""
+"""Channel of the users of the page: their numbers, selections and access."""
 
 import itertools
 
@@ -15,21 +15,21 @@ class Person(msgspec.Struct):
     """A client that subscribes to the channel."""
 
     number: int
-    """From 1; that of a person who has left is given again."""
+    """Number from 1; numbers of users who have left are reused."""
     view_only: bool
     selection: SharedSelection | None = None
 
 
 class People(msgspec.Struct):
-    """People at the page."""
+    """Users of the page."""
 
     you: int
-    """Number of the person that this is sent to."""
+    """Number of the recipient."""
     people: tuple[Person, ...]
 
 
 class PeopleChannel(Channel):
-    """List of people, sent to each with the number of its own: at subscription, and at most 10 Hz as it changes."""
+    """List of users, sent to each with the recipient's number, at subscription and after changes at up to 10 Hz."""
 
     def __init__(self) -> None:
         super().__init__(PEOPLE, encoding="json", trundle_only=True)
@@ -39,8 +39,8 @@ class PeopleChannel(Channel):
 
     def subscribe(self, client: Client) -> None:
         super().subscribe(client)
-        taken = {person.number for person in self._people.values()}
-        number = next(number for number in itertools.count(1) if number not in taken)
+        used = {person.number for person in self._people.values()}
+        number = next(number for number in itertools.count(1) if number not in used)
         self._people[client] = Person(number, client.is_view_only)
         self._has_changed = True
 
@@ -50,13 +50,13 @@ class PeopleChannel(Channel):
         self._has_changed = True
 
     def select(self, client: Client, selection: SharedSelection | None) -> None:
-        """Note what a person has selected."""
+        """Set a user's selection."""
         if (person := self._people.get(client)) is not None:
             person.selection = selection
             self._has_changed = True
 
     def poll(self, now_s: float, time_ns: int) -> bool:
-        """Send the list if it has changed and is due; nothing new comes from the owner here."""
+        """Send the list if it has changed and is due; return False, as nothing comes from the owner."""
         if self._has_changed and now_s >= self._due_s:
             self._has_changed, self._due_s = False, now_s + _PERIOD_S
             people = tuple(sorted(self._people.values(), key=lambda person: person.number))

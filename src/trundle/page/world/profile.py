@@ -8,7 +8,7 @@ Group: TypeAlias = Literal["physics", "cameras", "sensors", "plugins", "ros", "p
 
 
 class ProfilePart(Struct, frozen=True, kw_only=True):
-    """One thing that takes wall time."""
+    """Wall time of one part."""
 
     group: Group
     name: str
@@ -22,19 +22,19 @@ class Profile(Struct, frozen=True, kw_only=True):
     simulated_s: float
     steps: int
     contacts: int
-    """Number of contacts of the last step."""
+    """Number of contacts in the last step."""
     bodies: int
     """Number of links of all models."""
     asleep: int
     """Number of resting trees of bodies, which the physics skips."""
     graph_s: float | None
-    """Processor time of the graph's thread, which runs beside the simulation's; None: not known, or without ROS."""
+    """Processor time of the graph's thread, which runs in parallel; None: unknown, or without ROS."""
     parts: tuple[ProfilePart, ...]
-    """The most expensive first; their times add up to that of the interval."""
+    """Parts, the most expensive first; their times add up to the interval."""
 
     @property
     def real_time_factor(self) -> float | None:
-        """Simulated over wall time; None: no time has passed."""
+        """Ratio of simulated to wall time; None: no time has passed."""
         return self.simulated_s / self.wall_s if self.wall_s > 0 else None
 
     def __str__(self) -> str:
@@ -43,5 +43,5 @@ class Profile(Struct, frozen=True, kw_only=True):
             return head
         rows = [(part.wall_s, part.group, part.name) for part in self.parts]
         if self.graph_s is not None:
-            rows.append((self.graph_s, "beside", "graph's thread"))
+            rows.append((self.graph_s, "parallel", "graph's thread"))
         return "\n".join([head, *(f"{1e3 * s / self.simulated_s:10.3f}  {group:8} {name}" for s, group, name in rows)])

@@ -1,4 +1,4 @@
-"""Channel of the session: what the page is for, at subscription and whenever it changes."""
+"""Channel of the session, sent at subscription and after each change."""
 
 from collections.abc import Callable
 
@@ -10,7 +10,7 @@ class SessionChannel(Channel):
     """Content of `/session.json`; never dropped."""
 
     def __init__(self, content: Callable[[bool], bytes]) -> None:
-        """Create; `content` returns the session as JSON, by whether a client may only look."""
+        """Create it; `content` returns the session as JSON, given whether the client is view-only."""
         super().__init__(SESSION, encoding="json", is_droppable=False, trundle_only=True)
         self._content = content
 
@@ -19,6 +19,6 @@ class SessionChannel(Channel):
         client.send_message(self, 0, (self._content(client.is_view_only),))
 
     def publish_change(self) -> None:
-        """Send it to every client, as it has changed."""
+        """Send the changed session to every client."""
         for client in self.clients:
             client.send_message(self, 0, (self._content(client.is_view_only),))

@@ -1,4 +1,4 @@
-"""Contents of the mailboxes between a simulation and the page's server: raw arrays behind a small header."""
+"""Messages in the mailboxes between a simulation and the page's server: a small header, then raw arrays."""
 
 import struct
 from collections.abc import Mapping
@@ -22,21 +22,21 @@ DROPS = "trundle/drops"
 PEOPLE = "trundle/people"
 LANES = "trundle/lanes"
 TERMINAL = "trundle/terminal/"
-"""Before the number of a node's terminal."""
+"""Prefix of the number of a node's terminal."""
 
 ARRAY_HEADER = struct.Struct("<QII")
-"""Time [ns], generation of the world, rows: before the poses, (bodies, 7) f64, the joints, (joints, 3) f64, and the
+"""Time [ns], generation of the world, number of rows; followed by poses, (bodies, 7) f64, joints, (joints, 3) f64, or
 contacts, (contacts, 9) f64."""
 IMAGE_HEADER = struct.Struct("<QIII")
-"""Time [ns], height, width, channels, before the pixels."""
+"""Time [ns], height, width, channels; followed by the pixels."""
 SERIES_HEADER = struct.Struct("<QI")
-"""Number of the first row and length of the JSON that follows, before the rows (rows, 1 + series) f64."""
+"""Number of the first row, length of the JSON; followed by the JSON and the rows, (rows, 1 + series) f64."""
 TERMINAL_HEADER = struct.Struct("<QHH")
-"""Number of the first byte of the output that follows, columns, rows."""
+"""Number of the output's first byte, columns, rows; followed by the output."""
 LINES_HEADER = struct.Struct("<QI")
 """Time [ns] and number of lines."""
 LINE_KIND = struct.Struct("<4BII")
-"""RGBA, kind, number of points; behind the id, before the points (points, 3) f32."""
+"""RGBA, kind, number of points; after the id, followed by the points, (points, 3) f32."""
 
 
 class TimelineSpan(msgspec.Struct, frozen=True):
@@ -47,42 +47,42 @@ class TimelineSpan(msgspec.Struct, frozen=True):
 
 
 class Recording(msgspec.Struct, frozen=True):
-    """A recording that runs."""
+    """Running recording."""
 
     since_ns: int
 
 
 class ClockState(msgspec.Struct, frozen=True, kw_only=True):
-    """The clock and its controls."""
+    """Clock and its controls."""
 
     time_ns: int
     paused: bool
     real_time_factor: float | None = None
-    """None: not known, or paused."""
+    """None: unknown, or paused."""
     speed: float | None = 1.0
-    """Wanted multiple of real time; None: as fast as possible."""
+    """Requested multiple of real time; None: as fast as possible."""
     timeline: TimelineSpan | msgspec.UnsetType = msgspec.UNSET
-    """Given for a recorded run."""
+    """Unset: no recorded run."""
     recording: Recording | msgspec.UnsetType | None = msgspec.UNSET
-    """Given where the run can be recorded; None: it is not."""
+    """Unset: the run cannot be recorded; None: it is not being recorded."""
 
 
 class SeriesHead(msgspec.Struct, frozen=True, kw_only=True):
-    """Columns of plotted values behind their time."""
+    """Columns of plotted values, after the time."""
 
     names: tuple[str, ...]
     units: tuple[str, ...]
     faults: Mapping[str, str]
-    """Name → sentence that says why it has no values."""
+    """Name → reason why it has no values."""
 
 
 LineKind: TypeAlias = Literal["strip", "pairs", "points"]
 _KINDS: tuple[LineKind, ...] = ("strip", "pairs", "points")
-"""By their number on the wire."""
+"""Kinds in the order of their numbers on the wire."""
 
 
 class Line(msgspec.Struct, frozen=True, kw_only=True):
-    """A drawn line, or points."""
+    """Line strip, pairs of points or point cloud."""
 
     id: str
     rgba: tuple[int, int, int, int]
@@ -90,7 +90,7 @@ class Line(msgspec.Struct, frozen=True, kw_only=True):
     points: NDArray[np.float32]
     """(points, 3) in the world frame [m]."""
     kind: LineKind = "strip"
-    """Pairs are lines from each even point to the next."""
+    """`pairs`: lines from each even point to the next."""
 
 
 def line_pieces(time_ns: int, lines: tuple[Line, ...]) -> list[bytes]:

@@ -213,22 +213,22 @@ export interface NodeTerminal {
   readonly ended: string | null;
 }
 
-/** Simulated world; generation, file, files and draft are set as it is shown. */
+/** Simulated world; generation, file, files and draft are set later. */
 export interface Manifest {
-  /** Number that poses, joints and contacts of this world repeat. */
+  /** Number that is also in the headers of this world's poses, joints and contacts. */
   readonly generation: number;
   readonly name: string;
-  /** Path to save the world at; null: it cannot be written. */
+  /** Path to offer for saving the world; null: not writable. */
   readonly file: string | null;
-  /** In the order in which the models came. */
+  /** Files of the lights and of the models, in the order of the models. */
   readonly files: readonly FileUrl[];
   /** URL of a GLB. */
   readonly collisions: string | null;
-  /** URLs of the meshes and images that these files name. */
+  /** URLs of the meshes and images that these files refer to. */
   readonly resources: readonly string[];
   readonly scene: SceneSettings;
   readonly physics: PhysicsSettings;
-  /** Body that is framed first. */
+  /** Body number of the robot, on which the view centres first. */
   readonly robot: number | null;
   readonly models: readonly ModelInfo[];
   /** Plugins of the world itself. */
@@ -236,7 +236,7 @@ export interface Manifest {
   readonly lights: readonly LightInfo[];
   readonly cameras: readonly CameraInfo[];
   readonly frames: readonly FrameInfo[];
-  /** Copy of a model that is edited, in whose place it is shown. */
+  /** Copy of a model that is being edited, shown in place of the original. */
   readonly draft: DraftInfo | null;
 }
 
@@ -257,7 +257,7 @@ export interface SceneSettings {
   readonly fog: Fog | null;
 }
 
-/** Fog, with SDF's meaning. */
+/** Fog, as in SDF. */
 export interface Fog {
   readonly type: string;
   readonly color: readonly [number, number, number];
@@ -268,7 +268,7 @@ export interface Fog {
   readonly density: number;
 }
 
-/** Settings of the physics that can be edited. */
+/** Editable settings of the physics. */
 export interface PhysicsSettings {
   /** [m/s²] */
   readonly gravity: readonly [number, number, number];
@@ -278,11 +278,11 @@ export interface PhysicsSettings {
   readonly step: number;
 }
 
-/** A model, with those nested in it. */
+/** Model, with nested models. */
 export interface ModelInfo {
   readonly name: string;
   readonly static: boolean;
-  /** true if its base is fixed where it is, until it is freed. */
+  /** true if the model is held: its base is fixed to the world. */
   readonly held: boolean;
   /** `file:line` */
   readonly source: string | null;
@@ -292,24 +292,24 @@ export interface ModelInfo {
   readonly models: readonly ModelInfo[];
 }
 
-/** A link. */
+/** Link. */
 export interface LinkInfo {
   readonly name: string;
-  /** Number among the poses. */
+  /** Body number: row in `trundle/poses`. */
   readonly body: number;
   /** [kg] */
   readonly mass: number;
   /** ixx iyy izz ixy ixz iyz [kg·m²]. */
   readonly inertia: readonly [number, number, number, number, number, number];
   readonly inertial_pose: readonly [number, number, number, number, number, number];
-  /** mu and mu2; null: it has no collision. */
+  /** mu and mu2; null: no collisions. */
   readonly friction: readonly [number, number] | null;
   /** `file:line` */
   readonly source: string | null;
   readonly sensors: readonly SensorInfo[];
 }
 
-/** A sensor of a link, or of the joint above it. */
+/** Sensor of a link, or of its parent joint. */
 export interface SensorInfo {
   readonly name: string;
   readonly type: string;
@@ -323,18 +323,18 @@ export interface SensorInfo {
   readonly plugins: readonly PluginInfo[];
 }
 
-/** A plugin, as it was written. */
+/** Plugin, as in its file. */
 export interface PluginInfo {
-  /** The second of one name has a number behind it. */
+  /** Name, with a number for the second plugin of the same name. */
   readonly name: string;
   readonly filename: string;
   /** `file:line` */
   readonly source: string | null;
-  /** Path below its element (`noise/stddev`) and text. */
+  /** Path in the plugin's element (`noise/stddev`) and text. */
   readonly parameters: readonly (readonly [string, string])[];
 }
 
-/** A joint. */
+/** Joint. */
 export interface JointInfo {
   readonly name: string;
   readonly type: string;
@@ -344,35 +344,35 @@ export interface JointInfo {
   readonly lower: number | null;
   /** [rad or m]; null: no limit. */
   readonly upper: number | null;
-  /** Frame of the joint in the child's. */
+  /** Pose of the joint's frame in the child's. */
   readonly pose: readonly [number, number, number, number, number, number];
   /** Directions in the child's frame. */
   readonly axes: readonly (readonly [number, number, number])[];
-  /** Row in `trundle/joints`; null: it has no single axis. */
+  /** Row in `trundle/joints`; null: no single axis. */
   readonly index: number | null;
   /** `file:line` */
   readonly source: string | null;
 }
 
-/** A light of the world itself, or `model::link::name` of one on a link. */
+/** Light of the world, or of a link with the name `model::link::name`. */
 export interface LightInfo {
   readonly name: string;
   readonly type: string;
-  /** Body in whose frame its pose is; null: the world's. */
+  /** Body in whose frame the pose is; null: the world frame. */
   readonly body: number | null;
   readonly pose: readonly [number, number, number, number, number, number];
-  /** Direction of the light in its own frame. */
+  /** Direction in the light's frame. */
   readonly direction: readonly [number, number, number];
   /** Color, 0 to 1. */
   readonly diffuse: readonly [number, number, number];
   readonly intensity: number;
 }
 
-/** A camera. */
+/** Camera. */
 export interface CameraInfo {
   readonly name: string;
   readonly topic: string;
-  /** Body in whose frame its pose is. */
+  /** Body in whose frame the pose is. */
   readonly body: number;
   readonly pose: readonly [number, number, number, number, number, number];
   /** [rad] */
@@ -381,15 +381,15 @@ export interface CameraInfo {
   readonly width: number;
   /** [px] */
   readonly height: number;
-  /** Nearest that it draws [m]. */
+  /** Near clipping distance [m]. */
   readonly near: number;
-  /** Farthest that it draws [m]. */
+  /** Far clipping distance [m]. */
   readonly far: number;
   /** [Hz] */
   readonly rate: number;
 }
 
-/** A frame of tf that moves with a body. */
+/** tf frame that moves with a body. */
 export interface FrameInfo {
   readonly frame: string;
   readonly parent: string;
@@ -462,17 +462,17 @@ export interface DraftFinding {
   readonly line: number | null;
 }
 
-/** The clock and its controls. */
+/** Clock and its controls. */
 export interface ClockState {
   readonly time_ns: number;
   readonly paused: boolean;
-  /** Null: not known, or paused. */
+  /** Null: unknown, or paused. */
   readonly real_time_factor: number | null;
-  /** Wanted multiple of real time; null: as fast as possible. */
+  /** Requested multiple of real time; null: as fast as possible. */
   readonly speed: number | null;
-  /** Given for a recorded run. */
+  /** Unset: no recorded run. */
   readonly timeline?: TimelineSpan;
-  /** Given where the run can be recorded; null: it is not. */
+  /** Unset: the run cannot be recorded; null: it is not being recorded. */
   readonly recording?: Recording | null;
 }
 
@@ -482,7 +482,7 @@ export interface TimelineSpan {
   readonly end_ns: number;
 }
 
-/** A recording that runs. */
+/** Running recording. */
 export interface Recording {
   readonly since_ns: number;
 }
@@ -492,35 +492,35 @@ export interface Profile {
   readonly wall_s: number;
   readonly simulated_s: number;
   readonly steps: number;
-  /** Number of contacts of the last step. */
+  /** Number of contacts in the last step. */
   readonly contacts: number;
   /** Number of links of all models. */
   readonly bodies: number;
   /** Number of resting trees of bodies, which the physics skips. */
   readonly asleep: number;
-  /** Processor time of the graph's thread, which runs beside the simulation's; null: not known, or without ROS. */
+  /** Processor time of the graph's thread, which runs in parallel; null: unknown, or without ROS. */
   readonly graph_s: number | null;
-  /** The most expensive first; their times add up to that of the interval. */
+  /** Parts, the most expensive first; their times add up to the interval. */
   readonly parts: readonly ProfilePart[];
 }
 
-/** One thing that takes wall time. */
+/** Wall time of one part. */
 export interface ProfilePart {
   readonly group: "cameras" | "other" | "page" | "physics" | "plugins" | "ros" | "sensors" | "waiting";
   readonly name: string;
   readonly wall_s: number;
 }
 
-/** People at the page. */
+/** Users of the page. */
 export interface People {
-  /** Number of the person that this is sent to. */
+  /** Number of the recipient. */
   readonly you: number;
   readonly people: readonly Person[];
 }
 
 /** A client that subscribes to the channel. */
 export interface Person {
-  /** From 1; that of a person who has left is given again. */
+  /** Number from 1; numbers of users who have left are reused. */
   readonly number: number;
   readonly view_only: boolean;
   readonly selection: SelectedModel | SelectedLink | SelectedJoint | SelectedLight | null;
@@ -562,21 +562,21 @@ export interface Lanes {
 /** A topic's messages over time. */
 export interface Lane {
   readonly count: number;
-  /** First and last bucket of each stretch without an empty bucket. */
+  /** First and last bucket of each run of nonempty buckets. */
   readonly bands: readonly (readonly [number, number])[];
 }
 
-/** Columns of plotted values behind their time. */
+/** Columns of plotted values, after the time. */
 export interface SeriesHead {
   readonly names: readonly string[];
   readonly units: readonly string[];
-  /** Name → sentence that says why it has no values. */
+  /** Name → reason why it has no values. */
   readonly faults: { readonly [name: string]: string };
 }
 
 /** Answer to an upload. */
 export interface UploadedModels {
-  /** Names of what can be inserted now. */
+  /** Names of the models that can now be inserted. */
   readonly models: readonly string[];
 }
 
@@ -588,7 +588,7 @@ export interface ReplayAbout {
   /** Simulated time [s]. */
   readonly end: number;
   readonly scene: SceneSettings;
-  /** The view at first, as in an .rviz file; null: all that moves is framed. */
+  /** Initial view, as in an .rviz file; null: everything that moves is in view. */
   readonly view: { readonly [name: string]: Json } | null;
 }
 
