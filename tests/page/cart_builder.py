@@ -1,4 +1,4 @@
-"""A person who builds a cart in the model editor, from nothing."""
+"""User who builds a cart in the model editor, from nothing."""
 
 from typing import Any
 
@@ -16,13 +16,13 @@ class CartBuilder(WorldUser):
 
     def part(self, *path: str) -> dict[str, Any] | None:
         draft = self.draft()
-        return None if draft is None else next((each for each in draft["parts"] if each["part"] == list(path)), None)
+        return None if draft is None else next((part for part in draft["parts"] if part["part"] == list(path)), None)
 
     def value(self, field: str, *path: str) -> Any:
-        """Return a field of a part, as the server has it."""
+        """Return the value of a part's field on the server."""
         part = self.part(*path)
-        fields = [] if part is None else [each for section in part["sections"] for each in section["fields"]]
-        return next((each["value"] for each in fields if each["name"] == field), None)
+        fields = [] if part is None else [item for section in part["sections"] for item in section["fields"]]
+        return next((item["value"] for item in fields if item["name"] == field), None)
 
     def begin(self) -> None:
         self.button("World's menu").click()
@@ -36,7 +36,7 @@ class CartBuilder(WorldUser):
         self.page.locator(".ti .n").get_by_text(name, exact=True).wait_for()
 
     def add(self, tab: str, type_: str, name: str) -> None:
-        """Add a part, which is then selected."""
+        """Add a part and wait until it is selected."""
         drawer = self.page.get_by_role("region", name="Add to the model")
         if not drawer.is_visible():
             self.button("Add").click()

@@ -1,4 +1,4 @@
-"""A person at the dock's panels, in a real browser on a real graph."""
+"""User of the dock's panels, in a real browser on a real graph."""
 
 import time
 from collections.abc import Callable
@@ -8,7 +8,7 @@ from tests.graphs import PATIENCE_S
 
 PATIENCE_MS = 60_000
 _STILL_MS = 300
-"""What does not change for this long stands still."""
+"""Time without a change after which a value is still [s]."""
 
 _DROP = """([name, text]) => {
     const carried = new DataTransfer();
@@ -19,7 +19,7 @@ _DROP = """([name, text]) => {
 
 
 class PanelUser:
-    """Open panels, and look at what they show."""
+    """Opens panels, and reads their contents."""
 
     def __init__(self, browser: Any, url: str, *, size: tuple[int, int] = (1440, 900)) -> None:
         """Open the page, and wait until it is connected."""
@@ -56,25 +56,25 @@ class PanelUser:
         self.page.evaluate(_DROP, [name, text])
 
     def sees(self, text: str, *, within: str = ".dockhost") -> None:
-        """Wait until a text stands in the dock."""
+        """Wait until the dock shows a text."""
         self.page.locator(within).get_by_text(text).first.wait_for()
 
     def until(self, condition: Callable[[], object], *, what: str = "") -> None:
-        """Wait until something is seen."""
+        """Wait until a condition holds; `what` is part of the error message."""
         end = time.monotonic() + PATIENCE_S
         while not condition():
             assert time.monotonic() < end, f"waited in vain {what}; the page shows: {self.page.inner_text('body')}"
             self.page.wait_for_timeout(50)
 
     def until_still(self, sample: Callable[[], object]) -> None:
-        """Wait until a value, which is compared with `==`, stands still."""
+        """Wait until a value does not change for a while, compared by `==`."""
 
         def is_still() -> bool:
             before = sample()
             self.page.wait_for_timeout(_STILL_MS)
             return sample() == before
 
-        self.until(is_still, what="for something to stand still")
+        self.until(is_still, what="for a value to be still")
 
     def close(self) -> None:
         self.page.close()

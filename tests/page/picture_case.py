@@ -1,4 +1,4 @@
-"""A case of the comparison with rviz: a display alone, with the messages of its topics."""
+"""Case of the comparison with rviz: one display, with the messages of its topics."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -7,7 +7,7 @@ from typing import Any
 
 HEADER = {"frame_id": "map"}
 FRAMES = {"base": (1.0, 0.0, 0.5), "arm": (0.0, 2.0, 1.0), "plate": (-1.0, -2.0, 0.2)}
-"""Frames below map and where they stand [m]."""
+"""Frames below map and their positions [m]."""
 IN_PLATE = {"frame_id": "plate"}
 
 Display = Mapping[str, Any]
@@ -21,13 +21,13 @@ class Case:
     name: str
     display: Display
     messages: Sequence[Message] = field(default=())
-    """Published once and latched, for this case and those after it."""
+    """Latched messages, published once for this case and later ones."""
     repeated: Sequence[Message] = field(default=())
-    """Published in turn, again and again, while the case is drawn."""
+    """Messages published repeatedly, one after another, while the case is drawn."""
     grain: int = 1
-    """Side of the squares that are averaged before the comparison [px]: that of the pixels of a coarse texture."""
+    """Side of the squares that are averaged before the comparison [px], for coarse textures."""
     real: Display | None = None
-    """What rviz draws instead, where Debian's has no such display."""
+    """Display for rviz, if Debian's rviz has no such display."""
 
 
 def point(x: float, y: float, z: float = 0.0) -> dict[str, float]:
@@ -47,13 +47,13 @@ def pose(x: float = 0.0, y: float = 0.0, z: float = 0.0, yaw: float = 0.0) -> di
 
 
 def ring(count: int, radius: float = 2.0) -> list[dict[str, Any]]:
-    """Return poses on most of a circle that point along it."""
+    """Return poses along most of a circle, tangential to it."""
     angles = [1.8 * math.pi * index / count for index in range(count)]
     return [pose(radius * math.cos(a), radius * math.sin(a), 0.2, a + math.pi / 2) for a in angles]
 
 
 def covariance(*variances: float) -> list[float]:
-    """Return a covariance whose x and y go together."""
+    """Return a covariance in which x and y are correlated."""
     matrix = [0.0] * 36
     for row, variance in enumerate(variances):
         matrix[7 * row] = variance

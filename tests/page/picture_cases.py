@@ -1,4 +1,4 @@
-"""All cases of the comparison with rviz, and where both look from."""
+"""All cases of the comparison with rviz, and their view."""
 
 from tests.page.picture_case import Case
 from tests.page.picture_cases_clouds import CLOUDS
@@ -17,15 +17,15 @@ VIEW = {
     "Value": "Orbit (rviz)",
 }
 REMAPPINGS = {"/renamed": "/scan"}
-"""Of the rviz node, for names in all files."""
+"""Remappings of the rviz node, for names in all files."""
 ALONE = [*SCENE, *MARKERS, *POSES, *CLOUDS]
 
 
 def _scene(name: str, *names: str) -> Case:
-    """Return several cases in one file, as people have them."""
-    shown = [case.display | {"Enabled": True, "Value": True} for case in ALONE if case.name in names]
-    assert len(shown) == len(names)
-    return Case(name=name, display={"Class": "rviz/Group", "Name": "All", "Displays": shown})
+    """Return one case with the displays of several."""
+    displays = [{**case.display, "Enabled": True, "Value": True} for case in ALONE if case.name in names]
+    assert len(displays) == len(names)
+    return Case(name=name, display={"Class": "rviz/Group", "Name": "All", "Displays": displays})
 
 
 TOGETHER = [
@@ -37,7 +37,7 @@ TOGETHER = [
         "Scene of markers",
         "Grid",
         "Marker arrow",
-        "Marker coloured lines",
+        "Marker colored lines",
         "Marker textured mesh",
         "Marker cubes",
         "InteractiveMarkers of axes and a turn",

@@ -1,4 +1,4 @@
-"""Scans and clouds in rviz's styles and colours, for rviz and the page to draw."""
+"""Scans and clouds in rviz's styles and colors, for rviz and the page to draw."""
 
 import math
 import struct
@@ -8,13 +8,13 @@ from typing import Any
 from tests.page.picture_case import HEADER, IN_PLATE, Case, Message, point
 
 _FORMATS = {2: "B", 4: "H", 6: "I", 7: "f", 8: "d"}
-"""sensor_msgs/PointField's datatypes as struct has them."""
+"""Datatypes of sensor_msgs/PointField as formats of `struct`."""
 _CLOUD, _SCAN = "sensor_msgs/PointCloud2", "sensor_msgs/LaserScan"
 _STYLES = ("Points", "Squares", "Flat Squares", "Spheres", "Boxes")
 
 
 def _cloud(points: Sequence[Sequence[float]], **further: int) -> dict[str, Any]:
-    """Return a cloud of x, y, z and further channels: name → datatype."""
+    """Return a cloud of x, y, z and further channels, given by name and datatype."""
     types = {"x": 7, "y": 7, "z": 7} | further
     form = "<" + "".join(_FORMATS[datatype] for datatype in types.values())
     offsets = [struct.calcsize("<" + form[1 : 1 + index]) for index in range(len(types))]
@@ -36,18 +36,18 @@ def _cloud(points: Sequence[Sequence[float]], **further: int) -> dict[str, Any]:
 
 
 def _packed(data: dict[str, Any]) -> dict[str, Any]:
-    """Call a channel of packed colours a float32, as PCL does."""
+    """Declare a channel of packed colors as float32, as PCL does."""
     fields = [field | {"datatype": 7} if field["name"] in ("rgb", "rgba") else field for field in data["fields"]]
     return data | {"fields": fields}
 
 
 _SPIRAL = [(0.3 * a * math.cos(a), 0.3 * a * math.sin(a), 0.25 * a, a) for a in (i / 6 for i in range(6, 48))]
-_PLACES = [place[:3] for place in _SPIRAL]
-_COLOURS = [(*place, (0xFF0000, 0x00FF00, 0x2040FF, 0xFFFF00)[i % 4]) for i, place in enumerate(_PLACES)]
-_CLEAR = [(*place, 0x60FF8020 if i % 2 else 0xFF20A0FF) for i, place in enumerate(_PLACES)]
-_FLOATS = [(*place, i / 42, 1 - i / 42, 0.5) for i, place in enumerate(_PLACES)]
+_POSITIONS = [row[:3] for row in _SPIRAL]
+_COLORS = [(*position, (0xFF0000, 0x00FF00, 0x2040FF, 0xFFFF00)[i % 4]) for i, position in enumerate(_POSITIONS)]
+_CLEAR = [(*position, 0x60FF8020 if i % 2 else 0xFF20A0FF) for i, position in enumerate(_POSITIONS)]
+_FLOATS = [(*position, i / 42, 1 - i / 42, 0.5) for i, position in enumerate(_POSITIONS)]
 _MANY = [(2 * math.cos(i / 40), 2 * math.sin(i / 40), i / 1500, float(i)) for i in range(2000)]
-_RINGS = [(*place, i % 16, i / 4) for i, place in enumerate(_PLACES)]
+_RINGS = [(*position, i % 16, i / 4) for i, position in enumerate(_POSITIONS)]
 _RAYS = {
     "header": IN_PLATE,
     "angle_min": -1.5,
@@ -83,7 +83,7 @@ _SCANS = [
     _scan("as Points", "/scan", _INTENSE, Style="Points"),
     *(_scan(f"as {style}", "/scan", Style=style) for style in _STYLES[1:]),
     _scan("by another name", "/renamed", Style="Spheres"),
-    _scan("in one colour", "/scan", Style="Boxes", **{"Color Transformer": "FlatColor", "Color": "80; 200; 40"}),
+    _scan("in one color", "/scan", Style="Boxes", **{"Color Transformer": "FlatColor", "Color": "80; 200; 40"}),
     _scan("by x", "/scan", **{"Color Transformer": "AxisColor", "Axis": "X"}),
     _scan("without intensities", "/rays", _RAYS, Style="Spheres"),
     _scan("with holes", "/holed", _HOLED, Style="Boxes", **{"Color Transformer": "FlatColor"}),
@@ -96,10 +96,10 @@ _SCANS = [
     ),
 ]
 _CLOUDS = [
-    _points("by colours", "/points", _packed(_cloud(_COLOURS, rgb=6)), **{"Color Transformer": "RGB8"}),
+    _points("by colors", "/points", _packed(_cloud(_COLORS, rgb=6)), **{"Color Transformer": "RGB8"}),
     *(_points(f"as {style}", "/points", Style=style, **{"Color Transformer": "RGB8"}) for style in _STYLES),
     _points("in grey", "/points", **{"Color Transformer": "MONO8"}),
-    _points("in one colour", "/points", **{"Color Transformer": "FlatColor", "Color": "255; 120; 0"}),
+    _points("in one color", "/points", **{"Color Transformer": "FlatColor", "Color": "255; 120; 0"}),
     _points("by height", "/points", Style="Spheres", **{"Color Transformer": "AxisColor"}),
     _points("by y", "/points", **{"Color Transformer": "AxisColor", "Axis": "Y"}),
     _points("by height between bounds", "/points", **{"Color Transformer": "AxisColor"} | _FIXED_VALUES),
@@ -107,7 +107,7 @@ _CLOUDS = [
     _points("by floats", "/floats", _cloud(_FLOATS, r=7, g=7, b=7), **{"Color Transformer": "RGBF32"}),
     _points("by intensity", "/values", _cloud(_SPIRAL, intensity=7)),
     _points("by intensity between bounds", "/values", **_FIXED_BOUNDS),
-    _points("between two colours", "/values", **{"Use rainbow": False, "Min Color": "255; 200; 0"}),
+    _points("between two colors", "/values", **{"Use rainbow": False, "Min Color": "255; 200; 0"}),
     _points("by ring", "/rings", _cloud(_RINGS, ring=4, time=8), **{"Channel Name": "ring"}),
     _points("by time", "/rings", Style="Boxes", **{"Channel Name": "time", "Invert Rainbow": True}),
     _points("half seen through", "/values", Style="Spheres", Alpha=0.4),
@@ -122,7 +122,7 @@ _CLOUDS = [
                 "sensor_msgs/PointCloud",
                 {
                     "header": HEADER,
-                    "points": [point(*place) for place in _PLACES],
+                    "points": [point(*xyz) for xyz in _POSITIONS],
                     "channels": [{"name": "intensity", "values": [value for *_, value in _SPIRAL]}],
                 },
             )
@@ -131,7 +131,7 @@ _CLOUDS = [
 ]
 
 
-def _camera(topic: str, encoding: str, depth: bytes, step: int, colour: bytes | None) -> list[Message]:
+def _camera(topic: str, encoding: str, depth: bytes, step: int, color: bytes | None) -> list[Message]:
     size = {"width": 64, "height": 48}
     header = {"frame_id": "map", "stamp": {"secs": 1, "nsecs": 0}}
     k = [60.0, 0.0, 32.0, 0.0, 60.0, 24.0, 0.0, 0.0, 1.0]
@@ -141,13 +141,13 @@ def _camera(topic: str, encoding: str, depth: bytes, step: int, colour: bytes | 
         (f"{topic}/camera_info", "sensor_msgs/CameraInfo", {"header": header, "K": k, "P": p, **size}),
         (f"{topic}/image", image, {"header": header, "encoding": encoding, "step": step, "data": depth, **size}),
     ]
-    coloured = {"header": header, "encoding": "rgb8", "step": 192, "data": colour, **size}
-    return sent if colour is None else [*sent, (f"{topic}/color", image, coloured)]
+    colored = {"header": header, "encoding": "rgb8", "step": 192, "data": color, **size}
+    return sent if color is None else [*sent, (f"{topic}/color", image, colored)]
 
 
-def _depth_cloud(name: str, topic: str, sent: list[Message], colour: str = "", **properties: Any) -> Case:
+def _depth_cloud(name: str, topic: str, sent: list[Message], color: str = "", **properties: Any) -> Case:
     shown = {"Class": "rviz/DepthCloud", "Name": "DepthCloud", "Depth Map Topic": f"{topic}/image"}
-    display = shown | {"Color Image Topic": colour} | properties
+    display = shown | {"Color Image Topic": color} | properties
     return Case(
         name=f"DepthCloud {name}", display=display, repeated=sent
     )  # rviz skips an image before its camera's info
@@ -157,9 +157,9 @@ _SLOPE = [1.5 + u / 40 for _ in range(48) for u in range(64)]
 _METRES = b"".join(struct.pack("<f", value) for value in _SLOPE)
 _MILLIMETRES = b"".join(struct.pack("<H", round(1000 * value)) for value in _SLOPE)
 _GRADIENT = bytes(part for v in range(48) for u in range(64) for part in (4 * u, 5 * v, 90))
-_COLOURED = _camera("/depth", "32FC1", _METRES, 256, _GRADIENT)
+_COLORED = _camera("/depth", "32FC1", _METRES, 256, _GRADIENT)
 _DEPTHS = [
-    _depth_cloud("in colours", "/depth", _COLOURED, "/depth/color"),
+    _depth_cloud("in colors", "/depth", _COLORED, "/depth/color"),
     _depth_cloud(
         "by depth",
         "/depth16",
@@ -169,7 +169,7 @@ _DEPTHS = [
     _depth_cloud(
         "in points of one size",
         "/depth",
-        _COLOURED,
+        _COLORED,
         "/depth/color",
         **{"Auto Size": {"Value": False}, "Size (m)": 0.06},
     ),

@@ -5,7 +5,7 @@ from typing import Any
 from tests.page.picture_case import HEADER, IN_PLATE, Case, color, point, pose
 
 _LETTERS = 6
-"""Pixels of rviz's letters are some 4 px wide here, and blurred by as much."""
+"""rviz draws letters with a resolution of about 4 px here, blurred by as much."""
 _MARKER = "visualization_msgs/Marker"
 _CORNERS = [point(-1, -1), point(1, -1), point(1, 1), point(-1, 1, 1)]
 _RAINBOW = [color(1, 0, 0), color(0, 1, 0), color(0, 0, 1), color(1, 1, 0)]
@@ -50,11 +50,11 @@ _SINGLE = [
     _marker("flat cylinder", 3, scale=point(3, 1.5, 0.1), color=color(0.2, 0.4, 0.9)),
     _marker("strip", 4, scale=point(0.15, 0, 0), points=_CORNERS, colors=_RAINBOW),
     _marker("lines", 5, scale=point(0.15, 0, 0), points=_CORNERS),
-    _marker("coloured lines", 5, scale=point(0.2, 0, 0), points=_CORNERS, colors=_RAINBOW),
+    _marker("colored lines", 5, scale=point(0.2, 0, 0), points=_CORNERS, colors=_RAINBOW),
     _marker("cubes", 6, scale=point(0.4, 0.4, 0.4), points=_CORNERS, colors=_RAINBOW),
     _marker("cubes of glass", 6, scale=point(0.8, 0.8, 0.8), points=_CORNERS, colors=_GLASS),
     _marker("spheres", 7, scale=point(0.6, 0.6, 0.6), points=_CORNERS, colors=_RAINBOW),
-    _marker("spheres in one colour", 7, scale=point(0.6, 0.6, 0.6), points=_CORNERS),
+    _marker("spheres in one color", 7, scale=point(0.6, 0.6, 0.6), points=_CORNERS),
     _marker("points", 8, scale=point(0.3, 0.3, 0), points=_CORNERS, colors=_RAINBOW),
     _marker("wide points", 8, scale=point(0.8, 0.2, 0), points=_CORNERS),
     _marker("text", 9, grain=_LETTERS, scale=point(0, 0, 1.2), text="Trundle"),
@@ -76,8 +76,8 @@ _SINGLE = [
     _marker("mesh without its paint", 10, scale=point(1, 1, 1), mesh_resource="package://pictures/plate.dae"),
     _marker("textured mesh", 10, scale=point(2, 2, 2), color=color(0, 0, 0, 0), **_SIGN),
     _marker("triangles", 11, scale=point(1, 1, 1), points=_TRIANGLES),
-    _marker("coloured triangles", 11, scale=point(1, 1, 1), points=_CORNERS[:3], colors=_RAINBOW[:3]),
-    _marker("a colour per triangle", 11, scale=point(1.5, 1.5, 1), points=_TRIANGLES, colors=_RAINBOW[:2]),
+    _marker("colored triangles", 11, scale=point(1, 1, 1), points=_CORNERS[:3], colors=_RAINBOW[:3]),
+    _marker("a color per triangle", 11, scale=point(1.5, 1.5, 1), points=_TRIANGLES, colors=_RAINBOW[:2]),
     _marker("glass", 2, scale=point(2, 2, 2), color=color(0.1, 0.9, 0.3, 0.4)),
     _marker("that follows its frame", 1, header=IN_PLATE, scale=point(1, 1, 1), frame_locked=True),
 ]

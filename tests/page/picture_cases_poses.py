@@ -1,4 +1,4 @@
-"""Poses, ways, maps and readings, for rviz and the page to draw."""
+"""Poses, paths, maps and readings, for rviz and the page to draw."""
 
 from typing import Any
 
@@ -37,7 +37,7 @@ _POSES = [
         Covariance={"Value": False},
     ),
     _case(
-        "Odometry in other colours",
+        "Odometry in other colors",
         "Odometry",
         "/odom",
         Shape={"Value": "Arrow", "Color": "40; 90; 255", "Alpha": 0.6, "Shaft Radius": 0.2, "Head Radius": 0.4},
@@ -100,10 +100,10 @@ _POSES = [
     _case("PoseArray of axes", "PoseArray", "/poses", Shape="Axes", **{"Axes Length": 0.6, "Axes Radius": 0.1}),
 ]
 
-_WAY = [{"header": HEADER, "pose": place} for place in ring(16)]
+_PATH_POSES = [{"header": HEADER, "pose": at} for at in ring(16)]
 _WIDE = {"Line Style": "Billboards", "Line Width": 0.15}
-_WAYS = [
-    _case("Path", "Path", "/path", ("/path", "nav_msgs/Path", {"header": HEADER, "poses": _WAY})),
+_PATHS = [
+    _case("Path", "Path", "/path", ("/path", "nav_msgs/Path", {"header": HEADER, "poses": _PATH_POSES})),
     _case("Path of billboards", "Path", "/path", Color="200; 60; 200", **_WIDE),
     _case("Path raised", "Path", "/path", Offset={"X": 0.5, "Y": 0, "Z": 1}, **_WIDE),
     _case("Path with arrows", "Path", "/path", **_WIDE, **{"Pose Style": "Arrows"}),
@@ -111,7 +111,7 @@ _WAYS = [
     Case(
         name="Path with the one before",
         display={"Class": "rviz/Path", "Name": "Path", "Topic": "/ways", "Buffer Length": 2, **_WIDE},
-        repeated=[("/ways", "nav_msgs/Path", {"header": frame, "poses": _WAY}) for frame in (HEADER, IN_PLATE)],
+        repeated=[("/ways", "nav_msgs/Path", {"header": frame, "poses": _PATH_POSES}) for frame in (HEADER, IN_PLATE)],
     ),
     _case(
         "PointStamped",
@@ -157,7 +157,7 @@ _WAYS = [
                 "header": HEADER,
                 "cell_width": 0.5,
                 "cell_height": 0.3,
-                "cells": [place["position"] for place in ring(12)],
+                "cells": [at["position"] for at in ring(12)],
             },
         ),
     ),
@@ -233,7 +233,7 @@ _READINGS = [
         ("/wrench", "geometry_msgs/WrenchStamped", {"header": HEADER, "wrench": _WRENCH}),
     ),
     _case(
-        "WrenchStamped in other colours",
+        "WrenchStamped in other colors",
         "WrenchStamped",
         "/wrench",
         **{
@@ -289,4 +289,4 @@ _READINGS = [
         **{"Size (m)": 0.8},
     ),
 ]
-POSES = [*_POSES, *_WAYS, *_MAPS, *_READINGS]
+POSES = [*_POSES, *_PATHS, *_MAPS, *_READINGS]

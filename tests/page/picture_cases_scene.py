@@ -121,7 +121,7 @@ _GROUPED = [
 _GROUPS = [_case("Group", "Group", Displays=_GROUPED)]
 
 
-# Debian's rviz has no Imu: what it is to look like, by displays that it has (rviz_imu_plugin's sizes).
+# Debian's rviz has no Imu: the expected picture is drawn by its other displays (with rviz_imu_plugin's sizes).
 _TILT = {"x": math.sin(0.4), "y": 0.0, "z": 0.0, "w": math.cos(0.4)}
 _PUSH = (3.0, 0.0, 4.0)
 _AT = dict(zip("xyz", FRAMES["plate"], strict=True))
@@ -146,14 +146,14 @@ def _pose(topic: str, orientation: dict[str, float]) -> tuple[str, str, dict[str
 
 
 def _along_push() -> dict[str, float]:
-    """Return the turn of x to the acceleration, after the reading's own about x."""
+    """Return the rotation from x to the acceleration, after the reading's rotation about x."""
     half = -math.atan2(_PUSH[2], _PUSH[0]) / 2
     s, c, w, x = math.sin(half), math.cos(half), _TILT["w"], _TILT["x"]
     return {"x": x * c, "y": w * s, "z": x * s, "w": w * c}
 
 
 _SIZE = {"x_scale": 1.5, "y_scale": 1.0, "z_scale": 0.3}
-_BOX = {"header": HEADER, "type": 1, "pose": {"position": _AT, "orientation": _TILT}, "scale": point(1.5, 1.0, 0.3)}
+_IMU_BOX = {"header": HEADER, "type": 1, "pose": {"position": _AT, "orientation": _TILT}, "scale": point(1.5, 1.0, 0.3)}
 _SCALE = 0.4
 _ARROW = {"Shaft Length": 5 * _SCALE, "Shaft Radius": 0.5 * _SCALE, "Head Length": _SCALE, "Head Radius": _SCALE}
 _IMUS = [
@@ -173,7 +173,7 @@ _IMUS = [
     _imu(
         "as a box",
         {"Class": "rviz/Marker", "Name": "Imu", "Marker Topic": "/imu_box"},
-        ("/imu_box", "visualization_msgs/Marker", _BOX | {"color": {"r": 1.0, "g": 0.0, "b": 0.0, "a": 1.0}}),
+        ("/imu_box", "visualization_msgs/Marker", _IMU_BOX | {"color": {"r": 1.0, "g": 0.0, "b": 0.0, "a": 1.0}}),
         **{"Axes properties": {"Enable axes": False}, "Box properties": {"Enable box": True} | _SIZE},
     ),
     _imu(

@@ -1,4 +1,4 @@
-"""rviz and the page on one graph: pictures of the same file beside each other."""
+"""rviz and the page on one graph: pictures of the same file, compared."""
 
 import json
 import math
@@ -32,36 +32,36 @@ MESHES = Path(__file__).parents[1] / "data"
 _VIEW_CANVAS = "canvas[aria-label='3D view']"
 _ONLY_THE_VIEW = f"body * {{ visibility: hidden !important }} {_VIEW_CANVAS} {{ visibility: visible !important }}"
 _RAILS = "for (const part of ['left.open', 'dock.open', 'right.open.graph']) localStorage[`trundle.${part}`] = false"
-"""With all panels shut, the page looks at the middle of what its dock's row of tabs leaves free."""
+"""With all panels closed, the page's view is centred in the area above the dock's row of tabs."""
 _ABOVE = 8
 """Gap above the free part of the 3D view [px]."""
-SEEN = 25
-"""Difference of a colour that counts as drawn [0…255]."""
+MIN_DIFFERENCE = 25
+"""Difference of a color from which a pixel counts as drawn [0…255]."""
 _FIELD_OF_VIEW = math.pi / 4
-"""rviz's, vertical [rad]."""
+"""rviz's vertical field of view [rad]."""
 _PERIOD_S = 0.5
 
 
 @dataclass(frozen=True)
 class Agreement:
-    """How two pictures agree on what they add to their empty ones."""
+    """Agreement of two pictures, each compared with its empty view."""
 
     overlap: float
-    """Pixels that both drew, as a share of those that either did."""
-    colour: float
-    """Mean difference of a colour's component where both drew [0…255]; the worst of the three."""
+    """Ratio of pixels that both drew to pixels that either drew."""
+    color: float
+    """Mean difference of a color component where both drew [0…255]; the largest of the three."""
 
     def __bool__(self) -> bool:
-        return self.overlap >= 0.8 and self.colour <= 25.5
+        return self.overlap >= 0.8 and self.color <= 25.5
 
 
 def drawn(picture: Picture, empty: Picture) -> np.ndarray[Any, np.dtype[np.bool_]]:
-    """Mark the pixels that differ from the empty picture."""
-    return np.abs(picture - empty).max(axis=-1) > SEEN
+    """Return the mask of pixels that differ from the empty picture."""
+    return np.abs(picture - empty).max(axis=-1) > MIN_DIFFERENCE
 
 
 def _is_something(picture: Picture, empty: Picture) -> bool:
-    """Tell if something is drawn, and the picture is not that of a view that has not begun."""
+    """Tell if something is drawn, and the view has started."""
     share = drawn(picture, empty).mean()
     return 5e-5 < share < 0.9
 
@@ -82,7 +82,7 @@ def agreement(ours: Picture, ours_empty: Picture, real: Picture, real_empty: Pic
 
 
 class ClientPage:
-    """The page in a browser, loaded once per file; its 3D view is taller than rviz's and centred as that."""
+    """The page in a browser, loaded once per file; its 3D view is taller than rviz's, with the same centre."""
 
     def __init__(self, browser_page: Any, server: PageServer, *, width: int, height: int) -> None:
         self.page, self._server = browser_page, server
@@ -90,9 +90,12 @@ class ClientPage:
         browser_page.add_init_script(_RAILS)
         self._open()
         below = browser_page.evaluate("parseFloat(document.documentElement.style.getPropertyValue('--in-b'))")
-        box, seen = self._box(), browser_page.viewport_size
-        tall = height + below - _ABOVE  # the middle of the free part is that of rviz's height from the top
-        size = {"width": seen["width"] + width - box["width"], "height": seen["height"] + tall - box["height"]}
+        view, viewport = self._view_rectangle(), browser_page.viewport_size
+        tall = height + below - _ABOVE  # the free area has the middle of rviz's height from the top
+        size = {
+            "width": viewport["width"] + width - view["width"],
+            "height": viewport["height"] + tall - view["height"],
+        }
         browser_page.set_viewport_size({key: round(value) for key, value in size.items()})
         half = math.tan(_FIELD_OF_VIEW / 2) * tall / height
         self._view = VIEW | {"Field of View": 2 * math.atan(half)}
@@ -105,12 +108,12 @@ class ClientPage:
         self.page.add_style_tag(content=_ONLY_THE_VIEW)
 
     def shot(self) -> Picture:
-        """Take the part of the 3D view that is as high as rviz's."""
-        clip = self._box() | {"height": self._height}
+        """Take a picture of the 3D view, at rviz's height."""
+        clip = self._view_rectangle() | {"height": self._height}
         return picture_of(self.page.screenshot(clip=clip))
 
     def picture(self, displays: Sequence[Display], is_drawn: Callable[[Picture], bool]) -> Picture:
-        """Show a file; take the 3D view once two pictures of it are equal and drawn as asked."""
+        """Show a file; return the 3D view's picture once two in a row are equal and `is_drawn` is true."""
         self.show(displays)
         end = time.monotonic() + PATIENCE_S
         last = None
@@ -131,7 +134,7 @@ class ClientPage:
         self.page.goto(self._server.url)
         self.page.wait_for_selector(_VIEW_CANVAS, timeout=1000 * PATIENCE_S)
 
-    def _box(self) -> dict[str, float]:
+    def _view_rectangle(self) -> dict[str, float]:
         return self.page.locator(_VIEW_CANVAS).bounding_box()
 
 
@@ -140,12 +143,12 @@ def picture_of(png: bytes) -> Picture:
 
 
 class Pair:
-    """Both on one graph, and what each draws without displays."""
+    """rviz and the page on one graph, and their pictures without displays."""
 
     def __init__(self, graph: Graph, rviz: RealRviz, browser_page: Any, server: PageServer) -> None:
         self.graph, self.rviz, self.server = graph, rviz, server
         screen = rviz.picture(rviz_file([], VIEW), np.s_[:, :], _has_empty_view)
-        self.view = _box(_background(screen))
+        self.view = _bounds(_background(screen))
         self.real_empty = screen[self.view]
         height, width = self.real_empty.shape[:2]
         self.page = ClientPage(browser_page, server, width=width, height=height)
@@ -153,37 +156,37 @@ class Pair:
         assert self.empty.shape == self.real_empty.shape
 
     def agreement(self, case: Case, *, patience_s: float = PATIENCE_S) -> Agreement:
-        """Draw a case on both and compare; what loads late has time to come."""
+        """Draw a case on both and compare, repeatedly while something may still be loading."""
         real = rviz_file([case.real or case.display], VIEW)
         with repeating(self.graph, case.repeated):
             its = self.rviz.picture(real, self.view, lambda now: _is_something(now, self.real_empty))
             mine = self.page.picture([case.display], lambda now: _is_something(now, self.empty))
             end = time.monotonic() + patience_s
-            while not (found := self._compare(mine, its, case.grain)) and time.monotonic() < end:
+            while not (result := self._compare(mine, its, case.grain)) and time.monotonic() < end:
                 time.sleep(_PERIOD_S)
                 its, mine = self.rviz.shot()[self.view], self.page.shot()
         save_pair(case.name, its, mine)
-        return found
+        return result
 
     def _compare(self, mine: Picture, its: Picture, grain: int) -> Agreement:
         return agreement(*(coarse(picture, grain) for picture in (mine, self.empty, its, self.real_empty)))
 
 
 def save_pair(name: str, real: Picture, ours: Picture) -> None:
-    """Write rviz's picture and the page's beside each other."""
+    """Write rviz's picture and the page's side by side."""
     OUT.mkdir(parents=True, exist_ok=True)
     Image.fromarray(np.concatenate([real, ours], axis=1).astype(np.uint8)).save(OUT / f"{name}.png")
 
 
-def _box(mask: np.ndarray[Any, np.dtype[np.bool_]]) -> tuple[slice, slice]:
+def _bounds(mask: np.ndarray[Any, np.dtype[np.bool_]]) -> tuple[slice, slice]:
     rows, columns = np.nonzero(mask)
     return np.s_[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
 
 
 def _has_empty_view(screen: Picture) -> bool:
-    """Tell if rviz's 3D view is there, and nothing in it."""
+    """Tell if rviz shows an empty 3D view."""
     mask = _background(screen)
-    return bool(mask.sum() > 100_000 and mask[_box(mask)].all())
+    return bool(mask.sum() > 100_000 and mask[_bounds(mask)].all())
 
 
 def _background(picture: Picture) -> np.ndarray[Any, np.dtype[np.bool_]]:
@@ -191,7 +194,7 @@ def _background(picture: Picture) -> np.ndarray[Any, np.dtype[np.bool_]]:
 
 
 def publish(graph: Graph, messages: Sequence[Message]) -> None:
-    """Publish messages, latched, with the frames and the robots."""
+    """Publish latched messages, the frames and the robots."""
     node = graph.node("pictures")
     for name, urdf in (("/robot_description", URDF), ("/sign_description", TEXTURED_URDF)):
         graph.loop.run(node.params.set(name, urdf), PATIENCE_S)
@@ -211,7 +214,7 @@ def publish_cases(graph: Graph) -> None:
 
 @contextmanager
 def repeating(graph: Graph, messages: Sequence[Message]) -> Generator[None]:
-    """Publish messages in turn, twice a second."""
+    """Publish messages one after another, at 2 Hz."""
     if not messages:
         yield
         return

@@ -1,4 +1,4 @@
-"""Debian's rviz on a screen of its own: pictures of what it draws."""
+"""Debian's rviz on its own screen, and its pictures."""
 
 import contextlib
 import os
@@ -23,16 +23,16 @@ Picture = NDArray[np.int16]
 INSTALLED = all(Path("/usr/bin", name).exists() for name in ("rviz", "Xvfb", "import"))
 NOT_INSTALLED = "rviz, Xvfb and ImageMagick are not installed (make system)"
 BACKGROUND = (12, 24, 36)
-"""No display draws this colour, so that it marks rviz's 3D view among its bars."""
+"""Background color that no display draws; it marks rviz's 3D view in its window."""
 _PATIENCE_S = (PATIENCE_S, 2 * PATIENCE_S, 4 * PATIENCE_S)
-"""rviz on a software renderer may die or stay black: it is started anew, with more time."""
+"""Times to wait [s]: on a software renderer, rviz may die or stay black, and is restarted with more time."""
 _AXES = {"Class": "rviz/Axes", "Name": "Axes", "Length": 1, "Radius": 0.2}
 _SERVICE = "/rviz/load_config_discarding_changes"
 _LOAD = "rviz/SendFilePath"
 
 
 def rviz_file(displays: Sequence[Mapping[str, Any]], view: Mapping[str, Any], *, has_docks: bool = False) -> str:
-    """Text of an .rviz file that shows these displays alone; rviz shows images in its docks."""
+    """Return an .rviz file with only these displays; rviz shows images in its docks."""
     manager = {
         "Class": "",
         "Displays": [{"Enabled": True, "Value": True, **display} for display in displays],
@@ -50,7 +50,7 @@ def rviz_file(displays: Sequence[Mapping[str, Any]], view: Mapping[str, Any], *,
 
 
 class RealRviz:
-    """One rviz on one screen, which loads file after file."""
+    """One rviz on one screen, which loads files one after another."""
 
     def __init__(self, folder: Path, graph: Graph, *, packages: Path, remappings: Mapping[str, str]) -> None:
         self._folder, self._graph, self._remappings = folder, graph, remappings
@@ -82,7 +82,7 @@ class RealRviz:
         self._screen.wait()
 
     def show(self, text: str) -> bool:
-        """Load a file of this text; False: rviz died of it."""
+        """Load a file of this text; return False if rviz died."""
         path = self._folder / "case.rviz"
         path.write_text(text)
         if self._is_alive() and self._load(path):
@@ -92,7 +92,7 @@ class RealRviz:
         return self._load(path)
 
     def _start(self) -> None:
-        """Start with axes, for rviz draws no text before it has drawn a solid."""
+        """Start rviz with axes, as it draws no text before it has drawn a solid."""
         path = self._folder / "first.rviz"
         path.write_text(rviz_file([_AXES], {"Class": "rviz/Orbit", "Distance": 3}))
         command = ["/usr/bin/rviz", "-d", str(path), "--disable-anti-aliasing", "__name:=rviz"]
@@ -114,7 +114,7 @@ class RealRviz:
         return np.asarray(Image.open(path).convert("RGB")).astype(np.int16)
 
     def picture(self, text: str, part: tuple[slice, slice], is_drawn: Callable[[Picture], bool]) -> Picture:
-        """Show a file; take a part of the screen once two pictures of it are equal and drawn as asked."""
+        """Show a file; return a part of the screen once two pictures in a row are equal and `is_drawn` is true."""
         for patience_s in _PATIENCE_S:
             is_loaded = self.show(text)
             end = time.monotonic() + patience_s
@@ -134,7 +134,7 @@ class RealRviz:
         return self._rviz is not None and self._rviz.poll() is None
 
     def saved(self, text: str) -> str:
-        """Show a file and let rviz save it; return the text that rviz writes."""
+        """Show a file and make rviz save it; return the saved text."""
         path = self._folder / "saved.rviz"
         for _ in _PATIENCE_S:
             if self.show(text) and self._call("/rviz/save_config", path):

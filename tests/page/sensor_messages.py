@@ -1,4 +1,4 @@
-"""Messages of sensors and navigation, as rviz and the page draw them."""
+"""Messages of sensors and navigation, for rviz and the page to draw."""
 
 import math
 import struct
@@ -21,13 +21,13 @@ def pose(x: float, y: float, z: float = 0.0, yaw: float = 0.0) -> dict[str, Any]
 
 
 def ring(count: int, radius: float = 2.0) -> list[dict[str, Any]]:
-    """Return poses on most of a circle that point along it."""
+    """Return poses along most of a circle, tangential to it."""
     angles = [1.8 * math.pi * index / count for index in range(count)]
     return [pose(radius * math.cos(a), radius * math.sin(a), 0.2, a + math.pi / 2) for a in angles]
 
 
 def covariance(*variances: float) -> list[float]:
-    """Return a covariance whose x and y go together."""
+    """Return a covariance in which x and y are correlated."""
     matrix = [0.0] * 36
     for row, variance in enumerate(variances):
         matrix[7 * row] = variance
@@ -36,7 +36,7 @@ def covariance(*variances: float) -> list[float]:
 
 
 def cloud(points: Sequence[Sequence[float]], last: str) -> dict[str, Any]:
-    """Return a PointCloud2 of x, y, z and one further channel, float32 or packed colours."""
+    """Return a PointCloud2 of x, y, z and one further channel, float32 or packed colors."""
     form = "<fffI" if last == "rgb" else "<ffff"
     names = ("x", "y", "z", last)
     return {
@@ -52,7 +52,7 @@ def cloud(points: Sequence[Sequence[float]], last: str) -> dict[str, Any]:
 
 
 SPIRAL = [(0.3 * a * math.cos(a), 0.3 * a * math.sin(a), 0.25 * a, a) for a in (i / 6 for i in range(6, 48))]
-COLOURS = [(x, y, z, (0xFF0000, 0x00FF00, 0x2040FF, 0xFFFF00)[i % 4]) for i, (x, y, z, _) in enumerate(SPIRAL)]
+COLORS = [(x, y, z, (0xFF0000, 0x00FF00, 0x2040FF, 0xFFFF00)[i % 4]) for i, (x, y, z, _) in enumerate(SPIRAL)]
 MANY = [(2 * math.cos(i / 40), 2 * math.sin(i / 40), i / 1500, float(i)) for i in range(2000)]
 SCAN = {
     "header": IN_PLATE,
@@ -77,12 +77,12 @@ def depth() -> list[Message]:
     size = {"width": 64, "height": 48}
     header = {"frame_id": "map", "stamp": {"secs": 1, "nsecs": 0}}
     depth = b"".join(struct.pack("<f", 1.5 + u / 40) for _ in range(48) for u in range(64))
-    colour = bytes(part for v in range(48) for u in range(64) for part in (4 * u, 5 * v, 90))
+    color = bytes(part for v in range(48) for u in range(64) for part in (4 * u, 5 * v, 90))
     k = [60.0, 0.0, 32.0, 0.0, 60.0, 24.0, 0.0, 0.0, 1.0]
     p = [60.0, 0.0, 32.0, 0.0, 0.0, 60.0, 24.0, 0.0, 0.0, 0.0, 1.0, 0.0]
     images = "sensor_msgs/Image"
     return [
         ("/depth/camera_info", "sensor_msgs/CameraInfo", {"header": header, "K": k, "P": p, **size}),
         ("/depth/image", images, {"header": header, "encoding": "32FC1", "step": 256, "data": depth, **size}),
-        ("/depth/color", images, {"header": header, "encoding": "rgb8", "step": 192, "data": colour, **size}),
+        ("/depth/color", images, {"header": header, "encoding": "rgb8", "step": 192, "data": color, **size}),
     ]

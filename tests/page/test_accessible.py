@@ -61,8 +61,8 @@ def server(graph: Graph) -> Iterator[PageServer]:
 
 
 def _check(tab: Any, state: str) -> None:
-    found = tab.evaluate("axe.run().then((result) => result.violations)")
-    serious = [one for one in found if one["impact"] in ("serious", "critical")]
+    violations = tab.evaluate("axe.run().then((result) => result.violations)")
+    serious = [violation for violation in violations if violation["impact"] in ("serious", "critical")]
     assert [f"{state}: {one['help']}: {node['html']}" for one in serious for node in one["nodes"]] == []
 
 
@@ -71,7 +71,7 @@ def user(request: pytest.FixtureRequest, chromium: Any, server: PageServer) -> I
     user = PanelUser(chromium, server.url)
     if user.page.evaluate("document.documentElement.dataset.theme") != request.param:
         user.page.get_by_role("button", name=f"{request.param.capitalize()} theme").click()
-    user.page.evaluate(AXE.read_text())  # by the debugger: the policy has no inline scripts
+    user.page.evaluate(AXE.read_text())  # through the debugger, as the policy forbids inline scripts
     yield user
     user.close()
 
@@ -109,8 +109,8 @@ def test_panels_sides_and_dialogs(user: PanelUser) -> None:
     _check(user.page, "the list of what is missing")
 
 
-def test_a_phone_s_sheet_and_a_lost_connection(chromium: Any, server: PageServer) -> None:
-    """Last, since it ends the server."""
+def test_the_sheet_of_a_phone_and_a_lost_connection(chromium: Any, server: PageServer) -> None:
+    """Must be last, as it ends the server."""
     tab = chromium.new_page(viewport={"width": 390, "height": 844})
     tab.goto(server.url)
     tab.get_by_label("Connected").first.wait_for()

@@ -1,4 +1,4 @@
-"""Bytes that are no HTTP and no frames: the server ends the connection, prints nothing and keeps nothing open."""
+"""Bytes that are neither HTTP nor frames: the server closes the connection and prints nothing."""
 
 import contextlib
 import os
@@ -40,7 +40,7 @@ def _broken(source: random.Random, query: bytes, host: bytes) -> bytes:
 
 
 @pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="needs /proc")
-def test_broken_bytes_end_their_connection_alone(capfd: pytest.CaptureFixture[str]) -> None:
+def test_invalid_bytes_end_only_their_own_connection(capfd: pytest.CaptureFixture[str]) -> None:
     with PageServer.start(Session(title="t", kind="log"), at=PageAddress(port=0)) as page:
         _break_connections(page)
     assert capfd.readouterr().err == ""

@@ -1,4 +1,4 @@
-"""The build backend: scikit-build-core's, after the page's client where that is missing."""
+"""The build backend: builds the page's client if it is missing, then runs scikit-build-core."""
 
 import importlib.util
 import sys
@@ -12,13 +12,13 @@ WEB = Path(__file__).parents[2] / "web"
 
 @pytest.fixture
 def calls() -> list[str]:
-    """Everything that is called, in order."""
+    """Recorded calls, in order."""
     return []
 
 
 @pytest.fixture
 def backend(calls: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
-    """The backend over a scikit-build-core that notes its calls, with a client that npm writes."""
+    """The backend with fakes of scikit-build-core and npm that record calls."""
     core = ModuleType("scikit_build_core")
     core.build = ModuleType("build")  # pyright: ignore[reportAttributeAccessIssue]
     for kind in ("wheel", "editable", "sdist"):
@@ -36,7 +36,7 @@ def backend(calls: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
 
 
 def install_npm(monkeypatch: pytest.MonkeyPatch, calls: list[str], *, code: int, client: Path | None = None) -> None:
-    """Have a module `npm` that notes its calls and returns an exit code."""
+    """Install a module `npm` that records its calls and returns an exit code."""
 
     def npm(*words: str) -> int:
         calls.append(words[0])
@@ -50,7 +50,7 @@ def install_npm(monkeypatch: pytest.MonkeyPatch, calls: list[str], *, code: int,
 
 
 @pytest.mark.parametrize("kind", ["wheel", "editable", "sdist"])
-def test_a_client_that_is_missing_is_built_first(
+def test_a_missing_client_is_built_first(
     kind: str, backend: ModuleType, calls: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     install_npm(monkeypatch, calls, code=0, client=backend.CLIENT)
@@ -61,7 +61,7 @@ def test_a_client_that_is_missing_is_built_first(
 
 
 @pytest.mark.parametrize("kind", ["wheel", "editable", "sdist"])
-def test_a_client_that_is_there_needs_no_node(kind: str, backend: ModuleType, calls: list[str]) -> None:
+def test_an_existing_client_needs_no_node(kind: str, backend: ModuleType, calls: list[str]) -> None:
     backend.CLIENT.touch()
 
     assert getattr(backend, f"get_requires_for_build_{kind}")() == ["ninja"]
@@ -69,7 +69,7 @@ def test_a_client_that_is_there_needs_no_node(kind: str, backend: ModuleType, ca
     assert calls == [kind]
 
 
-def test_without_npm_the_rest_is_built(
+def test_without_npm_only_the_client_is_missing(
     backend: ModuleType, calls: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     install_npm(monkeypatch, calls, code=1)
@@ -81,7 +81,7 @@ def test_without_npm_the_rest_is_built(
     )
 
 
-def test_without_node_the_rest_is_built(
+def test_without_node_only_the_client_is_missing(
     backend: ModuleType, calls: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setitem(sys.modules, "npm", None)

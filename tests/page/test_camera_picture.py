@@ -1,4 +1,4 @@
-"""Pictures by the owner's renderer, for browsers without WebGL."""
+"""Pictures of the owner's renderer, for browsers without WebGL."""
 
 import threading
 import time
@@ -36,7 +36,7 @@ def _answered(page: PageServer, query: str, answer: Callable[[Request], None]) -
     return results[0]
 
 
-def test_the_owner_draws_what_is_asked_for(page: PageServer) -> None:
+def test_the_owner_draws_the_requested_view(page: PageServer) -> None:
     views: list[object] = []
 
     def draw(request: Request) -> None:
@@ -48,7 +48,7 @@ def test_the_owner_draws_what_is_asked_for(page: PageServer) -> None:
     assert views == [RenderView(width=640, height=480, azimuth=0.5, elevation=-0.25, distance=2.0)]
 
 
-def test_an_owner_that_cannot_draw_says_why(page: PageServer) -> None:
+def test_a_failed_picture_has_a_reason(page: PageServer) -> None:
     answer = _answered(page, "width=64&height=48", lambda request: page.respond(request.id, "no\nrenderer here"))
 
     assert answer == (503, b"no renderer here\n")
@@ -65,7 +65,7 @@ def test_an_owner_that_cannot_draw_says_why(page: PageServer) -> None:
         "width=x&height=1",
     ],
 )
-def test_a_view_that_is_none_is_refused(page: PageServer, query: str) -> None:
+def test_an_invalid_view_is_refused(page: PageServer, query: str) -> None:
     status, reason = _fetch(page_url(page.url, f"/camera.png?{query}"))
 
     assert status == 400
@@ -73,7 +73,7 @@ def test_a_view_that_is_none_is_refused(page: PageServer, query: str) -> None:
     assert page.requests() == []
 
 
-def test_few_pictures_are_drawn_at_a_time(page: PageServer) -> None:
+def test_concurrent_pictures_are_limited(page: PageServer) -> None:
     threads = [
         threading.Thread(target=_fetch, args=(page_url(page.url, "/camera.png?width=64&height=48"),)) for _ in range(4)
     ]

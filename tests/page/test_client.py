@@ -1,4 +1,4 @@
-"""The built client in a real browser: it starts, connects, keeps to its policy, and is operable by all."""
+"""The built client in a real browser: start, connection, content policy, accessibility."""
 
 import math
 import re
@@ -27,42 +27,42 @@ pytestmark = [pytest.mark.browser, pytest.mark.slow, needs_client]
 
 @pytest.fixture(scope="module", params=LOOKS)
 def opened(request: pytest.FixtureRequest, chromium: Any, page: PageServer) -> Iterator[tuple[Any, list[str]]]:
-    """The page in a browser once it is connected, and all that the browser complained of."""
+    """The connected page in a browser, and the browser's errors."""
     theme, width, height = request.param
     context = chromium.new_context(viewport={"width": width, "height": height}, color_scheme=theme)
     tab = context.new_page()
-    complaints: list[str] = []
-    tab.on("console", lambda said: said.type == "error" and complaints.append(said.text))
-    tab.on("pageerror", lambda error: complaints.append(str(error)))
-    tab.on("requestfailed", lambda failed: complaints.append(f"{failed.url}: {failed.failure}"))
+    errors: list[str] = []
+    tab.on("console", lambda message: message.type == "error" and errors.append(message.text))
+    tab.on("pageerror", lambda error: errors.append(str(error)))
+    tab.on("requestfailed", lambda failed: errors.append(f"{failed.url}: {failed.failure}"))
     tab.goto(page.url)
     tab.get_by_label("Connected").first.wait_for(timeout=TIMEOUT_MS)
-    yield tab, complaints
+    yield tab, errors
     context.close()
 
 
-def test_the_page_connects_and_nothing_is_complained_of(opened: tuple[Any, list[str]]) -> None:
-    """Also not of the content security policy, which Chromium reports on its console."""
-    tab, complaints = opened
+def test_the_page_connects_without_errors(opened: tuple[Any, list[str]]) -> None:
+    """Errors include violations of the content security policy, which Chromium reports on its console."""
+    tab, errors = opened
     tab.wait_for_timeout(500)
 
-    assert complaints == []
+    assert errors == []
     assert tab.title() == "cart"
 
 
 @pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed in web/node_modules")
 def test_axe_finds_nothing_serious(opened: tuple[Any, list[str]]) -> None:
     tab, _ = opened
-    tab.evaluate(AXE.read_text())  # by the debugger: the policy has no inline scripts
-    found = tab.evaluate("axe.run().then((result) => result.violations)")
+    tab.evaluate(AXE.read_text())  # through the debugger, as the policy forbids inline scripts
+    violations = tab.evaluate("axe.run().then((result) => result.violations)")
 
-    serious = [one for one in found if one["impact"] in ("serious", "critical")]
+    serious = [violation for violation in violations if violation["impact"] in ("serious", "critical")]
     assert [f"{one['help']}: {node['html']}" for one in serious for node in one["nodes"]] == []
 
 
 @pytest.fixture
 def graph_tab(chromium: Any) -> Iterator[tuple[Any, Graph]]:
-    """A page of a ROS graph with its topics open, and that graph."""
+    """A page of a ROS graph with the Topics panel open, and the graph."""
     with running_graph() as graph:
         session = Session(title="t", kind="graph", fixed_frame="map", panels=("rqt_topic",))
         address = GraphAddress(master_uri=graph.core.uri)
@@ -75,7 +75,7 @@ def graph_tab(chromium: Any) -> Iterator[tuple[Any, Graph]]:
 
 
 def test_topics_of_a_graph_are_decoded_and_measured(graph_tab: tuple[Any, Graph]) -> None:
-    """TF goes through the worker into the tree of frames; /scan is counted as it comes, about 20 times a second."""
+    """TF goes through the worker into the tree of frames; the rate of /scan is about 20 Hz."""
     tab, graph = graph_tab
     node = graph.node("talker")
     tf, scan = node.advertise("/tf", "tf2_msgs/TFMessage"), node.advertise("/scan", "sensor_msgs/LaserScan")

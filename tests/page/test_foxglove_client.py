@@ -1,10 +1,11 @@
-"""Foxglove's own client library for JavaScript joins: topics, services, parameters, the graph, files."""
+"""Foxglove's client library for JavaScript: topics, services, parameters, the graph, files."""
 
 import json
 import os
 import shutil
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import pytest
 from tests.graphs import running_graph
@@ -78,14 +79,17 @@ client.on('fetchAssetResponse', (r) => report('asset', r.status === 0 ? text(r.d
 def _node() -> tuple[str, dict[str, str]]:
     environment = {"NODE_PATH": str(Path(__file__).parents[2] / ".npm/node_modules")} | os.environ
     program = shutil.which("node")
-    asked = "require.resolve('@foxglove/ws-protocol'); require.resolve('ws')"
-    if program is None or subprocess.run([program, "-e", asked], capture_output=True, env=environment).returncode:
+    program_text = "require.resolve('@foxglove/ws-protocol'); require.resolve('ws')"
+    if (
+        program is None
+        or subprocess.run([program, "-e", program_text], capture_output=True, env=environment).returncode
+    ):
         pytest.skip("node finds no @foxglove/ws-protocol (make system installs it; NODE_PATH says where else it is)")
     return program, environment
 
 
 @pytest.mark.parametrize("subprotocol", ["foxglove.websocket.v1", "foxglove.sdk.v1"])
-def test_foxgloves_client_does_all_that_the_protocol_offers(subprotocol: str, tmp_path: Path) -> None:
+def test_foxgloves_client_uses_all_of_the_protocol(subprotocol: str, tmp_path: Path) -> None:
     program, environment = _node()
     (tmp_path / "robot/meshes").mkdir(parents=True)
     (tmp_path / "robot/package.xml").write_text("<package><name>robot</name></package>")
@@ -94,8 +98,8 @@ def test_foxgloves_client_does_all_that_the_protocol_offers(subprotocol: str, tm
     with running_graph() as graph:
         node = graph.node("ours")
         down = node.advertise("/down", "std_msgs/String")
-        heard: list[str] = []
-        node.subscribe("/up", "std_msgs/String", lambda m: heard.append(m.data))
+        received: list[str] = []
+        node.subscribe("/up", "std_msgs/String", lambda m: received.append(m.data))
         node.advertise_service("/set", "std_srvs/SetBool", lambda r: {"success": r.data, "message": "ok"})
         node.advertise_service("/fail", "std_srvs/Empty", lambda _: 1 / 0)
         graph.loop.run(node.params.set("/for_js", 2.0))
@@ -112,7 +116,7 @@ def test_foxgloves_client_does_all_that_the_protocol_offers(subprotocol: str, tm
 
                 def answered() -> bool:
                     down.publish({"data": "hello"})
-                    return "heard hello" in heard
+                    return "heard hello" in received
 
                 graph.until(answered)
                 graph.loop.run(node.params.set("/watched", [1.5, 2.0]))
@@ -125,16 +129,16 @@ def test_foxgloves_client_does_all_that_the_protocol_offers(subprotocol: str, tm
                 client.stdout.close()
 
     assert not [value for name, value in reports if name in ("error", "status")]
-    found = {name: value for name, value in reports if name != "parameters"}
-    assert found["serverInfo"][0] == subprotocol
-    assert set(found["serverInfo"][1]) == {
+    by_name = {name: value for name, value in reports if name != "parameters"}
+    assert by_name["serverInfo"][0] == subprotocol
+    assert set(by_name["serverInfo"][1]) == {
         "clientPublish", "parameters", "parametersSubscribe", "services", "connectionGraph", "assets", "time",
     }  # fmt: skip
-    assert found["serverInfo"][2] == ["ros1"]
-    assert "string data" in found["channel"]["schema"]
-    assert found["message"] == ["/down", "hello", True]
-    assert found["service"] == [5, "ros1", b"\1\2\0\0\0ok".hex()]
-    assert found["failure"][0] == 6
+    assert by_name["serverInfo"][2] == ["ros1"]
+    assert "string data" in by_name["channel"]["schema"]
+    assert by_name["message"] == ["/down", "hello", True]
+    assert by_name["service"] == [5, "ros1", b"\1\2\0\0\0ok".hex()]
+    assert by_name["failure"][0] == 6
     assert any({"name": "/down", "publisherIds": ["/ours"]} in v["publishedTopics"] for n, v in reports if n == "graph")
     assets = [value for name, value in reports if name == "asset"]
     assert assets[0] == "solid box"
@@ -145,10 +149,10 @@ def test_foxgloves_client_does_all_that_the_protocol_offers(subprotocol: str, tm
     assert [None, [{"name": "/watched", "value": [1.5, 2], "type": "float64_array"}]] in parameters
 
 
-def _read(client: "subprocess.Popen[str]", names: tuple[str, ...]) -> list[tuple[str, object]]:
-    """Read reports until each was made, `parameters:null` being an update; the client has both files by then."""
+def _read(client: "subprocess.Popen[str]", names: tuple[str, ...]) -> list[tuple[str, Any]]:
+    """Read the client's reports until there is one of each name; `parameters:null` is an update of parameters."""
     assert client.stdout is not None
-    reports: list[tuple[str, object]] = []
+    reports: list[tuple[str, Any]] = []
     missing, assets = set(names), 0
     while missing or assets < 2:
         line = client.stdout.readline()

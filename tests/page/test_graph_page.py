@@ -1,4 +1,4 @@
-"""Page of a graph: what nodes with windows ask for reaches the client, and what a person does there reaches them."""
+"""Page of a graph: windows of nodes appear on the page, and requests of users reach the nodes."""
 
 import asyncio
 import json
@@ -30,7 +30,7 @@ class Shown:
     page: GraphPage
     rviz: Node
     config: Path
-    said: list[str] = field(default_factory=list)
+    lines: list[str] = field(default_factory=list)
     result: "Future[int] | None" = None
 
     def start(self) -> None:
@@ -43,7 +43,7 @@ class Shown:
             return json.load(answer)
 
     def request(self, **request: object) -> dict[str, Any]:
-        """Make one request as the client does; returns the response."""
+        """Make one request as the client does; return the response."""
 
         async def ask() -> dict[str, Any]:
             async with (
@@ -77,16 +77,16 @@ def shown(tmp_path: Path) -> Iterator[Shown]:
         core = Core(loop=loop, port=0)
         loop.run(core.start())
         rviz = Node("rviz", loop=loop, master_uri=core.uri)
-        said: list[str] = []
-        page = GraphPage(SharedPage(say=said.append, at=PageAddress(port=0), graph=GraphAddress(master_uri=core.uri)))
-        shown = Shown(loop, page, rviz, config, said)
+        lines: list[str] = []
+        page = GraphPage(SharedPage(say=lines.append, at=PageAddress(port=0), graph=GraphAddress(master_uri=core.uri)))
+        shown = Shown(loop, page, rviz, config, lines)
         yield shown
         page.close()
         loop.run(shown.rviz.shutdown())
         loop.run(core.stop())
 
 
-def test_the_session_says_what_the_nodes_asked_for(shown: Shown) -> None:
+def test_the_session_has_the_windows_of_the_nodes(shown: Shown) -> None:
     page = shown.page
     page.open_panel("rqt_graph")
     page.drive_on("/base/cmd_vel")
@@ -97,8 +97,8 @@ def test_the_session_says_what_the_nodes_asked_for(shown: Shown) -> None:
     page.open_panel("rqt_console")
 
     address = str(page.url).replace("http", "ws")
-    assert shown.said[0] == f"see it at {page.url}"
-    assert shown.said[1].startswith(f"Foxglove connects to {address}")
+    assert shown.lines[0] == f"see it at {page.url}"
+    assert shown.lines[1].startswith(f"Foxglove connects to {address}")
     _wait(lambda: "rqt_console" in shown.session()["panels"])
     session = shown.session()
     assert session["kind"] == "graph"
@@ -109,7 +109,7 @@ def test_the_session_says_what_the_nodes_asked_for(shown: Shown) -> None:
     assert session["rviz"] == {"name": "car.rviz", "text": shown.config.read_text(), "writable": True, "saved": False}
 
 
-def test_names_of_the_file_are_those_of_the_rviz_node(shown: Shown) -> None:
+def test_the_session_has_the_rviz_nodes_namespace_and_remappings(shown: Shown) -> None:
     shown.loop.run(shown.rviz.shutdown())
     shown.rviz = Node(
         "rviz",
@@ -125,7 +125,7 @@ def test_names_of_the_file_are_those_of_the_rviz_node(shown: Shown) -> None:
     assert session["remappings"] == {"/robot/scan": "/robot/front/scan", "/tf": "/robot/tf"}
 
 
-def test_sliders_and_joysticks_move_what_offered_them(shown: Shown) -> None:
+def test_sliders_and_joysticks_call_their_nodes(shown: Shown) -> None:
     moved: list[tuple[str, float]] = []
     sticks: list[tuple[list[float], list[int]]] = []
     shown.page.offer_sliders(
@@ -143,7 +143,7 @@ def test_sliders_and_joysticks_move_what_offered_them(shown: Shown) -> None:
     assert (refused["ok"], refused["error"]) == (False, "no slider for joint 'tilt'")
 
 
-def test_the_configuration_is_saved_where_it_came_from(shown: Shown) -> None:
+def test_the_configuration_is_saved_to_its_file(shown: Shown) -> None:
     shown.start()
 
     assert shown.request(request="save_rviz", text="Panels: []\n")["ok"] is True
@@ -151,7 +151,7 @@ def test_the_configuration_is_saved_where_it_came_from(shown: Shown) -> None:
     _wait(lambda: shown.session()["rviz"]["text"] == "Panels: []\n")
 
 
-def test_what_a_graph_has_not_is_refused_with_a_sentence(shown: Shown) -> None:
+def test_requests_to_a_simulation_are_refused_with_a_reason(shown: Shown) -> None:
     shown.start()
 
     response = shown.request(request="step", count=1)

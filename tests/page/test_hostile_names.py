@@ -1,4 +1,4 @@
-"""Names and texts of an attacker on the page: they are text, whatever they hold."""
+"""Names and texts of an attacker on the page: they are always shown as text."""
 
 import time
 import xmlrpc.client
@@ -34,7 +34,7 @@ EVIL = {
 }
 
 TEXTS = {**EVIL, "controls": "a\x1b]0;evil\x07\x1b[31m\x08\x01\x7f\x9d0;evil\x9c"}
-"""Texts where XML and names do not keep control characters out."""
+"""Texts in places where control characters are possible."""
 PANELS = {
     "Plots": "Position of <img",
     "Topics": "/__proto__",
@@ -53,8 +53,8 @@ PANELS = {
     "Joystick": "",
     "Terminal": "",
 }
-"""Panels of the dock, and a text that each shows there."""
-ASKED = {
+"""Panels of the dock, and a text that each shows."""
+SESSION_PANELS = {
     "Plots": EVIL["markup"],
     "Images": EVIL["markup"],
     "Joints": EVIL["script"],
@@ -62,7 +62,7 @@ ASKED = {
     "Steering": "Topic",
     "Terminal": EVIL["markup"],
 }
-"""Panels that the session of a page fills, and a text that each shows there."""
+"""Panels that a page's session fills, and a text that each shows."""
 PANEL_MS = 20_000
 """Limit of each step in a panel."""
 _ROWS = ".dockhost :is(tbody tr, .logrow, [role=treeitem], [role=tab], .offer, svg .box, summary)"
@@ -90,7 +90,7 @@ def _text(name: str) -> str:
 
 
 def _register(uri: str) -> None:
-    """Tell the master hostile names of nodes, topics, types, services and parameters; it may refuse them."""
+    """Register hostile names of nodes, topics, types, services and parameters at the master; it may refuse them."""
     with xmlrpc.client.ServerProxy(uri) as master:
         for kind, name in EVIL.items():
             calls = (
@@ -187,7 +187,7 @@ def url(graph: Graph, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]
 
 
 @pytest.fixture(scope="module")
-def asked(graph: Graph) -> Iterator[str]:
+def session_url(graph: Graph) -> Iterator[str]:
     """Page whose session has hostile texts."""
     texts = tuple(TEXTS.values())
     session = Session(
@@ -214,7 +214,7 @@ def asked(graph: Graph) -> Iterator[str]:
 
 
 class Victim(PanelUser):
-    """Person who opens everything; sees if anything ran, or would have run without a policy."""
+    """User who opens everything; records scripts that ran, or would have run without a policy."""
 
     def __init__(self, browser: Any, url: str) -> None:
         self.complaints: list[str] = []
@@ -232,14 +232,16 @@ class Victim(PanelUser):
     def check(self, state: str) -> None:
         self.page.wait_for_timeout(300)
         assert self.page.evaluate("window.ran === undefined && Object.prototype.data === undefined"), state
-        made = self.page.evaluate("document.querySelectorAll('img[src=x], script:not([src]), [onmouseover]').length")
-        assert (made, self.complaints, self.faults) == (0, [], []), state
+        elements = self.page.evaluate(
+            "document.querySelectorAll('img[src=x], script:not([src]), [onmouseover]').length"
+        )
+        assert (elements, self.complaints, self.faults) == (0, [], []), state
         assert self.page.evaluate("document.documentElement.scrollWidth <= innerWidth"), f"{state} is too wide"
 
     def look_around(self) -> None:
-        """Point at what the panel in front lists, and click it."""
+        """Hover over the entries of the front panel, and click them."""
         for row in self.page.locator(_ROWS).all()[:8]:
-            with suppress(Exception):  # a list that changes meanwhile
+            with suppress(Exception):  # the list may change meanwhile
                 row.hover(timeout=500)
                 row.click(timeout=500)
 
@@ -248,8 +250,8 @@ class Victim(PanelUser):
         (tab if tab.count() else self.page.locator(".rail").get_by_role("button", name=name)).first.click()
 
 
-def test_nothing_of_them_runs_when_one_handles_what_they_name(chromium: Any, graph: Graph, url: str) -> None:
-    """Selecting, hovering, menus, the search of commands, displays and their statuses, a file of rviz."""
+def test_hostile_names_run_nothing_when_their_objects_are_used(chromium: Any, graph: Graph, url: str) -> None:
+    """Selecting, hovering, menus, searching commands, displays and their statuses, an .rviz file."""
     attacker = Attacker(graph.node("attacker_again"))
     user = Victim(chromium, url)
     user.side("World")
@@ -292,7 +294,7 @@ def test_nothing_of_them_runs_when_one_handles_what_they_name(chromium: Any, gra
 
 
 def _visit(user: Victim, attacker: Attacker, panel: str, text: str) -> None:
-    """Open a panel, wait until it shows a text of the attacker, and handle what is there."""
+    """Open a panel, wait until it shows the attacker's text, and use its entries."""
     user.page.set_default_timeout(PANEL_MS)
     user.open(panel)
     end = time.monotonic() + PANEL_MS / 1000
@@ -315,21 +317,23 @@ def attacker(graph: Graph) -> Attacker:
 
 
 @pytest.mark.parametrize("panel", PANELS)
-def test_nothing_of_them_runs_in_a_panel(chromium: Any, attacker: Attacker, url: str, panel: str) -> None:
+def test_hostile_texts_run_nothing_in_a_panel(chromium: Any, attacker: Attacker, url: str, panel: str) -> None:
     user = Victim(chromium, url)
     _visit(user, attacker, panel, PANELS[panel])
     user.close()
 
 
-@pytest.mark.parametrize("panel", ASKED)
-def test_nothing_of_a_session_runs_in_a_panel(chromium: Any, attacker: Attacker, asked: str, panel: str) -> None:
-    user = Victim(chromium, asked)
-    _visit(user, attacker, panel, ASKED[panel])
+@pytest.mark.parametrize("panel", SESSION_PANELS)
+def test_hostile_texts_of_a_session_run_nothing_in_a_panel(
+    chromium: Any, attacker: Attacker, session_url: str, panel: str
+) -> None:
+    user = Victim(chromium, session_url)
+    _visit(user, attacker, panel, SESSION_PANELS[panel])
     user.close()
 
 
-def test_every_panel_is_visited(chromium: Any, asked: str) -> None:
-    user = Victim(chromium, asked)
+def test_every_panel_is_tested(chromium: Any, session_url: str) -> None:
+    user = Victim(chromium, session_url)
     titles = set(user.page.locator(".dv-tab").all_inner_texts())
     user.button("Open a panel").click()
     titles |= set(user.page.get_by_role("menuitem").all_inner_texts())
@@ -340,9 +344,9 @@ def test_every_panel_is_visited(chromium: Any, asked: str) -> None:
 
 @pytest.mark.parametrize(
     ("page", "side"),
-    [("url", "World"), ("url", "Displays"), ("url", "Inspector"), ("url", "Views"), ("asked", "Tool properties")],
+    [("url", "World"), ("url", "Displays"), ("url", "Inspector"), ("url", "Views"), ("session_url", "Tool properties")],
 )
-def test_nothing_of_them_runs_at_the_sides(
+def test_hostile_texts_run_nothing_in_side_panels(
     request: pytest.FixtureRequest, chromium: Any, attacker: Attacker, page: str, side: str
 ) -> None:
     user = Victim(chromium, request.getfixturevalue(page))
@@ -353,9 +357,9 @@ def test_nothing_of_them_runs_at_the_sides(
     user.close()
 
 
-def test_markup_that_comes_into_the_page_is_noticed(chromium: Any, asked: str) -> None:
-    """The checks above can fail."""
-    user = Victim(chromium, asked)
+def test_injected_markup_is_detected(chromium: Any, session_url: str) -> None:
+    """Shows that the checks above can fail."""
+    user = Victim(chromium, session_url)
     user.check("untouched")
     user.page.evaluate("(markup) => document.body.insertAdjacentHTML('beforeend', markup)", EVIL["markup"])
 

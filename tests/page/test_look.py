@@ -1,4 +1,4 @@
-"""The page beside the drawn one: the disc of a phone while it is held, dark and light."""
+"""Comparison with the design's drawing: a phone's disc while it is held, dark and light."""
 
 import io
 from collections.abc import Iterator
@@ -21,12 +21,12 @@ OUT = Path(__file__).parents[2] / "out" / "look"
 PHONE = {"width": 390, "height": 844}
 DISC_PX = 148
 FACE_PX = 70
-"""Radius within which the disc hides what is behind it."""
+"""Radius of the opaque part of the disc [px]."""
 KNOB = (-5.0, -27.0)
-"""Where the drawn knob is held, from the middle [px]."""
+"""Position of the drawn knob from the middle [px]."""
 PATIENCE_MS = 60_000
 _LIKE = 24
-"""Colours closer than this are alike: glass takes some of what is behind it."""
+"""Limit of differences of equal colors, as glass shows some of its background."""
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +40,7 @@ def url() -> Iterator[str]:
 
 
 def _around(tab: Any, middle: tuple[float, float]) -> NDArray[np.int16]:
-    """Pixels (148, 148, 3) around a point."""
+    """Return the pixels (148, 148, 3) around a point."""
     half = DISC_PX / 2
     clip = {"x": middle[0] - half, "y": middle[1] - half, "width": DISC_PX, "height": DISC_PX}
     return np.asarray(Image.open(io.BytesIO(tab.screenshot(clip=clip))).convert("RGB"), dtype=np.int16)
@@ -54,7 +54,7 @@ def _middle(tab: Any, selector: str) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("theme", ["dark", "light"])
-def test_the_held_disc_of_a_phone_is_the_drawn_one(chromium: Any, shared: Path, url: str, theme: str) -> None:
+def test_the_held_disc_of_a_phone_matches_the_drawing(chromium: Any, shared: Path, url: str, theme: str) -> None:
     drawn_tab = chromium.new_page(viewport=PHONE)
     drawn_tab.goto((shared / "page/mock.html").as_uri() + f"#theme={theme}")
     drawn = _around(drawn_tab, _middle(drawn_tab, ".disc"))
@@ -69,12 +69,12 @@ def test_the_held_disc_of_a_phone_is_the_drawn_one(chromium: Any, shared: Path, 
     moved = {"type": "touchMove", "touchPoints": [{"x": x + KNOB[0], "y": y + KNOB[1]}]}
     touch.send("Input.dispatchTouchEvent", moved)
     tab.locator(".disc .ring:not(.rest)").wait_for()
-    tab.wait_for_timeout(500)  # its colours fade in
+    tab.wait_for_timeout(500)  # its colors fade in
     ours = _around(tab, (x, y))
     context.close()
 
     OUT.mkdir(parents=True, exist_ok=True)
     Image.fromarray(np.hstack([drawn, ours]).astype(np.uint8)).save(OUT / f"disc {theme}.png")
-    places = np.hypot(*np.mgrid[-74:74, -74:74]) < FACE_PX
-    alike = (np.abs(drawn - ours).max(axis=-1) < _LIKE)[places]
+    mask = np.hypot(*np.mgrid[-74:74, -74:74]) < FACE_PX
+    alike = (np.abs(drawn - ours).max(axis=-1) < _LIKE)[mask]
     assert alike.mean() > 0.97, f"see {OUT}/disc {theme}.png"

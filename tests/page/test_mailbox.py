@@ -1,4 +1,4 @@
-"""The newest message wins, whole, across two processes."""
+"""The newest message replaces unread ones, whole, between two processes."""
 
 import os
 import signal
@@ -14,79 +14,79 @@ from trundle.page.mailbox import Mailbox
 
 
 @pytest.fixture(params=["without a name", "named"])
-def box(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Mailbox]:
+def mailbox(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Mailbox]:
     if request.param == "named":
         monkeypatch.delattr(os, "memfd_create")
         monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    box = Mailbox.create(100_000)
-    yield box
-    box.unlink()
+    mailbox = Mailbox.create(100_000)
+    yield mailbox
+    mailbox.unlink()
 
 
-def test_an_empty_box_gives_nothing(box: Mailbox) -> None:
-    assert box.read() is None
+def test_an_empty_mailbox_has_no_message(mailbox: Mailbox) -> None:
+    assert mailbox.read() is None
 
 
-def test_the_newest_message_replaces_those_were_not_read(box: Mailbox) -> None:
-    reader = Mailbox.open(box.address)
+def test_the_newest_message_replaces_unread_ones(mailbox: Mailbox) -> None:
+    reader = Mailbox.open(mailbox.address)
     for message in (b"first", b"second", b"third"):
-        box.put([message])
+        mailbox.put([message])
 
     assert reader.read() == b"third"
     assert reader.read() is None
 
 
-def test_a_message_that_does_not_fit_is_a_bug_of_the_caller(box: Mailbox) -> None:
+def test_a_message_beyond_the_capacity_fails_an_assertion(mailbox: Mailbox) -> None:
     with pytest.raises(AssertionError, match="longer than the mailbox"):
-        box.put([bytes(100_001)])
+        mailbox.put([bytes(100_001)])
 
 
-def test_messages_of_another_process_arrive_whole_and_in_order(box: Mailbox) -> None:
-    """Each message repeats one byte: a torn one would hold two, and numbers only grow."""
+def test_messages_of_another_process_arrive_whole_and_in_order(mailbox: Mailbox) -> None:
+    """Each message repeats one byte: a torn one would contain two, and numbers only increase."""
     program = (
         "import sys; from trundle.page.mailbox import Mailbox; from trundle.page.shared_memory import MemoryAddress\n"
-        "box = Mailbox.open(MemoryAddress(sys.argv[1], int(sys.argv[2])))\n"
-        "for number in range(1, 251): box.put([bytes([number]) * 40_000, bytes([number]) * 60_000])\n"
+        "mailbox = Mailbox.open(MemoryAddress(sys.argv[1], int(sys.argv[2])))\n"
+        "for number in range(1, 251): mailbox.put([bytes([number]) * 40_000, bytes([number]) * 60_000])\n"
     )
-    writer = subprocess.Popen([sys.executable, "-c", program, box.address.path, str(box.address.inode)])
-    seen = [0]
-    while seen[-1] < 250:
-        message = box.read()
+    writer = subprocess.Popen([sys.executable, "-c", program, mailbox.address.path, str(mailbox.address.inode)])
+    numbers = [0]
+    while numbers[-1] < 250:
+        message = mailbox.read()
         if message is not None:
             assert len(set(message)) == 1
-            seen.append(message[0])
+            numbers.append(message[0])
         assert writer.poll() in (None, 0)
 
     assert writer.wait() == 0
-    assert seen == sorted(set(seen))
+    assert numbers == sorted(set(numbers))
 
 
-def test_a_file_without_a_name_still_carries_messages(box: Mailbox) -> None:
-    reader = Mailbox.open(box.address)
-    box.unlink()
-    box.put([b"message"])
+def test_messages_arrive_after_the_file_is_unlinked(mailbox: Mailbox) -> None:
+    reader = Mailbox.open(mailbox.address)
+    mailbox.unlink()
+    mailbox.put([b"message"])
 
-    assert not Path(box.address.path).exists()
+    assert not Path(mailbox.address.path).exists()
     assert reader.read() == b"message"
 
 
-def test_a_box_that_its_owner_let_go_of_is_not_mistaken_for_the_next_one(box: Mailbox) -> None:
-    """The next file of that process gets the number of the last."""
-    address = box.address
-    box.unlink()
+def test_the_address_of_a_released_mailbox_does_not_open_the_next_one(mailbox: Mailbox) -> None:
+    """The process's next file gets the same descriptor number."""
+    address = mailbox.address
+    mailbox.unlink()
     with tempfile.TemporaryFile():
-        next_box = Mailbox.create(1000)
+        next_mailbox = Mailbox.create(1000)
         with pytest.raises(FileNotFoundError):
             Mailbox.open(address)
-        next_box.unlink()
+        next_mailbox.unlink()
 
 
 @pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="this system has no files without a name")
-def test_an_owner_that_is_killed_leaves_nothing() -> None:
-    """Before the reader has found it: within the first moments of `trundle run`."""
+def test_a_killed_owner_leaves_no_files() -> None:
+    """It is killed before the reader has opened the mailbox."""
     program = (
         "import os, signal; from trundle.page.mailbox import Mailbox\n"
-        "box = Mailbox.create(1_000_000); os.kill(os.getpid(), signal.SIGKILL)"
+        "mailbox = Mailbox.create(1_000_000); os.kill(os.getpid(), signal.SIGKILL)"
     )
     owner = subprocess.Popen([sys.executable, "-c", program])
 

@@ -1,4 +1,4 @@
-"""A window that is narrow, and no phone's: the whole bar is seen, and the dock's."""
+"""A narrow window that is not a phone's: the bar and the dock's bar are fully visible."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ _ENDS = "[...document.querySelector('header').children].map((child) => child.get
 
 
 @pytest.mark.parametrize("width", [680, 720, 1024])
-def test_the_whole_bar_of_a_simulation_is_seen(chromium: Any, page: PageServer, width: int) -> None:
+def test_the_whole_bar_of_a_simulation_is_visible(chromium: Any, page: PageServer, width: int) -> None:
     tab = chromium.new_page(viewport={"width": width, "height": 900})
     tab.goto(page.url)
     tab.get_by_label("Connected").first.wait_for()
@@ -23,7 +23,7 @@ def test_the_whole_bar_of_a_simulation_is_seen(chromium: Any, page: PageServer, 
     tab.close()
 
 
-def test_a_narrow_dock_keeps_its_tabs_and_the_button_that_folds_it(chromium: Any, page: PageServer) -> None:
+def test_a_narrow_dock_shows_its_tabs_and_the_collapse_button(chromium: Any, page: PageServer) -> None:
     tab = chromium.new_page(viewport={"width": 720, "height": 900})
     tab.goto(page.url)
     tab.get_by_label("Connected").first.wait_for()

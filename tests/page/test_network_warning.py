@@ -1,4 +1,4 @@
-"""Listening beyond loopback is warned of."""
+"""Warning about listening on other addresses than loopback."""
 
 import pytest
 
@@ -6,12 +6,12 @@ from trundle.page.network_warning import warn_of_network
 
 
 @pytest.mark.parametrize(
-    ("host", "said"), [("127.0.0.1", 0), ("localhost", 0), ("::1", 0), ("0.0.0.0", 1), ("10.0.0.3", 1)]
+    ("host", "count"), [("127.0.0.1", 0), ("localhost", 0), ("::1", 0), ("0.0.0.0", 1), ("10.0.0.3", 1)]
 )
-def test_only_an_open_host_is_said(host: str, said: int) -> None:
+def test_only_hosts_beyond_loopback_are_warned_about(host: str, count: int) -> None:
     lines: list[str] = []
 
     warn_of_network(host, lines.append)
 
-    assert len(lines) == said
+    assert len(lines) == count
     assert all(host in line for line in lines)

@@ -1,4 +1,4 @@
-"""Another user of the machine at a page on loopback: refused everywhere, and shown the token nowhere."""
+"""Another user of the machine is refused everywhere by a page on loopback, and cannot read the token."""
 
 import base64
 import json
@@ -24,7 +24,7 @@ PATHS = (
     "/model.glb?model=cart", "/icon.svg", "/assets/none.js", "/?view_only", "/?token=", "/?token=guess",
 )  # fmt: skip
 INTRUDER = """
-import base64, encodings.idna, json, os, socket, sys  # before the rights to read them go
+import base64, encodings.idna, json, os, socket, sys  # before the permission to read them is lost
 if os.getuid() == 0:
     os.setgroups([])
     os.setgid(65534)
@@ -35,20 +35,20 @@ def ask(head, body=b""):
         sock.sendall(head.encode() + b"\\r\\n\\r\\n" + body)
         return sock.recv(100).split()[1].decode()
 about = f"Host: {host}:{port}\\r\\nConnection: close"
-said = {path: ask(f"GET {path} HTTP/1.1\\r\\n{about}") for path in paths}
+answers = {path: ask(f"GET {path} HTTP/1.1\\r\\n{about}") for path in paths}
 upgrade = "Upgrade: websocket\\r\\nConnection: Upgrade\\r\\nSec-WebSocket-Version: 13\\r\\n"
 upgrade += "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\\r\\nSec-WebSocket-Protocol: "
 for name in ("trundle.v1", "foxglove.websocket.v1", "foxglove.sdk.v1"):
-    said[name] = ask(f"GET / HTTP/1.1\\r\\nHost: {host}:{port}\\r\\nOrigin: http://{host}:{port}\\r\\n{upgrade}{name}")
+    answers[name] = ask(f"GET / HTTP/1.1\\r\\nHost: {host}:{port}\\r\\nOrigin: http://{host}:{port}\\r\\n{upgrade}{name}")
 form = b'--b\\r\\nContent-Disposition: form-data; name="x.zip"; filename="x.zip"\\r\\n\\r\\n'
 form += base64.b64decode(upload) + b"\\r\\n--b--\\r\\n"
 kind = f"Content-Type: multipart/form-data; boundary=b\\r\\nContent-Length: {len(form)}"
-said["upload"] = ask(f"POST /models HTTP/1.1\\r\\n{about}\\r\\n{kind}", form)
+answers["upload"] = ask(f"POST /models HTTP/1.1\\r\\n{about}\\r\\n{kind}", form)
 try:
-    said["file"] = open(file).read()
+    answers["file"] = open(file).read()
 except PermissionError:
-    said["file"] = "unreadable"
-json.dump(said, sys.stdout)
+    answers["file"] = "unreadable"
+json.dump(answers, sys.stdout)
 """
 
 
@@ -66,24 +66,24 @@ def _link_file() -> Path:
 
 
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() != 0, reason="only root can act as another user")
-def test_another_user_is_refused_everywhere_and_cannot_read_the_link(page: PageServer) -> None:
+def test_another_user_is_refused_and_cannot_read_the_link(page: PageServer) -> None:
 
     address = urlsplit(page.url)
     model = zipped({"m/model.config": CONFIG.format("m"), "m/model.sdf": "<sdf/>", "m/code.py": "print('ran')"})
-    asked = (address.hostname, address.port, str(_link_file()), PATHS, base64.b64encode(model).decode())
+    arguments = (address.hostname, address.port, str(_link_file()), PATHS, base64.b64encode(model).decode())
     done = subprocess.run(
-        [sys.executable, "-I", "-c", INTRUDER], input=json.dumps(asked), capture_output=True, text=True, cwd="/"
+        [sys.executable, "-I", "-c", INTRUDER], input=json.dumps(arguments), capture_output=True, text=True, cwd="/"
     )
 
     assert done.stderr == ""
-    said = json.loads(done.stdout)
-    assert said.pop("file") == "unreadable"
-    assert set(said.values()) == {"403"}, said
+    answers = json.loads(done.stdout)
+    assert answers.pop("file") == "unreadable"
+    assert set(answers.values()) == {"403"}, answers
     assert page.uploads is None
 
 
 @pytest.mark.skipif(not Path("/proc/self/cmdline").exists(), reason="needs /proc")
-def test_no_process_list_has_the_token(page: PageServer) -> None:
+def test_the_token_is_not_in_the_process_list(page: PageServer) -> None:
     about = Path(f"/proc/{page.process_id}")
     token = page.url.partition("token=")[2].encode()
 
@@ -92,15 +92,15 @@ def test_no_process_list_has_the_token(page: PageServer) -> None:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="modes of files are POSIX'")
-def test_the_files_of_a_page_are_its_users_alone_and_end_with_it(page: PageServer) -> None:
+def test_link_files_are_private_and_removed_with_the_page(page: PageServer) -> None:
     file = _link_file()
 
-    assert [stat.S_IMODE(each.stat().st_mode) for each in (file.parent, file)] == [0o700, 0o600]
+    assert [stat.S_IMODE(path.stat().st_mode) for path in (file.parent, file)] == [0o700, 0o600]
     page.close()
     assert not file.exists()
 
 
-def test_a_folder_that_others_may_enter_is_not_used(tmp_path: Path) -> None:
+def test_a_folder_that_others_can_enter_is_not_used(tmp_path: Path) -> None:
     environment = {"XDG_RUNTIME_DIR": str(tmp_path)}
     (tmp_path / "trundle").mkdir()
     (tmp_path / "trundle").chmod(0o755)
@@ -115,7 +115,7 @@ def _printed(capsys: pytest.CaptureFixture[str], *words: str) -> list[str]:
     return capsys.readouterr().out.splitlines()
 
 
-def test_the_command_prints_the_links_of_pages_that_run(page: PageServer, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_prints_the_links_of_running_pages(page: PageServer, capsys: pytest.CaptureFixture[str]) -> None:
     port = str(urlsplit(page.url).port)
     dead = _link_file().with_name("page-1-1.json")
     dead.write_text(_link_file().read_text().replace(port, "1"))

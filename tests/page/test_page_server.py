@@ -20,26 +20,26 @@ from trundle.page import PageServer, Session
 SESSION = Session(title="test", kind="graph")
 
 
-def test_a_port_that_is_taken_is_named() -> None:
+def test_a_port_in_use_is_named_in_the_error() -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         port = other.getsockname()[1]
         with pytest.raises(UsageError, match=f"cannot serve the page at 127.0.0.1:{port}: .*leave out the port"):
             PageServer.start(SESSION, at=PageAddress(port=port))
 
 
-def test_the_next_free_port_from_8080_is_taken() -> None:
+def test_the_next_free_port_from_8080_is_used() -> None:
     with PageServer.start(SESSION) as one, PageServer.start(SESSION) as two:
         ports = [urlsplit(page.url).port or 0 for page in (one, two)]
 
     assert 8080 <= ports[0] < ports[1] < 8280
 
 
-def test_a_host_that_does_not_exist_is_named() -> None:
+def test_an_unknown_host_is_named_in_the_error() -> None:
     with pytest.raises(UsageError, match="cannot serve the page at host 'no such host'"):
         PageServer.start(SESSION, at=PageAddress(host="no such host"))
 
 
-def test_closing_frees_the_port_and_may_be_done_twice() -> None:
+def test_closing_frees_the_port_and_can_be_repeated() -> None:
     page = PageServer.start(SESSION, at=PageAddress(port=0))
     port = urlsplit(page.url).port
     with ProtocolClient(page.url):
@@ -50,7 +50,7 @@ def test_closing_frees_the_port_and_may_be_done_twice() -> None:
     socket.create_server(("127.0.0.1", port)).close()
 
 
-def test_a_server_that_is_killed_is_not_alive() -> None:
+def test_a_killed_server_is_not_alive() -> None:
     with PageServer.start(SESSION, at=PageAddress(port=0)) as page:
         os.kill(page.process_id, signal.SIGKILL)
         page._process.wait()
@@ -95,18 +95,18 @@ def test_clients_follow_the_session() -> None:
     assert second == fetched
 
 
-def test_a_notice_stands_until_it_is_ended(page: PageServer) -> None:
+def test_a_notice_is_shown_until_it_is_removed(page: PageServer) -> None:
     page.set_notice("physics", "it is unstable")
     with ProtocolClient(page.url) as client:
         client.until(lambda: client.statuses)
         page.set_notice("physics", None)
-        gone = client.last("removeStatus")
+        removed = client.last("removeStatus")
 
     assert (client.statuses[0]["message"], client.statuses[0]["id"]) == ("it is unstable", "physics")
-    assert gone["statusIds"] == ["physics"]
+    assert removed["statusIds"] == ["physics"]
 
 
-def test_a_page_without_a_graph_promises_none(page: PageServer) -> None:
+def test_a_page_without_a_graph_has_no_graph_capabilities(page: PageServer) -> None:
     with ProtocolClient(page.url) as client:
         client.until(lambda: client.jsons)
 

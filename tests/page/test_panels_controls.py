@@ -1,4 +1,4 @@
-"""Panels that move things: steering, reconfigure, joints, joystick, timeline; plots and pictures."""
+"""Panels with controls: steering, reconfigure, joints, joystick, timeline; plots and pictures."""
 
 import math
 import time
@@ -48,24 +48,24 @@ def server(graph: Graph, node: Node) -> Iterator[PageServer]:
 
 
 class Owner:
-    """Answers what a person asks for."""
+    """Answers requests of the user."""
 
     def __init__(self, graph: Graph, server: PageServer) -> None:
         self.graph, self.server = graph, server
-        self.asked: list[Any] = []
+        self.actions: list[Any] = []
 
     def next(self, kind: str) -> dict[str, Any]:
-        """Wait for the next request, which must be of this kind; return its fields."""
+        """Wait for the next request, which must have this tag; return its fields."""
         self.graph.until(self._came)
-        action = self.asked.pop(0)
+        action = self.actions.pop(0)
         assert action.__struct_config__.tag == kind
         return {name: getattr(action, name) for name in action.__struct_fields__}
 
     def _came(self) -> bool:
         for request in self.server.requests():
             self.server.respond(request.id)
-            self.asked.append(request.action)
-        return bool(self.asked)
+            self.actions.append(request.action)
+        return bool(self.actions)
 
 
 @pytest.fixture(scope="module")
@@ -80,28 +80,28 @@ def user(chromium: Any, server: PageServer) -> Iterator[PanelUser]:
     user.close()
 
 
-def test_a_held_slider_steers_and_a_released_one_stops(graph: Graph, node: Node, user: PanelUser) -> None:
-    heard: list[tuple[float, float]] = []
-    node.subscribe("/cmd_vel", "geometry_msgs/Twist", lambda m: heard.append((m.linear.x, m.angular.z)))
+def test_holding_a_slider_steers_and_releasing_it_stops(graph: Graph, node: Node, user: PanelUser) -> None:
+    received: list[tuple[float, float]] = []
+    node.subscribe("/cmd_vel", "geometry_msgs/Twist", lambda m: received.append((m.linear.x, m.angular.z)))
     user.open("Steering")
     user.sees("Hold a slider to drive; let go to stop.")  # the topic is known
     slider = user.page.get_by_role("slider", name="Forward, v")
-    slider.hover()  # which waits until the panel stands still
+    slider.hover()  # waits until the panel is still
     box = slider.bounding_box()
     middle = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     user.page.mouse.move(middle[0] + box["width"] / 4, middle[1])
     user.page.mouse.down()
     try:  # half of the disc's limit, the sliders', too
-        graph.until(lambda: len(heard) >= 3 and all(0.15 < linear < 0.35 for linear, _ in heard[-3:]))
+        graph.until(lambda: len(received) >= 3 and all(0.15 < linear < 0.35 for linear, _ in received[-3:]))
     finally:
         user.page.mouse.up()
-    graph.until(lambda: heard[-1] == (0.0, 0.0))
-    user.until_still(lambda: len(heard))
-    assert heard[-2] != (0.0, 0.0)  # one stop goes out
+    graph.until(lambda: received[-1] == (0.0, 0.0))
+    user.until_still(lambda: len(received))
+    assert received[-2] != (0.0, 0.0)  # one stop is sent
 
 
 @pytest.mark.slow
-def test_options_of_a_node_are_changed_and_taken_back(graph: Graph, node: Node, user: PanelUser) -> None:
+def test_options_of_a_node_are_changed_and_undone(graph: Graph, node: Node, user: PanelUser) -> None:
     options = [Option(name="rate", value=10.0, lower=1.0, upper=50.0), Option(name="on", value=False)]
     applied: list[dict[str, object]] = []
 
@@ -121,7 +121,7 @@ def test_options_of_a_node_are_changed_and_taken_back(graph: Graph, node: Node, 
 
 
 @pytest.mark.slow
-def test_sliders_of_joints_are_asked_for(owner: Owner, user: PanelUser) -> None:
+def test_joint_sliders_send_requests(owner: Owner, user: PanelUser) -> None:
     user.open("Joints")
     user.type("arm [rad]", "-0.25")
     assert owner.next("slider") == {"joint": "arm", "position": -0.25}
@@ -130,7 +130,7 @@ def test_sliders_of_joints_are_asked_for(owner: Owner, user: PanelUser) -> None:
 
 
 @pytest.mark.slow
-def test_a_held_button_of_the_joystick_is_pressed(owner: Owner, user: PanelUser) -> None:
+def test_holding_a_joystick_button_sends_it_pressed(owner: Owner, user: PanelUser) -> None:
     user.open("Joystick")
     user.page.get_by_role("button", name="X", exact=True).hover()
     user.page.mouse.down()
@@ -160,7 +160,7 @@ def test_a_plot_shows_numbers_and_saves_them(graph: Graph, node: Node, user: Pan
     assert lines[0] == "time,/wave/data"
     values = [float(line.split(",")[1]) for line in lines[1:]]
     assert values[-1] == 0.125
-    assert len(values) > 10  # a page that is slow lets some of a stream go
+    assert len(values) > 10  # a slow page drops some of a stream
     assert values == [value for value in (*wave, 0.125) if value in values]
 
     user.page.locator(".dockhost").get_by_role("button", name="Pause", exact=True).click()
@@ -173,7 +173,7 @@ def test_a_plot_shows_numbers_and_saves_them(graph: Graph, node: Node, user: Pan
 
 
 @pytest.mark.slow
-def test_a_picture_has_its_pixels_and_their_values(graph: Graph, node: Node, user: PanelUser) -> None:
+def test_a_picture_shows_pixels_and_their_values(graph: Graph, node: Node, user: PanelUser) -> None:
     publisher = node.advertise("/pixels", "sensor_msgs/Image", latch=True)
     user.open("Images")
     graph.until(lambda: publisher.has_subscribers)
@@ -195,7 +195,7 @@ def test_a_picture_has_its_pixels_and_their_values(graph: Graph, node: Node, use
 
 
 @pytest.mark.slow
-def test_pictures_stand_side_by_side_and_one_is_enlarged(graph: Graph, node: Node, user: PanelUser) -> None:
+def test_pictures_are_side_by_side_and_one_is_enlarged(graph: Graph, node: Node, user: PanelUser) -> None:
     left, right = (node.advertise(topic, "sensor_msgs/Image", latch=True) for topic in ("/pixels", "/more_pixels"))
     for publisher in (left, right):
         publisher.publish({"width": 2, "height": 2, "step": 6, "encoding": "rgb8", "data": bytes(12)})

@@ -62,9 +62,9 @@ def test_topics_are_listed_with_their_rate_and_echoed(graph: Graph, node: Node, 
 
 
 @pytest.mark.slow
-def test_a_form_publishes_once_and_at_a_rate(graph: Graph, node: Node, user: PanelUser) -> None:
-    heard: list[Any] = []
-    node.subscribe("/order", "geometry_msgs/PoseStamped", heard.append)
+def test_a_form_publishes_once_and_periodically(graph: Graph, node: Node, user: PanelUser) -> None:
+    received: list[Any] = []
+    node.subscribe("/order", "geometry_msgs/PoseStamped", received.append)
     user.open("Topics")
     user.button("/order").click()
     user.page.locator(".toolrow").get_by_role("button", name="Publish", exact=True).click()
@@ -73,20 +73,20 @@ def test_a_form_publishes_once_and_at_a_rate(graph: Graph, node: Node, user: Pan
     user.type("header.frame_id", "map")
     user.type("header.stamp", "now")
     user.button("Publish once").click()
-    graph.until(lambda: heard)
-    assert (heard[0].pose.position.x, heard[0].header.frame_id) == (1.5, "map")
-    assert abs(heard[0].header.stamp.sec - time.time()) < PATIENCE_S
+    graph.until(lambda: received)
+    assert (received[0].pose.position.x, received[0].header.frame_id) == (1.5, "map")
+    assert abs(received[0].header.stamp.sec - time.time()) < PATIENCE_S
 
     user.type("Rate [Hz]", "20")
     user.button("Publish at").click()
-    graph.until(lambda: len(heard) >= 5)
+    graph.until(lambda: len(received) >= 5)
     user.button("Stop").click()
-    user.until_still(lambda: len(heard))
+    user.until_still(lambda: len(received))
     user.button("Close").click()
 
 
 @pytest.mark.slow
-def test_a_service_is_called_by_its_form(node: Node, user: PanelUser) -> None:
+def test_a_form_calls_a_service(node: Node, user: PanelUser) -> None:
     def answer(request: Any) -> dict[str, object]:
         return {"success": request.data, "message": "lamp"}
 
@@ -102,7 +102,7 @@ def test_a_service_is_called_by_its_form(node: Node, user: PanelUser) -> None:
 
 
 @pytest.mark.slow
-def test_a_service_that_fails_says_why(node: Node, user: PanelUser) -> None:
+def test_a_failed_service_call_shows_its_reason(node: Node, user: PanelUser) -> None:
     def fail(_request: Any) -> dict[str, object]:
         raise RuntimeError("the lamp is broken")
 
@@ -116,7 +116,7 @@ def test_a_service_that_fails_says_why(node: Node, user: PanelUser) -> None:
 
 
 @pytest.mark.slow
-def test_a_parameter_is_edited_with_its_type_and_taken_back(graph: Graph, node: Node, user: PanelUser) -> None:
+def test_a_parameter_is_edited_with_its_type_and_undone(graph: Graph, node: Node, user: PanelUser) -> None:
     def value() -> object:
         return graph.loop.run(node.params.get("/base/rate"))
 
@@ -181,7 +181,7 @@ def test_nodes_and_the_graph_are_drawn(graph: Graph, node: Node, user: PanelUser
 
 
 @pytest.mark.slow
-def test_frames_of_tf_stand_in_a_tree(graph: Graph, node: Node, user: PanelUser) -> None:
+def test_tf_frames_are_shown_as_a_tree(graph: Graph, node: Node, user: PanelUser) -> None:
     publisher = node.advertise("/tf_static", "tf2_msgs/TFMessage", latch=True)
     transform = {"header": {"frame_id": "base_link"}, "child_frame_id": "laser", "transform": {"rotation": {"w": 1.0}}}
     publisher.publish({"transforms": [transform]})

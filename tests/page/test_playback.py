@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 
 from trundle.base.diagnostics import UsageError
-from trundle.page import MoveJoint, Pause, Play, Playback, Reset, Seek, SetSpeed, Step
+from trundle.page import MoveJoint, Pause, Play, Playback, Reset, Seek, SetSpeed, Step, TimelineSpan
 
 S = 1_000_000_000
 
 
 def playback(*, speed: float = 1.0, paused: bool = False) -> Playback:
-    """Samples at 2.0, 2.5, … 4.0 s."""
+    """Return a playback of samples at 2.0, 2.5, … 4.0 s."""
     return Playback(np.arange(2 * S, 4 * S + 1, S // 2), speed=speed, paused=paused)
 
 
-def test_it_plays_from_its_beginning_at_its_speed_and_begins_again_at_the_end() -> None:
+def test_playback_runs_at_its_speed_and_restarts_at_the_end() -> None:
     played = playback(speed=0.5)
     assert (played.time_ns, played.sample) == (2 * S, 0)
 
@@ -30,7 +30,7 @@ def test_it_plays_from_its_beginning_at_its_speed_and_begins_again_at_the_end() 
 def test_the_state_has_the_extent_of_the_recording() -> None:
     state = playback().state
 
-    assert (state.timeline.start_ns, state.timeline.end_ns) == (2 * S, 4 * S)
+    assert state.timeline == TimelineSpan(2 * S, 4 * S)
     assert (state.paused, state.real_time_factor, state.speed) == (False, 1.0, 1.0)
 
 
@@ -67,7 +67,7 @@ def test_pause_and_play(action: Any, paused: bool) -> None:
     assert (played.state.real_time_factor is None) is paused
 
 
-def test_reset_goes_to_the_beginning_and_speed_may_be_as_fast_as_possible() -> None:
+def test_reset_goes_to_the_start_and_the_speed_can_be_unlimited() -> None:
     played = playback()
     played.advance(1.0)
     played.handle(Reset())
@@ -80,12 +80,12 @@ def test_reset_goes_to_the_beginning_and_speed_may_be_as_fast_as_possible() -> N
     assert played.time_ns == 3 * S
 
 
-def test_a_recording_moves_no_joint() -> None:
+def test_requests_to_move_joints_are_refused() -> None:
     with pytest.raises(UsageError, match="a recording does not support this request"):
         playback().handle(MoveJoint(model="m", joint="j", position=1.0))
 
 
-def test_at_any_speed_it_stays_within_the_recording() -> None:
+def test_playback_stays_within_the_recording_at_any_speed() -> None:
     played = playback()
     for factor in (1e308, 1e-308):
         played.handle(SetSpeed(factor))

@@ -1,4 +1,4 @@
-"""The benchmark of the pointer in a world of 200 models works; its figures are for `make bench`."""
+"""The benchmark of the pointer in a world of 200 models runs; `make bench` reports its figures."""
 
 from typing import Any
 

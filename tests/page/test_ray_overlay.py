@@ -1,4 +1,4 @@
-"""Sensors on the page, as models come and go."""
+"""Lines and pictures of sensors on the page, while models are added and removed."""
 
 from pathlib import Path
 from typing import Any
@@ -37,13 +37,13 @@ def world(folder: Path, sensors: str) -> tuple[Simulation, list[Any]]:
 
 
 def sensor(type_: str, inside: str, *, visualize: bool = True, turn: str = "0 0 0") -> str:
-    """Ten times a second."""
+    """Return a sensor at 10 Hz."""
     shown = "<visualize>true</visualize>" if visualize else ""
     pose = f"<pose>0 0 0 {turn}</pose><update_rate>10</update_rate>"
     return f'<sensor name="{type_}" type="{type_}">{pose}{shown}{inside}</sensor>'
 
 
-def test_rays_are_drawn_from_the_sensor_to_what_they_meet(tmp_path: Path) -> None:
+def test_rays_are_drawn_from_the_sensor_to_their_hits(tmp_path: Path) -> None:
     sim, mounted = world(tmp_path, sensor("ray", _SCAN.format(3)))
     sight = RayOverlay(lambda: True)
     sight.set_sensors(mounted)
@@ -58,8 +58,8 @@ def test_rays_are_drawn_from_the_sensor_to_what_they_meet(tmp_path: Path) -> Non
     assert line.points[0::2] == pytest.approx(np.array([(1, 0, 0)] * 3))
 
 
-def test_of_many_rays_some_are_drawn_and_of_a_sonar_its_cone(tmp_path: Path) -> None:
-    """A sonar looks along −z: turned by a quarter about y, along −x."""
+def test_some_of_many_rays_are_drawn_and_the_cone_of_a_sonar(tmp_path: Path) -> None:
+    """A sonar looks along −z; after a quarter turn about y, along −x."""
     sonar = sensor("sonar", _SONAR, turn="0 -1.5707963 0")
     sim, mounted = world(tmp_path, sensor("ray", _SCAN.format(5000)) + sonar)
     sight = RayOverlay(lambda: True)
@@ -73,8 +73,8 @@ def test_of_many_rays_some_are_drawn_and_of_a_sonar_its_cone(tmp_path: Path) -> 
     assert cone.points[1::2, 0] == pytest.approx(1 + 2 * np.cos(np.pi / 4), abs=0.01)
 
 
-def test_of_all_sensors_there_are_the_points_that_rays_hit(tmp_path: Path) -> None:
-    """Also of those without <visualize>, each behind the word for its kind."""
+def test_all_sensors_have_rays_and_hit_points(tmp_path: Path) -> None:
+    """This includes sensors without <visualize>; ids have the kind as prefix."""
     scans = sensor("ray", _SCAN.format(3), visualize=False) + sensor("sonar", _SONAR, visualize=False)
     sim, mounted = world(tmp_path, scans)
     sight = RayOverlay(lambda: True, of_all=True)
@@ -90,19 +90,19 @@ def test_of_all_sensors_there_are_the_points_that_rays_hit(tmp_path: Path) -> No
     assert sight.lines(sim.snapshot()) == ()
 
 
-def test_what_is_not_to_be_seen_or_seen_by_nobody_costs_nothing(tmp_path: Path) -> None:
+def test_sensors_that_are_not_shown_are_not_listened_to(tmp_path: Path) -> None:
     sim, mounted = world(tmp_path, sensor("ray", _SCAN.format(3), visualize=False) + sensor("sonar", _SONAR))
     sight = RayOverlay(lambda: False)
     sight.set_sensors(mounted)
 
     sim.run(0.2)
 
-    assert not any(each.enabled() for each in mounted)
+    assert not any(listener.enabled() for listener in mounted)
     assert sight.lines(sim.snapshot()) == ()
 
 
-def test_a_camera_is_shown_once_and_where_it_is_now(tmp_path: Path) -> None:
-    """The page gets all cameras again whenever a model comes or goes."""
+def test_a_camera_is_sent_once_under_its_current_topic(tmp_path: Path) -> None:
+    """The page gets all cameras again whenever a model is added or removed."""
     sim, (first,) = world(tmp_path, sensor("camera", _CAMERA))
     shared, server = shared_page()
     shown = BareWorld(sim, [first])

@@ -1,4 +1,4 @@
-"""Debian's rviz and the page show the same images, with and without the scene over them."""
+"""Debian's rviz and the page show the same images, with and without the scene overlaid."""
 
 import base64
 import struct
@@ -26,8 +26,8 @@ WIDTH, HEIGHT = 64, 48
 MAGENTA = (255, 0, 255)
 _IMAGE = "sensor_msgs/Image"
 _HEADER = {"frame_id": "base", "stamp": {"secs": 1, "nsecs": 0}}
-_PLACES = [(u, v) for v in range(HEIGHT) for u in range(WIDTH)]
-_NUMBERS = [u + 2 * v for u, v in _PLACES]
+_PIXELS = [(u, v) for v in range(HEIGHT) for u in range(WIDTH)]
+_NUMBERS = [u + 2 * v for u, v in _PIXELS]
 
 
 def _image(encoding: str, data: bytes) -> dict[str, Any]:
@@ -36,10 +36,10 @@ def _image(encoding: str, data: bytes) -> dict[str, Any]:
 
 
 def _pixels(order: Sequence[int], alpha: int | None = None) -> bytes:
-    """Bytes of a colourful picture, its components in an order."""
-    colours = [(4 * u, 5 * v, 255 - 4 * u) for u, v in _PLACES]
+    """Return the bytes of a picture, with its components in an order."""
+    colors = [(4 * u, 5 * v, 255 - 4 * u) for u, v in _PIXELS]
     end = () if alpha is None else (alpha,)
-    return bytes(part for colour in colours for part in (*(colour[index] for index in order), *end))
+    return bytes(part for color in colors for part in (*(color[index] for index in order), *end))
 
 
 def _png() -> bytes:
@@ -66,7 +66,7 @@ CASES: Mapping[str, tuple[str, dict[str, Any]]] = {
     "16UC1 between bounds": ("/images/16UC1", {"Normalize Range": False, "Min Value": 500, "Max Value": 4000}),
 }
 
-# A camera that stands at base and looks along x: what is drawn there lies over its picture.
+# A camera at base that looks along x: displays in its view are drawn over its picture.
 _K = [60.0, 0.0, 32.0, 0.0, 60.0, 24.0, 0.0, 0.0, 1.0]
 _P = [60.0, 0.0, 32.0, 0.0, 0.0, 60.0, 24.0, 0.0, 0.0, 0.0, 1.0, 0.0]
 _INFO = {"header": _HEADER, "width": WIDTH, "height": HEIGHT, "K": _K, "P": _P}
@@ -74,7 +74,7 @@ _GREY = _image("rgb8", bytes((90, 90, 90)) * (WIDTH * HEIGHT))
 
 
 def _solid(kind: int, x: float) -> dict[str, Any]:
-    """Return a list of one solid some 4 m before the camera, which looks upwards; lights do not reach lists."""
+    """Return a list of one solid about 4 m in front of the camera; lists are drawn unlit."""
     shape = {"header": {"frame_id": "map"}, "type": kind, "scale": point(1.2, 1.2, 1.2), "points": [point(0, 0)]}
     return shape | {"pose": pose(x, 0.2, 4.5, 0.4), "color": color(1.0, 0.5, 0.1)}
 
@@ -98,14 +98,14 @@ Area = tuple[slice, slice]
 
 @dataclass
 class Panes:
-    """Panes of images, where rviz opens them."""
+    """Panes of images in rviz and on the page."""
 
     pair: Pair
     image_area: Area
     camera_area: Area
 
     def image(self, real: Display, ours: Display) -> tuple[Picture, Picture]:
-        """Show an image on both: rviz's pane shrunk to the image's size, and the page's tile."""
+        """Show an image on both; return rviz's pane, shrunk to the image's size, and the page's tile."""
         return self._real([real], self.image_area), self._page([ours], "Image")
 
     def camera(self, displays: Sequence[Display]) -> tuple[Picture, Picture]:
@@ -115,7 +115,7 @@ class Panes:
         return _shrunk(self.pair.rviz.picture(rviz_file(displays, VIEW, has_docks=True), area, _is_image))
 
     def _page(self, displays: Sequence[Display], name: str) -> Picture:
-        """The page's tile, pixel by pixel."""
+        """Return the page's tile, pixel by pixel."""
         self.pair.page.show(displays)
         canvas = self.pair.page.page.get_by_role("img", name=f"Camera image {name}", include_hidden=True).first
         canvas.wait_for(state="attached", timeout=1000 * PATIENCE_S)
@@ -131,8 +131,8 @@ class Panes:
 
 
 def _is_image(picture: Picture) -> bool:
-    """Tell that a pane is neither black nor rviz's background nor the magenta image."""
-    unlike = [np.abs(picture - np.array(colour)).max(axis=-1) > 10 for colour in (MAGENTA, (0, 0, 0), BACKGROUND)]
+    """Tell if a pane is neither black nor rviz's background nor the magenta image."""
+    unlike = [np.abs(picture - np.array(color)).max(axis=-1) > 10 for color in (MAGENTA, (0, 0, 0), BACKGROUND)]
     return bool(np.all(unlike, axis=0).mean() > 0.6)
 
 
@@ -150,7 +150,7 @@ def _shown(kind: str, topic: str, **properties: Any) -> dict[str, Any]:
 
 
 def _area_of(rviz: RealRviz, display: Display) -> Area:
-    """Where on the screen rviz shows a magenta image."""
+    """Return the area of the screen where rviz shows a magenta image."""
     screen = rviz.picture(
         rviz_file([display], VIEW, has_docks=True), np.s_[:, :], lambda now: bool(_is_magenta(now).sum() > 3_000)
     )
@@ -191,7 +191,7 @@ def test_images_have_rvizs_pixels(panes: Panes, name: str) -> None:
     assert np.abs(real - ours).max() <= 60, "edges of the shrunk picture differ more than its pixels may"
 
 
-def test_a_compressed_image_is_that_of_the_raw_one(panes: Panes) -> None:
+def test_a_compressed_image_looks_like_the_raw_one(panes: Panes) -> None:
     """Debian's rviz has no plugin for compressed images."""
     compressed = _shown("Image", "/images/png", **{"Transport Hint": "compressed"})
     real, ours = panes.image(_shown("Image", "/images/rgb8"), compressed)
@@ -216,22 +216,22 @@ _MARKERS = [
     ],
     ids=["both", "behind", "over", "zoomed", "without the cube"],
 )
-def test_the_scene_lies_over_a_cameras_picture(panes: Panes, properties: Mapping[str, Any]) -> None:
+def test_the_scene_is_drawn_over_a_cameras_picture(panes: Panes, properties: Mapping[str, Any]) -> None:
     camera = _shown("Camera", "/camera/image", **properties)
     without = panes.camera([camera])
     end = time.monotonic() + PATIENCE_S
     while True:
         real, ours = panes.camera([*_MARKERS, camera])
-        found = agreement(ours, without[1], real, without[0])
-        if found or time.monotonic() > end:
+        result = agreement(ours, without[1], real, without[0])
+        if result or time.monotonic() > end:
             break
     save_pair("Camera " + "".join(map(str, properties.values())).replace("/", ""), real, ours)
 
-    assert found, found
+    assert result, result
 
 
-def test_a_camera_that_shows_more_than_rviz_is_found(panes: Panes) -> None:
-    """The comparison itself can fail."""
+def test_a_camera_that_shows_more_than_rviz_is_detected(panes: Panes) -> None:
+    """Shows that the comparison can fail."""
     all_of_it = _shown("Camera", "/camera/image")
     part = {**all_of_it, "Visibility": {"cube": False, "sphere": True, "Value": True}}
     empty = panes.camera([all_of_it])

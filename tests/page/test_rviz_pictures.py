@@ -1,4 +1,4 @@
-"""Debian's rviz and the page draw the same file on the same graph: each display alone, pictures beside each other."""
+"""Debian's rviz and the page draw the same file on the same graph, display by display."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -35,16 +35,16 @@ def pair(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Pa
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 def test_the_page_draws_what_rviz_draws(pair: Pair, case: Case) -> None:
-    found = pair.agreement(case)
+    result = pair.agreement(case)
 
-    assert found, f"{case.name}: {found}; see {OUT / case.name}.png"
+    assert result, f"{case.name}: {result}; see {OUT / case.name}.png"
 
 
 @pytest.mark.parametrize(
-    "broken", [{"Length": 1, "Radius": 0.1}, {"Alpha": 0.3}], ids=["in another size", "in other colours"]
+    "broken", [{"Length": 1, "Radius": 0.1}, {"Alpha": 0.3}], ids=["in another size", "in other colors"]
 )
-def test_a_display_that_is_broken_is_found(pair: Pair, broken: Mapping[str, Any]) -> None:
-    """The comparison itself can fail, by shape and by colour."""
+def test_a_wrong_display_is_detected(pair: Pair, broken: Mapping[str, Any]) -> None:
+    """Shows that the comparison can fail, by shape and by color."""
     axes = {"Class": "rviz/Axes", "Name": "Axes", "Length": 2, "Radius": 0.3}
 
     assert pair.agreement(Case(name="axes", display=axes))

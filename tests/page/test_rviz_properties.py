@@ -1,4 +1,4 @@
-"""The page's displays have the properties of Debian's rviz, by name and default: both save the same bare file."""
+"""The page's displays have the names and defaults of rviz's properties: both save the same minimal file."""
 
 import math
 import time
@@ -53,11 +53,11 @@ KINDS = [
     "WrenchStamped",
 ]
 _OTHERS = {"Enabled", "Frames", "Joints", "Links", "Namespaces", "Tree", "Visibility"}
-"""Rows that come with frames, links and other displays; rviz switches images off whose dock is not seen."""
+"""Rows that depend on frames, links and other displays; rviz disables images whose dock is hidden."""
 
 
 def _saved_by_page(chromium: Any, server: PageServer) -> str:
-    """Save as a person does, by the palette; return the file's text."""
+    """Save by the palette, as a user does; return the file's text."""
     page = chromium.new_page(viewport={"width": 1280, "height": 800})
     page.goto(server.url)
     page.get_by_label("Connected").first.wait_for(timeout=1000 * PATIENCE_S)

@@ -1,4 +1,4 @@
-"""An .rviz file is saved below the folder where Trundle was started, and never over another one unasked."""
+"""An .rviz file is saved below the folder where Trundle was started, and replaces others only after confirmation."""
 
 import json
 from collections.abc import Iterator
@@ -38,12 +38,12 @@ def _save(client: ProtocolClient, name: str, text: str = TEXT, **more: Any) -> d
 
 
 @pytest.mark.parametrize("name", ["car.rviz", "rviz/car.rviz", "new/folder/car (1).rviz", "ein Wägelchen.rviz"])
-def test_it_is_written_where_it_is_asked_for(client: ProtocolClient, folder: Path, name: str) -> None:
+def test_a_file_is_written_to_its_path(client: ProtocolClient, folder: Path, name: str) -> None:
     assert _save(client, name)["file"] == name
     assert (folder / name).read_text() == TEXT
 
 
-def test_a_file_that_is_there_is_replaced_only_when_that_is_asked_for(client: ProtocolClient, folder: Path) -> None:
+def test_an_existing_file_is_replaced_only_on_request(client: ProtocolClient, folder: Path) -> None:
     path = folder / "mine.rviz"
     path.write_text("mine")
     path.chmod(0o600)
@@ -54,8 +54,8 @@ def test_a_file_that_is_there_is_replaced_only_when_that_is_asked_for(client: Pr
     assert (path.read_text(), path.stat().st_mode & 0o777) == (TEXT, 0o600)
 
 
-def test_the_session_names_the_newest_file_until_its_owner_has_another(folder: Path) -> None:
-    given = RvizFile(name="given.rviz", text="given", writable=True)
+def test_the_session_has_the_newest_file_until_its_owner_sets_another(folder: Path) -> None:
+    first = RvizFile(name="given.rviz", text="given", writable=True)
 
     def session() -> dict[str, Any]:
         with ProtocolClient(page.url) as late:
@@ -66,21 +66,21 @@ def test_the_session_names_the_newest_file_until_its_owner_has_another(folder: P
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         page = PageServer.start(
-            Session(title="t", kind="graph", rviz=given, fixed_frame="odom"), at=PageAddress(port=0)
+            Session(title="t", kind="graph", rviz=first, fixed_frame="odom"), at=PageAddress(port=0)
         )
     with page, ProtocolClient(page.url) as client:
         _save(client, "newest.rviz", "newest")
-        found = session()
-        assert found["rviz"] == {"name": "newest.rviz", "text": "newest", "writable": True, "saved": True}
-        assert found["fixed_frame"] is None
-        page.set_session(Session(title="other", kind="graph", rviz=given))
+        current = session()
+        assert current["rviz"] == {"name": "newest.rviz", "text": "newest", "writable": True, "saved": True}
+        assert current["fixed_frame"] is None
+        page.set_session(Session(title="other", kind="graph", rviz=first))
         assert session()["rviz"]["name"] == "newest.rviz"
         page.set_session(Session(title="other", kind="graph", rviz=RvizFile(name="b", text="b", writable=False)))
         client.until(lambda: session()["rviz"]["name"] == "b")
 
 
 @pytest.mark.parametrize("replace", [False, True])
-def test_nothing_is_written_elsewhere(client: ProtocolClient, folder: Path, replace: bool) -> None:
+def test_paths_out_of_the_folder_are_refused(client: ProtocolClient, folder: Path, replace: bool) -> None:
     outside = folder.parent / "outside.rviz"
     outside.write_text("mine")
     (folder / "file").touch()
@@ -117,7 +117,7 @@ def test_nothing_is_written_elsewhere(client: ProtocolClient, folder: Path, repl
 
 
 @pytest.mark.parametrize("replace", [False, True])
-def test_a_folder_and_a_loop_of_links_are_no_files(client: ProtocolClient, folder: Path, replace: bool) -> None:
+def test_folders_and_loops_of_links_are_refused(client: ProtocolClient, folder: Path, replace: bool) -> None:
     (folder / "folder.rviz").mkdir(exist_ok=True)
     if not (folder / "loop.rviz").is_symlink():
         (folder / "loop.rviz").symlink_to("loop.rviz")

@@ -1,4 +1,4 @@
-"""TypeScript of the messages between server and client is made of the Python structs."""
+"""TypeScript of the messages between server and client is generated from the Python structs."""
 
 import shutil
 import subprocess
@@ -22,7 +22,7 @@ spec.loader.exec_module(module)
 sys.argv = [generator, *arguments]
 runpy.run_path(generator, run_name="__main__")
 """
-"""Runs the generator with another file in place of a module."""
+"""Program that runs the generator with another file in place of a module."""
 
 needs_packages = pytest.mark.skipif(
     not (WEB / "node_modules/@biomejs/biome").exists(),
@@ -54,7 +54,7 @@ def renamed(tmp_path: Path) -> Path:
 
 
 @needs_packages
-def test_a_renamed_field_is_found_by_the_check(renamed: Path) -> None:
+def test_the_check_detects_a_renamed_field(renamed: Path) -> None:
     done = _generate(renamed, GENERATOR, "--check")
 
     assert done.returncode == 1
@@ -64,7 +64,7 @@ def test_a_renamed_field_is_found_by_the_check(renamed: Path) -> None:
 
 @pytest.mark.slow
 @needs_packages
-def test_a_renamed_field_is_found_where_the_client_reads_it(renamed: Path, tmp_path: Path) -> None:
+def test_the_type_checker_reports_uses_of_a_renamed_field(renamed: Path, tmp_path: Path) -> None:
     web = tmp_path / "web"
     shutil.copytree(WEB, web, ignore=shutil.ignore_patterns("node_modules", "__pycache__"))
     (web / "node_modules").symlink_to(WEB / "node_modules")
@@ -78,6 +78,6 @@ def test_a_renamed_field_is_found_where_the_client_reads_it(renamed: Path, tmp_p
         encoding="utf-8",
     )
 
-    faults = [line for line in done.stdout.splitlines() if line.startswith("src/")]
-    assert any("Property 'mass' does not exist on type 'LinkInfo'" in line for line in faults)
-    assert all("mass" in line for line in faults)
+    errors = [line for line in str(done.stdout).splitlines() if line.startswith("src/")]
+    assert any("Property 'mass' does not exist on type 'LinkInfo'" in line for line in errors)
+    assert all("mass" in line for line in errors)

@@ -1,4 +1,4 @@
-"""The page's own parts as a person uses them: driving, displays, the palette, the phone's sheet."""
+"""The page's controls as a user operates them: driving, displays, the palette, the phone's sheet."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -22,7 +22,7 @@ RVIZ = """Visualization Manager:
 
 _SMALL = """[...document.querySelectorAll("button:not(.grab)")]
     .filter((one) => one.offsetParent && one.getBoundingClientRect().height < 44).map((one) => one.outerHTML)"""
-"""Targets of a phone that are too small to press; the sheet's handle reaches beyond its own box."""
+"""Script that lists targets of a phone that are too small to press; the sheet's handle has a larger hit area."""
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow, needs_client]
 
@@ -71,7 +71,7 @@ def open_page(chromium: Any, drive_page: PageServer) -> Iterator[Open]:
         tab.goto(drive_page.url)
         tab.get_by_label("Connected").first.wait_for()
         if width > 640:
-            tab.locator(".dv-tab").first.wait_for()  # the dock comes after the first picture
+            tab.locator(".dv-tab").first.wait_for()  # the dock is loaded after the first picture
         return tab
 
     yield opened
@@ -89,7 +89,7 @@ def _until(condition: Callable[[], object], tab: Any = None) -> None:
             tab.wait_for_timeout(10)
 
 
-def test_a_held_key_drives_and_letting_go_stops(open_page: Open, robot: Robot) -> None:
+def test_holding_a_key_drives_and_releasing_it_stops(open_page: Open, robot: Robot) -> None:
     tab = open_page()
     tab.locator(".disc").wait_for()
     tab.keyboard.down("w")
@@ -103,7 +103,7 @@ def test_a_held_key_drives_and_letting_go_stops(open_page: Open, robot: Robot) -
     assert robot.velocities[-1] == (0.0, 0.0)
 
 
-def test_a_tab_that_closes_while_the_disc_is_dragged_stops_the_robot(open_page: Open, robot: Robot) -> None:
+def test_closing_the_tab_during_a_drag_of_the_disc_stops_the_robot(open_page: Open, robot: Robot) -> None:
     tab = open_page()
     box = tab.locator(".disc").bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
@@ -118,13 +118,13 @@ def test_a_tab_that_closes_while_the_disc_is_dragged_stops_the_robot(open_page: 
     assert robot.velocities[-2:] == [(0.0, 1.0), (0.0, 0.0)]
 
 
-def test_a_field_with_the_focus_takes_the_keys(open_page: Open, robot: Robot) -> None:
+def test_keys_in_a_focused_field_do_not_drive(open_page: Open, robot: Robot) -> None:
     tab = open_page()
     tab.get_by_role("textbox", name="Greatest speed").click()
     tab.keyboard.press("w")
     tab.wait_for_timeout(300)
 
-    assert set(robot.velocities) <= {(0.0, 0.0)}  # the stop of a drive before may come late
+    assert set(robot.velocities) <= {(0.0, 0.0)}  # the stop of an earlier drive may come late
 
 
 def test_a_display_is_edited_undone_and_saved(open_page: Open, drive_page: PageServer) -> None:
@@ -138,16 +138,16 @@ def test_a_display_is_edited_undone_and_saved(open_page: Open, drive_page: PageS
     size.fill("2.5")
     size.press("Enter")
     tab.get_by_role("button", name="Save", exact=True).click()
-    taken: list[Any] = []
-    _until(lambda: taken.extend(drive_page.requests()) or taken, tab)
-    drive_page.respond(taken[0].id)
+    requests: list[Any] = []
+    _until(lambda: requests.extend(drive_page.requests()) or requests, tab)
+    drive_page.respond(requests[0].id)
     row.click()
     tab.keyboard.press("Control+z")
     _until(lambda: size.input_value() == "1", tab)
 
-    assert isinstance(taken[0].action, SaveRviz)
-    assert "Cell Size: 2.5" in taken[0].action.text
-    assert "moveit_rviz_plugin/MotionPlanning" in taken[0].action.text  # what is not understood is kept
+    assert isinstance(requests[0].action, SaveRviz)
+    assert "Cell Size: 2.5" in requests[0].action.text
+    assert "moveit_rviz_plugin/MotionPlanning" in requests[0].action.text  # unknown displays are kept
     assert tab.get_by_text("not supported").first.is_visible()
 
 
@@ -164,7 +164,7 @@ def test_the_palette_runs_commands_and_the_theme_is_remembered(open_page: Open) 
     assert tab.evaluate(theme) == "light"
 
 
-def test_the_help_names_the_keys_and_each_does_what_it_says(open_page: Open) -> None:
+def test_every_key_in_the_help_works(open_page: Open) -> None:
     tab = open_page()
     tab.keyboard.press("?")
     help_ = tab.get_by_role("dialog", name="Keys")
@@ -179,8 +179,8 @@ def test_the_help_names_the_keys_and_each_does_what_it_says(open_page: Open) -> 
     tab.get_by_role("button", name="2D Nav Goal", pressed=True).wait_for()
 
 
-def test_a_key_right_after_a_dialog_closed_is_the_pages(open_page: Open) -> None:
-    """Until the next frame the focus may still be inside of the dialog."""
+def test_a_key_right_after_closing_a_dialog_reaches_the_page(open_page: Open) -> None:
+    """Until the next frame, the focus may still be in the dialog."""
     tab = open_page()
     tab.keyboard.press("?")
     tab.get_by_role("dialog", name="Keys").wait_for()
@@ -193,7 +193,7 @@ def test_a_key_right_after_a_dialog_closed_is_the_pages(open_page: Open) -> None
 
 
 def _resting_box(tab: Any, selector: str) -> dict[str, float]:
-    """Box of an element once it no longer moves, as it does while the sheet closes."""
+    """Return the bounding box of an element once it no longer moves, as while the sheet closes."""
     box, before = tab.locator(selector).bounding_box(), None
     while box is None or box != before:
         tab.wait_for_timeout(300)

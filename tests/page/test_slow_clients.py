@@ -1,4 +1,4 @@
-"""A client that does not read costs the others nothing; what it loses is the oldest of streams, and is counted."""
+"""A client that does not read does not slow down others; it loses the oldest messages of streams, which are counted."""
 
 import json
 from collections.abc import Iterator
@@ -30,13 +30,13 @@ def graph_page(graph: Graph) -> Iterator[PageServer]:
 
 
 class Stalled(ProtocolClient):
-    """Client whose socket is read only when asked to."""
+    """Client whose socket is read only on request."""
 
     def __init__(self, url: str) -> None:
         super().__init__(url, max_queue=1)
 
 
-def test_a_stalled_client_loses_clouds_and_keeps_markers_maps_and_what_is_latched(
+def test_a_stalled_client_loses_clouds_but_no_markers_maps_or_latched_messages(
     graph: Graph, graph_page: PageServer
 ) -> None:
     node = graph.node("source")
@@ -75,8 +75,8 @@ def test_a_stalled_client_loses_clouds_and_keeps_markers_maps_and_what_is_latche
         publisher.unregister()
 
 
-def test_poses_after_a_loss_are_all_of_them(graph_page: PageServer) -> None:
-    """Otherwise a body that moved meanwhile would stay where it was."""
+def test_all_poses_are_sent_after_a_loss(graph_page: PageServer) -> None:
+    """Otherwise a body that moved in between would keep its old pose."""
     rows = np.zeros((20_000, 7))
     graph_page.set_world(empty_manifest(1), {})
     with Stalled(graph_page.url) as stalled, ProtocolClient(graph_page.url) as reader:
@@ -99,7 +99,7 @@ def test_poses_after_a_loss_are_all_of_them(graph_page: PageServer) -> None:
 
 
 def test_poses_reach_a_slow_client_in_order_with_transforms(graph: Graph, graph_page: PageServer) -> None:
-    """Otherwise frames would stand ahead of the robot that carries them."""
+    """Otherwise frames would be drawn ahead of their robot."""
     node = graph.node("robot")
     cloud = node.advertise("/flood", "std_msgs/UInt8MultiArray")
     frames = node.advertise("/tf", "tf2_msgs/TFMessage")

@@ -1,4 +1,4 @@
-"""A person opens the page: over a slow line, and from another machine, whose browser trusts no plain http."""
+"""A user opens the page over a slow line, and from another machine, whose browser restricts plain http."""
 
 import re
 import socket
@@ -23,17 +23,17 @@ TROLLEY = f"""<sdf version="1.6"><model name="trolley"><link name="base"><collis
 <visual name="v">{BOX}</visual></link></model></sdf>"""
 
 
-def test_what_is_loaded_is_said_with_how_much_of_it_came(chromium: Any, tmp_path: Path) -> None:
-    """The world's file is held back; the tab has the robot's name all the while."""
+def test_loading_shows_its_progress(chromium: Any, tmp_path: Path) -> None:
+    """The world's file is delayed; the tab's title is the robot's name from the start."""
     (tmp_path / "model.sdf").write_text(TROLLEY)
     words = ("run", "model.sdf", "--no-ros", "--pause", "--port", "0")
     with running_page(*words, environment={"HOME": str(tmp_path)}, folder=tmp_path) as url:
         tab = chromium.new_page()
         tab.set_default_timeout(PATIENCE_MS)
-        held: list[Any] = []
+        routes: list[Any] = []
 
         def hold(route: Any) -> None:
-            held.append(route)
+            routes.append(route)
 
         tab.route(re.compile(r"\.glb"), hold)
         tab.goto(url)
@@ -43,11 +43,11 @@ def test_what_is_loaded_is_said_with_how_much_of_it_came(chromium: Any, tmp_path
         tab.get_by_text(re.compile(r"^Loading ")).wait_for()
         tab.get_by_text(re.compile(r"^\d+ %$")).wait_for()
         assert tab.title() == "trolley"
-        for route in held:
+        for route in routes:
             route.continue_()
         tab.unroute(re.compile(r"\.glb"))
         bar.wait_for(state="detached")
-        assert held
+        assert routes
         tab.close()
 
 
@@ -67,7 +67,7 @@ def graph() -> Iterator[Graph]:
         yield graph
 
 
-def test_from_another_machine_one_drives_and_is_told_what_its_browser_keeps_back(chromium: Any, graph: Graph) -> None:
+def test_a_user_on_another_machine_drives_and_sees_the_browsers_restrictions(chromium: Any, graph: Graph) -> None:
     node = graph.node("robot_base")
     robot = Robot(node, "/cmd_vel")
     session = Session(title="t", kind="graph", drive_topic="/cmd_vel", joystick=True)

@@ -1,4 +1,4 @@
-"""A person plays a bag: the timeline is scrubbed, and what is shown follows."""
+"""A user plays a bag and scrubs its timeline."""
 
 import os
 from pathlib import Path
@@ -17,7 +17,7 @@ pytestmark = [pytest.mark.slow, needs_client]
 
 
 def test_a_bag_is_scrubbed_and_played(chromium: Any, tmp_path: Path) -> None:
-    """A text a second: the one of the time is echoed."""
+    """The bag has a text each second; the current one is echoed."""
     path = tmp_path / "words.bag"
     with create_bag(path) as writer:
         for second in range(11):
@@ -46,8 +46,8 @@ def test_a_bag_is_scrubbed_and_played(chromium: Any, tmp_path: Path) -> None:
         user.close()
 
 
-def test_each_topic_has_a_lane_from_the_index(chromium: Any, tmp_path: Path) -> None:
-    """The bag lasts ten seconds and was not played yet; a click in the ruler goes to a band's time."""
+def test_every_topic_has_a_lane_from_the_index(chromium: Any, tmp_path: Path) -> None:
+    """The bag lasts ten seconds and is not played; a click in the ruler seeks to a band's time."""
     path = tmp_path / "lanes.bag"
     with create_bag(path) as writer:
         writer.write(BagMessage(MAP, START, text("map")))

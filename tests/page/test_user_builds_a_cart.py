@@ -1,4 +1,4 @@
-"""A person builds a cart from nothing in the page, saves it, runs it, converts it and drives it."""
+"""A user builds a cart in the page, saves it, runs it, converts it and drives it."""
 
 import re
 import subprocess
@@ -29,7 +29,7 @@ def _trundle(*words: str, folder: Path) -> str:
 
 
 def test_a_cart_is_built_saved_run_converted_and_driven(chromium: Any, tmp_path: Path) -> None:
-    """The files of the first part are what the second one runs."""
+    """The second part runs the files of the first."""
     (tmp_path / "yard.sdf").write_text(WORLD)
     with running_page("run", "yard.sdf", "--no-ros", "--port", "0", environment={}, folder=tmp_path) as url:
         user = CartBuilder(chromium, url)
@@ -58,9 +58,9 @@ def _drive(chromium: Any, model: Path) -> None:
         with running_page(*words, environment={"ROS_MASTER_URI": graph.core.uri}, folder=model) as url:
             user = WorldUser(chromium, url)
             user.page.locator(".disc").wait_for()
-            start = user.place("cart")[0]
+            start = user.position("cart")[0]
             user.page.locator("canvas").first.focus()
             user.page.keyboard.down("w")
-            user.until(lambda: user.place("cart")[0] > start + 0.3, what="for the cart to drive")
+            user.until(lambda: user.position("cart")[0] > start + 0.3, what="for the cart to drive")
             user.page.keyboard.up("w")
             user.close()

@@ -1,4 +1,4 @@
-"""A person adds displays by their class and chooses their topics: cameras, depth images, efforts."""
+"""A user adds displays by class and chooses their topics: cameras, depth images, efforts."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -18,7 +18,7 @@ pytestmark = [pytest.mark.slow, needs_client]
 GREEN, RED, WHITE = (0, 255, 0), (255, 0, 0), (255, 255, 255)
 OPTICAL = {"frame_id": "eye", "stamp": {"secs": 1, "nsecs": 0}}
 DOWN = {"translation": point(0, 0, 2), "rotation": {"x": 1.0, "y": 0.0, "z": 0.0, "w": 0.0}}
-"""A camera 2 m above the origin that looks straight down."""
+"""Camera 2 m above the origin that looks straight down."""
 WIDTH, HEIGHT, FOCAL = 64, 48, 64.0
 INFO = {
     "header": OPTICAL,
@@ -30,7 +30,7 @@ INFO = {
 PICTURE = {"header": OPTICAL, "width": WIDTH, "height": HEIGHT, "encoding": "rgb8", "step": 3 * WIDTH}
 GREEN_PICTURE = PICTURE | {"data": bytes(GREEN) * WIDTH * HEIGHT}
 DEPTHS = PICTURE | {"encoding": "16UC1", "step": 2 * WIDTH, "data": (2000).to_bytes(2, "little") * WIDTH * HEIGHT}
-"""Everything is 2 m away: a ground of 2 m x 1.5 m."""
+"""Depth of 2 m everywhere: a ground of 2 m x 1.5 m."""
 RED_CUBE = {
     "header": HEADER,
     "type": 1,
@@ -86,7 +86,7 @@ def _latched(node: Node, topic: str, kind: str, message: Mapping[str, Any]) -> P
 
 
 def _remove(user: SceneUser, graph: Graph, *publishers: Publisher) -> None:
-    """Remove the display that is selected; nothing is subscribed to or drawn for it any more."""
+    """Remove the selected display; wait until its subscription and its picture have ended."""
     user.button("Remove").click()
     graph.until(lambda: not any(publisher.has_subscribers for publisher in publishers))
     user.until(lambda: not user.picture().any(), what="for its end")
@@ -95,7 +95,7 @@ def _remove(user: SceneUser, graph: Graph, *publishers: Publisher) -> None:
 
 
 def _pixel(user: SceneUser, x: float, y: float, index: int = 0) -> tuple[int, int, int]:
-    """Colour of an enlarged picture at shares of its width and height."""
+    """Return the color of an enlarged picture at fractions of its width and height."""
     script = """([canvas, x, y]) => {
         const pixels = canvas.getContext("2d").getImageData(x * canvas.width, y * canvas.height, 1, 1).data;
         return [...pixels.slice(0, 3)];
@@ -105,7 +105,7 @@ def _pixel(user: SceneUser, x: float, y: float, index: int = 0) -> tuple[int, in
 
 
 def test_a_camera_shows_the_scene_over_its_picture(graph: Graph, node: Node, user: SceneUser) -> None:
-    """Half of a red cube over a green picture, and green beside it; without the overlay the cube is red."""
+    """A half transparent red cube is drawn over a green picture; without the overlay the cube is red."""
     info = _latched(node, "/eye/camera_info", "sensor_msgs/CameraInfo", INFO)
     image = _latched(node, "/eye/image", "sensor_msgs/Image", GREEN_PICTURE)
     cube = _latched(node, "/cube", "visualization_msgs/Marker", RED_CUBE)
@@ -130,12 +130,12 @@ def test_a_camera_shows_the_scene_over_its_picture(graph: Graph, node: Node, use
     _remove(user, graph, cube, info, image)
 
 
-def test_two_enlarged_pictures_stand_side_by_side(graph: Graph, node: Node, user: SceneUser) -> None:
-    """Each in its colour, and none over the other."""
+def test_two_enlarged_pictures_are_side_by_side(graph: Graph, node: Node, user: SceneUser) -> None:
+    """They have their own colors and do not overlap."""
     publishers = {}
-    for name, colour in (("left", GREEN), ("right", RED)):
+    for name, color in (("left", GREEN), ("right", RED)):
         publishers[name] = _latched(
-            node, f"/{name}/image", "sensor_msgs/Image", PICTURE | {"data": bytes(colour) * WIDTH * HEIGHT}
+            node, f"/{name}/image", "sensor_msgs/Image", PICTURE | {"data": bytes(color) * WIDTH * HEIGHT}
         )
         user.page.get_by_role("tab", name="Topics not shown").click()
         user.button(f"Show /{name}/image").click()
@@ -144,7 +144,7 @@ def test_two_enlarged_pictures_stand_side_by_side(graph: Graph, node: Node, user
     for index in range(2):
         tiles.nth(index).get_by_role("button", name="Enlarge Image").first.click()
     user.until(lambda: large.count() == 2 and all(large.nth(i).locator("canvas").count() for i in range(2)), what="two")
-    user.until(lambda: [_pixel(user, 0.5, 0.5, index) for index in range(2)] == [GREEN, RED], what="for their colours")
+    user.until(lambda: [_pixel(user, 0.5, 0.5, index) for index in range(2)] == [GREEN, RED], what="for their colors")
     left, right = (large.nth(index).bounding_box() for index in range(2))
     assert left["x"] + left["width"] <= right["x"]
     assert left["y"] == pytest.approx(right["y"], abs=1)
@@ -159,24 +159,26 @@ def test_two_enlarged_pictures_stand_side_by_side(graph: Graph, node: Node, user
     user.page.get_by_role("tab", name="By class").click()
 
 
-def test_a_depth_image_is_a_cloud_in_the_colours_of_another(graph: Graph, node: Node, user: SceneUser) -> None:
+def test_a_depth_image_is_drawn_as_a_cloud_with_the_colors_of_another_image(
+    graph: Graph, node: Node, user: SceneUser
+) -> None:
     publishers = (
         _latched(node, "/eye/camera_info", "sensor_msgs/CameraInfo", INFO),
         _latched(node, "/eye/depth", "sensor_msgs/Image", DEPTHS),
-        _latched(node, "/eye/colour", "sensor_msgs/Image", GREEN_PICTURE),
+        _latched(node, "/eye/color", "sensor_msgs/Image", GREEN_PICTURE),
     )
     user.button("Add DepthCloud").click()
     user.open_rows("DepthCloud")
     user.set("Depth Map Topic", "/eye/depth")
     user.until(lambda: user.is_something_drawn, what="for the cloud")
-    user.set("Color Image Topic", "/eye/colour")
+    user.set("Color Image Topic", "/eye/color")
     graph.until(lambda: publishers[2].has_subscribers)
     publishers[1].publish(DEPTHS)
     user.until_area(GREEN, 2.0 * 1.5, within=0.05)
     _remove(user, graph, *publishers)
 
 
-def test_an_effort_is_a_ring_as_wide_as_it_is(graph: Graph, node: Node, user: SceneUser) -> None:
+def test_an_effort_is_drawn_as_a_ring_of_proportional_radius(graph: Graph, node: Node, user: SceneUser) -> None:
     """15 of 20 N·m, at a scale of 2 m: 0.05 m + (15/20 + 0.05) · 2 m / 2 from the joint."""
     states = {"header": HEADER, "name": ["shoulder"], "position": [0.0], "velocity": [0.0], "effort": [15.0]}
     publisher = _latched(node, "/joint_states", "sensor_msgs/JointState", states)

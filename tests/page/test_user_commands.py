@@ -1,4 +1,4 @@
-"""Commands and keys that the table of windows in the documentation names, as a person finds them on the page."""
+"""Commands and keys in the documentation's table of windows exist on the page."""
 
 import re
 from pathlib import Path
@@ -16,7 +16,7 @@ WORLD = f"""<sdf version="1.6"><world name="yard"><model name="crate"><link name
 </collision><visual name="v">{BOX}</visual></link></model></world></sdf>"""
 
 
-def test_each_command_of_the_table_is_on_the_page(chromium: Any, tmp_path: Path) -> None:
+def test_every_command_of_the_table_is_on_the_page(chromium: Any, tmp_path: Path) -> None:
     (tmp_path / "yard.sdf").write_text(WORLD)
     named = re.findall(r"\*([^*\n]+)\*(?: <kbd>(.+?)</kbd>)?", PAGE.read_text(encoding="utf-8").partition("\n## ")[2])
     words = ("run", "yard.sdf", "--no-ros", "--pause", "--port", "0")
@@ -47,7 +47,7 @@ def test_each_command_of_the_table_is_on_the_page(chromium: Any, tmp_path: Path)
 
 
 def _offered(user: PanelUser) -> dict[str, str]:
-    """Return the commands that can run now, each with its keys."""
+    """Return the available commands with their keys."""
     user.button("Search commands, Ctrl K").click()
     rows = user.page.get_by_role("listbox", name="Commands").get_by_role("option")
     rows.first.wait_for()

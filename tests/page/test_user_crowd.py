@@ -1,4 +1,4 @@
-"""Ten people at one simulation: one in a browser, nine by the protocol, the last of whom may only look."""
+"""Ten users of one simulation: one in a browser, nine over the protocol, one of them view-only."""
 
 import json
 from collections.abc import Iterator
@@ -46,7 +46,7 @@ def _link(user: WorldUser, kind: str) -> str:
     return str(link).partition("#")[0]
 
 
-def test_ten_people_see_what_each_selected_and_a_looker_changes_nothing(user: WorldUser) -> None:
+def test_ten_users_see_all_selections_and_a_view_only_one_changes_nothing(user: WorldUser) -> None:
     control, look = _link(user, "Look and control"), _link(user, "Look only")
     with ExitStack() as stack:
         others = [stack.enter_context(ProtocolClient(url)) for url in (*[control] * 8, look)]
@@ -56,10 +56,10 @@ def test_ten_people_see_what_each_selected_and_a_looker_changes_nothing(user: Wo
         user.button("10 people").wait_for()
         user.pick("crate_1")
         for other in others:
-            other.until(lambda: [bool(each["selection"]) for each in _people(other)] == [True] * 10)  # noqa: B023
-            chosen = sorted(each["selection"]["model"] for each in _people(other))
+            other.until(lambda: [bool(person["selection"]) for person in _people(other)] == [True] * 10)  # noqa: B023
+            chosen = sorted(person["selection"]["model"] for person in _people(other))
             assert chosen == sorted(("crate_1", *MODELS))
-            assert [each["view_only"] for each in _people(other)].count(True) == 1
+            assert [person["view_only"] for person in _people(other)].count(True) == 1
         user.button("10 people").click()
         listed = user.page.get_by_role("menu").inner_text()
         assert listed.count("Person") == 10

@@ -1,4 +1,4 @@
-"""A person adds, edits and removes displays; the picture and what the page subscribes to follow."""
+"""A user adds, edits and removes displays; picture and subscriptions follow."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -8,7 +8,7 @@ import pytest
 from tests.graphs import Graph, running_graph
 from tests.page.built_client import needs_client
 from tests.page.scene_user import SceneUser, rviz_text
-from tests.page.sensor_messages import COLOURS, MAP, TWIST, cloud, covariance, depth, point, pose, ring
+from tests.page.sensor_messages import COLORS, MAP, TWIST, cloud, covariance, depth, point, pose, ring
 
 from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, RvizFile, Session
@@ -26,15 +26,15 @@ SCAN = {
     "range_max": 9.0,
     "ranges": [1.0, 1.0, 1.0, 1.0],
 }
-"""Four points, 1 m from the origin."""
+"""Scan of four points, 1 m from the origin."""
 FAR_SCAN = SCAN | {"ranges": [2.0, 9.5, 2.0, 9.5]}
-"""Two points, 2 m from the origin."""
+"""Scan of two points, 2 m from the origin."""
 
 SHOWN: Mapping[str, tuple[str, Mapping[str, Any]]] = {
     "/accel": ("geometry_msgs/AccelStamped", {"header": HEADER, "accel": TWIST}),
     "/cells": (
         "nav_msgs/GridCells",
-        {"header": HEADER, "cell_width": 0.5, "cell_height": 0.3, "cells": [each["position"] for each in ring(6, 1.0)]},
+        {"header": HEADER, "cell_width": 0.5, "cell_height": 0.3, "cells": [at["position"] for at in ring(6, 1.0)]},
     ),
     "/cloud": ("sensor_msgs/PointCloud", {"header": HEADER, "points": [point(0, 0), point(1, 1)]}),
     "/cube": (
@@ -68,9 +68,9 @@ SHOWN: Mapping[str, tuple[str, Mapping[str, Any]]] = {
     ),
     "/path": (
         "nav_msgs/Path",
-        {"header": HEADER, "poses": [{"header": HEADER, "pose": each} for each in ring(9, 1.0)]},
+        {"header": HEADER, "poses": [{"header": HEADER, "pose": at} for at in ring(9, 1.0)]},
     ),
-    "/points": ("sensor_msgs/PointCloud2", cloud([(x / 3, y / 3, z, c) for x, y, z, c in COLOURS], "rgb")),
+    "/points": ("sensor_msgs/PointCloud2", cloud([(x / 3, y / 3, z, c) for x, y, z, c in COLORS], "rgb")),
     "/poses": ("geometry_msgs/PoseArray", {"header": HEADER, "poses": ring(6, 1.0)}),
     "/pressure": ("sensor_msgs/FluidPressure", {"header": HEADER, "fluid_pressure": 101000.0}),
     "/sonar": ("sensor_msgs/Range", {"header": HEADER, "field_of_view": 0.6, "max_range": 4.0, "range": 1.0}),
@@ -85,9 +85,9 @@ SHOWN: Mapping[str, tuple[str, Mapping[str, Any]]] = {
         {"header": HEADER, "wrench": {"force": TWIST["linear"], "torque": TWIST["angular"]}},
     ),
 }
-"""Type and message of topics that show something at the origin."""
+"""Topic → type and message that are drawn at the origin."""
 OF_POINTS = ("PointCloud", "PointCloud2", "FluidPressure", "Illuminance", "RelativeHumidity", "Temperature")
-"""Displays of points, which are a pixel wide at first."""
+"""Displays of points, whose default size is a pixel."""
 
 
 @pytest.fixture(scope="module")
@@ -124,8 +124,8 @@ def _latched(node: Node, topic: str, kind: str, message: Mapping[str, Any]) -> P
     return publisher
 
 
-def test_a_scan_is_shown_by_one_click_and_its_properties_edited(graph: Graph, node: Node, user: SceneUser) -> None:
-    """Topic, transformer, colour, size, style and whether it is on; each edit can be taken back."""
+def test_a_scan_is_shown_by_a_click_and_its_properties_are_edited(graph: Graph, node: Node, user: SceneUser) -> None:
+    """Topic, transformer, color, size, style and visibility; every edit can be undone."""
     near, far = (
         _latched(node, "/scan", "sensor_msgs/LaserScan", SCAN),
         _latched(node, "/far", "sensor_msgs/LaserScan", FAR_SCAN),
@@ -156,7 +156,7 @@ def test_a_scan_is_shown_by_one_click_and_its_properties_edited(graph: Graph, no
     user.until_area(RED, 0.0)
 
     user.page.get_by_role("treeitem").filter(has_text="LaserScan").first.focus()
-    for _ in range(3):  # the checkbox, the topic, the colour
+    for _ in range(3):  # the checkbox, the topic, the color
         user.page.keyboard.press("Control+z")
     user.until_area(GREEN, 4 * 0.1**2, within=0.25)
     user.page.keyboard.press("Control+Shift+Z")
@@ -168,7 +168,7 @@ def test_a_scan_is_shown_by_one_click_and_its_properties_edited(graph: Graph, no
 
 
 @pytest.mark.slow
-def test_a_display_that_cannot_show_a_topic_says_why(node: Node, user: SceneUser) -> None:
+def test_a_display_shows_why_it_cannot_show_a_topic(node: Node, user: SceneUser) -> None:
     publisher = _latched(
         node, "/lost", "geometry_msgs/PointStamped", {"header": {"frame_id": "moon"}, "point": point(0, 0)}
     )
@@ -185,8 +185,8 @@ def test_a_display_that_cannot_show_a_topic_says_why(node: Node, user: SceneUser
 
 
 @pytest.mark.slow
-def test_every_topic_is_found_shown_and_left_alone_again(graph: Graph, node: Node, user: SceneUser) -> None:
-    """Each of rviz's displays by the type of its message: it subscribes, draws something, and ends."""
+def test_every_topic_is_found_shown_and_removed(graph: Graph, node: Node, user: SceneUser) -> None:
+    """Every display of rviz, by its message type: it subscribes, draws something, and is removed."""
     for topic, (kind, message) in SHOWN.items():
         publisher = _latched(node, topic, kind, message)
         user.button(f"Show {topic}").click()
@@ -203,8 +203,8 @@ def test_every_topic_is_found_shown_and_left_alone_again(graph: Graph, node: Nod
 
 
 @pytest.mark.slow
-def test_displays_without_a_topic_of_their_own_are_added_by_class(graph: Graph, node: Node, user: SceneUser) -> None:
-    """Grid, Axes, TF, the robot, and a group that hides what is in it."""
+def test_displays_without_a_topic_are_added_by_class(graph: Graph, node: Node, user: SceneUser) -> None:
+    """Grid, Axes, TF, the robot, and a group that hides its displays."""
     urdf = '<robot name="r"><link name="base"><visual><geometry><box size="1 1 1"/></geometry></visual></link></robot>'
     graph.loop.run(node.params.set("/robot_description", urdf))
     frames = {"header": HEADER, "child_frame_id": "base", "transform": {"rotation": {"w": 1.0}}}
@@ -221,8 +221,8 @@ def test_displays_without_a_topic_of_their_own_are_added_by_class(graph: Graph, 
 
 
 @pytest.mark.slow
-def test_pictures_have_a_tile_that_is_enlarged(graph: Graph, node: Node, user: SceneUser) -> None:
-    """Image, Camera with the scene over it, and a cloud of depths, which share the topics of a camera."""
+def test_pictures_have_a_tile_that_can_be_enlarged(graph: Graph, node: Node, user: SceneUser) -> None:
+    """Image, Camera with the scene overlaid, and DepthCloud share the topics of a camera."""
     publishers = [_latched(node, *message) for message in depth()]
     user.page.get_by_role("tab", name="Topics not shown").click()
     user.button("Show /depth/color").click()

@@ -1,4 +1,4 @@
-"""A person drives with a gamepad, within limits, and loses the connection; the robot hears it or stands."""
+"""A user drives with a gamepad within limits, and loses the connection; the robot follows or stops."""
 
 import os
 import signal
@@ -24,7 +24,7 @@ FAKE_PAD = """window.pad = {
 };
 navigator.getGamepads = () => [window.pad, null];
 const tell = (kind) => dispatchEvent(Object.assign(new Event(kind), { gamepad: window.pad }));"""
-STANDS = (0.0, 0.0)
+STOPPED = (0.0, 0.0)
 
 
 @pytest.fixture(scope="module")
@@ -69,14 +69,14 @@ def user(chromium: Any, server: PageServer) -> Iterator[PanelUser]:
 
 
 def _push(user: PanelUser, x: float, y: float) -> None:
-    """Push the left stick, and wait until the page has read it."""
+    """Move the left stick, and wait until the page has read it."""
     user.page.evaluate(f"window.pad.axes = [{x}, {y}, 0, 0]")
     user.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
 @pytest.mark.slow
 def test_a_gamepad_drives_within_the_limits_and_stops(graph: Graph, robot: Robot, user: PanelUser) -> None:
-    """A stick that was never at rest does not drive; one let go, or unplugged, stops."""
+    """A stick that was never at rest does not drive; releasing or unplugging it stops."""
     user.page.get_by_role("textbox", name="Greatest speed").fill("0.8")
     user.page.keyboard.press("Enter")
     user.page.locator(".disc").focus()
@@ -90,37 +90,39 @@ def test_a_gamepad_drives_within_the_limits_and_stops(graph: Graph, robot: Robot
     _push(user, 0.5, -1)
     graph.until(lambda: robot.velocities.count((0.8, -0.5)) >= 3)
     _push(user, 0, 0)
-    graph.until(lambda: robot.velocities[-1] == STANDS)
+    graph.until(lambda: robot.velocities[-1] == STOPPED)
     _push(user, 0, -1)
     graph.until(lambda: robot.velocities[-1] == (0.8, 0.0))
     user.page.evaluate('window.tell("gamepaddisconnected"); window.pad = null')
-    graph.until(lambda: robot.velocities[-1] == STANDS)
-    user.until_still(lambda: len(robot.heard))
+    graph.until(lambda: robot.velocities[-1] == STOPPED)
+    user.until_still(lambda: len(robot.received))
 
-    assert (STANDS, STANDS) not in pairwise(robot.velocities)  # one stop goes out at a time
+    assert (STOPPED, STOPPED) not in pairwise(robot.velocities)  # stops are sent only once
 
 
-def test_a_lost_connection_is_said_stops_the_robot_and_comes_back(
+def test_a_lost_connection_is_shown_stops_the_robot_and_is_restored(
     graph: Graph, node: Node, robot: Robot, server: PageServer, user: PanelUser
 ) -> None:
-    """Last: it ends the server, and the next one has its address."""
+    """Must be last: it ends the server and starts another at the same address."""
     user.page.locator(".disc").focus()
     user.page.keyboard.down("w")
     graph.until(lambda: robot.velocities and robot.velocities[-1][0] > 0)
     os.kill(server.process_id, signal.SIGKILL)
-    graph.until(lambda: robot.velocities[-1] == STANDS)
+    graph.until(lambda: robot.velocities[-1] == STOPPED)
     status = user.page.get_by_role("banner").get_by_role("status")
     status.get_by_text("Connection lost, trying again").first.wait_for()
     user.page.locator("main.lost").wait_for()
     user.page.keyboard.up("w")
     user.page.keyboard.press("w")  # drives nothing
-    before = len(robot.heard)
+    before = len(robot.received)
     with _serve(graph, node, port=urlsplit(server.url).port or 0) as again:
-        user.page.context.request.get(again.url)  # as the tab that the next run opens; its cookie lets this one in
+        user.page.context.request.get(
+            again.url
+        )  # like the tab that the next run opens, whose cookie authorizes this one
         status.get_by_text("Connected").first.wait_for()
         user.page.locator("main.lost").wait_for(state="detached")
-        assert len(robot.heard) == before
+        assert len(robot.received) == before
         user.page.keyboard.down("s")
         graph.until(lambda: robot.velocities[-1][0] < 0)
         user.page.keyboard.up("s")
-        graph.until(lambda: robot.velocities[-1] == STANDS)
+        graph.until(lambda: robot.velocities[-1] == STOPPED)

@@ -1,4 +1,4 @@
-"""A person edits a running world and its time; what the simulation then has is read over the page's protocol."""
+"""A user edits a running world and its time; the simulation's state is read over the page's protocol."""
 
 import math
 from collections.abc import Iterator
@@ -49,7 +49,7 @@ def _choose(user: WorldUser, command: str) -> None:
 
 
 def _in_dialog(user: WorldUser, field: str, value: str, button: str) -> None:
-    """Type into the dialog of steps and times, and press a button there."""
+    """Type into the dialog of steps and times, and press a button in it."""
     _choose(user, "Go to a time, or take several steps")
     dialog = user.page.get_by_role("dialog", name="Steps and times")
     dialog.get_by_role("textbox", name=field, exact=True).fill(value)
@@ -57,7 +57,7 @@ def _in_dialog(user: WorldUser, field: str, value: str, button: str) -> None:
     dialog.get_by_role("button", name=button, exact=True).click()
 
 
-def test_several_steps_and_a_time_ahead_and_back(user: WorldUser) -> None:
+def test_several_steps_run_to_a_time_and_seek_back(user: WorldUser) -> None:
     before = _now(user)
     _in_dialog(user, "Steps", "25", "Take")
     user.until(lambda: _now(user) == pytest.approx(before + 0.25))
@@ -71,25 +71,25 @@ def test_several_steps_and_a_time_ahead_and_back(user: WorldUser) -> None:
     user.page.keyboard.press("Escape")
 
 
-def test_velocity_is_typed_and_one_model_put_back(user: WorldUser) -> None:
-    """The raft floats a metre along x; the crane, which was moved too, stays where it was put."""
+def test_a_velocity_is_typed_and_one_model_reset(user: WorldUser) -> None:
+    """The raft floats a metre along x and is reset; the crane, which was moved, too, keeps its pose."""
     user.pick("crane")
     user.type("x [m]", "-0.5")
-    user.until(lambda: user.place("crane")[0] == pytest.approx(-0.5))
+    user.until(lambda: user.position("crane")[0] == pytest.approx(-0.5))
     user.pick("raft")
     user.type("linear x [m/s]", "1")
     _in_dialog(user, "Steps", "100", "Take")
-    user.until(lambda: user.place("raft")[0] == pytest.approx(0.0, abs=0.02), what="for a metre")
+    user.until(lambda: user.position("raft")[0] == pytest.approx(0.0, abs=0.02), what="for a metre")
     _choose(user, "Reset the selected model only")
-    user.until(lambda: user.place("raft") == pytest.approx((-1, 0.8, 0.2), abs=1e-4))
+    user.until(lambda: user.position("raft") == pytest.approx((-1, 0.8, 0.2), abs=1e-4))
     _in_dialog(user, "Steps", "50", "Take")
     user.until_still(lambda: _now(user))
-    assert user.place("raft") == pytest.approx((-1, 0.8, 0.2), abs=1e-4), "it is at rest"
-    assert user.place("crane")[0] == pytest.approx(-0.5)
+    assert user.position("raft") == pytest.approx((-1, 0.8, 0.2), abs=1e-4), "it is at rest"
+    assert user.position("crane")[0] == pytest.approx(-0.5)
 
 
 def test_a_reset_of_a_model_is_undone_and_redone(user: WorldUser) -> None:
-    """From its menu; pose, joint, velocity and motor are those before: it drifts and slides on as it did."""
+    """Undo restores pose, joint, velocity and motor command: it drifts and slides on as before."""
     user.pick("crane")
     user.type("linear y [m/s]", "0.5")
     user.page.get_by_role("searchbox", name="Search the world").fill("slide")
@@ -97,21 +97,21 @@ def test_a_reset_of_a_model_is_undone_and_redone(user: WorldUser) -> None:
     user.type("target velocity [m/s]", "0.4")
     _in_dialog(user, "Steps", "50", "Take")
     user.until_still(lambda: _now(user))
-    base, arm = user.place("crane"), user.place("crane", 1)
+    base, arm = user.position("crane"), user.position("crane", 1)
     user.page.get_by_role("searchbox", name="Search the world").fill("")
     user.page.get_by_role("treeitem").filter(has_text="crane").first.click(button="right")
     user.page.locator('.menu [data-title="Reset this model"]').click()
-    user.until(lambda: user.place("crane") == pytest.approx((-1, -0.8, 0.2), abs=1e-6))
+    user.until(lambda: user.position("crane") == pytest.approx((-1, -0.8, 0.2), abs=1e-6))
     user.button("Undo: Reset of crane").click()
-    user.until(lambda: user.place("crane") == pytest.approx(base, abs=1e-6))
-    assert user.place("crane", 1) == pytest.approx(arm, abs=1e-6)
+    user.until(lambda: user.position("crane") == pytest.approx(base, abs=1e-6))
+    assert user.position("crane", 1) == pytest.approx(arm, abs=1e-6)
     _in_dialog(user, "Steps", "10", "Take")
-    user.until(lambda: user.place("crane")[1] == pytest.approx(base[1] + 0.05, abs=1e-3))
-    assert user.place("crane", 1)[0] - arm[0] == pytest.approx(0.04, abs=2e-3)
+    user.until(lambda: user.position("crane")[1] == pytest.approx(base[1] + 0.05, abs=1e-3))
+    assert user.position("crane", 1)[0] - arm[0] == pytest.approx(0.04, abs=2e-3)
     user.page.keyboard.press("Control+Shift+Z")
-    user.until(lambda: user.place("crane") == pytest.approx((-1, -0.8, 0.2), abs=1e-6))
+    user.until(lambda: user.position("crane") == pytest.approx((-1, -0.8, 0.2), abs=1e-6))
     user.button("Undo: Reset of crane").click()
-    user.until(lambda: user.place("crane")[1] > base[1])
+    user.until(lambda: user.position("crane")[1] > base[1])
 
 
 def _reset(user: WorldUser, model: str) -> None:
@@ -120,8 +120,8 @@ def _reset(user: WorldUser, model: str) -> None:
     user.button(f"Undo: Reset of {model}").wait_for()
 
 
-def test_a_torque_that_is_typed_turns_a_body_for_its_time(user: WorldUser) -> None:
-    """2 N·m on 1 kg·m² for half a second: 0.25 rad by then, and 1 rad/s for the other half."""
+def test_a_typed_torque_turns_a_body_for_its_duration(user: WorldUser) -> None:
+    """2 N·m on 1 kg·m² for half a second: 0.25 rad, then 1 rad/s for another half second."""
     _reset(user, "raft")
     user.page.get_by_role("treeitem").filter(has_text="raft").first.click(button="right")
     user.page.locator('.menu [data-title="Apply force or torque…"]').click()
@@ -138,7 +138,7 @@ def test_a_torque_that_is_typed_turns_a_body_for_its_time(user: WorldUser) -> No
     user.until(lambda: turned() == pytest.approx(0.75, abs=0.03), what=f"for a turn, not {turned()}")
 
 
-def test_the_timeline_shows_when_which_models_touched(user: WorldUser) -> None:
+def test_the_timeline_shows_contacts_of_models(user: WorldUser) -> None:
     """The raft drifts 1.2 m into the crane, at 1 m/s."""
     user.open("Timeline")
     user.page.get_by_role("group", name="Contacts", exact=True).wait_for()
@@ -163,15 +163,15 @@ def test_the_timeline_shows_when_which_models_touched(user: WorldUser) -> None:
 
 
 @pytest.mark.parametrize(("target", "value"), [("position [m]", "0.5"), ("velocity [m/s]", "0.4"), ("effort [N]", "2")])
-def test_a_joint_s_target_is_typed(user: WorldUser, target: str, value: str) -> None:
+def test_a_joints_target_is_typed(user: WorldUser, target: str, value: str) -> None:
     user.pick("crane")
     _choose(user, "Reset the selected model only")
-    user.until(lambda: user.place("crane", 1)[0] == pytest.approx(-0.2, abs=1e-3))
+    user.until(lambda: user.position("crane", 1)[0] == pytest.approx(-0.2, abs=1e-3))
     user.page.get_by_role("searchbox", name="Search the world").fill("slide")
     user.pick("slide")
     user.type(f"target {target}", value)
     _in_dialog(user, "Steps", "50", "Take")
-    user.until(lambda: user.place("crane", 1)[0] > -0.1, what=f"{user.place('crane', 1)}")
+    user.until(lambda: user.position("crane", 1)[0] > -0.1, what=f"{user.position('crane', 1)}")
     user.page.get_by_role("searchbox", name="Search the world").fill("")
 
 
@@ -186,7 +186,7 @@ _FITS = """rows => rows.map((row) => {
 
 
 @pytest.mark.parametrize("size", [(1440, 900), (1280, 760)])
-def test_three_numbers_stand_beside_their_name(user: WorldUser, size: tuple[int, int]) -> None:
+def test_rows_of_three_numbers_fit_next_to_their_name(user: WorldUser, size: tuple[int, int]) -> None:
     user.page.set_viewport_size({"width": size[0], "height": size[1]})
     user.pick("yard")
     user.field("gravity x").wait_for()
@@ -209,8 +209,8 @@ def test_wind_and_time_step_are_typed_and_undone(user: WorldUser) -> None:
     user.until(lambda: user.manifest()["physics"]["step"] == 0.01)
 
 
-def test_slow_motion_is_slow(user: WorldUser) -> None:
-    """In four seconds of wall time, some tenths of a second are simulated."""
+def test_slow_motion_slows_the_simulation_down(user: WorldUser) -> None:
+    """In four seconds of wall time, a few tenths of a second are simulated."""
     _choose(user, "Speed 0.1×")
     user.until(lambda: user.state["speed"] == 0.1)
     before = _now(user)
@@ -223,7 +223,7 @@ def test_slow_motion_is_slow(user: WorldUser) -> None:
     _choose(user, "Speed 1×")
 
 
-def test_a_mark_keeps_its_note_and_leads_back(user: WorldUser) -> None:
+def test_a_bookmark_keeps_its_note_and_seeks_back(user: WorldUser) -> None:
     user.open("Timeline")
     marked = _now(user)
     user.button("Mark").click()
@@ -237,8 +237,8 @@ def test_a_mark_keeps_its_note_and_leads_back(user: WorldUser) -> None:
     assert note.input_value() == "it turns here"
 
 
-def test_what_is_under_the_pointer_lights_up(user: WorldUser) -> None:
-    """The raft's outline, while the pointer is over it."""
+def test_the_object_under_the_pointer_is_outlined(user: WorldUser) -> None:
+    """The raft has an outline while the pointer is over it."""
     _reset(user, "raft")
     _choose(user, "Select nothing")
     user.page.mouse.move(*user.at((1.5, -1.2)))

@@ -1,4 +1,4 @@
-"""A person opens an .rviz file in the page, edits it and takes it home."""
+"""A user opens an .rviz file in the page, edits and downloads it."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -37,7 +37,7 @@ Visualization Manager:
 Window Geometry:
   Height: 800
 """
-"""As RViz 2 writes it."""
+"""File as RViz 2 writes it."""
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +70,7 @@ def _choose(user: SceneUser, command: str) -> None:
     user.page.get_by_role("option", name=command).click()
 
 
-def test_a_file_of_ros_2_is_opened_and_what_is_not_understood_comes_back(user: SceneUser, tmp_path: Path) -> None:
+def test_a_file_of_ros_2_is_opened_and_its_unknown_parts_are_kept(user: SceneUser, tmp_path: Path) -> None:
     import yaml
 
     file = tmp_path / "two.rviz"
@@ -89,16 +89,16 @@ def test_a_file_of_ros_2_is_opened_and_what_is_not_understood_comes_back(user: S
         user.button("Download").click()
 
     assert download.value.suggested_filename == "two.rviz"
-    found, expected = yaml.safe_load(download.value.path().read_text()), yaml.safe_load(ROS_2)
-    cube, particles = found["Visualization Manager"]["Displays"]
+    saved, expected = yaml.safe_load(download.value.path().read_text()), yaml.safe_load(ROS_2)
+    cube, particles = saved["Visualization Manager"]["Displays"]
     assert particles == expected["Visualization Manager"]["Displays"][1]
     assert (cube["Class"], cube["Enabled"], cube["Strange"]) == ("rviz_default_plugins/Marker", False, 42)
     assert cube["Topic"]["Value"] == "/cube"
-    assert (found["Panels"], found["Window Geometry"]) == (expected["Panels"], expected["Window Geometry"])
+    assert (saved["Panels"], saved["Window Geometry"]) == (expected["Panels"], expected["Window Geometry"])
 
 
 def test_the_details_of_the_notice_name_every_display_without_data(user: SceneUser) -> None:
-    """One of them is shown among the displays, with its reason."""
+    """One display of the notice is selected in the list, with its reason."""
     silent = [
         {"Class": "rviz/LaserScan", "Name": "Front laser", "Enabled": True, "Topic": "/front"},
         {"Class": "rviz/LaserScan", "Name": "Rear laser", "Enabled": True, "Topic": "/rear"},
@@ -125,8 +125,8 @@ IN_GROUP = {
 }
 
 
-def test_a_file_that_is_dropped_is_shown_and_its_group_switched_as_one(user: SceneUser) -> None:
-    """What is in the group keeps its own switch."""
+def test_a_dropped_file_is_shown_and_its_group_is_toggled(user: SceneUser) -> None:
+    """Displays in the group keep their own checkboxes."""
     import yaml
 
     user.drop_file("dropped.rviz", rviz_text(IN_GROUP))
@@ -142,7 +142,7 @@ def test_a_file_that_is_dropped_is_shown_and_its_group_switched_as_one(user: Sce
     user.until(lambda: user.sees_at((0.0, 0.0)), what="for the cube, once more")
 
     assert download.value.suggested_filename == "dropped.rviz"
-    (found,) = yaml.safe_load(download.value.path().read_text())["Visualization Manager"]["Displays"]
-    (cube,) = found["Displays"]
-    assert (found["Class"], found["Name"], found["Enabled"]) == ("rviz/Group", "Things", False)
+    (saved,) = yaml.safe_load(download.value.path().read_text())["Visualization Manager"]["Displays"]
+    (cube,) = saved["Displays"]
+    assert (saved["Class"], saved["Name"], saved["Enabled"]) == ("rviz/Group", "Things", False)
     assert (cube["Enabled"], cube["Marker Topic"], cube["Queue Size"]) == (True, "/cube", 7)

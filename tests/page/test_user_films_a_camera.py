@@ -1,4 +1,4 @@
-"""A person records a video of a simulated camera: its own pictures, in simulated time."""
+"""A user records a video of a simulated camera: its own pictures, in simulated time."""
 
 import re
 from pathlib import Path
@@ -18,12 +18,12 @@ DISTANCE_M, SPEED, RATE_HZ = 2.0, 0.25, 10
 WIDTH_PX = 160
 FOCAL_PX = WIDTH_PX / 2
 """A quarter turn is seen."""
-_BOX = "<geometry><box><size>0.02 0.3 0.3</size></box></geometry>"
+_GEOMETRY = "<geometry><box><size>0.02 0.3 0.3</size></box></geometry>"
 _RED = "<ambient>1 0 0 1</ambient><diffuse>1 0 0 1</diffuse><emissive>1 0 0 1</emissive>"
 WORLD = f"""<sdf version="1.6"><world name="yard"><gravity>0 0 0</gravity>
 <scene><background>0 0 0 1</background><grid>0</grid></scene>
 <model name="slider"><pose>{DISTANCE_M} -1 0.5 0 0 0</pose><link name="base"><inertial><mass>1</mass></inertial>
-<visual name="v">{_BOX}<material>{_RED}</material></visual></link>
+<visual name="v">{_GEOMETRY}<material>{_RED}</material></visual></link>
 <plugin name="start" filename="libInitialVelocityPlugin.so"><linear>0 {SPEED} 0</linear></plugin></model>
 <model name="post"><static>1</static><link name="base"><sensor name="eye" type="camera"><pose>0 0 0.5 0 0 0</pose>
 <update_rate>{RATE_HZ}</update_rate><camera><horizontal_fov>1.5708</horizontal_fov>
@@ -32,14 +32,14 @@ WORLD = f"""<sdf version="1.6"><world name="yard"><gravity>0 0 0</gravity>
 
 
 def _column(frame: Frame) -> float:
-    """Middle of what is red [px]."""
+    """Return the middle column of the red area [px]."""
     picture = frame.picture.astype(int)
     columns = np.nonzero(picture[:, :, 0] > picture[:, :, 1] + 100)[1]
     return float(columns.mean()) if len(columns) else float("nan")
 
 
-def test_the_video_s_time_is_simulated_time(chromium: Any, tmp_path: Path) -> None:
-    """At a third of real time, each picture is at the time of its stamp, and the box slides at its own speed."""
+def test_the_videos_time_is_simulated_time(chromium: Any, tmp_path: Path) -> None:
+    """At a third of real time, each picture has the time of its stamp, and the box slides at its simulated speed."""
     (tmp_path / "yard.sdf").write_text(WORLD)
     words = ("run", "yard.sdf", "--pause", "--port", "0", "--speed", "0.33")
     with (
@@ -68,7 +68,7 @@ def test_the_video_s_time_is_simulated_time(chromium: Any, tmp_path: Path) -> No
 
 
 def test_a_video_without_pictures_is_refused_with_the_reason(chromium: Any, tmp_path: Path) -> None:
-    """A paused simulation draws none."""
+    """A paused simulation draws no pictures."""
     (tmp_path / "yard.sdf").write_text(WORLD)
     words = ("run", "yard.sdf", "--pause", "--port", "0")
     with (

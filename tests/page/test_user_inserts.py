@@ -1,4 +1,4 @@
-"""A person puts shapes, lights and models into a running world, takes them out again and saves them."""
+"""A user inserts shapes, lights and models into a running world, deletes and saves them."""
 
 import math
 from collections.abc import Iterator
@@ -79,32 +79,32 @@ def _center(user: WorldUser, name: str) -> Point:
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
-def _stands(user: WorldUser, name: str, place: tuple[float, float, float], within: float = 0.03) -> bool:
-    return user.pose(name) is not None and math.dist(user.place(name), place) < within
+def _is_at(user: WorldUser, name: str, position: tuple[float, float, float], within: float = 0.03) -> bool:
+    return user.pose(name) is not None and math.dist(user.position(name), position) < within
 
 
 def _lights(user: WorldUser) -> dict[str, list[float]]:
     return {light["name"]: light["pose"][:3] for light in user.manifest()["lights"]}
 
 
-def test_a_box_is_pressed_and_placed_by_a_click(user: WorldUser) -> None:
-    """Twice; the second has a name of its own, and each can be undone."""
+def test_a_box_is_chosen_and_placed_by_a_click(user: WorldUser) -> None:
+    """Done twice: the second box has a different name, and both insertions can be undone."""
     for point in ((-1.5, 0.0), (1.5, 0.0)):
         _entry(user, "box").click()
         user.click(point)
         name = "box" if point[0] < 0 else "box_0"
-        user.until(lambda name=name, point=point: _stands(user, name, (*point, 0.5)), what=f"for {name}")
+        user.until(lambda name=name, point=point: _is_at(user, name, (*point, 0.5)), what=f"for {name}")
     user.button("Undo: Insert box_0").click()
     user.until(lambda: user.model("box_0") is None)
     user.button("Redo: Insert box_0").click()
-    user.until(lambda: _stands(user, "box_0", (1.5, 0.0, 0.5)))
+    user.until(lambda: _is_at(user, "box_0", (1.5, 0.0, 0.5)))
     for name in ("box_0", "box"):
         user.button(f"Undo: Insert {name}").click()
         user.until(lambda name=name: user.model(name) is None)
 
 
-def test_a_model_is_searched_and_dragged_onto_the_table(user: WorldUser) -> None:
-    """Its picture is red as it is; what follows the pointer is seen before it is placed."""
+def test_a_model_is_found_and_dragged_onto_the_table(user: WorldUser) -> None:
+    """Its picture is red like the model; a preview at the pointer is visible before it is placed."""
     user.page.get_by_label("Search the models").fill("crate of")
     user.until(lambda: user.page.locator(".model").count() == 1)
     picture = user.page.locator(".model img")
@@ -113,10 +113,10 @@ def test_a_model_is_searched_and_dragged_onto_the_table(user: WorldUser) -> None
     user.page.mouse.move(*_center(user, "Crate of wood"))
     user.page.mouse.down()
     user.page.mouse.move(*user.at((0.0, 1.0)), steps=4)
-    user.until(lambda: _redness(user.picture()) > _redness(before) + 1000, what="for what follows the pointer")
+    user.until(lambda: _redness(user.picture()) > _redness(before) + 1000, what="for the preview at the pointer")
     assert user.model("crate") is None
     user.page.mouse.up()
-    user.until(lambda: _stands(user, "crate", (0.0, 1.0, 0.7)), what="for the crate on the table")
+    user.until(lambda: _is_at(user, "crate", (0.0, 1.0, 0.7)), what="for the crate on the table")
     user.page.get_by_label("Search the models").fill("")
 
 
@@ -125,7 +125,7 @@ def _redness(picture: Any) -> int:
     return int(((red > green + 60) & (red > blue + 60)).sum())
 
 
-def test_escape_leaves_and_nothing_is_inserted(user: WorldUser) -> None:
+def test_escape_cancels_an_insertion(user: WorldUser) -> None:
     names = {model["name"] for model in user.manifest()["models"]}
     _entry(user, "sphere").click()
     user.page.mouse.move(*user.at((-1.0, -0.5)))
@@ -140,10 +140,10 @@ def test_escape_leaves_and_nothing_is_inserted(user: WorldUser) -> None:
     assert {model["name"] for model in user.manifest()["models"]} == names
 
 
-def test_by_the_keyboard_it_comes_into_the_middle_of_the_view(user: WorldUser) -> None:
+def test_the_keyboard_inserts_at_the_middle_of_the_view(user: WorldUser) -> None:
     _entry(user, "cylinder").focus()
     user.page.keyboard.press("Enter")
-    user.until(lambda: _stands(user, "cylinder", (0.0, 0.0, 0.5), within=0.1), what="for the cylinder")
+    user.until(lambda: _is_at(user, "cylinder", (0.0, 0.0, 0.5), within=0.1), what="for the cylinder")
     user.page.locator(VIEW_CANVAS).focus()
     user.page.keyboard.press("Delete")
     user.until(lambda: user.model("cylinder") is None)
@@ -151,7 +151,7 @@ def test_by_the_keyboard_it_comes_into_the_middle_of_the_view(user: WorldUser) -
     user.until(lambda: user.model("cylinder") is not None)
 
 
-def test_a_light_comes_and_is_deleted(user: WorldUser) -> None:
+def test_a_light_is_inserted_and_deleted(user: WorldUser) -> None:
     _entry(user, "spot light").click()
     user.click((-1.0, 0.5))
     user.until(lambda: "spot_light" in _lights(user))
@@ -162,7 +162,7 @@ def test_a_light_comes_and_is_deleted(user: WorldUser) -> None:
     user.until(lambda: "spot_light" in _lights(user))
 
 
-def test_code_is_run_only_if_a_person_agrees(user: WorldUser, folder: Path) -> None:
+def test_code_is_run_only_after_consent(user: WorldUser, folder: Path) -> None:
     ran = folder / ".gazebo" / "models" / "coded" / "has_run"
     dialog = user.page.get_by_role("dialog", name="Run the code of Coded of wood?")
     for agrees in (False, True):
@@ -172,11 +172,11 @@ def test_code_is_run_only_if_a_person_agrees(user: WorldUser, folder: Path) -> N
         assert not ran.exists()
         assert user.model("coded") is None
         dialog.get_by_role("button", name="Insert and run it" if agrees else "Cancel").click()
-    user.until(lambda: _stands(user, "coded", (1.0, -0.8, 0.2)))
+    user.until(lambda: _is_at(user, "coded", (1.0, -0.8, 0.2)))
     assert ran.exists()
 
 
-def test_what_was_inserted_is_saved_with_the_world(user: WorldUser, folder: Path) -> None:
+def test_inserted_models_are_saved_with_the_world(user: WorldUser, folder: Path) -> None:
     user.page.locator(VIEW_CANVAS).focus()
     user.page.keyboard.press("Control+s")
     dialog = user.page.get_by_role("dialog", name="Save the world as SDF")
@@ -191,7 +191,7 @@ def test_what_was_inserted_is_saved_with_the_world(user: WorldUser, folder: Path
     assert [light.name for light in again.world.lights] == ["spot_light"]
 
 
-def test_on_a_phone_it_is_tapped_and_then_a_place(chromium: Any, address: str, user: WorldUser) -> None:
+def test_on_a_phone_a_shape_and_then_a_point_are_tapped(chromium: Any, address: str, user: WorldUser) -> None:
     context = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     page = context.new_page()
     page.set_default_timeout(60_000)

@@ -1,4 +1,4 @@
-"""A person reads and types the properties of what moves."""
+"""A user reads and types properties of moving models."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -39,8 +39,8 @@ def _number(user: SceneUser, label: str) -> float:
     return float(user.property(label).input_value().replace("−", "-"))
 
 
-def test_the_twist_is_read_as_it_was_typed(user: SceneUser) -> None:
-    """The velocity stays the same; so does each of the numbers that follow one another."""
+def test_a_typed_twist_is_shown(user: SceneUser) -> None:
+    """The velocity is constant, and so are the shown numbers."""
     user.page.get_by_role("treeitem").get_by_text("balloon", exact=True).first.click()
     typed = {"linear x [m/s]": SPEED, "angular z [rad/s]": TURN}
     for label, value in typed.items():
@@ -56,13 +56,13 @@ def test_the_twist_is_read_as_it_was_typed(user: SceneUser) -> None:
 
 
 def _choose(user: SceneUser, name: str) -> None:
-    """Search the tree for a thing, and select it."""
+    """Search the tree for an object, and select it."""
     user.page.get_by_label("Search the world").fill(name)
     user.page.get_by_role("treeitem").get_by_text(name, exact=True).click()
 
 
 def _rows(user: SceneUser) -> dict[str, str]:
-    """Return the values that the inspector shows, by name."""
+    """Return the values in the inspector by name."""
     rows = user.page.locator(".inspector .kv:not(.numbers)").all()
     return dict(tuple(row.locator("> span").all_inner_texts()) for row in rows)
 
@@ -82,7 +82,7 @@ def test_a_link_shows_its_mass_and_inertia(user: SceneUser) -> None:
     assert shown["ixy · ixz · iyz"] == "0 · 0.0040 · 0kg m²"
 
 
-def test_a_sensor_shows_its_rate_and_where_it_is_written(user: SceneUser) -> None:
+def test_a_sensor_shows_its_rate_and_source_location(user: SceneUser) -> None:
     _choose(user, "level")
 
     assert _rows(user) == {"Type": "imu", "Rate": "25Hz"}

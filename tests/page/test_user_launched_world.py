@@ -1,4 +1,4 @@
-"""A person goes back in time, builds, saves and loads again what a launch with gzserver simulates."""
+"""A user of a launch with gzserver goes back in time, builds a model, saves and reloads the world."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -47,16 +47,18 @@ def user(chromium: Any, folder: Path) -> Iterator[CartBuilder]:
         user.close()
 
 
-def test_the_timeline_goes_back_to_before_the_robot_had_fallen_and_on(user: CartBuilder) -> None:
-    user.until(lambda: user.place("robot")[2] < 0.2, what="for the robot on the ground")
+def test_the_timeline_seeks_to_before_the_robots_fall_and_runs_on(user: CartBuilder) -> None:
+    user.until(lambda: user.position("robot")[2] < 0.2, what="for the robot on the ground")
     user.page.get_by_role("banner").get_by_role("button", name="Pause").click()
     user.until(lambda: user.is_paused, what="for the pause")
     user.open("Timeline")
     head = user.page.get_by_role("slider", name="Time")
     head.press("Home")
-    user.until(lambda: not user.model("robot") or user.place("robot")[2] > 0.5, what="for the time before its fall")
+    user.until(lambda: not user.model("robot") or user.position("robot")[2] > 0.5, what="for the time before its fall")
     head.press("End")
-    user.until(lambda: user.model("robot") and user.place("robot")[2] < 0.2, what="for the robot on the ground again")
+    user.until(
+        lambda: user.model("robot") and user.position("robot")[2] < 0.2, what="for the robot on the ground again"
+    )
 
 
 def test_a_model_is_built_and_the_world_saved_with_it(user: CartBuilder, folder: Path) -> None:
@@ -75,11 +77,11 @@ def test_a_model_is_built_and_the_world_saved_with_it(user: CartBuilder, folder:
     assert [model.name for model in saved.models] == ["ground_plane", "post", "robot", "crate"]
 
 
-def test_the_launch_is_loaded_again_with_its_files_as_they_are_now(user: CartBuilder, folder: Path) -> None:
+def test_the_launch_is_reloaded_with_its_changed_files(user: CartBuilder, folder: Path) -> None:
     (folder / "yard.world").write_text(WORLD.format("garden", "tree"))
     user.button("World's menu").click()
     user.page.get_by_role("menuitem", name="Load the world again").click()
     names = ["ground_plane", "tree", "robot"]
     user.until(lambda: [model["name"] for model in user.manifest()["models"]] == names, what="for the new world")
     user.page.get_by_role("tree", name="World").get_by_role("treeitem").filter(has_text="garden").wait_for()
-    user.until(lambda: user.place("robot")[2] < 0.2, what="for the robot on the ground")
+    user.until(lambda: user.position("robot")[2] < 0.2, what="for the robot on the ground")

@@ -1,4 +1,4 @@
-"""A person arranges the page: what is open and how wide is remembered; the view can be frozen."""
+"""A user arranges the page: open panels and their widths are remembered; the view can be frozen."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -33,7 +33,7 @@ def user(chromium: Any, graph: Graph) -> Iterator[SceneUser]:
         user.close()
 
 
-def test_a_frozen_view_stands_still_and_then_shows_the_newest(user: SceneUser, graph: Graph) -> None:
+def test_a_frozen_view_is_still_and_then_shows_the_newest_data(user: SceneUser, graph: Graph) -> None:
     square = graph.node("square").advertise("/square", "visualization_msgs/Marker", latch=True)
 
     def show_at(x: float) -> None:
@@ -49,13 +49,13 @@ def test_a_frozen_view_stands_still_and_then_shows_the_newest(user: SceneUser, g
         show_at(x)
     user.page.wait_for_timeout(1000)
 
-    assert user.sees_at((0.0, 0.0)), "the frozen view has moved on"
+    assert user.sees_at((0.0, 0.0)), "the frozen view has changed"
     user.button(FREEZE).click()
     user.until(lambda: user.sees_at((-1.0, 0.0)), what="for the newest")
     assert not user.sees_at((0.0, 0.0))
 
 
-def test_what_is_open_and_how_wide_is_the_same_when_the_page_is_loaded_again(user: SceneUser) -> None:
+def test_the_layout_is_restored_when_the_page_is_reloaded(user: SceneUser) -> None:
     def edges() -> list[float]:
         style = "getComputedStyle(document.documentElement)"
         return [user.page.evaluate(f"parseFloat({style}.getPropertyValue('--in-{edge}'))") for edge in "lrb"]
@@ -74,4 +74,4 @@ def test_what_is_open_and_how_wide_is_the_same_when_the_page_is_loaded_again(use
 
     assert arranged[0] < first[0] - 10
     assert arranged[2] < first[2]
-    user.until(lambda: edges() == arranged, what="for the layout that was left")
+    user.until(lambda: edges() == arranged, what="for the former layout")

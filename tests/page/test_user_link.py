@@ -1,4 +1,4 @@
-"""The link in a browser: the cookie takes over, the address loses the token, and without it the page asks for it."""
+"""The link in a browser: its token moves from the address into a cookie; without a token the page asks for the link."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -33,12 +33,12 @@ def _bare(page: PageServer) -> str:
     return page.url.partition("?")[0]
 
 
-def test_the_token_goes_from_the_address_into_a_cookie(page: PageServer, browser: Any) -> None:
-    """By the file that Trundle opens; the page goes on after it is loaded again."""
+def test_the_token_moves_from_the_address_into_a_cookie(page: PageServer, browser: Any) -> None:
+    """The page is opened by the file that Trundle writes, and works after a reload."""
     token = page.url.partition("token=")[2]
     tab = browser.new_page()
-    asked: list[Any] = []
-    tab.on("request", lambda request: asked.append(request))
+    requests: list[Any] = []
+    tab.on("request", lambda request: requests.append(request))
     file = write_redirect(page.url)
     assert file is not None
     tab.goto(file.as_uri())
@@ -49,15 +49,15 @@ def test_the_token_goes_from_the_address_into_a_cookie(page: PageServer, browser
     (cookie,) = browser.cookies()
     assert (cookie["name"], cookie["value"]) == (f"trundle-{urlsplit(page.url).port}", token)
     assert (cookie["httpOnly"], cookie["sameSite"]) == (True, "Strict")
-    assert [request.headers["referer"] for request in asked if token in request.headers.get("referer", "")] == []
-    with_token = [request.url for request in asked if token in request.url]
+    assert [request.headers["referer"] for request in requests if token in request.headers.get("referer", "")] == []
+    with_token = [request.url for request in requests if token in request.url]
     assert {urlsplit(url).path for url in with_token} == {"/", "/session.json"}
     tab.reload()
     tab.get_by_label("Connected").first.wait_for()
     file.unlink()
 
 
-def test_a_link_that_only_allows_looking_does_so_beside_one_that_allows_more(page: PageServer, browser: Any) -> None:
+def test_a_view_only_link_is_view_only_in_a_browser_with_full_access(page: PageServer, browser: Any) -> None:
     owner, viewer = browser.new_page(), browser.new_page()
     owner.goto(page.url)
     owner.get_by_label("Connected").first.wait_for()
@@ -73,23 +73,23 @@ def test_a_link_that_only_allows_looking_does_so_beside_one_that_allows_more(pag
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_without_the_token_the_page_asks_for_the_link(page: PageServer, chromium: Any, scheme: str) -> None:
-    """The document stands in a phone's width, too, and reads no file but itself."""
+    """The document fits a phone's width, too, and loads no other file."""
     context = chromium.new_context(color_scheme=scheme, viewport={"width": 390, "height": 700})
     tab = context.new_page()
-    asked: list[str] = []
-    tab.on("request", lambda request: asked.append(request.url))
+    requests: list[str] = []
+    tab.on("request", lambda request: requests.append(request.url))
     answer = tab.goto(_bare(page))
 
     assert answer.status == 403
     assert tab.get_by_text("trundle page link").is_visible()
     assert tab.evaluate("document.documentElement.scrollWidth") == 390
-    colour = tab.evaluate("getComputedStyle(document.body).backgroundColor")
-    assert colour == {"light": "rgb(246, 247, 248)", "dark": "rgb(22, 25, 28)"}[scheme]
-    assert set(asked) <= {_bare(page), f"{_bare(page)}favicon.ico"}
+    color = tab.evaluate("getComputedStyle(document.body).backgroundColor")
+    assert color == {"light": "rgb(246, 247, 248)", "dark": "rgb(22, 25, 28)"}[scheme]
+    assert set(requests) <= {_bare(page), f"{_bare(page)}favicon.ico"}
     context.close()
 
 
-def test_a_link_on_another_site_asks_and_opens_it_again(page: PageServer, browser: Any) -> None:
+def test_a_link_on_another_site_opens_the_page_again(page: PageServer, browser: Any) -> None:
     """SameSite=Strict keeps the cookie from other sites' links."""
     owner = browser.new_page()
     owner.goto(page.url)

@@ -1,4 +1,4 @@
-"""A person opens the menu of a model in scene and tree, by mouse, keyboard and finger; the simulation is checked."""
+"""A user opens the menu of a model in scene and tree, by mouse, keyboard and touch; the simulation is checked."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -12,11 +12,11 @@ from tests.system.browser import running_page
 pytestmark = [pytest.mark.slow, needs_client]
 
 
-def _box(name: str, place: str, size: str, *, static: bool = False) -> str:
+def _box(name: str, pose: str, size: str, *, static: bool = False) -> str:
     """Return a model of a box with a collision and a visual."""
     shape = f"<geometry><box><size>{size}</size></box></geometry>"
     link = f'<link name="base"><collision name="c">{shape}</collision><visual name="v">{shape}</visual></link>'
-    return f'<model name="{name}"><static>{int(static)}</static><pose>{place}</pose>{link}</model>'
+    return f'<model name="{name}"><static>{int(static)}</static><pose>{pose}</pose>{link}</model>'
 
 
 WORLD = f"""<sdf version="1.6"><world name="yard">{_box("floor", "0 0 -0.1 0 0 0", "20 20 0.2", static=True)}
@@ -24,7 +24,7 @@ WORLD = f"""<sdf version="1.6"><world name="yard">{_box("floor", "0 0 -0.1 0 0 0
 
 
 class MenuUser(WorldUser):
-    """Opens menus, and chooses from them."""
+    """Opens menus and chooses entries."""
 
     def entry(self, title: str) -> Any:
         return self.page.locator(f'.menu [data-title="{title}"]')
@@ -38,7 +38,7 @@ class MenuUser(WorldUser):
 
     @property
     def entries(self) -> list[str]:
-        return [str(each.get_attribute("data-title")) for each in self.page.locator(".menu button").all()]
+        return [str(entry.get_attribute("data-title")) for entry in self.page.locator(".menu button").all()]
 
     @property
     def is_following(self) -> bool:
@@ -66,7 +66,7 @@ def user(chromium: Any, url: str) -> Iterator[MenuUser]:
 
 
 def test_the_menu_of_a_model_has_gazebos_entries(user: MenuUser) -> None:
-    """In Gazebo's order; Escape shuts it."""
+    """The order is Gazebo's; Escape closes it."""
     user.click((-1, 0), button="right")
     user.page.get_by_role("heading", name="base", exact=True).wait_for()
     assert user.entries == [
@@ -88,18 +88,18 @@ def test_a_drag_of_the_right_button_zooms_and_opens_no_menu(user: MenuUser) -> N
 
 
 def test_a_copy_is_pasted_where_the_menu_was_opened(user: MenuUser) -> None:
-    """Its foot is on the floor there; undo takes it away."""
+    """The copy is on the floor at that point; undo removes it."""
     user.row("drum").click(button="right")
     user.choose("Copy")
     user.click((0.3, -0.8), button="right")
     user.choose("Paste")
     user.until(lambda: user.model("drum_0"))
-    user.until(lambda: user.place("drum_0") == pytest.approx((0.3, -0.8, 0.3), abs=0.02))
+    user.until(lambda: user.position("drum_0") == pytest.approx((0.3, -0.8, 0.3), abs=0.02))
     user.button("Undo: Copy of drum").click()
     user.until(lambda: not user.model("drum_0"))
 
 
-def test_a_model_is_deleted_and_put_back(user: MenuUser) -> None:
+def test_a_model_is_deleted_and_restored(user: MenuUser) -> None:
     user.click((1, 0), button="right")
     user.choose("Delete")
     user.until(lambda: not user.model("drum"))
@@ -107,7 +107,7 @@ def test_a_model_is_deleted_and_put_back(user: MenuUser) -> None:
     user.until(lambda: user.model("drum"))
 
 
-def test_the_view_follows_what_the_menu_is_of(user: MenuUser) -> None:
+def test_the_view_follows_the_menus_model(user: MenuUser) -> None:
     user.row("drum").click(button="right")
     user.choose("Follow")
     assert user.is_following
@@ -117,8 +117,8 @@ def test_the_view_follows_what_the_menu_is_of(user: MenuUser) -> None:
     user.look_down()
 
 
-def test_the_keyboard_opens_the_menu_and_what_lies_in_it(user: MenuUser) -> None:
-    """Shift F10 in the tree; View opens beside it, and its marks stay open."""
+def test_the_keyboard_opens_the_menu_and_its_submenus(user: MenuUser) -> None:
+    """Shift F10 opens it in the tree; the submenu View stays open while its entries are toggled."""
     user.row("crate").click()
     user.page.keyboard.press("Shift+F10")
     user.entry("Move to").wait_for()
@@ -132,11 +132,11 @@ def test_the_keyboard_opens_the_menu_and_what_lies_in_it(user: MenuUser) -> None
     user.page.keyboard.press("ArrowLeft")
     user.page.wait_for_function("document.activeElement.dataset.title === 'View'")
     user.page.keyboard.press("Escape")
-    assert user.button("Collisions").get_attribute("aria-pressed") == "true"  # in the Inspector, of this model
+    assert user.button("Collisions").get_attribute("aria-pressed") == "true"  # of this model, in the inspector
     user.button("Collisions").click()
 
 
-def test_the_keyboard_opens_the_menu_of_what_is_selected_in_the_scene(user: MenuUser) -> None:
+def test_the_keyboard_opens_the_menu_of_the_selection_in_the_scene(user: MenuUser) -> None:
     user.pick("crate")
     user.page.locator(VIEW_CANVAS).focus()
     user.page.keyboard.press("Shift+F10")
@@ -149,29 +149,29 @@ def test_the_keyboard_opens_the_menu_of_what_is_selected_in_the_scene(user: Menu
 
 
 def test_a_force_is_applied_from_the_menu(user: MenuUser) -> None:
-    """The form's first field has the focus; 60 N for 0.2 s push 1 kg."""
+    """The form's first field has the focus; 60 N act for 0.2 s on 1 kg."""
     user.page.get_by_role("banner").get_by_role("button", name="Play", exact=True).click()
     user.click((-1, 0), button="right")
     user.choose("Apply force or torque…")
     user.page.wait_for_function("document.activeElement.getAttribute('aria-label') === 'force x'")
-    before = user.place("crate")
+    before = user.position("crate")
     user.page.keyboard.press("Control+a")
     user.page.keyboard.type("-60")
     user.page.keyboard.press("Enter")
     user.type("duration [s]", "0.2")
     user.button("Apply").click()
-    user.until(lambda: user.place("crate")[0] < before[0] - 0.3, what=f"{user.place('crate')}, was {before}")
+    user.until(lambda: user.position("crate")[0] < before[0] - 0.3, what=f"{user.position('crate')}, was {before}")
     user.page.get_by_role("banner").get_by_role("button", name="Pause", exact=True).click()
 
 
-def test_a_finger_that_rests_opens_the_menu(chromium: Any, url: str) -> None:
+def test_a_long_touch_opens_the_menu(chromium: Any, url: str) -> None:
     context = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     tab = context.new_page()
     tab.goto(url)
     tab.get_by_label("Connected").first.wait_for()
     tab.get_by_role("navigation").get_by_role("button", name="World").click()
     row = tab.get_by_role("treeitem").filter(has_text="drum").first
-    row.click(trial=True)  # the sheet has come to rest
+    row.click(trial=True)  # waits until the sheet is still
     box = row.bounding_box()
     touch = context.new_cdp_session(tab)
     at = {"x": box["x"] + 80, "y": box["y"] + box["height"] / 2}
@@ -183,7 +183,7 @@ def test_a_finger_that_rests_opens_the_menu(chromium: Any, url: str) -> None:
     context.close()
 
 
-def test_who_only_looks_is_offered_nothing_that_changes_the_world(chromium: Any, user: MenuUser) -> None:
+def test_a_view_only_menu_has_no_entries_that_change_the_world(chromium: Any, user: MenuUser) -> None:
     user.button("Search commands, Ctrl K").click()
     user.page.get_by_role("combobox", name="Search commands").fill("link to this view")
     user.page.keyboard.press("Enter")

@@ -1,4 +1,4 @@
-"""A person's page and its server are of different versions: a sentence says which message cannot be read."""
+"""Page and server are of different versions: a notice names the invalid message."""
 
 from typing import Any
 
@@ -22,7 +22,7 @@ def tab(chromium: Any) -> Any:
     tab.close()
 
 
-def test_a_world_of_another_version_is_a_notice_and_no_exception(page: PageServer, tab: Any) -> None:
+def test_a_world_of_another_version_causes_a_notice(page: PageServer, tab: Any) -> None:
     page.set_world(empty_manifest(1), {})
     errors: list[Any] = []
     tab.on("pageerror", lambda error: errors.append(error))
@@ -38,7 +38,7 @@ def test_a_world_of_another_version_is_a_notice_and_no_exception(page: PageServe
     assert errors == []
 
 
-def test_a_session_of_another_version_is_a_sentence_in_place_of_the_page(page: PageServer, tab: Any) -> None:
+def test_a_session_of_another_version_replaces_the_page_by_a_message(page: PageServer, tab: Any) -> None:
     def without_title(route: Any) -> None:
         answer = route.fetch()
         fields = answer.json()

@@ -1,4 +1,4 @@
-"""A person splits the view into panes, turns, selects and moves in each; pictures and the simulation are checked."""
+"""A user splits the view into panes, turns, selects and moves in each; pictures and the simulation are checked."""
 
 import io
 from collections.abc import Iterator
@@ -16,11 +16,11 @@ from tests.page.test_user_views import BLUE, GREEN, RED, WIDTH_M, WORLD, Looker
 from tests.system.browser import running_page
 
 pytestmark = [pytest.mark.slow, needs_client]
-Box = dict[str, float]
+Rectangle = dict[str, float]
 
 
 class PaneUser(Looker):
-    """Looks at single panes by the names over them."""
+    """Takes pictures of single panes by their names."""
 
     def names(self) -> list[str]:
         return [str(name) for name in self.page.locator(".panename").all_inner_texts()]
@@ -28,8 +28,8 @@ class PaneUser(Looker):
     def active(self) -> str:
         return str(self.page.locator(".panename.on").inner_text())
 
-    def frame(self, name: str) -> Box:
-        """Return the part of a pane that no panel covers, below its name [px]."""
+    def frame(self, name: str) -> Rectangle:
+        """Return the uncovered part of a pane, below its name [px]."""
         pane = self.page.locator(".pane").filter(has=self.page.get_by_role("button", name=name, exact=True))
         box, title = pane.bounding_box(), pane.locator(".panename").bounding_box()
         below = self.page.locator(".dock").bounding_box()["y"]
@@ -38,14 +38,14 @@ class PaneUser(Looker):
         return {"x": left, "y": top, "width": right - left - 80, "height": min(box["y"] + box["height"], below) - top}
 
     def shot(self, name: str) -> NDArray[np.uint8]:
-        """Return what a pane shows (height, width, 3)."""
+        """Return the picture of a pane (height, width, 3)."""
         return np.asarray(Image.open(io.BytesIO(self.page.screenshot(clip=self.frame(name)))).convert("RGB"))
 
-    def centre(self, name: str, colour: tuple[int, int, int]) -> tuple[float, float, float]:
-        """Where in the page the middle of what has a colour is in a pane, and its width [px]."""
-        mask = (np.abs(self.shot(name).astype(int) - colour) < 12).all(axis=-1)
+    def centre(self, name: str, color: tuple[int, int, int]) -> tuple[float, float, float]:
+        """Return the middle, in the page, and the width of the area with a color in a pane [px]."""
+        mask = (np.abs(self.shot(name).astype(int) - color) < 12).all(axis=-1)
         rows, columns = np.nonzero(mask)
-        assert rows.size, f"nothing in {name} is {colour}"
+        assert rows.size, f"nothing in {name} is {color}"
         frame = self.frame(name)
         return frame["x"] + columns.mean(), frame["y"] + rows.mean(), float(columns.max() - columns.min() + 1)
 
@@ -79,17 +79,17 @@ def user(chromium: Any, url: str) -> Iterator[PaneUser]:
 
 
 def test_four_panes_show_the_world_from_four_sides(user: PaneUser) -> None:
-    """The first keeps its view; the others are named after their sides, and show what is seen from there."""
+    """The first keeps its view; the others show the world from the sides in their names."""
     user.run("Four views")
     user.page.locator(".panename").nth(3).wait_for()
     assert user.names() == ["Perspective", "Top", "Front", "Right"]
     user.still()
-    for name, colour in zip(user.names(), (GREEN, GREEN, BLUE, GREEN), strict=True):
-        user.centre(name, colour)
+    for name, color in zip(user.names(), (GREEN, GREEN, BLUE, GREEN), strict=True):
+        user.centre(name, color)
 
 
-def test_a_drag_turns_the_pane_where_it_begins(user: PaneUser) -> None:
-    """It goes on over the next pane, and leaves the others as they are."""
+def test_a_drag_turns_the_pane_in_which_it_starts(user: PaneUser) -> None:
+    """It continues over the next pane, and does not turn others."""
     frame = user.frame("Perspective")
     x, y = frame["x"] + frame["width"] - 10, frame["y"] + frame["height"] - 10
     user.page.mouse.move(x, y)
@@ -116,19 +116,19 @@ def test_the_wheel_zooms_the_pane_under_the_pointer(user: PaneUser) -> None:
 
 
 @pytest.mark.parametrize(
-    ("pane", "colour", "model"), [("Top", BLUE, "blue"), ("Right", RED, "red"), ("Top", GREEN, "cart")]
+    ("pane", "color", "model"), [("Top", BLUE, "blue"), ("Right", RED, "red"), ("Top", GREEN, "cart")]
 )
-def test_a_click_selects_what_the_pane_shows_there(
-    user: PaneUser, pane: str, colour: tuple[int, int, int], model: str
+def test_a_click_selects_an_object_in_the_pane(
+    user: PaneUser, pane: str, color: tuple[int, int, int], model: str
 ) -> None:
-    x, y, _ = user.centre(pane, colour)
+    x, y, _ = user.centre(pane, color)
     user.page.mouse.click(x, y)
     user.page.get_by_text(f"link of {model}").wait_for()
     assert user.active() == pane
 
 
-def test_an_arrow_moves_a_model_as_far_as_the_pane_shows(user: PaneUser) -> None:
-    """Along x, by 60 px from above; seen from above, red is 0.4 m wide."""
+def test_an_arrow_moves_a_model_by_the_panes_scale(user: PaneUser) -> None:
+    """A drag of 60 px along x in the pane Top, in which the red box is 0.4 m wide."""
     user.pick("red")
     user.tool("Move")
     user.still()
@@ -138,16 +138,18 @@ def test_an_arrow_moves_a_model_as_far_as_the_pane_shows(user: PaneUser) -> None
     user.page.mouse.move(x + 140, y, steps=3)
     user.page.mouse.up()
     moved = 60 * WIDTH_M / width
-    user.until(lambda: user.place("red")[0] == pytest.approx(moved, rel=0.15), what=f"{user.place('red')}, not {moved}")
-    assert user.place("red")[1:] == pytest.approx((0, 0.2), abs=1e-3)
+    user.until(
+        lambda: user.position("red")[0] == pytest.approx(moved, rel=0.15), what=f"{user.position('red')}, not {moved}"
+    )
+    assert user.position("red")[1:] == pytest.approx((0, 0.2), abs=1e-3)
     user.button("Undo: Pose of red").click()
-    user.until(lambda: abs(user.place("red")[0]) < 1e-3)
+    user.until(lambda: abs(user.position("red")[0]) < 1e-3)
     user.tool("Interact")
     user.page.keyboard.press("Escape")
 
 
-def test_the_keyboard_goes_from_pane_to_pane(user: PaneUser) -> None:
-    """V makes the next pane the active one, which the arrows turn."""
+def test_a_key_activates_the_next_pane(user: PaneUser) -> None:
+    """V activates the next pane, which the arrows turn."""
     user.page.locator(VIEW_CANVAS).focus()
     names = user.names()
     at = names.index(user.active())
@@ -160,11 +162,11 @@ def test_the_keyboard_goes_from_pane_to_pane(user: PaneUser) -> None:
     user.page.keyboard.press("ArrowLeft")
     user.still()
     changed = [name for name in names if name not in user.names() or not np.array_equal(before[name], user.shot(name))]
-    assert changed in ([names[at]], [])  # from straight above, it turns about itself
+    assert changed in ([names[at]], [])  # seen straight from above, the box turns about itself
 
 
 def test_a_pane_looks_through_a_camera(user: PaneUser) -> None:
-    """Chosen in the menu over it; the camera's edge lies in that pane, and red fills it as it does the camera's."""
+    """The camera is chosen in the pane's menu; the red face fills its frame there as it fills its picture."""
     user.open_menu("Right", "Through eye")
     user.page.locator(".pane .cameraframe").wait_for()
     assert user.active().startswith("Camera")
@@ -175,8 +177,8 @@ def test_a_pane_looks_through_a_camera(user: PaneUser) -> None:
     assert frame["x"] + frame["width"] <= pane["x"] + pane["width"] + 1
 
 
-def test_a_link_shows_all_panes_again(chromium: Any, url: str, user: PaneUser) -> None:
-    """Whoever follows it finds their own layout at the page's address afterwards."""
+def test_a_link_restores_all_panes(chromium: Any, url: str, user: PaneUser) -> None:
+    """The user who follows it has their own layout again at the page's address."""
     user.run("Link to this view")
     link = user.field("Link").input_value()
     user.page.keyboard.press("Escape")
@@ -190,8 +192,8 @@ def test_a_link_shows_all_panes_again(chromium: Any, url: str, user: PaneUser) -
     other.close()
 
 
-def test_a_file_shows_all_panes_again(user: PaneUser, tmp_path: Path) -> None:
-    """rviz finds the active pane's view where it looks for one."""
+def test_a_file_restores_all_panes(user: PaneUser, tmp_path: Path) -> None:
+    """rviz finds the active pane's view in the file."""
     names, active = user.names(), user.active()
     with user.page.expect_download() as download:
         user.run("Download as .rviz")
@@ -209,7 +211,7 @@ def test_a_file_shows_all_panes_again(user: PaneUser, tmp_path: Path) -> None:
     assert (user.names(), user.active()) == (names, active)
 
 
-def test_only_one_pane_is_left_and_what_is_chosen_is_remembered(user: PaneUser) -> None:
+def test_one_pane_is_restored_and_the_choice_is_remembered(user: PaneUser) -> None:
     user.open_menu("Front", "Only this one")
     user.page.locator(".panename").first.wait_for(state="detached")
     user.run("Two views, stacked")
@@ -219,7 +221,7 @@ def test_only_one_pane_is_left_and_what_is_chosen_is_remembered(user: PaneUser) 
     first, second = user.page.locator(".pane").all()
     assert first.bounding_box()["width"] == second.bounding_box()["width"] == 1440
     user.page.set_viewport_size({"width": 390, "height": 844})
-    user.page.locator(".panename").first.wait_for(state="detached")  # a phone has one
+    user.page.locator(".panename").first.wait_for(state="detached")  # a phone has one pane
     user.page.set_viewport_size({"width": 1440, "height": 1000})
     user.run("One view")
     user.page.locator(".panename").first.wait_for(state="detached")

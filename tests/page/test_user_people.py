@@ -1,4 +1,4 @@
-"""Two people at one simulation, the second of whom may only look; the simulation's state is checked."""
+"""Two users of one simulation, one of them view-only; the simulation's state is checked."""
 
 import re
 from collections.abc import Iterator
@@ -15,16 +15,16 @@ pytestmark = [pytest.mark.slow, needs_client]
 BOX = "<geometry><box><size>0.6 0.6 0.4</size></box></geometry>"
 WORLD = f"""<sdf version="1.6"><world name="yard"><model name="crate"><pose>0 0 0.2 0 0 0</pose><static>1</static>
 <link name="base"><collision name="c">{BOX}</collision><visual name="v">{BOX}</visual></link></model></world></sdf>"""
-OWN_COLOUR = (10, 111, 130)
-"""--accent of the light theme, which browsers without a preference have."""
-COLOURS = ((154, 90, 0), (122, 63, 192))
+ACCENT_COLOR = (10, 111, 130)
+"""--accent of the light theme, the browsers' default."""
+PERSON_COLORS = ((154, 90, 0), (122, 63, 192))
 """--person-1 and --person-2."""
 KEYS = (" ", ".", "Shift+R", "Delete", "Shift+C", "h", "w")
 
 
 @pytest.fixture(scope="module")
 def owner(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[WorldUser]:
-    """Look at a world whose page asks for its token."""
+    """Open the page of a world with its token."""
     folder = tmp_path_factory.mktemp("yard")
     (folder / "yard.sdf").write_text(WORLD)
     words = ("run", "yard.sdf", "--no-ros", "--pause", "--port", "0", "--view-only")
@@ -37,7 +37,7 @@ def owner(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[W
 
 @pytest.fixture(scope="module")
 def viewer(chromium: Any, owner: WorldUser) -> Iterator[WorldUser]:
-    """Open the link that the other one was shown, in another profile of the browser."""
+    """Open the view-only link in another browser profile."""
     owner.button("Search commands, Ctrl K").click()
     owner.page.get_by_role("combobox", name="Search commands").fill("link to this view")
     owner.page.keyboard.press("Enter")
@@ -50,25 +50,25 @@ def viewer(chromium: Any, owner: WorldUser) -> Iterator[WorldUser]:
     viewer.close()
 
 
-def test_each_sees_what_the_other_selected(owner: WorldUser, viewer: WorldUser) -> None:
-    """An outline in the other's colour, a name, and how many there are."""
+def test_users_see_each_others_selections(owner: WorldUser, viewer: WorldUser) -> None:
+    """The selection has an outline in the other's color and a name; the number of users is shown."""
     owner.pick("crate")
     viewer.page.keyboard.press("Escape")
     for user in (owner, viewer):
         user.button("2 people").wait_for()
-    viewer.until(lambda: _has(viewer, COLOURS[0]), what="for the outline of Person 1")
-    assert not _has(viewer, OWN_COLOUR)
+    viewer.until(lambda: _has(viewer, PERSON_COLORS[0]), what="for the outline of Person 1")
+    assert not _has(viewer, ACCENT_COLOR)
     viewer.pick("crate")
-    owner.until(lambda: _has(owner, COLOURS[1]), what="for the outline of Person 2")
+    owner.until(lambda: _has(owner, PERSON_COLORS[1]), what="for the outline of Person 2")
     owner.button("2 people").click()
     menu = owner.page.get_by_role("menu")
     assert re.fullmatch(r"Person 1, you\s*Person 2\s*looks only", menu.inner_text().strip())
     menu.get_by_text("Person 2").click()
     viewer.page.keyboard.press("Escape")
-    owner.until(lambda: not _has(owner, COLOURS[1]), what="for the outline to go")
+    owner.until(lambda: not _has(owner, PERSON_COLORS[1]), what="for the outline to go")
 
 
-def test_who_may_only_look_is_told_so_and_offered_nothing_else(owner: WorldUser, viewer: WorldUser) -> None:
+def test_a_view_only_page_has_a_notice_and_no_other_tools(owner: WorldUser, viewer: WorldUser) -> None:
     bar = viewer.page.get_by_role("banner")
     bar.get_by_text("Looking only").hover()
     viewer.page.get_by_role("tooltip").get_by_text("This link only allows looking.").wait_for()
@@ -84,8 +84,8 @@ def test_who_may_only_look_is_told_so_and_offered_nothing_else(owner: WorldUser,
     assert inspector.get_by_role("spinbutton").count() + inspector.get_by_role("textbox").count() == 0
 
 
-def test_keys_of_who_may_only_look_change_nothing(owner: WorldUser, viewer: WorldUser) -> None:
-    before = owner.place("crate")
+def test_keys_on_a_view_only_page_change_nothing(owner: WorldUser, viewer: WorldUser) -> None:
+    before = owner.position("crate")
     viewer.pick("crate")
     for keys in KEYS:
         viewer.page.keyboard.press(keys)
@@ -96,15 +96,15 @@ def test_keys_of_who_may_only_look_change_nothing(owner: WorldUser, viewer: Worl
     owner.until(lambda: owner.is_paused)
 
     assert [model["name"] for model in owner.manifest()["models"]] == ["crate"]
-    assert owner.place("crate") == before
+    assert owner.position("crate") == before
 
 
-def _has(user: WorldUser, colour: tuple[int, int, int]) -> bool:
-    """Tell if the picture of the ground has an outline of a colour."""
-    return bool((np.abs(user.picture().astype(int) - colour) < 25).all(axis=-1).sum() > 20)
+def _has(user: WorldUser, color: tuple[int, int, int]) -> bool:
+    """Tell if the picture of the ground has an outline of a color."""
+    return bool((np.abs(user.picture().astype(int) - color) < 25).all(axis=-1).sum() > 20)
 
 
-def test_on_a_phone_the_whole_bar_is_seen(owner: WorldUser, viewer: WorldUser) -> None:
+def test_on_a_phone_the_whole_bar_is_visible(owner: WorldUser, viewer: WorldUser) -> None:
     ends = "[...document.querySelector('header').children].map(child => child.getBoundingClientRect().right)"
     for user in (owner, viewer):
         user.page.set_viewport_size({"width": 390, "height": 844})

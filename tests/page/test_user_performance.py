@@ -1,4 +1,4 @@
-"""A person looks where the time of a simulated second goes."""
+"""A user looks at the profile of a simulation."""
 
 import io
 from pathlib import Path
@@ -24,7 +24,7 @@ class Busy(Plugin):
 
 
 def table(user: PanelUser) -> dict[str, tuple[str, float, float]]:
-    """Part, ms per simulated second and share [%], by name."""
+    """Return group, ms per simulated second and share [%] by name."""
     rows = user.page.locator("table.parts").evaluate_all(
         "tables => tables.flatMap((table) => [...table.rows].slice(1))"
         ".map(({ cells }) => [...cells].map((cell) => cell.textContent))"
@@ -32,8 +32,8 @@ def table(user: PanelUser) -> dict[str, tuple[str, float, float]]:
     return {name: (part, float(ms), float(share.split()[0])) for name, part, ms, share in rows}
 
 
-def test_camera_plugin_and_waiting_have_their_share(chromium: Any, tmp_path: Path) -> None:
-    """The plugin sleeps 20 ms ten times a second: about 200 ms of each simulated one."""
+def test_camera_plugin_and_waiting_have_their_times(chromium: Any, tmp_path: Path) -> None:
+    """The plugin sleeps 20 ms at 10 Hz: about 200 ms per simulated second."""
     (tmp_path / "busy.py").write_text(PLUGIN)
     plugin = '<plugin name="idler" filename="libbusy.so"/></model>'
     (tmp_path / "w.sdf").write_text(world(model("m", BOX + CAMERA).replace("</model>", plugin)))
@@ -63,8 +63,8 @@ def test_camera_plugin_and_waiting_have_their_share(chromium: Any, tmp_path: Pat
 
 
 @pytest.mark.parametrize(("panel", "head"), [("Performance", ".data th"), ("Timeline", ".timeline .ruler")])
-def test_the_head_of_a_panel_is_drawn_in_the_panel_alone(chromium: Any, panel: str, head: str) -> None:
-    """Chromium drew heads that stick to the top a second time, as a band across the scene."""
+def test_the_head_of_a_panel_is_drawn_only_in_the_panel(chromium: Any, panel: str, head: str) -> None:
+    """Chromium drew sticky heads a second time, as a band across the scene."""
     with running_page("run", "rp2w_at_home.world", "--port", "0", environment={}) as url:
         page = chromium.new_page(viewport={"width": 1440, "height": 900}, color_scheme="dark")
         page.set_default_timeout(60_000)
@@ -75,7 +75,7 @@ def test_the_head_of_a_panel_is_drawn_in_the_panel_alone(chromium: Any, panel: s
         page.keyboard.type(f"Open {panel}")
         page.get_by_role("option", name=f"Open {panel}").first.click()
         page.locator(head).first.wait_for()
-        page.wait_for_timeout(6000)  # it came with a later picture
+        page.wait_for_timeout(6000)  # it appeared in a later picture
         dock = page.locator(".dock").bounding_box()
         disc = page.locator(".drive").first.bounding_box()
         picture = np.asarray(Image.open(io.BytesIO(page.screenshot())).convert("RGB"))

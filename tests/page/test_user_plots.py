@@ -1,4 +1,4 @@
-"""A person plots two fields of very different size: two axes, a zoom, a pause, a file of both."""
+"""A user plots two fields of very different scale: two axes, a zoom, a pause, a file of both."""
 
 import csv
 import io
@@ -29,7 +29,7 @@ def graph() -> Iterator[Graph]:
 
 @pytest.fixture(scope="module")
 def user(chromium: Any, graph: Graph) -> Iterator[PanelUser]:
-    """Plot two ramps: one of 0 to 1, one of 1000 to 2000."""
+    """Plot two ramps: from 0 to 1, and from 1000 to 2000."""
     node = graph.node("tester")
     small, large = (node.advertise(f"/{name}", "geometry_msgs/PointStamped") for name in ("small", "large"))
     session = Session(title="t", kind="graph", panels=("rqt_plot",), plots=(SMALL,))
@@ -43,8 +43,8 @@ def user(chromium: Any, graph: Graph) -> Iterator[PanelUser]:
         user.button("Close").click()
         graph.until(lambda: small.has_subscribers and large.has_subscribers)
         for second in range(SECONDS + 1):
-            share = second / SECONDS
-            for publisher, value in ((small, share), (large, 1000.0 + 1000.0 * share)):
+            fraction = second / SECONDS
+            for publisher, value in ((small, fraction), (large, 1000.0 + 1000.0 * fraction)):
                 publisher.publish({"header": {"stamp": {"secs": 100 + second, "nsecs": 0}}, "point": {"x": value}})
             user.page.wait_for_timeout(20)
         for value in ("1.000", "2000"):
@@ -54,18 +54,18 @@ def user(chromium: Any, graph: Graph) -> Iterator[PanelUser]:
 
 
 def _height(user: PanelUser, path: str) -> int:
-    """Pixels from the lowest to the highest of a curve."""
+    """Return the height of a curve [px]."""
     row = user.page.locator(".legend li").filter(has=user.page.locator(f'[title="{path}"]'))
     token = row.evaluate("one => one.style.getPropertyValue('--c')").removeprefix("var(").removesuffix(")")
-    colour = user.page.evaluate(f"getComputedStyle(document.documentElement).getPropertyValue('{token}')")
+    color = user.page.evaluate(f"getComputedStyle(document.documentElement).getPropertyValue('{token}')")
     png = user.page.get_by_role("img", name=f"Plot of {SMALL}").screenshot()
     picture = np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=int)
-    rows = np.nonzero((np.abs(picture - ImageColor.getrgb(colour.strip())) < 16).all(axis=-1))[0]
+    rows = np.nonzero((np.abs(picture - ImageColor.getrgb(color.strip())) < 16).all(axis=-1))[0]
     return 0 if len(rows) == 0 else int(np.ptp(rows))
 
 
-def test_a_curve_has_an_axis_of_its_own(user: PanelUser) -> None:
-    """Beside 2000, 1 is flat; on an axis of its own it is as high as the other."""
+def test_a_curve_can_have_its_own_axis(user: PanelUser) -> None:
+    """On the axis of the larger one, the smaller curve is flat; on its own axis it is as high."""
     user.until(lambda: _height(user, LARGE) > 30, what="for the curves")
     assert _height(user, SMALL) < 10
     user.button(f"Curve {LARGE}").click()
@@ -73,21 +73,21 @@ def test_a_curve_has_an_axis_of_its_own(user: PanelUser) -> None:
     user.until(lambda: _height(user, SMALL) > 60 and _height(user, LARGE) > 60, what="for two axes")
 
 
-def _time_at(user: PanelUser, share: float) -> float:
-    """Point at a share of the plot's width; return the time that is shown for it [s]."""
+def _time_at(user: PanelUser, fraction: float) -> float:
+    """Point at a fraction of the plot's width; return the shown time [s]."""
     box = user.page.locator(".u-over").bounding_box()
-    user.page.mouse.move(box["x"] + share * box["width"], box["y"] + box["height"] / 2)
+    user.page.mouse.move(box["x"] + fraction * box["width"], box["y"] + box["height"] / 2)
     minutes, seconds = user.page.locator(".dock .cursor").inner_text().rsplit(":", 1)
     return 60 * int(minutes) + float(seconds)
 
 
 def test_the_legend_shows_the_values_at_the_cursor(user: PanelUser) -> None:
-    """Those of the second before it: there is a point each second."""
-    share = int(_time_at(user, 0.85) - 100) / SECONDS
-    assert 0 < share < 1
+    """They are the values of the second before, as there is a point each second."""
+    fraction = int(_time_at(user, 0.85) - 100) / SECONDS
+    assert 0 < fraction < 1
     shown = user.page.locator(".legend b")
 
-    user.until(lambda: shown.all_inner_texts() == [f"{share:.3f}", f"{1000 + 1000 * share:.0f}"], what="for both")
+    user.until(lambda: shown.all_inner_texts() == [f"{fraction:.3f}", f"{1000 + 1000 * fraction:.0f}"], what="for both")
 
     user.page.mouse.move(0, 0)
     user.until(lambda: shown.all_inner_texts() == ["1.000", "2000"], what="for the newest")
@@ -103,7 +103,7 @@ def test_a_drag_zooms_in_and_a_button_goes_back(user: PanelUser) -> None:
     user.page.mouse.up()
     to_now = user.button("To now")
     to_now.wait_for()
-    user.page.wait_for_timeout(200)  # some drawings
+    user.page.wait_for_timeout(200)  # a few frames
     assert _time_at(user, 0.02) == pytest.approx(first, abs=1.0)
     assert _time_at(user, 0.98) == pytest.approx(last, abs=1.0)
     to_now.click()

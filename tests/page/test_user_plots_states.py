@@ -1,4 +1,4 @@
-"""A person plots states of a simulation without ROS: by search, from the inspector, into files, along the timeline."""
+"""A user plots states of a simulation without ROS: by search, from the inspector, into files, along the timeline."""
 
 import contextlib
 import csv
@@ -75,7 +75,7 @@ def saved(user: PanelUser, kind: str) -> bytes:
     return Path(download.value.path()).read_bytes()
 
 
-def test_an_empty_plot_offers_where_the_robot_is(chromium: Any, url: str) -> None:
+def test_an_empty_plot_offers_the_robots_position(chromium: Any, url: str) -> None:
     with contextlib.closing(PanelUser(chromium, url)) as user:
         user.open("Plots")
         user.button("Position of arm").click()
@@ -84,8 +84,8 @@ def test_an_empty_plot_offers_where_the_robot_is(chromium: Any, url: str) -> Non
         user.until(lambda: legend(user, "arm.pose.y") == pytest.approx(0, abs=0.01), what="for the arm's y")
 
 
-def test_values_are_those_of_the_simulation(user: PanelUser) -> None:
-    """The box weighs 2 kg; the accelerometer of a box at rest shows gravity; the arm swings."""
+def test_plotted_values_match_the_simulation(user: PanelUser) -> None:
+    """The box has 2 kg; the accelerometer of a box at rest measures gravity; the arm swings."""
     user.until(lambda: None not in [legend(user, path) for path in (POSITION, FORCE, GRAVITY)], what="for values")
     user.until(lambda: legend(user, FORCE) == pytest.approx(19.6, rel=0.02), what="for the weight")
     assert legend(user, GRAVITY) == pytest.approx(9.8, abs=0.1)
@@ -106,8 +106,8 @@ def test_curves_are_saved_as_csv_parquet_and_svg(user: PanelUser) -> None:
 
     parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow is not installed: pip install 'trundle[sweep]'")
     table = parquet.read_table(io.BytesIO(saved(user, "Parquet"))).to_pydict()
-    own = [(t, v) for c, t, v in zip(table["curve"], table["time"], table["value"], strict=True) if c == POSITION]
-    assert np.array(own)[: len(swing)] == pytest.approx(swing, abs=1e-9)  # points go on coming
+    points = [(t, v) for c, t, v in zip(table["curve"], table["time"], table["value"], strict=True) if c == POSITION]
+    assert np.array(points)[: len(swing)] == pytest.approx(swing, abs=1e-9)  # more points arrive meanwhile
 
     svg = etree.fromstring(saved(user, "SVG"))
     lines = svg.findall(".//{http://www.w3.org/2000/svg}polyline")
@@ -116,8 +116,8 @@ def test_curves_are_saved_as_csv_parquet_and_svg(user: PanelUser) -> None:
     user.button("Go on").click()
 
 
-def test_scrubbing_shows_the_values_of_that_time(user: PanelUser) -> None:
-    """Going back in time keeps the curves, and the legend has what was then."""
+def test_scrubbing_shows_the_values_of_the_selected_time(user: PanelUser) -> None:
+    """Seeking back keeps the curves, and the legend has the values of that time."""
     user.open("Timeline")
     head = user.page.get_by_role("slider", name="Time")
     head.focus()
@@ -132,4 +132,6 @@ def test_scrubbing_shows_the_values_of_that_time(user: PanelUser) -> None:
     before = swing[swing[:, 0] <= shown_s + 1e-6]
     assert swing[-1, 0] > shown_s + 0.5, "the curves are still there"
     assert len(before) > 10
-    user.until(lambda: legend(user, POSITION) == pytest.approx(before[-1, 1], abs=2e-3), what="for the value of then")
+    user.until(
+        lambda: legend(user, POSITION) == pytest.approx(before[-1, 1], abs=2e-3), what="for the value of that time"
+    )

@@ -1,4 +1,4 @@
-"""A program of rqt that starts while the page is open opens its panel, also one that a person has shut."""
+"""A program of rqt that starts while the page is open opens its panel, even one that the user has closed."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -47,7 +47,7 @@ def user(chromium: Any, server: PageServer) -> Iterator[PanelUser]:
 
 
 @pytest.mark.parametrize("program", PANELS)
-def test_its_panel_comes_to_the_front(server: PageServer, user: PanelUser, program: str) -> None:
+def test_starting_a_program_opens_its_panel(server: PageServer, user: PanelUser, program: str) -> None:
     panel = user.page.locator(".dv-tab", has_text=PANELS[program])
     if panel.count():
         panel.focus()

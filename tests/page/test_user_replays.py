@@ -1,4 +1,4 @@
-"""A person opens a replay from a folder, without a network: it looks as the page did."""
+"""A user opens a replay from a folder, without a network: it looks like the page."""
 
 import io
 import json
@@ -51,7 +51,7 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @contextmanager
 def played(log: Path) -> Iterator[str]:
-    """Play a log on a page, paused; return its address."""
+    """Play a log on a paused page; yield its address."""
     recorded, simulation = open_recording(log, Diagnostics())
     with PageServer.start(Session(title="t", kind="log", fixed_frame="world"), at=PageAddress(port=0)) as server:
         shown = LogPage(server, recorded, simulation, PlayOptions(paused=True))
@@ -66,7 +66,7 @@ def played(log: Path) -> Iterator[str]:
 
 
 class ReplayUser:
-    """Open a replay where there is no network."""
+    """Opens a replay without a network."""
 
     def __init__(self, browser: Any, url: str) -> None:
         context = browser.new_context(viewport={"width": SIZE[0], "height": SIZE[1]}, offline=True)
@@ -83,16 +83,16 @@ class ReplayUser:
         return float(self.time.input_value())
 
     def until(self, condition: Callable[[], bool]) -> None:
-        """Wait; the page's policy lets no test wait inside it."""
+        """Wait from outside, as the page's policy forbids waiting inside it."""
         while not condition():
             self.page.wait_for_timeout(20)
 
     def show(self, time_s: float) -> NDArray[np.uint8]:
-        """Scrub to a time, and return the picture without the controls."""
+        """Seek to a time, and return the picture without the controls."""
         self.time.fill(str(time_s))
         self.page.add_style_tag(content=".replay-bar, .replay-scene > :not(canvas) { opacity: 0 }")
         picture, before = self._picture(), None
-        while not np.array_equal(picture, before) or not _is_drawn(picture):
+        while before is None or not np.array_equal(picture, before) or not _is_drawn(picture):
             self.page.wait_for_timeout(200)
             picture, before = self._picture(), picture
         return picture
@@ -107,13 +107,13 @@ class ReplayUser:
 
 
 def _is_drawn(picture: NDArray[np.uint8]) -> bool:
-    """False for one colour: a scene that is not drawn yet stands as still as one that is."""
+    """False for a single color: the scene is not drawn yet."""
     return bool(picture.std() > 5.0)
 
 
 def pictured(user: PanelUser, folder: Path) -> NDArray[np.uint8]:
-    """Save the view as a picture, and read it."""
-    user.page.keyboard.press("Escape")  # nothing is selected, so nothing is outlined
+    """Save the view as a picture, and return it."""
+    user.page.keyboard.press("Escape")  # without a selection there is no outline
     choose(user, "Save a picture")
     for label, value in zip(("Width [px]", "Height [px]"), SIZE, strict=True):
         user.page.get_by_label(label).fill(str(value))
@@ -130,8 +130,8 @@ def choose(user: PanelUser, command: str) -> None:
     user.page.keyboard.press("Enter")
 
 
-def test_it_looks_as_the_page_does(log: Path, chromium: Any, tmp_path: Path) -> None:
-    """The page of `trundle play` and the replay, at one time from one place: the same picture."""
+def test_a_replay_looks_like_the_page(log: Path, chromium: Any, tmp_path: Path) -> None:
+    """`trundle play` and the replay draw the same picture at one time from one viewpoint."""
     with played(log) as url:
         user = PanelUser(chromium, url)
         user.open("Timeline")
@@ -146,18 +146,18 @@ def test_it_looks_as_the_page_does(log: Path, chromium: Any, tmp_path: Path) -> 
     assert main(("convert", str(log), "--to", "html", "-o", str(tmp_path / "run.html"))) == 0
 
     replay = ReplayUser(chromium, f"{(tmp_path / 'run.html').as_uri()}#{view}")
-    seen = replay.show(1.0)
+    replayed = replay.show(1.0)
     before = replay.show(AT_S)
     replay.close()
 
-    difference = np.abs(seen.astype(int) - at_end.astype(int)).max(axis=-1)
-    assert (difference > 24).mean() < 0.005, "edges are smoothed differently, no more"
+    difference = np.abs(replayed.astype(int) - at_end.astype(int)).max(axis=-1)
+    assert (difference > 24).mean() < 0.005, "only the smoothing of edges may differ"
     moved = (np.abs(before.astype(int) - at_end.astype(int)).max(axis=-1) > 24).mean()
-    assert moved > 0.01, "the ball is elsewhere at another time"
+    assert moved > 0.01, "the ball is at another position at another time"
 
 
 def test_the_page_saves_the_last_minutes(chromium: Any, tmp_path: Path) -> None:
-    """The replay begins with the view that the person had, and shows the ball fall; so does the glTF file."""
+    """The replay starts with the user's view and shows the ball falling; so does the glTF file."""
     (tmp_path / "w.sdf").write_text(WORLD)
     with running_page("run", str(tmp_path / "w.sdf"), "--no-ros", environment={}) as url:
         user = PanelUser(chromium, url)
@@ -186,15 +186,15 @@ def _heights(file: Path) -> NDArray[np.float32]:
     length = int.from_bytes(data[12:16], "little")
     scene = json.loads(data[20 : 20 + length])
     (animation,) = scene["animations"]
-    (channel,) = (each for each in animation["channels"] if each["target"]["path"] == "translation")
+    (channel,) = (item for item in animation["channels"] if item["target"]["path"] == "translation")
     assert scene["nodes"][channel["target"]["node"]]["name"] == "ball::l"
     accessor = scene["accessors"][animation["samplers"][channel["sampler"]]["output"]]
     start = 28 + length + scene["bufferViews"][accessor["bufferView"]].get("byteOffset", 0)
-    places = np.frombuffer(data, "<f4", 3 * accessor["count"], start + accessor.get("byteOffset", 0))
-    return places.reshape(-1, 3)[:, 2]
+    positions = np.frombuffer(data, "<f4", 3 * accessor["count"], start + accessor.get("byteOffset", 0))
+    return positions.reshape(-1, 3)[:, 2]
 
 
-def test_it_plays_and_stands_still(log: Path, chromium: Any, tmp_path: Path) -> None:
+def test_a_replay_plays_and_pauses(log: Path, chromium: Any, tmp_path: Path) -> None:
     assert main(("convert", str(log), "--to", "html", "-o", str(tmp_path / "run.html"))) == 0
     replay = ReplayUser(chromium, (tmp_path / "run.html").as_uri())
     page = replay.page
@@ -203,9 +203,9 @@ def test_it_plays_and_stands_still(log: Path, chromium: Any, tmp_path: Path) -> 
     page.get_by_role("combobox", name="Speed").select_option("0.1×")
     page.locator("body").press("Space")
     page.get_by_role("button", name="Play").wait_for()
-    held = replay.now()
+    paused_at = replay.now()
     page.wait_for_timeout(300)
-    assert replay.now() == held
+    assert replay.now() == paused_at
     page.get_by_role("button", name="Play").click()
-    replay.until(lambda: replay.now() != held)
+    replay.until(lambda: replay.now() != paused_at)
     replay.close()

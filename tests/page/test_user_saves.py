@@ -1,4 +1,4 @@
-"""A person without an .rviz file saves what is shown: as a download, or below the folder where Trundle was started."""
+"""A user without an .rviz file saves one: as a download, or below the folder where Trundle was started."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -52,10 +52,10 @@ def _is_enabled(file: Path, display: str) -> bool:
     return next(one["Enabled"] for one in displays if one["Name"] == display)
 
 
-def test_what_was_changed_is_downloaded(user: SceneUser) -> None:
+def test_changed_displays_are_downloaded(user: SceneUser) -> None:
     unsaved = user.page.get_by_text("not saved")
     user.page.get_by_role("treeitem").filter(has_text="Grid").first.wait_for()
-    assert unsaved.count() == 0  # nothing has been changed
+    assert unsaved.count() == 0  # nothing is changed yet
     _switch(user, "Grid")
     user.page.get_by_text("1 change, not saved").wait_for()
     with user.page.expect_download() as download:
@@ -66,11 +66,11 @@ def test_what_was_changed_is_downloaded(user: SceneUser) -> None:
     assert not _is_enabled(download.value.path(), "Grid")
 
 
-def test_it_is_saved_below_the_folder_and_then_again_there(user: SceneUser, tmp_path: Path) -> None:
+def test_the_file_is_saved_below_the_folder_and_saved_again_there(user: SceneUser, tmp_path: Path) -> None:
     _switch(user, "Grid")
     user.button("Save as").click()
     user.page.get_by_role("dialog", name="Save as .rviz").wait_for()
-    user.page.keyboard.type("seen")  # the name without its ending is selected
+    user.page.keyboard.type("seen")  # the name without its suffix is selected
     user.page.keyboard.press("Enter")
     user.page.get_by_role("dialog").wait_for(state="detached")
 
@@ -106,7 +106,7 @@ def test_a_page_opened_later_shows_and_saves_the_newest_file(user: SceneUser, tm
     assert user.field("File").input_value() == "second.rviz"
 
 
-def test_a_file_that_is_there_is_replaced_only_when_that_is_pressed(user: SceneUser, tmp_path: Path) -> None:
+def test_an_existing_file_is_replaced_only_after_confirmation(user: SceneUser, tmp_path: Path) -> None:
     file = tmp_path / "mine.rviz"
     file.write_text(MINE)
     _switch(user, "Grid")

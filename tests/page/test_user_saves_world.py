@@ -1,4 +1,4 @@
-"""A person changes a running world and saves it; the file is checked, and loaded again."""
+"""A user changes a running world and saves it; the file is checked, and loaded again."""
 
 import re
 import subprocess
@@ -56,7 +56,7 @@ def _dialog(user: PanelUser) -> Any:
     return user.page.get_by_role("dialog", name="Save the world as SDF")
 
 
-def test_what_is_changed_is_saved_and_the_same_when_it_runs_again(user: PanelUser, folder: Path) -> None:
+def test_changes_are_saved_and_restored_in_the_next_run(user: PanelUser, folder: Path) -> None:
     _select(user, "body")
     _set(user, "Mass [kg]", "4.5")
     _set(user, "x [m]", "1.25")
@@ -93,8 +93,8 @@ def test_a_page_opened_later_offers_the_newest_file(user: PanelUser) -> None:
     user.page.keyboard.press("Escape")
 
 
-def test_no_file_is_replaced_unasked(user: PanelUser, folder: Path) -> None:
-    """The menu above the tree leads there, too; a name that leads elsewhere is refused in the dialog."""
+def test_files_are_replaced_only_after_confirmation(user: PanelUser, folder: Path) -> None:
+    """The tree's menu opens the dialog, too; it refuses a path out of the folder."""
     user.button("World's menu").click()
     user.page.get_by_role("menuitem", name="Save the world as SDF").click()
     dialog = _dialog(user)

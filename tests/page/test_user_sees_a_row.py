@@ -1,4 +1,4 @@
-"""A row of a sweep in the browser: of a world and of a launch file, with the bytes of the sweep."""
+"""A row of a sweep in the browser, of a world and of a launch file, bitwise the same as in the sweep."""
 
 from pathlib import Path
 from typing import Any
@@ -63,23 +63,23 @@ def _alone(plan: Path, number: int) -> RowResult:
 def test_a_row_runs_in_the_browser_as_in_the_sweep(chromium: Any, folder: Path, name: str) -> None:
     result = _alone(folder / name, 3)
     assert result.status == "ok", result.reason
-    with (folder / "said").open("w+") as said:
+    with (folder / "output").open("w+") as output:
         words = ("sweep", name, "--row", "3", "--port", "0")
-        with running_page(*words, environment={}, folder=folder, output=said) as url:
+        with running_page(*words, environment={}, folder=folder, output=output) as url:
             user = WorldUser(chromium, url)
             user.until(lambda: user.model("box") is not None, what="for the box")
-            user.until(lambda: "the run shown" in (folder / "said").read_text(), what="for the end of the run")
+            user.until(lambda: "the run shown" in (folder / "output").read_text(), what="for the end of the run")
             user.until(lambda: user.is_paused, what="for the pause at the end")
             x, y = result.measures["x"], result.measures["y"]
             assert isinstance(x, float)
             assert x > 0.002, "the box was pushed"
-            assert user.place("box")[:2] == pytest.approx((x, y), abs=1e-6), "single precision"
+            assert user.position("box")[:2] == pytest.approx((x, y), abs=1e-6), "single precision"
             user.page.keyboard.press("Shift+R")
-            user.until(lambda: abs(user.place("box")[0]) < 1e-6, what="for the reset")
+            user.until(lambda: abs(user.position("box")[0]) < 1e-6, what="for the reset")
             user.page.get_by_role("banner").get_by_role("button", name="Play", exact=True).click()
-            user.until(lambda: user.place("box")[0] > x / 2, what="for the second run")
+            user.until(lambda: user.position("box")[0] > x / 2, what="for the second run")
             user.close()
-    printed = (folder / "said").read_text()
+    printed = (folder / "output").read_text()
     assert printed.startswith(f"row 3: seed {Rows(load_plan(folder / name)).row(3).seed}\n"), printed
     assert f"\n  x = {result.measures['x']}\n" in printed
     assert "the run shown has the same result, to the byte\n" in printed, printed

@@ -1,4 +1,4 @@
-"""A person chooses what is shown of a simulated world; the picture is checked by what it has where."""
+"""A user shows and hides parts of a simulated world; areas of the picture are checked."""
 
 import json
 from collections.abc import Callable, Iterator
@@ -19,7 +19,7 @@ Mask = NDArray[np.bool_]
 
 
 def _shapes(collision: str, visual: str, rgb: str) -> str:
-    """Return a collision and a visual, boxes of these sizes; the visual glows in a colour."""
+    """Return a collision and a visual, boxes of these sizes; the visual glows in a color."""
     box = "<geometry><box><size>{}</size></box></geometry>"
     black = "<ambient>0 0 0 1</ambient><diffuse>0 0 0 1</diffuse>"
     material = f"<material>{black}<emissive>{rgb} 1</emissive></material>"
@@ -30,7 +30,7 @@ def _shapes(collision: str, visual: str, rgb: str) -> str:
 MASS = """<inertial><pose>0 0 0 0 0 0.5</pose><mass>2</mass>
 <inertia><ixx>0.05</ixx><iyy>0.03</iyy><izz>0.06</izz></inertia></inertial>"""
 BOX_M = (0.346, 0.49)
-"""Length and width of the box of even density with this mass and inertia: √(6 (iyy + izz − ixx) / m), …"""
+"""Length and width of the uniform box with this mass and inertia: √(6 (iyy + izz − ixx) / m), …"""
 EYE = """<sensor name="eye" type="camera"><pose>0.3 0 0 0 0 0</pose><camera><horizontal_fov>1.5708</horizontal_fov>
 <image><width>80</width><height>60</height></image><clip><near>0.1</near><far>0.5</far></clip></camera></sensor>"""
 _RANGE = "<range><min>0.05</min><max>4</max></range>"
@@ -54,12 +54,12 @@ RED, BLUE = (255, 0, 0), (0, 0, 255)
 
 
 class Viewer(WorldUser):
-    """Shows and hides parts; measures areas of the picture that changed."""
+    """Shows and hides parts; measures changed areas of the picture."""
 
     def __init__(self, browser: Any, url: str) -> None:
         super().__init__(browser, url)
         self.sent: list[dict[str, Any]] = []
-        """Text messages of the page to its server since it was loaded again."""
+        """Text messages from the page to its server since its last load."""
         self.page.on("websocket", self._listen)
         self.page.reload()
         self.page.get_by_label("Connected").first.wait_for()
@@ -71,24 +71,26 @@ class Viewer(WorldUser):
         if isinstance(message, str):
             self.sent.append(json.loads(message))
 
-    def is_asked_for(self, topic: str) -> bool:
+    def is_subscribed(self, topic: str) -> bool:
         """True while the page subscribes to a topic."""
         channel = self._client.channels[topic]["id"]
-        asked: set[int] = set()
+        subscriptions: set[int] = set()
         for message in self.sent:
-            asked |= {each["id"] for each in message.get("subscriptions", []) if each["channelId"] == channel}
-            asked -= set(message.get("subscriptionIds", []))
-        return bool(asked)
+            subscriptions |= {
+                entry["id"] for entry in message.get("subscriptions", []) if entry["channelId"] == channel
+            }
+            subscriptions -= set(message.get("subscriptionIds", []))
+        return bool(subscriptions)
 
     def show(self, *parts: str) -> None:
-        """Press entries of the View menu."""
+        """Choose entries of the View menu."""
         self.button("Show in the view").click()
         for part in parts:
             self.page.get_by_role("menuitemcheckbox", name=part, exact=True).click()
         self.page.keyboard.press("Escape")
 
     def toggle(self, model: str, part: str) -> None:
-        """Show or hide a part of one model, by its inspector."""
+        """Show or hide a part of one model in its inspector."""
         self.pick(model)
         self.page.locator(".inspector").get_by_role("button", name=part, exact=True).click()
         self.run("Select nothing")
@@ -106,18 +108,18 @@ class Viewer(WorldUser):
         return checked == "true"
 
     def until_changed(self, before: Picture, where: Callable[[Mask], object], what: str = "") -> None:
-        """Wait until the mask (height, width) of what changed is as wanted."""
+        """Wait until the mask (height, width) of changed pixels fulfils a condition."""
         self.until(lambda: where(np.any(self.picture() != before, axis=-1)), what=what)
 
 
 def _within(mask: Mask, x: tuple[float, float], y: tuple[float, float]) -> Mask:
-    """Part of a mask between these coordinates of the ground [m]."""
+    """Return the part of a mask between coordinates of the ground [m]."""
     columns = slice(round((x[0] + 2.5) * PX_PER_M), round((x[1] + 2.5) * PX_PER_M))
     return mask[round((1.5 - y[1]) * PX_PER_M) : round((1.5 - y[0]) * PX_PER_M), columns]
 
 
 def _area(mask: Mask) -> float:
-    """[m²]"""
+    """Return the area of a mask [m²]."""
     return float(mask.sum() / PX_PER_M**2)
 
 
@@ -136,7 +138,7 @@ def user(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Vi
         user.close()
 
 
-def test_visuals_are_hidden_transparent_or_their_edges(user: Viewer) -> None:
+def test_visuals_are_hidden_transparent_or_wireframes(user: Viewer) -> None:
     user.show("Visuals")
     user.until_area(RED, 0)
     assert user.area(BLUE) == 0
@@ -148,7 +150,7 @@ def test_visuals_are_hidden_transparent_or_their_edges(user: Viewer) -> None:
     user.until_area(RED, 0.16)
 
 
-def test_collisions_are_shown_around_what_is_smaller(user: Viewer) -> None:
+def test_collisions_are_drawn_around_smaller_visuals(user: Viewer) -> None:
     before = user.picture()
     user.toggle("crate", "Collisions")
     user.until_changed(before, lambda mask: _within(mask, (-1.28, -1.22), (-0.15, 0.15)).all())
@@ -157,8 +159,8 @@ def test_collisions_are_shown_around_what_is_smaller(user: Viewer) -> None:
     user.until_changed(before, lambda mask: not mask.any())
 
 
-def test_an_inertia_is_the_box_of_even_density(user: Viewer) -> None:
-    """Of one model alone, by its inspector; the box is turned by the inertia's own axes."""
+def test_an_inertia_is_drawn_as_the_uniform_box(user: Viewer) -> None:
+    """It is shown for one model by its inspector, along the principal axes."""
     before = user.picture()
     user.toggle("crate", "Inertias")
     user.until_changed(before, lambda mask: abs(_area(mask) - BOX_M[0] * BOX_M[1]) < 0.01)
@@ -167,8 +169,8 @@ def test_an_inertia_is_the_box_of_even_density(user: Viewer) -> None:
     user.until_changed(before, lambda mask: not mask.any())
 
 
-def test_a_joint_has_its_range_and_a_link_its_axes(user: Viewer) -> None:
-    """The hinge, at x = 1 and y = 0.5, turns from x to y: the sector lies there."""
+def test_a_joints_range_and_a_links_axes_are_drawn(user: Viewer) -> None:
+    """The hinge, at x = 1 and y = 0.5, turns from x to y, and so does its sector."""
     before = user.picture()
     user.show("Joints")
     user.until_changed(before, lambda mask: _within(mask, (1.01, 1.04), (0.51, 0.54)).all(), what="for the sector")
@@ -181,8 +183,8 @@ def test_a_joint_has_its_range_and_a_link_its_axes(user: Viewer) -> None:
     user.until_changed(before, lambda mask: not mask.any())
 
 
-def test_a_camera_has_the_pyramid_that_it_sees(user: Viewer) -> None:
-    """From x = 1.3 half a metre ahead, as wide as it is long on each side."""
+def test_a_cameras_frustum_is_drawn(user: Viewer) -> None:
+    """It extends from x = 1.3 by half a metre, as wide as it is long on each side."""
     before = user.picture()
     user.show("Cameras")
     user.until_changed(before, lambda mask: _within(mask, (1.78, 1.82), (-0.4, 0.4)).any(axis=1).all())
@@ -190,23 +192,23 @@ def test_a_camera_has_the_pyramid_that_it_sees(user: Viewer) -> None:
     user.until_changed(before, lambda mask: not mask.any())
 
 
-def test_contacts_are_asked_for_while_they_are_shown(user: Viewer) -> None:
-    """The crate rests on its corners, where its collision is, once a step was made."""
+def test_contacts_are_subscribed_to_while_they_are_shown(user: Viewer) -> None:
+    """After a step, the crate rests on the corners of its collision."""
     user.button("Step 1").click()
     before = user.picture()
-    assert not user.is_asked_for("trundle/contacts")
+    assert not user.is_subscribed("trundle/contacts")
     user.show("Contacts")
     corners = [(-1 + 0.3 * x, 0.2 * y) for x in (-1, 1) for y in (-1, 1)]
     around = [((x - 0.01, x + 0.01), (y - 0.01, y + 0.01)) for x, y in corners]
     user.until_changed(before, lambda mask: all(_within(mask, *corner).any() for corner in around))
-    assert user.is_asked_for("trundle/contacts")
+    assert user.is_subscribed("trundle/contacts")
     user.show("Contacts")
     user.until_changed(before, lambda mask: not mask.any())
-    assert not user.is_asked_for("trundle/contacts")
+    assert not user.is_subscribed("trundle/contacts")
 
 
 def test_lidars_and_sonars_are_drawn_while_they_are_shown(user: Viewer) -> None:
-    """Forty rays from x = −0.65 to the gate's face at x = 0.8; the sonar looks along y and meets nothing."""
+    """Forty rays from x = −0.65 to the gate's face at x = 0.8; the sonar looks along y and hits nothing."""
     before = user.picture()
     user.show("Lidar points", "Sonar cones")
     user.button("Play").click()
@@ -218,11 +220,11 @@ def test_lidars_and_sonars_are_drawn_while_they_are_shown(user: Viewer) -> None:
     user.until_changed(before, lambda mask: _within(mask, (-0.6, 0.7), (-0.02, 0.02)).mean() > 0.2)
     user.show("Lidar rays")
     user.until_changed(before, lambda mask: not mask.any())
-    assert not user.is_asked_for("trundle/ranges")
+    assert not user.is_subscribed("trundle/ranges")
 
 
 def test_wind_and_origin_are_marked_and_remembered(user: Viewer) -> None:
-    """By the palette; a page that is loaded again shows them still."""
+    """They are shown by the palette, and still after a reload."""
     before = user.picture()
     user.run("Show or hide wind")
     user.until_changed(before, lambda mask: _within(mask, (0.1, 0.3), (-0.02, 0.02)).any(axis=0).all())

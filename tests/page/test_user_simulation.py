@@ -1,4 +1,4 @@
-"""A person at the controls of a simulation; its clock, its topics and its recording are checked."""
+"""A user controls a simulation; its clock, its topics and its recording are checked."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,7 +17,7 @@ pytestmark = needs_client
 
 STEP_NS = 10_000_000
 HEIGHT = 2.0
-"""Of the balloon at first [m]."""
+"""Initial height of the balloon [m]."""
 ARM = """<link name="arm"><pose>0.5 0 0 0 0 0</pose></link>
 <joint name="hinge" type="revolute"><parent>base</parent><child>arm</child>
 <axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper><effort>9</effort></limit></axis></joint>"""
@@ -27,7 +27,7 @@ PLUGINS = """<plugin name="truth" filename="libgazebo_ros_p3d.so"><bodyName>base
 
 
 def _world(more: str = "") -> str:
-    """Return a world of a balloon with an arm, which rises, and of more models."""
+    """Return a world with a rising balloon with an arm, and further models."""
     box = "<geometry><box><size>0.4 0.4 0.4</size></box></geometry>"
     link = f'<link name="base"><visual name="body">{box}</visual></link>'
     balloon = f'<model name="balloon"><pose>0 0 {HEIGHT} 0 0 0</pose>{link}{ARM}{PLUGINS}</model>'
@@ -54,11 +54,11 @@ Heights = list[tuple[int, float]]
 def heights(node: Node) -> Heights:
     heights: Heights = []
 
-    def hear(message: Any) -> None:
+    def receive(message: Any) -> None:
         stamp = message.header.stamp
         heights.append((stamp.sec * 10**9 + stamp.nanosec, message.pose.pose.position.z))
 
-    node.subscribe("/truth", "nav_msgs/Odometry", hear, queue_size=None)
+    node.subscribe("/truth", "nav_msgs/Odometry", receive, queue_size=None)
     return heights
 
 
@@ -88,7 +88,7 @@ def _choose(user: SceneUser, menu: str, entry: str) -> None:
 
 
 def _at_rest(user: SceneUser, heights: Heights) -> int:
-    """Wait until the world stands still; return its time [ns], after a first step."""
+    """Wait until the world is paused after at least one step; return its time [ns]."""
     _bar(user, "Play").wait_for()
     if not heights:
         _bar(user, "Step 1").click()
@@ -98,7 +98,7 @@ def _at_rest(user: SceneUser, heights: Heights) -> int:
 
 
 def _run_on(user: SceneUser, heights: Heights) -> int:
-    """Let the world run for 1.5 s at least, in which the balloon rises; return its time at rest [ns]."""
+    """Run the world for at least 1.5 s, in which the balloon rises; return the time at the pause [ns]."""
     before = _at_rest(user, heights)
     _bar(user, "Play").click()
     user.until(lambda: heights[-1][0] > before + 1.5e9)
@@ -107,7 +107,7 @@ def _run_on(user: SceneUser, heights: Heights) -> int:
 
 
 def test_play_and_pause_are_one_toggle(graph: Graph, user: SceneUser, heights: Heights) -> None:
-    """The clock of the bar shows the time at which the world stands."""
+    """The bar's clock shows the time of the pause."""
     _bar(user, "Play").click()
     graph.until(lambda: heights)
     _bar(user, "Pause").click()
@@ -116,8 +116,8 @@ def test_play_and_pause_are_one_toggle(graph: Graph, user: SceneUser, heights: H
 
 
 @pytest.mark.slow
-def test_a_step_is_one_of_the_physics(user: SceneUser, heights: Heights) -> None:
-    """By its button and by its key."""
+def test_step_does_one_physics_step(user: SceneUser, heights: Heights) -> None:
+    """Both the button and the key do so."""
     before = _at_rest(user, heights)
     _bar(user, "Step 1").click()
     user.until(lambda: heights[-1][0] > before)
@@ -130,8 +130,8 @@ def test_a_step_is_one_of_the_physics(user: SceneUser, heights: Heights) -> None
 
 
 @pytest.mark.slow
-def test_the_speed_is_that_of_the_simulation(user: SceneUser, heights: Heights) -> None:
-    """The bar shows what the simulation answers; Space goes on although the menu had the focus."""
+def test_the_speed_is_set_and_shown(user: SceneUser, heights: Heights) -> None:
+    """The bar shows the simulation's speed; Space plays although the menu had the focus."""
     before = _at_rest(user, heights)
     _choose(user, "Speed 1×", "As fast as possible")
     _bar(user, "As fast as possible").wait_for()
@@ -143,8 +143,8 @@ def test_the_speed_is_that_of_the_simulation(user: SceneUser, heights: Heights) 
 
 
 @pytest.mark.slow
-def test_time_and_poses_are_reset_together_or_one_alone(user: SceneUser, heights: Heights) -> None:
-    """A step shows where it begins again."""
+def test_time_and_poses_are_reset_together_or_separately(user: SceneUser, heights: Heights) -> None:
+    """A step shows the state after the reset."""
 
     def after_a_step() -> tuple[int, float]:
         count = len(heights)
@@ -168,7 +168,7 @@ def test_time_and_poses_are_reset_together_or_one_alone(user: SceneUser, heights
 
 
 @pytest.mark.slow
-def test_a_joint_s_slider_moves_it(node: Node, user: SceneUser) -> None:
+def test_a_joints_slider_moves_it(node: Node, user: SceneUser) -> None:
     angles: list[float] = []
     node.subscribe("/joint_states", "sensor_msgs/JointState", lambda m: angles.extend(m.position))
     user.page.get_by_role("treeitem").filter(has_text="balloon").first.click()
@@ -182,7 +182,7 @@ def test_a_joint_s_slider_moves_it(node: Node, user: SceneUser) -> None:
 
 
 @pytest.mark.slow
-def test_the_timeline_goes_back_and_on(user: SceneUser, heights: Heights) -> None:
+def test_the_timeline_seeks_back_and_runs_on(user: SceneUser, heights: Heights) -> None:
     before = _run_on(user, heights)
     user.open("Timeline")
     head = user.page.get_by_role("slider", name="Time")
@@ -192,13 +192,13 @@ def test_the_timeline_goes_back_and_on(user: SceneUser, heights: Heights) -> Non
     _bar(user, "Step 1").click()
     user.until(lambda: len(heights) > count)
     assert heights[-1][0] == pytest.approx(before - 10**9, abs=0.1 * 10**9)
-    known = dict(heights[:count])
-    assert heights[-1][1] == known[heights[-1][0]]
+    earlier = dict(heights[:count])
+    assert heights[-1][1] == earlier[heights[-1][0]]
 
 
 @pytest.mark.slow
-def test_the_world_s_tree_finds_shows_and_hides(user: SceneUser) -> None:
-    """A link that is chosen is inspected."""
+def test_the_worlds_tree_finds_shows_and_hides(user: SceneUser) -> None:
+    """Selecting a link shows it in the inspector."""
     tree = user.page.get_by_role("tree", name="World")
     search = user.page.get_by_role("searchbox", name="Search the world")
     search.fill("hin")
@@ -215,7 +215,7 @@ def test_the_world_s_tree_finds_shows_and_hides(user: SceneUser) -> None:
 
 
 @pytest.mark.slow
-def test_what_is_recorded_can_be_played(user: SceneUser, heights: Heights, folder: Path) -> None:
+def test_a_recording_can_be_played(user: SceneUser, heights: Heights, folder: Path) -> None:
     before = _at_rest(user, heights)
     _bar(user, "Record").click()
     recording = user.page.get_by_role("banner").get_by_role("button", name="Recording")
@@ -227,8 +227,8 @@ def test_what_is_recorded_can_be_played(user: SceneUser, heights: Heights, folde
     _bar(user, "Pause").click()
     user.open("Timeline")
     lane = user.page.get_by_role("group", name="Recorded", exact=True)
-    kept = user.page.get_by_role("group", name="Kept", exact=True)
-    assert 0 < lane.locator(".band").bounding_box()["width"] < kept.locator(".band").bounding_box()["width"]
+    kept_row = user.page.get_by_role("group", name="Kept", exact=True)
+    assert 0 < lane.locator(".band").bounding_box()["width"] < kept_row.locator(".band").bounding_box()["width"]
     _at_rest(user, heights)
 
     [file] = folder.glob("recorded/*/state.log")
@@ -239,8 +239,8 @@ def test_what_is_recorded_can_be_played(user: SceneUser, heights: Heights, folde
 
 
 @pytest.mark.slow
-def test_a_world_that_was_changed_is_loaded_again(user: SceneUser, heights: Heights, folder: Path) -> None:
-    """A broken one is refused with its line; last."""
+def test_a_changed_world_is_reloaded(user: SceneUser, heights: Heights, folder: Path) -> None:
+    """A broken file is refused with its line. Must be last."""
     (folder / "sky.sdf").write_text(_world('<model name="cloud"><pose>3 0 0 0 0 0</pose><link name="l"/></model>'))
     _choose(user, "Reset", "Load the world again")
     user.page.get_by_role("treeitem").filter(has_text="cloud").first.wait_for()

@@ -1,4 +1,4 @@
-"""A person takes home what the view shows: a picture, a video, a link."""
+"""A user saves the view: as a picture, a video, a link."""
 
 import re
 from collections.abc import Iterator
@@ -32,7 +32,7 @@ def graph() -> Iterator[Graph]:
 
 @pytest.fixture(scope="module")
 def url(graph: Graph) -> Iterator[str]:
-    """A page that shows a green square of 0.4 m in the middle."""
+    """Yield a page that shows a green square of 0.4 m in the middle."""
     message: dict[str, Any] = {"type": 1, "header": {"frame_id": "map"}, "color": {"g": 1.0, "a": 1.0}}
     message |= {"scale": {"x": 0.4, "y": 0.4, "z": 0.4}, "pose": {"orientation": {"w": 1.0}}}
     graph.node("square").advertise("/square", "visualization_msgs/Marker", latch=True).publish(message)
@@ -64,13 +64,13 @@ def _drag_view(user: SceneUser, right_px: int, down_px: int) -> None:
 
 
 def _green(picture: NDArray[np.uint8]) -> tuple[float, float, float]:
-    """Share of the picture that is green, and the middle of it as shares of width and height."""
+    """Return the green fraction of the picture, and its middle as fractions of width and height."""
     rows, columns = np.nonzero((np.abs(picture[:, :, :3].astype(int) - GREEN) < 100).all(axis=-1))
     height, width = picture.shape[:2]
     return len(rows) / (width * height), float(columns.mean() / width), float(rows.mean() / height)
 
 
-def test_a_picture_of_any_size(user: SceneUser, tmp_path: Path) -> None:
+def test_a_picture_is_saved_in_any_size(user: SceneUser, tmp_path: Path) -> None:
     _choose(user, "Save a picture")
     for label, value in (("Width [px]", "2000"), ("Height [px]", "1520")):
         user.page.get_by_label(label).fill(value)
@@ -88,8 +88,8 @@ def test_a_picture_of_any_size(user: SceneUser, tmp_path: Path) -> None:
     assert user.sees_at((0.0, 0.0)), "the view has moved"
 
 
-def test_a_video_of_the_view(user: SceneUser, tmp_path: Path) -> None:
-    """An MP4 with its index in front, which plays while it loads; the view is dragged while it is recorded."""
+def test_a_video_of_the_view_is_saved(user: SceneUser, tmp_path: Path) -> None:
+    """It is an MP4 with its index first, which plays while it loads; the view is dragged during the recording."""
     user.button("Record a video of the view").click()
     _wait_for_second(user, 1)
     _drag_view(user, 100, 0)
@@ -109,7 +109,7 @@ def test_a_video_of_the_view(user: SceneUser, tmp_path: Path) -> None:
 
 
 def test_without_webcodecs_mediarecorder_writes_the_video(user: SceneUser, tmp_path: Path) -> None:
-    """As on a page that comes over a network by plain http; what is not an MP4 is said to be none."""
+    """This is the case on a page over plain http; a file that is not an MP4 has another suffix."""
     is_webm = "(type) => type.includes('webm')"
     user.page.evaluate(f"() => {{ delete window.VideoEncoder; MediaRecorder.isTypeSupported = {is_webm}; }}")
     _choose(user, "Record a video of the view")
@@ -122,7 +122,7 @@ def test_without_webcodecs_mediarecorder_writes_the_video(user: SceneUser, tmp_p
 
 
 def _wait_for_second(user: SceneUser, second: int, more: str = "") -> None:
-    """Wait until the note has come to a second below ten, or past it."""
+    """Wait until the notice shows a second below ten, or a later one."""
     user.page.get_by_text(re.compile(rf"Recording the view (0:0[{second}-9]|0:[1-5]\d|[1-9]:\d\d){more}")).wait_for()
 
 

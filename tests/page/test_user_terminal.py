@@ -1,4 +1,4 @@
-"""Nodes whose launch-prefix asks for a terminal have one on the page: a person drives there, by keys, in Chromium."""
+"""Nodes whose launch-prefix requests a terminal have one on the page, where a user drives by keys."""
 
 import json
 import re
@@ -70,8 +70,8 @@ sys.stdout.write("\033]0;<img src=x onerror=window.ran=1>\007\033]52;c;ZXZpbA==\
 sys.stdout.write("<img src=x onerror=window.ran=1>\r\n\033]8;;javascript:window.ran=1\007a link\033]8;;\007\r\n")
 sys.stdout.write("\033[c\033[6n\033[?25$p\033P$qm\033\\\033]10;?\007\033[18t\r\n")
 sys.stdout.flush()
-heard = sys.stdin.read(1)
-print("first key: %r" % heard, end="\r\n", flush=True)
+received = sys.stdin.read(1)
+print("first key: %r" % received, end="\r\n", flush=True)
 sys.stdin.read(1)
 """
 ENDLESS = "#!/bin/sh\nexec yes 'and so on'\n"
@@ -105,14 +105,14 @@ def url(graph: Graph, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]
 
 
 class Typist(PanelUser):
-    """Person at the Terminal panel."""
+    """User of the Terminal panel."""
 
     def __init__(self, browser: Any, url: str) -> None:
         super().__init__(browser, url)
         self.open("Terminal")
 
     def choose(self, node: str) -> None:
-        """Show a node's terminal, where keys go then."""
+        """Show a node's terminal, which then has the focus."""
         self.page.get_by_role("tab", name=node).click()
         self.page.locator(".terminalhost .xterm").wait_for()
 
@@ -132,24 +132,24 @@ def user(chromium: Any, url: str) -> Iterator[Typist]:
     user.close()
 
 
-def test_keys_drive_a_robot_by_a_program_of_a_package(graph: Graph, user: Typist) -> None:
+def test_keys_drive_a_robot_through_a_packages_program(graph: Graph, user: Typist) -> None:
     listener = graph.node("listener")
-    heard: list[float] = []
-    listener.subscribe("/robot/cmd_vel", "geometry_msgs/Twist", lambda twist: heard.append(twist.linear.x))
+    received: list[float] = []
+    listener.subscribe("/robot/cmd_vel", "geometry_msgs/Twist", lambda twist: received.append(twist.linear.x))
     user.choose("/drive")
     user.reads("i: forward")
 
     def drives() -> bool:
         user.page.keyboard.press("i")
-        return 0.5 in heard
+        return 0.5 in received
 
     user.until(drives, what="for a command")
     user.page.keyboard.press("k")
-    user.until(lambda: heard[-1] == 0.0, what="for the stop")
+    user.until(lambda: received[-1] == 0.0, what="for the stop")
     user.reads("pressed k")
 
 
-def test_arrows_drive_the_turtle_by_a_stand_in(graph: Graph, user: Typist) -> None:
+def test_arrows_drive_the_turtle_through_a_stand_in(graph: Graph, user: Typist) -> None:
     watcher = graph.node("watcher")
     turned: list[float] = []
     watcher.subscribe("/turtle1/pose", "turtlesim/Pose", lambda pose: turned.append(pose.theta))
@@ -160,7 +160,7 @@ def test_arrows_drive_the_turtle_by_a_stand_in(graph: Graph, user: Typist) -> No
     user.until(lambda: turned and turned[-1] > 0.5, what="for the turtle to turn")
 
 
-def test_people_who_come_later_see_what_was_printed(chromium: Any, url: str, user: Typist) -> None:
+def test_later_users_see_earlier_output(chromium: Any, url: str, user: Typist) -> None:
     user.choose("/size")
     user.reads("size ")
     later = Typist(chromium, url)
@@ -178,7 +178,7 @@ def test_the_program_has_the_size_of_the_panel(user: Typist) -> None:
 
 
 def _last_size(shown: str) -> tuple[int, int]:
-    """Columns and rows that the program printed last."""
+    """Return the columns and rows that the program printed last."""
     lines = [line for line in shown.splitlines() if re.fullmatch(r"size \d+ x \d+", line.strip())]
     _, columns, _, rows = lines[-1].split() if lines else ("", "1", "", "1")
     return int(columns), int(rows)
@@ -191,15 +191,15 @@ def _fills_the_panel(user: Typist) -> bool:
         return [host.clientWidth, host.clientHeight, screen.clientWidth, screen.clientHeight];
     }""")
     columns, rows = _last_size(user.shown)
-    more_width, more_height = shown_width / columns + 40, shown_height / rows + 12  # with margins and a scroll bar
+    more_width, more_height = shown_width / columns + 40, shown_height / rows + 12  # including margins and a scroll bar
     return width - more_width < shown_width <= width and height - more_height < shown_height <= height
 
 
-def test_who_may_only_look_sees_it_and_types_nothing(graph: Graph, chromium: Any, url: str, user: Typist) -> None:
+def test_view_only_users_see_output_and_cannot_type(graph: Graph, chromium: Any, url: str, user: Typist) -> None:
     link = _view_link(url)
     listener = graph.node("listener_of_viewer")
-    heard: list[float] = []
-    listener.subscribe("/robot/cmd_vel", "geometry_msgs/Twist", lambda twist: heard.append(twist.linear.x))
+    received: list[float] = []
+    listener.subscribe("/robot/cmd_vel", "geometry_msgs/Twist", lambda twist: received.append(twist.linear.x))
     viewer = Typist(chromium, link)
     viewer.choose("/drive")
     viewer.reads("i: forward")
@@ -211,10 +211,10 @@ def test_who_may_only_look_sees_it_and_types_nothing(graph: Graph, chromium: Any
         client.until(lambda: [status["message"] for status in client.statuses] == ["this link is view-only"])
     user.choose("/drive")
     user.page.keyboard.press("k")
-    user.until(lambda: heard, what="for the owner's command")
+    user.until(lambda: received, what="for the owner's command")
     viewer.close()
 
-    assert 0.5 not in heard
+    assert 0.5 not in received
 
 
 def _view_link(url: str) -> str:
@@ -223,7 +223,7 @@ def _view_link(url: str) -> str:
         return f"{address}?token={json.load(answer)['view_token']}"
 
 
-def test_a_hostile_program_types_nothing_and_changes_nothing(user: Typist) -> None:
+def test_a_hostile_program_cannot_type_or_change_the_page(user: Typist) -> None:
     user.choose("/evil")
     user.reads("a link")
     user.page.get_by_text("a link").click(force=True)
@@ -236,7 +236,7 @@ def test_a_hostile_program_types_nothing_and_changes_nothing(user: Typist) -> No
     assert len(user.page.context.pages) == 1
 
 
-def test_a_program_that_prints_without_end_leaves_the_page_usable(graph: Graph, user: Typist) -> None:
+def test_endless_output_leaves_the_page_usable(graph: Graph, user: Typist) -> None:
     user.choose("/endless")
     user.reads("and so on")
     user.choose("/drive")
@@ -244,7 +244,7 @@ def test_a_program_that_prints_without_end_leaves_the_page_usable(graph: Graph, 
     user.reads("pressed k")
 
 
-def test_the_end_of_a_node_is_seen_in_its_terminal(user: Typist) -> None:
+def test_a_terminal_shows_the_end_of_its_node(user: Typist) -> None:
     user.choose("/drive")
     user.page.keyboard.press("q")
     user.reads("/drive has finished cleanly")

@@ -1,4 +1,4 @@
-"""A person uses the tools and the interactive markers in the 3D view; what the graph then carries is checked."""
+"""A user uses the tools and the interactive markers in the 3D view; messages on the graph are checked."""
 
 import math
 from collections.abc import Iterator
@@ -23,15 +23,15 @@ HEADER = {"frame_id": "map"}
 NOTHING = {"x": 0.0, "y": 0.0, "z": 0.0}
 ALONG_X = {**NOTHING, "w": 1.0}
 ALONG_Z = {"x": 0.0, "y": math.sqrt(0.5), "z": 0.0, "w": math.sqrt(0.5)}
-"""Orientations of a control whose x axis is the world's x or −z."""
+"""Orientations of a control whose x axis points along the world's x or −z."""
 MENU, BUTTON, MOVE_AXIS, MOVE_PLANE, ROTATE_AXIS = 1, 2, 3, 4, 5
 POSE, MENU_SELECT, CLICK, DOWN, UP = 1, 2, 3, 4, 5
 GRIP = 0.575
-"""Radius of the middle of a ring, and distance of an arrow from its marker [m]."""
+"""Radius of a ring's middle, and distance of an arrow from its marker [m]."""
 
 
-def _marker(name: str, place: tuple[float, float], control: dict[str, Any], **fields: Any) -> dict[str, Any]:
-    x, y = place
+def _marker(name: str, position: tuple[float, float], control: dict[str, Any], **fields: Any) -> dict[str, Any]:
+    x, y = position
     pose = {"position": {"x": x, "y": y, "z": 0.0}, "orientation": ALONG_X}
     return {
         "header": HEADER,
@@ -75,7 +75,7 @@ SCAN = {
     "ranges": [0.5, 1.0],
     "intensities": [10.0, 20.0],
 }
-"""Two points: at (0.5, 0) and (0, 1)."""
+"""Scan of two points, at (0.5, 0) and (0, 1)."""
 
 
 @pytest.fixture(scope="module")
@@ -95,8 +95,8 @@ def node(graph: Graph) -> Node:
 
 
 @pytest.fixture(scope="module")
-def heard(node: Node) -> dict[str, list[Any]]:
-    """Messages by topic; who listens is there before the page."""
+def received(node: Node) -> dict[str, list[Any]]:
+    """Received messages by topic, from subscriptions made before the page starts."""
     messages: dict[str, list[Any]] = {}
     for topic, kind in LISTENED.items():
         messages[topic] = []
@@ -105,7 +105,7 @@ def heard(node: Node) -> dict[str, list[Any]]:
 
 
 @pytest.fixture(scope="module")
-def server(graph: Graph, node: Node, heard: dict[str, list[Any]]) -> Iterator[PageServer]:
+def server(graph: Graph, node: Node, received: dict[str, list[Any]]) -> Iterator[PageServer]:
     session = Session(title="t", kind="graph", rviz=RvizFile(name="t.rviz", text=RVIZ, writable=True))
     address = GraphAddress(master_uri=graph.core.uri)
     graph.ready(node)
@@ -116,23 +116,23 @@ def server(graph: Graph, node: Node, heard: dict[str, list[Any]]) -> Iterator[Pa
 @pytest.fixture(scope="module")
 def user(chromium: Any, server: PageServer) -> Iterator[SceneUser]:
     user = SceneUser(chromium, server.url)
-    things = ((-2.0, -1.0), (2.0 - GRIP, 1.0), (0.5, 0.0))  # a button, a ring, a point of the scan
-    user.until(lambda: all(user.sees_at(point) for point in things), what="for the markers and the scan")
+    points = ((-2.0, -1.0), (2.0 - GRIP, 1.0), (0.5, 0.0))  # a button, a ring, a point of the scan
+    user.until(lambda: all(user.sees_at(point) for point in points), what="for the markers and the scan")
     yield user
     user.close()
 
 
 @pytest.fixture(scope="module")
-def feedback(heard: dict[str, list[Any]]) -> list[Any]:
-    return heard["/handles/feedback"]
+def feedback(received: dict[str, list[Any]]) -> list[Any]:
+    return received["/handles/feedback"]
 
 
-def _place(message: Any) -> tuple[float, float]:
+def _position(message: Any) -> tuple[float, float]:
     return (message.pose.position.x, message.pose.position.y)
 
 
 def _dragged(graph: Graph, feedback: list[Any], name: str) -> Any:
-    """Wait for the end of a drag; return its last pose, after checking what came before."""
+    """Wait for the end of a drag and check its feedback; return the last message."""
     graph.until(lambda: feedback and feedback[-1].event_type == UP)
     events = [message.event_type for message in feedback]
     assert (events[0], events[-1]) == (DOWN, UP)
@@ -143,9 +143,9 @@ def _dragged(graph: Graph, feedback: list[Any], name: str) -> Any:
 
 
 @pytest.mark.slow
-def test_a_point_that_is_clicked_is_published(graph: Graph, user: SceneUser, heard: dict[str, list[Any]]) -> None:
-    """The file says how many pixels a metre has."""
-    points = heard["/clicked_point"]
+def test_a_clicked_point_is_published(graph: Graph, user: SceneUser, received: dict[str, list[Any]]) -> None:
+    """The scale is in the .rviz file."""
+    points = received["/clicked_point"]
     user.tool("Publish Point")
     user.click((2.0, -1.0))
     graph.until(lambda: points)
@@ -158,14 +158,14 @@ def test_a_point_that_is_clicked_is_published(graph: Graph, user: SceneUser, hea
 def test_a_marker_slides_along_its_axis(graph: Graph, user: SceneUser, feedback: list[Any]) -> None:
     user.drag((-2.0 + 0.7, 1.0), (-2.0 + 1.2, 1.3))
 
-    assert _place(_dragged(graph, feedback, "slider")) == pytest.approx((-1.5, 1.0), abs=0.03)
+    assert _position(_dragged(graph, feedback, "slider")) == pytest.approx((-1.5, 1.0), abs=0.03)
 
 
 @pytest.mark.slow
 def test_a_marker_moves_in_its_plane(graph: Graph, user: SceneUser, feedback: list[Any]) -> None:
     user.drag((GRIP, 1.0), (GRIP + 0.25, 1.8))
 
-    assert _place(_dragged(graph, feedback, "plate")) == pytest.approx((0.25, 1.8), abs=0.03)
+    assert _position(_dragged(graph, feedback, "plate")) == pytest.approx((0.25, 1.8), abs=0.03)
 
 
 @pytest.mark.slow
@@ -178,7 +178,7 @@ def test_a_marker_turns_about_its_axis(graph: Graph, user: SceneUser, feedback: 
 
 
 @pytest.mark.slow
-def test_a_marker_is_pressed_and_its_menu_chosen_from(graph: Graph, user: SceneUser, feedback: list[Any]) -> None:
+def test_a_marker_is_clicked_and_a_menu_entry_chosen(graph: Graph, user: SceneUser, feedback: list[Any]) -> None:
     user.click((-2.0, -1.0))
     graph.until(lambda: CLICK in [message.event_type for message in feedback])
     feedback.clear()
@@ -195,10 +195,10 @@ def test_a_marker_is_pressed_and_its_menu_chosen_from(graph: Graph, user: SceneU
 
 
 @pytest.mark.slow
-def test_a_pose_estimate_has_the_deviations_that_were_set(
-    graph: Graph, user: SceneUser, heard: dict[str, list[Any]]
+def test_a_pose_estimate_has_its_configured_deviations(
+    graph: Graph, user: SceneUser, received: dict[str, list[Any]]
 ) -> None:
-    poses = heard["/initialpose"]
+    poses = received["/initialpose"]
     user.side("Tool properties")
     user.set("X std deviation [m]", "2")
     user.tool("2D Pose Estimate")
@@ -211,8 +211,10 @@ def test_a_pose_estimate_has_the_deviations_that_were_set(
     assert [pose.covariance[i] for i in (0, 7, 35)] == pytest.approx([4.0, 0.25, (math.pi / 12) ** 2])
 
 
-def test_a_goal_goes_to_the_topic_that_was_set(graph: Graph, user: SceneUser, heard: dict[str, list[Any]]) -> None:
-    goals = heard["/robot/goal"]
+def test_a_goal_is_published_on_its_configured_topic(
+    graph: Graph, user: SceneUser, received: dict[str, list[Any]]
+) -> None:
+    goals = received["/robot/goal"]
     user.side("Tool properties")
     user.page.get_by_role("treeitem", name="2D Nav Goal").locator("xpath=following-sibling::*[1]").locator(
         "input"
@@ -228,7 +230,7 @@ def test_a_goal_goes_to_the_topic_that_was_set(graph: Graph, user: SceneUser, he
 
 
 @pytest.mark.slow
-def test_a_point_that_is_selected_shows_its_values_and_a_box_shows_all(user: SceneUser) -> None:
+def test_selecting_a_point_shows_its_values_and_a_box_selects_several(user: SceneUser) -> None:
     user.tool("Select")
     user.click((0.5, 0.0))
     fields = user.page.get_by_role("tree", name="Fields")
@@ -255,8 +257,8 @@ def test_a_distance_is_measured(user: SceneUser) -> None:
 
 
 @pytest.mark.slow
-def test_the_camera_is_moved_although_a_marker_lies_below(user: SceneUser, feedback: list[Any]) -> None:
-    """From the plate, which the same drag moves with Interact; and back."""
+def test_the_camera_is_moved_although_a_marker_is_under_the_pointer(user: SceneUser, feedback: list[Any]) -> None:
+    """The drag starts at the plate, which it would move with Interact."""
     user.side("Views")
     feedback.clear()
     user.tool("Move camera")
@@ -270,7 +272,7 @@ def test_the_camera_is_moved_although_a_marker_lies_below(user: SceneUser, feedb
 
 @pytest.mark.slow
 def test_a_point_is_focused_and_the_view_saved(user: SceneUser, server: PageServer) -> None:
-    """Last, since it moves the ground."""
+    """Must be last, as it moves the ground."""
     user.side("Views")
     user.page.get_by_role("button", name="Save this one").click()
     user.tool("Focus")
@@ -282,11 +284,11 @@ def test_a_point_is_focused_and_the_view_saved(user: SceneUser, server: PageServ
     user.property("Distance [m]").wait_for()
     user.side("Displays")
     user.page.get_by_role("button", name="Save", exact=True).click()
-    taken: list[Any] = []
-    user.until(lambda: taken.extend(server.requests()) or taken)
-    server.respond(taken[0].id)
+    requests: list[Any] = []
+    user.until(lambda: requests.extend(server.requests()) or requests)
+    server.respond(requests[0].id)
     import yaml
 
-    views = yaml.safe_load(taken[0].action.text)["Visualization Manager"]["Views"]
+    views = yaml.safe_load(requests[0].action.text)["Visualization Manager"]["Views"]
     assert views["Current"]["Class"] == "rviz/Orbit"
     assert [(view["Class"], view["Name"]) for view in views["Saved"]] == [("rviz/TopDownOrtho", "TopDownOrtho 1")]

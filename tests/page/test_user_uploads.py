@@ -1,4 +1,4 @@
-"""A person uploads a model by the browser, inserts it and saves the world."""
+"""A user uploads a model in the browser, inserts it and saves the world."""
 
 import io
 import os
@@ -86,9 +86,9 @@ def _open(user: WorldUser) -> Any:
     return user.page.get_by_role("dialog", name="Upload a model")
 
 
-def _choose(user: WorldUser, what: str, files: Any) -> None:
+def _choose(user: WorldUser, button: str, files: Any) -> None:
     with user.page.expect_file_chooser() as chooser:
-        _open(user).get_by_role("button", name=what).click()
+        _open(user).get_by_role("button", name=button).click()
     chooser.value.set_files(files)
 
 
@@ -106,7 +106,7 @@ def _redness(user: WorldUser) -> int:
 
 
 def test_an_archive_is_uploaded_and_dragged_into_the_scene(user: WorldUser) -> None:
-    """It comes first in the list, with its picture, and its mesh is drawn where it was dropped."""
+    """It is the first in the list, with its picture, and its mesh is drawn at the drop point."""
     _choose(user, "Choose a file", _archive("wagon.zip", _files("wagon")))
     _entry(user, "My wagon").wait_for()
     assert user.page.get_by_role("dialog").count() == 0
@@ -119,14 +119,14 @@ def test_an_archive_is_uploaded_and_dragged_into_the_scene(user: WorldUser) -> N
     user.page.mouse.move(*user.at((1.0, 1.0)), steps=4)
     user.page.mouse.up()
     user.until(lambda: user.pose("wagon") is not None, what="for the wagon")
-    assert user.place("wagon") == pytest.approx((1.0, 1.0, 0.0), abs=0.03)
+    assert user.position("wagon") == pytest.approx((1.0, 1.0, 0.0), abs=0.03)
     user.until(lambda: _redness(user) > before + 1000, what="for its mesh")
 
 
-def test_what_is_wrong_is_said_in_the_dialog(user: WorldUser) -> None:
+def test_errors_are_shown_in_the_dialog(user: WorldUser) -> None:
     _choose(user, "Choose a file", _archive("notes.zip", {"readme.txt": "", "../evil.sdf": ""}))
     dialog = user.page.get_by_role("dialog", name="Upload a model")
-    dialog.get_by_role("alert").get_by_text("notes.zip: '../evil.sdf' is no path of a file").wait_for()
+    dialog.get_by_role("alert").get_by_text("notes.zip: '../evil.sdf' is not a valid path").wait_for()
     with user.page.expect_file_chooser() as chooser:
         dialog.get_by_role("button", name="Choose a file").click()
     chooser.value.set_files(_archive("notes.zip", {"readme.txt": ""}))
@@ -134,8 +134,8 @@ def test_what_is_wrong_is_said_in_the_dialog(user: WorldUser) -> None:
     user.page.keyboard.press("Escape")
 
 
-def test_a_large_upload_says_how_much_is_sent_and_is_cancelled(user: WorldUser, folder: Path) -> None:
-    """20 MB at 2 MB/s; of what was cancelled nothing stays, and it can be sent again."""
+def test_a_large_upload_shows_its_progress_and_can_be_cancelled(user: WorldUser, folder: Path) -> None:
+    """20 MB at 2 MB/s; a cancelled upload leaves no files, and can be repeated."""
     with ZipFile(folder / "big.zip", "w") as packed:
         for name, text in _files("big").items():
             packed.writestr(name, text)
@@ -160,7 +160,7 @@ def test_a_large_upload_says_how_much_is_sent_and_is_cancelled(user: WorldUser, 
     _entry(user, "My big").wait_for()
 
 
-def test_a_folder_with_code_is_uploaded_and_its_code_asked_for(user: WorldUser, folder: Path) -> None:
+def test_an_uploaded_folder_with_code_needs_consent(user: WorldUser, folder: Path) -> None:
     files = _files("coded", '<plugin name="p" filename="code.py"/>') | {"coded/code.py": CODE, "coded/.git/x": "x"}
     for name, text in files.items():
         (folder / "home" / name).parent.mkdir(parents=True, exist_ok=True)
@@ -175,7 +175,7 @@ def test_a_folder_with_code_is_uploaded_and_its_code_asked_for(user: WorldUser, 
     user.until(lambda: user.model("coded") is not None, what="for the model with code")
 
 
-def test_a_file_that_is_dropped_is_uploaded_and_once_more_takes_its_own_place(user: WorldUser) -> None:
+def test_a_dropped_file_is_uploaded_and_replaced_by_dropping_it_again(user: WorldUser) -> None:
     for side in ("0.5", "1.0"):
         box = f"<geometry><box><size>{side} {side} {side}</size></box></geometry>"
         link = f'<link name="l"><visual name="v">{box}</visual></link>'
@@ -194,7 +194,7 @@ def _save_dialog(user: WorldUser) -> Any:
     return user.page.get_by_role("dialog", name="Save the world as SDF")
 
 
-def test_the_world_is_saved_with_what_was_uploaded_and_asks_before_it_replaces(user: WorldUser, folder: Path) -> None:
+def test_the_world_is_saved_with_uploads_and_confirms_replacements(user: WorldUser, folder: Path) -> None:
     theirs = folder / "worlds" / "wagon" / "model.sdf"
     theirs.parent.mkdir(parents=True)
     theirs.write_text("precious")
@@ -209,8 +209,8 @@ def test_the_world_is_saved_with_what_was_uploaded_and_asks_before_it_replaces(u
     assert theirs.read_text() == MODEL.format("wagon", "")
 
 
-def test_a_saved_world_is_whole_when_the_uploads_are_gone(user: WorldUser, folder: Path) -> None:
-    """It is checked and loaded by others that know of no upload."""
+def test_a_saved_world_is_complete_without_the_uploads(user: WorldUser, folder: Path) -> None:
+    """It is checked and loaded by a process without the uploads."""
     for uploads in (folder / "temporary").glob("trundle-models-*"):
         shutil.rmtree(uploads)
     file = folder / "worlds" / "mine.sdf"

@@ -1,4 +1,4 @@
-"""A person looks at a simulated world without perspective, as first person, through a camera; pictures are checked."""
+"""A user views a simulated world without perspective, in first person, through a camera; pictures are checked."""
 
 import io
 import math
@@ -16,15 +16,15 @@ from tests.system.browser import running_page
 pytestmark = [pytest.mark.slow, needs_client]
 
 FOV, NEAR_M, WIDTH_M = 1.2, 1.9, 0.4
-"""The camera's horizontal field of view [rad], and the distance and width of the face that it sees [m]."""
+"""Camera's horizontal field of view [rad], and distance and width of the face in front of it [m]."""
 
 
-def _box(name: str, place: str, rgb: str, inside: str = "") -> str:
-    """Return a model of a cube of 0.4 m that glows in a colour."""
+def _box(name: str, pose: str, rgb: str, inside: str = "") -> str:
+    """Return a model of a cube of 0.4 m that glows in a color."""
     shape = f"<geometry><box><size>{WIDTH_M} {WIDTH_M} {WIDTH_M}</size></box></geometry>"
     black = "<ambient>0 0 0 1</ambient><diffuse>0 0 0 1</diffuse>"
     visual = f'<visual name="v">{shape}<material>{black}<emissive>{rgb} 1</emissive></material></visual>'
-    return f'<model name="{name}"><pose>{place}</pose><link name="base">{visual}{inside}</link></model>'
+    return f'<model name="{name}"><pose>{pose}</pose><link name="base">{visual}{inside}</link></model>'
 
 
 EYE = f"""<sensor name="eye" type="camera"><pose>0.3 0 0 0 0 0</pose><camera><horizontal_fov>{FOV}</horizontal_fov>
@@ -36,22 +36,22 @@ RED, BLUE, GREEN = (255, 0, 0), (0, 0, 255), (0, 255, 0)
 
 
 class Looker(WorldUser):
-    """Measures what has a colour in the whole page."""
+    """Measures areas of a color in the whole page."""
 
-    def extent(self, colour: tuple[int, int, int]) -> tuple[int, int, int, int] | None:
-        """Left, right, top and bottom of what has a colour [px]; None: nothing has."""
-        mask = self.seen(colour)
+    def extent(self, color: tuple[int, int, int]) -> tuple[int, int, int, int] | None:
+        """Return left, right, top and bottom of the area with a color [px]; None if there is none."""
+        mask = self.mask(color)
         rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
         return (int(columns[0]), int(columns[-1]), int(rows[0]), int(rows[-1])) if rows.size else None
 
-    def seen(self, colour: tuple[int, int, int]) -> NDArray[np.bool_]:
-        """Mask (height, width) of what has a colour."""
+    def mask(self, color: tuple[int, int, int]) -> NDArray[np.bool_]:
+        """Return the mask (height, width) of a color."""
         picture = np.asarray(Image.open(io.BytesIO(self.page.screenshot())).convert("RGB")).astype(int)
-        return np.asarray((np.abs(picture - colour) < 12).all(axis=-1))
+        return np.asarray((np.abs(picture - color) < 12).all(axis=-1))
 
-    def width(self, colour: tuple[int, int, int]) -> int:
-        found = self.extent(colour)
-        return 0 if found is None else found[1] - found[0] + 1
+    def width(self, color: tuple[int, int, int]) -> int:
+        extent = self.extent(color)
+        return 0 if extent is None else extent[1] - extent[0] + 1
 
     def run(self, command: str) -> None:
         """Run a command by its name."""
@@ -81,8 +81,8 @@ def user(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lo
         user.close()
 
 
-def test_without_perspective_what_is_far_is_as_large_as_what_is_near(user: Looker) -> None:
-    """From the front the blue box is four metres behind the red one."""
+def test_without_perspective_distance_does_not_change_the_size(user: Looker) -> None:
+    """Seen from the front, the blue box is four metres behind the red one."""
     user.page.get_by_role("button", name="Look from the front").click()
     user.set("Distance [m]", "12")
     user.until(lambda: user.width(RED) > 1.3 * user.width(BLUE) > 0)
@@ -90,8 +90,8 @@ def test_without_perspective_what_is_far_is_as_large_as_what_is_near(user: Looke
     user.until(lambda: abs(user.width(RED) - user.width(BLUE)) <= 1 < user.width(BLUE))
 
 
-def test_each_side_is_seen_from_there(user: Looker) -> None:
-    """Without perspective: seen from the left x grows to the left, from above and from the right to the right."""
+def test_the_world_is_seen_from_every_side(user: Looker) -> None:
+    """Without perspective; from the left x points to the left, from above and from the right to the right."""
     size = user.width(RED)
     for name, apart in (("Left", 10.0), ("Right", -10.0)):
         user.button(name).click()
@@ -102,13 +102,13 @@ def test_each_side_is_seen_from_there(user: Looker) -> None:
 
 
 def _between(user: Looker, first: tuple[int, int, int], second: tuple[int, int, int]) -> float:
-    """How far the second colour lies to the right of the first [px]."""
+    """Return the distance of the second color to the right of the first [px]."""
     a, b = user.extent(first), user.extent(second)
     return math.nan if a is None or b is None else (b[0] + b[1] - a[0] - a[1]) / 2
 
 
-def test_first_person_looks_ahead_from_what_is_selected(user: Looker) -> None:
-    """From the cart's roof the red box is straight ahead, below the horizon, and the cart's front is below it."""
+def test_first_person_looks_ahead_from_the_selection(user: Looker) -> None:
+    """From the cart's roof, the red box is straight ahead below the horizon, and the cart's front is below it."""
     user.side("Inspector")
     user.pick("cart")
     user.run("First person from what is selected")
@@ -128,7 +128,7 @@ def test_first_person_looks_ahead_from_what_is_selected(user: Looker) -> None:
     user.run("Select nothing")
 
 
-def test_a_camera_is_looked_through_with_its_own_field_of_view(user: Looker) -> None:
+def test_the_view_through_a_camera_has_its_field_of_view(user: Looker) -> None:
     """The red face, 1.9 m ahead of the eye, is as wide in the camera's frame as in its own pictures."""
     user.side("Views")
     user.button("eye").click()
@@ -137,11 +137,11 @@ def test_a_camera_is_looked_through_with_its_own_field_of_view(user: Looker) -> 
     assert frame["width"] / frame["height"] == pytest.approx(80 / 60, rel=0.02)
     share = WIDTH_M / (2 * NEAR_M * math.tan(FOV / 2))
     user.until(lambda: abs(user.width(RED) - share * frame["width"]) <= 2)
-    found = user.extent(RED)
-    assert found is not None
-    assert (found[0] + found[1]) / 2 == pytest.approx(frame["x"] + frame["width"] / 2, abs=2)
+    extent = user.extent(RED)
+    assert extent is not None
+    assert (extent[0] + extent[1]) / 2 == pytest.approx(frame["x"] + frame["width"] / 2, abs=2)
     user.page.mouse.move(*user.at((0.5, 0.5)))
     user.page.mouse.down()
     user.page.mouse.move(*user.at((1, 1)), steps=3)
     user.page.mouse.up()
-    assert user.extent(RED) == found
+    assert user.extent(RED) == extent

@@ -1,4 +1,4 @@
-"""A person whose browser has no WebGL sees the simulator's own pictures, turns them, drives, and has the panels."""
+"""A user whose browser has no WebGL sees the simulator's pictures, turns them, drives, and uses the panels."""
 
 import io
 from collections.abc import Iterator
@@ -34,7 +34,7 @@ OVER_IT = ".panel, .float, .panes, .stage, header { visibility: hidden } .pictur
 
 
 class Onlooker(PanelUser):
-    """Look at the pictures that come."""
+    """Looks at the simulator's pictures."""
 
     def __init__(self, browser: Any, url: str, size: tuple[int, int]) -> None:
         self.size = size
@@ -47,7 +47,7 @@ class Onlooker(PanelUser):
         self.page.get_by_label("Connected").first.wait_for()
 
     def picture(self) -> NDArray[np.int64]:
-        """Return what the page shows, without what lies over it."""
+        """Return the shown picture without overlays."""
         style = self.page.add_style_tag(content=OVER_IT)
         png = self.page.screenshot()
         style.evaluate("style => style.remove()")
@@ -58,8 +58,8 @@ class Onlooker(PanelUser):
         return bool((red - np.maximum(green, blue) > 60).mean() > 0.002)
 
     def newest_picture(self) -> NDArray[np.int64]:
-        """Return one that was asked for from now on."""
-        for _ in range(2):  # the first may have been asked for before
+        """Return a picture requested after this call."""
+        for _ in range(2):  # the first may have been requested before
             with self.page.expect_response(lambda response: "camera.png" in response.url):
                 pass
         self.until_still(lambda: self.picture().tobytes())
@@ -79,7 +79,7 @@ def user(request: pytest.FixtureRequest, chromium: Any, tmp_path: Path) -> Itera
         user.close()
 
 
-def test_it_is_seen_turned_and_driven(user: Onlooker) -> None:
+def test_pictures_are_shown_turned_and_the_robot_driven(user: Onlooker) -> None:
     user.page.get_by_text("This browser has no WebGL 2, so there is no 3D view.").wait_for()
     user.until(user.shows_trolley, what="for a picture of the trolley")
     assert user.page.get_by_role("toolbar", name="Tools").count() == 0, "they act on what is drawn"
@@ -91,14 +91,14 @@ def test_it_is_seen_turned_and_driven(user: Onlooker) -> None:
     for _ in range(4):
         picture.press("ArrowRight")
     turned = user.await_other_picture(before, "to be seen from another side")
-    x, y = 0.5 * user.size[0], 0.3 * user.size[1]  # where nothing lies over it
+    x, y = 0.5 * user.size[0], 0.3 * user.size[1]  # not covered by anything
     user.page.mouse.move(x, y)
     user.page.mouse.down()
     user.page.mouse.move(x + 80, y, steps=4)
     user.page.mouse.up()
     before = user.await_other_picture(turned, "to be turned by a drag")
 
-    user.page.locator(".disc").focus()  # the picture follows the trolley: the pillar goes by
+    user.page.locator(".disc").focus()  # the picture follows the trolley: the pillar moves by
     user.page.keyboard.down("w")
     user.page.wait_for_timeout(1000)
     user.page.keyboard.up("w")
@@ -106,7 +106,7 @@ def test_it_is_seen_turned_and_driven(user: Onlooker) -> None:
     assert user.shows_trolley()
 
 
-def test_pictures_come_again_after_one_that_failed_and_panels_are_there(user: Onlooker) -> None:
+def test_pictures_continue_after_a_failure_and_panels_work(user: Onlooker) -> None:
     user.until(user.shows_trolley, what="for a picture of the trolley")
     user.page.route("**/camera.png*", lambda route: route.abort())
     user.until(lambda: not user.shows_trolley(), what="for the picture to go")
@@ -127,11 +127,11 @@ def test_pictures_come_again_after_one_that_failed_and_panels_are_there(user: On
     user.page.keyboard.press("Escape")
 
 
-def test_no_command_is_offered_that_acts_on_the_3d_view(user: Onlooker) -> None:
+def test_commands_of_the_3d_view_are_not_offered(user: Onlooker) -> None:
     user.page.keyboard.press("Control+k")
     search = user.page.get_by_role("dialog").get_by_role("combobox")
-    found = user.page.get_by_role("listbox", name="Commands").get_by_role("option")
-    for words, there in [
+    options = user.page.get_by_role("listbox", name="Commands").get_by_role("option")
+    for words, count in [
         ("Play or pause", 1),
         ("Show or hide the cameras", 1),
         ("Frame what is selected", 0),
@@ -141,17 +141,17 @@ def test_no_command_is_offered_that_acts_on_the_3d_view(user: Onlooker) -> None:
         ("Measure", 0),
     ]:
         search.fill(words)
-        user.until(lambda there=there: found.count() == there, what=f"for {there} of {words!r} in the palette")
+        user.until(lambda count=count: options.count() == count, what=f"for {count} of {words!r} in the palette")
 
 
-def test_the_next_picture_is_asked_for_once_the_last_came(user: Onlooker) -> None:
+def test_the_next_picture_is_requested_after_the_last_has_arrived(user: Onlooker) -> None:
     user.until(user.shows_trolley, what="for a picture of the trolley")
-    held: list[Any] = []
-    user.page.route("**/camera.png*", lambda route: held.append(route))
-    user.until(lambda: len(held) == 1, what="for a picture to be asked for")
-    user.page.wait_for_timeout(2000)  # in which four would be asked for
-    assert len(held) == 1
-    held[0].continue_()
-    user.until(lambda: len(held) == 2, what="for the next one")
-    held[1].continue_()
+    routes: list[Any] = []
+    user.page.route("**/camera.png*", lambda route: routes.append(route))
+    user.until(lambda: len(routes) == 1, what="for the request for a picture")
+    user.page.wait_for_timeout(2000)  # time for four requests
+    assert len(routes) == 1
+    routes[0].continue_()
+    user.until(lambda: len(routes) == 2, what="for the next one")
+    routes[1].continue_()
     user.page.unroute("**/camera.png*")

@@ -1,4 +1,4 @@
-"""A client whose link only allows looking changes nothing, whatever it sends."""
+"""A view-only client changes nothing, whatever it sends."""
 
 import json
 import struct
@@ -18,17 +18,17 @@ from trundle.page.clients.protocol import ClientOperation
 from trundle.page.requests.request import ClientAction, SaveRvizAs
 
 REFUSAL = "this link is view-only"
-LOOKING = {
+READ_ONLY = {
     "subscribe", "unsubscribe", "getParameters", "subscribeParameterUpdates", "unsubscribeParameterUpdates",
     "subscribeConnectionGraph", "unsubscribeConnectionGraph", "fetchAsset", "trundle/presence", "trundle/request",
 }  # fmt: skip
-"""Operations that change nothing; requests have a table of their own."""
+"""Operations that change nothing; requests are listed separately."""
 _MORE: dict[str, dict[str, Any]] = {"joint": {"position": 1.0}}
-"""Fields that a request needs beside those without a default."""
+"""Fields that requests need in addition to those without a default."""
 
 
 def _sample(kind: inspect.Type) -> Any:
-    """Return a value of a type as JSON has it."""
+    """Return a value of a type in JSON's types."""
     match kind:
         case inspect.StructType(fields=fields):
             return {field.encode_name: _sample(field.type) for field in fields if field.required}
@@ -39,7 +39,7 @@ def _sample(kind: inspect.Type) -> Any:
         case inspect.VarTupleType(item_type=item):
             return [_sample(item)]
         case inspect.UnionType(types=types):
-            return _sample(next(each for each in types if not isinstance(each, inspect.NoneType)))
+            return _sample(next(member for member in types if not isinstance(member, inspect.NoneType)))
         case inspect.BoolType():
             return True
         case inspect.StrType():
@@ -49,13 +49,13 @@ def _sample(kind: inspect.Type) -> Any:
 
 
 def _messages(union: Any, *more: type) -> list[tuple[str, dict[str, Any]]]:
-    """Return the tag of each struct of a union, with a message of its kind."""
-    kinds = [inspect.type_info(each) for each in (*typing.get_args(union), *more)]
+    """Return tag and an example message of each struct in a union."""
+    kinds = [inspect.type_info(member) for member in (*typing.get_args(union), *more)]
     assert all(isinstance(kind, inspect.StructType) for kind in kinds)
     return [(str(kind.tag), _sample(kind)) for kind in kinds if isinstance(kind, inspect.StructType)]
 
 
-OPERATIONS = [each for each in _messages(ClientOperation) if each[0] not in LOOKING]
+OPERATIONS = [operation for operation in _messages(ClientOperation) if operation[0] not in READ_ONLY]
 REQUESTS = _messages(ClientAction, SaveRvizAs)
 
 
@@ -83,14 +83,14 @@ def viewer(page: PageServer) -> Iterator[ProtocolClient]:
         yield viewer
 
 
-def test_there_are_operations_and_requests_to_refuse() -> None:
+def test_the_lists_have_operations_and_requests() -> None:
     assert {"advertise", "setParameters", "trundle/drive", "trundle/release"} <= {op for op, _ in OPERATIONS}
     assert {"play", "seek", "pose", "wrench", "insert", "delete", "save_world"} <= {name for name, _ in REQUESTS}
-    assert not LOOKING - {op for op, _ in _messages(ClientOperation)}
+    assert not READ_ONLY - {op for op, _ in _messages(ClientOperation)}
 
 
 @pytest.mark.parametrize(("op", "fields"), OPERATIONS, ids=[op for op, _ in OPERATIONS])
-def test_an_operation_is_refused(viewer: ProtocolClient, op: str, fields: dict[str, Any]) -> None:
+def test_operations_are_refused(viewer: ProtocolClient, op: str, fields: dict[str, Any]) -> None:
     before = len(viewer.statuses)
     viewer.send(op, **fields)
     viewer.until(lambda: len(viewer.statuses) > before)
@@ -99,12 +99,12 @@ def test_an_operation_is_refused(viewer: ProtocolClient, op: str, fields: dict[s
 
 
 @pytest.mark.parametrize(("name", "fields"), REQUESTS, ids=[name for name, _ in REQUESTS])
-def test_a_request_is_refused_and_does_not_reach_the_owner(
+def test_requests_are_refused_and_do_not_reach_the_owner(
     page: PageServer, viewer: ProtocolClient, name: str, fields: dict[str, Any]
 ) -> None:
     message = fields | _MORE.get(name, {}) | {"id": f"my {name}", "request": name}
     viewer.send("trundle/request", **message)
-    viewer.until(lambda: any(each.get("id") == f"my {name}" for each in viewer.jsons))
+    viewer.until(lambda: any(message.get("id") == f"my {name}" for message in viewer.jsons))
 
     assert viewer.last("trundle/response") == {
         "op": "trundle/response", "id": f"my {name}", "ok": False, "error": REFUSAL,
@@ -112,33 +112,33 @@ def test_a_request_is_refused_and_does_not_reach_the_owner(
     assert page.requests() == []
 
 
-def test_the_graph_stays_as_it_is(graph: Graph, page: PageServer, viewer: ProtocolClient) -> None:
-    """Topics, parameters and services, in raw frames of the protocol."""
+def test_the_graph_is_not_changed(graph: Graph, page: PageServer, viewer: ProtocolClient) -> None:
+    """Tests topics, parameters and services by raw messages of the protocol."""
     node = graph.node("watched")
     calls: list[object] = []
-    heard: list[object] = []
+    received: list[object] = []
     node.advertise_service("/press", "std_srvs/Trigger", calls.append)
-    subscription = node.subscribe("/cmd_vel", "geometry_msgs/Twist", heard.append)
+    subscription = node.subscribe("/cmd_vel", "geometry_msgs/Twist", received.append)
     graph.ready(node)
     graph.loop.run(node.params.set("/kept", 1))
-    with ExitStack() as open_things:
-        viewers = [viewer, open_things.enter_context(ProtocolClient(page.view_url, protocol="foxglove.websocket.v1"))]
-        for each in viewers:
-            each.until(lambda each=each: "/press" in each.services)
+    with ExitStack() as stack:
+        viewers = [viewer, stack.enter_context(ProtocolClient(page.view_url, protocol="foxglove.websocket.v1"))]
+        for client in viewers:
+            client.until(lambda client=client: "/press" in client.services)
             channel = {"id": 1, "topic": "/cmd_vel", "encoding": "ros1", "schemaName": "geometry_msgs/Twist"}
-            each.send("advertise", channels=[channel])
-            each.socket.send(struct.pack("<BI", 1, 1) + bytes(48))
-            each.send("setParameters", parameters=[{"name": "/kept", "value": 2}], id="set")
-            each.socket.send(struct.pack("<BIII", 2, each.services["/press"]["id"], 7, 4) + b"ros1")
-            assert each.last("serviceCallFailure")["message"] == REFUSAL
-            each.send("getParameters", parameterNames=["/kept"], id="get")
-            assert each.last("parameterValues")["parameters"] == [{"name": "/kept", "value": 1}]
-            assert [status["message"] for status in each.statuses][-3:] == [REFUSAL] * 3
-    assert (calls, heard, subscription.publishers) == ([], [], 0)
+            client.send("advertise", channels=[channel])
+            client.socket.send(struct.pack("<BI", 1, 1) + bytes(48))
+            client.send("setParameters", parameters=[{"name": "/kept", "value": 2}], id="set")
+            client.socket.send(struct.pack("<BIII", 2, client.services["/press"]["id"], 7, 4) + b"ros1")
+            assert client.last("serviceCallFailure")["message"] == REFUSAL
+            client.send("getParameters", parameterNames=["/kept"], id="get")
+            assert client.last("parameterValues")["parameters"] == [{"name": "/kept", "value": 1}]
+            assert [status["message"] for status in client.statuses][-3:] == [REFUSAL] * 3
+    assert (calls, received, subscription.publishers) == ([], [], 0)
 
 
-def test_it_is_told_so_and_gets_no_address_that_allows_more(page: PageServer, viewer: ProtocolClient) -> None:
-    """Neither by HTTP nor on the channel of the session."""
+def test_a_view_only_session_has_only_view_only_addresses(page: PageServer, viewer: ProtocolClient) -> None:
+    """This holds for HTTP and for the channel of the session."""
     viewer.subscribe("trundle/session")
     viewer.until(lambda: viewer.payloads("trundle/session"))
     session = json.loads(viewer.payloads("trundle/session")[-1])
@@ -158,8 +158,8 @@ def test_it_is_told_so_and_gets_no_address_that_allows_more(page: PageServer, vi
         assert not json.loads(other.payloads("trundle/session")[-1])["view_only"]
 
 
-def test_a_question_is_answered(viewer: ProtocolClient) -> None:
+def test_read_only_requests_are_answered(viewer: ProtocolClient) -> None:
     viewer.send("trundle/request", id="type", request="definition", type="std_msgs/String")
-    viewer.until(lambda: any(each.get("id") == "type" for each in viewer.jsons))
+    viewer.until(lambda: any(message.get("id") == "type" for message in viewer.jsons))
 
     assert viewer.last("trundle/response")["definition"] == "string data\n"

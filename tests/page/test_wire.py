@@ -26,22 +26,22 @@ from trundle.page.wire import (
         Driven({"/cmd_vel": "geometry_msgs/Twist"}),
     ],
 )
-def test_a_message_arrives_as_it_was_sent(message: object) -> None:
+def test_messages_survive_encoding_and_decoding(message: Request | Driven) -> None:
     pipe = io.BytesIO(frame(message) * 2)
 
     assert [from_server_decoder.decode(read_frame(pipe)) for _ in range(2)] == [message] * 2
 
 
-def test_names_of_files_that_are_no_utf_8_are_sent_readable() -> None:
+def test_file_names_that_are_not_utf_8_are_sent_with_question_marks() -> None:
     answer = encode_json(Inserted(name="cart\udcff"))
-    got = to_server_decoder.decode(read_frame(io.BytesIO(frame(Respond(1, "no \udcff", answer=answer)))))
+    decoded = to_server_decoder.decode(read_frame(io.BytesIO(frame(Respond(1, "no \udcff", answer=answer)))))
 
-    assert got == Respond(1, "no ?", answer=b'{"name":"cart?"}')
+    assert decoded == Respond(1, "no ?", answer=b'{"name":"cart?"}')
     assert encode_json({"source": ("/\udcff/a.sdf:3", None)}) == b'{"source":["/?/a.sdf:3",null]}'
 
 
 @pytest.mark.parametrize("size", [0, 3, 4, 10])
-def test_a_pipe_that_ends_within_a_message_has_ended(size: int) -> None:
+def test_the_end_of_a_pipe_within_a_message_raises(size: int) -> None:
     with pytest.raises(EOFError):
         read_frame(io.BytesIO(frame(Request(3, Play()))[:size]))
 
@@ -55,7 +55,7 @@ def test_a_pipe_that_ends_within_a_message_has_ended(size: int) -> None:
         ('{"request": "speed", "factor": null}', SetSpeed(None)),
     ],
 )
-def test_a_request_is_read_by_its_name(text: str, action: PageAction) -> None:
+def test_requests_are_decoded_by_their_name(text: str, action: PageAction) -> None:
     assert msgspec.json.decode(text, type=PageAction) == action
 
 
@@ -71,7 +71,7 @@ def test_a_request_is_read_by_its_name(text: str, action: PageAction) -> None:
         (f'{{"request": "joystick", "axes": [], "buttons": [{10**30}]}}', "buttons"),
     ],
 )
-def test_a_request_that_cannot_be_is_refused_with_the_reason(text: str, reason: str) -> None:
+def test_invalid_requests_are_refused_with_a_reason(text: str, reason: str) -> None:
     with pytest.raises(msgspec.ValidationError) as caught:
         msgspec.json.decode(text, type=PageAction)
 

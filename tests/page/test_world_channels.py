@@ -1,7 +1,8 @@
-"""What the owner puts arrives at clients: world, poses, joints, lines, clock, pictures."""
+"""The owner's data arrives at clients: world, poses, joints, lines, clock, pictures."""
 
 import json
 import struct
+import urllib.error
 import urllib.request
 
 import numpy as np
@@ -34,13 +35,13 @@ def _rows(count: int, seed: int = 0) -> np.ndarray:
 
 
 def _poses(payload: bytes) -> tuple[int, int, np.ndarray, np.ndarray]:
-    """Time, generation, bodies and poses, as docs/protocol.md lays them out."""
+    """Return time, generation, bodies and poses, by the layout in docs/protocol.md."""
     time_ns, generation, count = struct.unpack_from("<QII", payload)
     bodies = np.frombuffer(payload, "<u4", count, 16)
     return time_ns, generation, bodies, np.frombuffer(payload, "<f4", 7 * count, 16 + 4 * count).reshape(count, 7)
 
 
-def test_the_first_poses_are_all_and_the_next_those_that_moved(page: PageServer) -> None:
+def test_all_poses_are_sent_first_and_then_only_changed_ones(page: PageServer) -> None:
     rows = _rows(5)
     page.set_world(empty_manifest(1), {})
     page.put_poses(10, rows)
@@ -59,7 +60,7 @@ def test_the_first_poses_are_all_and_the_next_those_that_moved(page: PageServer)
     np.testing.assert_allclose(second[3], moved[[1, 3]][:, [0, 1, 2, 4, 5, 6, 3]], rtol=1e-6)
 
 
-def test_a_paused_world_is_shown_to_who_comes_later(page: PageServer) -> None:
+def test_later_clients_get_the_state_of_a_paused_world(page: PageServer) -> None:
     page.set_world(empty_manifest(2), {})
     page.put_poses(30, _rows(2))
     for _ in range(2):
@@ -86,7 +87,7 @@ def test_poses_wait_for_the_manifest_of_their_generation(page: PageServer) -> No
             assert _poses(payload)[1] <= shown
 
 
-def test_files_of_the_world_are_served_until_the_manifest_forgets_them(page: PageServer) -> None:
+def test_files_of_the_world_are_served_while_the_manifest_names_them(page: PageServer) -> None:
     files = (FileUrl(id="a", url="/world/a.glb"), FileUrl(id="b", url="/world/b.glb"))
     with ProtocolClient(page.url) as client:
         client.subscribe("trundle/world")
@@ -100,7 +101,7 @@ def test_files_of_the_world_are_served_until_the_manifest_forgets_them(page: Pag
         urllib.request.urlopen(page_url(page.url, "/world/a.glb"))
 
 
-def test_resources_of_the_world_s_files_are_served_by_their_type(page: PageServer) -> None:
+def test_resources_of_the_worlds_files_are_served_with_their_media_type(page: PageServer) -> None:
     kinds = {"/world/a.bin": "application/octet-stream", "/world/b.png": "image/png", "/world/c.jpg": "image/jpeg"}
     with ProtocolClient(page.url) as client:
         client.subscribe("trundle/world")
@@ -113,8 +114,8 @@ def test_resources_of_the_world_s_files_are_served_by_their_type(page: PageServe
             assert "immutable" in answer.headers["Cache-Control"]
 
 
-def test_a_camera_is_offered_before_its_first_picture(page: PageServer) -> None:
-    """A camera draws only while it is watched, and nobody can watch what is not offered."""
+def test_a_camera_is_advertised_before_its_first_picture(page: PageServer) -> None:
+    """A camera draws only while it is watched, and only advertised channels can be watched."""
     with ProtocolClient(page.url) as client:
         page.set_world(empty_manifest(16, cameras=(EYE,)), {})
         client.subscribe("/eye/image_raw")
@@ -150,7 +151,7 @@ def test_joints_lines_and_the_clock_arrive(page: PageServer) -> None:
     }  # fmt: skip
 
 
-def test_a_world_that_grows_gets_a_larger_mailbox(page: PageServer) -> None:
+def test_a_growing_world_gets_a_larger_mailbox(page: PageServer) -> None:
     with ProtocolClient(page.url) as client:
         client.subscribe("trundle/poses")
         for generation, count in ((20, 10), (21, 1000), (22, 5000)):
@@ -179,7 +180,7 @@ def test_a_camera_without_ros_is_a_topic_of_images(page: PageServer) -> None:
     assert image.data.tobytes() == pixels.tobytes()
 
 
-def test_the_owner_knows_what_is_watched(page: PageServer) -> None:
+def test_the_owner_gets_the_watched_streams(page: PageServer) -> None:
     assert not page.is_watched("trundle/lines")
     with ProtocolClient(page.url) as client:
         number = client.subscribe("trundle/lines")

@@ -1,4 +1,4 @@
-"""A person who handles a simulated world in the 3D view; what the simulation has is read over the page's protocol."""
+"""User of a simulated world in the 3D view; the simulation's state is read over the page's protocol."""
 
 import json
 import math
@@ -15,7 +15,7 @@ _REST_NS, _REST_M = 300_000_000, 1e-3
 
 
 class WorldUser(SceneUser):
-    """Look straight down at a simulated world: a pixel is a centimetre."""
+    """Looks straight down at a simulated world, with a pixel per centimetre."""
 
     def __init__(self, browser: Any, url: str) -> None:
         """Open the page and wait for the world."""
@@ -35,7 +35,7 @@ class WorldUser(SceneUser):
         self.side("Inspector")
 
     def drag(self, *points: Point) -> None:
-        """Press at the first point, go over the others, let go at the last."""
+        """Press at the first point, move over the others, release at the last."""
         self.page.mouse.move(*self.at(points[0]))
         self.page.mouse.down()
         for point in points[1:]:
@@ -47,7 +47,7 @@ class WorldUser(SceneUser):
 
     @property
     def state(self) -> dict[str, Any]:
-        """The clock and its controls."""
+        """Return the clock's state."""
         return self._last("trundle/state")
 
     @property
@@ -58,28 +58,28 @@ class WorldUser(SceneUser):
         return next((model for model in self.manifest().get("models", []) if model["name"] == name), None)
 
     def pose(self, model: str, link: int = 0) -> Pose | None:
-        """Return the newest pose of a model's link; None: there is none."""
+        """Return the newest pose of a model's link; None if there is none."""
         self._read()
-        found = self.model(model)
-        return None if found is None else self._poses.get(found["links"][link]["body"])
+        entry = self.model(model)
+        return None if entry is None else self._poses.get(entry["links"][link]["body"])
 
-    def place(self, model: str, link: int = 0) -> Point3:
+    def position(self, model: str, link: int = 0) -> Point3:
         pose = self.pose(model, link)
         assert pose is not None, model
         return pose[0], pose[1], pose[2]
 
     def until_at_rest(self, model: str) -> None:
-        """Wait until a model has not moved for a while of simulated time, however late its poses come."""
+        """Wait until a model has not moved for a while of simulated time, even if its poses arrive late."""
 
         def is_at_rest() -> bool:
-            before, since_ns = self.place(model), self._poses_ns
-            self.until(lambda: self.place(model) and self._poses_ns >= since_ns + _REST_NS)
-            return math.dist(before, self.place(model)) < _REST_M
+            before, since_ns = self.position(model), self._poses_ns
+            self.until(lambda: self.position(model) and self._poses_ns >= since_ns + _REST_NS)
+            return math.dist(before, self.position(model)) < _REST_M
 
         self.until(is_at_rest, what=f"for {model} to rest")
 
     def pick(self, name: str) -> None:
-        """Select something in the tree."""
+        """Select an object in the tree."""
         self.page.get_by_role("treeitem").get_by_text(name, exact=True).first.click()
 
     def close(self) -> None:
@@ -99,5 +99,5 @@ class WorldUser(SceneUser):
             bodies = struct.unpack_from(f"<{count}I", payload, 16)
             numbers = struct.unpack_from(f"<{7 * count}f", payload, 16 + 4 * count)
             self._poses |= {body: numbers[7 * i : 7 * i + 7] for i, body in enumerate(bodies)}
-        kept = {topic: index for index, (topic, _, _) in enumerate(self._client.messages)}
-        self._client.messages = [self._client.messages[i] for t, i in sorted(kept.items()) if t != "trundle/poses"]
+        newest = {topic: index for index, (topic, _, _) in enumerate(self._client.messages)}
+        self._client.messages = [self._client.messages[i] for t, i in sorted(newest.items()) if t != "trundle/poses"]

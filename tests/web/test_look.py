@@ -1,4 +1,4 @@
-"""The page's picture of a world beside the camera renderer's: the same colours, lights and shadows."""
+"""The page's picture of a world has the colors, lights and shadows of the camera renderer's."""
 
 import math
 from pathlib import Path
@@ -47,7 +47,7 @@ _BENDER = """<sdf version="1.6"><world name="w"><actor name="bender"><pose>0 0 0
 </actor></world></sdf>"""
 
 
-def _scene(texture: Path, **changes: object) -> Scene:
+def _scene(texture: Path) -> Scene:
     tent = np.array([[-0.4, -0.4, 0], [0.4, -0.4, 0], [0.4, 0.4, 0], [-0.4, 0.4, 0], [0, 0, 0.9]], dtype=np.float32)
     faces = np.array([[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]], dtype=np.int32)
     shapes = (
@@ -66,13 +66,7 @@ def _scene(texture: Path, **changes: object) -> Scene:
         Shape(name="tent", body=5, geometry=Mesh(vertices=tent, faces=faces), rgba=(0.7, 0.2, 0.5, 1)),
         Shape(name="glass", body=6, geometry=Box((0.1, 1.2, 1.0)), rgba=(0.2, 0.8, 0.8, 0.4)),
     )
-    fields = {
-        "bodies": tuple("abcdefg"),
-        "shapes": shapes,
-        "lights": (_SUN, _LAMP, _SPOT),
-        "ambient": (0.3, 0.3, 0.35, 1),
-    }
-    return Scene(**(fields | changes))
+    return Scene(bodies=tuple("abcdefg"), shapes=shapes, lights=(_SUN, _LAMP, _SPOT), ambient=(0.3, 0.3, 0.35, 1))
 
 
 _POSES = np.array(
@@ -111,7 +105,7 @@ def _page_picture(page: WorldPage, folder: Path, scene: Scene, **manifest: objec
 
 
 def _inner(segments: NDArray[np.int32], number: int) -> NDArray[np.bool_]:
-    """Return the pixels of a shape of which no neighbour within 2 px shows another one."""
+    """Return the pixels of a shape that are more than 2 px inside its outline."""
     mask = segments == number
     for axis in (0, 1):
         for shift in (-2, -1, 1, 2):
@@ -121,7 +115,7 @@ def _inner(segments: NDArray[np.int32], number: int) -> NDArray[np.bool_]:
 
 @pytest.fixture
 def texture(tmp_path: Path) -> Path:
-    """A smooth texture."""
+    """Return a smooth texture."""
     x, y = np.meshgrid(np.linspace(0, 1, 64), np.linspace(0, 1, 64))
     pixels = np.stack([255 * x, 255 * y, 128 + 0 * x], axis=-1).astype(np.uint8)
     Image.fromarray(pixels).save(tmp_path / "texture.png")
@@ -129,10 +123,10 @@ def texture(tmp_path: Path) -> Path:
 
 
 def _assert_same_look(
-    scene: Scene, expected: NDArray[np.uint8], found: NDArray[np.uint8], segments: NDArray[np.int32]
+    scene: Scene, expected: NDArray[np.uint8], actual: NDArray[np.uint8], segments: NDArray[np.int32]
 ) -> None:
-    """Compare the shapes' inner pixels; the edges between their faces and those of shadows are smoother on the page."""
-    difference = np.abs(expected.astype(float) - found.astype(float)).mean(axis=-1)
+    """Compare the shapes' inner pixels; edges of faces and shadows are smoother on the page."""
+    difference = np.abs(expected.astype(float) - actual.astype(float)).mean(axis=-1)
     for number in range(-1, len(scene.shapes)):
         inner = difference[_inner(segments, number)]
         name = "background" if number < 0 else scene.shapes[number].name
@@ -141,34 +135,37 @@ def _assert_same_look(
             assert (inner > 8).mean() <= 0.03, name
 
 
-def test_a_world_looks_on_the_page_as_in_a_camera(world_page: WorldPage, tmp_path: Path, texture: Path) -> None:
-    """Primitives, a mesh, a texture, glass, a sun, a lamp and a spot light with their shadows."""
+def test_a_world_looks_the_same_on_the_page_and_in_a_camera(
+    world_page: WorldPage, tmp_path: Path, texture: Path
+) -> None:
+    """The world has primitives, a mesh, a texture, glass, and three kinds of lights with shadows."""
     scene = _scene(texture)
     expected, segments = _camera_picture(_still(scene))
 
-    found = _page_picture(world_page, tmp_path, scene)
+    actual = _page_picture(world_page, tmp_path, scene)
 
     assert (segments == scene.shapes.index(next(shape for shape in scene.shapes if shape.name == "box"))).any()
-    _assert_same_look(scene, expected, found, segments)
+    _assert_same_look(scene, expected, actual, segments)
 
 
 @pytest.mark.parametrize("kind", ["linear", "exponential", "quadratic"])
-def test_sky_and_fog_are_those_of_a_camera(
+def test_sky_and_fog_look_the_same_as_in_a_camera(
     world_page: WorldPage, tmp_path: Path, texture: Path, kind: Literal["linear", "exponential", "quadratic"]
 ) -> None:
-    """The sky lies behind the fog."""
+    """The sky is behind the fog."""
     fog = Fog(type=kind, color=(0.5, 0.5, 0.6, 1), start_m=2.0, end_m=9.0, density=0.2)
-    scene = _scene(texture, fog=fog, sky=((0.86, 0.91, 0.96, 1.0), (0.30, 0.52, 0.82, 1.0)), lights=())
+    sky = ((0.86, 0.91, 0.96, 1.0), (0.30, 0.52, 0.82, 1.0))
+    scene = replace(_scene(texture), fog=fog, sky=sky, lights=())
     expected, segments = _camera_picture(_still(scene))
 
     fields = {"type": kind, "color": [0.5, 0.5, 0.6], "start": 2.0, "end": 9.0, "density": 0.2}
-    found = _page_picture(world_page, tmp_path, scene, fog=fields)
+    actual = _page_picture(world_page, tmp_path, scene, fog=fields)
 
-    _assert_same_look(scene, expected, found, segments)
+    _assert_same_look(scene, expected, actual, segments)
 
 
-def test_an_actors_bones_move_on_the_page_as_in_a_camera(world_page: WorldPage, tmp_path: Path) -> None:
-    """A column that bends in its middle, seen upright and bent."""
+def test_an_actors_skin_bends_on_the_page_as_in_a_camera(world_page: WorldPage, tmp_path: Path) -> None:
+    """A column that bends in its middle is compared upright and bent."""
     (tmp_path / "column.dae").write_text(bending_column())
     (tmp_path / "w.sdf").write_text(_BENDER)
     sim = trundle.load(str(tmp_path / "w.sdf"))
@@ -186,24 +183,24 @@ def test_an_actors_bones_move_on_the_page_as_in_a_camera(world_page: WorldPage, 
         expected, segments = _camera_picture(renderer)
 
         world_page.move(bones.with_bones(sim.snapshot().poses, sim.animation_state))
-        found = world_page.picture()
+        actual = world_page.picture()
 
-        _assert_same_look(scene, expected, found, segments)
+        _assert_same_look(scene, expected, actual, segments)
         shapes.append(segments == 0)
     assert (shapes[0] != shapes[1]).sum() > 0.2 * shapes[0].sum()
 
 
 def test_a_plane_under_a_low_sun_has_no_dark_speckles(world_page: WorldPage, tmp_path: Path, texture: Path) -> None:
-    """Shadow maps shade what casts no shadow on itself evenly, although the light grazes it."""
+    """Shadow maps shade convex shapes evenly, even at grazing light."""
     sun = SceneLight(direction=(0.96, 0.0, -0.28), diffuse=(1, 1, 1, 1), casts_shadows=True)
     slab = Shape(name="slab", body=1, geometry=Box((4.0, 4.0, 0.2)), rgba=(0.9, 0.9, 0.9, 1))
     ball = Shape(name="ball", body=2, geometry=Sphere(0.4), rgba=(0.9, 0.9, 0.9, 1))
-    scene = _scene(texture, shapes=(slab, ball), lights=(sun,))
+    scene = replace(_scene(texture), shapes=(slab, ball), lights=(sun,))
     _, segments = _camera_picture(_still(scene))
 
-    found = _page_picture(world_page, tmp_path, scene)
+    actual = _page_picture(world_page, tmp_path, scene)
 
-    top = found[_inner(segments, 0)][:, 0].astype(int)
+    top = actual[_inner(segments, 0)][:, 0].astype(int)
     lit = np.median(top)
     shadow = (top < lit - 40).mean()
     assert 0.0 < shadow < 0.3

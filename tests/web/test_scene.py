@@ -1,4 +1,4 @@
-"""What a person does in the scene: mouse, touch, tools; and what is left without WebGL."""
+"""Interaction with the scene: mouse, touch, tools; and the page without WebGL."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -24,7 +24,7 @@ def _view(page: Any) -> dict[str, Any]:
     return page.evaluate("Object.fromEntries(views.current.value.properties.map((p) => [p.name, p.value.value]))")
 
 
-def _colour(page: Any, x: int, y: int) -> tuple[int, ...]:
+def _color(page: Any, x: int, y: int) -> tuple[int, ...]:
     from io import BytesIO
 
     from PIL import Image
@@ -34,9 +34,9 @@ def _colour(page: Any, x: int, y: int) -> tuple[int, ...]:
     return pixel
 
 
-def test_the_scene_is_drawn_in_true_colours_and_only_when_something_changes(page: Any) -> None:
-    """A flat colour has its own sRGB numbers, and a still scene costs no pictures."""
-    assert _colour(page, 400, 310) == (0x40, 0x80, 0xC0)
+def test_the_scene_is_drawn_in_exact_colors_and_only_after_changes(page: Any) -> None:
+    """A flat color keeps its sRGB values, and a still scene is not redrawn."""
+    assert _color(page, 400, 310) == (0x40, 0x80, 0xC0)
     page.evaluate("window.count = 0; void scene.addStep({ before: () => { count += 1 } })")
     _draw(page)
     last = _count_once_still(page)
@@ -46,7 +46,7 @@ def test_the_scene_is_drawn_in_true_colours_and_only_when_something_changes(page
 
 
 def _count_once_still(page: Any) -> int:
-    """Return how many pictures were drawn once no more are; what a page does at its start may cost a few."""
+    """Wait until no more pictures are drawn, as the start may take a few; return their number."""
     for _ in range(100):
         before = page.evaluate("count")
         page.wait_for_timeout(300)
@@ -56,7 +56,7 @@ def _count_once_still(page: Any) -> int:
 
 
 def test_mouse_and_keys_move_the_camera_as_in_rviz(page: Any) -> None:
-    """Left turns, middle shifts, the wheel and + zoom, arrows turn, the axes look from their sides."""
+    """The left button turns, the middle one pans, the wheel and + zoom, arrows turn, axes set side views."""
     start = _view(page)
     page.mouse.move(400, 300)
     page.mouse.down()
@@ -80,13 +80,13 @@ def test_mouse_and_keys_move_the_camera_as_in_rviz(page: Any) -> None:
     page.wait_for_function("views.current.value.pitch.value.value > 1.569")
 
 
-def test_fingers_turn_shift_and_zoom(page: Any) -> None:
-    """One finger turns; two that part zoom in."""
+def test_touches_turn_pan_and_zoom(page: Any) -> None:
+    """One finger turns; spreading two zooms in."""
     touch = page.context.new_cdp_session(page)
 
     def send(kind: str, *points: tuple[int, int]) -> None:
-        places = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
-        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": places})
+        positions = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": positions})
 
     start = _view(page)
     send("touchStart", (400, 300))
@@ -104,7 +104,7 @@ def test_fingers_turn_shift_and_zoom(page: Any) -> None:
 
 
 def test_a_click_selects_and_a_goal_is_published(page: Any) -> None:
-    """The tools work on what lies under the pointer."""
+    """The tools act on the object under the pointer."""
     page.mouse.click(400, 310)
     assert page.evaluate("selection.value") == {"kind": "picked", "title": "Marker", "fields": {"Namespace": "boxes"}}
     page.evaluate("tools.use('rviz/SetGoal')")
@@ -121,19 +121,19 @@ def test_a_click_selects_and_a_goal_is_published(page: Any) -> None:
     assert page.evaluate("tools.current.value.name") == "Interact"
 
 
-def test_a_lost_context_is_said_and_comes_back(page: Any) -> None:
-    """The browser may take the graphics memory away for a while."""
+def test_a_lost_context_is_shown_and_restored(page: Any) -> None:
+    """The browser may release the graphics context for a while."""
     page.evaluate("window.loss = scene.element.getContext('webgl2').getExtension('WEBGL_lose_context')")
     page.evaluate("loss.loseContext()")
     page.wait_for_function("scene.status.value.kind === 'lost'")
     page.evaluate("loss.restoreContext()")
     page.wait_for_function("scene.status.value.kind === 'drawing'")
     _draw(page)
-    assert _colour(page, 400, 310) == (0x40, 0x80, 0xC0)
+    assert _color(page, 400, 310) == (0x40, 0x80, 0xC0)
 
 
-def test_without_webgl_the_page_says_so_and_works(chromium: Any, served: str) -> None:
-    """Labels, axes and tools are still there."""
+def test_without_webgl_the_page_shows_a_notice_and_works(chromium: Any, served: str) -> None:
+    """Labels, axes and tools still exist."""
     page = chromium.new_page()
     faults: list[str] = []
 

@@ -1,4 +1,4 @@
-"""The simulated world on the page: models that come and go, move, are hidden, selected or cannot be read."""
+"""The simulated world on the page: models are added, removed, moved, hidden, selected, or unreadable."""
 
 import struct
 from base64 import b64encode
@@ -17,9 +17,9 @@ _RED, _BLUE, _GREEN = (255, 0, 0), (0, 0, 255), (0, 255, 0)
 _SCENE = {"ambient": [1, 1, 1], "background": [0, 0, 0], "sky": False, "shadows": False, "grid": False, "fog": None}
 
 
-def _write(path: Path, name: str, body: int, colour: tuple[int, int, int], y: float) -> None:
+def _write(path: Path, name: str, body: int, color: tuple[int, int, int], y: float) -> None:
     """Write a model of one glowing cube of 1 m."""
-    red, green, blue = (part / 255 for part in colour)
+    red, green, blue = (part / 255 for part in color)
     black = (0.0, 0.0, 0.0, 1.0)
     cube = Shape(name="cube", body=0, geometry=Box((1, 1, 1)), rgba=black, emissive=(red, green, blue, 1.0))
     document = Document(embed=True)
@@ -44,10 +44,10 @@ def _move(page: WorldPage, body: int, position: tuple[float, float, float], *, g
     page.page.evaluate(f"(text) => connection.receiveRaw('trundle/poses', {view})", b64encode(message).decode())
 
 
-def _columns(picture: NDArray[np.uint8], colour: tuple[int, int, int]) -> tuple[int, int] | None:
-    """Return the first and last column that has a colour."""
-    found = np.flatnonzero((picture == np.array(colour)).all(axis=-1).any(axis=0))
-    return (int(found[0]), int(found[-1])) if found.size else None
+def _columns(picture: NDArray[np.uint8], color: tuple[int, int, int]) -> tuple[int, int] | None:
+    """Return the first and last column that has a color."""
+    columns = np.flatnonzero((picture == np.array(color)).all(axis=-1).any(axis=0))
+    return (int(columns[0]), int(columns[-1])) if columns.size else None
 
 
 @pytest.fixture
@@ -58,8 +58,8 @@ def cubes(world_page: WorldPage, tmp_path: Path) -> WorldPage:
     return world_page
 
 
-def test_models_come_move_and_go(cubes: WorldPage) -> None:
-    """Poses move bodies; a new generation drops the model that it no longer names."""
+def test_models_are_added_moved_and_removed(cubes: WorldPage) -> None:
+    """Poses move bodies; a new generation removes models that it no longer names."""
     _show(cubes, "red", "blue")
     picture = cubes.picture()
     red, blue = _columns(picture, _RED), _columns(picture, _BLUE)
@@ -81,7 +81,7 @@ def test_models_come_move_and_go(cubes: WorldPage) -> None:
 
 
 def test_a_hidden_model_is_not_drawn_and_a_selected_one_has_an_outline(cubes: WorldPage) -> None:
-    """The outline lies outside of what is selected, 2 px wide around a link."""
+    """The outline is outside of the selected link, 2 px wide."""
     _show(cubes, "red", "blue")
     cubes.page.evaluate("world.hidden.value = new Set(['red'])")
     plain = cubes.picture()
@@ -98,7 +98,7 @@ def test_a_hidden_model_is_not_drawn_and_a_selected_one_has_an_outline(cubes: Wo
 
 
 def test_collisions_move_with_their_bodies(cubes: WorldPage, tmp_path: Path) -> None:
-    """They are fetched when they are asked for."""
+    """They are fetched when they are shown."""
     _write(tmp_path / "collisions.glb", "red", 3, _GREEN, 0.0)
     _show(cubes, "red", collisions="world/collisions.glb")
     assert _columns(cubes.picture(), _GREEN) is None
@@ -116,8 +116,8 @@ def test_collisions_move_with_their_bodies(cubes: WorldPage, tmp_path: Path) -> 
     assert _columns(cubes.picture(), _GREEN) is None
 
 
-def test_a_file_that_cannot_be_read_is_named_and_the_others_are_shown(cubes: WorldPage, tmp_path: Path) -> None:
-    """The sentence names the model and the reason."""
+def test_an_unreadable_file_is_named_and_the_others_are_shown(cubes: WorldPage, tmp_path: Path) -> None:
+    """The notice names the model and the reason."""
     (tmp_path / "odd.glb").write_bytes(b"no glTF")
     _show(cubes, "odd", "blue")
     [fault] = cubes.page.evaluate("world.faults.value")

@@ -78,7 +78,7 @@ class SharedMemory:
             raise FileNotFoundError(f"no memory at {address.path}: {error.strerror}") from None
         with os.fdopen(descriptor, "r+b") as file:
             if os.fstat(descriptor).st_ino != address.inode:
-                raise FileNotFoundError(f"no memory at {address.path} any more")
+                raise FileNotFoundError(f"another file at {address.path}")
             return cls(address, mmap.mmap(file.fileno(), 0))
 
     def unlink(self) -> None:

@@ -42,4 +42,4 @@ def test_undoing_a_reset_restores_the_robot_and_its_plugins(tmp_path: Path) -> N
 def _states(simulation: Simulation) -> NDArray[np.float64]:
     """Return position, orientation and velocity of both robots."""
     robots = (simulation["robot0"], simulation["robot1"])
-    return np.array([[*each.pose.position, *each.pose.quaternion, *each.twist.linear] for each in robots])
+    return np.array([[*robot.pose.position, *robot.pose.quaternion, *robot.twist.linear] for robot in robots])

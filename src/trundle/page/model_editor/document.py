@@ -37,10 +37,10 @@ class ModelDocument:
 
     def parts(self) -> Iterator[tuple[Part, XmlElement]]:
         """Yield every part in the model with its address, in file order; of two with the same name only the first."""
-        seen: set[Part] = set()
+        addresses: set[Part] = set()
         for part, element in _below((), self.model):
-            if part not in seen:
-                seen.add(part)
+            if part not in addresses:
+                addresses.add(part)
                 yield part, element
 
     def find(self, part: Part) -> XmlElement:

@@ -132,7 +132,7 @@ def shape_sdf(kind: str) -> str:
     )
 
 
-def free_name(name: str, taken: Collection[str]) -> str:
-    """Return a name that is not taken: `name`, `name_0`, …"""
+def free_name(name: str, used: Collection[str]) -> str:
+    """Return an unused name: `name`, `name_0`, …"""
     numbered = (f"{name}_{number}" for number in itertools.count())
-    return next(candidate for candidate in itertools.chain((name,), numbered) if candidate not in taken)
+    return next(candidate for candidate in itertools.chain((name,), numbered) if candidate not in used)

@@ -80,11 +80,11 @@ class Uploads:
             unpack(archive, opened)
             root = opened.root
         models = find_models(root, PurePosixPath(first).stem)
-        known = Packages(self._environment, start=Path.cwd()).models()
+        present = Packages(self._environment, start=Path.cwd()).models()
         for name in models:
             if not is_portable(name):
                 raise UsageError(f"{name!r} is not a valid folder name")
-            if name in known and not is_stand_in(known[name] / name):
+            if name in present and not is_stand_in(present[name] / name):
                 raise UsageError(f"a model {name!r} is on the model path already; rename the uploaded folder")
         for name, source in models.items():
             _hold_code(source)
