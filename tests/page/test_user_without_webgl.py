@@ -30,7 +30,7 @@ NO_WEBGL = """for (const kind of [HTMLCanvasElement, OffscreenCanvas]) {
     const get = kind.prototype.getContext;
     kind.prototype.getContext = function (name) { return name === "2d" ? get.apply(this, arguments) : null };
 }"""
-OVER_IT = ".panel, .float, .panes, .stage, header { visibility: hidden } .pictures { visibility: visible }"
+OVER_IT = ".panel, .float, .panes, .scene-overlay, header { visibility: hidden } .pictures { visibility: visible }"
 
 
 class Onlooker(PanelUser):

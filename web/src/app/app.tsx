@@ -12,7 +12,7 @@ import { PaneFrames } from "./panes/pane_frames";
 import type { Shell } from "./shell";
 import { Sheet } from "./sheet";
 import { SidePanel } from "./side_panel";
-import { Stage } from "./stage";
+import { SceneOverlay } from "./scene_overlay";
 
 export function App({ shell }: { readonly shell: Shell }): JSX.Element {
   const phone = shell.layout.isPhone.value;
@@ -20,7 +20,7 @@ export function App({ shell }: { readonly shell: Shell }): JSX.Element {
     <>
       <Scene shell={shell} />
       <Bar shell={shell} />
-      <Stage shell={shell} />
+      <SceneOverlay shell={shell} />
       {!phone && <SidePanel shell={shell} side="left" />}
       {!phone && <SidePanel shell={shell} side="right" />}
       {!phone && <DockPanel shell={shell} />}

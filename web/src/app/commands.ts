@@ -17,7 +17,7 @@ export class CommandList implements Commands {
 
   /** Run the command of these keys; false: there is none that can run now. */
   press(keys: string): boolean {
-    const command = this.all.peek().find((each) => each.keys === keys && (each.enabled?.() ?? true));
+    const command = this.all.peek().find((command) => command.keys === keys && (command.enabled?.() ?? true));
     command?.run();
     return command !== undefined;
   }
@@ -52,7 +52,7 @@ export function listenForKeys(commands: CommandList): () => void {
   const events = new AbortController();
   const options = { signal: events.signal };
   let pressed: HTMLButtonElement | null = null;
-  let isHeld = false;
+  let isPressing = false;
   const click = ({ detail }: MouseEvent): void => {
     const focused = document.activeElement;
     pressed = detail > 0 && focused instanceof HTMLButtonElement ? focused : null;
@@ -61,15 +61,15 @@ export function listenForKeys(commands: CommandList): () => void {
     if (event.key === "Tab") pressed = null;
     const keys = keysOf(event);
     const isPressedButton = event.key === " " && pressed !== null && event.target === pressed;
-    const isTaken = keys !== "Ctrl K" && !isPressedButton && takesKeys(event.target, event.key);
-    const isAsked = document.querySelector("dialog[open]") !== null; // its button that was just disabled has lost the focus
-    if (event.defaultPrevented || isAsked || isTaken || !commands.press(keys)) return;
+    const isTyping = keys !== "Ctrl K" && !isPressedButton && takesKeys(event.target, event.key);
+    const isDialogOpen = document.querySelector("dialog[open]") !== null; // its button that was just disabled has lost the focus
+    if (event.defaultPrevented || isDialogOpen || isTyping || !commands.press(keys)) return;
     event.preventDefault();
-    isHeld = isPressedButton;
+    isPressing = isPressedButton;
   };
   const keyUp = (event: KeyboardEvent): void => {
-    if (isHeld && event.key === " ") event.preventDefault(); // the button's own press, in Firefox
-    isHeld = false;
+    if (isPressing && event.key === " ") event.preventDefault(); // the button's own press, in Firefox
+    isPressing = false;
   };
   addEventListener("click", click, options);
   addEventListener("keydown", keyDown, options);

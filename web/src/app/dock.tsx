@@ -193,7 +193,7 @@ export class Dock {
         listening.push(api.onDidActivePanelChange(draw), containerApi.onDidLayoutChange(draw));
       },
       dispose: () => {
-        for (const each of listening) each.dispose();
+        for (const subscription of listening) subscription.dispose();
         render(null, element);
       },
     };

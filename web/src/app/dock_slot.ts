@@ -13,7 +13,7 @@ export class DockSlot {
   /** Null before it is loaded. */
   readonly dock = signal<Dock | null>(null);
   /** A panel that was asked for before. */
-  private wanted: string | null = null;
+  private pendingPanel: string | null = null;
 
   constructor(
     private readonly page: Page,
@@ -31,8 +31,8 @@ export class DockSlot {
   /** Fill an element with the dock that is loaded; returns how to empty it. */
   mount(dock: Dock, element: HTMLElement): () => void {
     const unmount = dock.mount(element);
-    if (this.wanted !== null) dock.show(this.wanted);
-    this.wanted = null;
+    if (this.pendingPanel !== null) dock.show(this.pendingPanel);
+    this.pendingPanel = null;
     return unmount;
   }
 
@@ -41,7 +41,7 @@ export class DockSlot {
     this.layout.dockOpen.value = true;
     if (this.layout.isPhone.peek()) this.layout.openSheet(id);
     const dock = this.dock.peek();
-    if (dock === null) this.wanted = id;
+    if (dock === null) this.pendingPanel = id;
     else dock.show(id);
   }
 }

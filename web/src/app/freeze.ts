@@ -6,8 +6,8 @@ import type { Connection, Received, Subscription } from "../protocol/connection"
 import type { RosMessage } from "../protocol/ros_types";
 
 /** Held messages of one subscription; of streams only the newest few are of use. */
-const HELD = 20;
-const HELD_EVERY = 5000;
+const MAX_BUFFERED = 20;
+const MAX_BUFFERED_EVERY = 5000;
 
 /** The same connection, whose time stands and whose messages wait while `frozen`. */
 export function freezable(connection: Connection, frozen: ReadonlySignal<boolean>): Connection {
@@ -23,11 +23,11 @@ export function freezable(connection: Connection, frozen: ReadonlySignal<boolean
       options = {},
     ): Subscription => {
       const { every = false } = options as { readonly every?: boolean };
-      let held: Received<M>[] = [];
+      let buffered: Received<M>[] = [];
       const release = effect(() => {
         if (frozen.value) return;
-        const waiting = held;
-        held = [];
+        const waiting = buffered;
+        buffered = [];
         for (const received of waiting) onMessage(received);
       });
       const take = (received: Received<M>): void => {
@@ -35,8 +35,8 @@ export function freezable(connection: Connection, frozen: ReadonlySignal<boolean
           onMessage(received);
           return;
         }
-        held.push(received);
-        if (held.length > (every ? HELD_EVERY : HELD)) held.shift();
+        buffered.push(received);
+        if (buffered.length > (every ? MAX_BUFFERED_EVERY : MAX_BUFFERED)) buffered.shift();
       };
       const inner = connection.subscribe(topic, take, options);
       return {

@@ -23,7 +23,7 @@ const FOOT = { tiles: 166, drive: 138, phoneDrive: 160 };
 /** On a phone the notice and the tile below it lie at the head. */
 const HEAD = { gap: 8, phoneTile: 196 };
 /** Least height that is left to the scene [px]. */
-const LEAST = 240;
+const MIN_SCENE_HEIGHT = 240;
 
 /** Widths [px] of the side panels that are open; null: a rail. Together at most 40 % of the window. */
 export function sideWidths(window: number, left: number | null, right: number | null): [number, number] {
@@ -134,7 +134,7 @@ export class Layout {
       return { left: 0, right: 0, top: tiles ? HEAD.phoneTile : HEAD.gap, bottom: this.phoneFoot(drive) };
     const bottom = this.dock.value + 16;
     const foot = tiles ? FOOT.tiles : drive ? FOOT.drive : 0;
-    const isRoom = this.height.value - bottom - foot >= LEAST;
+    const isRoom = this.height.value - bottom - foot >= MIN_SCENE_HEIGHT;
     return { left: left + 16, right: right + 16, top: HEAD.gap, bottom: bottom + (isRoom ? foot : 0) };
   }
 

@@ -76,8 +76,8 @@ export function Sheet({ shell }: { readonly shell: Shell }): JSX.Element {
 }
 
 function SheetPage({ shell, page }: { readonly shell: Shell; readonly page: string }): JSX.Element | null {
-  const wanted = page === "inspector" ? shell.layout.right.page.value : page;
-  const Side = [...sidePages(shell, "left"), ...sidePages(shell, "right")].find(({ id }) => id === wanted)?.component;
+  const pageId = page === "inspector" ? shell.layout.right.page.value : page;
+  const Side = [...sidePages(shell, "left"), ...sidePages(shell, "right")].find(({ id }) => id === pageId)?.component;
   if (Side !== undefined) return <Side shell={shell} />;
   const panel = shell.dock.panels.value.find(({ id }) => id === page);
   if (panel === undefined) return null;

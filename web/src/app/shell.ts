@@ -42,7 +42,7 @@ export class Shell {
   /** The display that is selected in its panel. */
   readonly display = signal<Display | null>(null);
   /** The .rviz file that took the place of the session's: opened or saved by the person; null: none did. */
-  readonly ownFile = signal<RvizFileInfo | null>(null);
+  readonly openedFile = signal<RvizFileInfo | null>(null);
   readonly showsCameras = signal(recall("cameras", true, isBoolean));
   /** False: the browser has no WebGL, and what acts on the 3D view is not offered. */
   readonly isDrawn = computed(() => this.page.scene.status.value.kind !== "unsupported");

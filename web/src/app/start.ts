@@ -32,9 +32,9 @@ export function startDisplays(shell: Shell): void {
     if (session.kind === "graph") showRobot(shell);
     let ours = displays.backgroundColor.value.peek();
     effect(() => {
-      const own = BACKGROUNDS[theme.value];
-      if (displays.backgroundColor.value.peek() === ours) displays.backgroundColor.value.value = own;
-      ours = own;
+      const background = BACKGROUNDS[theme.value];
+      if (displays.backgroundColor.value.peek() === ours) displays.backgroundColor.value.value = background;
+      ours = background;
     });
   }
   if (session.fixed_frame !== null) displays.fixedFrameSetting.value = session.fixed_frame;
@@ -49,7 +49,7 @@ export function startDisplays(shell: Shell): void {
 }
 
 /** Take the file and the fixed frame that the session asks for later, unless a person has changed what is shown. */
-function followSession({ page, notices, ownFile }: Shell): void {
+function followSession({ page, notices, openedFile }: Shell): void {
   let shown = page.session;
   effect(() => {
     const next = page.session;
@@ -58,7 +58,7 @@ function followSession({ page, notices, ownFile }: Shell): void {
       const { rviz, fixed_frame } = next;
       const isOther =
         rviz !== null &&
-        ownFile.value === null &&
+        openedFile.value === null &&
         rviz.text !== shown.rviz?.text &&
         displays.changes.value === 0 &&
         displays.save() !== rviz.text;
@@ -99,8 +99,8 @@ function showRobotsFrames(shell: Shell): void {
 function showRobot({ page }: Shell): void {
   const { connection, displays } = page;
   const described = computed(() => connection.parameters.value.has("/robot_description"));
-  const stop = described.subscribe((isThere) => {
-    if (!isThere) return;
+  const stop = described.subscribe((isDescribed) => {
+    if (!isDescribed) return;
     for (const display of displays.displays.peek())
       if (display.className === "rviz/RobotModel") display.enabled.decode(true);
     queueMicrotask(() => stop()); // also where it is there already

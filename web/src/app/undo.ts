@@ -18,7 +18,7 @@ export class UndoHistory implements PageUndo {
   private readonly others = signal<ReadonlySignal<DeferredUndo | null> | null>(null);
   private readonly other = computed(() => this.others.value?.value ?? null);
   /** Edits that were asked for and are not recorded yet. */
-  private readonly asked = new Set<Promise<unknown>>();
+  private readonly pending = new Set<Promise<unknown>>();
   readonly undoTitle = computed(() =>
     this.other.value === null ? (this.done.value.at(-1)?.title ?? null) : this.other.value.undoTitle,
   );
@@ -42,9 +42,9 @@ export class UndoHistory implements PageUndo {
 
   /** Record something once it is done; what is taken back or done again meanwhile waits for it. */
   ask<T>(edit: Promise<T>): Promise<T> {
-    const asked = edit.finally(() => this.asked.delete(asked));
-    this.asked.add(asked);
-    return asked;
+    const pending = edit.finally(() => this.pending.delete(pending));
+    this.pending.add(pending);
+    return pending;
   }
 
   undo(): void {
@@ -53,8 +53,8 @@ export class UndoHistory implements PageUndo {
       other.undo();
       return;
     }
-    if (this.asked.size > 0) {
-      this.afterAsked(() => this.undo());
+    if (this.pending.size > 0) {
+      this.afterPending(() => this.undo());
       return;
     }
     const edit = this.done.peek().at(-1);
@@ -70,8 +70,8 @@ export class UndoHistory implements PageUndo {
       other.redo();
       return;
     }
-    if (this.asked.size > 0) {
-      this.afterAsked(() => this.redo());
+    if (this.pending.size > 0) {
+      this.afterPending(() => this.redo());
       return;
     }
     const edit = this.undone.peek().at(-1);
@@ -81,7 +81,7 @@ export class UndoHistory implements PageUndo {
     this.done.value = [...this.done.peek(), edit];
   }
 
-  private afterAsked(next: () => void): void {
-    void Promise.allSettled(this.asked).then(next);
+  private afterPending(next: () => void): void {
+    void Promise.allSettled(this.pending).then(next);
   }
 }

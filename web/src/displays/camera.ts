@@ -22,7 +22,7 @@ const OVERLAY = "overlay";
 const BOTH = "background and overlay";
 const INFO = "sensor_msgs/CameraInfo";
 /** Widest picture that the scene is drawn for [px]. */
-const MOST_PIXELS = 4096 * 4096;
+const MAX_PIXELS = 4096 * 4096;
 
 class CameraDisplay extends PictureDisplay {
   readonly className = "rviz/Camera";
@@ -55,10 +55,10 @@ class CameraDisplay extends PictureDisplay {
       untracked(() => this.follow(topic));
     });
     this.whileEnabled(() => {
-      const isThere = this.stream.value?.picture.value != null && this.info.value !== null;
-      this.isStale = isThere;
+      const isAvailable = this.stream.value?.picture.value != null && this.info.value !== null;
+      this.isStale = isAvailable;
       this.transformAtImage = null;
-      if (!isThere) this.picture.value = null;
+      if (!isAvailable) this.picture.value = null;
     });
     this.whileEnabled(() => this.visibility.follow(this.context.displays.value));
     this.whileEnabled(() => {
@@ -102,10 +102,10 @@ class CameraDisplay extends PictureDisplay {
     const image = this.stream.peek()?.picture.peek() ?? null;
     if (!this.isStale || image === null) return;
     const { frame_id, stamp } = image.header;
-    const found = this.context.frames.lookup(this.context.fixedFrame.peek(), frame_id, nanoseconds(stamp));
-    if (found instanceof NoTransform) this.setStatus("Transform", "error", found.text, found.advice);
+    const transform = this.context.frames.lookup(this.context.fixedFrame.peek(), frame_id, nanoseconds(stamp));
+    if (transform instanceof NoTransform) this.setStatus("Transform", "error", transform.text, transform.advice);
     else {
-      this.transformAtImage = found;
+      this.transformAtImage = transform;
       this.isStale = false;
       this.setStatus("Transform", "ok", "Transform OK");
       this.context.scene.invalidate();
@@ -121,7 +121,7 @@ class CameraDisplay extends PictureDisplay {
     this.compareFrames(image, info);
     const size = calibratedSize(info, image);
     const matrix = projection(info, size, this.zoom.value.peek());
-    if (typeof matrix === "string" || size.width * size.height > MOST_PIXELS) {
+    if (typeof matrix === "string" || size.width * size.height > MAX_PIXELS) {
       this.setStatus(
         "Camera Info",
         "error",
@@ -160,9 +160,9 @@ class CameraDisplay extends PictureDisplay {
   }
 
   private compareFrames(image: Picture, info: CameraInfo): void {
-    const [own, other] = [image.header.frame_id, info.header.frame_id];
-    if (own === other) this.clearStatus("Image frame");
-    else this.setStatus("Image frame", "warn", `Image frame (${own}) doesn't match camera frame (${other})`);
+    const [imageFrame, infoFrame] = [image.header.frame_id, info.header.frame_id];
+    if (imageFrame === infoFrame) this.clearStatus("Image frame");
+    else this.setStatus("Image frame", "warn", `Image frame (${imageFrame}) doesn't match camera frame (${infoFrame})`);
   }
 }
 

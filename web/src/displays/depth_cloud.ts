@@ -19,7 +19,7 @@ import { touch } from "./topic_display";
 const IMAGE = "sensor_msgs/Image";
 const INFO = "sensor_msgs/CameraInfo";
 /** Images of the two topics that are further apart [ns] do not belong together. */
-const MOST_APART = 500_000_000n;
+const MAX_STAMP_DIFFERENCE = 500_000_000n;
 
 export class DepthCloudDisplay extends Display {
   readonly className = "rviz/DepthCloud";
@@ -187,9 +187,9 @@ export class DepthCloudDisplay extends Display {
   }
 
   private show(depth: Image, transform: Transform, info: CameraInfo): void {
-    const wanted = this.colorTopic.value.peek() !== "";
-    const color = wanted ? this.nearestColor(depth) : null;
-    if (wanted && color === null) return; // it is yet to come
+    const isColored = this.colorTopic.value.peek() !== "";
+    const color = isColored ? this.nearestColor(depth) : null;
+    if (isColored && color === null) return; // it is yet to come
     this.ready = null;
     const pixels = color === null ? null : readPixels(color, { isAutomatic: true, min: 0, max: 1, window: 1 });
     const cloud = typeof pixels === "string" ? pixels : depthPoints(depth, info, pixels);
@@ -199,10 +199,14 @@ export class DepthCloudDisplay extends Display {
     }
     this.setStatus("Depth Image Size", "ok", `${depth.width} x ${depth.height}`);
     if (color !== null) this.setStatus("Image Size", "ok", `${color.width} x ${color.height}`);
-    const [own, other] = [depth.header.frame_id, color?.header.frame_id];
-    if (other === undefined || other === own) this.setStatus("Message", "ok", "Ok");
+    const [depthFrame, colorFrame] = [depth.header.frame_id, color?.header.frame_id];
+    if (colorFrame === undefined || colorFrame === depthFrame) this.setStatus("Message", "ok", "Ok");
     else
-      this.setStatus("Message", "warn", `Depth image frame id [${own}] doesn't match color image frame id [${other}]`);
+      this.setStatus(
+        "Message",
+        "warn",
+        `Depth image frame id [${depthFrame}] doesn't match color image frame id [${colorFrame}]`,
+      );
     this.common.add(cloud, transform, this.context.connection.now());
     this.setStatus("Points", "ok", this.common.status);
   }
@@ -210,11 +214,11 @@ export class DepthCloudDisplay extends Display {
   /** The color image nearest in time. */
   private nearestColor({ header }: Image): Image | null {
     let best: Image | null = null;
-    let least = MOST_APART;
+    let minDistance = MAX_STAMP_DIFFERENCE;
     for (const color of this.colors) {
       const apart = nanoseconds(color.header.stamp) - nanoseconds(header.stamp);
       const distance = apart < 0n ? -apart : apart;
-      if (distance <= least) [best, least] = [color, distance];
+      if (distance <= minDistance) [best, minDistance] = [color, distance];
     }
     return best;
   }

@@ -88,8 +88,8 @@ export abstract class Display {
   /** A parameter by its name, else of the nearest namespace above that has it. */
   protected parameter(name: string): ParameterValue | undefined {
     const all = this.context.connection.parameters.value;
-    const found = this.context.names.search(name).find((each) => all.has(each));
-    return found === undefined ? undefined : all.get(found);
+    const resolved = this.context.names.search(name).find((candidate) => all.has(candidate));
+    return resolved === undefined ? undefined : all.get(resolved);
   }
 
   protected add<P extends Property<unknown>>(property: P): P {
@@ -120,23 +120,23 @@ export abstract class Display {
 
   /** Pose of a frame in the fixed frame; null if there is none, which becomes the status "Transform". */
   protected transform(frame: string, time: bigint): Transform | null {
-    const found = this.context.frames.lookup(this.context.fixedFrame.peek(), frame, time);
-    if (found instanceof NoTransform) {
-      this.setStatus("Transform", "error", found.text, found.advice);
+    const transform = this.context.frames.lookup(this.context.fixedFrame.peek(), frame, time);
+    if (transform instanceof NoTransform) {
+      this.setStatus("Transform", "error", transform.text, transform.advice);
       return null;
     }
     this.setStatus("Transform", "ok", "Transform OK");
-    return found;
+    return transform;
   }
 
   /** Stand an object at its pose in the fixed frame; without one it is not seen. */
   protected stand(object: Object3D, pose: Transform | null): void {
-    const isThere = pose !== null;
+    const isPlaced = pose !== null;
     const isSame =
-      object.visible === isThere &&
+      object.visible === isPlaced &&
       (pose === null || (object.position.equals(pose.position) && object.quaternion.equals(pose.orientation)));
     if (isSame) return;
-    object.visible = isThere;
+    object.visible = isPlaced;
     if (pose !== null) {
       object.position.copy(pose.position);
       object.quaternion.copy(pose.orientation);

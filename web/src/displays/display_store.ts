@@ -77,7 +77,7 @@ export class DisplayStore implements DisplayList {
 
   get classes(): readonly string[] {
     return displayClasses()
-      .map((found) => found.className)
+      .map((entry) => entry.className)
       .sort();
   }
 
@@ -190,9 +190,9 @@ export class DisplayStore implements DisplayList {
   }
 
   private create(className: string): Display {
-    const found = displayClass(className);
-    if (found === undefined) throw new Error(`there is no display ${className}`);
-    return found.create(this.context);
+    const entry = displayClass(className);
+    if (entry === undefined) throw new Error(`there is no display ${className}`);
+    return entry.create(this.context);
   }
 
   private insert(title: string, entry: Entry, index: number, group: Group): void {

@@ -19,7 +19,7 @@ import { TopicDisplay } from "./topic_display";
 const POINTS = 30;
 const PARTS = 32;
 /** Measured on pictures of rviz: the value drawn is a share and this much; its radius [m] grows with it and the scale. */
-const LEAST = 0.05;
+const OFFSET = 0.05;
 const RADIUS = 0.05;
 const GROWTH = 0.5;
 
@@ -37,7 +37,7 @@ class EffortRing extends Group {
 
   /** `share` of the largest effort, signed; the ring lies in the group's xy plane. */
   draw(share: number, scale: number, width: number, alpha: number): void {
-    const value = Math.min(1, Math.abs(share)) + LEAST;
+    const value = Math.min(1, Math.abs(share)) + OFFSET;
     const radius = RADIUS + value * scale * GROWTH;
     const side = share < 0 ? -1 : 1;
     const points: number[] = [];
@@ -131,29 +131,29 @@ export class Effort extends TopicDisplay<JointState> {
     this.forgetOld(0);
   }
 
-  private forgetOld(kept: number): void {
-    const gone = this.shown.slice(0, Math.max(0, this.shown.length - kept));
-    for (const ring of gone.flatMap((rings) => [...rings.values()])) {
+  private forgetOld(count: number): void {
+    const removed = this.shown.slice(0, Math.max(0, this.shown.length - count));
+    for (const ring of removed.flatMap((rings) => [...rings.values()])) {
       ring.removeFromParent();
       ring.dispose();
     }
-    this.shown = this.shown.slice(gone.length);
+    this.shown = this.shown.slice(removed.length);
   }
 
   /** A ring at a joint's child with its axis along the joint's; null: the link has no transform. */
   private ringAt(joint: RobotJoint): EffortRing | null {
     const prefix = this.prefix.value.peek();
     const frame = prefix === "" ? joint.child : `${prefix}/${joint.child}`;
-    const found: Transform | NoTransform = this.context.frames.lookup(this.context.fixedFrame.peek(), frame, 0n);
-    if (found instanceof NoTransform) {
-      this.setStatus(joint.name, "error", found.text, found.advice);
+    const transform: Transform | NoTransform = this.context.frames.lookup(this.context.fixedFrame.peek(), frame, 0n);
+    if (transform instanceof NoTransform) {
+      this.setStatus(joint.name, "error", transform.text, transform.advice);
       return null;
     }
     this.setStatus(joint.name, "ok", "OK");
     const ring = new EffortRing();
     const axis = new Vector3(...joint.axis).normalize();
-    ring.position.copy(found.position);
-    ring.quaternion.copy(found.orientation).multiply(new Quaternion().setFromUnitVectors(Z, axis));
+    ring.position.copy(transform.position);
+    ring.quaternion.copy(transform.orientation).multiply(new Quaternion().setFromUnitVectors(Z, axis));
     return ring;
   }
 

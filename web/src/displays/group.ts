@@ -89,8 +89,8 @@ export class Group extends Display {
   }
 
   override load(yaml: YamlMapping): string[] {
-    const { Displays: displays, ...own } = yaml;
-    const faults = super.load(own);
+    const { Displays: displays, ...rest } = yaml;
+    const faults = super.load(rest);
     this.clear();
     for (const entry of Array.isArray(displays) ? displays : []) faults.push(...this.loadEntry(entry as Yaml));
     return faults;
@@ -99,13 +99,13 @@ export class Group extends Display {
   private loadEntry(yaml: Yaml): string[] {
     const mapping = isMapping(yaml) ? yaml : {};
     const [className, name] = [text(mapping["Class"]), text(mapping["Name"])];
-    const found = displayClass(className);
-    if (found === undefined) {
+    const entry = displayClass(className);
+    if (entry === undefined) {
       this.insert({ className, name, reason: unsupportedReason(className), yaml });
       return [];
     }
-    const display = found.create(this.context);
-    display.name.value = found.className.split("/")[1] ?? "";
+    const display = entry.create(this.context);
+    display.name.value = entry.className.split("/")[1] ?? "";
     const faults = display.load(mapping);
     this.insert(display);
     return faults.map((fault) => `${display.name.peek()}: ${fault}`);

@@ -9,14 +9,14 @@ export class KeyedProperty<P extends Property<unknown>> extends GroupProperty {
 
   /** The row of a name; made by `make` the first time. */
   row(name: string, make: () => P): P {
-    const found = this.rows.get(name);
-    if (found !== undefined) return found;
-    const made = make();
-    this.rows.set(name, made);
+    const existing = this.rows.get(name);
+    if (existing !== undefined) return existing;
+    const property = make();
+    this.rows.set(name, property);
     const saved = this.stored[name];
-    if (saved !== undefined) made.load(saved);
-    this.add(made);
-    return made;
+    if (saved !== undefined) property.load(saved);
+    this.add(property);
+    return property;
   }
 
   get(name: string): P | undefined {

@@ -187,10 +187,10 @@ export class MapDisplay extends Display {
     const { header, info } = this.message;
     const frame = header.frame_id === "" ? "map" : header.frame_id;
     const stamp = this.useTimestamp.value.peek() ? nanoseconds(header.stamp) : 0n;
-    const isThere =
+    const isAvailable =
       stamp !== 0n &&
       !(this.context.frames.lookup(this.context.fixedFrame.peek(), frame, stamp) instanceof NoTransform);
-    const transform = this.transform(frame, isThere ? stamp : 0n);
+    const transform = this.transform(frame, isAvailable ? stamp : 0n);
     this.root.visible = transform !== null;
     if (transform === null) return;
     const position = vector(info.origin.position).applyQuaternion(transform.orientation).add(transform.position);

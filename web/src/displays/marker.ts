@@ -168,9 +168,9 @@ abstract class MarkerBase extends Display {
   }
 
   private find(marker: Marker): Transform | null {
-    const found = this.lookup(marker);
-    if (!(found instanceof NoTransform)) return found;
-    this.setStatus(markerName(marker), "error", found.text, found.advice);
+    const transform = this.lookup(marker);
+    if (!(transform instanceof NoTransform)) return transform;
+    this.setStatus(markerName(marker), "error", transform.text, transform.advice);
     return null;
   }
 
@@ -189,7 +189,7 @@ export class MarkerDisplay extends MarkerBase {
 
   protected topics(): readonly string[] {
     const name = this.topicProperty.value.value;
-    return name === "" ? [] : [name, `${name}_array`].map((each) => this.context.names.resolve(each));
+    return name === "" ? [] : [name, `${name}_array`].map((topic) => this.context.names.resolve(topic));
   }
 }
 

@@ -22,7 +22,7 @@ export class MessageFilter<M, T> {
    */
   constructor(
     private readonly find: (message: M) => T | NoTransform,
-    private readonly deliver: (message: M, found: T) => void,
+    private readonly deliver: (message: M, result: T) => void,
     private readonly fail: (reason: NoTransform) => void,
   ) {}
 
@@ -38,8 +38,8 @@ export class MessageFilter<M, T> {
     if (excess <= 0) return;
     const [oldest] = this.waiting.splice(0, excess);
     if (oldest === undefined) return;
-    const found = this.find(oldest.message);
-    if (found instanceof NoTransform) this.fail(found);
+    const result = this.find(oldest.message);
+    if (result instanceof NoTransform) this.fail(result);
   }
 
   /** Deliver what is ready, in order; `elapsed` is wall seconds since the last call. */
@@ -48,15 +48,15 @@ export class MessageFilter<M, T> {
     const waiting = this.waiting;
     this.waiting = [];
     for (const entry of waiting) {
-      const found = this.find(entry.message);
-      if (!(found instanceof NoTransform)) {
-        this.deliver(entry.message, found);
+      const result = this.find(entry.message);
+      if (!(result instanceof NoTransform)) {
+        this.deliver(entry.message, result);
         continue;
       }
       const isLate = entry.waited < PATIENCE_S && entry.waited + elapsed >= PATIENCE_S;
       entry.waited += elapsed;
       this.waiting.push(entry);
-      if (isLate) this.fail(found);
+      if (isLate) this.fail(result);
     }
   }
 

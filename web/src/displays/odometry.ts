@@ -14,7 +14,7 @@ import { areFinite, INVALID_FLOATS, isFinitePose, isFiniteXyz, placed, quaternio
 
 const TYPES = ["nav_msgs/Odometry"];
 /** What is kept where rviz keeps all. */
-const MOST_KEPT = 10_000;
+const MAX_LENGTH = 10_000;
 
 class OdometryDisplay extends HistoryDisplay<Odometry> {
   readonly className = "rviz/Odometry";
@@ -34,7 +34,7 @@ class OdometryDisplay extends HistoryDisplay<Odometry> {
   }
 
   protected override capacity(): number {
-    return this.keep.value.peek() === 0 ? MOST_KEPT : this.keep.value.peek();
+    return this.keep.value.peek() === 0 ? MAX_LENGTH : this.keep.value.peek();
   }
 
   protected override fault({ pose: { pose, covariance }, twist }: Odometry): string | null {

@@ -6,9 +6,9 @@ import { displayClasses } from "./registry";
 
 /** The class for a type of message: the one of the same name, else the first that shows it. */
 function classForType(type: string): string | null {
-  const able = displayClasses().filter((found) => found.types.includes(type));
+  const able = displayClasses().filter((entry) => entry.types.includes(type));
   const [, short = ""] = type.split("/");
-  const same = able.find((found) => found.className.split("/")[1] === short);
+  const same = able.find((entry) => entry.className.split("/")[1] === short);
   return (same ?? able[0])?.className ?? null;
 }
 

@@ -7,13 +7,13 @@ import { register } from "./registry";
 
 const TYPES = ["sensor_msgs/PointCloud"];
 /** A point is read by the GPU with a stride of 252 bytes at most. */
-const MOST_CHANNELS = 60;
+const MAX_CHANNELS = 60;
 
 class PointCloudDisplay extends CloudDisplay<PointCloud> {
   readonly className = "rviz/PointCloud";
 
   protected read({ points, channels: all }: PointCloud): Cloud {
-    const channels = all.slice(0, MOST_CHANNELS);
+    const channels = all.slice(0, MAX_CHANNELS);
     const width = 3 + channels.length;
     const values = new Float32Array(points.length * width);
     points.forEach(({ x, y, z }, index) => values.set([x, y, z], index * width));

@@ -13,7 +13,7 @@ import { BoolProperty, IntProperty, TopicProperty } from "../rviz/properties";
 /** Wall seconds between updates of the count of messages. */
 const COUNT_PERIOD_S = 0.25;
 
-interface Found {
+interface Transforms {
   readonly start: Transform;
   readonly end: Transform;
 }
@@ -25,7 +25,7 @@ export interface Stamped {
 export abstract class TopicDisplay<M extends Stamped> extends Display {
   readonly topicProperty: TopicProperty;
   readonly queueSize: IntProperty;
-  private readonly filter: MessageFilter<M, Found>;
+  private readonly filter: MessageFilter<M, Transforms>;
   private subscription: Subscription | null = null;
   private disposers: (() => void)[] = [];
   private received = 0;
@@ -49,7 +49,7 @@ export abstract class TopicDisplay<M extends Stamped> extends Display {
     );
     this.filter = new MessageFilter(
       (message) => this.find(message),
-      (message, found) => this.deliver(message, found),
+      (message, transforms) => this.deliver(message, transforms),
       (reason) => this.setStatus("Transform", "error", reason.text, reason.advice),
     );
   }
@@ -179,7 +179,7 @@ export abstract class TopicDisplay<M extends Stamped> extends Display {
     }
   }
 
-  private find(message: M): Found | NoTransform {
+  private find(message: M): Transforms | NoTransform {
     const { stamp } = message.header;
     const frame = this.frameOf(message);
     const fixed = this.context.fixedFrame.peek();
@@ -191,7 +191,7 @@ export abstract class TopicDisplay<M extends Stamped> extends Display {
     return end instanceof NoTransform ? end : { start, end };
   }
 
-  private deliver(message: M, { start, end }: Found): void {
+  private deliver(message: M, { start, end }: Transforms): void {
     this.setStatus("Transform", "ok", "Transform OK");
     this.process(message, start, end);
     this.context.scene.invalidate();

@@ -14,9 +14,9 @@ export interface Sample {
 }
 
 /** [ns]; tf2's default. */
-const KEPT = 10_000_000_000n;
+const CACHE_TIME = 10_000_000_000n;
 /** Bounds the memory of a frame that is published faster than any robot does: 10 s at 1 kHz. */
-const MOST = 10_000;
+const MAX_SAMPLES = 10_000;
 
 export class TransformHistory {
   /** Arrivals of transforms, of whatever stamps. */
@@ -42,12 +42,12 @@ export class TransformHistory {
     this.arrivals.add(performance.now(), 0);
     const samples = this.#samples;
     if (sample.stamp > this.newest.stamp) samples.push(sample);
-    else if (sample.stamp < this.newest.stamp - KEPT) return;
+    else if (sample.stamp < this.newest.stamp - CACHE_TIME) return;
     else {
       const at = this.#firstNotBefore(sample.stamp);
       samples.splice(at, this.#at(at).stamp === sample.stamp ? 1 : 0, sample);
     }
-    while (samples.length > MOST || this.oldest.stamp < this.newest.stamp - KEPT) samples.shift();
+    while (samples.length > MAX_SAMPLES || this.oldest.stamp < this.newest.stamp - CACHE_TIME) samples.shift();
   }
 
   /** The transform at a time [ns], interpolated; what tf2 says when it would be extrapolated. */
@@ -90,10 +90,10 @@ function extrapolation(stamp: bigint, oldest: bigint, newest: bigint): string {
   if (oldest === newest) {
     return `Lookup would require extrapolation at time ${requested}, but only time ${secondsText(newest)} is in the buffer`;
   }
-  const [where, which, limit] = stamp > newest ? ["future", "latest", newest] : ["past", "earliest", oldest];
+  const [direction, bound, limit] = stamp > newest ? ["future", "latest", newest] : ["past", "earliest", oldest];
   return (
-    `Lookup would require extrapolation into the ${where}. Requested time ${requested} ` +
-    `but the ${which} data is at time ${secondsText(limit)}`
+    `Lookup would require extrapolation into the ${direction}. Requested time ${requested} ` +
+    `but the ${bound} data is at time ${secondsText(limit)}`
   );
 }
 

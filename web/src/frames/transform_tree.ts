@@ -10,11 +10,11 @@ import { NoTransform, type Transform } from "./transform";
 import { TransformHistory, type Sample } from "./transform_history";
 
 /** Ancestors that a frame may have, to find loops; tf2's number. */
-const MOST_ANCESTORS = 1000;
+const MAX_ANCESTORS = 1000;
 /** Bounds the memory that a publisher of ever new names can take. */
-const MOST_FRAMES = 10_000;
+const MAX_FRAMES = 10_000;
 /** Frames that an advice names. */
-const MOST_NAMES = 12;
+const MAX_NAMES = 12;
 
 const LOOP = "The tf tree is invalid because it contains a loop";
 
@@ -71,8 +71,8 @@ export class TransformTree implements FrameTree {
   lookup(target: string, source: string, time: bigint): Transform | NoTransform {
     const [to, from] = [bareName(target), bareName(source)];
     if (to === from) return { position: new Vector3(), orientation: new Quaternion() };
-    const found = this.#find(to, from, time);
-    return typeof found === "string" ? new NoTransform(`No transform from [${from}] to [${to}]`, found) : found;
+    const result = this.#find(to, from, time);
+    return typeof result === "string" ? new NoTransform(`No transform from [${from}] to [${to}]`, result) : result;
   }
 
   #parent(name: string): string | null {
@@ -104,8 +104,8 @@ export class TransformTree implements FrameTree {
   #unknown(name: string): string {
     const names = this.frames.peek();
     if (names.length === 0) return `nothing publishes ${name}. There is no frame here: nothing publishes transforms`;
-    const rest = names.length > MOST_NAMES ? ` and ${String(names.length - MOST_NAMES)} more` : "";
-    return `nothing publishes ${name}. Frames here: ${names.slice(0, MOST_NAMES).join(", ")}${rest}`;
+    const rest = names.length > MAX_NAMES ? ` and ${String(names.length - MAX_NAMES)} more` : "";
+    return `nothing publishes ${name}. Frames here: ${names.slice(0, MAX_NAMES).join(", ")}${rest}`;
   }
 
   /** A frame and those above it; null: they are a loop. */
@@ -113,7 +113,7 @@ export class TransformTree implements FrameTree {
     const chain = [name];
     for (let at = this.#newest(name); at !== undefined; at = this.#newest(at.parent)) {
       chain.push(at.parent);
-      if (chain.length > MOST_ANCESTORS) return null;
+      if (chain.length > MAX_ANCESTORS) return null;
     }
     return chain;
   }
@@ -139,7 +139,7 @@ export class TransformTree implements FrameTree {
       const step = this.#static.get(at) ?? this.#moving.get(at)?.lookup(stamp);
       if (typeof step === "string") return step;
       if (step === undefined) return `At that time '${at}' had no parent`;
-      if (steps > MOST_ANCESTORS) return LOOP;
+      if (steps > MAX_ANCESTORS) return LOOP;
       position.applyQuaternion(step.orientation).add(step.position);
       orientation.premultiply(step.orientation);
       at = step.parent;
@@ -154,7 +154,7 @@ export class TransformTree implements FrameTree {
   /** Make a frame known; false: there are too many. */
   #enter(name: string): boolean {
     if (this.#names.has(name)) return true;
-    if (this.#names.size >= MOST_FRAMES) return false;
+    if (this.#names.size >= MAX_FRAMES) return false;
     this.#names.add(name);
     return true;
   }

@@ -13,14 +13,14 @@ const TWISTS = ["geometry_msgs/Twist", "geometry_msgs/TwistStamped"];
 const BY_NAME = /(^|\/)cmd_vel$/;
 
 /** Shares −1…1 of the limits. */
-export interface Held {
+export interface DriveInput {
   readonly linear: number;
   readonly angular: number;
 }
 
 export class Drive {
   private readonly chosen = signal<string | null>(null);
-  private readonly held = signal<ReadonlyMap<string, Held>>(new Map());
+  private readonly inputs = signal<ReadonlyMap<string, DriveInput>>(new Map());
   private driven: string | null = null;
   private known: readonly string[] = [];
   private timer: ReturnType<typeof setInterval> | undefined;
@@ -33,12 +33,12 @@ export class Drive {
     const published = [...connection.topics.value.values()].map(({ name, type }) => [name, type] as const);
     const typed = [...published, ...types].flatMap(([name, type]) => (TWISTS.includes(type) ? [name] : []));
     const named = [...subscribers.keys()].filter((name) => BY_NAME.test(name));
-    const isHeard = (name: string): boolean =>
+    const hasListener = (name: string): boolean =>
       (subscribers.get(name) ?? []).some((node) => node !== session.node && !isWatcher(node));
     const isFirst = (name: string): number => Number(name !== session.drive_topic);
     const isUntold = types.size + subscribers.size === 0; // as after a lost connection, when topics are told of before the graph
     if (isUntold || connection.state.value.kind !== "connected") return this.known;
-    this.known = [...new Set([...typed, ...named].filter(isHeard))].sort(
+    this.known = [...new Set([...typed, ...named].filter(hasListener))].sort(
       (a, b) => isFirst(a) - isFirst(b) || (a < b ? -1 : 1),
     );
     return this.known;
@@ -49,10 +49,10 @@ export class Drive {
   readonly linearLimit;
   readonly angularLimit;
   /** Velocities that go out now [m/s], [rad/s]; null: nothing is held. */
-  readonly command = computed<Held | null>(() => {
-    if (this.held.value.size === 0) return null;
-    const sum = (part: keyof Held): number =>
-      clamp([...this.held.value.values()].reduce((total, each) => total + each[part], 0));
+  readonly command = computed<DriveInput | null>(() => {
+    if (this.inputs.value.size === 0) return null;
+    const sum = (part: keyof DriveInput): number =>
+      clamp([...this.inputs.value.values()].reduce((total, input) => total + input[part], 0));
     return { linear: sum("linear") * this.linearLimit.value, angular: sum("angular") * this.angularLimit.value };
   });
 
@@ -75,7 +75,7 @@ export class Drive {
   /** Hold a key, the disc or a stick; without a connection or topic nothing is held. */
   hold(source: string, linear: number, angular: number): void {
     if (this.topic.peek() === null || this.page.connection.state.peek().kind !== "connected") return;
-    this.held.value = new Map(this.held.peek()).set(source, { linear: clamp(linear), angular: clamp(angular) });
+    this.inputs.value = new Map(this.inputs.peek()).set(source, { linear: clamp(linear), angular: clamp(angular) });
     if (this.driven !== null) return;
     this.driven = this.topic.peek();
     this.timer = setInterval(() => this.send(), PERIOD);
@@ -83,15 +83,15 @@ export class Drive {
   }
 
   release(source: string): void {
-    if (!this.held.peek().has(source)) return;
-    const held = new Map(this.held.peek());
-    held.delete(source);
-    this.held.value = held;
-    if (held.size === 0) this.stop();
+    if (!this.inputs.peek().has(source)) return;
+    const inputs = new Map(this.inputs.peek());
+    inputs.delete(source);
+    this.inputs.value = inputs;
+    if (inputs.size === 0) this.stop();
   }
 
   releaseAll(): void {
-    if (this.held.peek().size > 0) this.held.value = new Map();
+    if (this.inputs.peek().size > 0) this.inputs.value = new Map();
     this.stop();
   }
 

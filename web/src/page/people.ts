@@ -16,7 +16,7 @@ export function followPeople(
   selection: ReadonlySignal<Selection | null>,
 ): ReadonlySignal<People> {
   const people = signal(NOBODY);
-  const isThere = computed(() => people.value !== NOBODY);
+  const hasPeople = computed(() => people.value !== NOBODY);
   connection.subscribeJson("trundle/people", (next) => {
     people.value = next;
   });
@@ -24,7 +24,7 @@ export function followPeople(
     if (connection.state.value.kind !== "connected") people.value = NOBODY;
   });
   effect(() => {
-    if (isThere.value) connection.present(shared(selection.value));
+    if (hasPeople.value) connection.present(shared(selection.value));
   });
   return people;
 }

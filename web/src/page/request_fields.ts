@@ -16,5 +16,5 @@ export function orientationOf([roll, pitch, yaw]: readonly [number, number, numb
 
 /** Numbers with one of them replaced. */
 export function withNumber<T extends readonly number[]>(numbers: T, index: number, value: number): T {
-  return numbers.map((each, i) => (i === index ? value : each)) as unknown as T;
+  return numbers.map((number, i) => (i === index ? value : number)) as unknown as T;
 }

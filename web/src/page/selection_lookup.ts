@@ -6,21 +6,21 @@ import type { Page, PluginOwner, Selection } from "./page";
 import { allModels, bodiesOf } from "./world_nodes";
 
 export function findModel(page: Pick<Page, "world">, name: string): ModelInfo | null {
-  return allModels(page.world.manifest.value?.models ?? []).find((each) => each.name === name)?.model ?? null;
+  return allModels(page.world.manifest.value?.models ?? []).find((entry) => entry.name === name)?.model ?? null;
 }
 
 export function findLink(page: Pick<Page, "world">, model: string, link: string): LinkInfo | null {
   const scoped = `${model}::${link}`; // a joint's child may be in a nested model, `inner::link`
   const at = scoped.lastIndexOf("::");
-  return findModel(page, scoped.slice(0, at))?.links.find((each) => each.name === scoped.slice(at + 2)) ?? null;
+  return findModel(page, scoped.slice(0, at))?.links.find((entry) => entry.name === scoped.slice(at + 2)) ?? null;
 }
 
 export function findJoint(page: Pick<Page, "world">, model: string, joint: string): JointInfo | null {
-  return findModel(page, model)?.joints.find((each) => each.name === joint) ?? null;
+  return findModel(page, model)?.joints.find((entry) => entry.name === joint) ?? null;
 }
 
 export function findSensor(page: Pick<Page, "world">, model: string, link: string, sensor: string): SensorInfo | null {
-  return findLink(page, model, link)?.sensors.find((each) => each.name === sensor) ?? null;
+  return findLink(page, model, link)?.sensors.find((entry) => entry.name === sensor) ?? null;
 }
 
 export function findPlugin(page: Pick<Page, "world">, owner: PluginOwner, plugin: string): PluginInfo | null {

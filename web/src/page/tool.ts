@@ -32,9 +32,9 @@ export interface Inserter extends Tool {
   /** What is being inserted; null: nothing is chosen. */
   readonly chosen: ReadonlySignal<Insertable | null>;
   /** Inserts something at a point of the world [m]. */
-  onPlace: (thing: Insertable, point: Vector3) => void;
+  onPlace: (item: Insertable, point: Vector3) => void;
   /** Have something follow the pointer; null: nothing any more. */
-  choose(thing: Insertable | null): void;
+  choose(item: Insertable | null): void;
   /** Show it where a point of the view [px] meets the world. */
   hover(x: number, y: number): void;
   hide(): void;

@@ -97,10 +97,10 @@ function modelNode(model: ModelInfo, scope: string): WorldNode {
 function linkNode(model: string, link: LinkInfo): WorldNode {
   const selection = { model, link: link.name };
   const sensors = link.sensors.map(({ name, type, rate, plugins }) => {
-    const own = { kind: "sensor", ...selection, sensor: name } as const;
+    const sensor = { kind: "sensor", ...selection, sensor: name } as const;
     return {
-      ...leaf(own, name, rate > 0 ? `${fixed(rate, 0)} Hz` : type, sensorIcon(type)),
-      children: pluginNodes(own, plugins),
+      ...leaf(sensor, name, rate > 0 ? `${fixed(rate, 0)} Hz` : type, sensorIcon(type)),
+      children: pluginNodes(sensor, plugins),
     };
   });
   return {
@@ -146,30 +146,32 @@ function mass(kilograms: number): string {
 }
 
 /** A node that is seen, and how deep it is. */
-export interface SeenNode {
+export interface VisibleNode {
   readonly node: WorldNode;
   readonly depth: number;
   readonly isOpen: boolean | undefined;
 }
 
 /** Nodes that are seen: below open ones, or those that match a search and their parents. */
-export function seenNodes(
+export function visibleNodes(
   root: WorldNode,
   isOpen: (node: WorldNode) => boolean,
   search: string,
   depth = 0,
-): readonly SeenNode[] {
-  const wanted = search.trim().toLowerCase();
-  if (wanted !== "" && !matches(root, wanted)) return [];
-  const ownMatch = wanted !== "" && root.label.toLowerCase().includes(wanted);
-  const open = root.children.length === 0 ? undefined : wanted !== "" && !ownMatch ? true : isOpen(root);
+): readonly VisibleNode[] {
+  const query = search.trim().toLowerCase();
+  if (query !== "" && !matches(root, query)) return [];
+  const isMatch = query !== "" && root.label.toLowerCase().includes(query);
+  const open = root.children.length === 0 ? undefined : query !== "" && !isMatch ? true : isOpen(root);
   const below =
-    open === true ? root.children.flatMap((child) => seenNodes(child, isOpen, ownMatch ? "" : search, depth + 1)) : [];
+    open === true
+      ? root.children.flatMap((child) => visibleNodes(child, isOpen, isMatch ? "" : search, depth + 1))
+      : [];
   return [{ node: root, depth, isOpen: open }, ...below];
 }
 
-function matches(node: WorldNode, wanted: string): boolean {
-  return node.label.toLowerCase().includes(wanted) || node.children.some((child) => matches(child, wanted));
+function matches(node: WorldNode, query: string): boolean {
+  return node.label.toLowerCase().includes(query) || node.children.some((child) => matches(child, query));
 }
 
 /** Key of the node that stands for a selection; "": none does. */

@@ -15,9 +15,9 @@ const RIGHT = [3, 4] as const;
 
 function Joystick({ page }: PanelProps): JSX.Element {
   const state = joystickState(page);
-  const isAsked = page.session.joystick && canControl(page);
+  const isOffered = page.session.joystick && canControl(page);
   useEffect(() => {
-    if (!isAsked) return;
+    if (!isOffered) return;
     state.start();
     const rest = (): void => state.rest();
     addEventListener("blur", rest);
@@ -25,9 +25,9 @@ function Joystick({ page }: PanelProps): JSX.Element {
       removeEventListener("blur", rest);
       state.stop();
     };
-  }, [state, isAsked]);
+  }, [state, isOffered]);
   if (!canControl(page)) return <div class="empty">{LOOKS_ONLY}</div>;
-  if (!isAsked) return <div class="empty">No node reads a joystick: start joy's joy_node.</div>;
+  if (!isOffered) return <div class="empty">No node reads a joystick: start joy's joy_node.</div>;
   return (
     <div class="scroll">
       {state.fault.value !== "" && (
@@ -45,7 +45,7 @@ function Joystick({ page }: PanelProps): JSX.Element {
         />
         <div class="buttons" role="group" aria-label="Buttons">
           {BUTTON_NAMES.map((name, index) => (
-            <HeldButton
+            <HoldButton
               key={name}
               name={name}
               isDown={state.joy.value.buttons[index] === 1}
@@ -90,14 +90,14 @@ function move(state: JoystickState, [across, along]: readonly [number, number], 
   state.setAxis(along, y);
 }
 
-interface HeldButtonProps {
+interface HoldButtonProps {
   readonly name: string;
   readonly isDown: boolean;
   readonly onHold: (on: boolean) => void;
 }
 
 /** A button that is down while it is held. */
-function HeldButton({ name, isDown, onHold }: HeldButtonProps): JSX.Element {
+function HoldButton({ name, isDown, onHold }: HoldButtonProps): JSX.Element {
   const isKey = (event: KeyboardEvent): boolean => event.key === " " || event.key === "Enter";
   return (
     <button

@@ -3,7 +3,7 @@
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
 
-import type { Drive, Held } from "../page/drive";
+import type { Drive, DriveInput } from "../page/drive";
 import { canControl, LOOKS_ONLY } from "../page/looking";
 import { Combo } from "../theme/combo";
 import { fixed } from "../theme/format";
@@ -13,7 +13,7 @@ import type { Panel, PanelProps } from "./panel";
 
 function Steering({ page: { drive, session } }: PanelProps): JSX.Element {
   const topic = drive.topic.value;
-  const isHeld = drive.command.value !== null;
+  const isDriving = drive.command.value !== null;
   return (
     <div class="scroll">
       <div class="steering">
@@ -26,11 +26,11 @@ function Steering({ page: { drive, session } }: PanelProps): JSX.Element {
             onCommit={(name) => drive.choose(name)}
           />
         </div>
-        <Axis drive={drive} which="linear" name="Forward, v" unit="m/s" />
-        <Axis drive={drive} which="angular" name="Turning, w" unit="rad/s" />
-        <div class={isHeld ? "sm held" : "sm t2"} role="status">
-          {isHeld && `Driving ${topic ?? ""}. Let go to stop.`}
-          {!isHeld &&
+        <Axis drive={drive} component="linear" name="Forward, v" unit="m/s" />
+        <Axis drive={drive} component="angular" name="Turning, w" unit="rad/s" />
+        <div class={isDriving ? "sm held" : "sm t2"} role="status">
+          {isDriving && `Driving ${topic ?? ""}. Let go to stop.`}
+          {!isDriving &&
             (!canControl({ session })
               ? LOOKS_ONLY
               : topic === null
@@ -44,18 +44,18 @@ function Steering({ page: { drive, session } }: PanelProps): JSX.Element {
 
 interface AxisProps {
   readonly drive: Drive;
-  readonly which: keyof Held;
+  readonly component: keyof DriveInput;
   readonly name: string;
   readonly unit: string;
 }
 
-function Axis({ drive, which, name, unit }: AxisProps): JSX.Element {
-  const source = `slider ${which}`;
-  const value = drive.command.value?.[which] ?? 0;
-  const limit = which === "linear" ? drive.linearLimit : drive.angularLimit;
+function Axis({ drive, component, name, unit }: AxisProps): JSX.Element {
+  const source = `slider ${component}`;
+  const value = drive.command.value?.[component] ?? 0;
+  const limit = component === "linear" ? drive.linearLimit : drive.angularLimit;
   const hold = (velocity: number): void => {
     const share = velocity / limit.peek();
-    drive.hold(source, which === "linear" ? share : 0, which === "angular" ? share : 0);
+    drive.hold(source, component === "linear" ? share : 0, component === "angular" ? share : 0);
   };
   useEffect(() => () => drive.release(source), [drive, source]);
   return (

@@ -17,7 +17,7 @@ import { rulerTimes, timelineState, type Mark, type TimelineState } from "./time
 import { useShown, useTick } from "./use";
 
 const PERIOD = 250; // ms
-const MOST_LABELS = 8;
+const MAX_LABELS = 8;
 const SPEEDS: Readonly<Record<string, number | null>> = {
   "0.1×": 0.1,
   "0.25×": 0.25,
@@ -102,7 +102,7 @@ function Timeline({ page }: PanelProps): JSX.Element {
 }
 
 function Ruler({ span, share }: ShareProps): JSX.Element {
-  const times = rulerTimes(span, MOST_LABELS);
+  const times = rulerTimes(span, MAX_LABELS);
   const decimals = (times[1] ?? 1) - (times[0] ?? 0) < 1 ? 1 : 0;
   return (
     <div class="ruler">

@@ -98,7 +98,7 @@ export class Calls {
     this.#calls.reject(frame.callId, frame.message);
   }
 
-  assetCame(frame: Extract<ServerBinary, { op: "asset" }>): void {
+  receiveAsset(frame: Extract<ServerBinary, { op: "asset" }>): void {
     if (frame.error === null) this.#assets.resolve(frame.request, frame.data);
     else this.#assets.reject(frame.request, frame.error);
   }

@@ -110,7 +110,7 @@ export function tuple<T extends readonly unknown[]>(...checks: { readonly [K in 
 export function record<T>(check: Check<T>): Check<{ readonly [name: string]: T }> {
   return (value) => {
     const object = mapping(value);
-    for (const [name, each] of Object.entries(object)) checkField(each, check, name);
+    for (const [name, entry] of Object.entries(object)) checkField(entry, check, name);
     return object as { readonly [name: string]: T };
   };
 }

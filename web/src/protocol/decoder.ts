@@ -4,8 +4,8 @@ import type { DecodeRequest, DecodeResponse } from "./decode_service";
 import type { RosMessage } from "./ros_types";
 
 /** Limits of a queue that keeps every message. */
-const MOST_FRAMES = 10_000;
-const MOST_BYTES = 256 * 1024 * 1024;
+const MAX_FRAMES = 10_000;
+const MAX_BYTES = 256 * 1024 * 1024;
 
 /** What of a Worker is used. */
 export interface DecodePort {
@@ -44,8 +44,8 @@ export class DecodeQueue {
   push(frame: Frame): void {
     this.#waiting.push(frame);
     this.#waitingBytes += frame.payload.byteLength;
-    const most = this.every ? MOST_FRAMES : 1;
-    while (this.#waiting.length > 1 && (this.#waiting.length > most || this.#waitingBytes > MOST_BYTES)) {
+    const maxFrames = this.every ? MAX_FRAMES : 1;
+    while (this.#waiting.length > 1 && (this.#waiting.length > maxFrames || this.#waitingBytes > MAX_BYTES)) {
       this.#waitingBytes -= this.#waiting.shift()?.payload.byteLength ?? 0;
       this.onDropped();
     }

@@ -177,7 +177,7 @@ export class FoxgloveConnection implements Connection {
         this.#calls.unadvertise(frame.serviceIds);
         break;
       case "parameterValues":
-        this.#system.parametersCame(frame.parameters);
+        this.#system.receiveParameters(frame.parameters);
         break;
       case "connectionGraphUpdate":
         this.#system.graphChanged(frame);
@@ -199,7 +199,7 @@ export class FoxgloveConnection implements Connection {
       this.#subscriptions.receive(frame);
     } else if (frame.op === "time") this.#time = frame.time;
     else if (frame.op === "serviceResponse") this.#calls.callAnswered(frame);
-    else this.#calls.assetCame(frame);
+    else this.#calls.receiveAsset(frame);
   }
 
   /** A server greeted, which knows nothing of the one before. */

@@ -20,16 +20,16 @@ export class GraphNames {
 
   /** Where a parameter may be: by its name, then in the namespaces above, as searchParam goes up. */
   search(name: string): readonly string[] {
-    const found = [this.resolve(name)];
-    if (name === "" || name.startsWith("/")) return found;
+    const names = [this.resolve(name)];
+    if (name === "" || name.startsWith("/")) return names;
     for (
       let at = this.namespace.lastIndexOf("/");
       at >= 0;
       at = at === 0 ? -1 : this.namespace.lastIndexOf("/", at - 1)
     ) {
-      found.push(join(this.namespace.slice(0, at), name));
+      names.push(join(this.namespace.slice(0, at), name));
     }
-    return [...new Set(found)];
+    return [...new Set(names)];
   }
 }
 

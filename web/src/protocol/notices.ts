@@ -7,7 +7,7 @@ export interface Notice {
   readonly text: string;
 }
 
-const MOST = 100;
+const MAX_NOTICES = 100;
 const LEVELS = ["info", "warning", "error"] as const;
 
 export class Notices {
@@ -17,7 +17,7 @@ export class Notices {
   add(level: Notice["level"] | number, text: string, id?: string): void {
     const name = typeof level === "number" ? (LEVELS[level] ?? "error") : level;
     const others = this.list.peek().filter((notice) => id === undefined || notice.id !== id);
-    this.list.value = [...others, { level: name, text, id }].slice(-MOST);
+    this.list.value = [...others, { level: name, text, id }].slice(-MAX_NOTICES);
   }
 
   remove(ids: readonly string[]): void {

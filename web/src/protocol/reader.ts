@@ -20,7 +20,7 @@ const ARRAYS = {
 type Numeric = keyof typeof ARRAYS;
 
 /** Objects that a message may have beyond 8 per byte: its bytes do not bound how many are empty. */
-const MOST_EMPTY = 10_000;
+const MAX_EMPTY = 10_000;
 
 /** Below this size a string is decoded without TextDecoder, whose calls are slow. */
 const SHORT_STRING = 48;
@@ -49,7 +49,7 @@ class Reader {
     this.#view = payload;
     this.#bytes = new Uint8Array(payload.buffer, payload.byteOffset, payload.byteLength);
     this.#buffers = buffers;
-    this.#objects = 8 * payload.byteLength + MOST_EMPTY;
+    this.#objects = 8 * payload.byteLength + MAX_EMPTY;
   }
 
   message(schema: Schema): RosMessage {

@@ -53,7 +53,7 @@ export class Subscriptions {
     this.#publishTopics();
     for (const channel of channels) {
       const topic = this.#topics.get(channel.topic);
-      if (topic !== undefined && topic.ids.length === 0 && isWanted(topic)) this.#attach(topic, channel);
+      if (topic !== undefined && topic.ids.length === 0 && isSubscribed(topic)) this.#attach(topic, channel);
     }
   }
 
@@ -141,7 +141,7 @@ export class Subscriptions {
   }
 
   #left(topic: Topic): void {
-    if (!isWanted(topic)) {
+    if (!isSubscribed(topic)) {
       this.#unsubscribe(topic);
       this.#detach(topic);
     } else if (topic.decoding !== null) topic.decoding.queue.every = wantsEvery(topic);
@@ -197,7 +197,7 @@ export class Subscriptions {
   }
 }
 
-function isWanted(topic: Topic): boolean {
+function isSubscribed(topic: Topic): boolean {
   return topic.subscribers.size + topic.raw.size > 0;
 }
 

@@ -45,7 +45,7 @@ export class SystemState {
     });
   }
 
-  parametersCame(values: readonly Parameter[]): void {
+  receiveParameters(values: readonly Parameter[]): void {
     const parameters = new Map(this.parameters.peek());
     const floats = new Set(this.floatParameters.peek());
     for (const { name, value, type } of values) {

@@ -37,9 +37,9 @@ export class ArrivalStatistics {
     const last = this.#time(1);
     let used = 1;
     let bytes = this.#size(1);
-    const most = Math.min(this.count, SAMPLES);
+    const limit = Math.min(this.count, SAMPLES);
     // The last two count however old they are: rates below 1/5 Hz have a figure, too.
-    while (used < most && (used < 2 || this.#time(used + 1) >= now - WINDOW)) bytes += this.#size(++used);
+    while (used < limit && (used < 2 || this.#time(used + 1) >= now - WINDOW)) bytes += this.#size(++used);
     const span = last - this.#time(used);
     const silent = now - last > Math.max(WINDOW, (2 * span) / (used - 1));
     let rate: number | null = null;

@@ -40,7 +40,7 @@ class Writer {
       if (!known.has(name)) throw new Error(`${path} has no field '${name}'; fields: ${[...known].join(", ")}`);
     }
     for (const field of schema.fields) {
-      this.#field(field, own(value, field.name), `${path}.${field.name}`);
+      this.#field(field, ownProperty(value, field.name), `${path}.${field.name}`);
     }
   }
 
@@ -77,7 +77,7 @@ class Writer {
     if (value !== undefined && (typeof value !== "object" || isList(value))) throw mismatch(path, `a ${type}`, value);
     const part: Integer = type === "time" ? "uint32" : "int32";
     for (const name of ["sec", "nsec"]) {
-      this.#integer(part, inRange(part, own(value, name) ?? 0, `${path}.${name}`));
+      this.#integer(part, inRange(part, ownProperty(value, name) ?? 0, `${path}.${name}`));
     }
   }
 
@@ -122,7 +122,7 @@ function isList(value: RosValue): value is Extract<RosValue, ArrayLike<unknown>>
   return Array.isArray(value) || ArrayBuffer.isView(value);
 }
 
-function own(value: object | undefined, name: string): RosValue | undefined {
+function ownProperty(value: object | undefined, name: string): RosValue | undefined {
   return value !== undefined && Object.hasOwn(value, name) ? (value as RosMessage)[name] : undefined;
 }
 
@@ -135,7 +135,7 @@ function inRange(type: Integer, value: RosValue, path: string): bigint {
   return integer;
 }
 
-function mismatch(path: string, wanted: string, value: RosValue): Error {
+function mismatch(path: string, expected: string, value: RosValue): Error {
   const shown = typeof value === "object" ? (isList(value) ? "an array" : "an object") : JSON.stringify(String(value));
-  return new Error(`${path} is ${wanted}, not ${shown}`);
+  return new Error(`${path} is ${expected}, not ${shown}`);
 }

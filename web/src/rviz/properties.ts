@@ -54,14 +54,14 @@ export abstract class Property<T> {
 
   /** The value and the children's, as rviz nests them: a mapping with `Value` where there are children. */
   save(): Yaml | undefined {
-    const own = this.encode();
-    if (this.version.value === 0 || this.children.length === 0) return own;
+    const encoded = this.encode();
+    if (this.version.value === 0 || this.children.length === 0) return encoded;
     const mapping: Record<string, Yaml> = {};
     for (const child of this.children) {
       const saved = child.save();
       if (saved !== undefined) mapping[child.name] = saved;
     }
-    if (own !== undefined) mapping["Value"] = own;
+    if (encoded !== undefined) mapping["Value"] = encoded;
     return mapping;
   }
 
@@ -69,15 +69,15 @@ export abstract class Property<T> {
   load(yaml: Yaml): string[] {
     if (!isMapping(yaml)) return this.decode(yaml) ? [] : [`${this.name}: ${JSON.stringify(yaml)} is no ${this.kind}`];
     const faults: string[] = [];
-    const own = yaml["Value"];
-    if (own !== undefined && this.kind !== "group" && !this.decode(own)) {
-      faults.push(`${this.name}: ${JSON.stringify(own)} is no ${this.kind}`);
-    } else if (own === undefined && this.children.length === 0 && !this.decode(yaml)) {
+    const encoded = yaml["Value"];
+    if (encoded !== undefined && this.kind !== "group" && !this.decode(encoded)) {
+      faults.push(`${this.name}: ${JSON.stringify(encoded)} is no ${this.kind}`);
+    } else if (encoded === undefined && this.children.length === 0 && !this.decode(yaml)) {
       faults.push(`${this.name}: ${JSON.stringify(yaml)} is no ${this.kind}`);
     }
     for (const child of this.children) {
-      const found = yaml[child.name];
-      if (found !== undefined) faults.push(...child.load(found).map((fault) => `${this.name}/${fault}`));
+      const entry = yaml[child.name];
+      if (entry !== undefined) faults.push(...child.load(entry).map((fault) => `${this.name}/${fault}`));
     }
     return faults;
   }

@@ -68,8 +68,8 @@ function readYaml(text: string): readonly [Document, Yaml] {
 }
 
 function child(mapping: YamlMapping, key: string): YamlMapping {
-  const found = mapping[key];
-  return isMapping(found) ? found : {};
+  const entry = mapping[key];
+  return isMapping(entry) ? entry : {};
 }
 
 function list(yaml: Yaml | undefined): readonly Yaml[] {

@@ -2,7 +2,7 @@
 
 import { Sphere, Vector3, type Mesh, type Object3D, type Ray } from "three";
 
-const own = new Sphere();
+const sphere = new Sphere();
 
 interface Around {
   /** Of a sphere about the body's origin [m]. */
@@ -39,8 +39,8 @@ function radiusOf(body: Object3D): number {
       radius = Infinity;
       return;
     }
-    own.copy(geometry.boundingSphere).applyMatrix4(object.matrixWorld);
-    radius = Math.max(radius, own.center.distanceTo(origin) + own.radius);
+    sphere.copy(geometry.boundingSphere).applyMatrix4(object.matrixWorld);
+    radius = Math.max(radius, sphere.center.distanceTo(origin) + sphere.radius);
   });
   return radius;
 }

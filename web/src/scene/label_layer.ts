@@ -40,7 +40,7 @@ class SceneLabel implements Label {
 }
 
 /** A label as a layer shows it. */
-interface Seen extends LabelRequest {
+interface VisibleLabel extends LabelRequest {
   readonly label: SceneLabel;
   /** Text, and what else its width is of. */
   measured: string;
@@ -71,9 +71,9 @@ export class LabelLayer {
   private readonly context = this.canvas.getContext("2d");
   /** The canvas' style as it is now, whenever it is read. */
   private readonly style = getComputedStyle(this.canvas);
-  private readonly known = new WeakMap<SceneLabel, Seen>();
+  private readonly entries = new WeakMap<SceneLabel, VisibleLabel>();
   /** Those in the picture, those that come first first. */
-  private readonly seen: Seen[] = [];
+  private readonly visible: VisibleLabel[] = [];
   private readonly point = new Vector3();
   private pointer: { readonly x: number; readonly y: number } | null = null;
   private hovered: SceneLabel | null = null;
@@ -98,12 +98,12 @@ export class LabelLayer {
 
   /** Place the labels as a picture of a size [px] needs them. */
   place(camera: Camera, size: PictureSize, pixelRatio: number): void {
-    this.isEmpty = this.set.labels.size === 0 && this.seen.length === 0;
+    this.isEmpty = this.set.labels.size === 0 && this.visible.length === 0;
     this.size = size;
     this.pixelRatio = pixelRatio;
     this.font = this.style.getPropertyValue("--font") || "sans-serif";
-    this.findSeen(camera, size);
-    layoutLabels(this.seen, size.width, size.height);
+    this.findVisible(camera, size);
+    layoutLabels(this.visible, size.width, size.height);
   }
 
   /** Draw the labels where they were placed. */
@@ -116,14 +116,14 @@ export class LabelLayer {
     else if (this.isEmpty) return;
     context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
     context.clearRect(0, 0, size.width, size.height);
-    for (const each of this.seen) if (each.corner >= 0) this.drawLabel(context, each);
+    for (const label of this.visible) if (label.corner >= 0) this.drawLabel(context, label);
   }
 
-  private drawLabel(context: CanvasRenderingContext2D, seen: Seen): void {
-    const { label, box } = seen;
-    drawLeader(context, seen, this.color(label.color ?? (seen.hovered ? "--accent" : "--text-3")));
+  private drawLabel(context: CanvasRenderingContext2D, entry: VisibleLabel): void {
+    const { label, box } = entry;
+    drawLeader(context, entry, this.color(label.color ?? (entry.hovered ? "--accent" : "--text-3")));
     context.textBaseline = "middle";
-    this.setFont(context, seen.hovered);
+    this.setFont(context, entry.hovered);
     const middle = box.y + BAND / 2 + 0.5;
     if (label.color !== undefined) {
       context.fillStyle = this.color(label.color);
@@ -132,7 +132,7 @@ export class LabelLayer {
       context.fill();
       context.fillStyle = this.color("--on-person");
       context.fillText(label.text, box.x + PADDING, middle);
-    } else if (seen.hovered) {
+    } else if (entry.hovered) {
       context.fillStyle = this.color("--panel");
       context.strokeStyle = this.color("--accent");
       context.beginPath();
@@ -163,27 +163,27 @@ export class LabelLayer {
     context.font = isBold ? `600 ${SIZE}px ${this.font}` : `${SIZE}px ${this.font}`;
   }
 
-  private findSeen(camera: Camera, size: PictureSize): void {
-    this.seen.length = 0;
+  private findVisible(camera: Camera, size: PictureSize): void {
+    this.visible.length = 0;
     for (const label of this.set.labels) {
       if (!isShown(label.anchor)) continue;
       const at = toPicture(label.anchor.getWorldPosition(this.point), camera, size);
       if (at === null || at.x < 0 || at.y < 0 || at.x > size.width || at.y > size.height) continue;
-      const seen = this.know(label);
-      seen.x = at.x;
-      seen.y = at.y;
-      seen.distance = at.z;
-      seen.hovered = label === this.hovered || label.color !== undefined;
-      if (this.context !== null) this.measure(this.context, seen);
-      this.seen.push(seen);
+      const entry = this.entryOf(label);
+      entry.x = at.x;
+      entry.y = at.y;
+      entry.distance = at.z;
+      entry.hovered = label === this.hovered || label.color !== undefined;
+      if (this.context !== null) this.measure(this.context, entry);
+      this.visible.push(entry);
     }
   }
 
-  private know(label: SceneLabel): Seen {
-    let seen = this.known.get(label);
-    if (seen === undefined) {
+  private entryOf(label: SceneLabel): VisibleLabel {
+    let entry = this.entries.get(label);
+    if (entry === undefined) {
       const box = { x: 0, y: 0, width: 0 };
-      seen = {
+      entry = {
         label,
         box,
         x: 0,
@@ -196,35 +196,35 @@ export class LabelLayer {
         measuredDetail: "",
         isMeasuredBoxed: false,
       };
-      this.known.set(label, seen);
+      this.entries.set(label, entry);
     }
-    return seen;
+    return entry;
   }
 
   /** Find the width of a label, if it is another text or shown otherwise. */
-  private measure(context: CanvasRenderingContext2D, seen: Seen): void {
-    const { label, hovered: isBoxed } = seen;
+  private measure(context: CanvasRenderingContext2D, entry: VisibleLabel): void {
+    const { label, hovered: isBoxed } = entry;
     const detail = label === this.hovered ? label.detail : "";
     if (
-      seen.width > 0 &&
-      seen.measured === label.text &&
-      seen.measuredDetail === detail &&
-      seen.isMeasuredBoxed === isBoxed
+      entry.width > 0 &&
+      entry.measured === label.text &&
+      entry.measuredDetail === detail &&
+      entry.isMeasuredBoxed === isBoxed
     )
       return;
-    seen.measured = label.text;
-    seen.measuredDetail = detail;
-    seen.isMeasuredBoxed = isBoxed;
+    entry.measured = label.text;
+    entry.measuredDetail = detail;
+    entry.isMeasuredBoxed = isBoxed;
     this.setFont(context, isBoxed);
-    seen.width = context.measureText(label.text).width + (isBoxed ? 2 * PADDING : 4);
+    entry.width = context.measureText(label.text).width + (isBoxed ? 2 * PADDING : 4);
     this.setFont(context, false);
-    if (detail !== "") seen.width += 4 + context.measureText(detail).width + PADDING;
+    if (detail !== "") entry.width += 4 + context.measureText(detail).width + PADDING;
   }
 
   private findHovered(camera: Camera, size: PictureSize): SceneLabel | null {
     if (this.pointer === null) return null;
     const { x, y } = this.pointer;
-    for (const { label, box, corner } of this.seen) {
+    for (const { label, box, corner } of this.visible) {
       if (
         corner >= 0 &&
         this.set.labels.has(label) &&

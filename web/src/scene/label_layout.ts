@@ -84,7 +84,7 @@ function rank({ hovered, distance }: LabelRequest): number {
 function fits(
   request: LabelRequest,
   corner: number,
-  own: number,
+  index: number,
   requests: readonly LabelRequest[],
   width: number,
   height: number,
@@ -94,8 +94,8 @@ function fits(
   if (box.x < 0 || box.y < 0 || box.x + box.width > width || box.y + BAND > height) return false;
   for (let i = 0; i < requests.length; i += 1) {
     const other = requests[i];
-    if (other === undefined || i === own) continue;
-    if (isInside(other.x, other.y, box) || (i < own && other.corner >= 0 && overlap(box, other.box))) return false;
+    if (other === undefined || i === index) continue;
+    if (isInside(other.x, other.y, box) || (i < index && other.corner >= 0 && overlap(box, other.box))) return false;
   }
   return true;
 }

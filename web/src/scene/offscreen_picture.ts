@@ -19,7 +19,7 @@ export class OffscreenPicture {
     this.bind = context.bindFramebuffer.bind(context);
     context.bindFramebuffer = (target, framebuffer) => this.bind(target, framebuffer ?? this.framebuffer);
     context.drawBuffers = (buffers: Iterable<GLenum>) =>
-      choose([...buffers].map((each) => (each === context.BACK ? context.COLOR_ATTACHMENT0 : each)));
+      choose([...buffers].map((buffer) => (buffer === context.BACK ? context.COLOR_ATTACHMENT0 : buffer)));
     context.canvas.addEventListener("webglcontextrestored", () => this.create()); // before who draws begins again
     this.create();
   }

@@ -56,13 +56,13 @@ export class Picker {
   /** Nearest of what lies under a point [px] of the picture, where it is now: the picture may be older. */
   pick(roots: readonly Object3D[], camera: Camera, size: PictureSize, x: number, y: number): Pick | null {
     this.aim(camera, size, x, y);
-    const found: Candidate[] = [];
+    const candidates: Candidate[] = [];
     for (const root of roots) {
       root.updateMatrixWorld();
-      this.visit(root, camera, size, new Vector2(x, y), found);
+      this.visit(root, camera, size, new Vector2(x, y), candidates);
     }
     let best: Candidate | null = null;
-    for (const candidate of found) if (best === null || candidate.depth < best.depth) best = candidate;
+    for (const candidate of candidates) if (best === null || candidate.depth < best.depth) best = candidate;
     return best === null ? null : { point: best.point, object: best.object, index: best.index };
   }
 
@@ -85,16 +85,16 @@ export class Picker {
     this.raycaster.setFromCamera(new Vector2((2 * x) / size.width - 1, 1 - (2 * y) / size.height), camera);
   }
 
-  private visit(object: Object3D, camera: Camera, size: PictureSize, at: Vector2, found: Candidate[]): void {
+  private visit(object: Object3D, camera: Camera, size: PictureSize, at: Vector2, candidates: Candidate[]): void {
     if (!object.visible || object.userData[NOT_PICKED] === true || this.bodies.isMissed(object, this.raycaster.ray))
       return;
-    if (isPoints(object)) pickPoints(object, camera, size, at, found);
-    else if (isLine(object)) pickLine(object, camera, size, at, found);
-    else if (isMesh(object)) this.pickMesh(object, camera, found);
-    for (const child of object.children) this.visit(child, camera, size, at, found);
+    if (isPoints(object)) pickPoints(object, camera, size, at, candidates);
+    else if (isLine(object)) pickLine(object, camera, size, at, candidates);
+    else if (isMesh(object)) this.pickMesh(object, camera, candidates);
+    for (const child of object.children) this.visit(child, camera, size, at, candidates);
   }
 
-  private pickMesh(mesh: Mesh, camera: Camera, found: Candidate[]): void {
+  private pickMesh(mesh: Mesh, camera: Camera, candidates: Candidate[]): void {
     const { geometry } = mesh;
     if (!geometry.hasAttribute("position")) return;
     const { count } = geometry.getAttribute("position");
@@ -104,7 +104,7 @@ export class Picker {
     mesh.raycast(this.raycaster, hits);
     for (const hit of hits) {
       const depth = hit.point.clone().project(camera).z;
-      found.push({ point: hit.point, object: mesh, index: hit.instanceId ?? null, depth });
+      candidates.push({ point: hit.point, object: mesh, index: hit.instanceId ?? null, depth });
     }
   }
 }
@@ -128,7 +128,7 @@ export function toPicture(point: Vector3, camera: Camera, size: PictureSize): Ve
   return seen.set(((seen.x + 1) / 2) * size.width, ((1 - seen.y) / 2) * size.height, seen.z);
 }
 
-function pickPoints(points: Points, camera: Camera, size: PictureSize, at: Vector2, found: Candidate[]): void {
+function pickPoints(points: Points, camera: Camera, size: PictureSize, at: Vector2, candidates: Candidate[]): void {
   const position = points.geometry.getAttribute("position");
   const { start, count } = points.geometry.drawRange;
   const end = Math.min(position.count, start + count);
@@ -144,10 +144,10 @@ function pickPoints(points: Points, camera: Camera, size: PictureSize, at: Vecto
   }
   if (index < 0) return;
   const point = new Vector3().fromBufferAttribute(position, index).applyMatrix4(points.matrixWorld);
-  found.push({ point, object: points, index, depth });
+  candidates.push({ point, object: points, index, depth });
 }
 
-function pickLine(line: Line, camera: Camera, size: PictureSize, at: Vector2, found: Candidate[]): void {
+function pickLine(line: Line, camera: Camera, size: PictureSize, at: Vector2, candidates: Candidate[]): void {
   const position = line.geometry.getAttribute("position");
   const order = line.geometry.index;
   const count = Math.min(order?.count ?? position.count, line.geometry.drawRange.count);
@@ -160,7 +160,7 @@ function pickLine(line: Line, camera: Camera, size: PictureSize, at: Vector2, fo
     const share = shareAlong(a, b, at);
     if (Math.hypot(a.x + share * (b.x - a.x) - at.x, a.y + share * (b.y - a.y) - at.y) > TOLERANCE) continue;
     const depth = a.z + share * (b.z - a.z);
-    found.push({ point: from.clone().lerp(to, share), object: line, index: i / stride, depth });
+    candidates.push({ point: from.clone().lerp(to, share), object: line, index: i / stride, depth });
   }
 }
 

@@ -45,7 +45,7 @@ export class SceneInput {
   private readonly fingers = new Map<number, Finger>();
   private button = 0;
   private toolHasDrag = false;
-  private way = 0;
+  private distance = 0;
   /** Middle of two fingers and their distance at the last frame [px]. */
   private hand: { readonly x: number; readonly y: number; readonly spread: number } | null = null;
   private readonly longPress = new LongPress();
@@ -101,7 +101,7 @@ export class SceneInput {
     this.views.active.peek().interrupt(); // before the tool, which may move the camera itself
     if (isFirst) {
       this.button = event.button;
-      this.way = 0;
+      this.distance = 0;
       this.toolHasDrag = this.offer(event, "down", event.button);
       const at = { x: event.offsetX, y: event.offsetY };
       if (!this.toolHasDrag) this.longPress.begin(event, () => this.rest(at));
@@ -118,7 +118,7 @@ export class SceneInput {
       return;
     }
     const [dx, dy] = [event.offsetX - finger.x, event.offsetY - finger.y];
-    this.way += Math.hypot(dx, dy);
+    this.distance += Math.hypot(dx, dy);
     this.longPress.move(event);
     if (this.fingers.size === 1 && this.toolHasDrag) this.offer(event, "move", this.button);
     else if (this.fingers.size === 1) this.drag(dx, dy, event.shiftKey);
@@ -136,7 +136,7 @@ export class SceneInput {
   /** The last finger leaves. */
   private leave(event: PointerEvent, kind: "up" | "cancel"): void {
     // the tool also hears of a click whose press it left to the camera
-    const isClick = kind === "up" && this.way < CLICK;
+    const isClick = kind === "up" && this.distance < CLICK;
     if (this.toolHasDrag || isClick) this.offer(event, kind, this.button);
     if (isClick && this.button === 2 && !this.toolHasDrag) this.menu({ x: event.offsetX, y: event.offsetY });
     this.toolHasDrag = false;
@@ -144,7 +144,7 @@ export class SceneInput {
 
   /** A finger has rested: what follows is no click. */
   private rest(at: Point): void {
-    this.way = CLICK;
+    this.distance = CLICK;
     this.menu(at);
   }
 

@@ -22,7 +22,7 @@ import { LabelSet } from "./label_layer";
 import { OffscreenPicture } from "./offscreen_picture";
 import { pickBox } from "./box_picking";
 import type { Pane } from "./panes/pane";
-import { panePlaces, type PanePlace } from "./panes/pane_layout";
+import { paneAreas, type PaneArea } from "./panes/pane_layout";
 import { ScenePanes } from "./panes/scene_panes";
 import { Picker, type PictureSize } from "./picking";
 import type { DrawStep, Label, Pick, PictureBox, SceneStatus, SceneView } from "./scene_view";
@@ -156,13 +156,13 @@ export class ThreeScene implements SceneView {
       throw new Error("Nothing can be drawn now.");
     const ratio = height / this.size.peek().height;
     const size = { width: width / ratio, height: height / ratio };
-    const places = panePlaces(this.panes.layout.peek(), size, NO_INSETS, 0);
-    this.draw(size, ratio, places);
+    const areas = paneAreas(this.panes.layout.peek(), size, NO_INSETS, 0);
+    this.draw(size, ratio, areas);
     this.show();
     const { drawingBufferWidth, drawingBufferHeight } = this.renderer.getContext();
     context.drawImage(this.element, 0, 0, width, height);
     this.panes.shown.peek().forEach(({ labels }, index) => {
-      const area = places[index]?.area;
+      const area = areas[index]?.area;
       if (area !== undefined)
         context.drawImage(labels.canvas, area.left * ratio, area.top * ratio, area.width * ratio, area.height * ratio);
     });
@@ -215,7 +215,7 @@ export class ThreeScene implements SceneView {
       () => observer.disconnect(),
       effect(() => {
         this.panes.shown.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- other panes are another picture
-        this.panes.places.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- and other places
+        this.panes.areas.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- and other places
         this.ground.visible = this.grid.value;
         const background = new Color(this.background.value);
         this.ground.setBackground(background);
@@ -258,7 +258,7 @@ export class ThreeScene implements SceneView {
     for (const callback of this.ticks) callback(elapsed);
     if (!this.isChanged || !this.isPlaced || this.status.peek().kind === "lost") return;
     this.isChanged = false;
-    if (this.draw(this.size.peek(), this.ratio, this.panes.places.peek()) || offscreen === null) this.show();
+    if (this.draw(this.size.peek(), this.ratio, this.panes.areas.peek()) || offscreen === null) this.show();
     else offscreen.begin();
   }
 
@@ -283,14 +283,14 @@ export class ThreeScene implements SceneView {
   }
 
   /** Draw a picture, which `show` puts before the person; true: the canvas has another size, and is empty. */
-  private draw(size: PictureSize, ratio: number, places: readonly PanePlace[]): boolean {
+  private draw(size: PictureSize, ratio: number, areas: readonly PaneArea[]): boolean {
     const isResized = this.fit(size, ratio);
     const { renderer } = this;
     const shown = this.panes.shown.peek();
     if (renderer !== null) for (const step of this.steps) step.before?.(renderer);
     for (let i = 0; i < shown.length; i += 1) {
       const pane = shown[i];
-      const place = places[i];
+      const place = areas[i];
       if (pane !== undefined && place !== undefined) this.drawPane(pane, place, ratio, shown.length > 1 ? size : null);
     }
     if (renderer !== null && shown.length > 1) {
@@ -308,7 +308,7 @@ export class ThreeScene implements SceneView {
   }
 
   /** Draw a pane, which is a part of a picture of this size; null: it is the whole picture. */
-  private drawPane(pane: Pane, place: PanePlace, ratio: number, whole: PictureSize | null): void {
+  private drawPane(pane: Pane, place: PaneArea, ratio: number, whole: PictureSize | null): void {
     const { renderer } = this;
     const { area } = place;
     pane.fit(place);

@@ -7,7 +7,7 @@ import type { CameraInfo } from "../protocol/generated/page_messages";
 import type { Property, Triple, YamlMapping } from "../rviz/properties";
 
 import type { Area } from "./free_area";
-import type { PaneLayout, PanePlace } from "./panes/pane_layout";
+import type { PaneLayout, PaneArea } from "./panes/pane_layout";
 
 export type SixSides = "front" | "back" | "left" | "right" | "top" | "bottom";
 
@@ -23,7 +23,7 @@ export interface ViewController {
 /** A part of the scene that has a view of its own. */
 export interface ViewPane {
   readonly current: ReadonlySignal<ViewController>;
-  readonly place: ReadonlySignal<PanePlace>;
+  readonly place: ReadonlySignal<PaneArea>;
   /** Where in the pane the picture of the camera is that is looked through [px]; null: none is. */
   readonly cameraFrame: ReadonlySignal<Area | null>;
   /** Take the view of a file. */

@@ -112,8 +112,8 @@ export class CovarianceVisual extends Group {
     const width = (variance: number): number =>
       2 * offset * Math.tan(Math.min(WIDEST, property.orientationScale.value.value * Math.sqrt(variance)));
     const color = (axis: number): Rgb => {
-      const own = AXIS_RGB[axis] ?? [255, 255, 255];
-      return property.colorStyle.value.value === "RGB" ? own : property.orientationColor.value.value;
+      const axisColor = AXIS_RGB[axis] ?? [255, 255, 255];
+      return property.colorStyle.value.value === "RGB" ? axisColor : property.orientationColor.value.value;
     };
     const alpha = property.orientationAlpha.value.value;
     this.triangle.visible = planar;

@@ -6,7 +6,7 @@ import { BillboardLines } from "./billboard_lines";
 
 /** Points are kept at least this far apart [m], and no more than so many. */
 const SPACING = 0.05;
-const MOST = 1000;
+const MAX_POINTS = 1000;
 const RGBA = [0, 0.5, 0.5, 1] as const;
 
 export class Trail extends BillboardLines {
@@ -22,7 +22,7 @@ export class Trail extends BillboardLines {
     if (position.distanceTo(this.last) < SPACING) return;
     this.last.copy(position);
     this.points.push(position.x, position.y, position.z);
-    if (this.points.length > 3 * MOST) this.points = this.points.slice(-3 * MOST);
+    if (this.points.length > 3 * MAX_POINTS) this.points = this.points.slice(-3 * MAX_POINTS);
     this.begin();
     this.addPolyline(this.points, RGBA);
     this.finish();

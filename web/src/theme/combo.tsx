@@ -22,7 +22,7 @@ export function Combo({ label, value, choices, onCommit }: ComboProps): JSX.Elem
   const [at, setAt] = useState(-1);
   const id = useId();
   const anchor = useRef<HTMLSpanElement>(null);
-  const found = draft === null ? [] : matching(choices(), draft === value ? "" : draft);
+  const matches = draft === null ? [] : matching(choices(), draft === value ? "" : draft);
   const leave = (): void => {
     setDraft(null);
     setAt(-1);
@@ -35,8 +35,8 @@ export function Combo({ label, value, choices, onCommit }: ComboProps): JSX.Elem
     const step = event.key === "ArrowDown" ? 1 : event.key === "ArrowUp" ? -1 : 0;
     if (step !== 0 && !event.altKey) {
       setDraft(draft ?? value);
-      setAt(Math.max(-1, Math.min(found.length - 1, at + step)));
-    } else if (event.key === "Enter") commit(found[at]?.value ?? draft ?? value);
+      setAt(Math.max(-1, Math.min(matches.length - 1, at + step)));
+    } else if (event.key === "Enter") commit(matches[at]?.value ?? draft ?? value);
     else if (event.key === "Escape") {
       leave();
       event.currentTarget.blur();
@@ -50,7 +50,7 @@ export function Combo({ label, value, choices, onCommit }: ComboProps): JSX.Elem
         <input
           role="combobox"
           aria-label={label}
-          aria-expanded={found.length > 0}
+          aria-expanded={matches.length > 0}
           aria-controls={id}
           aria-autocomplete="list"
           aria-activedescendant={at >= 0 ? `${id}-${at}` : undefined}
@@ -73,10 +73,10 @@ export function Combo({ label, value, choices, onCommit }: ComboProps): JSX.Elem
         id={id}
         role="listbox"
         aria-label={label}
-        class={found.length > 0 ? "menu" : "sr"}
+        class={matches.length > 0 ? "menu" : "sr"}
         ref={(list) => put(list, anchor.current)}
       >
-        {found.map((choice, index) => (
+        {matches.map((choice, index) => (
           <span
             key={choice.value}
             id={`${id}-${index}`}
@@ -102,7 +102,7 @@ function put(list: HTMLElement | null, anchor: HTMLElement | null): void {
 
 /** Choices that contain a text, those that begin with it first. */
 function matching(choices: readonly Choice[], text: string): readonly Choice[] {
-  const wanted = text.toLowerCase();
-  const rank = (choice: Choice): number => choice.value.toLowerCase().indexOf(wanted);
+  const query = text.toLowerCase();
+  const rank = (choice: Choice): number => choice.value.toLowerCase().indexOf(query);
   return choices.filter((choice) => rank(choice) >= 0).sort((a, b) => Number(rank(a) > 0) - Number(rank(b) > 0));
 }

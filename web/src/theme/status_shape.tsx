@@ -14,9 +14,10 @@ export function StatusShape({
   readonly level: StatusLevel;
   readonly label?: string;
 }): JSX.Element {
-  const said = label === "" ? ({ "aria-hidden": true } as const) : ({ role: "img", "aria-label": label } as const);
+  const accessibility =
+    label === "" ? ({ "aria-hidden": true } as const) : ({ role: "img", "aria-label": label } as const);
   return (
-    <svg class={`st ${level}`} viewBox="0 0 12 12" {...said}>
+    <svg class={`st ${level}`} viewBox="0 0 12 12" {...accessibility}>
       {level === "ok" && <circle cx="6" cy="6" r="4" fill="currentColor" />}
       {level === "none" && <circle cx="6" cy="6" r="3.6" fill="none" stroke="currentColor" stroke-width="1.6" />}
       {level === "warn" && <path d="M6 1.2L11.3 10.8H.7z" fill="currentColor" />}

@@ -22,17 +22,17 @@ export function TextField(props: TextFieldProps): JSX.Element {
   const { label, value, check = () => null, onCommit, placeholder, disabled, before, after, onKey } = props;
   const [draft, setDraft] = useState<string | null>(null);
   /** What it showed when it got the focus or a click: a number that moves would take the selection away before anything is typed. */
-  const [held, setHeld] = useState<string | null>(null);
+  const [committed, setCommitted] = useState<string | null>(null);
   const input = useRef<HTMLInputElement>(null);
   const fault = draft === null ? null : check(draft);
-  const shown = draft ?? held ?? value;
+  const shown = draft ?? committed ?? value;
   const showValue = (): void => {
     setDraft(null);
-    setHeld(null);
+    setCommitted(null);
   };
   /** The text as the browser has it: a key may come before the last one is drawn. */
   const commit = (text: string): void => {
-    if (text !== (held ?? value) && check(text) === null) onCommit(text);
+    if (text !== (committed ?? value) && check(text) === null) onCommit(text);
     showValue();
   };
   useLayoutEffect(() => {
@@ -48,7 +48,7 @@ export function TextField(props: TextFieldProps): JSX.Element {
       if (check(event.currentTarget.value) === null) commit(event.currentTarget.value);
       input.current?.select();
     } else if (event.key === "Escape") {
-      event.currentTarget.value = held ?? value;
+      event.currentTarget.value = committed ?? value;
       event.currentTarget.blur();
     } else return;
     event.stopPropagation();
@@ -67,10 +67,10 @@ export function TextField(props: TextFieldProps): JSX.Element {
           spellcheck={false}
           autocomplete="off"
           onFocus={(event) => {
-            setHeld(value);
+            setCommitted(value);
             event.currentTarget.select();
           }}
-          onClick={() => setHeld(held ?? value)}
+          onClick={() => setCommitted(committed ?? value)}
           onInput={(event) => setDraft(event.currentTarget.value)}
           onBlur={(event) => commit(event.currentTarget.value)}
           onKeyDown={keyDown}

@@ -14,10 +14,10 @@ export function Tooltips(): JSX.Element | null {
     let timer = 0;
     const show = (event: Event): void => {
       clearTimeout(timer);
-      const found = event.target instanceof Element ? event.target.closest<HTMLElement>("[data-tip]") : null;
-      if (event.type === "focusin" && found?.matches(":focus-visible") !== true) return;
-      if (found === null) setOwner(null);
-      else timer = window.setTimeout(() => setOwner(found), DELAY);
+      const element = event.target instanceof Element ? event.target.closest<HTMLElement>("[data-tip]") : null;
+      if (event.type === "focusin" && element?.matches(":focus-visible") !== true) return;
+      if (element === null) setOwner(null);
+      else timer = window.setTimeout(() => setOwner(element), DELAY);
     };
     const hide = (): void => {
       clearTimeout(timer);

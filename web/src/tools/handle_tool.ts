@@ -46,7 +46,7 @@ export abstract class HandleTool extends BaseTool {
   private readonly target: ReadonlySignal<HandleTarget | null>;
   private dragged: Dragged | null = null;
   private pointed: PointerInput | null = null;
-  private sinceAsked = 0;
+  private sinceRequest = 0;
   private stops: (() => void)[] = [];
   private readonly requests = new LatestRequest(() => this.abandon());
 
@@ -60,7 +60,7 @@ export abstract class HandleTool extends BaseTool {
   }
 
   /** What is said while nothing is dragged. */
-  protected abstract readonly said: string;
+  protected abstract readonly usage: string;
   /** Handles of a target, in the axes of the handles. */
   protected abstract handlesOf(target: HandleTarget): readonly Handle[];
   /** The handle that a press on the target itself stands for; null: none. */
@@ -92,7 +92,7 @@ export abstract class HandleTool extends BaseTool {
               ? this.handlesOf(target)
               : [{ kind: target.axis.turns ? "ring" : "axis", axis: target.axis.direction }],
         );
-        this.hint.value = target === null ? "Click what to move." : this.said;
+        this.hint.value = target === null ? "Click what to move." : this.usage;
         scene.invalidate();
       }),
     ];
@@ -198,10 +198,10 @@ export abstract class HandleTool extends BaseTool {
   /** Where the pointer meets something else than the target, in the world. */
   private surfaceUnder(target: HandleTarget, { x, y }: PointerInput): Vector3 | null {
     const { scene } = this.context;
-    const own = target.bodies.flatMap((body) => this.editor.world.object(body) ?? []);
-    for (const object of own) object.userData[NOT_PICKED] = true;
+    const objects = target.bodies.flatMap((body) => this.editor.world.object(body) ?? []);
+    for (const object of objects) object.userData[NOT_PICKED] = true;
     const point = scene.pick(x, y)?.point ?? scene.pickGround(x, y);
-    for (const object of own) object.userData[NOT_PICKED] = false;
+    for (const object of objects) object.userData[NOT_PICKED] = false;
     return point?.clone().applyMatrix4(this.worldFromFixed()) ?? null;
   }
 
@@ -210,7 +210,7 @@ export abstract class HandleTool extends BaseTool {
     this.dragged = null;
     this.requests.clear();
     this.handles.light(null);
-    this.hint.value = this.said;
+    this.hint.value = this.usage;
     if (drawn.release !== null) void this.send(target, drawn.release);
     const [after, before] = [drawn.place(to), drawn.place(from)];
     const isMoved = !to.position.equals(from.position) || !to.orientation.equals(from.orientation);
@@ -230,10 +230,10 @@ export abstract class HandleTool extends BaseTool {
   }
 
   private ask({ target, drawn, to }: Dragged): void {
-    this.sinceAsked = 0;
-    const asked = drawn.move(to);
-    if (asked === null) return;
-    this.requests.send(() => this.send(target, asked));
+    this.sinceRequest = 0;
+    const request = drawn.move(to);
+    if (request === null) return;
+    this.requests.send(() => this.send(target, request));
   }
 
   private send(target: HandleTarget, { request, fields }: Request): Promise<boolean> {
@@ -241,9 +241,9 @@ export abstract class HandleTool extends BaseTool {
   }
 
   private tick(elapsed: number): void {
-    this.sinceAsked += elapsed;
+    this.sinceRequest += elapsed;
     const { dragged, pointed } = this;
-    if (dragged !== null && dragged.drawn.release !== null && this.sinceAsked > RENEWAL) this.ask(dragged);
+    if (dragged !== null && dragged.drawn.release !== null && this.sinceRequest > RENEWAL) this.ask(dragged);
     this.pointed = null;
     if (dragged !== null || pointed === null || pointed.button >= 0) return;
     this.placeForPointer();

@@ -22,7 +22,7 @@ export class InsertTool extends BaseTool implements Inserter {
   /** What is being inserted; null: nothing is chosen. */
   readonly chosen = signal<Insertable | null>(null);
   /** Inserts something at a point of the world [m]. */
-  onPlace: (thing: Insertable, point: Vector3) => void = () => undefined;
+  onPlace: (item: Insertable, point: Vector3) => void = () => undefined;
   private ghost: InsertionGhost | null = null;
 
   activate(): void {
@@ -34,18 +34,18 @@ export class InsertTool extends BaseTool implements Inserter {
   }
 
   /** Have something follow the pointer; null: nothing any more. */
-  choose(thing: Insertable | null): void {
+  choose(item: Insertable | null): void {
     const { scene } = this.context;
     this.ghost?.dispose();
     this.ghost = null;
-    this.chosen.value = thing;
+    this.chosen.value = item;
     this.hint.value =
-      thing === null
+      item === null
         ? "Choose what to insert."
-        : `Click where the ${thing.title} is to be. Enter: in the middle. Esc: nowhere.`;
-    if (thing !== null) {
+        : `Click where the ${item.title} is to be. Enter: in the middle. Esc: nowhere.`;
+    if (item !== null) {
       const accent = getComputedStyle(scene.element).getPropertyValue("--accent").trim() || "#3fbed0";
-      this.ghost = new InsertionGhost(thing, new Color(accent), () => scene.invalidate());
+      this.ghost = new InsertionGhost(item, new Color(accent), () => scene.invalidate());
       this.ghost.visible = false;
       scene.world.add(this.ghost);
     }
@@ -78,10 +78,10 @@ export class InsertTool extends BaseTool implements Inserter {
 
   /** Insert what is chosen where a point of the view [px] meets the world; the tool's work is done. */
   place(x: number, y: number): void {
-    const thing = this.chosen.peek();
+    const item = this.chosen.peek();
     const point = this.meet(x, y);
-    if (thing === null || point === null) return;
-    this.onPlace(thing, point);
+    if (item === null || point === null) return;
+    this.onPlace(item, point);
     this.choose(null);
     this.finish();
   }
@@ -90,7 +90,7 @@ export class InsertTool extends BaseTool implements Inserter {
   placeInMiddle(): void {
     const { left, top, width, height } = this.context.scene.freePart.peek();
     const x = left + width / 2;
-    const y = DOWN.map((share) => top + share * height).find((each) => this.meet(x, each) !== null);
+    const y = DOWN.map((share) => top + share * height).find((candidate) => this.meet(x, candidate) !== null);
     if (y !== undefined) this.place(x, y);
     else this.hint.value = "Nothing but sky is seen: turn the view down.";
   }

@@ -31,14 +31,14 @@ export class InsertionGhost extends Group {
 
   /** `onChange`: more of it has come. */
   constructor(
-    thing: Insertable,
+    item: Insertable,
     private readonly color: Color,
     private readonly onChange: () => void,
   ) {
     super();
     this.userData[NOT_PICKED] = true;
-    if (thing.kind === "model") void this.load(thing.name);
-    else this.show(thing.kind === "shape" ? shapeOf(thing.name) : lightOf(HEIGHTS[thing.name]));
+    if (item.kind === "model") void this.load(item.name);
+    else this.show(item.kind === "shape" ? shapeOf(item.name) : lightOf(HEIGHTS[item.name]));
   }
 
   override dispose(): void {
@@ -47,15 +47,15 @@ export class InsertionGhost extends Group {
     this.traverse((object) => {
       const { geometry, material } = object as Partial<Mesh>;
       geometry?.dispose();
-      for (const each of [material ?? []].flat()) each.dispose();
+      for (const part of [material ?? []].flat()) part.dispose();
     });
   }
 
   /** Add an object whose origin is the point below the pointer. */
   private show(object: Object3D): void {
-    object.traverse((each) => {
-      each.userData[NOT_PICKED] = true;
-      if (each instanceof Mesh) each.material = seeThrough((each as Mesh).material as MeshStandardMaterial);
+    object.traverse((part) => {
+      part.userData[NOT_PICKED] = true;
+      if (part instanceof Mesh) part.material = seeThrough((part as Mesh).material as MeshStandardMaterial);
     });
     const bounds = new Box3Helper(new Box3().setFromObject(object), this.color);
     bounds.userData[NOT_PICKED] = true;

@@ -29,9 +29,9 @@ function nameOf(object: Object3D): string {
 
 /** One selection of several picks; links of the world only where nothing else is picked. */
 export function selectionOfAll(picks: readonly Pick[]): Selection | null {
-  const found = picks.flatMap((pick) => selectionOf(pick) ?? []);
-  const drawn = found.filter((selection) => selection.kind === "picked");
-  if (drawn.length === 0) return found[0] ?? null;
+  const selections = picks.flatMap((pick) => selectionOf(pick) ?? []);
+  const drawn = selections.filter((selection) => selection.kind === "picked");
+  if (drawn.length === 0) return selections[0] ?? null;
   const [first] = drawn;
   if (drawn.length === 1 && first !== undefined) return first;
   const fields = Object.fromEntries(drawn.map(({ title, fields }, index) => [`${title} ${index + 1}`, fields]));

@@ -6,7 +6,7 @@ import type { PointerInput } from "../scene/pointer_input";
 
 /** Smaller boxes are clicks [px]. */
 const CLICK = 4;
-const MOST = 500;
+const MAX_PICKED = 500;
 
 export class Select extends BaseTool {
   readonly className = "rviz/Select";
@@ -48,7 +48,7 @@ export class Select extends BaseTool {
     const { scene, selection } = this.context;
     const box = boxOf(from, to);
     const isClick = box.right - box.left < CLICK && box.bottom - box.top < CLICK;
-    selection.value = isClick ? selectionOf(scene.pick(to.x, to.y)) : selectionOfAll(scene.pickBox(box, MOST));
+    selection.value = isClick ? selectionOf(scene.pick(to.x, to.y)) : selectionOfAll(scene.pickBox(box, MAX_PICKED));
   }
 
   private draw(from: PointerInput, to: PointerInput): void {

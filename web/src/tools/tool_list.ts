@@ -59,7 +59,7 @@ export class ToolList implements ToolBox {
   }
 
   use(className: string): void {
-    const tool = this.tools.find((each) => each.className === className);
+    const tool = this.tools.find((candidate) => candidate.className === className);
     if (tool === undefined || tool === this.chosen.peek()) return;
     this.chosen.peek().deactivate();
     this.chosen.value = tool;

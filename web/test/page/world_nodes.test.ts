@@ -1,10 +1,10 @@
 import { describe, expect, it } from "vitest";
 
-import { keyOf, seenNodes, worldNode } from "../../src/page/world_nodes";
+import { keyOf, visibleNodes, worldNode } from "../../src/page/world_nodes";
 import { MANIFEST } from "../harness/manifest";
 
 const labels = (search: string, open = true): string[] =>
-  seenNodes(worldNode(MANIFEST), () => open, search).map(({ node, depth }) => `${"  ".repeat(depth)}${node.label}`);
+  visibleNodes(worldNode(MANIFEST), () => open, search).map(({ node, depth }) => `${"  ".repeat(depth)}${node.label}`);
 
 describe("the world's tree", () => {
   it("has models, their groups, sensors below their link, and lights", () => {
@@ -33,7 +33,7 @@ describe("the world's tree", () => {
       ...MANIFEST,
       models: [{ ...MANIFEST.models[2], name: "outer", models: robot === undefined ? [] : [robot] }],
     } as typeof MANIFEST;
-    const keys = seenNodes(worldNode(nested), () => true, "chassis").map(({ node }) => node.key);
+    const keys = visibleNodes(worldNode(nested), () => true, "chassis").map(({ node }) => node.key);
     expect(keys).toContain(keyOf({ kind: "link", model: "outer::rp2w", link: "chassis" }));
   });
 });

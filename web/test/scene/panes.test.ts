@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import { expect, test } from "vitest";
 
 import { LabelSet } from "../../src/scene/label_layer";
-import { panePlaces } from "../../src/scene/panes/pane_layout";
+import { paneAreas } from "../../src/scene/panes/pane_layout";
 import { ScenePanes } from "../../src/scene/panes/scene_panes";
 
 const SIZE = { width: 1000, height: 600 };
@@ -14,11 +14,11 @@ function setUp() {
 }
 
 test("one pane is the whole scene", () => {
-  expect(panePlaces("one", SIZE, INSETS, 40)).toEqual([{ area: { left: 0, top: 0, ...SIZE }, insets: INSETS }]);
+  expect(paneAreas("one", SIZE, INSETS, 40)).toEqual([{ area: { left: 0, top: 0, ...SIZE }, insets: INSETS }]);
 });
 
 test("the free part is halved, and each panel covers the panes beside it", () => {
-  const [right, left, bottom, corner] = panePlaces("four", SIZE, INSETS, 40);
+  const [right, left, bottom, corner] = paneAreas("four", SIZE, INSETS, 40);
   expect(left).toEqual({
     area: { left: 0, top: 0, width: 600, height: 210 },
     insets: { left: 300, right: 0, top: 50, bottom: 0 },

@@ -28,10 +28,10 @@ export function cameraTopics(
   const taken = new Set(shown.filter(({ display }) => display?.className === "rviz/Image").map(({ topic }) => topic));
   const cameras = (manifest?.cameras ?? []).map(({ name, topic, rate }) => ({ name, topic, rate }));
   const known = new Set([...taken, ...cameras.map((camera) => camera.topic)]);
-  const asked = session.images
+  const requested = session.images
     .filter((topic) => !known.has(topic))
     .map((topic) => ({ name: topic.replace(/^\//, ""), topic, rate: null }));
-  return [...asked, ...cameras.filter(({ topic }) => !taken.has(topic)), ...shown];
+  return [...requested, ...cameras.filter(({ topic }) => !taken.has(topic)), ...shown];
 }
 
 /** What tells tiles apart: a topic may have one by itself and one with the scene over it. */

@@ -4,12 +4,12 @@ import type { JSX } from "preact";
 
 import { Button } from "../../theme/button";
 import { Dialog } from "./dialog";
-import type { AskedCode } from "../insert/insertion";
+import type { CodeConsent } from "../insert/insertion";
 import type { Shell } from "../shell";
 
-export function CodeDialog({ shell, code }: { readonly shell: Shell; readonly code: AskedCode }): JSX.Element {
+export function CodeDialog({ shell, code }: { readonly shell: Shell; readonly code: CodeConsent }): JSX.Element {
   const close = (): void => {
-    shell.insertion.asked.value = null;
+    shell.insertion.consentRequest.value = null;
   };
   const agree = (): void => {
     close();

@@ -20,7 +20,7 @@ export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | nul
   const dialog = shell.dialog.value;
   const question = shell.editor.question.value;
   if (question !== null) return <AskDialog shell={shell} question={question} />;
-  const code = shell.insertion.asked.value;
+  const code = shell.insertion.consentRequest.value;
   if (code !== null) return <CodeDialog shell={shell} code={code} />;
   if (dialog === "palette") return <Palette shell={shell} />;
   if (dialog === "help") return <Help shell={shell} />;

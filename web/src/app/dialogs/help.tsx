@@ -78,9 +78,9 @@ function Group({
     <section>
       <h3>{title}</h3>
       <dl>
-        {entries.map(([keys, what]) => (
-          <div key={keys + what}>
-            <dt>{what}</dt>
+        {entries.map(([keys, description]) => (
+          <div key={keys + description}>
+            <dt>{description}</dt>
             <dd>
               <kbd>{keys.replace("Escape", "Esc")}</kbd>
             </dd>

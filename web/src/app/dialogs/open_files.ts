@@ -42,6 +42,6 @@ async function open(shell: Shell, file: File | undefined): Promise<void> {
   const text = await file.text();
   shell.display.value = null;
   for (const fault of displays.load(text)) shell.notices.report(file.name, fault, "warn");
-  shell.ownFile.value = { name: file.name, writable: false };
+  shell.openedFile.value = { name: file.name, writable: false };
   shell.layout.open("displays");
 }

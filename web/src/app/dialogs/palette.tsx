@@ -13,7 +13,7 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
   const text = useSignal("");
   const at = useSignal(0);
   const list = useRef<HTMLDivElement>(null);
-  const found = useComputed(() => search(shell.commands.all.value, text.value)); // keys may come before the list is drawn
+  const matches = useComputed(() => search(shell.commands.all.value, text.value)); // keys may come before the list is drawn
   const close = (): void => {
     shell.dialog.value = null;
   };
@@ -28,8 +28,8 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
   );
   const keyDown = (event: KeyboardEvent): void => {
     const step = event.key === "ArrowDown" ? 1 : event.key === "ArrowUp" ? -1 : 0;
-    if (event.key === "Enter") run(found.value[at.value]);
-    else if (step !== 0) at.value = Math.max(0, Math.min(found.value.length - 1, at.value + step));
+    if (event.key === "Enter") run(matches.value[at.value]);
+    else if (step !== 0) at.value = Math.max(0, Math.min(matches.value.length - 1, at.value + step));
     else return;
     event.preventDefault();
   };
@@ -42,7 +42,7 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
           aria-label="Search commands"
           aria-expanded="true"
           aria-controls="palette-list"
-          aria-activedescendant={found.value.length > 0 ? `palette-${at.value}` : undefined}
+          aria-activedescendant={matches.value.length > 0 ? `palette-${at.value}` : undefined}
           placeholder="Search commands"
           autoFocus
           onInput={(event) => {
@@ -53,7 +53,7 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
         />
       </label>
       <div ref={list} id="palette-list" class="scroll" role="listbox" aria-label="Commands">
-        {found.value.map((command, index) => (
+        {matches.value.map((command, index) => (
           <div
             key={command.id}
             id={`palette-${index}`}
@@ -68,7 +68,7 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
           </div>
         ))}
       </div>
-      {found.value.length === 0 && <p class="empty">No command is named so.</p>}
+      {matches.value.length === 0 && <p class="empty">No command is named so.</p>}
     </Dialog>
   );
 }

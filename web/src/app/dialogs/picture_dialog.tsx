@@ -19,8 +19,8 @@ const SIZES = [
 
 export function PictureDialog({ shell }: { readonly shell: Shell }): JSX.Element {
   const { scene, session } = shell.page;
-  const own = scene.size.value;
-  const size = useSignal<readonly [number, number]>([Math.round(own.width), Math.round(own.height)]);
+  const sceneSize = scene.size.value;
+  const size = useSignal<readonly [number, number]>([Math.round(sceneSize.width), Math.round(sceneSize.height)]);
   const fault = useSignal("");
   const [width, height] = size.value;
   const close = (): void => {

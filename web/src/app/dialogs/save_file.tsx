@@ -12,7 +12,7 @@ import { Dialog } from "./dialog";
 export interface SaveFileProps {
   readonly shell: Shell;
   readonly title: string;
-  readonly what: "File" | "Folder";
+  readonly kind: "File" | "Folder";
   /** Name to begin with; null: the folder cannot be written. */
   readonly offered: string | null;
   /** Ending that a name gets that has none. */
@@ -26,7 +26,7 @@ export interface SaveFileProps {
 export function SaveFile({
   shell,
   title,
-  what,
+  kind,
   offered,
   ending = "",
   note,
@@ -51,7 +51,7 @@ export function SaveFile({
     }
   };
   const isUsable = offered !== null && name.value.trim() !== "" && !isBusy.value;
-  const said = exists.value === null ? fault.value : question(exists.value);
+  const message = exists.value === null ? fault.value : question(exists.value);
   return (
     <Dialog title={title} class="ask" onClose={() => (shell.dialog.value = null)}>
       <form
@@ -66,11 +66,11 @@ export function SaveFile({
           </p>
         ) : (
           <label>
-            {what}, below the folder where Trundle was started
-            <span class={`field${said === "" ? "" : " wrong"}`}>
+            {kind}, below the folder where Trundle was started
+            <span class={`field${message === "" ? "" : " wrong"}`}>
               <input
-                aria-label={what}
-                aria-invalid={said !== ""}
+                aria-label={kind}
+                aria-invalid={message !== ""}
                 value={name.value}
                 spellcheck={false}
                 autocomplete="off"
@@ -90,9 +90,9 @@ export function SaveFile({
             </span>
           </label>
         )}
-        {said !== "" && (
+        {message !== "" && (
           <p class="fault" role="alert">
-            {said}
+            {message}
           </p>
         )}
         <p class="sm t2">{note}</p>

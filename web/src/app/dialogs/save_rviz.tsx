@@ -12,7 +12,7 @@ export function SaveRviz({ shell }: { readonly shell: Shell }): JSX.Element {
     <SaveFile
       shell={shell}
       title="Save as .rviz"
-      what="File"
+      kind="File"
       offered={rvizFile(shell)?.name ?? newName(shell)}
       ending=".rviz"
       note="What is shown, the views and the tools, as rviz reads them."
@@ -20,7 +20,7 @@ export function SaveRviz({ shell }: { readonly shell: Shell }): JSX.Element {
         const answer = await connection.request("save_rviz_as", { file, text: displays.save(), replace });
         if ("exists" in answer) return answer;
         displays.markSaved();
-        shell.ownFile.value = { name: answer.file, writable: true };
+        shell.openedFile.value = { name: answer.file, writable: true };
         return null;
       }}
       download={() => download(shell)}

@@ -22,7 +22,7 @@ export function SaveWorld({ shell }: { readonly shell: Shell }): JSX.Element {
     <SaveFile
       shell={shell}
       title="Save the world as SDF"
-      what="File"
+      kind="File"
       offered={world.manifest.value?.file ?? null}
       note="What was changed is saved, where everything stands now. It starts at rest, at time 0."
       save={async (file, replace) => {

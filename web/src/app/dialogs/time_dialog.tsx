@@ -12,8 +12,8 @@ import type { Shell } from "../shell";
 import { Dialog } from "./dialog";
 
 const NS = 1e9;
-const MOST_STEPS = 1_000_000;
-const MOST_S = 9e9;
+const MAX_STEPS = 1_000_000;
+const MAX_TIME = 9e9;
 
 export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
   const { connection, session, world } = shell.page;
@@ -36,7 +36,7 @@ export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
             value={time.value}
             unit="s"
             min={0}
-            max={MOST_S}
+            max={MAX_TIME}
             onCommit={(value) => (time.value = value)}
           />
           <Button tone="line" disabled={state === null} onClick={() => void ask(...requestTo(time.value, state))}>
@@ -51,7 +51,7 @@ export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
               value={steps.value}
               integer
               min={1}
-              max={MOST_STEPS}
+              max={MAX_STEPS}
               onCommit={(value) => (steps.value = value)}
             />
             <Button tone="line" onClick={() => void ask("step", { count: steps.value })}>

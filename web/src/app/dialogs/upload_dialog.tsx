@@ -13,7 +13,7 @@ import { Dialog } from "./dialog";
 export function UploadDialog({ shell }: { readonly shell: Shell }): JSX.Element {
   const { upload } = shell.insertion;
   const title = upload.title.value;
-  const choose = (what: "file" | "folder"): void => chooseModel(what, (files) => void upload.send(files));
+  const choose = (kind: "file" | "folder"): void => chooseModel(kind, (files) => void upload.send(files));
   return (
     <Dialog title="Upload a model" class="save" onClose={() => (shell.dialog.value = null)}>
       <div class="form">
@@ -35,7 +35,7 @@ export function UploadDialog({ shell }: { readonly shell: Shell }): JSX.Element 
   );
 }
 
-function Choices({ choose }: { readonly choose: (what: "file" | "folder") => void }): JSX.Element {
+function Choices({ choose }: { readonly choose: (kind: "file" | "folder") => void }): JSX.Element {
   return (
     <>
       <span>Drop a .zip, a folder, an .sdf or an .urdf here</span>

@@ -122,8 +122,8 @@ function VectorEditor({ property, onCommit }: KindProps<VectorProperty>): JSX.El
       class="small bare"
       check={(text) => (vectorOf(text) === null ? "Three numbers: 0; 0; 0.5" : null)}
       onCommit={(text) => {
-        const found = vectorOf(text);
-        if (found !== null) onCommit({ X: found[0], Y: found[1], Z: found[2] });
+        const vector = vectorOf(text);
+        if (vector !== null) onCommit({ X: vector[0], Y: vector[1], Z: vector[2] });
       }}
       after={<span class="unit">m</span>}
     />

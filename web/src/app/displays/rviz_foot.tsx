@@ -39,8 +39,8 @@ export function RvizFoot({ shell }: { readonly shell: Shell }): JSX.Element | nu
 }
 
 /** What the displays were read from or saved as last; null: no file. */
-export function rvizFile({ ownFile, page }: Shell): RvizFileInfo | null {
-  return ownFile.value ?? page.session.rviz;
+export function rvizFile({ openedFile, page }: Shell): RvizFileInfo | null {
+  return openedFile.value ?? page.session.rviz;
 }
 
 /** Name for a file that is new: the robot's, else the page's. */
@@ -54,7 +54,7 @@ export function save(shell: Shell): void {
   const { connection, displays } = shell.page;
   const text = displays.save();
   const { rviz } = shell.page.session;
-  const saved = shell.ownFile.peek() ?? (rviz?.saved === true ? rviz : null);
+  const saved = shell.openedFile.peek() ?? (rviz?.saved === true ? rviz : null);
   const done =
     saved === null
       ? connection.request("save_rviz", { text })

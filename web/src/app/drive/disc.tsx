@@ -14,7 +14,8 @@ export function DriveDisc({ drive }: { readonly drive: Drive }): JSX.Element {
   const y = command === null ? 0 : -(command.linear / drive.linearLimit.value) * REACH;
   const reach = Math.max(1, Math.hypot(x, y) / REACH);
   const [cx, cy] = [x / reach, y / reach];
-  const said = command === null ? "stands" : `${fixed(command.linear, 2)} m/s, ${fixed(command.angular, 2)} rad/s`;
+  const velocities =
+    command === null ? "stands" : `${fixed(command.linear, 2)} m/s, ${fixed(command.angular, 2)} rad/s`;
   const drag = (event: TargetedPointerEvent<SVGSVGElement>): void => {
     const box = event.currentTarget.getBoundingClientRect();
     const scale = 112 / box.width / REACH;
@@ -29,7 +30,7 @@ export function DriveDisc({ drive }: { readonly drive: Drive }): JSX.Element {
       class="disc"
       viewBox="-56 -56 112 112"
       role="application"
-      aria-label={`Drive: drag, or hold W A S D; ${said}`}
+      aria-label={`Drive: drag, or hold W A S D; ${velocities}`}
       tabindex={0}
       onPointerDown={(event) => {
         if (event.button !== 0) return;

@@ -1,10 +1,10 @@
 /** Keys and gamepads that drive. */
 
 import { takesKeys } from "../commands";
-import type { Drive, Held } from "../../page/drive";
+import type { Drive, DriveInput } from "../../page/drive";
 
 /** W A S D anywhere on the page, unless a field has the focus. */
-export const WASD: Readonly<Record<string, Held>> = {
+export const WASD: Readonly<Record<string, DriveInput>> = {
   w: { linear: 1, angular: 0 },
   a: { linear: 0, angular: 1 },
   s: { linear: -1, angular: 0 },
@@ -12,7 +12,7 @@ export const WASD: Readonly<Record<string, Held>> = {
 };
 
 /** Keys of teleop_twist_keyboard and arrows, while the disc has the focus. */
-const TELEOP: Readonly<Record<string, Held>> = {
+const TELEOP: Readonly<Record<string, DriveInput>> = {
   u: { linear: 1, angular: 1 },
   i: { linear: 1, angular: 0 },
   o: { linear: 1, angular: -1 },
@@ -36,11 +36,11 @@ export function listenToDriveKeys(drive: Drive, { pads = true } = {}): () => voi
       drive.releaseAll(); // some systems send no keyup while these are held
       return;
     }
-    const held = driveKey(event);
-    if (held === undefined || drive.topic.peek() === null) return;
+    const input = driveKey(event);
+    if (input === undefined || drive.topic.peek() === null) return;
     event.preventDefault();
     event.stopPropagation();
-    if (!event.repeat) drive.hold(`key ${event.code}`, held.linear, held.angular);
+    if (!event.repeat) drive.hold(`key ${event.code}`, input.linear, input.angular);
   };
   const keyUp = (event: KeyboardEvent): void => drive.release(`key ${event.code}`);
   const all = (): void => drive.releaseAll();
@@ -69,7 +69,7 @@ export function listenToDriveKeys(drive: Drive, { pads = true } = {}): () => voi
   };
 }
 
-function driveKey(event: KeyboardEvent): Held | undefined {
+function driveKey(event: KeyboardEvent): DriveInput | undefined {
   const onDisc = event.target instanceof Element && event.target.closest(".disc") !== null;
   if (!onDisc && takesKeys(event.target, event.key)) return undefined;
   const key = event.key.toLowerCase();

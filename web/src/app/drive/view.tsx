@@ -88,9 +88,11 @@ function Limit({ name, full, value, limit, unit }: LimitProps): JSX.Element {
 function Keys({ drive }: { readonly drive: Drive }): JSX.Element {
   const command = drive.command.value;
   const isDown = (key: string): boolean => {
-    const held = WASD[key];
+    const input = WASD[key];
     return (
-      command !== null && held !== undefined && (held.linear * command.linear > 0 || held.angular * command.angular > 0)
+      command !== null &&
+      input !== undefined &&
+      (input.linear * command.linear > 0 || input.angular * command.angular > 0)
     );
   };
   return (

@@ -87,13 +87,13 @@ function Verdict({ draft }: { readonly draft: DraftInfo }): JSX.Element {
   const findings = draft.parts.flatMap((part) => part.findings);
   const errors = findings.filter(({ severity }) => severity === "error").length;
   const warnings = findings.length - errors;
-  const said = [errors > 0 ? count(errors, "error") : "", warnings > 0 ? count(warnings, "warning") : ""].filter(
+  const counts = [errors > 0 ? count(errors, "error") : "", warnings > 0 ? count(warnings, "warning") : ""].filter(
     (text) => text !== "",
   );
   return (
     <p class="verdict sm t2" role="status" aria-label="Check">
       <StatusShape level={errors > 0 ? "error" : warnings > 0 ? "warn" : "ok"} label="" />
-      {said.length === 0 ? "No errors or warnings" : said.join(", ")}
+      {counts.length === 0 ? "No errors or warnings" : counts.join(", ")}
     </p>
   );
 }
@@ -115,7 +115,7 @@ function rows(draft: DraftInfo, shut: ReadonlySet<string>, selected: string | nu
   return shown.map((part) => {
     const key = keyOf(part.part);
     const hasMore = draft.parts.some(
-      (each) => each.part.length > part.part.length && keyOf(each.part.slice(0, part.part.length)) === key,
+      (finding) => finding.part.length > part.part.length && keyOf(finding.part.slice(0, part.part.length)) === key,
     );
     return {
       key,

@@ -48,7 +48,7 @@ export class ModelEditor {
   /** Edit a copy of a model, or a new one beside all that can move. */
   async begin(model: string | null): Promise<void> {
     const { world, views } = this.page;
-    const movable = (world.manifest.peek()?.models ?? []).filter((each) => !each.static);
+    const movable = (world.manifest.peek()?.models ?? []).filter((model) => !model.static);
     const box = world.bounds(movable.flatMap(bodiesOf));
     const x = box.isEmpty() ? 0 : Math.ceil(10 * (box.max.x + BESIDE)) / 10;
     const answer = await this.ask("Edit model", "begin_draft", { model, position: [x, 0, 0] });

@@ -40,9 +40,9 @@ export function PartDrawer({ shell, draft, onClose }: DrawerProps): JSX.Element 
   useEffect(() => {
     void shell.editor.ask("Add", "draft_offers", {}).then((answer) => (offers.value = answer));
   }, [shell]);
-  const wanted = search.value.trim().toLowerCase();
-  const found = offersOf(tab.value, offers.value).filter(({ name, detail }) =>
-    `${name} ${detail}`.toLowerCase().includes(wanted),
+  const query = search.value.trim().toLowerCase();
+  const matches = offersOf(tab.value, offers.value).filter(({ name, detail }) =>
+    `${name} ${detail}`.toLowerCase().includes(query),
   );
   return (
     <section class="drawer" aria-label="Add to the model">
@@ -52,7 +52,7 @@ export function PartDrawer({ shell, draft, onClose }: DrawerProps): JSX.Element 
         <Button icon="close" label="Close this list" small onClick={onClose} />
       </div>
       <Target shell={shell} draft={draft} tab={tab.value} />
-      {found.length + wanted.length > 20 && (
+      {matches.length + query.length > 20 && (
         <label class="field find small">
           <Icon name="find" />
           <input
@@ -64,7 +64,7 @@ export function PartDrawer({ shell, draft, onClose }: DrawerProps): JSX.Element 
         </label>
       )}
       <div class="scroll">
-        {found.map(({ kind, type, name, detail }) => (
+        {matches.map(({ kind, type, name, detail }) => (
           <div class="dr" key={`${kind} ${type}`}>
             <span class="n" data-tip={detail === "" ? name : `${name}: ${detail}`}>
               {name}
@@ -130,7 +130,7 @@ function Target({
   const link = linkAround(path);
   const links = draft.parts.filter((part) => part.tag === "link");
   const sensor = findPart(draft, path)?.tag === "sensor" ? path.at(-1) : undefined;
-  const said = {
+  const hint = {
     joint:
       links.length < 2
         ? "A joint joins two links: add them first."
@@ -144,5 +144,5 @@ function Target({
         ? "On the model; plugins of sensors on the sensor that is selected."
         : `On ${sensor}, if it is a sensor's.`,
   }[tab];
-  return said === undefined ? null : <p class="sm t2 target">{said}</p>;
+  return hint === undefined ? null : <p class="sm t2 target">{hint}</p>;
 }

@@ -10,7 +10,7 @@ export function SaveModel({ shell }: { readonly shell: Shell }): JSX.Element {
     <SaveFile
       shell={shell}
       title="Save the model"
-      what="Folder"
+      kind="Folder"
       offered={shell.editor.draft.value?.folder ?? null}
       note="It gets model.sdf and model.config."
       save={async (folder, replace) => {

@@ -11,24 +11,24 @@ const CLICK = 4;
 
 export interface InsertButtonProps {
   readonly shell: Shell;
-  readonly thing: Insertable;
+  readonly item: Insertable;
   readonly class: string;
   readonly tip?: string;
   readonly children: ComponentChildren;
 }
 
-export function InsertButton({ shell, thing, class: name, tip, children }: InsertButtonProps): JSX.Element {
+export function InsertButton({ shell, item, class: name, tip, children }: InsertButtonProps): JSX.Element {
   const { scene, tools } = shell.page;
   const from = useRef<{ readonly x: number; readonly y: number } | null>(null);
   const isDragged = useRef(false);
   const chosen = tools.insert?.chosen.value ?? null;
-  const isChosen = chosen?.kind === thing.kind && chosen.name === thing.name;
+  const isChosen = chosen?.kind === item.kind && chosen.name === item.name;
   const move = (event: TargetedPointerEvent<HTMLButtonElement>): void => {
     const { current: start } = from;
     if (start === null) return;
     if (!isDragged.current && Math.hypot(event.clientX - start.x, event.clientY - start.y) > CLICK) {
       isDragged.current = true;
-      shell.insertion.choose(thing);
+      shell.insertion.choose(item);
     }
     const at = isDragged.current ? inScene(scene.element, event) : null;
     if (at === null) tools.insert?.hide();
@@ -45,7 +45,7 @@ export function InsertButton({ shell, thing, class: name, tip, children }: Inser
     <button
       type="button"
       class={isChosen ? `${name} on` : name}
-      aria-label={`Insert ${thing.title}`}
+      aria-label={`Insert ${item.title}`}
       aria-pressed={isChosen}
       data-tip={tip}
       onPointerDown={(event) => {
@@ -59,7 +59,7 @@ export function InsertButton({ shell, thing, class: name, tip, children }: Inser
       onPointerCancel={end}
       onClick={({ detail }) => {
         if (isDragged.current) return;
-        shell.insertion.choose(thing);
+        shell.insertion.choose(item);
         if (detail === 0) tools.insert?.placeInMiddle(); // by the keyboard
       }}
     >

@@ -11,7 +11,7 @@ import { ModelUpload, type UploadContext } from "./model_upload";
 import { findModel } from "../../page/selection_lookup";
 
 /** Code that a model would run, of which a person is asked. */
-export interface AskedCode {
+export interface CodeConsent {
   readonly title: string;
   readonly files: readonly string[];
   readonly agree: () => void;
@@ -25,7 +25,7 @@ export interface InsertionContext extends UploadContext {
 export class Insertion {
   /** Null before the server has answered. */
   readonly models = signal<readonly ModelEntry[] | null>(null);
-  readonly asked = signal<AskedCode | null>(null);
+  readonly consentRequest = signal<CodeConsent | null>(null);
   readonly upload: ModelUpload;
 
   constructor(private readonly context: InsertionContext) {
@@ -33,7 +33,7 @@ export class Insertion {
     this.upload = new ModelUpload(context, () => this.list());
     const { insert, current } = page.tools;
     if (insert === null) return;
-    insert.onPlace = (thing, point) => this.place(thing, point);
+    insert.onPlace = (item, point) => this.place(item, point);
     effect(() => {
       if (current.value === insert && insert.chosen.value === null) layout.open("insert");
     });
@@ -48,42 +48,42 @@ export class Insertion {
   }
 
   /** Have something follow the pointer. */
-  choose(thing: Insertable): void {
+  choose(item: Insertable): void {
     const { layout, page } = this.context;
-    page.tools.insert?.choose(thing);
+    page.tools.insert?.choose(item);
     page.tools.use("trundle/Insert");
     if (layout.isPhone.peek()) layout.sheetHeight.value = "closed";
   }
 
-  private place(thing: Insertable, point: Vector3, consent: string | null = null): void {
-    void this.context.page.undo.ask(this.insert(thing, point, consent));
+  private place(item: Insertable, point: Vector3, consent: string | null = null): void {
+    void this.context.page.undo.ask(this.insert(item, point, consent));
   }
 
-  private async insert(thing: Insertable, point: Vector3, consent: string | null): Promise<void> {
+  private async insert(item: Insertable, point: Vector3, consent: string | null): Promise<void> {
     const position = point.toArray();
     const { connection } = this.context.page;
     try {
       const answer: Answer<"insert" | "insert_light"> =
-        thing.kind === "light"
-          ? await connection.request("insert_light", { type: thing.name, position })
+        item.kind === "light"
+          ? await connection.request("insert_light", { type: item.name, position })
           : await connection.request("insert", {
-              model: thing.name,
+              model: item.name,
               position,
-              is_shape: thing.kind === "shape",
+              is_shape: item.kind === "shape",
               consent,
             });
-      if ("name" in answer) this.record(thing, answer.name);
+      if ("name" in answer) this.record(item, answer.name);
       else {
         const { code, consent } = answer;
-        this.asked.value = { title: thing.title, files: code, agree: () => this.place(thing, point, consent) };
+        this.consentRequest.value = { title: item.title, files: code, agree: () => this.place(item, point, consent) };
       }
     } catch (error) {
-      this.report(`Insert ${thing.title}`, error);
+      this.report(`Insert ${item.title}`, error);
     }
   }
 
-  private record(thing: Insertable, name: string): void {
-    const isLight = thing.kind === "light";
+  private record(item: Insertable, name: string): void {
+    const isLight = item.kind === "light";
     const title = `Insert ${name}`;
     const { connection, undo } = this.context.page;
     const send = (request: "restore" | "delete") => (): void => {

@@ -9,14 +9,14 @@ export interface ModelFile {
   readonly file: File;
 }
 
-const MOST_FILES = 2000;
+const MAX_FILES = 2000;
 /** As the server takes of one model [B]. */
-const MOST_BYTES = 512 * 1024 * 1024;
+const MAX_BYTES = 512 * 1024 * 1024;
 
 /** Let the person choose a file, or a folder with all that is in it. */
-export function chooseModel(what: "file" | "folder", take: (files: readonly ModelFile[]) => void): void {
+export function chooseModel(kind: "file" | "folder", take: (files: readonly ModelFile[]) => void): void {
   const input = Object.assign(document.createElement("input"), { type: "file" });
-  if (what === "folder") input.webkitdirectory = true;
+  if (kind === "folder") input.webkitdirectory = true;
   else input.accept = ".zip,.sdf,.urdf";
   input.addEventListener("change", () =>
     take([...(input.files ?? [])].map((file) => ({ path: file.webkitRelativePath || file.name, file }))),
@@ -32,18 +32,18 @@ export function droppedModel(carried: DataTransfer): Promise<readonly ModelFile[
 }
 
 async function filesBelow(entries: readonly FileSystemEntry[]): Promise<readonly ModelFile[]> {
-  const found: ModelFile[] = [];
+  const files: ModelFile[] = [];
   const waiting = [...entries];
-  for (let entry = waiting.pop(); entry !== undefined && found.length <= MOST_FILES; entry = waiting.pop()) {
+  for (let entry = waiting.pop(); entry !== undefined && files.length <= MAX_FILES; entry = waiting.pop()) {
     const { fullPath: path } = entry;
     if (entry.isDirectory) waiting.push(...(await entriesOf(entry as FileSystemDirectoryEntry)));
     else
-      found.push({
+      files.push({
         path: path.replace(/^\//, ""),
         file: await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject)),
       });
   }
-  return found;
+  return files;
 }
 
 /** What is in a folder, of which a reader returns a part at a time. */
@@ -54,7 +54,7 @@ async function entriesOf(folder: FileSystemDirectoryEntry): Promise<readonly Fil
     const some = await new Promise<readonly FileSystemEntry[]>((resolve, reject) =>
       reader.readEntries(resolve, reject),
     );
-    if (some.length === 0 || all.length > MOST_FILES) return all;
+    if (some.length === 0 || all.length > MAX_FILES) return all;
     all.push(...some);
   }
 }
@@ -74,9 +74,9 @@ export async function sendModel(
   progress: Progress,
 ): Promise<readonly string[]> {
   if (files.length === 0) throw new Error("there is no file in it");
-  if (files.length > MOST_FILES) throw new Error(`it has more than ${MOST_FILES} files`);
-  if (files.reduce((sum, { file }) => sum + file.size, 0) > MOST_BYTES)
-    throw new Error(`it is too large: a model has at most ${MOST_BYTES / 2 ** 20} MiB`);
+  if (files.length > MAX_FILES) throw new Error(`it has more than ${MAX_FILES} files`);
+  if (files.reduce((sum, { file }) => sum + file.size, 0) > MAX_BYTES)
+    throw new Error(`it is too large: a model has at most ${MAX_BYTES / 2 ** 20} MiB`);
   const form = new FormData();
   for (const { path, file } of files) form.append(path, file);
   const answer = await post(`models${location.search}`, form, signal, progress);

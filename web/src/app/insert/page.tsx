@@ -12,13 +12,13 @@ import type { ModelEntry } from "../../protocol/generated/page_messages";
 import { pictureUrl } from "../../protocol/picture_urls";
 import type { Shell } from "../shell";
 
-const SIMPLE: readonly { readonly icon: IconName; readonly label: string; readonly thing: Insertable }[] = [
-  { icon: "model", label: "box", thing: { kind: "shape", name: "box", title: "box" } },
-  { icon: "sphere", label: "sphere", thing: { kind: "shape", name: "sphere", title: "sphere" } },
-  { icon: "cylinder", label: "cylinder", thing: { kind: "shape", name: "cylinder", title: "cylinder" } },
-  { icon: "light", label: "point", thing: { kind: "light", name: "point", title: "point light" } },
-  { icon: "sun", label: "directional", thing: { kind: "light", name: "directional", title: "directional light" } },
-  { icon: "spot", label: "spot", thing: { kind: "light", name: "spot", title: "spot light" } },
+const SIMPLE: readonly { readonly icon: IconName; readonly label: string; readonly item: Insertable }[] = [
+  { icon: "model", label: "box", item: { kind: "shape", name: "box", title: "box" } },
+  { icon: "sphere", label: "sphere", item: { kind: "shape", name: "sphere", title: "sphere" } },
+  { icon: "cylinder", label: "cylinder", item: { kind: "shape", name: "cylinder", title: "cylinder" } },
+  { icon: "light", label: "point", item: { kind: "light", name: "point", title: "point light" } },
+  { icon: "sun", label: "directional", item: { kind: "light", name: "directional", title: "directional light" } },
+  { icon: "spot", label: "spot", item: { kind: "light", name: "spot", title: "spot light" } },
 ];
 
 export function InsertPage({ shell }: { readonly shell: Shell }): JSX.Element {
@@ -26,9 +26,9 @@ export function InsertPage({ shell }: { readonly shell: Shell }): JSX.Element {
   const search = useSignal("");
   useEffect(() => insertion.list(), [insertion]);
   const models = insertion.models.value;
-  const wanted = search.value.trim().toLowerCase();
-  const found = (models ?? []).filter(({ name, title }) => `${name} ${title}`.toLowerCase().includes(wanted));
-  const said =
+  const query = search.value.trim().toLowerCase();
+  const matches = (models ?? []).filter(({ name, title }) => `${name} ${title}`.toLowerCase().includes(query));
+  const message =
     models === null
       ? "Looking for models."
       : models.length === 0
@@ -37,8 +37,8 @@ export function InsertPage({ shell }: { readonly shell: Shell }): JSX.Element {
   return (
     <>
       <div class="simple" role="group" aria-label="Simple shapes and lights">
-        {SIMPLE.map(({ icon, label, thing }) => (
-          <InsertButton key={thing.title} shell={shell} thing={thing} class="b">
+        {SIMPLE.map(({ icon, label, item }) => (
+          <InsertButton key={item.title} shell={shell} item={item} class="b">
             <Icon name={icon} />
             {label}
           </InsertButton>
@@ -57,8 +57,8 @@ export function InsertPage({ shell }: { readonly shell: Shell }): JSX.Element {
         <Button icon="upload" label="Upload a model" onClick={() => insertion.upload.open()} />
       </div>
       <div class="scroll models" role="group" aria-label="Models">
-        {found.length === 0 && <p class="empty">{said}</p>}
-        {found.map((model) => (
+        {matches.length === 0 && <p class="empty">{message}</p>}
+        {matches.map((model) => (
           <ModelButton key={model.name} shell={shell} model={model} />
         ))}
       </div>
@@ -72,7 +72,7 @@ function ModelButton({ shell, model }: { readonly shell: Shell; readonly model: 
   return (
     <InsertButton
       shell={shell}
-      thing={{ kind: "model", name, title }}
+      item={{ kind: "model", name, title }}
       class="model"
       tip={description === "" ? title : `${title}: ${description}`}
     >

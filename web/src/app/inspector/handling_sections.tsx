@@ -60,12 +60,12 @@ export function WrenchSection({
   const torque = useSignal<Triple>(ZERO);
   const duration = useSignal(1);
   const section = useRef<HTMLElement>(null);
-  const wanted = shell.wrench.value;
+  const target = shell.wrench.value;
   useEffect(() => {
-    if (wanted?.model !== model || wanted.link !== link) return;
+    if (target?.model !== model || target.link !== link) return;
     section.current?.querySelector("input")?.focus();
     shell.wrench.value = null;
-  }, [wanted, model, link]);
+  }, [target, model, link]);
   const push = (by: Pick<ApplyWrench, "force" | "torque">, seconds: number): void =>
     shell.request(`Force on ${link}`, "wrench", { model, link, ...by, duration: seconds });
   const labels = (name: string): readonly string[] => AXES.map((axis) => `${name} ${axis}`);

@@ -93,13 +93,13 @@ function FrameSections({ shell, frame }: { readonly shell: Shell; readonly frame
   const { frames, displays } = shell.page;
   const fixed = displays.fixedFrame.value;
   const pose = (): ReturnType<typeof frames.lookup> => frames.lookup(fixed, frame, 0n);
-  const info = frames.describe().find((each) => each.name === frame);
-  const found = pose();
+  const info = frames.describe().find((entry) => entry.name === frame);
+  const transform = pose();
   return (
     <>
-      {found instanceof NoTransform ? (
+      {transform instanceof NoTransform ? (
         <p class="empty">
-          {found.text}. {found.advice}
+          {transform.text}. {transform.advice}
         </p>
       ) : (
         <PoseSection within={fixed} pose={() => asPose(pose())} />
@@ -113,8 +113,8 @@ function FrameSections({ shell, frame }: { readonly shell: Shell; readonly frame
   );
 }
 
-function asPose<T>(found: T | NoTransform): T | null {
-  return found instanceof NoTransform ? null : found;
+function asPose<T>(transform: T | NoTransform): T | null {
+  return transform instanceof NoTransform ? null : transform;
 }
 
 const ICONS: Readonly<Record<Exclude<Shown["kind"], "sensor">, IconName>> = {

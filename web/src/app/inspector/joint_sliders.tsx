@@ -146,13 +146,13 @@ function JointSlider({
   readonly model: string;
   readonly joint: JointInfo;
 }): JSX.Element | null {
-  const held = useSignal<number | null>(null);
+  const dragged = useSignal<number | null>(null);
   const start = useSignal(0);
   const state = joint.index === null ? undefined : shell.page.world.joints.value.at(joint.index);
   if (state === undefined) return null;
   const { isVelocity, value, unit } = jointValue(joint, state);
   const [lower, upper] = isVelocity ? [-FASTEST, FASTEST] : [joint.lower ?? 0, joint.upper ?? 0];
-  const shown = held.value ?? value;
+  const shown = dragged.value ?? value;
   const decimals = unit.startsWith("m") ? 3 : 2;
   return (
     <div class="jt">
@@ -171,15 +171,15 @@ function JointSlider({
         text={`${fixed(shown, decimals)} ${unit}`}
         disabled={!canEdit(shell)}
         onInput={(to) => {
-          if (held.value === null) start.value = isVelocity ? 0 : value;
-          held.value = to;
+          if (dragged.value === null) start.value = isVelocity ? 0 : value;
+          dragged.value = to;
           setJoint(shell, model, joint, to);
         }}
         onRelease={() => {
           const name = isVelocity ? "velocity" : "position";
-          if (held.value !== null)
-            driveJoint(shell, model, joint.name, { [name]: held.value }, { [name]: start.value });
-          held.value = null;
+          if (dragged.value !== null)
+            driveJoint(shell, model, joint.name, { [name]: dragged.value }, { [name]: start.value });
+          dragged.value = null;
         }}
       />
       <div class="lim">

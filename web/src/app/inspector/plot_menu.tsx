@@ -26,7 +26,7 @@ export function PlotMenu({ shell, owner, values }: PlotMenuProps): JSX.Element |
       items={() =>
         values.map((value) => {
           const path = `${owner}.${value}`;
-          const curve = state.curves.find((each) => each.path === path);
+          const curve = state.curves.find((other) => other.path === path);
           return {
             title: value,
             checked: curve !== undefined,

@@ -17,7 +17,7 @@ export interface Notice {
   readonly display?: Display;
 }
 
-const KEPT = 100;
+const MAX_REPORTS = 100;
 /** Begin of the ids of warnings about the world's, the robot's and the launch's files. */
 const FILE = "file/";
 
@@ -37,14 +37,16 @@ export class Notices {
       ),
     );
     const isWritten = (id: string | undefined): boolean => id?.startsWith(FILE) ?? false;
-    const told = computed(() => connection.notices.value.filter(({ level }) => level !== "info"));
+    const warnings = computed(() => connection.notices.value.filter(({ level }) => level !== "info"));
     const server = computed(() =>
-      told.value
+      warnings.value
         .filter(({ id }) => !isWritten(id))
         .map(({ level, text }): Notice => ({ level: level === "error" ? "error" : "warn", title: "Server", text })),
     );
     const files = computed(() =>
-      told.value.filter(({ id }) => isWritten(id)).map(({ text }): Notice => ({ level: "warn", title: "File", text })),
+      warnings.value
+        .filter(({ id }) => isWritten(id))
+        .map(({ text }): Notice => ({ level: "warn", title: "File", text })),
     );
     const drawn = computed(() => world.faults.value.map((text): Notice => ({ level: "warn", title: "World", text })));
     this.all = computed(() =>
@@ -72,7 +74,7 @@ export class Notices {
   /** Say that something that a person asked for could not be done. */
   report(title: string, text: string, level: StatusLevel = "error"): void {
     const notice: Notice = { level, title, text };
-    this.reports.value = [...this.reports.peek().filter((other) => other.text !== text), notice].slice(-KEPT);
+    this.reports.value = [...this.reports.peek().filter((other) => other.text !== text), notice].slice(-MAX_REPORTS);
   }
 
   /** Hide the line until it says something else. */
@@ -106,8 +108,8 @@ function summary(
   unsupported: number,
   files: readonly Notice[],
 ): { level: StatusLevel; text: string } {
-  const displays = (which: (notice: Notice) => boolean): number =>
-    new Set(faults.filter(which).map((notice) => notice.display)).size;
+  const displays = (predicate: (notice: Notice) => boolean): number =>
+    new Set(faults.filter(predicate).map((notice) => notice.display)).size;
   const isTransform = (notice: Notice): boolean => /no transform|fixed frame/i.test(notice.text);
   const isMesh = (notice: Notice): boolean => notice.text.startsWith("Could not load mesh");
   const isSilent = (notice: Notice): boolean => !isTransform(notice) && isSilence(notice);

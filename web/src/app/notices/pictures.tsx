@@ -9,9 +9,9 @@ import { fixed } from "../../theme/format";
 import type { Shell } from "../shell";
 
 /** From a picture that came, and from one that did not, to the next [ms]. */
-const REFRESH = { came: 500, failed: 3000 };
+const REFRESH = { loaded: 500, failed: 3000 };
 /** Largest picture that is asked for [px]. */
-const [MOST_WIDE, MOST_HIGH] = [960, 720];
+const [MAX_WIDTH, MAX_HEIGHT] = [960, 720];
 const TURN = 0.01; // rad per pixel
 
 export function Pictures({ shell, reason }: { readonly shell: Shell; readonly reason: string }): JSX.Element {
@@ -22,10 +22,10 @@ export function Pictures({ shell, reason }: { readonly shell: Shell; readonly re
   const { isPhone, width, height } = shell.layout;
   const ask = (): void => {
     if (document.visibilityState !== "visible") {
-      askIn(REFRESH.came);
+      askIn(REFRESH.loaded);
       return;
     }
-    const share = Math.min(1, MOST_WIDE / width.peek(), MOST_HIGH / height.peek());
+    const share = Math.min(1, MAX_WIDTH / width.peek(), MAX_HEIGHT / height.peek());
     // as wide and high as the window: nothing is cut off
     const size = { width: Math.round(share * width.peek()), height: Math.round(share * height.peek()) };
     shown.value = pictureUrl("camera.png", { ...size, ...view.peek() }, performance.now());
@@ -40,7 +40,7 @@ export function Pictures({ shell, reason }: { readonly shell: Shell; readonly re
   }, [shell]);
   const answered = (hasFailed: boolean): void => {
     failed.value = hasFailed;
-    askIn(hasFailed ? REFRESH.failed : REFRESH.came);
+    askIn(hasFailed ? REFRESH.failed : REFRESH.loaded);
   };
   const turn = (dx: number, dy: number): void => {
     const { azimuth, elevation, distance } = view.peek();

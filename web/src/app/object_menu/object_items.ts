@@ -78,13 +78,13 @@ function editItems(shell: Shell, selection: Selection | null, inModel: InModel |
 
 function handlingItems(shell: Shell, selection: InModel): MenuItem[] {
   const { model } = selection;
-  const found = findModel(shell.page, model);
+  const info = findModel(shell.page, model);
   const edit: MenuItem = { title: "Edit model…", starts: true, run: () => void shell.editor.begin(model) };
-  if (found === null || found.static) return [edit];
+  if (info === null || info.static) return [edit];
   return [
     edit,
     { title: "Apply force or torque…", run: () => openWrench(shell, selection) },
-    { title: found.held ? "Let go" : "Hold in the air", keys: "H", run: () => holdModel(shell, model, !found.held) },
+    { title: info.held ? "Let go" : "Hold in the air", keys: "H", run: () => holdModel(shell, model, !info.held) },
     { title: "Reset this model", run: () => resetModel(shell, model) },
   ];
 }

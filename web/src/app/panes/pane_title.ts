@@ -21,7 +21,8 @@ const CLOSE = 0.01; // rad
 
 /** As "Top", "Perspective", "First person · base_link". */
 export function paneTitle({ className, properties }: ViewController): string {
-  const of = (name: string): unknown => properties.find((each: Property<unknown>) => each.name === name)?.value.value;
+  const of = (name: string): unknown =>
+    properties.find((property: Property<unknown>) => property.name === name)?.value.value;
   const kind =
     KINDS[className] ??
     sideOf(Number(of("Yaw")), Number(of("Pitch"))) ??

@@ -10,8 +10,8 @@ import type { Layout } from "../layout";
 /** The remembered layout, which the scene has unless the page is a phone's. */
 export function recallSplit({ views }: Pick<Page, "views">, layout: Layout): Signal<PaneLayout> {
   const split = signal(recall<PaneLayout>("split", "one", isOneOf(...PANE_LAYOUTS)));
-  views.onFileLayout = (asked) => {
-    split.value = asked;
+  views.onFileLayout = (fileLayout) => {
+    split.value = fileLayout;
   };
   effect(() => {
     views.layout.value = layout.isPhone.value ? "one" : split.value;

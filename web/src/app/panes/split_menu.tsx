@@ -33,12 +33,12 @@ export function splitCommands({ page, split, layout }: Shell): readonly Command[
   const isSplit = (): boolean => page.views.panes.peek().length > 1;
   return [
     ...PANE_LAYOUTS.map(
-      (each): Command => ({
-        id: `split.${each}`,
+      (paneLayout): Command => ({
+        id: `split.${paneLayout}`,
         group: "View",
-        title: TITLES[each],
+        title: TITLES[paneLayout],
         enabled: () => !layout.isPhone.peek(),
-        run: () => chooseSplit(split, each),
+        run: () => chooseSplit(split, paneLayout),
       }),
     ),
     {

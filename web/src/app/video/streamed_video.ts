@@ -36,7 +36,7 @@ export class StreamedVideo implements VideoFile {
   /** Throws a sentence where the browser records none. */
   static open(canvas: HTMLCanvasElement): StreamedVideo {
     const type =
-      typeof MediaRecorder === "undefined" ? undefined : TYPES.find((each) => MediaRecorder.isTypeSupported(each));
+      typeof MediaRecorder === "undefined" ? undefined : TYPES.find((type) => MediaRecorder.isTypeSupported(type));
     if (type === undefined) throw new Error("This browser records no video; trundle render writes one of a camera.");
     const recorder = new MediaRecorder(canvas.captureStream(RATE), {
       mimeType: type,

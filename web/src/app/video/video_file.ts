@@ -3,7 +3,7 @@
 /** Pictures per second of the view, and at most of a file. */
 export const RATE = 30;
 const BITS_PER_PIXEL = 4; // per second
-const LEAST = 1e6; // bits per second
+const MIN_BITRATE = 1e6; // bits per second
 
 /** Takes its pictures from one canvas, whose size stays. */
 export interface VideoFile {
@@ -26,5 +26,5 @@ export interface VideoContent {
 
 /** Bits per second for a canvas of this size. */
 export function bitRate({ width, height }: HTMLCanvasElement): number {
-  return Math.max(LEAST, width * height * BITS_PER_PIXEL);
+  return Math.max(MIN_BITRATE, width * height * BITS_PER_PIXEL);
 }

@@ -43,7 +43,7 @@ export class Videos {
 
   async save(video: RunningVideo): Promise<void> {
     if (!this.running.peek().includes(video)) return;
-    this.running.value = this.running.peek().filter((each) => each !== video);
+    this.running.value = this.running.peek().filter((other) => other !== video);
     video.stop();
     try {
       const { content, suffix } = await video.recording.finish();

@@ -58,7 +58,7 @@ function addVisible(box: Box3, root: Object3D): void {
 
 /** True where a box shows so much else than another that the picture must change. */
 export function differs(box: Box3, other: Box3): boolean {
-  const [a, b] = [box, other].map((each) => each.getBoundingSphere(new Sphere()));
+  const [a, b] = [box, other].map((bounds) => bounds.getBoundingSphere(new Sphere()));
   if (a === undefined || b === undefined || other.isEmpty()) return true;
   return Math.abs(a.radius - b.radius) > 0.1 * b.radius || a.center.distanceTo(b.center) > 0.25 * b.radius;
 }
@@ -67,8 +67,8 @@ export function differs(box: Box3, other: Box3): boolean {
 export function targetPose(page: Page, target: string): Transform | null {
   const at = target.lastIndexOf("::");
   if (at < 0) {
-    const found = page.frames.lookup(page.displays.fixedFrame.peek(), target, 0n);
-    return found instanceof NoTransform ? null : found;
+    const transform = page.frames.lookup(page.displays.fixedFrame.peek(), target, 0n);
+    return transform instanceof NoTransform ? null : transform;
   }
   const link = findLink(page, target.slice(0, at), target.slice(at + 2));
   const object = link === null ? null : page.world.object(link.body);

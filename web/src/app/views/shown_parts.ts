@@ -69,12 +69,13 @@ export function rememberShown({ world }: Pick<Page, "world">): void {
       recalled = name;
       const saved = recall<readonly (readonly [string, Saved<Part>])[]>(`shown.models.${name}`, [], isListOf(isModel));
       untracked(
-        () => (shown.models.value = new Map(saved.map(([model, own]) => [model, new Map(own)])) satisfies ModelParts),
+        () =>
+          (shown.models.value = new Map(saved.map(([model, parts]) => [model, new Map(parts)])) satisfies ModelParts),
       );
     }
     remember(
       `shown.models.${name}`,
-      [...shown.models.value].map(([model, own]) => [model, [...own]]),
+      [...shown.models.value].map(([model, parts]) => [model, [...parts]]),
     );
   });
 }

@@ -26,7 +26,7 @@ export function ViewsPage({ shell }: { readonly shell: Shell }): JSX.Element {
     toggled.value = new Map(toggled.value).set(key, open);
   };
   const isOpen = (key: string): boolean => toggled.value.get(key) ?? false;
-  const use = (name: string): void => views.use(views.classes.find((each) => short(each) === name) ?? name);
+  const use = (name: string): void => views.use(views.classes.find((className) => short(className) === name) ?? name);
   return (
     <div class="scroll">
       <div class="kind">
@@ -102,8 +102,8 @@ export function ViewsPage({ shell }: { readonly shell: Shell }): JSX.Element {
 
 /** A simulated camera is a view that has no type of its own to choose. */
 function typesOf({ classes, current }: Page["views"]): readonly string[] {
-  const own = current.value.className;
-  return [...classes, ...(classes.includes(own) ? [] : [own])].map(short);
+  const currentClass = current.value.className;
+  return [...classes, ...(classes.includes(currentClass) ? [] : [currentClass])].map(short);
 }
 
 function isOrthographic({ properties }: ViewController): boolean {

@@ -19,9 +19,9 @@ import {
   allModels,
   bodiesOf,
   keyOf,
-  seenNodes,
+  visibleNodes,
   worldNode,
-  type SeenNode,
+  type VisibleNode,
   type WorldNode,
 } from "../../page/world_nodes";
 
@@ -37,14 +37,14 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
   const isOpen = (node: WorldNode): boolean =>
     toggled.value.get(node.key) ?? (node.selection?.kind !== "model" || opened.value.has(node.hides ?? ""));
   if (root.value === null) {
-    const said =
+    const message =
       session.kind === "graph" ? "Nothing is simulated here: this page shows a ROS graph." : "Loading the world.";
-    return <p class="empty">{said}</p>;
+    return <p class="empty">{message}</p>;
   }
   const draft = shell.editor.draft.value;
   if (draft !== null) return <DraftTree shell={shell} draft={draft} />;
-  const seen = seenNodes(root.value, isOpen, search.value);
-  const byKey = new Map(seen.map((each) => [each.node.key, each.node]));
+  const nodes = visibleNodes(root.value, isOpen, search.value);
+  const byKey = new Map(nodes.map((row) => [row.node.key, row.node]));
   const selected = keyOf(selection.value);
   return (
     <>
@@ -53,10 +53,10 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
         {canEdit(shell) && <WorldMenu shell={shell} />}
       </div>
       <div class="scroll">
-        {seen.length === 0 && <p class="empty">Nothing is named so.</p>}
+        {nodes.length === 0 && <p class="empty">Nothing is named so.</p>}
         <Tree
           label="World"
-          rows={seen.map((each) => rows.current.of(shell, each, each.node.key === selected))}
+          rows={nodes.map((row) => rows.current.of(shell, row, row.node.key === selected))}
           onToggle={(key, open) => (toggled.value = new Map(toggled.value).set(key, open))}
           onSelect={(key) => {
             const node = byKey.get(key);
@@ -96,19 +96,19 @@ function openedAtFirst(manifest: Manifest | null): ReadonlySet<string> {
 class WorldRows {
   private readonly known = new WeakMap<WorldNode, { readonly shows: string; readonly row: TreeRow }>();
 
-  of(shell: Shell, seen: SeenNode, selected: boolean): TreeRow {
-    const { node, depth, isOpen } = seen;
+  of(shell: Shell, visibleNode: VisibleNode, selected: boolean): TreeRow {
+    const { node, depth, isOpen } = visibleNode;
     const hidden = node.hides !== null && shell.page.world.hidden.value.has(node.hides);
     const shows = `${depth} ${isOpen} ${selected} ${hidden} ${shell.isDrawn.value}`;
     const known = this.known.get(node);
     if (known?.shows === shows) return known.row;
-    const row = makeRow(shell, seen, selected, hidden);
+    const row = makeRow(shell, visibleNode, selected, hidden);
     this.known.set(node, { shows, row });
     return row;
   }
 }
 
-function makeRow(shell: Shell, { node, depth, isOpen }: SeenNode, selected: boolean, hidden: boolean): TreeRow {
+function makeRow(shell: Shell, { node, depth, isOpen }: VisibleNode, selected: boolean, hidden: boolean): TreeRow {
   return {
     key: node.key,
     depth,

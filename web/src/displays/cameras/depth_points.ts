@@ -66,10 +66,10 @@ function sizeMismatch(
 ): string | null {
   const [binX, binY] = [Math.max(1, binning_x), Math.max(1, binning_y)];
   const [roiWidth, roiHeight] = [roi.width || infoWidth, roi.height || infoHeight];
-  const [wantedWidth, wantedHeight] = [Math.floor(roiWidth / binX), Math.floor(roiHeight / binY)];
-  if (wantedWidth === width && wantedHeight === height) return null;
+  const [expectedWidth, expectedHeight] = [Math.floor(roiWidth / binX), Math.floor(roiHeight / binY)];
+  if (expectedWidth === width && expectedHeight === height) return null;
   return (
-    `Depth image size and camera info don't match: ${width} x ${height} vs ${wantedWidth} x ${wantedHeight}` +
+    `Depth image size and camera info don't match: ${width} x ${height} vs ${expectedWidth} x ${expectedHeight}` +
     `(binning: ${binX} x ${binY}, ROI size: ${roiWidth} x ${roiHeight})`
   );
 }

@@ -37,8 +37,8 @@ export class ScenePicture {
     this.camera.projectionMatrixInverse.copy(matrix).invert();
     this.camera.updateMatrixWorld();
     this.target.setSize(size.width, size.height);
-    const beside = scene.children.filter((child) => child !== displays && !isLight(child));
-    const hidden = [...beside, ...without].filter((object) => object.visible);
+    const others = scene.children.filter((child) => child !== displays && !isLight(child));
+    const hidden = [...others, ...without].filter((object) => object.visible);
     for (const child of hidden) child.visible = false;
     const [target, alpha] = [renderer.getRenderTarget(), renderer.getClearAlpha()];
     renderer.getClearColor(this.clearColor);

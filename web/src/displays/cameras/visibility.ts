@@ -54,8 +54,8 @@ export class VisibilityProperty extends BoolProperty {
 
   override load(yaml: Yaml): string[] {
     this.stored = isMapping(yaml) ? yaml : {};
-    const own = isMapping(yaml) ? (yaml["Value"] ?? true) : yaml;
-    const faults = this.decode(own) ? [] : [`${this.name}: ${JSON.stringify(own)} is no ${this.kind}`];
+    const value = isMapping(yaml) ? (yaml["Value"] ?? true) : yaml;
+    const faults = this.decode(value) ? [] : [`${this.name}: ${JSON.stringify(value)} is no ${this.kind}`];
     for (const [name, row] of this.rows) faults.push(...row.load(this.stored[name] ?? true));
     return faults;
   }

@@ -34,9 +34,9 @@ export function supported(cloud: Cloud): readonly ColorTransformer[] {
 }
 
 /** The transformer that rviz uses: the wanted one if it can, else RGB8, else Intensity. */
-export function choose(wanted: string, names: readonly ColorTransformer[]): ColorTransformer {
-  const found = names.find((name) => name === wanted);
-  return found ?? (names.includes("RGB8") ? "RGB8" : "Intensity");
+export function choose(preferred: string, names: readonly ColorTransformer[]): ColorTransformer {
+  const match = names.find((name) => name === preferred);
+  return match ?? (names.includes("RGB8") ? "RGB8" : "Intensity");
 }
 
 /** The channel that Intensity colors by; `intensities` stands in for `intensity`. */

@@ -24,7 +24,7 @@ export function nearestPoint(
   const [x = 0, y = 0, z = 0] = ["x", "y", "z"].map((axis) => (cloud.channel(axis)?.offset ?? 0) / 4);
   const { floats, stride } = cloud;
   let best = -1;
-  let least = Infinity;
+  let minRank = Infinity;
   for (let index = 0, at = 0; index < cloud.count; index++, at += stride) {
     const dx = (floats[at + x] ?? NaN) - origin.x;
     const dy = (floats[at + y] ?? NaN) - origin.y;
@@ -34,7 +34,7 @@ export function nearestPoint(
     const aside = Math.sqrt(Math.max(0, dx * dx + dy * dy + dz * dz - along * along));
     if (aside > reach(along)) continue;
     const rank = aside <= radius ? along * 1e-6 : 1 + aside / along; // what the ray hits comes before what it passes
-    if (rank < least) [least, best] = [rank, index];
+    if (rank < minRank) [minRank, best] = [rank, index];
   }
   if (best < 0) return null;
   const at = best * stride;
@@ -47,11 +47,11 @@ export function nearestPoint(
 export function pointsWithin(cloud: Cloud, matrix: Matrix4, contains: (point: Vector3) => boolean): number[] {
   const [x = 0, y = 0, z = 0] = ["x", "y", "z"].map((axis) => (cloud.channel(axis)?.offset ?? 0) / 4);
   const { floats, stride } = cloud;
-  const found: number[] = [];
+  const indices: number[] = [];
   const point = new Vector3();
   for (let index = 0, at = 0; index < cloud.count; index++, at += stride) {
     point.set(floats[at + x] ?? NaN, floats[at + y] ?? NaN, floats[at + z] ?? NaN).applyMatrix4(matrix);
-    if (contains(point)) found.push(index);
+    if (contains(point)) indices.push(index);
   }
-  return found;
+  return indices;
 }

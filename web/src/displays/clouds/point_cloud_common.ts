@@ -56,12 +56,12 @@ export class PointCloudCommon {
   update(now: bigint): void {
     const decay = this.properties.decay.value.peek();
     const newest = this.entries.at(-1);
-    const isKept = (entry: Entry): boolean =>
+    const isCurrent = (entry: Entry): boolean =>
       decay > 0 ? Number(now - entry.received) * 1e-9 < decay : entry === newest;
-    const old = this.entries.filter((entry) => !isKept(entry));
+    const old = this.entries.filter((entry) => !isCurrent(entry));
     if (old.length === 0) return;
     for (const entry of old) this.erase(entry);
-    this.entries = this.entries.filter(isKept);
+    this.entries = this.entries.filter(isCurrent);
     this.scene.invalidate();
   }
 

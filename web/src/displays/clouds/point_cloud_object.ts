@@ -25,7 +25,7 @@ import { nearestPoint } from "./pick_point";
  * Clouds of more points are drawn as GL's points, a vertex each, which renderers without a GPU need: they take some 20 µs
  * for an instance. GL limits the size of its points and drops one whose middle is out of sight.
  */
-const MOST_INSTANCES = 1000;
+const MAX_INSTANCES = 1000;
 
 /** Lightness of a box's sides in rviz without geometry shaders, −x +x −y +y −z +z. */
 const SIDES: readonly (readonly [axis: 0 | 1 | 2, sign: 1 | -1, lightness: number])[] = [
@@ -49,7 +49,7 @@ export interface CloudObject {
 
 /** Make the object of a cloud; `dispose` frees it. */
 export function cloudObject(cloud: Cloud, style: Style): CloudObject {
-  const isSprite = style !== "Boxes" && style !== "Tiles" && cloud.count > MOST_INSTANCES;
+  const isSprite = style !== "Boxes" && style !== "Tiles" && cloud.count > MAX_INSTANCES;
   const geometry = isSprite ? new BufferGeometry() : shapeGeometry(style, cloud.count);
   if (isSprite) geometry.setDrawRange(0, cloud.count);
   const buffer = isSprite
@@ -138,9 +138,9 @@ class CloudPicker extends Mesh {
     this.look.dispose();
   }
 
-  override raycast(raycaster: Raycaster, found: Intersection[]): void {
+  override raycast(raycaster: Raycaster, intersections: Intersection[]): void {
     const radius = this.look.style === "Points" ? 0 : this.look.uniforms.pointSize.value.x / 2;
     const nearest = nearestPoint(this.cloud, radius, this.matrixWorld, raycaster);
-    if (nearest !== null) found.push({ ...nearest, object: this, instanceId: nearest.index });
+    if (nearest !== null) intersections.push({ ...nearest, object: this, instanceId: nearest.index });
   }
 }

@@ -27,9 +27,9 @@ const parentTurn = new Quaternion();
 
 export class ControlView extends Group {
   private readonly views: readonly MarkerView[];
-  private readonly own = new Quaternion();
+  private readonly orientation = new Quaternion();
   private isOver = false;
-  private isHeld = false;
+  private isPressed = false;
 
   constructor(
     readonly control: InteractiveMarkerControl,
@@ -38,9 +38,9 @@ export class ControlView extends Group {
   ) {
     super();
     const { x, y, z, w } = control.orientation;
-    this.own.set(x, y, z, w);
-    if (this.own.lengthSq() === 0) this.own.identity();
-    this.own.normalize();
+    this.orientation.set(x, y, z, w);
+    if (this.orientation.lengthSq() === 0) this.orientation.identity();
+    this.orientation.normalize();
     this.views = control.markers.map((shape) => this.addShape(shape, parts));
     if (control.interaction_mode !== InteractionMode.none) this.userData["pointerTarget"] = this.target();
   }
@@ -64,7 +64,7 @@ export class ControlView extends Group {
     result.set(1, 0, 0);
     if (this.control.orientation_mode === OrientationMode.viewFacing)
       return result.set(0, 0, 1).applyQuaternion(camera);
-    result.applyQuaternion(this.own);
+    result.applyQuaternion(this.orientation);
     if (this.control.orientation_mode === OrientationMode.inherit) result.applyQuaternion(marker);
     return result.applyQuaternion(reference);
   }
@@ -87,13 +87,13 @@ export class ControlView extends Group {
         this.glow();
       },
       down: (event) => {
-        this.isHeld = this.events.press(this, event);
+        this.isPressed = this.events.press(this, event);
         this.glow();
-        return this.isHeld;
+        return this.isPressed;
       },
       move: (event) => this.events.pull(this, event),
       up: (event, isCancelled) => {
-        this.isHeld = false;
+        this.isPressed = false;
         this.glow();
         this.events.release(this, event, isCancelled);
       },
@@ -101,7 +101,7 @@ export class ControlView extends Group {
   }
 
   private glow(): void {
-    const glow = this.isHeld ? DRAG_GLOW : this.isOver ? HOVER_GLOW : 0;
+    const glow = this.isPressed ? DRAG_GLOW : this.isOver ? HOVER_GLOW : 0;
     this.traverse((part) => {
       if (part instanceof Mesh && part.material instanceof ShapeMaterial) part.material.setGlow(glow);
     });

@@ -13,15 +13,15 @@ export function withLocalShapes(marker: InteractiveMarker, frames: FrameTree): I
   const place = (shape: Marker): Marker => {
     const { frame_id: frame, stamp } = shape.header;
     if (frame === "") return shape;
-    const found = frames.lookup(marker.header.frame_id, frame, nanoseconds(stamp));
-    if (found instanceof NoTransform) {
-      missing.push(found);
+    const transform = frames.lookup(marker.header.frame_id, frame, nanoseconds(stamp));
+    if (transform instanceof NoTransform) {
+      missing.push(transform);
       return shape;
     }
-    const position = positionOf(shape.pose).applyQuaternion(found.orientation).add(found.position);
+    const position = positionOf(shape.pose).applyQuaternion(transform.orientation).add(transform.position);
     const back = orientationOf(marker.pose).invert();
     const local = position.sub(positionOf(marker.pose)).applyQuaternion(back);
-    const turn = back.multiply(found.orientation).multiply(orientationOf(shape.pose));
+    const turn = back.multiply(transform.orientation).multiply(orientationOf(shape.pose));
     return { ...shape, pose: { position: xyz(local), orientation: { ...xyz(turn), w: turn.w } } };
   };
   const controls = marker.controls.map((control) => ({ ...control, markers: control.markers.map(place) }));

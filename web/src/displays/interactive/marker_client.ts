@@ -53,9 +53,9 @@ export class MarkerClient {
   /** Wall seconds have passed. */
   tick(elapsed: number): void {
     for (const [name, server] of this.servers) {
-      const wasHeard = server.silence < SILENT_S;
+      const wasAlive = server.silence < SILENT_S;
       server.silence += elapsed;
-      if (wasHeard && server.silence >= SILENT_S) {
+      if (wasAlive && server.silence >= SILENT_S) {
         this.events.status(name, "warn", `No update received for at least ${SILENT_S} seconds.`);
       }
     }

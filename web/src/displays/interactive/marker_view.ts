@@ -31,7 +31,7 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
   private axes: Axes | null = null;
   private label: Label | null = null;
   private drag: Drag | null = null;
-  private held: ControlView | null = null;
+  private pressed: ControlView | null = null;
   private requested: Pose | null = null;
   private isMoved = false;
   private sinceFeedback = 0;
@@ -71,10 +71,10 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
   /** Follow the frame and the camera; the reason where there is no transform. */
   update(elapsed: number): NoTransform | null {
     const { frame_id: frame, stamp } = this.marker.header;
-    const found = this.context.frames.lookup(this.context.fixedFrame.peek(), frame, nanoseconds(stamp));
-    this.visible = !(found instanceof NoTransform);
-    if (found instanceof NoTransform) return found;
-    this.follow(found);
+    const transform = this.context.frames.lookup(this.context.fixedFrame.peek(), frame, nanoseconds(stamp));
+    this.visible = !(transform instanceof NoTransform);
+    if (transform instanceof NoTransform) return transform;
+    this.follow(transform);
     this.sinceFeedback += elapsed;
     if (this.drag === null) return null;
     if (this.isMoved) this.feedback(FeedbackEvent.poseUpdate);
@@ -106,7 +106,7 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     const mode = control.control.interaction_mode;
     if (event.button === 2 || mode === InteractionMode.menu) return this.openMenu(control, event);
     if (event.button !== 0 || event.pick === null) return false;
-    this.held = control;
+    this.pressed = control;
     this.feedback(FeedbackEvent.mouseDown, event.pick.point);
     if (!control.isMovable) return true;
     const axis = control.axis(this.place.quaternion, this.quaternion, this.cameraTurn(), new Vector3()).normalize();
@@ -139,8 +139,8 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     if (control.control.interaction_mode === InteractionMode.button && !isCancelled && point !== undefined) {
       this.feedback(FeedbackEvent.buttonClick, point);
     }
-    if (this.held !== null) this.feedback(FeedbackEvent.mouseUp, point);
-    this.held = null;
+    if (this.pressed !== null) this.feedback(FeedbackEvent.mouseUp, point);
+    this.pressed = null;
     if (this.requested !== null) this.setPose(this.requested);
     this.requested = null;
   }
@@ -150,9 +150,9 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     const { left, top } = this.context.scene.element.getBoundingClientRect();
     const point = event.pick?.point;
     openMenu(this.marker.menu_entries, left + event.x, top + event.y, (entry) => {
-      this.held = control;
+      this.pressed = control;
       this.feedback(FeedbackEvent.menuSelect, point, entry.id);
-      this.held = null;
+      this.pressed = null;
     });
     return true;
   }
@@ -182,7 +182,7 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
       header: isLocked ? header : { seq: 0, stamp, frame_id: this.context.fixedFrame.peek() },
       client_id: this.clientId,
       marker_name: this.marker.name,
-      control_name: this.held?.control.name ?? "",
+      control_name: this.pressed?.control.name ?? "",
       event_type: event,
       pose: { position: xyz(position), orientation: { ...xyz(orientation), w: orientation.w } },
       menu_entry_id: entry,

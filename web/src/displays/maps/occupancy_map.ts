@@ -4,7 +4,7 @@ import type { OccupancyGrid, OccupancyGridUpdate } from "../../protocol/generate
 import { INVALID_FLOATS, isFinitePose } from "../../frames/valid";
 
 /** Most cells of a map that is shown: 16384 × 16384. */
-const MOST_CELLS = 2 ** 28;
+const MAX_CELLS = 2 ** 28;
 const UNKNOWN = 255;
 
 export interface OccupancyMap {
@@ -33,9 +33,9 @@ export function readMap({ info, data }: OccupancyGrid): OccupancyMap | string {
   const count = width * height;
   if (count === 0) return `Map is zero-sized (${width}x${height})`;
   const bytes = new Uint8Array(data.buffer, data.byteOffset, data.length);
-  if (count === data.length && count <= MOST_CELLS) return { width, height, resolution, cells: bytes, fault: null };
+  if (count === data.length && count <= MAX_CELLS) return { width, height, resolution, cells: bytes, fault: null };
   const fault = `Data size doesn't match width*height: width = ${width}, height = ${height}, data size = ${data.length}`;
-  if (count > Math.min(MOST_CELLS, 4 * data.length + 4096)) return fault; // too little of it to be worth its memory
+  if (count > Math.min(MAX_CELLS, 4 * data.length + 4096)) return fault; // too little of it to be worth its memory
   const cells = new Uint8Array(count).fill(UNKNOWN);
   cells.set(bytes.subarray(0, count));
   return { width, height, resolution, cells, fault };

@@ -27,7 +27,7 @@ export function isSolid(type: number): boolean {
 }
 
 /** Emit the parts of a solid marker. */
-export function eachPart(marker: Marker, emit: Emit): void {
+export function forEachPart(marker: Marker, emit: Emit): void {
   const { type, scale: size, points, colors, color } = marker;
   if (type === Type.arrow) {
     if (points.length === 2) arrowBetween(marker, emit);

@@ -88,9 +88,9 @@ export class MarkerScene extends Group {
   }
 
   /** Move markers as their frames move: the locked ones, or all. */
-  follow(which: "locked" | "all", find: (marker: Marker) => Transform | null): void {
+  follow(filter: "locked" | "all", find: (marker: Marker) => Transform | null): void {
     for (const shown of this.shown.values()) {
-      if (which === "locked" && !shown.marker.frame_locked) continue;
+      if (filter === "locked" && !shown.marker.frame_locked) continue;
       const frame = find(shown.marker);
       if (frame !== null) this.place(shown, frame);
     }

@@ -45,7 +45,7 @@ export function makeView(marker: Marker, parts: ViewParts): MarkerView {
 }
 
 /** Share of a marker's color over the mesh's own, as measured on rviz. */
-const MOST_TINT = 0.5;
+const MAX_TINT = 0.5;
 
 const UNMOVED = new Matrix4();
 
@@ -59,13 +59,13 @@ function solids(marker: Marker, parts: ViewParts): MarkerView {
 
 function lines(marker: Marker): MarkerView {
   const object = new BillboardLines(marker.scale.x);
-  const places = packed(marker.points);
+  const positions = packed(marker.points);
   const color = (index: number): readonly number[] => rgba(marker.colors[index] ?? marker.color);
   object.begin();
-  if (marker.type === Type.lineStrip) object.addPolyline(places, color);
+  if (marker.type === Type.lineStrip) object.addPolyline(positions, color);
   else
     for (let k = 0; k + 1 < marker.points.length; k += 2)
-      object.addSegment(places, 3 * k, places, 3 * k + 3, color(k), color(k + 1));
+      object.addSegment(positions, 3 * k, positions, 3 * k + 3, color(k), color(k + 1));
   object.finish();
   return { object, dispose: () => object.dispose() };
 }
@@ -144,7 +144,7 @@ function paintMesh(marker: Marker, object: Object3D, embedded: readonly ShapeMat
     const isPlain = red + green + blue + alpha === 0;
     for (const material of isPlain ? [] : embedded) {
       const { x, y, z, w } = material.color;
-      const over = Math.min(alpha, MOST_TINT);
+      const over = Math.min(alpha, MAX_TINT);
       const both = 1 - (1 - over) * (1 - alpha);
       material.setRgba(x, y, z, w * both);
       material.setTint(red, green, blue, over / both);

@@ -7,7 +7,7 @@ import type { Selectable } from "../../scene/scene_view";
 import { Instances } from "../../shapes/instances";
 import type { ShapeMaterialOptions } from "../../shapes/shape_material";
 import { BOX, CLOUD_BOX, CYLINDER, HEAD, SHAFT, SPHERE } from "../../shapes/solids";
-import { eachPart, type PartKind } from "./marker_parts";
+import { forEachPart, type PartKind } from "./marker_parts";
 
 /** rviz draws lists as clouds of points, whose boxes and spheres are shaded otherwise. */
 const SHAPES: Readonly<
@@ -47,7 +47,7 @@ export class SolidBatches extends Group {
 
   /** Add a marker's parts; the pose is the marker's in this group. */
   draw(marker: Marker, pose: Matrix4): void {
-    eachPart(marker, (kind, matrix, color) => this.emit(marker, kind, world.multiplyMatrices(pose, matrix), color));
+    forEachPart(marker, (kind, matrix, color) => this.emit(marker, kind, world.multiplyMatrices(pose, matrix), color));
   }
 
   finish(): void {
@@ -74,8 +74,8 @@ export class SolidBatches extends Group {
 
   private batch(kind: PartKind, blended: boolean): Batch {
     const key = blended ? `${kind} blended` : kind;
-    const found = this.batches.get(key);
-    if (found !== undefined) return found;
+    const existing = this.batches.get(key);
+    if (existing !== undefined) return existing;
     const { geometry, options } = SHAPES[kind];
     const batch: Batch = { instances: new Instances(geometry, options), owners: [] };
     const selectable: Selectable = {

@@ -27,9 +27,9 @@ const libraries = new WeakMap<Connection, MeshLibrary>();
 
 /** The library of a connection; all displays share it. */
 export function meshLibrary(connection: Connection): MeshLibrary {
-  const found = libraries.get(connection) ?? new MeshLibrary(connection);
-  libraries.set(connection, found);
-  return found;
+  const cached = libraries.get(connection) ?? new MeshLibrary(connection);
+  libraries.set(connection, cached);
+  return cached;
 }
 
 class MeshLibrary {
@@ -57,9 +57,9 @@ function copyMeshes(object: Object3D): {
 } {
   const materials = new Map<Material, ShapeMaterial>();
   const convert = (material: Material): ShapeMaterial => {
-    const found = materials.get(material) ?? shapeMaterial(material);
-    materials.set(material, found);
-    return found;
+    const cached = materials.get(material) ?? shapeMaterial(material);
+    materials.set(material, cached);
+    return cached;
   };
   const copy = object.clone(true);
   const others: Object3D[] = [];

@@ -43,10 +43,10 @@ function theWorker(): Worker {
   if (worker !== null) return worker;
   worker = new Worker(new URL("./picture_worker.ts", import.meta.url), { type: "module" });
   worker.onmessage = ({ data }: MessageEvent<PictureAnswer>) => {
-    const asked = waiting.get(data.id);
+    const request = waiting.get(data.id);
     waiting.delete(data.id);
-    if ("fault" in data) asked?.reject(new Error(data.fault));
-    else asked?.resolve(data);
+    if ("fault" in data) request?.reject(new Error(data.fault));
+    else request?.resolve(data);
   };
   return worker;
 }

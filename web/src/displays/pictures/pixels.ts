@@ -27,7 +27,7 @@ export interface Pixels {
 }
 
 /** Most pixels of an image; a browser's canvas holds no more. */
-const MOST_PIXELS = 16384 * 16384;
+const MAX_PIXELS = 16384 * 16384;
 
 /** Bytes of a pixel and the places of red, green, blue and alpha in it. */
 type Layout = readonly [bytes: number, red: number, green: number, blue: number, alpha: number | null];
@@ -73,7 +73,7 @@ export function readPixels(
   const bytes = bytesPerPixel(encoding);
   if (bytes === null) return `Unsupported image encoding [${encoding}]`;
   const needed = (height - 1) * image.step + width * bytes;
-  if (image.step < width * bytes || needed > image.data.length || width * height > MOST_PIXELS) {
+  if (image.step < width * bytes || needed > image.data.length || width * height > MAX_PIXELS) {
     return `Data size (${image.data.length} bytes) does not match width (${width}), height (${height}) and step (${image.step}) of ${encoding}`;
   }
   const rgba = new Uint8ClampedArray(width * height * 4);

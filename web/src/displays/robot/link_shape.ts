@@ -26,7 +26,7 @@ const SHADED_RED = [1, 0, 0, 1] as const;
 export type OnMissing = (uri: string, reason: string) => void;
 
 export class LinkShapes extends Group {
-  private readonly own: ShapeMaterial[] = [];
+  private readonly materials: ShapeMaterial[] = [];
   private readonly colors = new Map<ShapeMaterial, readonly [number, number, number, number]>();
   private alpha = 1;
   private hasPlace = true;
@@ -46,21 +46,21 @@ export class LinkShapes extends Group {
   /** Alpha of robot and link, 0…1; it multiplies each material's own. */
   setAlpha(alpha: number): void {
     this.alpha = alpha;
-    for (const material of this.own) this.paint(material);
+    for (const material of this.materials) this.paint(material);
   }
 
   /** White without a transform, as rviz shows it; true: that changed. */
   setPlaced(hasPlace: boolean): boolean {
     if (hasPlace === this.hasPlace) return false;
     this.hasPlace = hasPlace;
-    for (const material of this.own) this.paint(material);
+    for (const material of this.materials) this.paint(material);
     return true;
   }
 
   override dispose(): void {
     this.isGone = true;
-    for (const material of this.own) material.dispose();
-    this.own.length = 0;
+    for (const material of this.materials) material.dispose();
+    this.materials.length = 0;
   }
 
   private paint(material: ShapeMaterial): void {
@@ -71,7 +71,7 @@ export class LinkShapes extends Group {
   }
 
   private keep(material: ShapeMaterial, rgba: readonly [number, number, number, number]): ShapeMaterial {
-    this.own.push(material);
+    this.materials.push(material);
     this.colors.set(material, rgba);
     this.paint(material);
     return material;
@@ -96,7 +96,7 @@ export class LinkShapes extends Group {
       const { object, materials, hasMaterials, missing } = await meshLibrary(this.connection).copy(geometry.uri);
       if (this.isGone) return;
       for (const uri of missing) this.onMissing(uri, "Could not load texture");
-      if (hasMaterials) for (const each of materials) this.keep(each, each.color.toArray());
+      if (hasMaterials) for (const material of materials) this.keep(material, material.color.toArray());
       else setMaterial(object, this.linkMaterial(material));
       place.add(object);
       this.onChange();

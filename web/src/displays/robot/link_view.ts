@@ -66,20 +66,20 @@ export class LinkView extends Group {
   /** Show as the robot's properties and the link's own say. */
   show(visual: boolean, collision: boolean, alpha: number): void {
     const enabled = this.row.value.peek() !== false;
-    const own = alpha * this.alpha.value.peek();
+    const linkAlpha = alpha * this.alpha.value.peek();
     this.visuals.visible = enabled && visual;
     this.collisions.visible = enabled && collision;
-    this.visuals.setAlpha(own);
-    this.collisions.setAlpha(own);
-    this.showOwnAxes(enabled && this.showAxes.value.peek());
-    this.showOwnTrail(enabled && this.showTrail.value.peek());
+    this.visuals.setAlpha(linkAlpha);
+    this.collisions.setAlpha(linkAlpha);
+    this.updateAxes(enabled && this.showAxes.value.peek());
+    this.updateTrail(enabled && this.showTrail.value.peek());
   }
 
   override dispose(): void {
     this.visuals.dispose();
     this.collisions.dispose();
-    this.showOwnAxes(false);
-    this.showOwnTrail(false);
+    this.updateAxes(false);
+    this.updateTrail(false);
   }
 
   private makeRow(link: RobotLink): LinkProperty {
@@ -89,7 +89,7 @@ export class LinkView extends Group {
     return row;
   }
 
-  private showOwnAxes(shown: boolean): void {
+  private updateAxes(shown: boolean): void {
     if (shown === (this.axes !== null)) return;
     this.axes?.removeFromParent();
     this.axes?.dispose();
@@ -98,7 +98,7 @@ export class LinkView extends Group {
   }
 
   /** The trail stands in the fixed frame, beside the link. */
-  private showOwnTrail(shown: boolean): void {
+  private updateTrail(shown: boolean): void {
     if (shown === (this.trail !== null)) return;
     this.trail?.removeFromParent();
     this.trail?.dispose();

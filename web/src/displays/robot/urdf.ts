@@ -112,10 +112,10 @@ function readGeometry(node: Element | null): Geometry | null {
 /** A material of the link; one that says nothing but a name is the robot's, or another link's, of that name. */
 function findMaterial(node: Element | null, named: Map<string, RobotMaterial>): RobotMaterial | null {
   if (node === null) return null;
-  const own = readMaterial(node);
-  if (own.rgba === null && own.texture === null) return named.get(own.name) ?? null;
-  if (own.name !== "" && !named.has(own.name)) named.set(own.name, own);
-  return own;
+  const material = readMaterial(node);
+  if (material.rgba === null && material.texture === null) return named.get(material.name) ?? null;
+  if (material.name !== "" && !named.has(material.name)) named.set(material.name, material);
+  return material;
 }
 
 function readMaterial(node: Element): RobotMaterial {

@@ -130,7 +130,13 @@ function setFaded(
   { fade }: FrameView,
   alpha: number,
 ): void {
-  const own = 1 - fade.grey;
+  const saturation = 1 - fade.grey;
   const grey = GREY * fade.grey;
-  part.setRgbaAt(index, red * own + grey, green * own + grey, blue * own + grey, alpha * fade.alpha);
+  part.setRgbaAt(
+    index,
+    red * saturation + grey,
+    green * saturation + grey,
+    blue * saturation + grey,
+    alpha * fade.alpha,
+  );
 }

@@ -66,14 +66,14 @@ function faultOf(
   fixedFrame: string,
   now: bigint,
 ): Fault {
-  const own = rootOf(frames, name);
-  if (own === null) return { kind: "error", text: "Its parents go round in a loop", short: "loop of parents" };
+  const frameRoot = rootOf(frames, name);
+  if (frameRoot === null) return { kind: "error", text: "Its parents go round in a loop", short: "loop of parents" };
   const frame = frames.get(name);
   if (frame !== undefined && frame.parent !== null && !frame.isStatic && secondsOld(frame, now) > OLD) {
     const text = age(secondsOld(frame, now));
     return { kind: "warn", text: `Not updated for ${text}`, short: `${text} old` };
   }
-  if (root !== null && own !== root)
+  if (root !== null && frameRoot !== root)
     return { kind: "warn", text: `Not connected with ${fixedFrame}`, short: "not connected" };
   return { kind: "", text: "", short: "" };
 }

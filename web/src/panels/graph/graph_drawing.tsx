@@ -44,7 +44,7 @@ export function GraphDrawing({
   label,
   boxes,
   arrows,
-  direction: wanted,
+  direction: option,
   panZoom,
   onSelect,
 }: GraphDrawingProps): JSX.Element {
@@ -60,7 +60,7 @@ export function GraphDrawing({
     observer.observe(element);
     return () => observer.disconnect();
   }, []);
-  const direction = wanted === "fit" ? (room[0] > WIDE * room[1] ? "LR" : "TB") : wanted;
+  const direction = option === "fit" ? (room[0] > WIDE * room[1] ? "LR" : "TB") : option;
   const shape = JSON.stringify([
     direction,
     boxes.map((box) => [box.id, box.name, box.caption !== undefined]),

@@ -69,12 +69,12 @@ export function nodeNames(graph: GraphInfo): readonly string[] {
 
 /** Vertices and edges that touch one; what hovering lights up. */
 export function neighbourhood(drawing: Drawing, id: string): ReadonlySet<string> {
-  const found = new Set([id]);
+  const ids = new Set([id]);
   for (const edge of drawing.edges) {
-    if (edge.from === id) found.add(edge.to);
-    if (edge.to === id) found.add(edge.from);
+    if (edge.from === id) ids.add(edge.to);
+    if (edge.to === id) ids.add(edge.from);
   }
-  return found;
+  return ids;
 }
 
 function add(vertices: Map<string, Vertex>, vertex: Vertex): string {
@@ -92,9 +92,9 @@ function matching(drawing: Drawing, text: string): Drawing {
   const part = text.trim().toLowerCase();
   if (part === "") return drawing;
   const hits = drawing.vertices.filter((vertex) => vertex.name.toLowerCase().includes(part));
-  const kept = new Set(hits.flatMap((vertex) => [...neighbourhood(drawing, vertex.id)]));
+  const ids = new Set(hits.flatMap((vertex) => [...neighbourhood(drawing, vertex.id)]));
   return {
-    vertices: drawing.vertices.filter((vertex) => kept.has(vertex.id)),
-    edges: drawing.edges.filter((edge) => kept.has(edge.from) && kept.has(edge.to)),
+    vertices: drawing.vertices.filter((vertex) => ids.has(vertex.id)),
+    edges: drawing.edges.filter((edge) => ids.has(edge.from) && ids.has(edge.to)),
   };
 }

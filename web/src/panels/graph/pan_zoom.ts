@@ -20,8 +20,8 @@ export class PanZoom {
 
   /** The part that is seen in an element of a size. */
   current(content: readonly [number, number], room: readonly [number, number]): ViewBox {
-    const own = this.view.value;
-    if (own !== null) return own;
+    const view = this.view.value;
+    if (view !== null) return view;
     const scale = Math.min(LARGEST_FIT, room[0] / content[0], room[1] / content[1]);
     const [width, height] = [room[0] / scale, room[1] / scale];
     return { x: (content[0] - width) / 2, y: (content[1] - height) / 2, width, height };

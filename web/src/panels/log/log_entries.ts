@@ -56,8 +56,8 @@ export function filtered(entries: readonly LogEntry[], filter: LogFilter): reado
 }
 
 /** A test for a part of a text in any case, or for `/expression/`. */
-function textMatcher(wanted: string): (text: string) => boolean {
-  const expression = /^\/(.+)\/$/.exec(wanted.trim())?.[1];
+function textMatcher(query: string): (text: string) => boolean {
+  const expression = /^\/(.+)\/$/.exec(query.trim())?.[1];
   if (expression !== undefined) {
     try {
       const compiled = new RegExp(expression, "i");
@@ -66,6 +66,6 @@ function textMatcher(wanted: string): (text: string) => boolean {
       return () => false; // half typed: nothing matches yet
     }
   }
-  const part = wanted.trim().toLowerCase();
+  const part = query.trim().toLowerCase();
   return (text) => text.toLowerCase().includes(part);
 }

@@ -54,9 +54,9 @@ export class MessageType {
 
   /** Definition of a type that this one contains. */
   of(type: string): Definition {
-    const found = this.types.get(type);
-    if (found === undefined) throw new Error(`The definition lacks ${type}`);
-    return found;
+    const definition = this.types.get(type);
+    if (definition === undefined) throw new Error(`The definition lacks ${type}`);
+    return definition;
   }
 
   /** The same types with another as root. */

@@ -7,7 +7,7 @@ import type { Field, MessageType } from "./definition";
 import { emptyMessage, emptyValues, messageFromText, valueFromText, ValueError } from "./values";
 
 /** Most values that a form begins with. */
-const MOST_VALUES = 100_000;
+const MAX_VALUES = 100_000;
 
 /** A row of the form: a field that takes a value, or the heading of a message's fields. */
 export interface FormRow {
@@ -34,8 +34,8 @@ export class FormState {
 
   /** Throws an Error with a sentence where the type holds too much for a form. */
   constructor(readonly type: MessageType) {
-    if (!(emptyValues(type) <= MOST_VALUES))
-      throw new Error(`It holds more than ${MOST_VALUES.toLocaleString("en")} values, too many for a form.`);
+    if (!(emptyValues(type) <= MAX_VALUES))
+      throw new Error(`It holds more than ${MAX_VALUES.toLocaleString("en")} values, too many for a form.`);
     this.rows = formRows(type, "", 0);
   }
 

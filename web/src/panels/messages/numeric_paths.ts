@@ -3,10 +3,10 @@
 import type { MessageType } from "./definition";
 import { isNumeric } from "./values";
 
-const MOST_ELEMENTS = 9;
-const MOST_PATHS = 200;
+const MAX_ELEMENTS = 9;
+const MAX_PATHS = 200;
 /** A definition may hold messages within messages without end. */
-const MOST_MESSAGES = 2000;
+const MAX_MESSAGES = 2000;
 
 /** As `.pose.position.x`; of arrays without a fixed length the first element, of long ones the first nine. */
 export function numericPaths(type: MessageType): readonly string[] {
@@ -14,10 +14,10 @@ export function numericPaths(type: MessageType): readonly string[] {
   let messages = 0;
   const add = (within: MessageType, prefix: string): void => {
     messages += 1;
-    if (messages > MOST_MESSAGES) return;
+    if (messages > MAX_MESSAGES) return;
     for (const field of within.root.fields) {
-      const count = field.isArray ? Math.min(MOST_ELEMENTS, field.length ?? 1) : 1;
-      for (let index = 0; index < count && paths.length < MOST_PATHS; index += 1) {
+      const count = field.isArray ? Math.min(MAX_ELEMENTS, field.length ?? 1) : 1;
+      for (let index = 0; index < count && paths.length < MAX_PATHS; index += 1) {
         const path = `${prefix}.${field.name}${field.isArray ? `[${index}]` : ""}`;
         if (field.isComplex) add(within.within(field.type), path);
         else if (isNumeric(field.type) || field.type === "bool") paths.push(path);

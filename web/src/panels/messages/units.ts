@@ -44,8 +44,8 @@ const BY_PARENT: Readonly<Record<string, string>> = {
  */
 export function unitOf(type: string, fields: readonly string[]): string {
   const [first = ""] = fields;
-  const own = BY_TYPE[type]?.[first];
-  if (own !== undefined) return own;
+  const unit = BY_TYPE[type]?.[first];
+  if (unit !== undefined) return unit;
   const above = fields.at(-2) ?? "";
   const isAcceleration = fields.includes("accel") || /Accel/.test(type);
   const isTwist = fields.includes("twist") || /Twist/.test(type) || isAcceleration;

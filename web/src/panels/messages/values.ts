@@ -90,24 +90,24 @@ function parseYaml(text: string): unknown {
   }
 }
 
-function messageFromYaml(type: MessageType, yaml: unknown, where: string, now: bigint): RosMessage {
+function messageFromYaml(type: MessageType, yaml: unknown, path: string, now: bigint): RosMessage {
   const { fields } = type.root;
   const message: Record<string, RosValue> = { ...emptyMessage(type) };
   if (yaml === null) return message;
   let entries: readonly (readonly [string, unknown])[];
   if (Array.isArray(yaml)) {
     if (yaml.length !== fields.length) {
-      throw new ValueError(`${where} has ${fields.length} fields, here are ${yaml.length} values`);
+      throw new ValueError(`${path} has ${fields.length} fields, here are ${yaml.length} values`);
     }
     entries = fields.map((field, index) => [field.name, yaml[index]]);
   } else if (typeof yaml === "object") {
     entries = Object.entries(yaml);
   } else {
-    throw new ValueError(`${where} must be a mapping of ${names(fields)}`);
+    throw new ValueError(`${path} must be a mapping of ${names(fields)}`);
   }
   for (const [name, value] of entries) {
     const field = fields.find((known) => known.name === name);
-    if (field === undefined) throw new ValueError(`${where} has no field ${name}; fields here: ${names(fields)}`);
+    if (field === undefined) throw new ValueError(`${path} has no field ${name}; fields here: ${names(fields)}`);
     message[name] = valueFromYaml(type, field, value, now);
   }
   return message;
@@ -126,41 +126,41 @@ function valueFromYaml(type: MessageType, field: Field, yaml: unknown, now: bigi
   return yaml.map((element: unknown, index) => elementFromYaml(type, field, element, `${field.name}[${index}]`, now));
 }
 
-function elementFromYaml(type: MessageType, field: Field, yaml: unknown, where: string, now: bigint): RosValue {
-  if (field.isComplex) return messageFromYaml(type.within(field.type), yaml, where, now);
-  if (field.type === "string") return textOf(yaml, where);
-  if (field.type === "bool") return boolOf(yaml, where);
-  if (isTime(field.type)) return timeOf(yaml, where, now);
+function elementFromYaml(type: MessageType, field: Field, yaml: unknown, path: string, now: bigint): RosValue {
+  if (field.isComplex) return messageFromYaml(type.within(field.type), yaml, path, now);
+  if (field.type === "string") return textOf(yaml, path);
+  if (field.type === "bool") return boolOf(yaml, path);
+  if (isTime(field.type)) return timeOf(yaml, path, now);
   const range = INTEGERS[field.type];
-  if (range !== undefined) return integerOf(yaml, field.type, range, where);
+  if (range !== undefined) return integerOf(yaml, field.type, range, path);
   if (typeof yaml === "number" || typeof yaml === "bigint") return Number(yaml);
-  throw new ValueError(`${where} must be a number`);
+  throw new ValueError(`${path} must be a number`);
 }
 
-function textOf(yaml: unknown, where: string): string {
+function textOf(yaml: unknown, path: string): string {
   if (typeof yaml === "string") return yaml;
   if (yaml === null) return "";
   if (typeof yaml === "number" || typeof yaml === "bigint" || typeof yaml === "boolean") return String(yaml);
-  throw new ValueError(`${where} must be a text`);
+  throw new ValueError(`${path} must be a text`);
 }
 
-function boolOf(yaml: unknown, where: string): boolean {
+function boolOf(yaml: unknown, path: string): boolean {
   if (typeof yaml === "boolean") return yaml;
   if (yaml === 0n || yaml === 1n) return yaml === 1n;
-  throw new ValueError(`${where} must be true or false`);
+  throw new ValueError(`${path} must be true or false`);
 }
 
-function integerOf(yaml: unknown, type: string, [lowest, highest]: readonly [bigint, bigint], where: string): RosValue {
+function integerOf(yaml: unknown, type: string, [lowest, highest]: readonly [bigint, bigint], path: string): RosValue {
   const value = typeof yaml === "number" && Number.isInteger(yaml) ? BigInt(yaml) : yaml;
-  if (typeof value === "boolean") return integerOf(value ? 1n : 0n, type, [lowest, highest], where);
+  if (typeof value === "boolean") return integerOf(value ? 1n : 0n, type, [lowest, highest], path);
   if (typeof value !== "bigint" || value < lowest || value > highest) {
-    throw new ValueError(`${where} must be a whole number from ${lowest.toString()} to ${highest.toString()}`);
+    throw new ValueError(`${path} must be a whole number from ${lowest.toString()} to ${highest.toString()}`);
   }
   return is64(type) ? value : Number(value);
 }
 
 /** Seconds, `now`, or `{secs, nsecs}` as rostopic prints it. */
-function timeOf(yaml: unknown, where: string, now: bigint): RosTime {
+function timeOf(yaml: unknown, path: string, now: bigint): RosTime {
   if (yaml === null) return { sec: 0, nsec: 0 };
   if (yaml === "now") return { sec: Number(now / NANOSECONDS), nsec: Number(now % NANOSECONDS) };
   if (typeof yaml === "number" || typeof yaml === "bigint") {
@@ -173,5 +173,5 @@ function timeOf(yaml: unknown, where: string, now: bigint): RosTime {
     const nsec = parts["nsecs"] ?? parts["nsec"] ?? 0n;
     if (typeof sec === "bigint" && typeof nsec === "bigint") return { sec: Number(sec), nsec: Number(nsec) };
   }
-  throw new ValueError(`${where} must be seconds, or now`);
+  throw new ValueError(`${path} must be seconds, or now`);
 }

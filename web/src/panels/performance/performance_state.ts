@@ -30,7 +30,7 @@ export interface Row extends ProfilePart {
 }
 
 /** Profiles of which the real-time factor is drawn. */
-const KEPT = 120;
+const MAX_FACTORS = 120;
 
 class PerformanceState {
   readonly profile = signal<Profile | null>(null);
@@ -47,7 +47,7 @@ class PerformanceState {
   receive(profile: Profile): void {
     this.profile.value = profile;
     if (profile.wall_s > 0)
-      this.factors.value = [...this.factors.peek(), profile.simulated_s / profile.wall_s].slice(-KEPT);
+      this.factors.value = [...this.factors.peek(), profile.simulated_s / profile.wall_s].slice(-MAX_FACTORS);
   }
 }
 

@@ -40,20 +40,20 @@ export class Curve {
   ) {
     let last = "";
     this.dispose = effect(() => {
-      const found = parsePath(path, page.connection.topics.value.keys());
+      const topicPath = parsePath(path, page.connection.topics.value.keys());
       if (!path.startsWith("/") && page.session.kind === "simulation") {
         if (last !== path) this.followSimulation();
         last = path;
         return;
       }
       const joint = path.startsWith("/") ? null : simulatedJoint(page.world.manifest.value, path);
-      const next = joint === null ? found && found.topic + stepsText(found.steps) : path;
+      const next = joint === null ? topicPath && topicPath.topic + stepsText(topicPath.steps) : path;
       if (next === last) return;
       last = next ?? "";
       this.subscription?.close();
       this.subscription = undefined;
       if (joint !== null) this.followJoint(joint.index, joint.field);
-      else if (found !== null) this.follow(found);
+      else if (topicPath !== null) this.follow(topicPath);
       else
         this.fault.value = path.startsWith("/")
           ? "This is no path, as /odom.twist.twist.linear.x"

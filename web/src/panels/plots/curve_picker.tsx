@@ -19,7 +19,7 @@ import { movingJoints } from "./simulated_joints";
 import { valueOwners } from "./simulated_values";
 
 const JOINTS = "joints";
-const MOST_FOUND = 200;
+const MAX_RESULTS = 200;
 const WAITS = " waits";
 const PERIOD = 500; // ms between drawings of the tree
 
@@ -28,11 +28,11 @@ export function CurvePicker({ page, state }: { readonly page: Page; readonly sta
   const [open, setOpen] = useState<ReadonlySet<string>>(new Set());
   const messages = useMessages(page, open);
   const search = useSignal("");
-  const found = search.value.trim().toLowerCase();
+  const query = search.value.trim().toLowerCase();
   const rows = [
-    ...simulatedRows(page, open, found),
+    ...simulatedRows(page, open, query),
     ...topicRows(page, open, messages).filter(
-      ({ label }) => found === "" || (label ?? "").toLowerCase().includes(found),
+      ({ label }) => query === "" || (label ?? "").toLowerCase().includes(query),
     ),
   ];
   const plotted = new Map(state.curves.map((curve) => [curve.path, curve]));
@@ -91,8 +91,8 @@ function usePaths(page: Page): readonly string[] {
       const text = await page.connection.definition(type).catch(() => "");
       return numericPaths(MessageType.parse(text)).map((path) => name + path);
     });
-    void Promise.all(all).then((found) => {
-      if (!isOver) setPaths([...joints, ...found.flat().sort()]);
+    void Promise.all(all).then((query) => {
+      if (!isOver) setPaths([...joints, ...query.flat().sort()]);
     });
     return () => {
       isOver = true;
@@ -141,7 +141,7 @@ function simulatedRows(page: Page, open: ReadonlySet<string>, search: string): r
       ...(isOpen ? values.map((value) => row(value, depth + 1, value.slice(name.length + 1), "", undefined)) : []),
     ];
   });
-  return rows.slice(0, search === "" ? rows.length : MOST_FOUND);
+  return rows.slice(0, search === "" ? rows.length : MAX_RESULTS);
 }
 
 function jointRows(page: Page, open: ReadonlySet<string>): readonly TreeRow[] {

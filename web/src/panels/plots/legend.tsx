@@ -49,7 +49,7 @@ export function Legend({ state, plot }: { readonly state: PlotsState; readonly p
 
 /** Largest absolute value that is shown. */
 function largest({ points }: Curve, state: PlotsState): number {
-  return points.between(...state.range())[1].reduce((most, y) => Math.max(most, Math.abs(y)), 0);
+  return points.between(...state.range())[1].reduce((max, y) => Math.max(max, Math.abs(y)), 0);
 }
 
 /** Decimals by the size, so that a value that moves keeps its width; 0 for what is nothing beside the largest. */

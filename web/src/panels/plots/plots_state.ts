@@ -139,8 +139,8 @@ export class PlotsState {
 
 /** All plots that have curves; at least one plot. */
 function withoutEmpty(plots: readonly Plot[]): readonly Plot[] {
-  const kept = plots.filter((plot) => plot.curves.length > 0);
-  return kept.length > 0 ? kept : plots.slice(0, 1);
+  const nonEmpty = plots.filter((plot) => plot.curves.length > 0);
+  return nonEmpty.length > 0 ? nonEmpty : plots.slice(0, 1);
 }
 
 export const plotsState = perPage((page) => new PlotsState(page));

@@ -77,7 +77,7 @@ class SeriesFeed {
     }
     this.next = 0;
     this.page.connection.request("plot", { series: names }).catch((error: unknown) => {
-      for (const each of this.listeners.values()) for (const { onFault } of each) onFault(sentence(error));
+      for (const group of this.listeners.values()) for (const { onFault } of group) onFault(sentence(error));
     });
   }
 

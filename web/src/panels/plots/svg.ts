@@ -30,9 +30,9 @@ function plotText({ curves }: Plot, range: Range): string {
   ];
   for (const time of ticks(range)) parts.push(label(x(time), HEIGHT - BOTTOM + 16, "middle", timeText(time)));
   for (const side of ["left", "right"] as const) {
-    const own = curves.filter((curve) => curve.axis.peek() === side);
-    if (own.length === 0) continue;
-    const values = paddedRange(own.map((curve) => curve.points.between(from, to)[1]));
+    const sideCurves = curves.filter((curve) => curve.axis.peek() === side);
+    if (sideCurves.length === 0) continue;
+    const values = paddedRange(sideCurves.map((curve) => curve.points.between(from, to)[1]));
     const y = (value: number): number =>
       HEIGHT - BOTTOM - ((value - values[0]) / (values[1] - values[0])) * (HEIGHT - TOP - BOTTOM);
     for (const value of ticks(values)) {
@@ -42,7 +42,7 @@ function plotText({ curves }: Plot, range: Range): string {
           : label(WIDTH - RIGHT + 6, y(value) + 4, "start", significant(value, 5)),
       );
     }
-    for (const curve of own) {
+    for (const curve of sideCurves) {
       const index = curves.indexOf(curve);
       const [xs, ys] = curve.points.between(from, to);
       const points = Array.from(xs, (time, at) => `${x(time).toFixed(2)},${y(ys[at] ?? 0).toFixed(2)}`);

@@ -1,6 +1,6 @@
 /** Output of a terminal on its way to the screen: in order, each byte once, no more waiting than is worth drawing. */
 
-const MOST_WAITING = 1024 * 1024;
+const MAX_WAITING = 1024 * 1024;
 
 /** What draws the output. */
 export interface Screen {
@@ -33,7 +33,7 @@ export class OutputFeed {
     this.next = first + data.length;
     this.waiting.push(fresh);
     this.waitingBytes += fresh.length;
-    while (this.waitingBytes > MOST_WAITING && this.waiting.length > 1) {
+    while (this.waitingBytes > MAX_WAITING && this.waiting.length > 1) {
       this.waitingBytes -= this.waiting.shift()?.length ?? 0;
       this.isStale = true;
     }

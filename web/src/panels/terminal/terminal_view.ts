@@ -75,9 +75,9 @@ export class TerminalView {
   requestSize(): void {
     const size = this.fit.proposeDimensions();
     if (!this.canType || size === undefined || !(size.cols > 1 && size.rows > 1)) return;
-    const wanted: Size = [Math.min(size.cols, 500), Math.min(size.rows, 500)];
-    if (wanted[0] !== this.terminal.cols || wanted[1] !== this.terminal.rows)
-      this.connection.useTerminal(this.number, "", wanted);
+    const shown: Size = [Math.min(size.cols, 500), Math.min(size.rows, 500)];
+    if (shown[0] !== this.terminal.cols || shown[1] !== this.terminal.rows)
+      this.connection.useTerminal(this.number, "", shown);
   }
 
   recolor(): void {

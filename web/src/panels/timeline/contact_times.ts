@@ -4,7 +4,7 @@ import { contactCount, HEADER, SIZE } from "../../scene/world/contact_rows";
 import { Intervals } from "./intervals";
 
 /** Most pairs that are kept; the one that touched longest ago goes, of equals the one that began last. */
-const MOST = 40;
+const MAX_PAIRS = 40;
 
 export interface PairStretches {
   readonly pair: string;
@@ -24,7 +24,7 @@ export class ContactTimes {
     if (time < known) return;
     for (const pair of touching) if (!this.intervals.has(pair)) this.intervals.set(pair, new Intervals());
     for (const [pair, intervals] of this.intervals) intervals.note(touching.has(pair), time);
-    while (this.intervals.size > MOST) this.dropOldest();
+    while (this.intervals.size > MAX_PAIRS) this.dropOldest();
   }
 
   private dropOldest(): void {

@@ -37,10 +37,10 @@ export class TimelineState {
     const models = this.page.world.manifest.value?.models ?? [];
     return new Map(models.flatMap((model) => bodiesOf(model).map((body) => [body, model.name] as const)));
   });
-  private contactsAsked: Subscription | null = null;
+  private contactSubscription: Subscription | null = null;
   private markCount = 0;
-  private asked: number | null = null;
-  private isAsking = false;
+  private requestedTime: number | null = null;
+  private isSeeking = false;
 
   constructor(private readonly page: Page) {
     this.topics = new TopicTimes(page.connection);
@@ -50,7 +50,7 @@ export class TimelineState {
   /** Note who touches whom from now on, which the simulation computes only for those who ask. */
   followContacts(): void {
     if (this.page.session.kind !== "simulation") return;
-    this.contactsAsked ??= this.page.connection.subscribeRaw("trundle/contacts", (payload) =>
+    this.contactSubscription ??= this.page.connection.subscribeRaw("trundle/contacts", (payload) =>
       this.noteContacts(payload),
     );
   }
@@ -80,8 +80,8 @@ export class TimelineState {
 
   /** Go to a time; while an answer is due only the newest wish is kept. */
   seek(time: number): void {
-    this.asked = time;
-    if (!this.isAsking) void this.ask();
+    this.requestedTime = time;
+    if (!this.isSeeking) void this.ask();
   }
 
   do<N extends "play" | "pause" | "step" | "speed">(request: N, fields: Fields<N>): void {
@@ -98,8 +98,9 @@ export class TimelineState {
   }
 
   rename(mark: Mark, name: string): void {
-    const kept = this.marks.peek().filter(({ id }) => id !== mark.id);
-    this.marks.value = name === "" ? kept : [...kept, { ...mark, name }].sort((one, other) => one.time - other.time);
+    const others = this.marks.peek().filter(({ id }) => id !== mark.id);
+    this.marks.value =
+      name === "" ? others : [...others, { ...mark, name }].sort((one, other) => one.time - other.time);
   }
 
   private look(): void {
@@ -118,10 +119,10 @@ export class TimelineState {
   }
 
   private async ask(): Promise<void> {
-    this.isAsking = true;
-    while (this.asked !== null) {
-      const time = this.asked;
-      this.asked = null;
+    this.isSeeking = true;
+    while (this.requestedTime !== null) {
+      const time = this.requestedTime;
+      this.requestedTime = null;
       try {
         await this.page.connection.request("seek", { time_ns: Math.round(time * 1e9) });
         this.fault.value = "";
@@ -129,17 +130,18 @@ export class TimelineState {
         this.fault.value = sentence(error);
       }
     }
-    this.isAsking = false;
+    this.isSeeking = false;
   }
 }
 
 export const timelineState = perPage((page) => new TimelineState(page));
 
 /** Times of the ruler: a round step that leaves each some room. */
-export function rulerTimes({ start, end }: Span, most: number): readonly number[] {
+export function rulerTimes({ start, end }: Span, maxCount: number): readonly number[] {
   const step =
-    [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 3600].find((one) => (end - start) / one <= most) ??
-    7200;
+    [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 3600].find(
+      (one) => (end - start) / one <= maxCount,
+    ) ?? 7200;
   const first = Math.ceil(start / step - 1e-9);
   const count = Math.floor((end - first * step) / step + 1e-9) + 1;
   return Array.from({ length: Math.max(0, count) }, (_, index) => (first + index) * step);

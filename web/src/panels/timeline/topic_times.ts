@@ -26,7 +26,7 @@ export class TopicTimes {
   /** Of a bag; null: none is played, or its index is not read yet. */
   private readonly recorded = signal<readonly TopicStretches[] | null>(null);
   /** Buckets in which messages of a topic came. */
-  private readonly came = new Map<string, Set<number>>();
+  private readonly received = new Map<string, Set<number>>();
   private readonly counts = new Map<string, number>();
   private bucket = SHORTEST; // s
   private lookedAt = -Infinity; // bucket
@@ -41,7 +41,7 @@ export class TopicTimes {
   get all(): readonly TopicStretches[] {
     return (
       this.recorded.value ??
-      [...this.came.keys()].sort().map((topic) => ({ topic, count: null, bands: this.bands(topic) }))
+      [...this.received.keys()].sort().map((topic) => ({ topic, count: null, bands: this.bands(topic) }))
     );
   }
 
@@ -62,9 +62,9 @@ export class TopicTimes {
       const before = this.counts.get(topic) ?? 0;
       this.counts.set(topic, count);
       if (count <= before) continue;
-      const buckets = this.came.get(topic) ?? new Set<number>();
-      for (let each = first; each <= at; each += 1) buckets.add(each);
-      this.came.set(topic, buckets);
+      const buckets = this.received.get(topic) ?? new Set<number>();
+      for (let bucket = first; bucket <= at; bucket += 1) buckets.add(bucket);
+      this.received.set(topic, buckets);
     }
   }
 
@@ -73,11 +73,11 @@ export class TopicTimes {
     const ratio = this.bucket / length;
     this.bucket = length;
     if (ratio > 1) {
-      this.came.clear();
+      this.received.clear();
       this.lookedAt = -Infinity;
     } else if (ratio < 1) {
-      for (const [topic, buckets] of this.came)
-        this.came.set(topic, new Set([...buckets].map((each) => Math.floor(each * ratio))));
+      for (const [topic, buckets] of this.received)
+        this.received.set(topic, new Set([...buckets].map((bucket) => Math.floor(bucket * ratio))));
       this.lookedAt = Math.floor(this.lookedAt * ratio);
     }
   }
@@ -85,7 +85,7 @@ export class TopicTimes {
   /** Stretches of a topic [s], joined where they touch. */
   private bands(topic: string): readonly (readonly [number, number])[] {
     const bands: [number, number][] = [];
-    for (const bucket of [...(this.came.get(topic) ?? [])].sort((one, other) => one - other)) {
+    for (const bucket of [...(this.received.get(topic) ?? [])].sort((one, other) => one - other)) {
       const [start, end] = [bucket * this.bucket, (bucket + 1) * this.bucket];
       const last = bands.at(-1);
       if (last !== undefined && start - last[1] < this.bucket * 1.5) last[1] = end;

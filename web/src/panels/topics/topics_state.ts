@@ -17,7 +17,7 @@ export class TopicsState {
   readonly selected = signal<string | null>(null);
   readonly publications = signal<readonly Publication[]>([]);
   /** Large topics that are measured all the same. */
-  readonly asked = signal<ReadonlySet<string>>(new Set());
+  readonly measuredAnyway = signal<ReadonlySet<string>>(new Set());
   private readonly meters = new Map<string, Subscription>();
 
   constructor(private readonly connection: Connection) {}
@@ -34,11 +34,11 @@ export class TopicsState {
   }
 
   isMeasured(topic: TopicInfo): boolean {
-    return !LARGE.test(topic.type) || this.asked.value.has(topic.name);
+    return !LARGE.test(topic.type) || this.measuredAnyway.value.has(topic.name);
   }
 
   ask(topic: string): void {
-    this.asked.value = new Set(this.asked.peek()).add(topic);
+    this.measuredAnyway.value = new Set(this.measuredAnyway.peek()).add(topic);
   }
 
   /** Stop measuring: the panel is closed. */

@@ -17,7 +17,7 @@ import { drawOrigin, drawWind } from "./world_marks";
 const DRAWN = ["joints", "centres", "inertias", "frames", "cameras"] as const satisfies readonly Part[];
 type Drawn = (typeof DRAWN)[number];
 /** Sizes of axes [m]. */
-const SIZE = { least: 0.05, most: 0.6 };
+const SIZE = { min: 0.05, max: 0.6 };
 
 /** A model with its name in full: `outer::inner`. */
 export interface NamedModel {
@@ -54,8 +54,8 @@ export class BodyOverlays {
       ...DRAWN.map((part) =>
         effect(() => {
           const manifest = world.manifest.value;
-          const isThere = world.progress.value === 1; // sizes are those of what came
-          if (manifest === null || !isThere || !shown.any(part)) this.clear(part);
+          const isLoaded = world.progress.value === 1; // sizes are those of what came
+          if (manifest === null || !isLoaded || !shown.any(part)) this.clear(part);
           else
             this.draw(
               part,
@@ -175,7 +175,7 @@ export class BodyOverlays {
   /** Length of the axes at a body, by how large it is [m]. */
   private sizeOf(body: number): number {
     const object = this.world.object(body);
-    return Math.min(SIZE.most, Math.max(SIZE.least, object === null ? SIZE.least : 1.2 * radiusOf(object)));
+    return Math.min(SIZE.max, Math.max(SIZE.min, object === null ? SIZE.min : 1.2 * radiusOf(object)));
   }
 }
 

@@ -9,7 +9,7 @@ import type { Connection } from "../../protocol/connection";
 import { NOT_PICKED } from "../picking";
 import type { SceneView } from "../scene_view";
 import type { SimulatedWorld } from "../simulated_world";
-import { contactCount, HEADER, MOST, SIZE } from "../world/contact_rows";
+import { contactCount, HEADER, MAX_CONTACTS, SIZE } from "../world/contact_rows";
 import type { NamedModel } from "./body_overlays";
 import { COLORS, flat, inFront } from "./overlay_shapes";
 
@@ -129,7 +129,7 @@ function choose(models: readonly NamedModel[], isShown: (name: string) => boolea
 }
 
 function instances(geometry: BufferGeometry, color: number): InstancedMesh {
-  const mesh = inFront(new InstancedMesh(geometry, flat(color), MOST));
+  const mesh = inFront(new InstancedMesh(geometry, flat(color), MAX_CONTACTS));
   mesh.userData[NOT_PICKED] = true;
   mesh.frustumCulled = false;
   mesh.count = 0;

@@ -33,12 +33,12 @@ export function drawJoint({ pose, axes, type, lower, upper }: JointInfo, size: n
   const range = type === "prismatic" ? slide(first, lower, upper, size) : sector(first, lower, upper, 0.7 * size);
   object.add(range);
   const turn = new Quaternion();
-  const own = range.quaternion.clone();
+  const orientation = range.quaternion.clone();
   return {
     object,
     move: (position) => {
       if (type === "prismatic") range.position.copy(first).multiplyScalar(-position);
-      else range.quaternion.copy(turn.setFromAxisAngle(first, -position)).multiply(own);
+      else range.quaternion.copy(turn.setFromAxisAngle(first, -position)).multiply(orientation);
     },
   };
 }

@@ -53,9 +53,9 @@ export function flat(color: number, opacity = 1): MeshBasicMaterial {
 function shared<M extends MeshBasicMaterial | LineBasicMaterial>(key: string, make: () => M): M {
   const known = materials.get(key) as M | undefined;
   if (known !== undefined) return known;
-  const made = make();
-  materials.set(key, made);
-  return made;
+  const material = make();
+  materials.set(key, material);
+  return material;
 }
 
 /** Lines from each even point to the next. */

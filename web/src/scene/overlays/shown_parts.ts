@@ -39,8 +39,8 @@ export class ShownParts {
   of(part: Part, model: string): boolean {
     let name = model;
     for (;;) {
-      const own = this.models.value.get(name)?.get(part);
-      if (own !== undefined) return own;
+      const parts = this.models.value.get(name)?.get(part);
+      if (parts !== undefined) return parts;
       const at = name.lastIndexOf("::");
       if (at < 0) return this.all.value.has(part);
       name = name.slice(0, at);
@@ -50,7 +50,7 @@ export class ShownParts {
   /** Whether a part is shown of any model. */
   any(part: Part): boolean {
     if (this.all.value.has(part)) return true;
-    for (const own of this.models.value.values()) if (own.get(part) === true) return true;
+    for (const parts of this.models.value.values()) if (parts.get(part) === true) return true;
     return false;
   }
 
@@ -61,8 +61,8 @@ export class ShownParts {
     else all.delete(part);
     this.all.value = all;
     const models = new Map<string, ReadonlyMap<Part, boolean>>();
-    for (const [model, own] of this.models.peek()) {
-      const rest = new Map([...own].filter(([other]) => other !== part));
+    for (const [model, parts] of this.models.peek()) {
+      const rest = new Map([...parts].filter(([other]) => other !== part));
       if (rest.size > 0) models.set(model, rest);
     }
     this.models.value = models;
@@ -70,8 +70,8 @@ export class ShownParts {
 
   /** Show or hide a part of one model. */
   set(part: Part, model: string, isShown: boolean): void {
-    const own = new Map(this.models.peek().get(model)).set(part, isShown);
-    this.models.value = new Map(this.models.peek()).set(model, own);
+    const parts = new Map(this.models.peek().get(model)).set(part, isShown);
+    this.models.value = new Map(this.models.peek()).set(model, parts);
   }
 
   setWorld(part: WorldPart, isShown: boolean): void {

@@ -17,16 +17,16 @@ export function drawOrigin(): Object3D {
 /** Arrows with the wind [m/s], over the world's origin; none where it is still. */
 export function drawWind(wind: Triple): Object3D {
   const group = new Group();
-  const way = new Vector3(...wind);
-  const speed = way.length();
+  const direction = new Vector3(...wind);
+  const speed = direction.length();
   if (!(speed > 0)) return group;
   const length = Math.min(LENGTH.longest, LENGTH.unit * speed);
-  way.divideScalar(speed);
+  direction.divideScalar(speed);
   for (let i = 0; i < WIND.count ** 2; i += 1) {
-    const each = arrow(way, length, COLORS.frustum);
+    const mark = arrow(direction, length, COLORS.frustum);
     const offset = (k: number): number => (k - (WIND.count - 1) / 2) * WIND.gap;
-    each.position.set(offset(i % WIND.count), offset(Math.floor(i / WIND.count)), WIND.height);
-    group.add(each);
+    mark.position.set(offset(i % WIND.count), offset(Math.floor(i / WIND.count)), WIND.height);
+    group.add(mark);
   }
   return group;
 }

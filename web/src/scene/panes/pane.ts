@@ -8,13 +8,13 @@ import { LabelLayer, type LabelSet } from "../label_layer";
 import type { PictureSize } from "../picking";
 import type { SixSides } from "../view_controller";
 import { ViewAxes } from "../view_axes";
-import type { PanePlace } from "./pane_layout";
+import type { PaneArea } from "./pane_layout";
 
 const AXES_GAP = 8;
 
 export class Pane {
   readonly camera = signal<PerspectiveCamera | OrthographicCamera>(new PerspectiveCamera());
-  readonly place = signal<PanePlace>({
+  readonly place = signal<PaneArea>({
     area: { left: 0, top: 0, width: 1, height: 1 },
     insets: { left: 0, right: 0, top: 0, bottom: 0 },
   });
@@ -51,7 +51,7 @@ export class Pane {
   }
 
   /** Fit the camera to a place. */
-  fit({ area: { width, height }, insets }: PanePlace): void {
+  fit({ area: { width, height }, insets }: PaneArea): void {
     const camera = this.camera.peek();
     if ("aspect" in camera) camera.aspect = width / height;
     else Object.assign(camera, { left: (camera.bottom * width) / height, right: (camera.top * width) / height });
@@ -73,7 +73,7 @@ export class Pane {
     this.axes.show(this.drawn);
   }
 
-  private putElements({ area: { left, top, width, height }, insets }: PanePlace): void {
+  private putElements({ area: { left, top, width, height }, insets }: PaneArea): void {
     const px = (value: number): string => `${value}px`;
     Object.assign(this.labels.canvas.style, { left: px(left), top: px(top), width: px(width), height: px(height) });
     const { size } = ViewAxes;

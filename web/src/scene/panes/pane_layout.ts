@@ -6,7 +6,7 @@ export const PANE_LAYOUTS = ["one", "beside", "stacked", "four"] as const;
 export type PaneLayout = (typeof PANE_LAYOUTS)[number];
 
 /** Where a pane is in the scene [px], and how much of its edges panels cover [px]. */
-export interface PanePlace {
+export interface PaneArea {
   readonly area: Area;
   readonly insets: Insets;
 }
@@ -40,12 +40,12 @@ export function paneCount(layout: PaneLayout): number {
  *
  * `head`: height that the tools cover at the top of several panes [px].
  */
-export function panePlaces(
+export function paneAreas(
   layout: PaneLayout,
   size: { readonly width: number; readonly height: number },
   insets: Insets,
   head: number,
-): readonly PanePlace[] {
+): readonly PaneArea[] {
   const free = freeArea(size.width, size.height, insets);
   const cells = CELLS[layout];
   const xs = edges(

@@ -5,7 +5,7 @@ import { computed, effect, signal, untracked, type ReadonlySignal } from "@preac
 import type { LabelSet } from "../label_layer";
 import type { Insets } from "../free_area";
 import { Pane } from "./pane";
-import { isInside, paneCount, panePlaces, type PaneLayout, type PanePlace } from "./pane_layout";
+import { isInside, paneCount, paneAreas, type PaneLayout, type PaneArea } from "./pane_layout";
 
 /** Height of the tools at the top of the scene [px]. */
 const TOOLS = 40;
@@ -18,10 +18,10 @@ export class ScenePanes {
   readonly pointed;
   /** Panes that are drawn; one that is not keeps its view. */
   readonly shown: ReadonlySignal<readonly Pane[]>;
-  readonly places: ReadonlySignal<readonly PanePlace[]>;
-  private readonly made;
+  readonly areas: ReadonlySignal<readonly PaneArea[]>;
+  private readonly panes;
   /** Where a button went down that is still down. */
-  private held: Pane | null = null;
+  private pressed: Pane | null = null;
   private readonly stops: (() => void)[];
 
   constructor(
@@ -31,31 +31,31 @@ export class ScenePanes {
     insets: ReadonlySignal<Insets>,
   ) {
     const first = new Pane(host, labels);
-    this.made = signal<readonly Pane[]>([first]);
+    this.panes = signal<readonly Pane[]>([first]);
     this.active = signal(first);
     this.pointed = signal(first);
     this.shown = computed(() => this.chosen());
-    this.places = computed(() => panePlaces(this.layout.value, size.value, insets.value, TOOLS));
+    this.areas = computed(() => paneAreas(this.layout.value, size.value, insets.value, TOOLS));
     this.stops = [
       effect(() => {
         const count = paneCount(this.layout.value);
         untracked(() => this.make(count));
       }),
       effect(() => {
-        const [shown, places] = [this.shown.value, this.places.value];
-        untracked(() => this.put(shown, places));
+        const [shown, areas] = [this.shown.value, this.areas.value];
+        untracked(() => this.put(shown, areas));
       }),
     ];
   }
 
   dispose(): void {
     for (const stop of this.stops) stop();
-    for (const pane of this.made.peek()) pane.dispose();
+    for (const pane of this.panes.peek()) pane.dispose();
   }
 
   /** The pane at a point of the scene [px]; while a button is down, the one where it went down. */
   at(x: number, y: number): Pane {
-    if (this.held !== null) return this.held;
+    if (this.pressed !== null) return this.pressed;
     const shown = this.shown.peek();
     if (shown.length === 1) return this.active.peek();
     return shown.find((pane) => isInside(pane.place.peek().area, x, y)) ?? this.active.peek();
@@ -70,14 +70,14 @@ export class ScenePanes {
 
   /** A button goes down at a point [px]: its pane is the active one, and has the pointer until it goes up. */
   press(x: number, y: number): Pane {
-    this.held = null;
+    this.pressed = null;
     this.active.value = this.point(x, y);
-    this.held = this.active.peek();
-    return this.held;
+    this.pressed = this.active.peek();
+    return this.pressed;
   }
 
   release(): void {
-    this.held = null;
+    this.pressed = null;
   }
 
   /** Make the next pane, or the one before it, the active one. */
@@ -88,22 +88,22 @@ export class ScenePanes {
   }
 
   private make(count: number): void {
-    const made = this.made.peek();
-    const more = Array.from({ length: Math.max(0, count - made.length) }, () => new Pane(this.host, this.labels));
-    if (more.length > 0) this.made.value = [...made, ...more];
+    const panes = this.panes.peek();
+    const more = Array.from({ length: Math.max(0, count - panes.length) }, () => new Pane(this.host, this.labels));
+    if (more.length > 0) this.panes.value = [...panes, ...more];
   }
 
   /** The first panes, and among them the active one. */
   private chosen(): readonly Pane[] {
-    const [made, active, count] = [this.made.value, this.active.value, paneCount(this.layout.value)];
-    const first = made.slice(0, count);
+    const [panes, active, count] = [this.panes.value, this.active.value, paneCount(this.layout.value)];
+    const first = panes.slice(0, count);
     return first.includes(active) ? first : [active, ...first.slice(0, count - 1)];
   }
 
-  private put(shown: readonly Pane[], places: readonly PanePlace[]): void {
-    for (const pane of this.made.peek()) pane.isShown = shown.includes(pane);
+  private put(shown: readonly Pane[], areas: readonly PaneArea[]): void {
+    for (const pane of this.panes.peek()) pane.isShown = shown.includes(pane);
     shown.forEach((pane, index) => {
-      const place = places[index];
+      const place = areas[index];
       if (place !== undefined) pane.place.value = place;
     });
     if (!shown.includes(this.pointed.peek())) this.pointed.value = this.active.peek();

@@ -89,10 +89,10 @@ export class Fps extends View {
   }
 
   private lookAt(point: Vector3): Motion[] {
-    const way = point.sub(this.localEye());
+    const direction = point.sub(this.localEye());
     return [
-      { property: this.yaw, to: Math.atan2(way.y, way.x), kind: "angle" },
-      { property: this.pitch, to: -Math.atan2(way.z, Math.hypot(way.x, way.y)), kind: "angle" },
+      { property: this.yaw, to: Math.atan2(direction.y, direction.x), kind: "angle" },
+      { property: this.pitch, to: -Math.atan2(direction.z, Math.hypot(direction.x, direction.y)), kind: "angle" },
     ];
   }
 
@@ -111,11 +111,14 @@ export class Fps extends View {
     const { position, orientation } = this.frameOf(target);
     const back = orientation.clone().invert();
     const local = eye.clone().sub(position).applyQuaternion(back);
-    const way = focus.clone().sub(eye).applyQuaternion(back);
+    const direction = focus.clone().sub(eye).applyQuaternion(back);
     this.position.value.value = triple(local);
     this.roll.value.value = 0;
-    this.yaw.value.value = Math.atan2(way.y, way.x);
-    this.pitch.value.value = Math.min(STEEPEST, Math.max(-STEEPEST, -Math.atan2(way.z, Math.hypot(way.x, way.y))));
+    this.yaw.value.value = Math.atan2(direction.y, direction.x);
+    this.pitch.value.value = Math.min(
+      STEEPEST,
+      Math.max(-STEEPEST, -Math.atan2(direction.z, Math.hypot(direction.x, direction.y))),
+    );
   }
 
   override centre(): Motion[] {

@@ -7,7 +7,7 @@ import { FIXED_FRAME, type Triple, type YamlMapping } from "../../rviz/propertie
 import type { Transform } from "../../frames/transform";
 import type { Area } from "../free_area";
 import type { Pane } from "../panes/pane";
-import type { PanePlace } from "../panes/pane_layout";
+import type { PaneArea } from "../panes/pane_layout";
 import type { SixSides, ViewPane } from "../view_controller";
 import { CameraMotion, SmoothPose } from "./camera_motion";
 import { FrameAligned } from "./frame_aligned";
@@ -21,7 +21,7 @@ const SMALLEST = 0.1;
 
 export class PaneView implements ViewPane {
   readonly view;
-  readonly place: ReadonlySignal<PanePlace>;
+  readonly place: ReadonlySignal<PaneArea>;
   /** The picture as the view is asked for it. */
   readonly size = computed<Picture>(() => {
     const { width, height } = this.pane.place.value.area;

@@ -16,7 +16,7 @@ export function savePanes({ layout, panes, active }: Pick<Views, "layout" | "pan
 
 /** How the scene is split by what was saved; null: that is none. */
 export function savedLayout(yaml: YamlMapping): PaneLayout | null {
-  const layout = PANE_LAYOUTS.find((each) => each === yaml["Layout"]);
+  const layout = PANE_LAYOUTS.find((name) => name === yaml["Layout"]);
   return Array.isArray(yaml["Panes"]) ? (layout ?? null) : null;
 }
 

@@ -25,8 +25,8 @@ export const VIEW_CLASSES = Object.keys(CLASSES);
 /** A view of rviz's or ROS 2's class name; null: unknown. */
 export function createView(className: string): View | null {
   const [, short = className] = className.split("/");
-  const found = CLASSES[`rviz/${short}`];
-  return found === undefined ? null : new found();
+  const ViewClass = CLASSES[`rviz/${short}`];
+  return ViewClass === undefined ? null : new ViewClass();
 }
 
 export function copyOfView(view: ViewController, name: string): View {

@@ -69,7 +69,7 @@ export class ViewList implements Views {
   }
 
   activate(pane: ViewPane): void {
-    const chosen = this.panes.peek().find((each) => each === pane);
+    const chosen = this.panes.peek().find((other) => other === pane);
     if (chosen !== undefined) this.scene.panes.active.value = chosen.pane;
   }
 

@@ -3,10 +3,10 @@
 export const HEADER = 16;
 export const SIZE = 72;
 /** Most contacts that the server sends. */
-export const MOST = 2000;
+export const MAX_CONTACTS = 2000;
 
 /** Number of contacts in a message; 0 where it is of another generation. */
 export function contactCount(message: DataView, generation: number | undefined): number {
   if (message.byteLength < HEADER || message.getUint32(8, true) !== generation) return 0;
-  return Math.min(MOST, message.getUint32(12, true), Math.floor((message.byteLength - HEADER) / SIZE));
+  return Math.min(MAX_CONTACTS, message.getUint32(12, true), Math.floor((message.byteLength - HEADER) / SIZE));
 }

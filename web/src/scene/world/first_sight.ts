@@ -8,8 +8,8 @@ import type { SimulatedWorld } from "../simulated_world";
 export function whenSeen(world: SimulatedWorld, act: () => void): () => void {
   let isDone = false;
   return effect(() => {
-    const isThere = world.manifest.value !== null && world.progress.value === 1;
-    if (!isThere || isDone) return;
+    const isLoaded = world.manifest.value !== null && world.progress.value === 1;
+    if (!isLoaded || isDone) return;
     isDone = true;
     act();
   });

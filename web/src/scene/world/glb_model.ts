@@ -23,29 +23,29 @@ export class SharedContents {
   private readonly geometries = new Map<string, BufferGeometry>();
   private readonly textures = new Map<string, Texture>();
 
-  geometry(own: BufferGeometry): BufferGeometry {
-    return shared(this.geometries, own.userData["content"], own);
+  geometry(resource: BufferGeometry): BufferGeometry {
+    return shared(this.geometries, resource.userData["content"], resource);
   }
 
-  texture(own: Texture): Texture {
-    const { offset, repeat } = own;
-    const name = own.name === "" ? "" : [own.name, offset.x, offset.y, repeat.x, repeat.y].join(" ");
-    return shared(this.textures, name, own);
+  texture(resource: Texture): Texture {
+    const { offset, repeat } = resource;
+    const name = resource.name === "" ? "" : [resource.name, offset.x, offset.y, repeat.x, repeat.y].join(" ");
+    return shared(this.textures, name, resource);
   }
 
   /** Everything is dropped: another world. */
   dispose(): void {
-    for (const each of [...this.geometries.values(), ...this.textures.values()]) each.dispose();
+    for (const resource of [...this.geometries.values(), ...this.textures.values()]) resource.dispose();
     this.geometries.clear();
     this.textures.clear();
   }
 }
 
-function shared<T>(known: Map<string, T>, name: unknown, own: T): T {
-  if (typeof name !== "string" || name === "") return own;
-  const found = known.get(name) ?? own;
-  known.set(name, found);
-  return found;
+function shared<T>(known: Map<string, T>, name: unknown, resource: T): T {
+  if (typeof name !== "string" || name === "") return resource;
+  const cached = known.get(name) ?? resource;
+  known.set(name, cached);
+  return cached;
 }
 
 /** How a model's visuals are drawn. */

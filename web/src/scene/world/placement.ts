@@ -13,7 +13,7 @@ import { NoTransform, type Transform } from "../../frames/transform";
 import type { BodyPoses } from "./body_poses";
 
 /** Poses that are kept until tf has caught up. */
-const KEPT = 64;
+const MAX_PAST = 64;
 /** Smaller changes are rounding [m]. */
 const STILL = 1e-4;
 const ONE = new Vector3(1, 1, 1);
@@ -38,21 +38,21 @@ export class WorldPlacement {
     const pose = anchor === null ? null : this.poses.pose(anchor.body);
     if (pose === null || this.poses.time === this.past[this.past.length - 1]?.time) return;
     this.past.push({ time: this.poses.time, pose });
-    if (this.past.length > KEPT) this.past.shift();
+    if (this.past.length > MAX_PAST) this.past.shift();
   }
 
   /** Move the world to its place; true if it moved. */
   update(manifest: Manifest, fixedFrame: string): boolean {
-    const found = this.find(manifest, fixedFrame.replace(/^\//, ""));
-    if (found === null) return false;
+    const matrix = this.find(manifest, fixedFrame.replace(/^\//, ""));
+    if (matrix === null) return false;
     const [x = 0, y = 0, z = 0] = [12, 13, 14].map(
-      (i) => (found.elements[i] ?? 0) - (this.group.matrix.elements[i] ?? 0),
+      (i) => (matrix.elements[i] ?? 0) - (this.group.matrix.elements[i] ?? 0),
     );
     const turned = [0, 1, 4, 5].some(
-      (i) => Math.abs((found.elements[i] ?? 0) - (this.group.matrix.elements[i] ?? 0)) > STILL,
+      (i) => Math.abs((matrix.elements[i] ?? 0) - (this.group.matrix.elements[i] ?? 0)) > STILL,
     );
     if (Math.hypot(x, y, z) < STILL && !turned) return false;
-    found.decompose(this.group.position, this.group.quaternion, this.group.scale);
+    matrix.decompose(this.group.position, this.group.quaternion, this.group.scale);
     this.group.updateMatrix();
     return true;
   }

@@ -23,12 +23,12 @@ const GREY: Rgba = [0.7, 0.7, 0.7, 1];
 
 /** The colors of a GLB's material; of one that is not ours, its base color. */
 export function sdfColors(material: Material): SdfColors {
-  const found = material.userData["sdf"] as Partial<SdfColors> | undefined;
+  const stored = material.userData["sdf"] as Partial<SdfColors> | undefined;
   const base =
     "color" in material && material.color instanceof Color ? material.color.clone().convertLinearToSRGB() : null;
   const plain: Rgba = base === null ? GREY : [base.r, base.g, base.b, material.opacity];
-  const { diffuse = plain, specular = [0, 0, 0, 1], emissive = [0, 0, 0, 1], shininess = 16 } = found ?? {};
-  return { ambient: found?.ambient ?? diffuse, diffuse, specular, emissive, shininess };
+  const { diffuse = plain, specular = [0, 0, 0, 1], emissive = [0, 0, 0, 1], shininess = 16 } = stored ?? {};
+  return { ambient: stored?.ambient ?? diffuse, diffuse, specular, emissive, shininess };
 }
 
 /** What a visual looks like; `isFlat`: its geometry has no normals. */
@@ -39,7 +39,7 @@ export function sdfMaterial(
   lighting: WorldLighting,
 ): ShaderMaterial {
   const { ambient, diffuse, specular, emissive, shininess } = colors;
-  const own: ShaderMaterial["uniforms"] = {
+  const uniforms: ShaderMaterial["uniforms"] = {
     ambient: { value: new Color(...rgb(ambient)) },
     diffuse: { value: new Vector4(...diffuse) },
     specular: { value: new Color(...rgb(specular)) },
@@ -53,8 +53,8 @@ export function sdfMaterial(
     texture.colorSpace = ""; // its numbers are used as they are
     texture.anisotropy = ANISOTROPY;
     texture.updateMatrix();
-    own["image"] = { value: texture };
-    own["uvTransform"] = { value: new Matrix3().copy(texture.matrix) };
+    uniforms["image"] = { value: texture };
+    uniforms["uvTransform"] = { value: new Matrix3().copy(texture.matrix) };
   }
   const isTransparent = diffuse[3] < 1;
   const material = new ShaderMaterial({
@@ -64,7 +64,7 @@ export function sdfMaterial(
     polygonOffsetUnits: 1,
     vertexShader: VERTEX_SHADER,
     fragmentShader: "",
-    uniforms: own,
+    uniforms,
     defines,
     side: FrontSide,
     transparent: isTransparent,
@@ -86,9 +86,10 @@ export function sdfVariant(
   const { uniforms, defines, vertexShader, side } = plain;
   const diffuse = (uniforms["diffuse"]?.value as Vector4).clone();
   if (transparent) diffuse.w *= OPACITY;
-  const own: ShaderMaterial["uniforms"] = { ...uniforms, diffuse: { value: diffuse } };
+  const variantUniforms: ShaderMaterial["uniforms"] = { ...uniforms, diffuse: { value: diffuse } };
   const emissive = uniforms["emissive"]?.value as Color;
-  if (wireframe) own["emissive"] = { value: emissive.clone().add(new Color(diffuse.x, diffuse.y, diffuse.z)) }; // no light falls on lines
+  if (wireframe)
+    variantUniforms["emissive"] = { value: emissive.clone().add(new Color(diffuse.x, diffuse.y, diffuse.z)) }; // no light falls on lines
   const isBlended = diffuse.w < 1;
   const { polygonOffset, polygonOffsetFactor, polygonOffsetUnits } = plain;
   const material = new ShaderMaterial({
@@ -98,7 +99,7 @@ export function sdfVariant(
     vertexShader,
     side,
     fragmentShader: "",
-    uniforms: own,
+    uniforms: variantUniforms,
     defines: { ...defines },
     wireframe,
     transparent: isBlended,

@@ -57,7 +57,7 @@ struct Light {
 uniform Light lights[LIGHTS];
 #endif
 #if SHADOWS > 0
-struct Shadow { mat4 view; mat4 projection; float texel; bool isThere; };
+struct Shadow { mat4 view; mat4 projection; float texel; bool isActive; };
 uniform Shadow shadows[SHADOWS];
 #endif
 `;
@@ -76,7 +76,7 @@ function shadowFactor(light: number, kind: LightKind): string {
   return `
 uniform sampler2DShadow shadowMap${light};
 float shadowFactor${light}(vec3 n, float facing) {
-  if (!${shadow}.isThere) return 1.0;
+  if (!${shadow}.isActive) return 1.0;
   vec4 p = ${shadow}.view * vec4(point, 1.0);
   float texel = ${kind === "directional" ? `${shadow}.texel` : `abs(p.z) * ${shadow}.texel`};
   p.xyz += mat3(${shadow}.view) * n * (1.5 * texel);

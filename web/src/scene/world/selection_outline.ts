@@ -31,7 +31,7 @@ import type { ThreeScene } from "../three_scene";
 /** Layer of the first outline's thin part; its broad part has the next one, and each further outline two more. */
 const FIRST_LAYER = 2;
 /** three.js has 32 layers. */
-const MOST = 15;
+const MAX_OUTLINED = 15;
 /** [px] */
 const WIDTHS = [1, 2];
 /** What an outline needs around its object [device px]. */
@@ -52,15 +52,15 @@ uniform vec2 pixel;
 uniform vec2 widths;
 uniform vec3 color;
 void main() {
-  vec2 own = texture2D(mask, at).rg;
-  vec2 most = vec2(0.0);
+  vec2 center = texture2D(mask, at).rg;
+  vec2 maxima = vec2(0.0);
   for (int i = 0; i < 12; i++) {
     float angle = 6.2831853 * float(i) / 12.0;
-    vec2 way = vec2(cos(angle), sin(angle)) * pixel;
-    most.r = max(most.r, texture2D(mask, at + way * widths.x).r);
-    most.g = max(most.g, max(texture2D(mask, at + way * widths.y).g, texture2D(mask, at + 0.5 * way * widths.y).g));
+    vec2 offset = vec2(cos(angle), sin(angle)) * pixel;
+    maxima.r = max(maxima.r, texture2D(mask, at + offset * widths.x).r);
+    maxima.g = max(maxima.g, max(texture2D(mask, at + offset * widths.y).g, texture2D(mask, at + 0.5 * offset * widths.y).g));
   }
-  vec2 edge = clamp(most - own, 0.0, 1.0);
+  vec2 edge = clamp(maxima - center, 0.0, 1.0);
   gl_FragColor = vec4(color, max(edge.r, edge.g));
 }`;
 
@@ -160,7 +160,7 @@ export class SelectionOutline {
         });
       }
     }
-    const marked = outlined.slice(-MOST).map(({ thin, broad, color }, index): Marked => {
+    const marked = outlined.slice(-MAX_OUTLINED).map(({ thin, broad, color }, index): Marked => {
       const layer = FIRST_LAYER + 2 * index;
       const objects: Object3D[] = [];
       for (const [bodies, part] of [

@@ -30,7 +30,7 @@ const MARGIN = 4;
 
 export class ShadowMap {
   /** The shader's values. */
-  readonly uniform = { view: new Matrix4(), projection: new Matrix4(), texel: 0, isThere: false };
+  readonly uniform = { view: new Matrix4(), projection: new Matrix4(), texel: 0, isActive: false };
   private target: WebGLRenderTarget | null = null;
   private readonly orthographic = new OrthographicCamera();
   private readonly perspective = new PerspectiveCamera();
@@ -58,8 +58,8 @@ export class ShadowMap {
     aim(camera, direction);
     const { min, max } = this.extent(camera, casters);
     const extent = Math.max(max.x - min.x, max.y - min.y, 1e-3);
-    this.uniform.isThere = Number.isFinite(extent);
-    if (!this.uniform.isThere) return;
+    this.uniform.isActive = Number.isFinite(extent);
+    if (!this.uniform.isActive) return;
     let size = MIN_SIZE;
     while (size < MAX_SIZE && extent / size > TEXEL) size *= 2;
     const texel = extent / (size - MARGIN);
@@ -91,7 +91,7 @@ export class ShadowMap {
     camera.fov = (half * 360) / Math.PI;
     camera.near = NEAR;
     camera.far = Math.min(range, SPOT_FAR);
-    this.uniform.isThere = true;
+    this.uniform.isActive = true;
     this.draw(renderer, scene, camera, SPOT_SIZE, (2 * Math.tan(half)) / SPOT_SIZE);
   }
 
@@ -101,10 +101,14 @@ export class ShadowMap {
     const box = this.box.makeEmpty();
     for (const mesh of casters) {
       if (mesh.geometry.boundingBox === null) mesh.geometry.computeBoundingBox();
-      const own = mesh.geometry.boundingBox;
-      if (own === null || own.isEmpty()) continue;
+      const bounds = mesh.geometry.boundingBox;
+      if (bounds === null || bounds.isEmpty()) continue;
       for (let i = 0; i < 8; i += 1) {
-        this.corner.set(i & 1 ? own.max.x : own.min.x, i & 2 ? own.max.y : own.min.y, i & 4 ? own.max.z : own.min.z);
+        this.corner.set(
+          i & 1 ? bounds.max.x : bounds.min.x,
+          i & 2 ? bounds.max.y : bounds.min.y,
+          i & 4 ? bounds.max.z : bounds.min.z,
+        );
         box.expandByPoint(this.corner.applyMatrix4(mesh.matrixWorld).applyMatrix4(camera.matrixWorldInverse));
       }
     }

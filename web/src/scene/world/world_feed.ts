@@ -33,7 +33,7 @@ export class WorldFeed implements SimulatedWorld {
   private readonly lines = new WorldLines();
   private readonly poseListeners = new Set<(time: number) => void>();
   private readonly stops: (() => void)[] = [];
-  private collisionsAsked = new AbortController();
+  private collisionRequest = new AbortController();
   private collisions: { readonly url: string; readonly model: GlbModel } | null = null;
 
   constructor(
@@ -42,7 +42,7 @@ export class WorldFeed implements SimulatedWorld {
     frames: FrameTree,
     private readonly fixedFrame: ReadonlySignal<string>,
   ) {
-    this.files = new WorldFiles(scene.world, this.lighting, (came, gone) => this.onFiles(came, gone));
+    this.files = new WorldFiles(scene.world, this.lighting, (added, removed) => this.onFiles(added, removed));
     this.placement = new WorldPlacement(scene.world, this.poses, frames);
     this.joints = this.listenToJoints();
     this.sky.visible = false;
@@ -99,7 +99,7 @@ export class WorldFeed implements SimulatedWorld {
         this.state.value = state;
       }),
     ];
-    this.stops.push(...subscriptions.map((each) => () => each.close()));
+    this.stops.push(...subscriptions.map((subscription) => () => subscription.close()));
     on("trundle/poses", (payload) => this.takePoses(payload));
     on("trundle/lines", (payload) => {
       const lines = readLines(payload);
@@ -174,9 +174,9 @@ export class WorldFeed implements SimulatedWorld {
     this.scene.invalidate();
   }
 
-  private onFiles(came: GlbModel | null, gone: GlbModel | null): void {
-    for (const [body, object] of came?.bodies ?? []) this.poses.attach(body, object);
-    for (const object of gone?.bodies.values() ?? []) this.poses.detach(object);
+  private onFiles(added: GlbModel | null, removed: GlbModel | null): void {
+    for (const [body, object] of added?.bodies ?? []) this.poses.attach(body, object);
+    for (const object of removed?.bodies.values() ?? []) this.poses.detach(object);
     this.hide(this.hidden.peek());
     untracked(() => this.showParts());
     this.lighting.setContents(this.scene.world, this.manifest.peek()?.scene.shadows ?? false);
@@ -225,10 +225,10 @@ export class WorldFeed implements SimulatedWorld {
     this.collisions?.model.dispose();
     this.collisions = null;
     this.scene.invalidate();
-    this.collisionsAsked.abort();
+    this.collisionRequest.abort();
     if (url === null) return;
     const abort = new AbortController();
-    this.collisionsAsked = abort;
+    this.collisionRequest = abort;
     void this.files
       .read(url, () => undefined, abort.signal)
       .then(

@@ -27,7 +27,7 @@ export class WorldFiles {
   constructor(
     private readonly root: Group,
     private readonly lighting: WorldLighting,
-    private readonly onChange: (came: GlbModel | null, gone: GlbModel | null) => void,
+    private readonly onChange: (added: GlbModel | null, removed: GlbModel | null) => void,
   ) {}
 
   /** Models that are there. */
@@ -37,13 +37,13 @@ export class WorldFiles {
 
   /** Show these files and no others; a file is known by its name and address. */
   show(files: Manifest["files"]): void {
-    const wanted = new Map(files.map((file) => [`${file.id} ${file.url}`, file]));
-    for (const key of [...this.entries.keys()]) if (!wanted.has(key)) this.drop(key);
+    const current = new Map(files.map((file) => [`${file.id} ${file.url}`, file]));
+    for (const key of [...this.entries.keys()]) if (!current.has(key)) this.drop(key);
     if (this.entries.size === 0) {
       this.contents.dispose();
       this.faults.value = [];
     }
-    for (const [key, { id, url }] of wanted) {
+    for (const [key, { id, url }] of current) {
       if (this.entries.has(key)) continue;
       const entry: Entry = { abort: new AbortController(), share: 0, model: null };
       this.entries.set(key, entry);
@@ -96,9 +96,9 @@ export class WorldFiles {
   }
 
   /** Say that something is not shown, and why. */
-  fault(what: string, error: unknown): void {
+  fault(title: string, error: unknown): void {
     const reason = error instanceof Error ? error.message : String(error);
-    this.faults.value = [...this.faults.peek(), `${what} is not shown: ${reason}`];
+    this.faults.value = [...this.faults.peek(), `${title} is not shown: ${reason}`];
   }
 
   private drop(key: string): void {

@@ -104,13 +104,13 @@ export class WorldLighting {
 
   /** Take what is in the world: its lights and what casts shadows. */
   setContents(root: Object3D, hasShadows: boolean): void {
-    const found: Light[] = [];
+    const objects: Light[] = [];
     this.casters = [];
     root.traverse((object) => {
-      if (isLight(object) && object.userData["sdf"] !== undefined) found.push(object);
+      if (isLight(object) && object.userData["sdf"] !== undefined) objects.push(object);
       else if (isMesh(object) && object.layers.isEnabled(CASTERS)) this.casters.push(object);
     });
-    this.setLights(found, hasShadows);
+    this.setLights(objects, hasShadows);
   }
 
   /** Something moved: shadows are drawn again. */
@@ -141,10 +141,10 @@ export class WorldLighting {
     );
   }
 
-  private setLights(found: readonly Light[], hasShadows = false): void {
+  private setLights(objects: readonly Light[], hasShadows = false): void {
     for (const { shadow } of this.lights) shadow?.dispose();
     let maps = 0;
-    const lights = found.map((light): WorldLight => {
+    const lights = objects.map((light): WorldLight => {
       light.visible = false; // three.js' own shading has nothing to do with it
       const sdf = light.userData["sdf"] as SdfLight;
       const kind = kindOf(light);

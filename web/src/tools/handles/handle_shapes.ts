@@ -37,7 +37,7 @@ export class HandleShape extends Group {
         this.seen(
           new ConeGeometry(HEAD.radius, HEAD.length, 24).rotateX(Math.PI / 2).translate(0, 0, 1 - HEAD.length / 2),
         );
-        this.met(new CylinderGeometry(GRASP, GRASP, 0.85).rotateX(Math.PI / 2).translate(0, 0, 0.6));
+        this.addPickShape(new CylinderGeometry(GRASP, GRASP, 0.85).rotateX(Math.PI / 2).translate(0, 0, 0.6));
         break;
       case "plane":
         this.seen(
@@ -47,7 +47,7 @@ export class HandleShape extends Group {
             0,
           ),
         );
-        this.met(
+        this.addPickShape(
           new PlaneGeometry(SQUARE.size, SQUARE.size).translate(
             SQUARE.from + SQUARE.size / 2,
             SQUARE.from + SQUARE.size / 2,
@@ -58,11 +58,11 @@ export class HandleShape extends Group {
         break;
       case "ring":
         this.seen(new TorusGeometry(RING, LINE, 8, 96));
-        this.met(new TorusGeometry(RING, GRASP, 8, 48));
+        this.addPickShape(new TorusGeometry(RING, GRASP, 8, 48));
         break;
       case "free":
         this.seen(new SphereGeometry(DOT, 16, 12));
-        this.met(new SphereGeometry(2 * DOT, 12, 8));
+        this.addPickShape(new SphereGeometry(2 * DOT, 12, 8));
     }
   }
 
@@ -78,7 +78,7 @@ export class HandleShape extends Group {
     this.add(mesh);
   }
 
-  private met(geometry: BufferGeometry): void {
+  private addPickShape(geometry: BufferGeometry): void {
     this.add(new Mesh(geometry, this.unseen));
   }
 }

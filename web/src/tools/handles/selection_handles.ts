@@ -66,11 +66,11 @@ export class SelectionHandles extends Group {
     if (!this.visible) return null;
     this.raycaster.ray.copy(ray);
     const order = { free: 0, axis: 1, ring: 2, plane: 3 };
-    const found = this.shapes.flatMap(({ handle, shape }) =>
+    const hits = this.shapes.flatMap(({ handle, shape }) =>
       this.raycaster.intersectObject(shape).map(({ point, distance }) => ({ handle, point, distance })),
     );
-    found.sort((a, b) => order[a.handle.kind] - order[b.handle.kind] || a.distance - b.distance);
-    return found[0] ?? null;
+    hits.sort((a, b) => order[a.handle.kind] - order[b.handle.kind] || a.distance - b.distance);
+    return hits[0] ?? null;
   }
 
   /** Light one up; true if another was before. */
@@ -85,7 +85,7 @@ export class SelectionHandles extends Group {
     const style = getComputedStyle(document.documentElement);
     const token = (name: string): string => style.getPropertyValue(name).trim() || "#ffffff";
     for (const { handle, shape } of this.shapes) {
-      const own =
+      const base =
         handle.letter === undefined
           ? handle.kind === "free"
             ? "#ffffff"
@@ -93,7 +93,7 @@ export class SelectionHandles extends Group {
           : token(COLORS[handle.letter]);
       const isLit = handle === this.lit;
       shape.paint(
-        isLit ? token("--focus") : own,
+        isLit ? token("--focus") : base,
         handle.kind === "plane" ? (isLit ? 0.7 : 0.35) : isLit || this.lit === null ? 1 : 0.55,
       );
     }
@@ -103,8 +103,8 @@ export class SelectionHandles extends Group {
 /** The turn after which x and y lie in the plane of a normal, towards the positive sides of the other axes. */
 function turnOfPlane(normal: Vector3): Quaternion {
   const third = (2 * Math.PI) / 3;
-  const way = new Vector3(1, 1, 1).normalize();
-  return new Quaternion().setFromAxisAngle(way, normal.z > 0.5 ? 0 : normal.x > 0.5 ? third : -third);
+  const diagonal = new Vector3(1, 1, 1).normalize();
+  return new Quaternion().setFromAxisAngle(diagonal, normal.z > 0.5 ? 0 : normal.x > 0.5 ? third : -third);
 }
 
 function metresPerPx(camera: Camera, point: Vector3, height: number): number {

@@ -38,7 +38,7 @@ export function targetOf(editor: WorldEditor, selection: Selection | null): Hand
 function modelTarget(editor: WorldEditor, name: string, linkName: string | null): HandleTarget | null {
   const model = findModel(editor, name);
   if (model === null) return null;
-  const nested = allModels([model]).find((each) => each.model.links.length > 0);
+  const nested = allModels([model]).find((entry) => entry.model.links.length > 0);
   const scope = nested === undefined ? name : [name, ...nested.name.split("::").slice(1)].join("::");
   const link = linkName === null ? nested?.model.links[0] : findLink(editor, name, linkName);
   if (link === undefined || link === null) return null;
@@ -47,8 +47,8 @@ function modelTarget(editor: WorldEditor, name: string, linkName: string | null)
     link: link.name,
     ...poseFields(to.position, to.orientation),
   });
-  const outermost = allModels(editor.world.manifest.value?.models ?? []).find((each) =>
-    `${name}::`.startsWith(`${each.name}::`),
+  const outermost = allModels(editor.world.manifest.value?.models ?? []).find((entry) =>
+    `${name}::`.startsWith(`${entry.name}::`),
   );
   return {
     title: `Pose of ${name}`,
@@ -104,7 +104,7 @@ function jointTarget(editor: WorldEditor, model: string, name: string): HandleTa
       const from = editor.world.joints.peek().at(index)?.position ?? 0;
       const request = editor.world.state.peek()?.paused === true ? "place_joint" : "joint"; // at rest no motor moves it
       const positionAt = (to: Transform): number => {
-        const by = start === null ? 0 : turns ? turnAbout(direction, start, to) : wayAlong(direction, start, to);
+        const by = start === null ? 0 : turns ? turnAbout(direction, start, to) : distanceAlong(direction, start, to);
         return within(joint, from + by);
       };
       const place = (to: Transform): Request => ({ request, fields: { model, joint: name, position: positionAt(to) } });
@@ -129,7 +129,7 @@ function turnAbout(axis: Vector3, from: Transform, to: Transform): number {
   return angle > Math.PI ? angle - 2 * Math.PI : angle <= -Math.PI ? angle + 2 * Math.PI : angle;
 }
 
-function wayAlong(axis: Vector3, from: Transform, to: Transform): number {
+function distanceAlong(axis: Vector3, from: Transform, to: Transform): number {
   return axis.clone().applyQuaternion(from.orientation).dot(to.position.clone().sub(from.position));
 }
 

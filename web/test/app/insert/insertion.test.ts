@@ -22,7 +22,7 @@ it("is what undo takes back, though the server has not answered yet", async () =
     return new Promise((resolve) => (answer = resolve));
   });
   const insertion = new Insertion({ page, layout: {} } as unknown as InsertionContext);
-  expect(insertion.asked.value).toBeNull();
+  expect(insertion.consentRequest.value).toBeNull();
   page.undo.record(
     "Earlier",
     () => undefined,

@@ -12,10 +12,10 @@ import { ToolBar } from "./tool_bar";
 import { VideoNotes } from "./video/video_note";
 import { ViewMenu } from "./views/view_menu";
 
-export function Stage({ shell }: { readonly shell: Shell }): JSX.Element {
+export function SceneOverlay({ shell }: { readonly shell: Shell }): JSX.Element {
   const hasTools = !shell.layout.isPhone.value && shell.isDrawn.value; // which act on what is drawn
   return (
-    <section class="stage" aria-label="On the scene">
+    <section class="scene-overlay" aria-label="On the scene">
       <div class="top">
         {hasTools && <ToolBar shell={shell} />}
         {hasTools && <ViewMenu shell={shell} />}
