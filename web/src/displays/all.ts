@@ -1,6 +1,6 @@
-/** Every display, made known by being imported. */
+/** Imports every display, which registers it. */
 
-/** Every display, made known by being imported. */
+/** Imports every display, which registers it. */
 import "./accel_stamped";
 import "./axes";
 import "./camera";

@@ -21,14 +21,14 @@ const BACKGROUND = "background";
 const OVERLAY = "overlay";
 const BOTH = "background and overlay";
 const INFO = "sensor_msgs/CameraInfo";
-/** Widest picture that the scene is drawn for [px]. */
+/** Largest picture that the scene is drawn for [pixels]. */
 const MAX_PIXELS = 4096 * 4096;
 
 class CameraDisplay extends PictureDisplay {
   readonly className = "rviz/Camera";
   readonly rendering = this.add(
     new EnumProperty("Image Rendering", BOTH, [BACKGROUND, OVERLAY, BOTH], {
-      description: "The image behind all else, over it, or both.",
+      description: "Image behind the scene, over it, or both.",
     }),
   );
   readonly alpha = this.add(new NumberProperty("Overlay Alpha", 0.5, { min: 0, max: 1 }));
@@ -112,7 +112,7 @@ class CameraDisplay extends PictureDisplay {
     }
   }
 
-  /** Over the newest image, whenever the scene is drawn. */
+  /** Draw the scene over the newest image. */
   private drawScene(renderer: WebGLRenderer): void {
     const image = this.stream.peek()?.picture.peek() ?? null;
     const info = this.info.peek();
@@ -142,7 +142,7 @@ class CameraDisplay extends PictureDisplay {
     this.compose(image, info, size);
   }
 
-  /** The image behind the scene, over it, or both. */
+  /** Draw the image behind the scene, over it, or both. */
   private compose(image: Picture, info: CameraInfo, size: { readonly width: number; readonly height: number }): void {
     const { canvas, scenePicture } = this;
     const context = canvas?.getContext("2d") ?? null;

@@ -18,7 +18,7 @@ import { touch } from "./topic_display";
 
 const IMAGE = "sensor_msgs/Image";
 const INFO = "sensor_msgs/CameraInfo";
-/** Images of the two topics that are further apart [ns] do not belong together. */
+/** Largest difference of the stamps of a pair of images [ns]. */
 const MAX_STAMP_DIFFERENCE = 500_000_000n;
 
 export class DepthCloudDisplay extends Display {
@@ -211,7 +211,7 @@ export class DepthCloudDisplay extends Display {
     this.setStatus("Points", "ok", this.common.status);
   }
 
-  /** The color image nearest in time. */
+  /** Color image nearest in time. */
   private nearestColor({ header }: Image): Image | null {
     let best: Image | null = null;
     let minDistance = MAX_STAMP_DIFFERENCE;

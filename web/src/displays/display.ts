@@ -15,14 +15,14 @@ export interface Status {
   readonly level: StatusLevel;
   /** In rviz's words: "No messages received". */
   readonly text: string;
-  /** What to do, where that is known. */
+  /** Advice, if known. */
   readonly advice?: string;
 }
 
-/** What a display works with. */
+/** Parts of the page that displays use. */
 export interface DisplayContext {
   readonly connection: Connection;
-  /** Names in the file are those of the launch's rviz. */
+  /** Namespace and remappings of the launch's rviz, which names in the file follow. */
   readonly names: GraphNames;
   readonly frames: FrameTree;
   readonly scene: SceneView;
@@ -45,7 +45,7 @@ export abstract class Display {
   readonly properties: Property<unknown>[] = [];
   /** Status by its name in rviz ("Topic", "Transform [sender=unknown_publisher]"), in order of appearance. */
   readonly statuses = signal<ReadonlyMap<string, Status>>(new Map());
-  /** Messages per second of its topic, for the row; null: it has none. */
+  /** Object that holds all that the display draws. */
   readonly root = new Group();
   /** Keys of the file that are not ours, kept as they were. */
   unknown: YamlMapping = {};
@@ -64,14 +64,14 @@ export abstract class Display {
     this.onStart();
   }
 
-  /** Stop: close subscriptions, drop what was drawn. Called when it is disabled or removed. */
+  /** Stop: close subscriptions, drop the drawn objects. Called when it is disabled or removed. */
   stop(): void {
     this.onStop();
     this.context.scene.displays.remove(this.root);
     this.statuses.value = new Map();
   }
 
-  /** Drop what was received, as rviz's Reset. */
+  /** Drop received messages, as rviz's Reset. */
   reset(): void {
     if (!this.enabled.value.value) return;
     this.stop();
@@ -85,7 +85,7 @@ export abstract class Display {
     // most displays change only when a message comes
   }
 
-  /** A parameter by its name, else of the nearest namespace above that has it. */
+  /** Parameter of this name in the nearest enclosing namespace that has it, as searchParam finds it. */
   protected parameter(name: string): ParameterValue | undefined {
     const all = this.context.connection.parameters.value;
     const resolved = this.context.names.search(name).find((candidate) => all.has(candidate));
@@ -106,7 +106,7 @@ export abstract class Display {
     this.statuses.value = statuses;
   }
 
-  /** Say that the display itself is at fault. */
+  /** Report an error of the display itself. */
   fail(error: unknown): void {
     this.setStatus("Display", "error", `It cannot be drawn: ${error instanceof Error ? error.message : String(error)}`);
   }
@@ -129,7 +129,7 @@ export abstract class Display {
     return transform;
   }
 
-  /** Stand an object at its pose in the fixed frame; without one it is not seen. */
+  /** Place an object at its pose in the fixed frame; without a pose it is hidden. */
   protected stand(object: Object3D, pose: Transform | null): void {
     const isPlaced = pose !== null;
     const isSame =
@@ -163,7 +163,7 @@ export abstract class Display {
     return saved;
   }
 
-  /** Load an entry of an .rviz file; returns sentences about what is not understood. */
+  /** Load an entry of an .rviz file; returns sentences about values that are not understood. */
   load(yaml: YamlMapping): string[] {
     const known = new Map(this.properties.map((property) => [property.name, property]));
     const faults: string[] = [];

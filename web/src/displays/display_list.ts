@@ -6,7 +6,7 @@ import type { TopicInfo } from "../protocol/connection";
 import type { Display, Status } from "./display";
 import type { ColorProperty, IntProperty } from "../rviz/properties";
 
-/** A topic that no display shows, with the class that would. */
+/** Topic that no display shows, with a class that can show it. */
 export interface Offer {
   readonly topic: TopicInfo;
   readonly className: string;
@@ -24,7 +24,7 @@ export interface DisplayList {
   readonly displays: ReadonlySignal<readonly Display[]>;
   readonly unsupported: ReadonlySignal<readonly Unsupported[]>;
   readonly offers: ReadonlySignal<readonly Offer[]>;
-  /** The fixed frame as it is set; `fixedFrame` is the one in use, which is worked out where none is set. */
+  /** Fixed frame as set; `fixedFrame` is the one in use, which is computed if none is set. */
   readonly fixedFrameSetting: Signal<string>;
   readonly fixedFrame: ReadonlySignal<string>;
   /** rviz's global status of the fixed frame. */
@@ -43,13 +43,13 @@ export interface DisplayList {
   /** Call once per frame: ROS time [ns] and wall seconds since the last frame. */
   update(now: bigint, elapsed: number): void;
 
-  /** Load an .rviz file's text; returns sentences about what is not understood. */
+  /** Load an .rviz file's text; returns sentences about entries that are not understood. */
   load(text: string): readonly string[];
-  /** The .rviz file of now: what was not understood is kept. */
+  /** Text of the current .rviz file, with entries that were not understood. */
   save(): string;
-  /** The file of now was saved. */
+  /** Note that the current file was saved. */
   markSaved(): void;
-  /** Changes that a person has made since; what displays work out by themselves is none. */
+  /** Number of changes that a person has made since; values that displays compute do not count. */
   readonly changes: ReadonlySignal<number>;
   /** Make a change of the file that can be undone. */
   edit(title: string, redo: () => void, undo: () => void): void;

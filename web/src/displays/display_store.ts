@@ -27,7 +27,7 @@ interface SavedTools {
   load(yaml: readonly YamlMapping[]): string[];
 }
 
-/** What the list works with. */
+/** Parts of the page that the list uses. */
 export interface DisplayStoreParts extends Omit<DisplayContext, "fixedFrame" | "displays"> {
   readonly undo: UndoStack;
   readonly views: Pick<Views, "save" | "load">;
@@ -50,7 +50,7 @@ export class DisplayStore implements DisplayList {
   private readonly context: DisplayContext;
   private file = RvizFile.parse(DEFAULT_FILE);
   private readonly edits: Edits;
-  /** From where one looked when the file was loaded or saved; null without a file, whose look is the page's own. */
+  /** Views as text when the file was loaded or saved; null: no file. */
   private readonly savedLook = signal<string | null>(null);
 
   constructor(private readonly parts: DisplayStoreParts) {
@@ -160,7 +160,7 @@ export class DisplayStore implements DisplayList {
     this.edits.run(title, redo, undo);
   }
 
-  /** From where one looks, in all panes, as a text. */
+  /** Views of all panes as text. */
   private lookText(): string {
     return JSON.stringify({ ...this.parts.views.save(), Saved: null });
   }
@@ -203,7 +203,7 @@ export class DisplayStore implements DisplayList {
     );
   }
 
-  /** The group that holds a display, and where. */
+  /** Group that holds a display, and the display's index. */
   private find(display: Display): readonly [Group, number] {
     const groups = [this.root, ...this.root.all.filter((other) => other instanceof Group)];
     for (const group of groups) {

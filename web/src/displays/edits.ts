@@ -1,4 +1,4 @@
-/** Edits of an .rviz file: each can be undone, and those since it was saved are counted. */
+/** Undoable edits of an .rviz file; counts those since it was saved. */
 
 import { computed, signal } from "@preact/signals";
 
@@ -8,7 +8,7 @@ export class Edits {
   private readonly applied = signal<readonly number[]>([]);
   private readonly saved = signal<readonly number[]>([]);
   private next = 0;
-  /** Edits in which what stands now and what was saved differ. */
+  /** Number of edits between the current state and the saved one. */
   readonly count = computed(() => {
     const [now, then] = [this.applied.value, this.saved.value];
     const same = now.findIndex((edit, index) => edit !== then[index]);
@@ -33,7 +33,7 @@ export class Edits {
     );
   }
 
-  /** What stands now is saved. */
+  /** Note that the current state was saved. */
   markSaved(): void {
     this.saved.value = this.applied.peek();
   }

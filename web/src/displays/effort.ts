@@ -1,4 +1,4 @@
-/** Effort: a ring about each turning joint, as wide as its effort is large. */
+/** Effort: a ring about each turning joint, whose size grows with the effort. */
 
 import { untracked } from "@preact/signals";
 import { Group, Quaternion, Vector3 } from "three";
@@ -18,7 +18,7 @@ import { TopicDisplay } from "./topic_display";
 /** Points of a ring, which is open by two of its parts, as rviz's. */
 const POINTS = 30;
 const PARTS = 32;
-/** Measured on pictures of rviz: the value drawn is a share and this much; its radius [m] grows with it and the scale. */
+/** Measured on pictures of rviz: the drawn value is the effort's ratio plus this; the radius [m] grows with both. */
 const OFFSET = 0.05;
 const RADIUS = 0.05;
 const GROWTH = 0.5;
@@ -100,7 +100,7 @@ export class Effort extends TopicDisplay<JointState> {
     super.onStart();
   }
 
-  /** The stamp counts, whichever frame the message names: each joint has a frame of its own. */
+  /** Any frame, since each joint has a frame of its own and only the stamp counts. */
   protected override frameOf(): string {
     return this.context.fixedFrame.peek();
   }

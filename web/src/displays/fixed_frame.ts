@@ -1,11 +1,11 @@
-/** The frame in which the robot is seen moving, worked out from the tree of frames. */
+/** Default fixed frame, in which the robot moves, found in the tree of frames. */
 
 import type { FrameInfo } from "../frames/frame_tree";
 
 /** Frames that stand still, as REP 105 names them; a frame above `map` may be far away, as utm is. */
 const STILL = ["map", "odom", "world"] as const;
 
-/** The frame to show where none is set: of the largest tree, `map`, `odom` or `world`, else its root. */
+/** Default fixed frame: `map`, `odom` or `world` of the largest tree, otherwise its root. */
 export function workOutFixedFrame(frames: readonly FrameInfo[]): string {
   const parents = new Map(frames.map((frame) => [frame.name, frame.parent]));
   const trees = new Map<string, string[]>();

@@ -8,7 +8,7 @@ import { isMapping, type Yaml, type YamlMapping } from "../rviz/properties";
 import { displayClass, register } from "./registry";
 import { unsupportedReason } from "./unsupported";
 
-/** An entry of the file that cannot be shown, with what it said. */
+/** Entry of the file that cannot be shown, with its YAML. */
 export interface UnsupportedEntry extends Unsupported {
   readonly yaml: Yaml;
 }
@@ -19,7 +19,7 @@ export function isDisplay(entry: Entry): entry is Display {
   return entry instanceof Display;
 }
 
-/** Displays with the members of their groups, groups before their members; without those that `keep` refuses and what is below them. */
+/** Displays with their members, groups first; without those that `keep` refuses and their members. */
 export function withMembers(
   displays: readonly Display[],
   keep: (display: Display) => boolean = () => true,
@@ -39,7 +39,7 @@ export class Group extends Display {
   private isActive = false;
   private readonly active = new Map<Display, () => void>();
 
-  /** Displays and what cannot be shown, in the file's order. */
+  /** Displays and unsupported entries, in the file's order. */
   get entries(): ReadonlySignal<readonly Entry[]> {
     return this.list;
   }
@@ -131,7 +131,7 @@ export class Group extends Display {
   }
 }
 
-/** What one display throws is its own fault: the others go on. */
+/** Call a function of a display; an error becomes the display's status, and the others go on. */
 function guard(display: Display, act: () => void): void {
   try {
     act();

@@ -17,10 +17,10 @@ export abstract class HistoryDisplay<M extends Stamped> extends TopicDisplay<M> 
   /** Oldest first. */
   private entries: Entry<M>[] = [];
 
-  /** Draw a message in its own frame with the properties of now. */
+  /** Draw a message in its own frame with the current properties. */
   protected abstract draw(message: M): Object3D;
 
-  /** Pose in the fixed frame of what is drawn. */
+  /** Pose of the drawn object in the fixed frame. */
   protected pose(transform: Transform): Transform {
     return transform;
   }
@@ -45,7 +45,7 @@ export abstract class HistoryDisplay<M extends Stamped> extends TopicDisplay<M> 
     this.atStop(watch(this.properties, () => this.redraw()));
   }
 
-  /** Draws what came since the last frame, so that fast topics cost no more than the page shows. */
+  /** Draw messages once per frame, so that fast topics cost no more than the frames drawn. */
   override update(now: bigint, elapsed: number): void {
     super.update(now, elapsed);
     for (const entry of this.entries) if (entry.object === null) this.place(entry);
@@ -88,7 +88,7 @@ export abstract class HistoryDisplay<M extends Stamped> extends TopicDisplay<M> 
   }
 }
 
-/** Free what an object's parts hold on the GPU: each part that owns something has a `dispose` of its own. */
+/** Free the GPU resources of an object and its descendants by their `dispose`. */
 function dispose(object: Object3D): void {
   object.traverse((part) => {
     if ("dispose" in part && typeof part.dispose === "function") (part as { dispose(): void }).dispose();

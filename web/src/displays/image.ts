@@ -25,7 +25,7 @@ export class ImageDisplay extends PictureDisplay {
     this.normalize = this.add(
       new BoolProperty("Normalize Range", true, {
         visible: hasNumbers,
-        description: "Black and white are the least and greatest value of the images.",
+        description: "Black and white are the smallest and largest values of the images.",
       }),
     );
     this.min = this.add(new NumberProperty("Min Value", 0, { visible: isFixed, description: "Value that is black." }));

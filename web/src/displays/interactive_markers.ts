@@ -1,4 +1,4 @@
-/** InteractiveMarkers: markers that a person moves, presses and asks for menus; servers hear of it. */
+/** InteractiveMarkers: markers that a person drags, clicks and opens menus of; servers get feedback. */
 
 import { effect, untracked } from "@preact/signals";
 
@@ -27,7 +27,7 @@ export class InteractiveMarkers extends Display {
   private readonly transparency = this.add(new BoolProperty("Enable Transparency", true));
 
   private readonly views = new Map<string, InteractiveMarkerView>();
-  /** Markers with shapes in frames that are not there yet: what to try again. */
+  /** Retries of markers whose shapes are in unknown frames. */
   private readonly waiting = new Map<string, () => void>();
   private client: MarkerClient | null = null;
   private stops: (() => void)[] = [];

@@ -1,8 +1,8 @@
-/** A heading whose rows appear while it runs: links of a robot, frames, namespaces of markers. */
+/** Heading with rows that appear at run time: links of a robot, frames, namespaces of markers. */
 
 import { GroupProperty, isMapping, type Property, type Yaml, type YamlMapping } from "../rviz/properties";
 
-/** What the file says of rows that have not appeared yet is kept, and taken when they do. */
+/** Keeps the file's values of rows that have not appeared yet, and applies them when they do. */
 export class KeyedProperty<P extends Property<unknown>> extends GroupProperty {
   private stored: YamlMapping = {};
   private readonly rows = new Map<string, P>();
@@ -34,7 +34,7 @@ export class KeyedProperty<P extends Property<unknown>> extends GroupProperty {
     this.remove(row);
   }
 
-  /** Rows that the file had or that differ from the beginning; so a robot that appears is no change of the file. */
+  /** Save rows that the file had or that differ from their defaults, so that a new robot does not change the file. */
   override save(): Yaml {
     const saved: Record<string, Yaml> = { ...this.stored };
     if (this.version.value === 0) return saved;

@@ -11,7 +11,7 @@ import { register } from "./registry";
 import { areFinite, INVALID_FLOATS } from "../frames/valid";
 
 const TYPES = ["sensor_msgs/LaserScan"];
-/** Scans that take longer [s] are named, since they are shown that much later. */
+/** Scans that take longer [s] get a warning, since they are shown that much later. */
 const LONG_SCAN_S = 1;
 const AT_ORIGIN: Transform = { position: new Vector3(), orientation: new Quaternion() };
 
@@ -37,7 +37,7 @@ class LaserScanDisplay extends CloudDisplay<LaserScan> {
     return duration === 0 ? null : nanoseconds(header.stamp) + BigInt(Math.round(duration * 1e9));
   }
 
-  /** Points stand in the fixed frame already. */
+  /** Identity, since the points are in the fixed frame already. */
   protected override pose(): Transform {
     return AT_ORIGIN;
   }

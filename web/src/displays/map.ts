@@ -18,7 +18,7 @@ import { watch } from "./watch";
 const TYPE = "nav_msgs/OccupancyGrid";
 const UPDATE_TYPE = "map_msgs/OccupancyGridUpdate";
 
-/** Something that a message says; shown, not saved. */
+/** Value from a message; shown, not saved. */
 class ReadOnlyProperty extends StringProperty {
   constructor(name: string, description: string) {
     super(name, "", { readOnly: true, description });
@@ -181,7 +181,7 @@ export class MapDisplay extends Display {
     this.place();
   }
 
-  /** Put the map where its frame is now. */
+  /** Place the map at its frame's current pose. */
   private place(): void {
     if (this.message === null) return;
     const { header, info } = this.message;

@@ -4,7 +4,7 @@ import { NoTransform } from "../frames/transform";
 
 /** Wall seconds after which a waiting message counts as a fault; rviz waits until the queue is full. */
 const PATIENCE_S = 1;
-/** What stands for rviz's queue without limit. */
+/** Queue length for rviz's "no limit". */
 const LIMIT_WITHOUT_LIMIT = 100;
 
 interface Waiting<M> {
@@ -26,7 +26,7 @@ export class MessageFilter<M, T> {
     private readonly fail: (reason: NoTransform) => void,
   ) {}
 
-  /** Length of the queue; 0 is rviz's word for no limit. */
+  /** Set the length of the queue; 0: rviz's "no limit". */
   setLimit(limit: number): void {
     this.limit = limit > 0 ? limit : LIMIT_WITHOUT_LIMIT;
   }
@@ -42,7 +42,7 @@ export class MessageFilter<M, T> {
     if (result instanceof NoTransform) this.fail(result);
   }
 
-  /** Deliver what is ready, in order; `elapsed` is wall seconds since the last call. */
+  /** Deliver ready messages, in order; `elapsed` is wall seconds since the last call. */
   flush(elapsed: number): void {
     if (this.waiting.length === 0) return;
     const waiting = this.waiting;

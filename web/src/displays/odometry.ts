@@ -1,4 +1,4 @@
-/** rviz/Odometry: arrows or axes along the way, one where the robot moved or turned by the tolerance. */
+/** rviz/Odometry: arrows or axes along the path, one for each motion beyond the tolerance. */
 
 import { Group, type Object3D } from "three";
 
@@ -13,7 +13,7 @@ import { CovarianceProperty, CovarianceVisual } from "../shapes/covariance";
 import { areFinite, INVALID_FLOATS, isFinitePose, isFiniteXyz, placed, quaternion, vector } from "../frames/valid";
 
 const TYPES = ["nav_msgs/Odometry"];
-/** What is kept where rviz keeps all. */
+/** Longest history where rviz has no limit [messages]. */
 const MAX_LENGTH = 10_000;
 
 class OdometryDisplay extends HistoryDisplay<Odometry> {

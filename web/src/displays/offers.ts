@@ -1,4 +1,4 @@
-/** Topics that no display shows, with the class that would. */
+/** Topics that no display shows, with a class that can show each. */
 
 import type { TopicInfo } from "../protocol/connection";
 import type { Offer } from "./display_list";

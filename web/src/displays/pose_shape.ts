@@ -1,4 +1,4 @@
-/** Properties of an arrow or axes that stand for a pose, and the shape itself. */
+/** Properties of an arrow or axes that show a pose, and the shape itself. */
 
 import { computed } from "@preact/signals";
 import type { Object3D } from "three";
@@ -20,7 +20,7 @@ export class PoseShape {
   private readonly axesLength = new NumberProperty("Axes Length", 1, { unit: "m", visible: this.isAxes });
   private readonly axesRadius = new NumberProperty("Axes Radius", 0.1, { unit: "m", visible: this.isAxes });
 
-  /** Properties that depend on the shape, in rviz's order. */
+  /** Properties of the shape, in rviz's order. */
   get details(): readonly Property<unknown>[] {
     const { color, alpha, shaftLength, shaftRadius, headLength, headRadius, axesLength, axesRadius } = this;
     return [color, alpha, shaftLength, shaftRadius, headLength, headRadius, axesLength, axesRadius];

@@ -1,4 +1,4 @@
-/** rviz/PoseWithCovariance: an arrow or axes at a pose, with how sure it is. */
+/** rviz/PoseWithCovariance: an arrow or axes at a pose, with its covariance. */
 
 import { Group, type Object3D } from "three";
 

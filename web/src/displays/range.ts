@@ -1,4 +1,4 @@
-/** rviz/Range: a cone from the sensor to what it measures. */
+/** rviz/Range: a cone from the sensor, as long as the measured range. */
 
 import { Group, type Object3D } from "three";
 

@@ -3,7 +3,7 @@
 import type { Display, DisplayContext } from "./display";
 
 export interface DisplayClass {
-  /** As `rviz/LaserScan`. */
+  /** Class name, as `rviz/LaserScan`. */
   readonly className: string;
   /** Other names of the same class, as ROS 2's. */
   readonly aliases: readonly string[];
@@ -14,7 +14,7 @@ export interface DisplayClass {
 
 const classes = new Map<string, DisplayClass>();
 
-/** Make a class known; each display's file calls this once. ROS 2's name is known without being said. */
+/** Register a class; each display's file calls this once. ROS 2's name is added by itself. */
 export function register(display: DisplayClass): void {
   const [, short = ""] = display.className.split("/");
   for (const name of [display.className, `rviz_default_plugins/${short}`, ...display.aliases])

@@ -1,4 +1,4 @@
-/** RobotModel: the links of a robot description, each where tf has its frame. */
+/** RobotModel: the links of a robot description, each at its tf frame. */
 
 import { batch, effect, untracked } from "@preact/signals";
 
@@ -133,7 +133,7 @@ export class RobotModel extends Display {
     this.context.scene.invalidate();
   }
 
-  /** Every link follows the checkbox of all when that is changed. */
+  /** Set the checkboxes of all links. */
   private enableAll(enabled: boolean): void {
     if (enabled === this.wereEnabled) return;
     this.wereEnabled = enabled;

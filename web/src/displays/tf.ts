@@ -10,7 +10,7 @@ import { fadeOf, FrameRow, FrameView, TreeProperty } from "./tf/frame_row";
 import { TfShapes, type TfStyle } from "./tf/tf_shapes";
 import { watch } from "./watch";
 
-/** Ages, parents and read-outs are brought up to date this often [s]. */
+/** Update period of ages, parents and read-outs [s]. */
 const DETAILS = 0.2;
 
 export class Tf extends Display {
@@ -74,7 +74,7 @@ export class Tf extends Display {
     this.context.scene.invalidate();
   }
 
-  /** Bring a frame to its place; true: it moved, came or went. */
+  /** Update a frame's pose; true: it moved, appeared or disappeared. */
   private place(view: FrameView, details: boolean): boolean {
     const fixed = this.context.fixedFrame.peek();
     const pose = this.context.frames.lookup(fixed, view.name, 0n);
@@ -94,7 +94,7 @@ export class Tf extends Display {
     return moved;
   }
 
-  /** Frames come and go, change their parents and age; true: it shows. */
+  /** Follow new and lost frames, parents and ages; true: the picture changes. */
   private followTree(now: bigint): boolean {
     let changed = false;
     const infos = new Map(
@@ -158,7 +158,7 @@ export class Tf extends Display {
   }
 }
 
-/** The oldest of the stamps on the way to the root; static transforms have none. */
+/** Oldest of the stamps up to the root; static transforms have none. */
 function commonStamp(info: FrameInfo, infos: ReadonlyMap<string, FrameInfo>): bigint {
   let oldest = 0n;
   let frame: FrameInfo | undefined = info;
@@ -169,7 +169,7 @@ function commonStamp(info: FrameInfo, infos: ReadonlyMap<string, FrameInfo>): bi
   return oldest;
 }
 
-/** True if a regular expression is found in the name; what is none is taken as it is written. */
+/** True if a name matches a regular expression, or contains the text if it is no valid expression. */
 function matches(expression: string, name: string): boolean {
   try {
     return new RegExp(expression).test(name);

@@ -60,7 +60,7 @@ export abstract class TopicDisplay<M extends Stamped> extends Display {
 
   /** Show a message; `transform` is its frame's in the fixed frame at its stamp, `end` the one at `endTime`. */
   protected abstract process(message: M, transform: Transform, end: Transform): void;
-  /** Drop what is shown. */
+  /** Drop shown messages. */
   protected abstract clear(): void;
 
   /** The reason why a message cannot be shown, in rviz's words. */
@@ -166,7 +166,7 @@ export abstract class TopicDisplay<M extends Stamped> extends Display {
     });
   }
 
-  /** Messages follow the definition that their publisher sent, which may lack fields. */
+  /** Run, and report errors as a status: messages follow their publisher's definition, which may lack fields. */
   protected guard(run: () => void): void {
     try {
       run();

@@ -1,13 +1,13 @@
-/** Edits that can be taken back. */
+/** Edits that can be undone. */
 
 import type { ReadonlySignal } from "@preact/signals";
 
 export interface UndoStack {
   readonly undoTitle: ReadonlySignal<string | null>;
   readonly redoTitle: ReadonlySignal<string | null>;
-  /** Do something now and remember how to undo it; "Change of Alpha". */
+  /** Run an edit and record how to undo it; title such as "Change of Alpha". */
   run(title: string, redo: () => void, undo: () => void): void;
-  /** Remember how to do again and undo what has been done. */
+  /** Record how to redo and undo an edit that is done. */
   record(title: string, redo: () => void, undo: () => void): void;
   undo(): void;
   redo(): void;

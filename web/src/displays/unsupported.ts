@@ -1,4 +1,4 @@
-/** Why an entry of an .rviz file cannot be shown. */
+/** Reasons why entries of an .rviz file cannot be shown. */
 
 const PACKAGES: Readonly<Record<string, string>> = {
   moveit_rviz_plugin: "MoveIt",

@@ -4,7 +4,7 @@ import { effect, untracked } from "@preact/signals";
 
 import type { Property } from "../rviz/properties";
 
-/** Call `draw` now and whenever one of the properties or those below them changes, but read-outs; returns how to stop. */
+/** Call `draw` now and when a property or a child changes, except read-outs; returns a function that stops. */
 export function watch(properties: readonly Property<unknown>[], draw: () => void): () => void {
   return effect(() => {
     readValues(properties);
@@ -12,7 +12,7 @@ export function watch(properties: readonly Property<unknown>[], draw: () => void
   });
 }
 
-/** Read the properties and those below them, but read-outs, so that an effect follows them. */
+/** Read the properties and their children, except read-outs, so that an effect follows them. */
 export function readValues(properties: readonly Property<unknown>[]): readonly unknown[] {
   return properties.flatMap((property) =>
     property.options.readOnly === true

@@ -9,7 +9,7 @@ import { areFinite } from "../../frames/valid";
 /** rviz's planes [m]. */
 const NEAR = 0.01;
 const FAR = 100;
-/** From the optical frame (z forward, y down) to that of a camera in the scene (z backward, y up). */
+/** Rotation between the optical frame (z forward, y down) and a camera of the scene (z backward, y up). */
 const OPTICAL_FROM_CAMERA = new Quaternion(1, 0, 0, 0);
 
 export interface Size {
@@ -22,7 +22,7 @@ export function calibratedSize({ width, height }: CameraInfo, picture: Size): Si
   return { width: width || picture.width, height: height || picture.height };
 }
 
-/** Projection of rviz for a calibration of `size`, or its sentence about why there is none; zoom magnifies. */
+/** Projection of rviz for a calibration of `size`, or rviz's error; zoom magnifies. */
 export function projection({ P }: CameraInfo, { width, height }: Size, zoom: number): Matrix4 | string {
   if (!areFinite(P) || P.length !== 12) return "Contains invalid floating point values (nans or infs)";
   const [fx = 0, , cx = 0, , , fy = 0, cy = 0] = P;
@@ -57,7 +57,7 @@ export function cameraPose({ P }: CameraInfo, { position, orientation }: Transfo
   return { position: offset.add(position), orientation: orientation.clone().multiply(OPTICAL_FROM_CAMERA) };
 }
 
-/** Where a picture lies in a canvas of the calibration's size [px]: all of it, or its region of interest; zoomed about the middle. */
+/** Rectangle of a picture in a canvas of the calibration's size [px]: its region of interest, zoomed about the middle. */
 export function pictureRectangle(
   { roi }: CameraInfo,
   { width, height }: Size,

@@ -16,7 +16,7 @@ const METRES = new Map([
   ["32FC1", 1],
 ]);
 
-/** The points in the camera's optical frame, or rviz's sentence about why there are none; `color` has the same size. */
+/** Points in the camera's optical frame, or rviz's error; `color` has the same size. */
 export function depthPoints(depth: Image, info: CameraInfo, color: Pixels | null): Cloud | string {
   const { width, height, encoding, step, data } = depth;
   const metres = METRES.get(encoding);

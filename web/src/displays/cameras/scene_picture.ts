@@ -14,13 +14,13 @@ import type { Transform } from "../../frames/transform";
 import type { Size } from "./camera_projection";
 
 export class ScenePicture {
-  /** What was drawn last. */
+  /** Last picture. */
   readonly canvas = document.createElement("canvas");
   private readonly target = new WebGLRenderTarget(1, 1, { samples: 4 });
   private readonly camera = new PerspectiveCamera();
   private readonly clearColor = new Color();
 
-  /** Draw what stands in `displays`, but those `without`; the simulated world and the ground are left out, as the picture has them. */
+  /** Draw `displays` except `without`; the simulated world and the ground are left out, as the picture shows them. */
   draw(
     renderer: WebGLRenderer,
     displays: Object3D,

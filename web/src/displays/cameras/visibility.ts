@@ -1,4 +1,4 @@
-/** rviz's Visibility of a camera: which displays lie over its picture, groups with rows of their members. */
+/** rviz's Visibility of a camera: displays drawn over its picture; groups have rows of their members. */
 
 import type { Object3D } from "three";
 
@@ -22,7 +22,7 @@ export class VisibilityProperty extends BoolProperty {
     super(name, true);
   }
 
-  /** Have a row for each display, by its name; what the file says of it is taken when it comes. */
+  /** Keep a row for each display, by name; a saved value is applied when the display appears. */
   follow(displays: readonly Display[]): void {
     const named = new Map(displays.map((display) => [display.name.value, display]));
     for (const [name, row] of this.rows) {
@@ -33,7 +33,7 @@ export class VisibilityProperty extends BoolProperty {
     for (const [name, display] of named) (this.rows.get(name) ?? this.makeRow(name)).follow(membersOf(display));
   }
 
-  /** What displays draw that this camera does not show. */
+  /** Objects of displays that this camera hides. */
   hidden(displays: readonly Display[], isShown = this.value.peek()): readonly Object3D[] {
     return displays.flatMap((display) => {
       const row = this.rows.get(display.name.peek());
@@ -43,7 +43,7 @@ export class VisibilityProperty extends BoolProperty {
     });
   }
 
-  /** Rows that the file had or that are off: displays that come are no change of the file. */
+  /** Save rows that the file had or that are off, so that new displays do not change the file. */
   override save(): Yaml {
     const saved: Record<string, Yaml> = { ...this.stored };
     const rows = this.version.value === 0 ? [] : this.rows;

@@ -46,7 +46,7 @@ export class Cloud {
   }
 }
 
-/** The points of a message, or rviz's sentence about why there are none. */
+/** Points of a message, or rviz's error. */
 export function readCloud(message: PointCloud2): Cloud | string {
   const { width, height, point_step: step, data, fields } = message;
   const count = width * height;

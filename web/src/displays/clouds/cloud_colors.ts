@@ -1,4 +1,4 @@
-/** rviz's color transformers: which there are for a cloud, and the bounds that they color between. */
+/** rviz's color transformers: those that a cloud supports, and the bounds of their colors. */
 
 import type { Matrix4 } from "three";
 
@@ -15,7 +15,7 @@ export interface Bounds {
   readonly max: number;
 }
 
-/** The channel of packed colors: `rgba` where both are there. */
+/** Channel of packed colors: `rgba` if a cloud has both. */
 export function packedColor(cloud: Cloud): Channel | undefined {
   const order = cloud.channels.filter(({ name }) => name === "rgb" || name === "rgba");
   const channel = order.at(-1);
@@ -33,7 +33,7 @@ export function supported(cloud: Cloud): readonly ColorTransformer[] {
   });
 }
 
-/** The transformer that rviz uses: the wanted one if it can, else RGB8, else Intensity. */
+/** Transformer that rviz uses: the preferred one if supported, otherwise RGB8, otherwise Intensity. */
 export function choose(preferred: string, names: readonly ColorTransformer[]): ColorTransformer {
   const match = names.find((name) => name === preferred);
   return match ?? (names.includes("RGB8") ? "RGB8" : "Intensity");
@@ -44,7 +44,7 @@ export function intensityChannel(cloud: Cloud, name: string): Channel | undefine
   return cloud.channel(name) ?? (name === "intensity" ? cloud.channel("intensities") : undefined);
 }
 
-/** Least and greatest value of a channel within rviz's ±999999. */
+/** Minimum and maximum of a channel within rviz's ±999999. */
 export function channelBounds(cloud: Cloud, channel: Channel): Bounds {
   let min = 999999;
   let max = -999999;
@@ -61,7 +61,7 @@ export function channelBounds(cloud: Cloud, channel: Channel): Bounds {
   return { min: Math.max(-999999, min), max: Math.min(999999, max) };
 }
 
-/** Least and greatest coordinate along row `axis` of a transform, from rviz's ±9999. */
+/** Minimum and maximum coordinate along row `axis` of a transform, from rviz's ±9999. */
 export function axisBounds(cloud: Cloud, axis: 0 | 1 | 2, transform: Matrix4): Bounds {
   const [x = 0, y = 0, z = 0] = ["x", "y", "z"].map((name) => (cloud.channel(name)?.offset ?? 0) / 4);
   const row = [0, 4, 8, 12].map((column) => transform.elements[axis + column] ?? 0);
@@ -77,7 +77,7 @@ export function axisBounds(cloud: Cloud, axis: 0 | 1 | 2, transform: Matrix4): B
   return { min, max };
 }
 
-/** What a value's distance from the least one is divided by; rviz's replacement where bounds are equal. */
+/** Divisor of a value's distance from the minimum; `ifEqual`, as in rviz, if the bounds are equal. */
 export function range({ min, max }: Bounds, ifEqual: number): number {
   return max - min === 0 ? ifEqual : max - min;
 }

@@ -19,7 +19,7 @@ interface Fresh<M> {
 export abstract class CloudDisplay<M extends Stamped> extends TopicDisplay<M> {
   readonly cloudProperties: CloudProperties;
   private readonly common: PointCloudCommon;
-  /** What came since the last frame, oldest first. */
+  /** Messages since the last frame, oldest first. */
   private fresh: Fresh<M>[] = [];
 
   constructor(context: DisplayContext, types: readonly string[], fixed?: FixedChannel) {
@@ -59,7 +59,7 @@ export abstract class CloudDisplay<M extends Stamped> extends TopicDisplay<M> {
     this.clearStatus("Points");
   }
 
-  /** Points are read once per frame, so that a fast sensor costs no more than what is seen of it. */
+  /** Read points once per frame, so that a fast sensor costs no more than the frames drawn. */
   override update(now: bigint, elapsed: number): void {
     super.update(now, elapsed);
     const { fresh } = this;

@@ -19,11 +19,11 @@ import { ColorMode } from "./cloud_material";
 import type { CloudProperties } from "./cloud_properties";
 import { wordOf, type CloudObject } from "./point_cloud_object";
 
-/** rviz's stand-ins for a difference of 0. */
+/** rviz's replacement of a difference of 0. */
 const INTENSITY_IF_EQUAL = 1e20;
 const AXIS_IF_EQUAL = 0.001;
 
-/** Offer what a new cloud has, and settle on transformers that can show it. */
+/** Update the choices for a new cloud, and select transformers that support it. */
 export function offerTransformers(properties: CloudProperties, cloud: Cloud): void {
   const names = supported(cloud);
   properties.color.choices.value = names;

@@ -113,7 +113,7 @@ export class CloudProperties {
     ];
   }
 
-  /** Read what the look of points depends on; not the bounds that points themselves set. */
+  /** Read the properties that the points' look depends on, except the bounds computed from the points. */
   track(): void {
     const { autoValues, autoIntensity, minValue, maxValue, minIntensity, maxIntensity } = this;
     const set = new Set<Property<unknown>>([minValue, maxValue, minIntensity, maxIntensity, this.decay]);

@@ -4,7 +4,7 @@ import { Matrix4, OrthographicCamera, Ray, Vector3, type Raycaster } from "three
 
 import type { Cloud } from "./cloud";
 
-/** Angle [rad] around a pointer within which a point smaller than that is met, where the camera has perspective. */
+/** Angle around the pointer's ray within which small points are picked, with perspective [rad]. */
 const PICK_ANGLE = 0.005;
 
 /**
@@ -43,7 +43,7 @@ export function nearestPoint(
   return distance < raycaster.near || distance > raycaster.far ? null : { point, distance, index: best };
 }
 
-/** Indices of the points that a box of the picture holds; `matrix` is the cloud's pose in the world. */
+/** Indices of the points within a box of the picture; `matrix` is the cloud's pose in the world. */
 export function pointsWithin(cloud: Cloud, matrix: Matrix4, contains: (point: Vector3) => boolean): number[] {
   const [x = 0, y = 0, z = 0] = ["x", "y", "z"].map((axis) => (cloud.channel(axis)?.offset ?? 0) / 4);
   const { floats, stride } = cloud;

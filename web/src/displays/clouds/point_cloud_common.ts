@@ -52,7 +52,7 @@ export class PointCloudCommon {
     this.place(entry);
   }
 
-  /** Drop what is older than the decay time; `now` is ROS time [ns]. */
+  /** Drop clouds older than the decay time; `now` is ROS time [ns]. */
   update(now: bigint): void {
     const decay = this.properties.decay.value.peek();
     const newest = this.entries.at(-1);
@@ -71,7 +71,7 @@ export class PointCloudCommon {
     this.scene.invalidate();
   }
 
-  /** Draw with the properties of now. */
+  /** Draw with the current properties. */
   restyle(): void {
     const style = this.properties.style.value.peek() as Style;
     for (const entry of this.entries) {

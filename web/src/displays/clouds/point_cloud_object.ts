@@ -42,12 +42,12 @@ const VIEWPORT = new Vector4();
 export interface CloudObject {
   readonly object: Object3D;
   readonly material: CloudMaterial;
-  /** Choose the words of a point that its color is worked out from; three at most. */
+  /** Set the words of a point that its color is computed from; at most three. */
   setChannels(words: readonly number[]): void;
   dispose(): void;
 }
 
-/** Make the object of a cloud; `dispose` frees it. */
+/** Create the object of a cloud; `dispose` frees it. */
 export function cloudObject(cloud: Cloud, style: Style): CloudObject {
   const isSprite = style !== "Boxes" && style !== "Tiles" && cloud.count > MAX_INSTANCES;
   const geometry = isSprite ? new BufferGeometry() : shapeGeometry(style, cloud.count);
@@ -122,7 +122,7 @@ function shapeGeometry(style: Style, count: number): InstancedBufferGeometry {
 const NOTHING = new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(0), 3));
 const UNSEEN = new MeshBasicMaterial({ visible: false });
 
-/** Stands around the drawn points and finds the one under a pointer; draws nothing itself. */
+/** Encloses the drawn points and finds the one under the pointer; draws nothing itself. */
 class CloudPicker extends Mesh {
   constructor(
     private readonly cloud: Cloud,

@@ -24,5 +24,5 @@ export const FeedbackEvent = {
   mouseUp: 5,
 } as const;
 
-/** What the server of a menu's entry wants: a message, or a program that is run where rviz is. */
+/** Action of a menu entry: a feedback message, or a program to run where rviz runs. */
 export const MenuCommand = { feedback: 0, rosrun: 1, roslaunch: 2 } as const;

@@ -1,4 +1,4 @@
-/** A control of an interactive marker: its shapes, how they are turned, and what the pointer does with them. */
+/** Control of an interactive marker: its shapes, their orientation, and their pointer events. */
 
 import { Group, Matrix4, Mesh, Quaternion, Vector3 } from "three";
 
@@ -9,11 +9,11 @@ import { makeView, type MarkerView, type ViewParts } from "../markers/marker_vie
 import { ShapeMaterial } from "../../shapes/shape_material";
 import { InteractionMode, OrientationMode } from "./control_modes";
 
-/** Brightening of what the pointer is at, and of what is dragged, as rviz's. */
+/** Brightening of the hovered control, and of the dragged one, as in rviz. */
 const HOVER_GLOW = 0.3;
 const DRAG_GLOW = 0.5;
 
-/** What happens to a control, for its marker. */
+/** Events of a control, for its marker. */
 export interface ControlEvents {
   /** True: the drag is the control's. */
   press(control: ControlView, event: TargetEvent): boolean;
@@ -49,7 +49,7 @@ export class ControlView extends Group {
     return this.control.interaction_mode >= InteractionMode.moveAxis;
   }
 
-  /** Turn as the control's mode says; `reference`: the marker's frame in the fixed frame, `camera`: the camera's turn. */
+  /** Orient by the control's mode; `reference`: marker's frame in the fixed frame, `camera`: camera's rotation. */
   orient(marker: Quaternion, reference: Quaternion, camera: Quaternion): void {
     const mode = this.control.orientation_mode;
     if (mode === OrientationMode.inherit) return;

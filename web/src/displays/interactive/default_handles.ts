@@ -27,7 +27,7 @@ export function withHandles(marker: InteractiveMarker, alpha: number): Interacti
   return { ...marker, controls };
 }
 
-/** A size that is not given is 1 m. */
+/** Shape whose missing sizes are 1 m. */
 function completed(shape: Marker): Marker {
   const { x, y, z } = shape.scale;
   return { ...shape, scale: { x: x || 1, y: y || 1, z: z || 1 } };
@@ -68,7 +68,7 @@ function blank(marker: InteractiveMarker, control: InteractiveMarkerControl, id:
   };
 }
 
-/** An arrow of two points beside the marker; its color is that of its direction. */
+/** Arrow of two points beside the marker, colored by its direction. */
 function arrow(marker: InteractiveMarker, control: InteractiveMarkerControl, side: 1 | -1, alpha: number): Marker {
   const size = scaleOf(marker);
   const at = (distance: number): Point => turned(control, new Vector3(side * distance * size, 0, 0));
@@ -130,7 +130,7 @@ function stripedRing(shape: Marker, inner: (step: number) => Point, outer: (step
   return { ...shape, points, colors };
 }
 
-/** As in rviz, the bright teeth are seen through twice. */
+/** Ring with teeth, whose bright ones are drawn twice, as in rviz. */
 function toothedRing(shape: Marker, inner: (step: number) => Point, outer: (step: number) => Point): Marker {
   const points: Point[] = [];
   const colors: ColorRGBA[] = [];

@@ -1,4 +1,4 @@
-/** How a pointer's ray moves a marker: pure geometry, in the fixed frame. */
+/** Motion of a marker by a pointer's ray: pure geometry, in the fixed frame. */
 
 import { Plane, Quaternion, Vector3, type Ray } from "three";
 
@@ -9,7 +9,7 @@ const TURN_PER_PX = (2 * Math.PI) / 300;
 
 export interface DragInput {
   readonly ray: Ray;
-  /** Place [px]. */
+  /** Position [px]. */
   readonly x: number;
   readonly y: number;
   readonly shift: boolean;
@@ -24,7 +24,7 @@ export interface ViewAxes {
   readonly back: Vector3;
 }
 
-/** A drag of one control: begun where it was grasped, followed by rays. */
+/** Drag of one control, from its grasped point along the pointer's rays. */
 export class Drag {
   private readonly startPosition: Vector3;
   private readonly startOrientation: Quaternion;
@@ -93,7 +93,7 @@ export class Drag {
     this.orientation.setFromAxisAngle(this.axis, angle).multiply(this.startOrientation);
   }
 
-  /** The grasped point goes to the pointer; the marker turns after it and is pulled along. */
+  /** Move the grasped point to the pointer; the marker turns with it and is pulled along. */
   private moveRotate(ray: Ray): void {
     const hit = planeHit(ray, this.axis, this.grasp);
     if (hit === null) return;
@@ -107,7 +107,7 @@ export class Drag {
     this.grasp.copy(hit);
   }
 
-  /** In the plane of the picture; with Shift nearer and farther. */
+  /** Move in the plane of the picture; with Shift along the view direction. */
   private move3D(input: DragInput, dy: number, { back }: ViewAxes): void {
     if (input.shift) {
       const distance = input.ray.origin.distanceTo(this.grasp);

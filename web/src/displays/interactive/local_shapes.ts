@@ -1,4 +1,4 @@
-/** Shapes of an interactive marker that stand in frames of their own. */
+/** Shapes of an interactive marker in frames of their own. */
 
 import { Quaternion, Vector3 } from "three";
 
@@ -7,7 +7,7 @@ import { NoTransform } from "../../frames/transform";
 import type { InteractiveMarker, Marker, Pose } from "../../protocol/generated/ros_messages";
 import { nanoseconds } from "../../protocol/ros_types";
 
-/** The marker with all shapes relative to its pose, as those without a frame are; or the frame that is missing. */
+/** Marker with all shapes relative to its pose; or the missing transform. */
 export function withLocalShapes(marker: InteractiveMarker, frames: FrameTree): InteractiveMarker | NoTransform {
   const missing: NoTransform[] = [];
   const place = (shape: Marker): Marker => {

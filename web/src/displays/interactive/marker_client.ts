@@ -50,7 +50,7 @@ export class MarkerClient {
     for (const subscription of this.subscriptions) subscription.close();
   }
 
-  /** Wall seconds have passed. */
+  /** Advance by wall seconds. */
   tick(elapsed: number): void {
     for (const [name, server] of this.servers) {
       const wasAlive = server.silence < SILENT_S;
@@ -113,7 +113,7 @@ export class MarkerClient {
     this.events.status(name, "ok", "OK");
   }
 
-  /** An update is missing, or the server has begun anew: its full state comes with every change. */
+  /** Start again after a missing update or a restarted server; its full state comes with every change. */
   private resync(name: string, server: Server, sequence: bigint): void {
     const init = this.inits.get(name);
     if (init !== undefined && init.seq_num >= sequence) this.begin(name, server, init);

@@ -14,7 +14,7 @@ import { ControlView, type ControlEvents } from "./control_view";
 import { Drag } from "./drag";
 import { openMenu } from "./menu";
 
-/** Wall seconds between signs of life while a marker is held. */
+/** Wall seconds between keep-alive messages while a marker is dragged. */
 const KEEP_ALIVE_S = 0.25;
 
 export interface MarkerLooks {
@@ -55,7 +55,7 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     this.userData["selectable"] = selectable;
   }
 
-  /** A pose from the server; it waits while a person holds the marker. */
+  /** Set a pose from the server; it is deferred while a person drags the marker. */
   setPose(pose: Pose): void {
     if (this.drag !== null) {
       this.requested = pose;
@@ -168,7 +168,7 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     return this.context.scene.camera.peek().quaternion;
   }
 
-  /** A marker whose stamp is 0 answers in its own frame, another one in the fixed frame at its stamp of now. */
+  /** Send feedback: in the marker's own frame if its stamp is 0, otherwise in the fixed frame at the current time. */
   private feedback(event: number, point?: Vector3, entry = 0): void {
     this.sinceFeedback = 0;
     const { header } = this.marker;

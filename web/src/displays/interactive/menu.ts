@@ -40,7 +40,7 @@ export function openMenu(
   return menu;
 }
 
-/** Entries below a parent, each followed by its own, further in. */
+/** Entries of a parent, each followed by its indented children. */
 function addEntries(
   menu: HTMLElement,
   entries: readonly MenuEntry[],
@@ -57,7 +57,8 @@ function addEntries(
     item.textContent = entry.title;
     item.style.paddingLeft = `${8 + 16 * depth}px`;
     item.disabled = hasChildren || entry.command_type !== MenuCommand.feedback;
-    if (!hasChildren && item.disabled) item.title = `Runs "${entry.command}" beside rviz, which a page cannot do.`;
+    if (!hasChildren && item.disabled)
+      item.title = `Runs "${entry.command}" on rviz's machine, which a page cannot do.`;
     item.addEventListener("click", () => choose(entry));
     menu.append(item);
     if (hasChildren) addEntries(menu, entries, entry.id, depth + 1, choose);

@@ -26,7 +26,7 @@ export interface Region {
   readonly height: number;
 }
 
-/** The map of a message, or rviz's sentence about why there is none. Cells are the message's own bytes where they fit. */
+/** Map of a message, or rviz's error. Cells are the message's own bytes if their size fits. */
 export function readMap({ info, data }: OccupancyGrid): OccupancyMap | string {
   const { width, height, resolution, origin } = info;
   if (!Number.isFinite(resolution) || !isFinitePose(origin)) return INVALID_FLOATS;
@@ -65,7 +65,7 @@ export function cut(map: OccupancyMap, { x, y, width, height }: Region): Uint8Ar
   return bytes;
 }
 
-/** The regions of `size` × `size` that a map is drawn in, and a region's part in each. */
+/** Tiles of `size` × `size` cells that a map is drawn in. */
 export function tilesOf({ width, height }: OccupancyMap, size: number): Region[] {
   const tiles: Region[] = [];
   for (let y = 0; y < height; y += size) {

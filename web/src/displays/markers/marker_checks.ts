@@ -1,4 +1,4 @@
-/** What is wrong with a marker, in rviz's words. */
+/** Faults of a marker, in rviz's words. */
 
 import type { Marker } from "../../protocol/generated/ros_messages";
 import type { StatusLevel } from "../../rviz/status_level";
@@ -11,7 +11,7 @@ export interface MarkerFault {
 
 type Report = (level: "warn" | "error", text: string) => void;
 
-/** The faults of a marker that is added, in one status; null: none. An error: the marker cannot be drawn. */
+/** Faults of an added marker as one status; null: none. Level "error": the marker cannot be drawn. */
 export function checkMarker(marker: Marker): MarkerFault | null {
   const texts: string[] = [];
   let level: "warn" | "error" = "warn";

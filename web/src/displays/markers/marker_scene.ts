@@ -1,4 +1,4 @@
-/** The markers that are shown: their places, lifetimes and what draws them. */
+/** Shown markers: their poses, lifetimes and views. */
 
 import { Group, Matrix4, Quaternion, Vector3 } from "three";
 
@@ -12,7 +12,7 @@ import { SolidBatches } from "./solid_batches";
 
 interface Shown {
   marker: Marker;
-  /** ROS time at which it goes [ns]; null: it stays. */
+  /** ROS time at which it expires [ns]; null: never. */
   expires: bigint | null;
   isVisible: boolean;
   /** Pose in the fixed frame. */
@@ -78,7 +78,7 @@ export class MarkerScene extends Group {
     }
   }
 
-  /** Drop what has expired. */
+  /** Drop expired markers. */
   expire(now: bigint, onGone: (name: string) => void): void {
     for (const [name, { expires }] of this.shown) {
       if (expires === null || expires > now) continue;
@@ -96,7 +96,7 @@ export class MarkerScene extends Group {
     }
   }
 
-  /** Draw what has changed; true: something has. */
+  /** Draw changed markers; true: any changed. */
   refresh(): boolean {
     if (!this.isStale) return false;
     this.isStale = false;

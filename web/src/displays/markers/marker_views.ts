@@ -18,7 +18,7 @@ export interface MarkerView {
   dispose(): void;
 }
 
-/** What views of markers need. */
+/** Parts that views of markers use. */
 export interface ViewParts {
   readonly connection: Connection;
   readonly describe: (marker: Marker) => Readonly<Record<string, unknown>>;
@@ -137,7 +137,7 @@ function mesh(marker: Marker, { connection, onFault, onChange }: ViewParts): Mar
   };
 }
 
-/** Embedded materials as seen through as the marker, with at most half of its color over them; all zeros leave them. Else its color alone. */
+/** Give embedded materials the marker's alpha and up to half of its color, unless all zeros; other meshes its color. */
 function paintMesh(marker: Marker, object: Object3D, embedded: readonly ShapeMaterial[]): readonly ShapeMaterial[] {
   const [red, green, blue, alpha] = rgba(marker.color);
   if (marker.mesh_use_embedded_materials) {

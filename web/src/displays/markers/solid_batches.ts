@@ -37,7 +37,7 @@ export class SolidBatches extends Group {
     super();
   }
 
-  /** Begin to draw anew; then `draw` each marker, then `finish`. */
+  /** Start a new batch; then `draw` each marker, then `finish`. */
   begin(): void {
     for (const { instances, owners } of this.batches.values()) {
       instances.begin(0);

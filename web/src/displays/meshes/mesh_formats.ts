@@ -36,12 +36,12 @@ export async function loadMesh(uri: string, fetchAsset: FetchAsset): Promise<Loa
   }
 }
 
-/** Files that a mesh names: fetched first, then found by the loaders under the names they ask for. */
+/** Files that a mesh refers to: fetched first, then passed to the loaders by name. */
 class SideFiles {
   readonly folder: string;
   readonly manager = new LoadingManager();
   readonly missing: string[] = [];
-  /** Pictures that loaders have begun to read; a picture that cannot be read ends, too. */
+  /** Pictures being read by loaders; resolves also for unreadable ones. */
   private pictures: Promise<unknown> = Promise.resolve();
   private readonly urls = new Map<string, string>();
 

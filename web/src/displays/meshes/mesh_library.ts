@@ -15,7 +15,7 @@ import type { Connection } from "../../protocol/connection";
 import { ShapeMaterial } from "../../shapes/shape_material";
 import { loadMesh, type LoadedMesh } from "./mesh_formats";
 
-/** A copy of a mesh to be colored on its own. */
+/** Copy of a mesh with materials of its own. */
 interface MeshCopy {
   readonly object: Object3D;
   readonly materials: readonly ShapeMaterial[];
@@ -37,7 +37,7 @@ class MeshLibrary {
 
   constructor(private readonly connection: Connection) {}
 
-  /** A copy of the mesh at an address; rejects with a sentence. Failures are not kept, so that a later try may succeed. */
+  /** Copy of the mesh at an address; rejects with a sentence. Failures are not cached, so that a retry may succeed. */
   async copy(uri: string): Promise<MeshCopy> {
     let loading = this.loaded.get(uri);
     if (loading === undefined) {

@@ -20,7 +20,7 @@ export abstract class PictureDisplay extends Display implements PictureSource {
       description: "Preferred method of sending images.",
     }),
   );
-  /** What the topic brings; null while it is disabled. */
+  /** Pictures of the topic; null while it is disabled. */
   protected readonly stream = signal<PictureStream | null>(null);
   private disposers: (() => void)[] = [];
   private sinceCount = 0;

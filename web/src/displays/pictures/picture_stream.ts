@@ -15,22 +15,22 @@ export interface Picture {
   readonly header: Header;
 }
 
-/** Something whose pictures tiles and panels show; Image and Camera displays are. */
+/** Source of pictures for tiles and panels, such as Image and Camera displays. */
 export interface PictureSource {
   readonly picture: ReadonlySignal<Picture | null>;
 }
 
 const TYPES = ["sensor_msgs/Image", "sensor_msgs/CompressedImage"];
 
-/** Subscribes to a topic of images, raw or compressed. While one is decoded, the newest waits and the others are left out. */
+/** Subscribes to a topic of images, raw or compressed. While one is decoded, only the newest waits. */
 export class PictureStream implements PictureSource {
   readonly picture = signal<Picture | null>(null);
-  /** The reason why the last image is not shown; null: it is. */
+  /** Reason why the last image is not shown; null: shown. */
   readonly fault = signal<string | null>(null);
   /** Encoding of the last image, or its format where it is compressed. */
   readonly encoding = signal("");
   readonly count = signal(0);
-  /** How numbers become grey from the next image on. */
+  /** Conversion of numbers to grey, from the next image on. */
   normalization: Normalization = { isAutomatic: true, min: 0, max: 1, window: 5 };
 
   private readonly subscription: Subscription;
@@ -93,7 +93,7 @@ export class PictureStream implements PictureSource {
     }
   }
 
-  /** The old bitmap is closed only after readers have the new one. */
+  /** Set the picture; the old bitmap is closed only after readers have the new one. */
   private replace(picture: Picture | null): void {
     const old = this.picture.peek();
     this.picture.value = picture;

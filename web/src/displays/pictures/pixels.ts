@@ -3,7 +3,7 @@
 import { demosaic, isBayer, unpackYuv } from "./mosaics";
 import type { RawImage } from "./raw_image";
 
-/** How numbers become grey: by the image's own range, with the median of the last ones, or by a fixed one. */
+/** Conversion of numbers to grey: by the image's range, the median of the last ranges, or a fixed range. */
 export interface Normalization {
   readonly isAutomatic: boolean;
   readonly min: number;
@@ -62,7 +62,7 @@ export function isNumeric(encoding: string): boolean {
   return NUMBERS.has(encoding);
 }
 
-/** The pixels of an image, or the sentence about why there are none. */
+/** Pixels of an image, or an error. */
 export function readPixels(
   image: RawImage,
   normalization: Normalization,

@@ -22,7 +22,7 @@ import type { Geometry, RobotMaterial, RobotShape } from "./urdf";
 /** rviz's color of a link that has none. */
 const SHADED_RED = [1, 0, 0, 1] as const;
 
-/** Called with the address of a mesh or texture and why it is not there. */
+/** Called with the address of a missing mesh or texture, and the reason. */
 export type OnMissing = (uri: string, reason: string) => void;
 
 export class LinkShapes extends Group {
@@ -49,7 +49,7 @@ export class LinkShapes extends Group {
     for (const material of this.materials) this.paint(material);
   }
 
-  /** White without a transform, as rviz shows it; true: that changed. */
+  /** Show the link in white without a transform, as rviz does; true: changed. */
   setPlaced(hasPlace: boolean): boolean {
     if (hasPlace === this.hasPlace) return false;
     this.hasPlace = hasPlace;
@@ -105,7 +105,7 @@ export class LinkShapes extends Group {
     }
   }
 
-  /** The material that the URDF names: a texture has no color beside it. */
+  /** Material of the URDF; one with a texture has no color. */
   private linkMaterial(material: RobotMaterial | null, side: Side = DoubleSide): ShapeMaterial {
     if (material?.texture === null || material?.texture === undefined) {
       return this.keep(new ShapeMaterial({ side }), material?.rgba ?? SHADED_RED);

@@ -1,4 +1,4 @@
-/** A link in the scene: its visuals and collisions, and its axes and trail where they are asked for. */
+/** Link in the scene: its visuals and collisions, and its axes and trail if enabled. */
 
 import { Group } from "three";
 
@@ -63,7 +63,7 @@ export class LinkView extends Group {
     return true;
   }
 
-  /** Show as the robot's properties and the link's own say. */
+  /** Show the link by the robot's properties and its own. */
   show(visual: boolean, collision: boolean, alpha: number): void {
     const enabled = this.row.value.peek() !== false;
     const linkAlpha = alpha * this.alpha.value.peek();

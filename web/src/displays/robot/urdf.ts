@@ -1,4 +1,4 @@
-/** A robot's links, joints and materials as its URDF says. */
+/** Links, joints and materials of a robot's URDF. */
 
 type Triple = readonly [number, number, number];
 
@@ -109,7 +109,7 @@ function readGeometry(node: Element | null): Geometry | null {
   }
 }
 
-/** A material of the link; one that says nothing but a name is the robot's, or another link's, of that name. */
+/** Material of a link; one with only a name refers to the robot's or another link's material of that name. */
 function findMaterial(node: Element | null, named: Map<string, RobotMaterial>): RobotMaterial | null {
   if (node === null) return null;
   const material = readMaterial(node);

@@ -6,7 +6,7 @@ import type { Transform } from "../../frames/transform";
 import type { Label, SceneView } from "../../scene/scene_view";
 import { BoolProperty, GroupProperty, Property, type Yaml } from "../../rviz/properties";
 
-/** A text that is shown and not saved. */
+/** Text that is shown and not saved. */
 class ReadOut extends Property<string> {
   readonly kind = "text";
   constructor(name: string) {
@@ -39,7 +39,7 @@ export class TreeProperty extends GroupProperty {
     return [];
   }
 
-  /** Show children by their parents; nothing happens while the tree is the same. */
+  /** Show children by their parents; does nothing if the tree is unchanged. */
   draw(parents: ReadonlyMap<string, string | null>): void {
     const key = [...parents].map((pair) => pair.join("<")).join();
     if (key === this.drawn) return;
@@ -54,9 +54,9 @@ export class TreeProperty extends GroupProperty {
   }
 }
 
-/** One third of the time after which a frame is forgotten passes before it fades; then it greys, then it vanishes. */
+/** Fading of an old frame: unchanged for a third of the timeout, then grey, then transparent. */
 export interface Fade {
-  /** 0: its colors, 1: grey. */
+  /** Ratio of grey: 0: full color, 1: grey. */
   readonly grey: number;
   readonly alpha: number;
 }
@@ -70,9 +70,9 @@ export function fadeOf(age: number, timeout: number): Fade {
   return { grey: 1, alpha: Math.max(0, (timeout - age) / third) };
 }
 
-/** A frame as it stands in the scene. */
+/** Frame in the scene. */
 export class FrameView {
-  /** Where its name stands, in the fixed frame. */
+  /** Anchor of its name, in the fixed frame. */
   readonly anchor = new Object3D();
   readonly toParent = new Vector3();
   parent: string | null = null;
@@ -90,7 +90,7 @@ export class FrameView {
     this.anchor.name = name;
   }
 
-  /** Stand at a pose in the fixed frame; true: it was elsewhere. */
+  /** Set the pose in the fixed frame; true: it moved. */
   place({ position, orientation }: Transform): boolean {
     const { position: here, quaternion: turn } = this.anchor;
     if (this.isPlaced && here.equals(position) && turn.equals(orientation)) return false;
@@ -104,7 +104,7 @@ export class FrameView {
     return this.isPlaced && this.row.value.peek() && this.fade.alpha > 0;
   }
 
-  /** Newest common stamp with the fixed frame, 0 where all is static; returns the seconds since it last changed. */
+  /** Set the newest common stamp with the fixed frame, 0 if all is static; returns seconds since it last changed. */
   setStamp(stamp: bigint, now: bigint): number {
     if (stamp !== this.stamp || stamp === 0n || this.changedAt === 0n || now < this.changedAt) {
       this.stamp = stamp;
@@ -113,7 +113,7 @@ export class FrameView {
     return Number(now - this.changedAt) * 1e-9;
   }
 
-  /** Take its parent and fading; true: they have changed. */
+  /** Set its parent and fading; true: they changed. */
   setKin(parent: string | null, fade: Fade): boolean {
     const changed = parent !== this.parent || fade.grey !== this.fade.grey || fade.alpha !== this.fade.alpha;
     this.parent = parent;
