@@ -66,8 +66,8 @@ function Graph({ page }: PanelProps): JSX.Element {
 }
 
 function emptyText(state: GraphState): string {
-  if (state.filter.value !== "") return "No node or topic has this in its name.";
-  return state.hideDebug.value ? "There are no nodes but those for debugging." : "There are no nodes.";
+  if (state.filter.value !== "") return "No node or topic matches the filter.";
+  return state.hideDebug.value ? "There are no nodes except debug nodes." : "There are no nodes.";
 }
 
 function boxes(drawing: Drawing): readonly DrawnBox[] {

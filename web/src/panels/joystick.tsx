@@ -96,7 +96,7 @@ interface HoldButtonProps {
   readonly onHold: (on: boolean) => void;
 }
 
-/** A button that is down while it is held. */
+/** Button that is pressed while it is held down. */
 function HoldButton({ name, isDown, onHold }: HoldButtonProps): JSX.Element {
   const isKey = (event: KeyboardEvent): boolean => event.key === " " || event.key === "Enter";
   return (

@@ -1,4 +1,4 @@
-/** Nodes with what they publish, subscribe to and serve (rosnode info). */
+/** Nodes with their publications, subscriptions and services (rosnode info). */
 
 import { signal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -16,7 +16,7 @@ const nodesState = perPage(() => ({
   selected: signal<string | null>(null),
 }));
 
-/** Names of topics or services that a node has a part in, sorted. */
+/** Names of a node's topics or services, sorted. */
 function namesOf(map: ReadonlyMap<string, readonly string[]>, node: string): readonly string[] {
   return [...map]
     .filter(([, nodes]) => nodes.includes(node))
@@ -40,7 +40,7 @@ function Nodes({ page }: PanelProps): JSX.Element {
       }
     >
       {nodes.length === 0 && (
-        <div class="empty">{part === "" ? "There are no nodes." : "No node has this in its name."}</div>
+        <div class="empty">{part === "" ? "There are no nodes." : "No node matches the filter."}</div>
       )}
       {nodes.length > 0 && (
         <table class="data">

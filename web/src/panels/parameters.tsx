@@ -1,4 +1,4 @@
-/** Parameters as a tree; a changed one can be taken back. */
+/** Parameters as a tree, with undo of changes. */
 
 import { signal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -31,7 +31,7 @@ function Parameters({ page }: PanelProps): JSX.Element {
       <div class="scroll">
         {rows.length === 0 && (
           <div class="empty">
-            {parameters.size === 0 ? "There are no parameters." : "No parameter has this in its name."}
+            {parameters.size === 0 ? "There are no parameters." : "No parameter matches the filter."}
           </div>
         )}
         <Controls page={page}>

@@ -15,7 +15,7 @@ interface SplitProps {
   readonly root?: RefObject<HTMLDivElement | null>;
 }
 
-/** A list, and what is selected in it. */
+/** List with the details of its selected item. */
 export function Split({ head, detail, children, root }: SplitProps): JSX.Element {
   return (
     <div class="split" ref={root ?? null}>

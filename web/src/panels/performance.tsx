@@ -1,4 +1,4 @@
-/** Where each simulated second goes: physics, sensors and plugins by name, ROS, the page, waiting. */
+/** Time spent per simulated second: physics, sensors and plugins by name, ROS, the page, waiting. */
 
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
@@ -39,7 +39,7 @@ function Performance({ page }: PanelProps): JSX.Element {
 
 function emptyText(kind: string, isPaused: boolean): string {
   if (kind !== "simulation") return "Nothing is simulated here.";
-  return isPaused ? "The simulation is paused: play it to see where its time goes." : "Measuring the first second …";
+  return isPaused ? "The simulation is paused: play it to measure its time." : "Measuring the first second …";
 }
 
 interface HeadProps {

@@ -122,7 +122,7 @@ function Editor({ server, option }: EditorProps): JSX.Element {
   return <NumberEditor server={server} option={option} value={Number(value ?? 0)} />;
 }
 
-/** A slider where the limits are narrow enough, and a field; a drag is one change for undo. */
+/** Field, with a slider if the limits are narrow enough; a drag is a single undo step. */
 function NumberEditor({ server, option, value }: EditorProps & { readonly value: number }): JSX.Element {
   const [before, setBefore] = useState<number | null>(null);
   const { lower, upper } = option;

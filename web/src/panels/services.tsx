@@ -16,7 +16,7 @@ import { FilterButton, FilterField, Split } from "./parts";
 import { perPage } from "./per_page";
 import { sentence } from "./use";
 
-/** A request that a person fills in, and what came back. */
+/** Request that a person fills in, and its response. */
 class Call {
   readonly form: FormState;
   readonly answer = signal<RosMessage | null>(null);
@@ -67,7 +67,7 @@ class ServicesState {
       .sort((one, other) => (one.name < other.name ? -1 : 1));
   });
 
-  /** The call of a service; made anew when its definition changed. */
+  /** Call of a service; a new one if its definition changed. */
   call(service: ServiceInfo): Call {
     const known = this.calls.get(service.name);
     if (known?.service.request === service.request) return known;

@@ -17,13 +17,13 @@ import { useShown } from "./use";
 const RESIZE_PERIOD = 100; // ms
 
 class TerminalsState {
-  /** Place of the terminal that is shown, in the session's list. */
+  /** Index of the shown terminal in the session's list. */
   readonly shown = signal(0);
-  /** The one that is open; null: none is yet. */
+  /** Open terminal; null: none yet. */
   private view: TerminalView | null = null;
   private isChosen = false;
 
-  /** Show a terminal to a person who wants to type there. */
+  /** Show a terminal and focus it. */
   choose(number: number): void {
     this.isChosen = true;
     if (number === this.shown.peek()) this.opened(this.view);

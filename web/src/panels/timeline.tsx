@@ -1,4 +1,4 @@
-/** Time of a simulation, a recorded run or a bag, to scrub; what happened when, and marks (rqt_bag). */
+/** Timeline of a simulation, a recorded run or a bag, to scrub; with events and marks (rqt_bag). */
 
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";

@@ -36,9 +36,7 @@ function Topics({ page }: PanelProps): JSX.Element {
       head={state.isFiltering.value && <FilterField label="Filter topics" value={state.filter} />}
     >
       {topics.length === 0 ? (
-        <div class="empty">
-          {state.filter.value === "" ? "There are no topics." : "No topic has this in its name or type."}
-        </div>
+        <div class="empty">{state.filter.value === "" ? "There are no topics." : "No topic matches the filter."}</div>
       ) : (
         <TopicTable connection={connection} state={state} topics={topics} now={performance.now()} />
       )}

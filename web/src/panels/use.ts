@@ -12,12 +12,12 @@ export function useTick(period: number, isShown = true): void {
   }, [period, isShown]);
 }
 
-/** Text of an error that was thrown by whatever. */
+/** Text of a thrown value. */
 export function sentence(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
 }
 
-/** Give a file to the person. */
+/** Download a file. */
 export function saveFile(name: string, content: Blob): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(content);

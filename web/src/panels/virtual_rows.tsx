@@ -8,7 +8,7 @@ interface VirtualRowsProps<T> {
   readonly items: readonly T[];
   /** Height of every row [px]. */
   readonly height: number;
-  /** Stay at the end while items come, unless one scrolled up. */
+  /** Stay at the end while items come, unless a person scrolled up. */
   readonly follow: boolean;
   readonly row: (item: T, index: number) => ComponentChildren;
   readonly onKey?: (event: KeyboardEvent) => void;

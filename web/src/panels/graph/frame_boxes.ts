@@ -1,4 +1,4 @@
-/** Frames of tf as boxes: parent, publisher, rate and age, and what is wrong with them. */
+/** Frames of tf as boxes: parent, publisher, rate, age and faults. */
 
 import type { FrameInfo } from "../../frames/frame_tree";
 import { age } from "../messages/format";
@@ -40,7 +40,7 @@ function secondsOld(frame: FrameInfo, now: bigint): number {
   return Number(now - frame.stamp) / 1e9;
 }
 
-/** Topmost ancestor; null where the parents go round. */
+/** Root ancestor; null if the parents form a loop. */
 function rootOf(frames: ReadonlyMap<string, FrameInfo>, name: string): string | null {
   const climbed = new Set<string>();
   let at = name;
@@ -67,7 +67,7 @@ function faultOf(
   now: bigint,
 ): Fault {
   const frameRoot = rootOf(frames, name);
-  if (frameRoot === null) return { kind: "error", text: "Its parents go round in a loop", short: "loop of parents" };
+  if (frameRoot === null) return { kind: "error", text: "Its parents form a loop", short: "loop of parents" };
   const frame = frames.get(name);
   if (frame !== undefined && frame.parent !== null && !frame.isStatic && secondsOld(frame, now) > OLD) {
     const text = age(secondsOld(frame, now));

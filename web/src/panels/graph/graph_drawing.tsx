@@ -14,7 +14,7 @@ export interface DrawnBox {
   readonly caption?: string;
   /** Classes of the box: topic, warn, error. */
   readonly kind: string;
-  /** All about it, for screen readers and the tooltip. */
+  /** Full description, for screen readers and the tooltip. */
   readonly title: string;
 }
 
@@ -28,7 +28,7 @@ interface GraphDrawingProps {
   readonly label: string;
   readonly boxes: readonly DrawnBox[];
   readonly arrows: readonly DrawnArrow[];
-  /** From left to right, from top to bottom, or whichever fits the room. */
+  /** Layout direction: left to right, top to bottom, or whichever fits the element. */
   readonly direction: "LR" | "TB" | "fit";
   readonly panZoom: PanZoom;
   readonly onSelect?: (id: string) => void;

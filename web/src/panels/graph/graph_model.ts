@@ -16,7 +16,7 @@ interface Vertex {
 interface Edge {
   readonly from: string;
   readonly to: string;
-  /** Topics that it stands for; one, unless only nodes are shown. */
+  /** Topics of the edge; one, unless only nodes are shown. */
   readonly topics: readonly string[];
 }
 
@@ -27,7 +27,7 @@ export interface Drawing {
 
 export interface GraphFilter {
   readonly view: GraphView;
-  /** Hide what only watches: rqt's nodes, rosout, recorders, and this page. */
+  /** Hide watchers: rqt's nodes, rosout, recorders, and this page. */
   readonly hideDebug: boolean;
   /** Part of a name; a node or topic that has it, and its neighbours, remain. */
   readonly text: string;
@@ -67,7 +67,7 @@ export function nodeNames(graph: GraphInfo): readonly string[] {
   return [...new Set(all)].sort();
 }
 
-/** Vertices and edges that touch one; what hovering lights up. */
+/** Vertices and edges that touch a vertex, highlighted on hover. */
 export function neighbourhood(drawing: Drawing, id: string): ReadonlySet<string> {
   const ids = new Set([id]);
   for (const edge of drawing.edges) {

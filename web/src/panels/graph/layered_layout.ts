@@ -28,7 +28,7 @@ const BETWEEN = 14; // px
 /** Boxes without arrows fill rows at least this wide [px]. */
 const ROW_WIDTH = 560;
 
-/** Lay boxes out from left to right, or from top to bottom; those without arrows in rows below the others. */
+/** Lay boxes out from left to right, or from top to bottom; boxes without arrows in rows below. */
 export function layered(boxes: readonly Box[], arrows: readonly Arrow[], direction: "LR" | "TB"): Placed {
   const joined = new Set(arrows.flatMap(({ from, to }) => [from, to]));
   const drawing = arranged(

@@ -14,11 +14,11 @@ const LARGEST = 4; // px of the screen per px of the drawing
 const LARGEST_FIT = 1;
 
 export class PanZoom {
-  /** Part of the drawing that is seen; null: all of it, fitted. */
+  /** Visible part of the drawing; null: all of it, fitted. */
   readonly view = signal<ViewBox | null>(null);
   private readonly pointers = new Map<number, readonly [number, number]>();
 
-  /** The part that is seen in an element of a size. */
+  /** Visible part in an element of a size. */
   current(content: readonly [number, number], room: readonly [number, number]): ViewBox {
     const view = this.view.value;
     if (view !== null) return view;
@@ -53,7 +53,7 @@ export class PanZoom {
     this.pointers.set(event.pointerId, [event.clientX, event.clientY]);
   }
 
-  /** Move by what a pointer moved; with two pointers scale by how they part. */
+  /** Pan with one pointer; scale with two by the change of their distance. */
   move(event: PointerEvent, from: ViewBox, box: DOMRect): void {
     const last = this.pointers.get(event.pointerId);
     if (last === undefined) return;

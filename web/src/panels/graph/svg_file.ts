@@ -1,4 +1,4 @@
-/** A drawing of the page as an SVG file of its own: what the style sheet says stands in the elements. */
+/** Drawing of the page as an SVG file, with the style sheet's values written into the elements. */
 
 const STYLES = [
   "fill",

@@ -23,7 +23,7 @@ function layoutOf(encoding: string): readonly [kind: string, channels: readonly 
   return [`${kind}${size}`, Array.from({ length: Number(count === "" ? 1 : count) }, () => "")];
 }
 
-/** Values of the channels at a pixel, with their names where they have any; null where they cannot be told. */
+/** Values of the channels at a pixel, with their names if any; null: unknown encoding. */
 export function pixelValue(
   image: Image,
   x: number,

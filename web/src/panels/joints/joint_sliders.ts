@@ -1,4 +1,4 @@
-/** Sliders of joint_state_publisher_gui and of the simulated joints, with what moves them. */
+/** Sliders of joint_state_publisher_gui and of the simulated joints. */
 
 import { signal, type ReadonlySignal } from "@preact/signals";
 
@@ -15,7 +15,7 @@ export interface JointSlider {
   /** [rad, m] */
   readonly lower: number;
   readonly upper: number;
-  /** Whether the joint has limits of its own. */
+  /** True if the joint has limits of its own. */
   readonly hasLimits: boolean;
   readonly position: number;
   readonly set: (position: number) => void;
@@ -36,7 +36,7 @@ export class JointsState {
 
   constructor(private readonly page: Page) {}
 
-  /** All sliders, by what they belong to; read within a component, which then follows the joints. */
+  /** All sliders in groups; a component that reads them follows the joints. */
   groups(): readonly SliderGroup[] {
     const groups: SliderGroup[] = [];
     const published = this.published();

@@ -1,4 +1,4 @@
-/** What the joystick says now, from a gamepad or from the page, and its sending. */
+/** State of the joystick, from a gamepad or from the page, and its publishing. */
 
 import { signal } from "@preact/signals";
 

@@ -1,4 +1,4 @@
-/** The log that the page keeps, and how it is shown. */
+/** The page's log, and the state of its panel. */
 
 import { computed, signal } from "@preact/signals";
 
@@ -19,7 +19,7 @@ export class LogState {
   readonly text = signal("");
   readonly isFiltering = signal(false);
   readonly selected = signal<number | null>(null);
-  /** What is shown while it is paused; null: it is not. */
+  /** Entries shown while paused; null: not paused. */
   readonly frozen = signal<readonly LogEntry[] | null>(null);
   readonly shown = computed(() =>
     filtered(this.frozen.value ?? this.entries.value, {

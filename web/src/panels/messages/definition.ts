@@ -4,11 +4,11 @@ import { parse } from "@foxglove/rosmsg";
 
 export interface Field {
   readonly name: string;
-  /** As `float64` or `geometry_msgs/Point`. */
+  /** Type, as `float64` or `geometry_msgs/Point`. */
   readonly type: string;
   readonly isComplex: boolean;
   readonly isArray: boolean;
-  /** Of an array with a fixed length. */
+  /** Length of an array of fixed length. */
   readonly length: number | null;
 }
 

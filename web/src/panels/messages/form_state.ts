@@ -1,4 +1,4 @@
-/** What a person has typed into a form made from a definition. */
+/** Values typed into a form made from a definition. */
 
 import { signal } from "@preact/signals";
 
@@ -6,7 +6,7 @@ import type { RosMessage, RosValue } from "../../protocol/ros_types";
 import type { Field, MessageType } from "./definition";
 import { emptyMessage, emptyValues, messageFromText, valueFromText, ValueError } from "./values";
 
-/** Most values that a form begins with. */
+/** Largest number of values in a form. */
 const MAX_VALUES = 100_000;
 
 /** A row of the form: a field that takes a value, or the heading of a message's fields. */
@@ -47,7 +47,7 @@ export class FormState {
     this.texts.value = new Map(this.texts.peek()).set(path, text);
   }
 
-  /** A sentence about a text that does not fit its row; null: it fits. */
+  /** Error sentence if a text does not fit its row; null: it fits. */
   fault(row: FormRow, text: string): string | null {
     try {
       valueFromText(row.type, row.field, text, 0n);
@@ -58,7 +58,7 @@ export class FormState {
     }
   }
 
-  /** Take a whole message as YAML; returns a sentence where it does not fit. */
+  /** Load a whole message from YAML; returns a sentence if it does not fit. */
   load(yaml: string): string | null {
     try {
       const message = messageFromText(this.type, yaml, 0n);
@@ -72,7 +72,7 @@ export class FormState {
     }
   }
 
-  /** The message that was typed; `now` [ns] stands for `now` in times. */
+  /** Build the message; `now` [ns] replaces `now` in times. */
   build(now: bigint): Built {
     const faults = new Map<string, string>();
     const texts = this.texts.peek();

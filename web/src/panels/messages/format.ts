@@ -4,7 +4,7 @@ import { clock, fixed } from "../../theme/format";
 
 const MINUS = "\u2212";
 
-/** At most so many significant digits, without an exponent where a person would write none. */
+/** Number with at most `digits` significant digits, with an exponent only for very large or small ones. */
 export function significant(value: number, digits = 4): string {
   if (Number.isNaN(value)) return "nan";
   if (!Number.isFinite(value)) return value > 0 ? "inf" : `${MINUS}inf`;
@@ -13,7 +13,7 @@ export function significant(value: number, digits = 4): string {
   return String(Number(size >= 10 ** digits ? value.toFixed(0) : value.toPrecision(digits))).replace("-", MINUS);
 }
 
-/** Every digit that the number means: the shortest text that reads back as the same float32, or else float64. */
+/** Shortest text that reads back as the same float32, or else float64. */
 export function exact(value: number | bigint): string {
   if (typeof value === "bigint" || Number.isInteger(value)) return value.toString().replace("-", MINUS);
   if (!Number.isFinite(value)) return significant(value);

@@ -17,7 +17,7 @@ export function MessageForm({ label, form }: { readonly label: string; readonly 
   const isHidden = (path: string): boolean => [...closed].some((above) => path.startsWith(`${above}.`));
   return (
     <div class="form" role="group" aria-label={label}>
-      {form.rows.length === 0 && <div class="empty">No fields: it says all by coming.</div>}
+      {form.rows.length === 0 && <div class="empty">The message has no fields.</div>}
       {form.rows
         .filter((row) => !isHidden(row.path))
         .map((row) =>

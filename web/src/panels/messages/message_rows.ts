@@ -12,7 +12,7 @@ export interface MessageRow {
   readonly name: string;
   readonly text: string;
   readonly unit: string;
-  /** Undefined: nothing below it. */
+  /** Undefined: no children. */
   readonly open: boolean | undefined;
 }
 
@@ -20,7 +20,7 @@ const CHUNK = 100;
 const SHOWN = 4;
 const LONGEST_TEXT = 2000;
 
-/** Rows of a message of a type; of what `isOpen` names, the parts too. */
+/** Rows of a message of a type, with the parts of those that `isOpen` accepts. */
 export function messageRows(
   type: string,
   message: RosMessage,
@@ -91,7 +91,7 @@ function partsOf(value: RosValue): boolean {
   return isMessage(value) && !isTime(value) && Object.keys(value).length > 0;
 }
 
-/** A value on one line: a time as such, a long array by its length and first elements. */
+/** Value on one line: times in seconds, a long array by its length and first elements. */
 export function valueText(value: RosValue): string {
   if (typeof value === "string") return value.length > LONGEST_TEXT ? `${value.slice(0, LONGEST_TEXT)}…` : value;
   if (typeof value === "number" || typeof value === "bigint") return exact(value);
@@ -102,7 +102,7 @@ export function valueText(value: RosValue): string {
   return isHeader(value) ? headerText(value) : "";
 }
 
-/** A std_msgs/Header, which stays closed: its stamp and frame stand in its own row. */
+/** True for a std_msgs/Header, which stays closed: its own row shows stamp and frame. */
 function isHeader(value: RosValue): value is RosMessage {
   return isMessage(value) && "seq" in value && "stamp" in value && "frame_id" in value;
 }

@@ -1,14 +1,14 @@
-/** Paths to the numbers of a type that its definition alone tells. */
+/** Paths to the numbers of a type, from its definition alone. */
 
 import type { MessageType } from "./definition";
 import { isNumeric } from "./values";
 
 const MAX_ELEMENTS = 9;
 const MAX_PATHS = 200;
-/** A definition may hold messages within messages without end. */
+/** Largest number of nested messages, which may be recursive. */
 const MAX_MESSAGES = 2000;
 
-/** As `.pose.position.x`; of arrays without a fixed length the first element, of long ones the first nine. */
+/** Paths such as `.pose.position.x`; of arrays of variable length the first element, of long ones the first nine. */
 export function numericPaths(type: MessageType): readonly string[] {
   const paths: string[] = [];
   let messages = 0;

@@ -39,7 +39,7 @@ const BY_PARENT: Readonly<Record<string, string>> = {
 };
 
 /**
- * Unit of a number at the end of a path of field names in a message of a type; empty where none is known.
+ * Unit of the number at a path of field names in a message of a type; empty: unknown.
  * `twist.linear.x` is a speed, `accel.linear.x` an acceleration.
  */
 export function unitOf(type: string, fields: readonly string[]): string {

@@ -70,7 +70,7 @@ function isTime(type: string): boolean {
   return type === "time" || type === "duration";
 }
 
-/** Value of a field from what was typed into the form; arrays and messages are typed as YAML. */
+/** Value of a field from typed text; arrays and messages are YAML. */
 export function valueFromText(type: MessageType, field: Field, text: string, now: bigint): RosValue {
   if (field.type === "string" && !field.isArray) return text;
   return valueFromYaml(type, field, parseYaml(text), now);
@@ -97,7 +97,7 @@ function messageFromYaml(type: MessageType, yaml: unknown, path: string, now: bi
   let entries: readonly (readonly [string, unknown])[];
   if (Array.isArray(yaml)) {
     if (yaml.length !== fields.length) {
-      throw new ValueError(`${path} has ${fields.length} fields, here are ${yaml.length} values`);
+      throw new ValueError(`${path} has ${fields.length} fields, not ${yaml.length}`);
     }
     entries = fields.map((field, index) => [field.name, yaml[index]]);
   } else if (typeof yaml === "object") {
@@ -121,7 +121,7 @@ function valueFromYaml(type: MessageType, field: Field, yaml: unknown, now: bigi
   if (!field.isArray) return elementFromYaml(type, field, yaml, field.name, now);
   if (!Array.isArray(yaml)) throw new ValueError(`${field.name} must be a list, as [1, 2]`);
   if (field.length !== null && yaml.length !== field.length) {
-    throw new ValueError(`${field.name} has ${field.length} elements, here are ${yaml.length}`);
+    throw new ValueError(`${field.name} has ${field.length} elements, not ${yaml.length}`);
   }
   return yaml.map((element: unknown, index) => elementFromYaml(type, field, element, `${field.name}[${index}]`, now));
 }

@@ -1,4 +1,4 @@
-/** Where the last simulated seconds went (`trundle/performance`), received while it is looked at. */
+/** Profiles of the last simulated seconds (`trundle/performance`), received while the panel is open. */
 
 import { signal } from "@preact/signals";
 
@@ -25,7 +25,7 @@ export const GROUP_NAMES: Readonly<Record<Group, string>> = {
 export interface Row extends ProfilePart {
   /** Wall time per simulated second [ms]. */
   readonly perSecond: number;
-  /** Of the wall time, 0 to 1. */
+  /** Ratio of the wall time, 0…1. */
   readonly share: number;
 }
 
@@ -71,7 +71,7 @@ export function barOf(rows: readonly Row[]): readonly Row[] {
   return GROUPS.flatMap((group) => rows.filter((row) => row.group === group));
 }
 
-/** Points of a line through values, in a box of 100 × 20 whose top is the greatest value or 1. */
+/** Points of a line through values, in a box of 100 × 20 whose top is the largest value or 1. */
 export function sparkline(values: readonly number[]): string {
   const top = Math.max(1, ...values);
   const step = 100 / Math.max(1, values.length - 1);

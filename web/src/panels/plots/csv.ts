@@ -6,7 +6,7 @@ export interface CsvColumn {
   readonly ys: ArrayLike<number>;
 }
 
-/** A row per time at which any curve has a point, more where one has several; cells stay empty where a curve has none. */
+/** Text with a row per time at which any curve has a point; cells of curves without a point at that time stay empty. */
 export function csvText(columns: readonly CsvColumn[]): string {
   const rows = new Map<number, (number | undefined)[][]>();
   columns.forEach((column, at) => {

@@ -24,7 +24,7 @@ const CAPACITY = 120_000; // points: two minutes at 1 kHz
 
 export class Curve {
   readonly points = new RingBuffer(CAPACITY);
-  /** A sentence about why nothing is drawn; empty: it is. */
+  /** Reason why nothing is drawn; empty: drawn. */
   readonly fault = signal("");
   readonly unit = signal("");
   readonly axis = signal<"left" | "right">("left");
@@ -35,7 +35,7 @@ export class Curve {
 
   constructor(
     private readonly page: Page,
-    /** As it was typed. */
+    /** Path as typed. */
     readonly path: string,
   ) {
     let last = "";
@@ -56,7 +56,7 @@ export class Curve {
       else if (topicPath !== null) this.follow(topicPath);
       else
         this.fault.value = path.startsWith("/")
-          ? "This is no path, as /odom.twist.twist.linear.x"
+          ? "Not a path; example: /odom.twist.twist.linear.x"
           : `No joint ${path} is simulated`;
     });
   }
@@ -69,7 +69,7 @@ export class Curve {
       : stepsText(steps.slice(-2)).replace(/^\./, "");
   }
 
-  /** What the name leaves out. */
+  /** Part of the path that the name omits. */
   get caption(): string {
     const { topic, steps } = this.split();
     return steps.length === 0
@@ -82,7 +82,7 @@ export class Curve {
     this.subscription?.close();
   }
 
-  /** Where the name of a joint's model ends: `outer::inner::joint.velocity`. */
+  /** Index at which the name of a joint's model ends: `outer::inner::joint.velocity`. */
   private get modelEnd(): number {
     return this.path.startsWith("/") ? -1 : this.path.lastIndexOf("::");
   }
@@ -145,22 +145,22 @@ function stampOf(message: RosMessage): number | null {
   return seconds(stamp);
 }
 
-/** Why there is no number at a path: the first step that leads nowhere, and what there is instead. */
+/** Reason why a path has no number: its first invalid step, and the fields that exist instead. */
 function faultAt(message: RosMessage, steps: readonly Step[]): string {
   for (let count = 0; count <= steps.length; count += 1) {
     const value = valueAt(message, steps.slice(0, count));
     if (value === undefined) {
       const step = stepsText(steps.slice(count - 1, count));
       const above = valueAt(message, steps.slice(0, count - 1));
-      const instead = above !== undefined && isMessage(above) ? `; fields there: ${Object.keys(above).join(", ")}` : "";
+      const instead = above !== undefined && isMessage(above) ? `; fields here: ${Object.keys(above).join(", ")}` : "";
       const length = above !== undefined && isList(above) ? `; it has ${above.length} elements` : "";
       return `There is no ${step.replace(/^\./, "")}${instead}${length}`;
     }
   }
   const value = valueAt(message, steps);
   if (value !== undefined && isMessage(value))
-    return `This is no number; fields there: ${Object.keys(value).join(", ")}`;
+    return `This is not a number; fields here: ${Object.keys(value).join(", ")}`;
   return value !== undefined && isList(value)
     ? `This is a list of ${value.length}; choose one, as [0]`
-    : "This is no number";
+    : "This is not a number";
 }

@@ -1,4 +1,4 @@
-/** Choose a number to plot: by its path, or from a tree of what the messages carry. */
+/** Picker of a number to plot: by its path, or from a tree of the messages' fields. */
 
 import type { JSX } from "preact";
 import { useSignal } from "@preact/signals";
@@ -42,7 +42,7 @@ export function CurvePicker({ page, state }: { readonly page: Page; readonly sta
     else next.delete(key);
     setOpen(next);
   };
-  /** A number is plotted, or no longer; a heading opens, or closes. */
+  /** Toggle the plot of a number, or a heading. */
   const pick = (key: string): void => {
     const isOpen = rows.find((one) => one.key === key)?.open;
     const curve = plotted.get(key);
@@ -123,7 +123,7 @@ function useMessages(
   return messages;
 }
 
-/** Models, links, joints and sensors with their values; what a search finds stands open. */
+/** Models, links, joints and sensors with their values; matches of a search are open. */
 function simulatedRows(page: Page, open: ReadonlySet<string>, search: string): readonly TreeRow[] {
   if (page.session.kind !== "simulation") return jointRows(page, open);
   const rows = valueOwners(page.world.manifest.value).flatMap(({ name, kind, values }) => {

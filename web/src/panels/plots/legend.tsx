@@ -13,7 +13,7 @@ import type { PlotsState } from "./plots_state";
 import { COLORS, isDashed } from "./style";
 
 const PERIOD = 200; // ms
-/** Share of a curve's largest value below which a value is written as 0. */
+/** Ratio of a curve's largest value below which a value is written as 0. */
 const UNSEEN = 1e-4;
 
 export function Legend({ state, plot }: { readonly state: PlotsState; readonly plot: Plot }): JSX.Element {
@@ -52,7 +52,7 @@ function largest({ points }: Curve, state: PlotsState): number {
   return points.between(...state.range())[1].reduce((max, y) => Math.max(max, Math.abs(y)), 0);
 }
 
-/** Decimals by the size, so that a value that moves keeps its width; 0 for what is nothing beside the largest. */
+/** Value with decimals by the largest one, so that it keeps its width; 0 if negligible. */
 export function legendText(value: number, largest: number): string {
   const size = Math.abs(value) < UNSEEN * largest ? 0 : Math.abs(value);
   if (size !== 0 && size < 0.001) return significant(value, 2);

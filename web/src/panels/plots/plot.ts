@@ -9,7 +9,7 @@ export interface Plot {
 
 export type Range = readonly [number, number];
 
-/** Range of values with a tenth of room above and below. */
+/** Range of values with a margin of a tenth above and below. */
 export function paddedRange(values: readonly Float64Array[]): Range {
   let min = Infinity;
   let max = -Infinity;

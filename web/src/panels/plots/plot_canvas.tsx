@@ -51,7 +51,7 @@ export function PlotCanvas({ state, curves, theme }: PlotCanvasProps): JSX.Eleme
   );
 }
 
-/** Draws when points came or the range changed; returns how to stop. */
+/** Draw when points came or the range changed; returns a function that stops. */
 function keepDrawing(plot: uPlot, state: PlotsState, curves: readonly Curve[]): () => void {
   let drawn = "";
   const draw = (): void => {

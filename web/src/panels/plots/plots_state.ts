@@ -1,4 +1,4 @@
-/** Plots with their curves, and what all of them share: window, zoom, pause, cursor. */
+/** Plots with their curves, and their common window, zoom, pause and cursor. */
 
 import { signal } from "@preact/signals";
 
@@ -12,7 +12,7 @@ import { svgText } from "./svg";
 
 export const WINDOWS = [5, 10, 30, 60, 120] as const; // s
 
-/** By which the clock and the points may differ [s]. */
+/** Largest difference between the clock and the points [s]. */
 const LAG = 0.005;
 
 export class PlotsState {
@@ -25,7 +25,7 @@ export class PlotsState {
   /** Time under the cursor [s]. */
   readonly cursor = signal<number | null>(null);
   readonly isAdding = signal(false);
-  /** Where the plots stand still; null: they go on. */
+  /** Time at which the plots are paused; null: running. */
   pausedAt: number | null = null;
   private plotCount = 1;
 
@@ -81,7 +81,7 @@ export class PlotsState {
     );
   }
 
-  /** Time that is shown of the simulation where it is before the newest point, as while one scrubs [s]; null: it is now. */
+  /** Time of the simulation while it is before the newest point, as while scrubbing [s]; null: it is the newest. */
   shownTime(): number | null {
     const time = (this.page.world.state.value?.time_ns ?? Infinity) / 1e9;
     const newest = this.newest();
@@ -94,7 +94,7 @@ export class PlotsState {
     if (!on) this.zoom.value = null;
   }
 
-  /** Times that are shown now [s]. */
+  /** Visible range of time [s]. */
   range(): Range {
     const zoom = this.zoom.peek();
     if (zoom !== null) return zoom;

@@ -21,7 +21,7 @@ export class RingBuffer {
     return this.end - this.start;
   }
 
-  /** Add a point. One a little older than the last is left out; much older means that time was reset: it starts again. */
+  /** Add a point. One a little older than the last is dropped; a much older one means a reset and clears the buffer. */
   push(x: number, y: number): void {
     const last = this.lastX ?? x;
     if (x < last - RESET) this.clear();
@@ -38,7 +38,7 @@ export class RingBuffer {
     this.start = Math.max(this.start, this.end - this.capacity);
   }
 
-  /** Forget the points at and after a time. */
+  /** Drop the points at and after a time. */
   truncate(x: number): void {
     this.end = this.indexOf(x);
   }
@@ -56,7 +56,7 @@ export class RingBuffer {
     return this.length === 0 ? null : (this.ys[this.end - 1] ?? null);
   }
 
-  /** Points from a time to a time, with one more on either side so that lines reach the edge; views, not copies. */
+  /** Points of a range of time, with one more on either side so that lines reach the edge; views, not copies. */
   between(from: number, to: number): readonly [Float64Array, Float64Array] {
     const first = Math.max(this.start, this.indexOf(from) - 1);
     const last = Math.min(this.end, this.indexOf(to) + 1);

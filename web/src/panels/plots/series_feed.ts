@@ -20,7 +20,7 @@ interface SeriesListener {
   readonly onFault: (text: string) => void;
 }
 
-/** Rows of a message: times and values as the names of its head stand; null: it is cut short. Throws a `MessageFault`. */
+/** Rows of a message: times and values in the order of its names; null: truncated. Throws a `MessageFault`. */
 function readSeries(
   payload: DataView,
 ): { readonly first: number; readonly head: SeriesHead; readonly rows: readonly Float64Array[] } | null {
@@ -42,7 +42,7 @@ function readSeries(
 class SeriesFeed {
   private readonly listeners = new Map<string, Set<SeriesListener>>();
   private subscription: Subscription | null = null;
-  /** Number of the first row that has not come. */
+  /** Number of the next row to receive. */
   private next = 0;
 
   constructor(private readonly page: Page) {
@@ -51,7 +51,7 @@ class SeriesFeed {
     });
   }
 
-  /** Have a value sampled. */
+  /** Subscribe to samples of a value. */
   follow(name: string, listener: SeriesListener): Subscription {
     const listeners = this.listeners.get(name) ?? new Set();
     this.listeners.set(name, listeners.add(listener));

@@ -1,4 +1,4 @@
-/** Names of the simulation's values that can be plotted: of models, links, joints and sensors. */
+/** Names of the simulation's plottable values: of models, links, joints and sensors. */
 
 import type { Manifest, ModelInfo } from "../../protocol/generated/page_messages";
 
@@ -16,7 +16,7 @@ export interface ValueOwner {
   readonly values: readonly string[];
 }
 
-/** All owners, each model followed by its parts; those of nested models, too. */
+/** All owners, each model followed by its parts and nested models. */
 export function valueOwners(manifest: Manifest | null): readonly ValueOwner[] {
   return (manifest?.models ?? []).flatMap((model) => [
     ...(model.links.length > 0 ? [owner(model.name, "model", bodyValues(model))] : []),
@@ -24,7 +24,7 @@ export function valueOwners(manifest: Manifest | null): readonly ValueOwner[] {
   ]);
 }
 
-/** Values of the body of a link or model: one that is static has contacts only. */
+/** Values of a link's or model's body; a static one has only contacts. */
 export function bodyValues({ static: isStatic }: Pick<ModelInfo, "static">): readonly string[] {
   return isStatic ? CONTACT : [...POSE, ...TWIST, ...CONTACT];
 }

@@ -1,15 +1,15 @@
-/** Curves that are worth a look where nothing is plotted yet. */
+/** Suggested curves while nothing is plotted. */
 
 import type { Page } from "../../page/page";
 import { robotOf } from "../../page/world_nodes";
 
 export interface Suggestion {
   readonly title: string;
-  /** As `PlotsState.add` takes them. */
+  /** Paths for `PlotsState.add`. */
   readonly paths: readonly string[];
 }
 
-/** The speed that is asked of a robot beside what it does, and where it is. */
+/** Suggestions: commanded and measured velocity of the robot, and its position. */
 export function suggestions(page: Pick<Page, "connection" | "drive" | "world">): readonly Suggestion[] {
   const command = page.drive.topic.value;
   const isTwist = command !== null && page.connection.graph.value.types.get(command) === "geometry_msgs/Twist";

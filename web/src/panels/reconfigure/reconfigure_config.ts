@@ -79,7 +79,7 @@ export function setRequest(option: Option, value: OptionValue): RosMessage {
   return { config: { ...lists, [LISTS[option.type]]: [{ name: option.name, value }] } };
 }
 
-/** True if the limits are narrow enough that a slider means something. */
+/** True if the limits are narrow enough for a slider. */
 export function hasSlider(option: Option): boolean {
   const { lower, upper } = option;
   return lower !== null && upper !== null && upper > lower && upper - lower <= LARGEST_RANGE;

@@ -60,14 +60,14 @@ export class ReconfigureServer {
     return this.values.value.get(option.name) ?? option.initial;
   }
 
-  /** Set an option so that it can be taken back. */
+  /** Set an option, undoable. */
   change(option: Option, value: OptionValue): void {
     const old = this.value(option);
     if (old === undefined) this.set(option, value);
     else this.commit(option, old, value);
   }
 
-  /** Set an option; taking it back sets what it was before. */
+  /** Set an option; undo restores the old value. */
   commit(option: Option, old: OptionValue, value: OptionValue): void {
     this.undo.run(
       `Change of ${option.name}`,

@@ -1,8 +1,8 @@
-/** Output of a terminal on its way to the screen: in order, each byte once, no more waiting than is worth drawing. */
+/** Output of a terminal for the screen: in order, each byte once, with a bounded backlog. */
 
 const MAX_WAITING = 1024 * 1024;
 
-/** What draws the output. */
+/** Screen that draws the output. */
 export interface Screen {
   /** Draw bytes; `done` is called when that is over. */
   write(data: Uint8Array, done: () => void): void;
@@ -20,7 +20,7 @@ export class OutputFeed {
 
   constructor(private readonly screen: Screen) {}
 
-  /** What comes next begins anew, as that of another server. */
+  /** Start again with the next output, as of another server. */
   restart(): void {
     this.next = null;
   }

@@ -1,4 +1,4 @@
-/** What a program in a terminal may not do to the page, or to whoever types there. */
+/** Escape sequences that a terminal ignores, to protect the page and the person who types there. */
 
 import type { IFunctionIdentifier, Terminal } from "@xterm/xterm";
 

@@ -39,7 +39,7 @@ export class TerminalView {
     if (canType) terminal.onData((text) => this.type(text));
   }
 
-  /** Load xterm.js, which few pages need, and open a terminal in an element. */
+  /** Load xterm.js, which few pages use, and open a terminal in an element. */
   static async open(
     element: HTMLElement,
     connection: Connection,
@@ -71,7 +71,7 @@ export class TerminalView {
     return () => subscription.close();
   }
 
-  /** Have the terminal fill its element; of several people the last one's size counts. */
+  /** Request the size of the element for the terminal; of several people, the last request wins. */
   requestSize(): void {
     const size = this.fit.proposeDimensions();
     if (!this.canType || size === undefined || !(size.cols > 1 && size.rows > 1)) return;

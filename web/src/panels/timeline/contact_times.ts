@@ -1,9 +1,9 @@
-/** When which models touched each other, as far as this page has seen it. */
+/** Times of contact between models, as received by this page. */
 
 import { contactCount, HEADER, SIZE } from "../../scene/world/contact_rows";
 import { Intervals } from "./intervals";
 
-/** Most pairs that are kept; the one that touched longest ago goes, of equals the one that began last. */
+/** Largest number of pairs; the pair that touched longest ago is dropped first, of equals the one that began last. */
 const MAX_PAIRS = 40;
 
 export interface PairStretches {
@@ -19,7 +19,7 @@ export class ContactTimes {
     return pairs.filter(({ bands }) => bands.length > 0).sort((one, other) => one.pair.localeCompare(other.pair));
   }
 
-  /** Note the pairs that touch at a time [s]; what is simulated up to `known` [s] has been noted already. */
+  /** Record the pairs that touch at a time [s]; times up to `known` [s] are recorded already. */
   note(touching: ReadonlySet<string>, time: number, known: number): void {
     if (time < known) return;
     for (const pair of touching) if (!this.intervals.has(pair)) this.intervals.set(pair, new Intervals());

@@ -5,27 +5,27 @@ export interface Span {
   /** [s] */
   readonly start: number;
   readonly end: number;
-  /** Up to here something is known; what follows is the future of a simulation. */
+  /** End of the known time; later times are the future of a simulation. */
   readonly known: number;
-  /** Whether one can go to a time. */
+  /** True if one can go to a time. */
   readonly isSeekable: boolean;
 }
 
-/** Most that are kept; the oldest go. */
+/** Largest number of intervals; the oldest are dropped. */
 const MAX_INTERVALS = 200;
 
-/** Intervals in which something went on, as a drive or a recording. */
+/** Intervals of an activity, such as a drive or a recording. */
 export class Intervals {
   private intervals: [number, number][] = [];
   private isOn = false;
   private known = 0; // s
 
-  /** Beginning and end of each [s]. */
+  /** Intervals: start and end [s]. */
   get bands(): readonly (readonly [number, number])[] {
     return this.intervals;
   }
 
-  /** Note whether it goes on at a time [s]; what was noted after it is forgotten where time has begun again. */
+  /** Record whether the activity is on at a time [s]; later records are dropped if time went back. */
   note(isOn: boolean, known: number): void {
     if (known < this.known) {
       this.intervals = this.intervals

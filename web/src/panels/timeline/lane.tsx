@@ -1,4 +1,4 @@
-/** A row of the timeline, and the stretches of time in it. */
+/** Row of the timeline, with its intervals. */
 
 import type { JSX } from "preact";
 
@@ -7,17 +7,17 @@ import type { Span } from "./intervals";
 
 export interface ShareProps {
   readonly span: Span;
-  /** Place of a time [s] from the left, in percent. */
+  /** Position of a time [s] from the left, in percent. */
   readonly share: (time: number) => string;
 }
 
 interface BandsProps extends ShareProps {
   readonly weak?: boolean;
-  /** Beginning and end of each [s]. */
+  /** Intervals: start and end [s]. */
   readonly bands: readonly (readonly [number, number])[];
 }
 
-/** Stretches of a lane, as far as they lie in the times that can be shown. */
+/** Intervals of a lane, clipped to the timeline's span. */
 export function Bands({ weak = false, bands, span, share }: BandsProps): JSX.Element {
   const seen = bands.filter(([start, end]) => end >= span.start && start <= span.end);
   return (
@@ -52,7 +52,7 @@ export function Lane({ name, title = name, children }: LaneProps): JSX.Element {
   );
 }
 
-/** A lane for each pair of models that touched. */
+/** Lanes of the pairs of models that touched. */
 export function ContactLanes({
   lanes,
   span,

@@ -1,4 +1,4 @@
-/** The times that can be shown, what is known to have happened in them, and marks. */
+/** Timeline: its span, its events and its marks. */
 
 import { computed, signal } from "@preact/signals";
 
@@ -26,10 +26,10 @@ const NS = 1e9;
 export class TimelineState {
   readonly marks = signal<readonly Mark[]>([]);
   readonly fault = signal("");
-  /** Where the pointer holds the head [s]; null: nowhere. */
+  /** Time at which the pointer holds the head [s]; null: released. */
   readonly scrub = signal<number | null>(null);
   readonly topics: TopicTimes;
-  /** When the robot was driven from this page, and when the simulation was recorded. */
+  /** Intervals in which this page drove the robot, and in which the simulation was recorded. */
   readonly drives = new Intervals();
   readonly recordings = new Intervals();
   readonly contacts = new ContactTimes();
@@ -47,7 +47,7 @@ export class TimelineState {
     setInterval(() => this.look(), PERIOD);
   }
 
-  /** Note who touches whom from now on, which the simulation computes only for those who ask. */
+  /** Record contacts from now on; the simulation computes them only while subscribed. */
   followContacts(): void {
     if (this.page.session.kind !== "simulation") return;
     this.contactSubscription ??= this.page.connection.subscribeRaw("trundle/contacts", (payload) =>
@@ -55,7 +55,7 @@ export class TimelineState {
     );
   }
 
-  /** Times of the recording, or of the simulation so far; null before anything is known. */
+  /** Span of the recording, or of the simulation so far; null: not known yet. */
   span(): Span | null {
     const state = this.page.world.state.value;
     if (state === null) return null;
@@ -78,7 +78,7 @@ export class TimelineState {
     return this.scrub.value ?? (this.page.world.state.value?.time_ns ?? 0) / NS;
   }
 
-  /** Go to a time; while an answer is due only the newest wish is kept. */
+  /** Go to a time; while a request is pending, only the newest time is kept. */
   seek(time: number): void {
     this.requestedTime = time;
     if (!this.isSeeking) void this.ask();
@@ -136,7 +136,7 @@ export class TimelineState {
 
 export const timelineState = perPage((page) => new TimelineState(page));
 
-/** Times of the ruler: a round step that leaves each some room. */
+/** Times of the ruler's ticks at a round step, at most `maxCount`. */
 export function rulerTimes({ start, end }: Span, maxCount: number): readonly number[] {
   const step =
     [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 3600].find(

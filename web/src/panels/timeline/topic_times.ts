@@ -1,4 +1,4 @@
-/** When each topic has messages: in a bag by its index (`trundle/lanes`), elsewhere as they come. */
+/** Times of each topic's messages: of a bag from its index (`trundle/lanes`), otherwise as they arrive. */
 
 import { signal } from "@preact/signals";
 
@@ -11,19 +11,19 @@ export interface TopicStretches {
   readonly topic: string;
   /** Messages in the whole bag; null: not known. */
   readonly count: number | null;
-  /** Beginning and end of each stretch [s]. */
+  /** Intervals: start and end [s]. */
   readonly bands: readonly (readonly [number, number])[];
 }
 
-/** Most buckets of the span that is shown. */
+/** Largest number of buckets in the visible span. */
 const BUCKETS = 600;
 const SHORTEST = 0.05; // s
-/** Between two looks; what is longer is a jump [s]. */
+/** Largest time between two calls of `look`; longer ones are jumps [s]. */
 const LATE = 1;
 const NS = 1e9;
 
 export class TopicTimes {
-  /** Of a bag; null: none is played, or its index is not read yet. */
+  /** Stretches of a bag; null: no bag is played, or its index is not read yet. */
   private readonly recorded = signal<readonly TopicStretches[] | null>(null);
   /** Buckets in which messages of a topic came. */
   private readonly received = new Map<string, Set<number>>();
@@ -37,7 +37,7 @@ export class TopicTimes {
     });
   }
 
-  /** By topic. */
+  /** Stretches of all topics, sorted by topic. */
   get all(): readonly TopicStretches[] {
     return (
       this.recorded.value ??
@@ -68,7 +68,7 @@ export class TopicTimes {
     }
   }
 
-  /** Keep what came in buckets of another length [s]; shorter ones cannot be made of longer ones. */
+  /** Change the length of the buckets [s]; shorter ones start empty. */
   private setBucket(length: number): void {
     const ratio = this.bucket / length;
     this.bucket = length;

@@ -12,7 +12,7 @@ export const FASTEST = 100; // Hz: browsers' timers go no faster for long
 export class Publication {
   /** Null until the definition has come. */
   readonly form = signal<FormState | null>(null);
-  /** A sentence about what went wrong; empty: nothing. */
+  /** Error sentence; empty: no error. */
   readonly fault = signal("");
   readonly count = signal(0);
   readonly rate = signal(1);
@@ -30,7 +30,7 @@ export class Publication {
     );
   }
 
-  /** Publish what the form says; a wrong field stops everything. */
+  /** Publish the form's message; an invalid field stops everything. */
   once(): void {
     const form = this.form.peek();
     if (form === null) return;

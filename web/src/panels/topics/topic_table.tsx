@@ -12,7 +12,7 @@ interface TopicTableProps {
   readonly connection: Connection;
   readonly state: TopicsState;
   readonly topics: readonly TopicInfo[];
-  /** As `performance.now()` [ms]: rates are drawn again when it changes. */
+  /** Time of `performance.now()` [ms]; rates are drawn again when it changes. */
   readonly now: number;
 }
 

@@ -1,4 +1,4 @@
-/** What the Topics panel remembers: filter, selection, what is measured, what is published. */
+/** State of the Topics panel: filter, selection, measured topics, publications. */
 
 import { signal } from "@preact/signals";
 
@@ -7,7 +7,7 @@ import type { StatusLevel } from "../../rviz/status_level";
 import { perPage } from "../per_page";
 import { Publication } from "./publication";
 
-/** Types whose messages are too large to ask for only to count them. */
+/** Types whose messages are too large to subscribe to only for their rate. */
 const LARGE =
   /^(sensor_msgs\/(Image|CompressedImage|PointCloud2?)|stereo_msgs\/DisparityImage|nav_msgs\/OccupancyGrid|theora_image_transport\/Packet)$/;
 
@@ -16,13 +16,13 @@ export class TopicsState {
   readonly isFiltering = signal(false);
   readonly selected = signal<string | null>(null);
   readonly publications = signal<readonly Publication[]>([]);
-  /** Large topics that are measured all the same. */
+  /** Large topics whose rate a person asked to measure. */
   readonly measuredAnyway = signal<ReadonlySet<string>>(new Set());
   private readonly meters = new Map<string, Subscription>();
 
   constructor(private readonly connection: Connection) {}
 
-  /** Subscribe to what is shown, so that rates are known. */
+  /** Subscribe to the shown topics to measure their rates. */
   measure(topics: Iterable<TopicInfo>): void {
     for (const topic of topics) {
       if (this.meters.has(topic.name) || !this.isMeasured(topic)) continue;
