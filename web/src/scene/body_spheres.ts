@@ -1,13 +1,13 @@
-/** Spheres around the bodies of the simulated world: what a ray misses is not searched. */
+/** Bounding spheres of the simulated bodies, so that picking skips bodies that the ray misses. */
 
 import { Sphere, Vector3, type Mesh, type Object3D, type Ray } from "three";
 
 const sphere = new Sphere();
 
 interface Around {
-  /** Of a sphere about the body's origin [m]. */
+  /** Radius of a sphere about the body's origin [m]. */
   readonly radius: number;
-  /** What was below the body then. */
+  /** Number of the body's children at that time. */
   readonly children: number;
 }
 
@@ -15,7 +15,7 @@ export class BodySpheres {
   private readonly known = new WeakMap<Object3D, Around>();
   private readonly origin = new Vector3();
 
-  /** True if a ray cannot meet anything of a body; false for what is no body. */
+  /** True if a ray misses a body; false for objects that are no bodies. */
   isMissed(object: Object3D, ray: Ray): boolean {
     if (typeof object.userData["body"] !== "number") return false;
     let around = this.known.get(object);
@@ -27,7 +27,7 @@ export class BodySpheres {
   }
 }
 
-/** Radius of a sphere about a body's origin that holds all below it; without end where bones move it. */
+/** Radius of a sphere about a body's origin that contains its children; infinite if bones move them. */
 function radiusOf(body: Object3D): number {
   let radius = 0;
   const origin = new Vector3().setFromMatrixPosition(body.matrixWorld);

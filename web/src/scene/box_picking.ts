@@ -1,4 +1,4 @@
-/** What lies within a box of the picture. */
+/** Picking within a box of the picture. */
 
 import { Box3, Matrix4, Vector3, type Camera, type InstancedMesh, type Mesh, type Object3D, type Points } from "three";
 

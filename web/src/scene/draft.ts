@@ -4,7 +4,7 @@ import type { DraftInfo, DraftPart } from "../protocol/generated/page_messages";
 
 /** Tags and names from the model down: ["link", "base", "sensor", "eye"]; empty: the model itself. */
 export type PartPath = readonly string[];
-/** Numbers are null where one stays as it is; null: the default. */
+/** Value of a field: null numbers stay unchanged; null: the default. */
 export type FieldValue = string | readonly (number | null)[] | null;
 
 /** Number of the draft's first link among the bodies of the scene. */

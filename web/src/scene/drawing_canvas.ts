@@ -1,9 +1,9 @@
-/** The canvas of the 3D view with its context of WebGL, which takes a browser long to begin. */
+/** Canvas of the 3D view with its WebGL context, which a browser takes long to create. */
 
-/** Most device pixels per pixel, and in the whole picture. */
+/** Largest number of device pixels per pixel, and in the whole picture. */
 const MAX_PIXEL_RATIO = 2;
 const MAX_PIXELS = 5e6;
-/** Most device pixels where the CPU draws. */
+/** Largest number of device pixels if the CPU draws. */
 const MAX_SLOW_PIXELS = 1e6;
 
 export interface DrawingCanvas {
@@ -16,12 +16,12 @@ export interface DrawingCanvas {
 
 let begun: DrawingCanvas | null = null;
 
-/** Begin the canvas that is asked for next, while the rest of the page is on its way. */
+/** Create the next canvas ahead of time, while the rest of the page loads. */
 export function beginDrawing(): void {
   begun ??= create();
 }
 
-/** A canvas of its own for who draws. */
+/** Canvas with a WebGL context, prepared or new. */
 export function drawingCanvas(): DrawingCanvas {
   const canvas = begun ?? create();
   begun = null;
@@ -44,7 +44,7 @@ function create(): DrawingCanvas {
   return withContext(false);
 }
 
-/** As large as the window, which the scene fills: another size would wait for the browser's drawing. */
+/** Canvas as large as the window, which the scene fills, since a later resize would wait for the browser. */
 function withContext(isSlow: boolean): DrawingCanvas {
   const ratio = pixelRatio(innerWidth, innerHeight, isSlow);
   const element = Object.assign(document.createElement("canvas"), {

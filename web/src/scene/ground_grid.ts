@@ -62,7 +62,7 @@ export class GroundGrid extends Mesh<PlaneGeometry, ShaderMaterial> {
     (this.material.uniforms["color"]?.value as Color).set(isDark ? 0xffffff : 0x000000);
   }
 
-  /** Stand around the camera, as far as it sees lines. */
+  /** Center the grid at the camera, as far as its lines are visible. */
   follow(camera: Camera): void {
     const isOrthographic = "isOrthographicCamera" in camera;
     const reach = isOrthographic ? 1e4 : Math.max(40, 20 * Math.abs(camera.position.z));

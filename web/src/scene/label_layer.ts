@@ -39,10 +39,10 @@ class SceneLabel implements Label {
   }
 }
 
-/** A label as a layer shows it. */
+/** Label with its layout in a layer. */
 interface VisibleLabel extends LabelRequest {
   readonly label: SceneLabel;
-  /** Text, and what else its width is of. */
+  /** Text and detail of the measured width. */
   measured: string;
   measuredDetail: string;
   isMeasuredBoxed: boolean;
@@ -69,10 +69,10 @@ export class LabelSet {
 export class LabelLayer {
   readonly canvas = document.createElement("canvas");
   private readonly context = this.canvas.getContext("2d");
-  /** The canvas' style as it is now, whenever it is read. */
+  /** Live style of the canvas. */
   private readonly style = getComputedStyle(this.canvas);
   private readonly entries = new WeakMap<SceneLabel, VisibleLabel>();
-  /** Those in the picture, those that come first first. */
+  /** Labels in the picture, by priority. */
   private readonly visible: VisibleLabel[] = [];
   private readonly point = new Vector3();
   private pointer: { readonly x: number; readonly y: number } | null = null;
@@ -80,14 +80,14 @@ export class LabelLayer {
   private font = "";
   private size: PictureSize = { width: 0, height: 0 };
   private pixelRatio = 1;
-  /** True if there was no label, and is none. */
+  /** True if there was and is no label. */
   private isEmpty = true;
 
   constructor(private readonly set: LabelSet) {
     Object.assign(this.canvas.style, { position: "absolute", pointerEvents: "none" });
   }
 
-  /** The pointer is at a point of the picture [px], or has left it. */
+  /** Set the pointer's position in the picture [px]; null: outside. */
   hover(at: { readonly x: number; readonly y: number } | null, camera: Camera, size: PictureSize): void {
     this.pointer = at;
     const hovered = this.findHovered(camera, size);
@@ -96,7 +96,7 @@ export class LabelLayer {
     this.set.onChange();
   }
 
-  /** Place the labels as a picture of a size [px] needs them. */
+  /** Lay out the labels for a picture of a size [px]. */
   place(camera: Camera, size: PictureSize, pixelRatio: number): void {
     this.isEmpty = this.set.labels.size === 0 && this.visible.length === 0;
     this.size = size;
@@ -201,7 +201,7 @@ export class LabelLayer {
     return entry;
   }
 
-  /** Find the width of a label, if it is another text or shown otherwise. */
+  /** Measure the width of a label, if its text or style changed. */
   private measure(context: CanvasRenderingContext2D, entry: VisibleLabel): void {
     const { label, hovered: isBoxed } = entry;
     const detail = label === this.hovered ? label.detail : "";

@@ -11,27 +11,27 @@ export const BAND = 20;
 const ACROSS = 24;
 const UP = 18;
 
-/** A place in the picture [px]. */
+/** Rectangle in the picture [px]. */
 interface LabelBox {
   x: number;
   y: number;
   width: number;
 }
 
-/** What a label needs, and the place that it gets; it is filled again for each picture. */
+/** Request of a label and its assigned position, renewed for each picture. */
 export interface LabelRequest {
   /** Anchor [px]. */
   x: number;
   y: number;
   /** Width of the text [px]. */
   width: number;
-  /** Distance to the camera: nearer labels come first. */
+  /** Distance to the camera: nearer labels have priority. */
   distance: number;
-  /** True: it comes first, and always has a place; that of a person's name, too. */
+  /** True: has priority and is always placed, as is a person's name. */
   hovered: boolean;
-  /** Corner where it stands, the last one at first, so that labels do not jump; −1: it has no place. */
+  /** Index of its corner; the last corner is tried first, so that labels do not jump; −1: not placed. */
   corner: number;
-  /** Its place, if it has one. */
+  /** Position, if placed. */
   readonly box: LabelBox;
 }
 
@@ -43,7 +43,7 @@ const CORNERS = [
   [-1, 1],
 ] as const;
 
-/** Give each request a place or none; they are sorted, those that come first first. */
+/** Place the requests, or mark them as not placed; sorts them by priority. */
 export function layoutLabels(requests: LabelRequest[], width: number, height: number): void {
   sort(requests);
   for (let i = 0; i < requests.length; i += 1) {
@@ -61,7 +61,7 @@ export function layoutLabels(requests: LabelRequest[], width: number, height: nu
   }
 }
 
-/** Insertion: from picture to picture the order hardly changes. */
+/** Insertion sort, since the order hardly changes from picture to picture. */
 function sort(requests: LabelRequest[]): void {
   for (let i = 1; i < requests.length; i += 1) {
     const moved = requests[i];

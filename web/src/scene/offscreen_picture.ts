@@ -10,10 +10,10 @@ export class OffscreenPicture {
   private buffers: readonly (readonly [format: GLenum, buffer: WebGLRenderbuffer])[] = [];
   private width = 0;
   private height = 0;
-  /** Of the picture that is being drawn. */
+  /** Fence of the picture that is being drawn. */
   private sync: WebGLSync | null = null;
 
-  /** From now on all that is drawn to the canvas goes here. */
+  /** Redirect the canvas' drawing into this picture. */
   constructor(private readonly context: WebGL2RenderingContext) {
     const choose = context.drawBuffers.bind(context);
     this.bind = context.bindFramebuffer.bind(context);
@@ -29,7 +29,7 @@ export class OffscreenPicture {
     return this.sync !== null;
   }
 
-  /** Take a size [px]; what was drawn is lost if it is another one. */
+  /** Set the size [px]; a change clears the picture. */
   fit(width: number, height: number): void {
     if (width === this.width && height === this.height) return;
     [this.width, this.height] = [width, height];
@@ -41,7 +41,7 @@ export class OffscreenPicture {
     context.bindRenderbuffer(context.RENDERBUFFER, null);
   }
 
-  /** Note that all of a picture has been asked for. */
+  /** Note that all drawing of a picture was issued. */
   begin(): void {
     this.sync = this.context.fenceSync(this.context.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.context.flush();

@@ -1,4 +1,4 @@
-/** What lies under a point of the picture. */
+/** Picking under a point of the picture. */
 
 import {
   BufferGeometry,
@@ -53,7 +53,7 @@ export class Picker {
     this.raycaster.params.Line2 = { threshold: TOLERANCE };
   }
 
-  /** Nearest of what lies under a point [px] of the picture, where it is now: the picture may be older. */
+  /** Nearest object under a point [px] of the picture, at current poses: the picture may be older. */
   pick(roots: readonly Object3D[], camera: Camera, size: PictureSize, x: number, y: number): Pick | null {
     this.aim(camera, size, x, y);
     const candidates: Candidate[] = [];
@@ -66,7 +66,7 @@ export class Picker {
     return best === null ? null : { point: best.point, object: best.object, index: best.index };
   }
 
-  /** Where the ray through a point [px] meets z = 0. */
+  /** Point at which the ray through a point [px] meets z = 0. */
   pickGround(camera: Camera, size: PictureSize, x: number, y: number): Vector3 | null {
     this.aim(camera, size, x, y);
     return this.raycaster.ray.intersectPlane(GROUND, new Vector3());
@@ -164,7 +164,7 @@ function pickLine(line: Line, camera: Camera, size: PictureSize, at: Vector2, ca
   }
 }
 
-/** Where a segment of the picture comes nearest to a point, 0…1. */
+/** Ratio 0…1 along a segment of the picture that is nearest to a point. */
 function shareAlong(a: Vector3, b: Vector3, at: Vector2): number {
   const [x, y] = [b.x - a.x, b.y - a.y];
   const squared = x * x + y * y;

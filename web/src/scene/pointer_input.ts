@@ -1,4 +1,4 @@
-/** What mouse, touch and keys do in the scene: rviz's bindings. */
+/** Mouse, touch and keyboard input of the scene, with rviz's bindings. */
 
 import { LongPress } from "../theme/long_press";
 import type { ThreeScene } from "./three_scene";
@@ -8,7 +8,7 @@ import type { ViewList } from "./views/view_list";
 const DRAG_ZOOM = 0.01;
 const WHEEL_ZOOM = 0.0012;
 const LINE = 16;
-/** A shorter way of the pointer is a click [px]. */
+/** Shorter drags of the pointer are clicks [px]. */
 const CLICK = 4;
 /** Drag that an arrow key stands for [px]. */
 const KEY_TURN = 20;
@@ -21,7 +21,7 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowDown: [0, -1],
 };
 
-/** What a tool gets of mouse, pen and finger. */
+/** Event of mouse, pen or finger for a tool. */
 export interface PointerInput {
   readonly x: number;
   readonly y: number;
@@ -133,7 +133,7 @@ export class SceneInput {
     this.scene.panes.release();
   }
 
-  /** The last finger leaves. */
+  /** Handle the last finger's release. */
   private leave(event: PointerEvent, kind: "up" | "cancel"): void {
     // the tool also hears of a click whose press it left to the camera
     const isClick = kind === "up" && this.distance < CLICK;
@@ -142,13 +142,13 @@ export class SceneInput {
     this.toolHasDrag = false;
   }
 
-  /** A finger has rested: what follows is no click. */
+  /** Handle a long press, which is no click. */
   private rest(at: Point): void {
     this.distance = CLICK;
     this.menu(at);
   }
 
-  /** The keyboard's menu key; a button's or finger's own menu opens as it leaves or rests. */
+  /** Open the menu by the keyboard's menu key; buttons and fingers open it on release or long press. */
   private contextMenu(event: MouseEvent): void {
     event.preventDefault();
     if (event.button !== 2 && this.fingers.size === 0) this.menu(null);
@@ -163,7 +163,7 @@ export class SceneInput {
     else view.zoom(Math.exp(DRAG_ZOOM * dy));
   }
 
-  /** Two fingers: their middle shifts the picture, their distance zooms; once a frame, as each has events of its own. */
+  /** Pan by the middle of two fingers, zoom by their distance; once a frame, as each has its own events. */
   private pinch(): void {
     const [a, b] = [...this.fingers.values()];
     const { hand } = this;

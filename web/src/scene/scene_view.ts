@@ -14,7 +14,7 @@ import type {
 
 import type { Area, Insets } from "./free_area";
 
-/** What a pointer met. */
+/** Object under a pointer. */
 export interface Pick {
   /** Point in the fixed frame [m]. */
   readonly point: Vector3;
@@ -25,20 +25,20 @@ export interface Pick {
 
 /** Entry `selectable` of `Object3D.userData`: makes an object and those below it selectable. */
 export interface Selectable {
-  /** Name and value pairs of what was picked; nested for messages. */
+  /** Name and value pairs of the picked object; nested for messages. */
   describe(index: number | null): Readonly<Record<string, unknown>>;
-  /** Indices of the points that a box holds, where the object is not one of three.js' own kinds. */
+  /** Indices of the points within a box, for objects that are not of three.js' own kinds. */
   indicesIn?(contains: (point: Vector3) => boolean): readonly number[];
 }
 
 /** A pointer at an object that has handlers. */
 export interface TargetEvent {
-  /** Place in the scene's element [px]. */
+  /** Position in the scene's element [px]. */
   readonly x: number;
   readonly y: number;
-  /** Ray from the camera through that place, in the fixed frame. */
+  /** Ray from the camera through that position, in the fixed frame. */
   readonly ray: Ray;
-  /** What is met there; null while it is dragged beside its object. */
+  /** Picked object there; null while it is dragged off its object. */
   readonly pick: Pick | null;
   readonly button: number;
   readonly shift: boolean;
@@ -47,16 +47,16 @@ export interface TargetEvent {
 
 /** Entry `pointerTarget` of `Object3D.userData`: the tool Interact hands it the pointer's events. */
 export interface PointerTarget {
-  /** The pointer has come over the object, or has left it. */
+  /** Called when the pointer enters or leaves the object. */
   hover(isOver: boolean): void;
-  /** A button goes down on the object; true: the drag is its own. */
+  /** Called when a button goes down on the object; true: the object handles the drag. */
   down(event: TargetEvent): boolean;
   move(event: TargetEvent): void;
-  /** The drag ends; `isCancelled`: it is to be undone. */
+  /** Called when the drag ends; `isCancelled`: undo it. */
   up(event: TargetEvent, isCancelled: boolean): void;
 }
 
-/** A text that stands at an object; the scene lays labels out so that they do not pile up. */
+/** Text at an object; the scene lays labels out without overlap. */
 export interface Label {
   readonly anchor: Object3D;
   text: string;
@@ -80,7 +80,7 @@ export type SceneStatus =
   /** Nothing can be drawn; the reason is a sentence. */
   | { readonly kind: "unsupported"; readonly reason: string };
 
-/** Steps of a picture other than the scene itself: shadow maps before it, outlines after it. */
+/** Additional drawing steps of a picture: shadow maps before the scene, outlines after it. */
 export interface DrawStep {
   /** Before the picture, once for all panes. */
   before?(renderer: WebGLRenderer): void;
@@ -105,7 +105,7 @@ export interface SceneView {
   readonly element: HTMLElement;
   /** Size of the element [px]. */
   readonly size: ReadonlySignal<{ readonly width: number; readonly height: number }>;
-  /** Parts of the element under panels; the camera's target stays in the middle of the rest. */
+  /** Insets of the element under panels; the camera's target stays in the middle of the rest. */
   readonly freeArea: Signal<Insets>;
   /** Size of the pane that the pointer is in [px]. */
   readonly paneSize: ReadonlySignal<{ readonly width: number; readonly height: number }>;
@@ -115,20 +115,20 @@ export interface SceneView {
   readonly background: Signal<string>;
   /** The ground's grid. */
   readonly grid: Signal<boolean>;
-  /** Draw at the next frame: nothing is drawn while nothing changes. */
+  /** Request drawing at the next frame; nothing is drawn otherwise. */
   invalidate(): void;
-  /** Call at each animation frame with the seconds since the last one; returns how to stop it. */
+  /** Call a function at each animation frame with the seconds since the last one; returns a function that stops it. */
   onTick(callback: (elapsed: number) => void): () => void;
   addStep(step: DrawStep): () => void;
-  /** What is seen, drawn once in a size of its own [px]; throws a sentence where that cannot be. */
+  /** Picture of the view, drawn once in a given size [px]; throws a sentence if that fails. */
   picture(width: number, height: number): HTMLCanvasElement;
-  /** What lies under a point of the element [px]; null: nothing. */
+  /** Object under a point of the element [px]; null: none. */
   pick(x: number, y: number): Pick | null;
-  /** What lies within a box of the element [px], at most `limit`. */
+  /** Objects within a box of the element [px], at most `limit`. */
   pickBox(box: PictureBox, limit: number): readonly Pick[];
   /** Ray from the camera through a point of the element, in the fixed frame. */
   ray(x: number, y: number): Ray;
-  /** Where a point of the element meets the plane z = 0 of the fixed frame. */
+  /** Point at which the ray through a point of the element meets the plane z = 0 of the fixed frame. */
   pickGround(x: number, y: number): Vector3 | null;
   /** `color`: token of a color that the label is filled with. */
   addLabel(anchor: Object3D, text: string, color?: `--${string}`): Label;

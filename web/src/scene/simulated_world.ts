@@ -26,17 +26,17 @@ export interface SimulatedWorld {
   /** Null where nothing is simulated or recorded. */
   readonly manifest: ReadonlySignal<Manifest | null>;
   readonly state: ReadonlySignal<ClockState | null>;
-  /** Share of the files that has arrived, 0…1. */
+  /** Ratio of the files that has arrived, 0…1. */
   readonly progress: ReadonlySignal<number>;
   /** Sentences about files that could not be shown. */
   readonly faults: ReadonlySignal<readonly string[]>;
   /** Changes at 10 Hz while something listens. */
   readonly joints: ReadonlySignal<JointStates>;
-  /** What of the world is shown. */
+  /** Shown parts of the world. */
   readonly shown: ShownParts;
   /** Names (`model` or `model::link`) that are hidden. */
   readonly hidden: Signal<ReadonlySet<string>>;
-  /** Call a function with the time [s] of poses as they come; returns how to end it. */
+  /** Call a function with the time [s] of poses as they come; returns a function that stops it. */
   onPoses(call: (time: number) => void): () => void;
   /** Newest pose of a body in the world; null before the first. */
   pose(body: number): Transform | null;

@@ -62,13 +62,13 @@ export class ThreeScene implements SceneView {
   private isPlaced = false;
   private last = performance.now();
   private frame = 0;
-  /** Of the last picture; 0 before the first. */
+  /** Pixel ratio of the last picture; 0 before the first. */
   private pixelRatio = 0;
   readonly isSlow: boolean;
   /** Null where drawing holds nothing up. */
   private readonly offscreen: OffscreenPicture | null;
 
-  /** Fills `host`, which is positioned. */
+  /** `host`: positioned element that it fills. */
   constructor(private readonly host: HTMLElement) {
     const { element, context, isSlow } = drawingCanvas();
     this.element = element;
@@ -226,7 +226,7 @@ export class ThreeScene implements SceneView {
     this.resize();
   }
 
-  /** The pointer is over a pane, or over none. */
+  /** Update the hovered label of each pane; `over`: pane under the pointer, or null. */
   private hoverLabels(over: Pane | null, at?: PointerEvent): void {
     for (const pane of this.panes.shown.peek()) {
       const { left, top } = pane.place.peek().area;
@@ -282,7 +282,7 @@ export class ThreeScene implements SceneView {
     return !isSame;
   }
 
-  /** Draw a picture, which `show` puts before the person; true: the canvas has another size, and is empty. */
+  /** Draw a picture, which `show` displays; true: the canvas has a new size, and is empty. */
   private draw(size: PictureSize, ratio: number, areas: readonly PaneArea[]): boolean {
     const isResized = this.fit(size, ratio);
     const { renderer } = this;

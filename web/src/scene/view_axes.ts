@@ -15,7 +15,7 @@ interface Tip {
   readonly line: SVGLineElement | null;
 }
 
-/** Ends of the axes, and the side from which one looks at it: x is forward, so its end is seen from the front. */
+/** Ends of the axes with the side that faces each: x is forward, so its end faces the front. */
 const ENDS = [
   { letter: "x", axis: [1, 0, 0], side: "front" },
   { letter: "y", axis: [0, 1, 0], side: "left" },
@@ -38,7 +38,7 @@ export class ViewAxes {
   private readonly tips: Tip[];
   private readonly turned = new Vector3();
   private order = "";
-  /** Of the camera, as it is shown. */
+  /** Shown orientation of the camera. */
   private readonly shown = new Matrix4();
 
   constructor(onPress: (side: SixSides) => void) {
@@ -87,7 +87,7 @@ export class ViewAxes {
     return { axis: new Vector3(...end.axis), side: end.side, group, line };
   }
 
-  /** Turn with the camera, whose place's inverse is given; nearer ends lie over farther ones. */
+  /** Turn with the camera; `view` is the inverse of its pose; nearer ends cover farther ones. */
   show(view: Matrix4): void {
     if (this.shown.equals(view) && this.order !== "") return;
     this.shown.copy(view);

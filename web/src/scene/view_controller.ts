@@ -24,9 +24,9 @@ export interface ViewController {
 export interface ViewPane {
   readonly current: ReadonlySignal<ViewController>;
   readonly place: ReadonlySignal<PaneArea>;
-  /** Where in the pane the picture of the camera is that is looked through [px]; null: none is. */
+  /** Rectangle of the picture in the pane while looking through a camera [px]; null: not through a camera. */
   readonly cameraFrame: ReadonlySignal<Area | null>;
-  /** Take the view of a file. */
+  /** Load a view from a file. */
   load(yaml: YamlMapping): string[];
 }
 
@@ -36,10 +36,10 @@ export interface Views {
   onFileLayout: (layout: PaneLayout) => void;
   /** Panes that are shown. */
   readonly panes: ReadonlySignal<readonly ViewPane[]>;
-  /** The pane whose view all else here is about. */
+  /** Active pane, whose view the other members concern. */
   readonly active: ReadonlySignal<ViewPane>;
   activate(pane: ViewPane): void;
-  /** Make the pane some places on the active one. */
+  /** Activate the pane that is `by` after the active one. */
   stepPane(by: number): void;
   readonly current: ReadonlySignal<ViewController>;
   readonly classes: readonly string[];
@@ -50,7 +50,7 @@ export interface Views {
   copyCurrent(name: string): ViewController;
   /** Move smoothly so that a box of the fixed frame fills the free part of the scene. */
   frame(box: Box3): void;
-  /** The same in every pane that is shown. */
+  /** Move every shown pane so that a box of the fixed frame fills it. */
   frameInAll(box: Box3): void;
   focus(point: Vector3): void;
   lookFrom(side: SixSides): void;

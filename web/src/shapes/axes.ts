@@ -34,7 +34,7 @@ export class Axes extends Group {
     this.axes.forEach((axis, index) => axis.material.setColor(AXIS_RGB[index] ?? [255, 255, 255], alpha));
   }
 
-  /** Mix of the axes' colors with grey: 0 is their own, 1 is grey (0.7). */
+  /** Mix the axes' colors with grey: 0: no grey, 1: grey (0.7). */
   setFaded(share: number, alpha: number): void {
     this.axes.forEach((axis, index) => {
       const [red, green, blue] = AXIS_RGB[index] ?? [255, 255, 255];

@@ -99,7 +99,7 @@ export class BillboardLines extends Mesh<InstancedBufferGeometry, ShaderMaterial
     return typeof width === "number" ? width : 0;
   }
 
-  /** Begin to draw anew; then `addSegment` or `addPolyline`, then `finish`. */
+  /** Start new lines; then `addSegment` or `addPolyline`, then `finish`. */
   begin(): void {
     this.geometry.instanceCount = 0;
     this.blended = false;

@@ -46,7 +46,7 @@ function basis(x: Vector3, y: Vector3): Quaternion {
 }
 
 /**
- * Stand it at the pose's position in its frame; the parent's axes are those of the message's frame.
+ * Place it at the pose's position; the parent's axes are those of the message's frame.
  *
  * A pose whose variances of z, roll and pitch are not positive is planar, as rviz has it.
  */
@@ -71,7 +71,7 @@ export class CovarianceVisual extends Group {
     this.refresh();
   }
 
-  /** Draw anew with the properties of now. */
+  /** Draw again with the current properties. */
   refresh(): void {
     const { property } = this;
     const entry = (row: number, column: number): number => this.covariance[6 * row + column] ?? 0;

@@ -29,7 +29,7 @@ export class Instances extends InstancedMesh<BufferGeometry, ShapeMaterial> {
     this.blended ||= alpha < 0.9998;
   }
 
-  /** Begin to set colors anew. */
+  /** Start to set new colors. */
   begin(count: number): void {
     this.resize(count);
     this.blended = false;
@@ -64,7 +64,7 @@ export class Instances extends InstancedMesh<BufferGeometry, ShapeMaterial> {
   }
 }
 
-/** A geometry that shares another's buffers. */
+/** Geometry that shares another's buffers. */
 function shallow(geometry: BufferGeometry): BufferGeometry {
   const copy = geometry.clone();
   copy.index = geometry.index;

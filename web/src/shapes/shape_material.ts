@@ -116,17 +116,17 @@ export class ShapeMaterial extends ShaderMaterial {
     this.setBlended(alpha < OPAQUE);
   }
 
-  /** A property's color and alpha. */
+  /** Set a property's color and alpha. */
   setColor(color: Rgb, alpha = 1): void {
     this.setRgba(color[0] / 255, color[1] / 255, color[2] / 255, alpha);
   }
 
-  /** Another color over texture and color, 0…1 of it. */
+  /** Set a color blended over texture and color, with weight 0…1. */
   setTint(red: number, green: number, blue: number, share: number): void {
     this.tint.set(red, green, blue, share);
   }
 
-  /** Brighter by this much, as rviz shows what the pointer is at. */
+  /** Set the brightening, as rviz shows a hovered object. */
   setGlow(glow: number): void {
     const uniform = this.uniforms["shapeGlow"];
     if (uniform !== undefined) uniform.value = glow;

@@ -12,7 +12,7 @@ import {
 
 /** Height of a line on the canvas [px]. */
 const LINE_PX = 64;
-/** rviz draws Liberation Sans of 24 px, whose letters are whole pixels wide, in lines that hold its tallest and its lowest letter. */
+/** rviz draws Liberation Sans of 24 px with whole-pixel advances; lines hold its tallest and its lowest letter. */
 const FONT_PX = 24;
 const EM = FONT_PX / 28;
 /** Base line below the top of a line, as a share of it. */

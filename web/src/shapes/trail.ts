@@ -1,10 +1,10 @@
-/** The way that a point of the fixed frame has come, as a ribbon. */
+/** Path of a point of the fixed frame, as a ribbon. */
 
 import { Vector3 } from "three";
 
 import { BillboardLines } from "./billboard_lines";
 
-/** Points are kept at least this far apart [m], and no more than so many. */
+/** Smallest distance between kept points [m], and their largest number. */
 const SPACING = 0.05;
 const MAX_POINTS = 1000;
 const RGBA = [0, 0.5, 0.5, 1] as const;
@@ -17,7 +17,7 @@ export class Trail extends BillboardLines {
     super(0.01);
   }
 
-  /** The point is here now [m]. */
+  /** Add the point's current position [m]. */
   follow(position: Vector3): void {
     if (position.distanceTo(this.last) < SPACING) return;
     this.last.copy(position);

@@ -1,4 +1,4 @@
-/** Drawings at bodies: joints, centres of mass, inertias, frames, cameras. What is not shown is not there. */
+/** Drawings at bodies: joints, centres of mass, inertias, frames, cameras; created only while shown. */
 
 import { effect, untracked } from "@preact/signals";
 import { Group, Sphere, Vector3, type Mesh, type Object3D } from "three";
@@ -19,13 +19,13 @@ type Drawn = (typeof DRAWN)[number];
 /** Sizes of axes [m]. */
 const SIZE = { min: 0.05, max: 0.6 };
 
-/** A model with its name in full: `outer::inner`. */
+/** Model with its full name: `outer::inner`. */
 export interface NamedModel {
   readonly name: string;
   readonly model: ModelInfo;
 }
 
-/** A group that stands where a body is. */
+/** Group at the pose of a body. */
 interface Anchor {
   readonly body: number;
   readonly group: Group;
@@ -33,7 +33,7 @@ interface Anchor {
 
 export class BodyOverlays {
   private readonly root = new Group();
-  /** What is drawn of each part. */
+  /** Drawn objects of each part. */
   private readonly anchors = new Map<Drawn, readonly Anchor[]>();
   private readonly marks = new Group();
   private joints: { readonly index: number; readonly drawing: JointDrawing }[] = [];
@@ -159,7 +159,7 @@ export class BodyOverlays {
     this.scene.invalidate();
   }
 
-  /** Put what is drawn where its bodies are, before each picture. */
+  /** Move the drawings to their bodies, before each picture. */
   private follow(): void {
     for (const anchors of this.anchors.values()) {
       for (const { body, group } of anchors) {
@@ -172,7 +172,7 @@ export class BodyOverlays {
     }
   }
 
-  /** Length of the axes at a body, by how large it is [m]. */
+  /** Length of the axes at a body, by its size [m]. */
   private sizeOf(body: number): number {
     const object = this.world.object(body);
     return Math.min(SIZE.max, Math.max(SIZE.min, object === null ? SIZE.min : 1.2 * radiusOf(object)));

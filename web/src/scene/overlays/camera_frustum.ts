@@ -1,4 +1,4 @@
-/** What a camera sees: the pyramid from its lens to the far end of what it draws. */
+/** Frustum of a camera, from its lens to its far plane. */
 
 import { Group, type Object3D } from "three";
 

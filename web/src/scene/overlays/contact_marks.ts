@@ -23,7 +23,7 @@ const TURN = new Quaternion();
 const MATRIX = new Matrix4();
 const [point, force, size, head] = [new Vector3(), new Vector3(), new Vector3(), new Vector3()] as const;
 
-/** Bodies whose contacts are shown, those that stand still, and the length of an arrow [m/N]. */
+/** Bodies with shown contacts, static bodies, and the length of an arrow [m/N]. */
 interface Chosen {
   readonly shown: ReadonlySet<number>;
   readonly still: ReadonlySet<number>;

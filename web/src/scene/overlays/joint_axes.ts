@@ -13,7 +13,7 @@ const TURN = 2 * Math.PI;
 /** Drawing of a joint in the frame of its child. */
 export interface JointDrawing {
   readonly object: Object3D;
-  /** Turn or shift the range so that it stays with the parent, at a position [rad, m]. */
+  /** Turn or shift the range against a joint position, so that it stays with the parent [rad, m]. */
   move(position: number): void;
 }
 
@@ -43,7 +43,7 @@ export function drawJoint({ pose, axes, type, lower, upper }: JointInfo, size: n
   };
 }
 
-/** The sector that a joint may turn in, or a circle; a needle shows zero. */
+/** Range of a revolute joint as a sector, or a circle; a needle shows zero. */
 function sector(axis: Vector3, lower: number | null, upper: number | null, radius: number): Object3D {
   const group = new Group();
   group.quaternion.setFromUnitVectors(Z, axis);
@@ -61,7 +61,7 @@ function sector(axis: Vector3, lower: number | null, upper: number | null, radiu
   return group;
 }
 
-/** The way that a joint may slide along, with a tick at each end. */
+/** Range of a prismatic joint, with a tick at each end. */
 function slide(axis: Vector3, lower: number | null, upper: number | null, size: number): Object3D {
   const group = new Group();
   if (lower === null || upper === null) return group;

@@ -1,4 +1,4 @@
-/** Shapes of the drawings at bodies: in front of what they are in, not picked. */
+/** Shapes of the drawings at bodies: drawn in front of bodies, not picked. */
 
 import {
   BufferGeometry,
@@ -34,7 +34,7 @@ export const COLORS = {
 
 const materials = new Map<string, MeshBasicMaterial | LineBasicMaterial>();
 
-/** A flat material in front of what it is in; shared, so not to be disposed of. */
+/** Flat material drawn in front of bodies; shared, so not to be disposed of. */
 export function flat(color: number, opacity = 1): MeshBasicMaterial {
   return shared(
     `${color} ${opacity}`,
@@ -95,7 +95,7 @@ export function inFront<O extends Object3D>(object: O): O {
   return object;
 }
 
-/** An area that others are seen through. */
+/** Transparent area. */
 export function area(geometry: BufferGeometry, color: number, opacity: number): Mesh {
   const mesh = new Mesh(geometry, flat(color, opacity));
   mesh.renderOrder = AREAS;

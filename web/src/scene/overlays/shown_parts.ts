@@ -1,4 +1,4 @@
-/** What of the simulated world is shown: of all models, and of single ones where that differs. */
+/** Shown parts of the simulated world: of all models, and of single models that differ. */
 
 import { signal } from "@preact/signals";
 
@@ -28,14 +28,14 @@ export type WorldPart = (typeof WORLD_PARTS)[number];
 export type ModelParts = ReadonlyMap<string, ReadonlyMap<Part, boolean>>;
 
 export class ShownParts {
-  /** Shown of all models. */
+  /** Parts shown of all models. */
   readonly all = signal<ReadonlySet<Part>>(new Set(["visuals"]));
-  /** Models that differ. */
+  /** Parts of models that differ. */
   readonly models = signal<ModelParts>(new Map());
-  /** Shown of the world itself; the grid only where it is not as the world has it. */
+  /** Shown parts of the world itself; the grid only if it differs from the world's setting. */
   readonly world = signal<ReadonlyMap<WorldPart, boolean>>(new Map());
 
-  /** Whether a part is shown of a model; what is said of the model itself counts before what is said of those it is in. */
+  /** True if a part of a model is shown; the model's own setting overrides that of its enclosing models. */
   of(part: Part, model: string): boolean {
     let name = model;
     for (;;) {
@@ -47,7 +47,7 @@ export class ShownParts {
     }
   }
 
-  /** Whether a part is shown of any model. */
+  /** True if a part is shown of any model. */
   any(part: Part): boolean {
     if (this.all.value.has(part)) return true;
     for (const parts of this.models.value.values()) if (parts.get(part) === true) return true;

@@ -24,10 +24,10 @@ export class Pane {
     return freeArea(area.width, area.height, insets);
   });
   readonly labels: LabelLayer;
-  /** A side of the view axes was pressed. */
+  /** Called when an end of the view axes is pressed. */
   onSide: (side: SixSides) => void = () => undefined;
   private readonly axes = new ViewAxes((side) => this.onSide(side));
-  /** Inverse of the camera's place in the picture that was drawn last. */
+  /** Inverse of the camera's pose in the last picture. */
   private readonly drawn = new Matrix4();
   private readonly stop: () => void;
 
@@ -50,7 +50,7 @@ export class Pane {
     for (const { style } of [this.labels.canvas, this.axes.element]) style.display = isShown ? "" : "none";
   }
 
-  /** Fit the camera to a place. */
+  /** Fit the camera to an area. */
   fit({ area: { width, height }, insets }: PaneArea): void {
     const camera = this.camera.peek();
     if ("aspect" in camera) camera.aspect = width / height;
@@ -60,7 +60,7 @@ export class Pane {
     camera.updateMatrixWorld();
   }
 
-  /** Place labels and axes as the picture that is drawn now needs them. */
+  /** Lay out labels and axes for the picture being drawn. */
   placeOver(size: PictureSize, pixelRatio: number): void {
     const camera = this.camera.peek();
     this.labels.place(camera, size, pixelRatio);

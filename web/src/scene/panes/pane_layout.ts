@@ -1,17 +1,17 @@
-/** How the scene is split into panes, each with a view of its own. */
+/** Layouts of the scene's panes, each with a view of its own. */
 
 import { freeArea, type Area, type Insets } from "../free_area";
 
 export const PANE_LAYOUTS = ["one", "beside", "stacked", "four"] as const;
 export type PaneLayout = (typeof PANE_LAYOUTS)[number];
 
-/** Where a pane is in the scene [px], and how much of its edges panels cover [px]. */
+/** Area of a pane in the scene, and the insets of its edges that panels cover [px]. */
 export interface PaneArea {
   readonly area: Area;
   readonly insets: Insets;
 }
 
-/** Column and row of each pane; of four, the first is at the top right, with the views from top and front in one column. */
+/** Column and row of each pane; of four, the first is at the top right, and top and front views share a column. */
 const CELLS: Readonly<Record<PaneLayout, readonly (readonly [number, number])[]>> = {
   one: [[0, 0]],
   beside: [

@@ -1,4 +1,4 @@
-/** The panes of the scene: which are shown and where, which is active, and which the pointer is in. */
+/** Panes of the scene: the shown ones with their areas, the active one, and the one under the pointer. */
 
 import { computed, effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
 
@@ -16,11 +16,11 @@ export class ScenePanes {
   readonly active;
   /** The pane that the pointer is in, or was in last. */
   readonly pointed;
-  /** Panes that are drawn; one that is not keeps its view. */
+  /** Shown panes; hidden ones keep their views. */
   readonly shown: ReadonlySignal<readonly Pane[]>;
   readonly areas: ReadonlySignal<readonly PaneArea[]>;
   private readonly panes;
-  /** Where a button went down that is still down. */
+  /** Pane in which the pressed button went down. */
   private pressed: Pane | null = null;
   private readonly stops: (() => void)[];
 
@@ -53,7 +53,7 @@ export class ScenePanes {
     for (const pane of this.panes.peek()) pane.dispose();
   }
 
-  /** The pane at a point of the scene [px]; while a button is down, the one where it went down. */
+  /** Pane at a point of the scene [px]; while a button is down, the pane where it went down. */
   at(x: number, y: number): Pane {
     if (this.pressed !== null) return this.pressed;
     const shown = this.shown.peek();
@@ -61,14 +61,14 @@ export class ScenePanes {
     return shown.find((pane) => isInside(pane.place.peek().area, x, y)) ?? this.active.peek();
   }
 
-  /** The pointer is at a point [px]. */
+  /** Move the pointer to a point [px]. */
   point(x: number, y: number): Pane {
     const pane = this.at(x, y);
     this.pointed.value = pane;
     return pane;
   }
 
-  /** A button goes down at a point [px]: its pane is the active one, and has the pointer until it goes up. */
+  /** Press a button at a point [px]: its pane becomes active, and has the pointer until the release. */
   press(x: number, y: number): Pane {
     this.pressed = null;
     this.active.value = this.point(x, y);
@@ -93,7 +93,7 @@ export class ScenePanes {
     if (more.length > 0) this.panes.value = [...panes, ...more];
   }
 
-  /** The first panes, and among them the active one. */
+  /** First panes of the layout, including the active one. */
   private chosen(): readonly Pane[] {
     const [panes, active, count] = [this.panes.value, this.active.value, paneCount(this.layout.value)];
     const first = panes.slice(0, count);

@@ -10,7 +10,7 @@ import { wrapAngle, type Motion } from "./view";
 const DURATION = 0.35;
 /** Time constant of following [s]. */
 const LAG = 0.06;
-/** A target that is this far off has jumped [m]. */
+/** Distance at which a target has jumped [m]. */
 const JUMP = 3;
 /** [m, and chord on the unit sphere] */
 const STILL = 1e-5;
@@ -63,7 +63,7 @@ export class SmoothPose implements Transform {
   readonly position = new Vector3();
   readonly orientation = new Quaternion();
 
-  /** Take a pose at once. */
+  /** Set the pose at once. */
   set(target: Transform): void {
     this.position.copy(target.position);
     this.orientation.copy(target.orientation);

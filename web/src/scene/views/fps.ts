@@ -11,7 +11,7 @@ const TURN = 0.005;
 const STEEPEST = Math.PI / 2 - 0.001;
 /** Metres per pixel of a drag, and of a step. */
 const MOVE = 0.01;
-/** Distance of what it looks at, where nothing else says so [m]. */
+/** Default distance of the focal point [m]. */
 const AHEAD = 5;
 /** Turns a camera that looks along −z with y up into one that looks along x with z up. */
 const LENS = new Quaternion().setFromEuler(new Euler(Math.PI / 2, 0, -Math.PI / 2, "ZYX"));

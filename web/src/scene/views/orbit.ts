@@ -45,7 +45,7 @@ export class Orbit extends View {
     camera.fov = (this.fieldOfView.value.peek() * 180) / Math.PI;
   }
 
-  /** Look from far away, so that nothing is behind the camera; the focal point is as large as with perspective. */
+  /** Place the camera far away, so that nothing is behind it; the scale at the focal point is that with perspective. */
   private placeFar(camera: OrthographicCamera, target: Transform, { width, height }: Picture): void {
     const distance = this.distance.value.peek();
     const away = Math.max(FAR_AWAY, 4 * distance);

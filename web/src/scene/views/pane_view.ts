@@ -22,7 +22,7 @@ const SMALLEST = 0.1;
 export class PaneView implements ViewPane {
   readonly view;
   readonly place: ReadonlySignal<PaneArea>;
-  /** The picture as the view is asked for it. */
+  /** Size and free area of the picture. */
   readonly size = computed<Picture>(() => {
     const { width, height } = this.pane.place.value.area;
     return { width, height, free: this.pane.free.value };

@@ -4,7 +4,7 @@ import { isMapping, type Yaml, type YamlMapping } from "../../rviz/properties";
 import { PANE_LAYOUTS, type PaneLayout } from "../panes/pane_layout";
 import type { Views } from "../view_controller";
 
-/** How the scene is split, which pane is active, and the view of each. */
+/** YAML of the split, the active pane, and the views of all panes. */
 export function savePanes({ layout, panes, active }: Pick<Views, "layout" | "panes" | "active">): YamlMapping {
   const shown = panes.value;
   return {
@@ -14,13 +14,13 @@ export function savePanes({ layout, panes, active }: Pick<Views, "layout" | "pan
   };
 }
 
-/** How the scene is split by what was saved; null: that is none. */
+/** Saved layout; null: not saved. */
 export function savedLayout(yaml: YamlMapping): PaneLayout | null {
   const layout = PANE_LAYOUTS.find((name) => name === yaml["Layout"]);
   return Array.isArray(yaml["Panes"]) ? (layout ?? null) : null;
 }
 
-/** Give the panes, once the scene is split, their views; returns faults. */
+/** Load the panes' views after the scene is split; returns faults. */
 export function loadPanes(views: Pick<Views, "panes" | "activate">, yaml: YamlMapping): readonly string[] {
   const saved = Array.isArray(yaml["Panes"]) ? (yaml["Panes"] as readonly Yaml[]) : [];
   const faults = views.panes.peek().flatMap((pane, index) => {

@@ -1,4 +1,4 @@
-/** What a simulated camera sees: its pose on its link and its field of view; nothing moves it but the link. */
+/** View through a simulated camera: its pose on its link and its field of view; only the link moves it. */
 
 import { PerspectiveCamera, type OrthographicCamera } from "three";
 
@@ -22,7 +22,7 @@ export class SensorCamera extends FrameAligned {
     new NumberProperty(FIELD_OF_VIEW, 1, { min: 0.001, max: WIDEST, unit: "rad" }),
   );
 
-  /** Whether a file's view, of rviz's class, was a camera's. */
+  /** True if a saved view was a camera's. */
   static isSavedIn(yaml: YamlMapping): boolean {
     return yaml["Class"] === "rviz/FrameAligned" && FIELD_OF_VIEW in yaml;
   }
@@ -58,7 +58,7 @@ export class SensorCamera extends FrameAligned {
     camera.fov = (Math.atan(picture.height / 2 / focal) * 360) / Math.PI;
   }
 
-  /** As a FrameAligned, which rviz has, with the properties by which it is a camera's again here. */
+  /** Save a FrameAligned, which rviz knows, with further properties from which the page restores the camera. */
   override save(): YamlMapping {
     const halfHeight =
       (Math.tan(this.horizontal.value.peek() / 2) * this.height.value.peek()) / this.width.value.peek();

@@ -8,7 +8,7 @@ import { XYOrbit } from "./xy_orbit";
 export class ThirdPersonFollower extends XYOrbit {
   override readonly className = "rviz/ThirdPersonFollower";
 
-  /** The target's place on the ground, turned by its yaw. */
+  /** Target's position on the ground, turned by its yaw. */
   protected override frameOf(target: Transform): Transform {
     const yaw = new Euler().setFromQuaternion(target.orientation, "ZYX").z;
     return {

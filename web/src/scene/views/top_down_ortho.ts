@@ -73,7 +73,7 @@ export class TopDownOrtho extends View {
     return side === "top" ? [{ property: this.angle, to: 0, kind: "angle" }] : null;
   }
 
-  /** The ground under the other's focal point, about as large. */
+  /** Look at the ground under the other view's focal point, at about the same scale. */
   override mimic(eye: Vector3, focus: Vector3, target: Transform): void {
     this.x.value.value = focus.x - target.position.x;
     this.y.value.value = focus.y - target.position.y;

@@ -52,26 +52,26 @@ export abstract class View implements ViewController {
 
   /** Set the camera's pose and lens; the target's pose is in the fixed frame. */
   abstract place(camera: PerspectiveCamera | OrthographicCamera, target: Transform, picture: Picture): void;
-  /** Turn by a drag [px]. */
+  /** Rotate by a drag [px]. */
   abstract rotate(dx: number, dy: number): void;
   /** Shift by a drag [px] that ends at a point of the picture. */
   abstract pan(dx: number, dy: number, picture: Picture): void;
-  /** Come nearer (factor < 1) or go away. */
+  /** Zoom in (factor < 1) or out. */
   abstract zoom(factor: number): void;
-  /** What a drag with Shift and the right button does: along z, where the view can. */
+  /** Shift along z by a drag with Shift and the right button, if the view can. */
   raise(_dy: number): void {
     // most views have only one way to zoom
   }
 
-  /** Motions after which a sphere of the fixed frame fills the free part; radius 0: only its centre is looked at. */
+  /** Motions after which a sphere of the fixed frame fills the free part; radius 0: its centre is centered. */
   abstract frame(centre: Vector3, radius: number, target: Transform, picture: Picture): Motion[];
-  /** Motions after which it looks from a side; null: this view cannot. */
+  /** Motions to a view from a side; null: unsupported by this view. */
   abstract lookFrom(side: SixSides): Motion[] | null;
-  /** Start where another view looks: a camera at `eye` that looks at `focus`, in the fixed frame. */
+  /** Start with another view's camera: at `eye`, looking at `focus`, in the fixed frame. */
   abstract mimic(eye: Vector3, focus: Vector3, target: Transform): void;
-  /** Point at which it looks, in the fixed frame. */
+  /** Focal point in the fixed frame. */
   abstract focus(target: Transform): Vector3;
-  /** The camera's place in the fixed frame; without perspective, one from which the picture is about the same. */
+  /** Camera's position in the fixed frame; without perspective, one with about the same picture. */
   abstract eye(target: Transform): Vector3;
   /** Motions that bring the target into the middle. */
   abstract centre(): Motion[];

@@ -1,4 +1,4 @@
-/** The views of the scene's panes, and the saved ones; what is asked of views is done by the active pane's. */
+/** Views of the scene's panes, and saved views; calls act on the active pane's view. */
 
 import { computed, signal, untracked, type ReadonlySignal } from "@preact/signals";
 import type { Box3, Vector3 } from "three";
@@ -18,13 +18,13 @@ import { SensorCamera } from "./sensor_camera";
 import type { View } from "./view";
 import { classOfView, copyOfView, createView, loadView, VIEW_CLASSES } from "./view_classes";
 
-/** From where further panes look first, without perspective. */
+/** First sides of further panes, which look without perspective. */
 const FURTHER: readonly SixSides[] = ["top", "front", "right"];
 
 /** Key of the panes among the views of a file. */
 const PANES = "Trundle Panes";
 
-/** What views need of the scene. */
+/** Part of the scene that views use. */
 export type ViewScene = Pick<ThreeScene, "panes" | "onTick" | "invalidate">;
 
 export class ViewList implements Views {
@@ -37,7 +37,7 @@ export class ViewList implements Views {
   private readonly known = new Map<Pane, PaneView>();
   /** Saved views of other classes, kept as they were. */
   private unknown: readonly YamlMapping[] = [];
-  /** True if the file has panes, which are as they are now. */
+  /** True if the file has panes, which have not changed since. */
   private hasPanes = false;
   private readonly stop: () => void;
 
@@ -154,7 +154,7 @@ export class ViewList implements Views {
     return untracked(() => panes.map((pane) => this.viewOf(pane)));
   }
 
-  /** The view of a pane, which begins when it is first shown. */
+  /** View of a pane, created when it is first shown. */
   private viewOf(pane: Pane): PaneView {
     const known = this.known.get(pane);
     if (known !== undefined) return known;
@@ -169,7 +169,7 @@ export class ViewList implements Views {
     return view;
   }
 
-  /** A view of what the active pane shows, from a side and without perspective. */
+  /** View of the active pane's focal point, from a side and without perspective. */
   private besides(side: SixSides): Orbit {
     const { view, target } = this.viewOf(this.scene.panes.active.peek());
     const shown = view.peek();

@@ -15,7 +15,7 @@ export class BodyPoses {
   private isKnown = new Uint8Array(0);
   private readonly objects: (Object3D | undefined)[] = [];
 
-  /** The object that stands where a body is. */
+  /** Attach the object that follows a body. */
   attach(body: number, object: Object3D): void {
     this.objects[body] = object;
     if (this.isKnown[body] === 1) this.place(body);
@@ -25,7 +25,7 @@ export class BodyPoses {
     return this.objects[body] ?? null;
   }
 
-  /** An object leaves the scene. */
+  /** Detach an object that leaves the scene. */
   detach(object: Object3D): void {
     const body = this.objects.indexOf(object);
     if (body >= 0) this.objects[body] = undefined;
@@ -44,7 +44,7 @@ export class BodyPoses {
     };
   }
 
-  /** Take a message and move what it says; false: it is of another generation of the world, or cut short. */
+  /** Apply a message's poses; false: it is of another generation of the world, or truncated. */
   apply(message: DataView, generation: number): boolean {
     if (message.byteLength < HEADER || message.getUint32(8, true) !== generation) return false;
     const count = message.getUint32(12, true);

@@ -2,7 +2,7 @@
 
 export const HEADER = 16;
 export const SIZE = 72;
-/** Most contacts that the server sends. */
+/** Largest number of contacts that the server sends. */
 export const MAX_CONTACTS = 2000;
 
 /** Number of contacts in a message; 0 where it is of another generation. */

@@ -1,10 +1,10 @@
-/** What happens once the simulated world can be seen. */
+/** Waits until the simulated world is visible. */
 
 import { effect } from "@preact/signals";
 
 import type { SimulatedWorld } from "../simulated_world";
 
-/** Call once when the files of the first manifest are there; returns how to stop waiting. */
+/** Call a function once when the files of the first manifest are loaded; returns a function that stops waiting. */
 export function whenSeen(world: SimulatedWorld, act: () => void): () => void {
   let isDone = false;
   return effect(() => {

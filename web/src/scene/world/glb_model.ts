@@ -33,7 +33,7 @@ export class SharedContents {
     return shared(this.textures, name, resource);
   }
 
-  /** Everything is dropped: another world. */
+  /** Dispose of all contents, for another world. */
   dispose(): void {
     for (const resource of [...this.geometries.values(), ...this.textures.values()]) resource.dispose();
     this.geometries.clear();
@@ -48,7 +48,7 @@ function shared<T>(known: Map<string, T>, name: unknown, resource: T): T {
   return cached;
 }
 
-/** How a model's visuals are drawn. */
+/** Drawing mode of a model's visuals. */
 export interface VisualMode {
   readonly visuals: boolean;
   readonly transparent: boolean;
@@ -66,7 +66,7 @@ export class GlbModel {
   readonly root = new Group();
   readonly bodies = new Map<number, Object3D>();
   private readonly materials = new Map<string, ShaderMaterial>();
-  /** Materials as they were read. */
+  /** Original materials. */
   private readonly plain = new Map<Object3D, { readonly mesh: Mesh; readonly material: ShaderMaterial }>();
 
   private constructor(
@@ -75,7 +75,7 @@ export class GlbModel {
     readonly animations: readonly AnimationClip[],
   ) {}
 
-  /** Read a file; `path`: where the files lie that it names. */
+  /** Read a file; `path`: folder of the files that it refers to. */
   static async read(
     data: ArrayBuffer,
     path: string,
@@ -93,7 +93,7 @@ export class GlbModel {
     return model;
   }
 
-  /** Draw the visuals of each body as its model's name asks for. */
+  /** Draw the visuals of each body in the mode of its model. */
   show(modeOf: (model: string) => VisualMode): void {
     for (const body of this.bodies.values()) {
       const mode = modeOf(modelOf(body));
@@ -176,7 +176,7 @@ export async function fetchBytes(
   for (;;) {
     const { done, value } = await reader.read();
     if (done) break;
-    if (at + value.length > total) throw new Error(`${url}: longer than the server said`);
+    if (at + value.length > total) throw new Error(`${url}: longer than the server announced`);
     bytes.set(value, at);
     at += value.length;
     onShare(at / total);

@@ -5,7 +5,7 @@ import type { JointState, JointStates } from "../simulated_world";
 const HEADER = 16;
 const SIZE = 24; // position, velocity and effort as float64
 
-/** States in the manifest's order; null: of another generation, or cut short. */
+/** States in the manifest's order; null: of another generation, or truncated. */
 export function readJoints(message: DataView, generation: number): JointStates | null {
   if (message.byteLength < HEADER || message.getUint32(8, true) !== generation) return null;
   const count = message.getUint32(12, true);

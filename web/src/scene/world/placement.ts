@@ -12,7 +12,7 @@ import type { FrameTree } from "../../frames/frame_tree";
 import { NoTransform, type Transform } from "../../frames/transform";
 import type { BodyPoses } from "./body_poses";
 
-/** Poses that are kept until tf has caught up. */
+/** Largest number of poses kept until tf has caught up. */
 const MAX_PAST = 64;
 /** Smaller changes are rounding [m]. */
 const STILL = 1e-4;
@@ -30,7 +30,7 @@ export class WorldPlacement {
     private readonly frames: FrameTree,
   ) {}
 
-  /** Poses have come: remember where the anchor was. */
+  /** Store the anchor's pose of new poses. */
   remember(manifest: Manifest): void {
     const anchor = manifest.frames.find(({ body }) => body === manifest.robot) ?? manifest.frames[0] ?? null;
     if (anchor?.frame !== this.anchor?.frame || anchor?.body !== this.anchor?.body) this.past.length = 0;

@@ -21,7 +21,7 @@ export interface SdfColors {
 
 const GREY: Rgba = [0.7, 0.7, 0.7, 1];
 
-/** The colors of a GLB's material; of one that is not ours, its base color. */
+/** Colors of a GLB's material; for materials without `extras.sdf`, the base color. */
 export function sdfColors(material: Material): SdfColors {
   const stored = material.userData["sdf"] as Partial<SdfColors> | undefined;
   const base =
@@ -31,7 +31,7 @@ export function sdfColors(material: Material): SdfColors {
   return { ambient: stored?.ambient ?? diffuse, diffuse, specular, emissive, shininess };
 }
 
-/** What a visual looks like; `isFlat`: its geometry has no normals. */
+/** Material of a visual; `isFlat`: its geometry has no normals. */
 export function sdfMaterial(
   colors: SdfColors,
   texture: Texture | null,
@@ -74,10 +74,10 @@ export function sdfMaterial(
   return material;
 }
 
-/** What is left of a visual's opacity where it is drawn transparent, as in Gazebo. */
+/** Ratio of a visual's opacity when it is drawn transparent, as in Gazebo. */
 const OPACITY = 0.5;
 
-/** The same look, half transparent or as its triangles' edges. */
+/** Variant of a material: half transparent, or wireframe. */
 export function sdfVariant(
   plain: ShaderMaterial,
   { transparent, wireframe }: { readonly transparent: boolean; readonly wireframe: boolean },

@@ -70,7 +70,7 @@ float transmittance() {
 }
 `;
 
-/** Share of a light that no caster holds back: lookups in its map, four texels each. */
+/** Ratio of a light that is not shadowed: lookups in its map, four texels each. */
 function shadowFactor(light: number, kind: LightKind): string {
   const shadow = `shadows[${light}]`;
   return `
@@ -104,7 +104,7 @@ function strength(light: string, kind: LightKind): string {
   ${kind === "spot" ? cone : ""}`;
 }
 
-/** Its names are written out, as a structure that is handed to a function is copied at each point where the CPU draws. */
+/** Shading of one light, with its fields' names written out, since the CPU would copy a structure at each pixel. */
 function shading(index: number, kind: LightKind, hasShadow: boolean): string {
   const light = `lights[${index}]`;
   return `

@@ -34,7 +34,7 @@ const FIRST_LAYER = 2;
 const MAX_OUTLINED = 15;
 /** [px] */
 const WIDTHS = [1, 2];
-/** What an outline needs around its object [device px]. */
+/** Margin of an outline around its object [device px]. */
 const MARGIN = 6;
 
 const VERTEX = /* glsl */ `
@@ -44,7 +44,7 @@ void main() {
   gl_Position = vec4(position.xy, 0.0, 1.0);
 }`;
 
-/** Red is what has a thin outline, green what has a broad one; an outline lies just outside. */
+/** Fragment shader: red pixels have a thin outline, green ones a broad outline, just outside. */
 const FRAGMENT = /* glsl */ `
 varying vec2 at;
 uniform sampler2D mask;
@@ -89,7 +89,7 @@ export class SelectionOutline {
   private readonly quad = new Scene();
   private readonly quadCamera = new OrthographicCamera();
   private readonly material: ShaderMaterial;
-  /** Where the picture is drawn now: x, y from below, width, height [device px]. */
+  /** Current viewport: x, y from below, width, height [device px]. */
   private readonly viewport = new Vector4();
   private readonly scissor = new Vector4();
   /** Rectangle of the viewport that holds the outlines being drawn: x, y from below, width, height [device px]. */
@@ -100,12 +100,12 @@ export class SelectionOutline {
   private readonly whole = new Box2();
   private readonly corner = new Vector3();
   private readonly at = new Vector2();
-  /** The element's style as it is now, whenever it is read. */
+  /** Live style of the element. */
   private readonly style: CSSStyleDeclaration;
   private marked: readonly Marked[] = [];
   private readonly stops: (() => void)[];
 
-  /** `outlined` is called again when a signal changes that it reads; the last outline lies on top. */
+  /** `outlined` is called again when a signal that it reads changes; the last outline lies on top. */
   constructor(
     private readonly scene: ThreeScene,
     world: SimulatedWorld,
@@ -201,7 +201,7 @@ export class SelectionOutline {
     }
   }
 
-  /** Draw what has outlines into the mask. */
+  /** Draw the outlined objects into the mask. */
   private drawMask(renderer: WebGLRenderer, camera: Camera, layer: number): void {
     const { bounds } = this;
     this.target.scissor.set(bounds.x - MARGIN, bounds.y - MARGIN, bounds.z + 2 * MARGIN, bounds.w + 2 * MARGIN);

@@ -19,7 +19,7 @@ import {
 
 /** Layer of the objects that cast shadows. */
 export const CASTERS = 1;
-/** Wanted width of a texel [m]. */
+/** Target width of a texel [m]. */
 const TEXEL = 0.005;
 const [MIN_SIZE, MAX_SIZE] = [512, 2048];
 const SPOT_SIZE = 1024;
@@ -51,7 +51,7 @@ export class ShadowMap {
     this.override.dispose();
   }
 
-  /** Draw what a directional light sees of the casters. */
+  /** Draw the casters as a directional light sees them. */
   drawDirectional(renderer: WebGLRenderer, scene: Scene, direction: Vector3, casters: readonly Mesh[]): void {
     const camera = this.orthographic;
     camera.position.set(0, 0, 0);
@@ -75,7 +75,7 @@ export class ShadowMap {
     this.draw(renderer, scene, camera, size, texel);
   }
 
-  /** Draw what a spot light sees; `angle`: its whole cone [rad]. */
+  /** Draw the casters as a spot light sees them; `angle`: its whole cone [rad]. */
   drawSpot(
     renderer: WebGLRenderer,
     scene: Scene,

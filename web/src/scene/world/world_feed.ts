@@ -199,7 +199,7 @@ export class WorldFeed implements SimulatedWorld {
     this.scene.invalidate();
   }
 
-  /** Show of each model its visuals and collisions as wanted. */
+  /** Show the visuals and collisions of each model by its shown parts. */
   private showParts(): void {
     const { shown } = this;
     for (const model of this.files.models) {

@@ -30,12 +30,12 @@ export class WorldFiles {
     private readonly onChange: (added: GlbModel | null, removed: GlbModel | null) => void,
   ) {}
 
-  /** Models that are there. */
+  /** Loaded models. */
   get models(): readonly GlbModel[] {
     return [...this.entries.values()].flatMap(({ model }) => model ?? []);
   }
 
-  /** Show these files and no others; a file is known by its name and address. */
+  /** Show exactly these files; a file is identified by its id and address. */
   show(files: Manifest["files"]): void {
     const current = new Map(files.map((file) => [`${file.id} ${file.url}`, file]));
     for (const key of [...this.entries.keys()]) if (!current.has(key)) this.drop(key);
@@ -53,7 +53,7 @@ export class WorldFiles {
     this.fetchNext();
   }
 
-  /** A file that is read now; `share`: of it has arrived. */
+  /** Read a file; `onShare` gets the ratio that has arrived. */
   async read(url: string, onShare: (share: number) => void, abort: AbortSignal): Promise<GlbModel> {
     const address = new URL(url, document.baseURI).href;
     const data = await fetchBytes(address, onShare, abort);
@@ -95,7 +95,7 @@ export class WorldFiles {
     }
   }
 
-  /** Say that something is not shown, and why. */
+  /** Report that something is not shown, and why. */
   fault(title: string, error: unknown): void {
     const reason = error instanceof Error ? error.message : String(error);
     this.faults.value = [...this.faults.peek(), `${title} is not shown: ${reason}`];

@@ -79,7 +79,7 @@ export class WorldLighting {
     this.setLights([]);
   }
 
-  /** Light a material from now on. */
+  /** Register a material to be lit. */
   light(material: ShaderMaterial): void {
     Object.assign(material.uniforms, this.uniforms);
     material.fragmentShader = this.shader;
@@ -102,7 +102,7 @@ export class WorldLighting {
     });
   }
 
-  /** Take what is in the world: its lights and what casts shadows. */
+  /** Set the lights and shadow casters from the objects of the world. */
   setContents(root: Object3D, hasShadows: boolean): void {
     const objects: Light[] = [];
     this.casters = [];
@@ -113,12 +113,12 @@ export class WorldLighting {
     this.setLights(objects, hasShadows);
   }
 
-  /** Something moved: shadows are drawn again. */
+  /** Draw shadows again, since something moved. */
   invalidate(): void {
     this.areShadowsStale = true;
   }
 
-  /** Bring lights and shadows up to date before a picture. */
+  /** Update lights and shadows before a picture. */
   update(renderer: WebGLRenderer, scene: Scene): void {
     scene.updateMatrixWorld();
     for (const light of this.lights) this.place(light);

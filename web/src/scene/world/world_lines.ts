@@ -29,7 +29,7 @@ interface ReadLine {
   readonly points: Float32Array;
 }
 
-/** Lines of a message; null: it is cut short. */
+/** Lines of a message; null: truncated. */
 export function readLines(message: DataView): ReadLine[] | null {
   const lines: ReadLine[] = [];
   const decoder = new TextDecoder();
@@ -65,7 +65,7 @@ export class WorldLines extends Group {
     this.userData[NOT_PICKED] = true;
   }
 
-  /** Show the lines of a message instead of those before. */
+  /** Replace the lines by those of a message. */
   show(lines: readonly ReadLine[]): void {
     const gone = new Set(this.drawn.keys());
     for (const line of lines) {
@@ -111,7 +111,7 @@ function create(kind: number): Drawn {
   return kind === STRIP ? new Line(geometry, material) : new LineSegments(geometry, material);
 }
 
-/** Set points in the buffer that is there, if they fit. */
+/** Write points into the existing buffer, if they fit. */
 function setPoints(geometry: BufferGeometry, points: Float32Array): void {
   const old = geometry.hasAttribute("position") ? geometry.getAttribute("position") : null;
   if (old instanceof BufferAttribute && old.array.length >= points.length) {
