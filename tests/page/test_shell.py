@@ -120,7 +120,7 @@ def test_closing_the_tab_during_a_drag_of_the_disc_stops_the_robot(open_page: Op
 
 def test_keys_in_a_focused_field_do_not_drive(open_page: Open, robot: Robot) -> None:
     tab = open_page()
-    tab.get_by_role("textbox", name="Greatest speed").click()
+    tab.get_by_role("textbox", name="Largest speed").click()
     tab.keyboard.press("w")
     tab.wait_for_timeout(300)
 
@@ -168,7 +168,7 @@ def test_every_key_in_the_help_works(open_page: Open) -> None:
     tab = open_page()
     tab.keyboard.press("?")
     help_ = tab.get_by_role("dialog", name="Keys")
-    for text in ("Frame what is selected", "2D Nav Goal", "W A S D"):
+    for text in ("Frame the selection", "2D Nav Goal", "W A S D"):
         help_.get_by_text(text, exact=True).wait_for()
     tab.keyboard.press("Escape")
     help_.wait_for(state="detached")

@@ -47,7 +47,7 @@ def _link(user: WorldUser, kind: str) -> str:
 
 
 def test_ten_users_see_all_selections_and_a_view_only_one_changes_nothing(user: WorldUser) -> None:
-    control, look = _link(user, "Look and control"), _link(user, "Look only")
+    control, look = _link(user, "View and control"), _link(user, "Look only")
     with ExitStack() as stack:
         others = [stack.enter_context(ProtocolClient(url)) for url in (*[control] * 8, look)]
         for other, model in zip(others, MODELS, strict=True):

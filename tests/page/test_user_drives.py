@@ -77,7 +77,7 @@ def _push(user: PanelUser, x: float, y: float) -> None:
 @pytest.mark.slow
 def test_a_gamepad_drives_within_the_limits_and_stops(graph: Graph, robot: Robot, user: PanelUser) -> None:
     """A stick that was never at rest does not drive; releasing or unplugging it stops."""
-    user.page.get_by_role("textbox", name="Greatest speed").fill("0.8")
+    user.page.get_by_role("textbox", name="Largest speed").fill("0.8")
     user.page.keyboard.press("Enter")
     user.page.locator(".disc").focus()
     user.page.evaluate(

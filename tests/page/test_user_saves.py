@@ -117,7 +117,7 @@ def test_an_existing_file_is_replaced_only_after_confirmation(user: SceneUser, t
     user.page.get_by_role("alert").get_by_text("below the folder where Trundle was started").wait_for()
     name.fill("mine")
     name.press("Enter")
-    user.page.get_by_text("mine.rviz is there already. Replace it?").wait_for()
+    user.page.get_by_text("mine.rviz exists already. Replace it?").wait_for()
     name.press("Enter")
     user.page.wait_for_timeout(300)
     assert file.read_text() == MINE

@@ -103,7 +103,7 @@ def test_files_are_replaced_only_after_confirmation(user: PanelUser, folder: Pat
     dialog.get_by_role("alert").get_by_text("below the folder where Trundle was started").wait_for()
     dialog.get_by_label("File").fill("yard.sdf")
     dialog.get_by_label("File").press("Enter")
-    dialog.get_by_text("yard.sdf is there already. Replace it?").wait_for()
+    dialog.get_by_text("yard.sdf exists already. Replace it?").wait_for()
     assert (folder / "yard.sdf").read_text() == WORLD
     dialog.get_by_label("File").press("Enter")  # replaces nothing
     dialog.get_by_role("button", name="Replace").click()

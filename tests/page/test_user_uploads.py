@@ -201,7 +201,7 @@ def test_the_world_is_saved_with_uploads_and_confirms_replacements(user: WorldUs
     dialog = _save_dialog(user)
     dialog.get_by_label("File").fill("worlds/mine.sdf")
     dialog.get_by_role("button", name="Save", exact=True).click()
-    dialog.get_by_text("worlds/wagon/model.sdf is there already. Replace it?").wait_for()
+    dialog.get_by_text("worlds/wagon/model.sdf exists already. Replace it?").wait_for()
     assert theirs.read_text() == "precious"
     assert not (folder / "worlds" / "mine.sdf").exists()
     dialog.get_by_role("button", name="Replace").click()

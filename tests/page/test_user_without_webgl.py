@@ -134,7 +134,7 @@ def test_commands_of_the_3d_view_are_not_offered(user: Onlooker) -> None:
     for words, count in [
         ("Play or pause", 1),
         ("Show or hide the cameras", 1),
-        ("Frame what is selected", 0),
+        ("Frame the selection", 0),
         ("Look from top", 0),
         ("Show or hide collisions", 0),
         ("Two views, stacked", 0),

@@ -115,18 +115,14 @@ function SimulationControls({ shell }: { readonly shell: Shell }): JSX.Element {
 
 function LookingOnly({ isShort }: { readonly isShort: boolean }): JSX.Element {
   return (
-    <span
-      class="looking"
-      data-tip={`${LOOKS_ONLY} Time, robots, topics and the world are changed by others.`}
-      tabIndex={0}
-    >
+    <span class="looking" data-tip={`${LOOKS_ONLY} Others control time, robots, topics and the world.`} tabIndex={0}>
       <Icon name="eye" />
       {isShort ? "Look" : "Looking only"}
     </span>
   );
 }
 
-/** How many people are at the page, where there are several; the menu says who. */
+/** Number of people at the page, if there are several; the menu lists them. */
 function PeopleHere({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const { you, people } = shell.page.people.value;
   if (people.length < 2) return null;
@@ -224,7 +220,7 @@ function Corner({ shell }: { readonly shell: Shell }): JSX.Element {
   );
 }
 
-/** The phone's menu of what the bar has no room for. */
+/** Phone menu with the controls that do not fit into the bar. */
 function More({ shell }: { readonly shell: Shell }): JSX.Element {
   const { commands, page } = shell;
   const items = (): readonly MenuItem[] => {

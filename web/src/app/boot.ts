@@ -132,7 +132,7 @@ export function boot(root: HTMLElement, json: string): void {
   startView(shell);
 }
 
-/** The page's address without its token, which a cookie holds from now on; a page that only looks goes on to say so. */
+/** Page address without its token, which a cookie holds from now on; a view-only page keeps its mark. */
 function cleanAddress(address: string, viewOnly: boolean): string {
   const url = new URL(address);
   url.searchParams.delete("token");

@@ -33,12 +33,12 @@ export function Clock({ shell }: { readonly shell: Shell }): JSX.Element {
   );
 }
 
-/** The factor is slow when the world falls behind the speed that is asked for. */
+/** Real-time factor; slow when the world falls behind the requested speed. */
 function Factor({ factor, speed }: { readonly factor: number | null; readonly speed: number | null }): JSX.Element {
   const slow = factor !== null && factor < SLOW * Math.min(1, speed ?? 1);
   return (
     <span class={slow ? "read rtf slow" : "read rtf"}>
-      {slow && <StatusShape level="warn" label="Slower than asked for" />}
+      {slow && <StatusShape level="warn" label="Slower than the requested speed" />}
       <b>{factor === null ? "—" : `${fixed(factor, 2)}×`}</b>
       <span class="of">real time</span>
     </span>

@@ -15,7 +15,7 @@ export class CommandList implements Commands {
     };
   }
 
-  /** Run the command of these keys; false: there is none that can run now. */
+  /** Run the command of these keys; false: no command with these keys can run now. */
   press(keys: string): boolean {
     const command = this.all.peek().find((command) => command.keys === keys && (command.enabled?.() ?? true));
     command?.run();
@@ -36,7 +36,7 @@ export function keysOf(
 
 const MOVES_A_SLIDER = /^(Arrow|Page|Home|End)/;
 
-/** True where keys belong to what has the focus: a field, a list, a menu, a control that takes the key. */
+/** True if the focused element takes the key: a field, a list, a menu, a control. */
 export function takesKeys(target: EventTarget | null, key: string): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement)
@@ -47,7 +47,7 @@ export function takesKeys(target: EventTarget | null, key: string): boolean {
   return (key === " " || key === "Enter") && target.closest("button, a, [role=treeitem], [role=tab]") !== null;
 }
 
-/** Run commands by their keys; returns how to stop. Space is a button's only if the keyboard went there, not the mouse. */
+/** Run commands by keys until the returned function is called; Space presses a button only if the keyboard focused it. */
 export function listenForKeys(commands: CommandList): () => void {
   const events = new AbortController();
   const options = { signal: events.signal };

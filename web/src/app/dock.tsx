@@ -20,10 +20,10 @@ import type { Page } from "../page/page";
 import { forEachNew } from "../page/session";
 import { recall, remember } from "../page/storage";
 
-/** Panels that are open at first, in this order. */
+/** Panels that are open by default, in this order. */
 const FIRST = ["plots", "topics", "log", "graph", "timeline"] as const;
 
-/** Panel in front at first. */
+/** Panel that is in front by default. */
 const FRONT: Readonly<Record<PageSession["kind"], string>> = {
   simulation: "plots",
   graph: "topics",
@@ -43,7 +43,7 @@ export class Dock {
     this.byId = new Map(panels.map((panel) => [panel.id, panel]));
   }
 
-  /** Fill an element; returns how to empty it. */
+  /** Fill an element; returns a function that empties it. */
   mount(element: HTMLElement): () => void {
     const api = createDockview(element, {
       disableFloatingGroups: true,
@@ -74,7 +74,7 @@ export class Dock {
     };
   }
 
-  /** Bring a panel to the front, opening it where it is not yet. */
+  /** Bring a panel to the front; opens it if it is closed. */
   show(id: string): void {
     this.layout.dockOpen.value = true;
     if (this.api !== null) this.add(this.api, id);
@@ -114,7 +114,7 @@ export class Dock {
     }
   }
 
-  /** Show the panels that take a program's place. */
+  /** Show the panels that replace a ROS program. */
   private showProgram(api: DockviewApi, program: string): void {
     for (const panel of this.byId.values()) if (panel.programs.includes(program)) this.add(api, panel.id);
   }

@@ -8,11 +8,11 @@ import type { Layout } from "./layout";
 import type { Page } from "../page/page";
 
 export class DockSlot {
-  /** Panels that there are; none before they are loaded. */
+  /** Available panels; empty before they are loaded. */
   readonly panels = signal<readonly Panel[]>([]);
-  /** Null before it is loaded. */
+  /** Dock; null before it is loaded. */
   readonly dock = signal<Dock | null>(null);
-  /** A panel that was asked for before. */
+  /** Panel that was requested before the dock was loaded. */
   private pendingPanel: string | null = null;
 
   constructor(
@@ -28,7 +28,7 @@ export class DockSlot {
     this.panels.value = panels;
   }
 
-  /** Fill an element with the dock that is loaded; returns how to empty it. */
+  /** Fill an element with the loaded dock; returns a function that empties it. */
   mount(dock: Dock, element: HTMLElement): () => void {
     const unmount = dock.mount(element);
     if (this.pendingPanel !== null) dock.show(this.pendingPanel);
@@ -36,7 +36,7 @@ export class DockSlot {
     return unmount;
   }
 
-  /** Bring a panel to the front, opening it where it is not yet. */
+  /** Bring a panel to the front; opens it if it is closed. */
   open(id: string): void {
     this.layout.dockOpen.value = true;
     if (this.layout.isPhone.peek()) this.layout.openSheet(id);

@@ -1,9 +1,9 @@
-/** The first picture that a person waits for: what is not in it comes after it. */
+/** The first picture that a person waits for; everything else loads after it. */
 
 import { whenSeen } from "../scene/world/first_sight";
 import type { Page } from "../page/page";
 
-/** Longest wait for it [ms]: a world may be long on its way. */
+/** Longest wait for it [ms]: a large world takes longer to load. */
 const PATIENCE = 2000;
 
 /** Wait until the simulated world is drawn, or, where there is none, the scene. */

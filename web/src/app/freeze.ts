@@ -5,11 +5,11 @@ import { effect, type ReadonlySignal } from "@preact/signals";
 import type { Connection, Received, Subscription } from "../protocol/connection";
 import type { RosMessage } from "../protocol/ros_types";
 
-/** Held messages of one subscription; of streams only the newest few are of use. */
+/** Longest buffer of one subscription [messages]; of streams only the newest few are useful. */
 const MAX_BUFFERED = 20;
 const MAX_BUFFERED_EVERY = 5000;
 
-/** The same connection, whose time stands and whose messages wait while `frozen`. */
+/** Connection whose time stops and whose messages are buffered while `frozen`. */
 export function freezable(connection: Connection, frozen: ReadonlySignal<boolean>): Connection {
   let stoppedAt: bigint | null = null;
   effect(() => {

@@ -1,4 +1,4 @@
-/** Which panels are open and how wide: remembered, and fitted to the window. */
+/** Open panels and their widths: remembered, and fitted to the window. */
 
 import { computed, effect, signal, type Signal } from "@preact/signals";
 
@@ -18,11 +18,11 @@ const GAPS = 32; // left and right of each side panel
 /** Widths of a side panel [px]. */
 export const SIDE = { min: 240, max: 288 };
 const DOCK = { min: 120, rail: 32 };
-/** Heights of what lies at the foot of the scene, with its gap: the tiles' pictures are 4 : 3. */
+/** Heights of the overlays at the foot of the scene, with their gap: the tiles' pictures are 4 : 3. */
 const FOOT = { tiles: 166, drive: 138, phoneDrive: 160 };
 /** On a phone the notice and the tile below it lie at the head. */
 const HEAD = { gap: 8, phoneTile: 196 };
-/** Least height that is left to the scene [px]. */
+/** Smallest height of the scene [px]. */
 const MIN_SCENE_HEIGHT = 240;
 
 /** Widths [px] of the side panels that are open; null: a rail. Together at most 40 % of the window. */
@@ -36,7 +36,7 @@ export function sideWidths(window: number, left: number | null, right: number | 
   return second < SIDE.min ? [clamp(left), RAIL] : [first, second];
 }
 
-/** A panel at one side: which of its pages it shows, whether it is open, and its width [px]. */
+/** Side panel: its current page, whether it is open, and its width [px]. */
 class Side {
   readonly page: Signal<SidePage>;
   readonly isOpen: Signal<boolean>;
@@ -122,12 +122,12 @@ export class Layout {
     return () => removeEventListener("resize", resize);
   }
 
-  /** What the phone's sheet covers, and the disc above it; a sheet that is full hides the scene. */
+  /** Height of the phone's sheet and the disc above it [px]; a full sheet hides the scene. */
   private phoneFoot(drive: boolean): number {
     return this.sheetHeight.value === "closed" ? 72 + (drive ? FOOT.phoneDrive : 0) : this.height.value / 2;
   }
 
-  /** Edges of the scene that panels and what lies on it cover [px]; it begins below the bar. */
+  /** Edges of the scene that panels and overlays cover [px]; the scene begins below the bar. */
   insets({ tiles, drive }: { readonly tiles: boolean; readonly drive: boolean }): Insets {
     const [left, right] = this.sides.value;
     if (this.isPhone.value)

@@ -36,7 +36,7 @@ import { viewMenuCommands } from "./views/view_menu";
 
 export interface Parts {
   readonly page: Page;
-  /** Panels of the dock, when they are wanted. */
+  /** Panels of the dock, once they are loaded. */
   readonly panels: Promise<readonly Panel[]>;
   readonly commands: CommandList;
   /** Element that holds the scene's canvas. */

@@ -17,7 +17,7 @@ function command(id: string, group: Command["group"], title: string, run: () => 
   return keys === undefined ? { id, group, title, run } : { id, group, title, run, keys };
 }
 
-/** Commands of the panels that are there. */
+/** Commands that open the available panels. */
 export function panelCommands({ dock }: Shell): readonly Command[] {
   return dock.panels
     .peek()
@@ -28,10 +28,10 @@ export function panelCommands({ dock }: Shell): readonly Command[] {
 export function viewCommands({ page, dialog, videos }: Shell): readonly Command[] {
   const { views } = page;
   return [
-    command("frame", "View", "Frame what is selected", () => frameSelection(page, page.selection.peek()), "F"),
-    command("follow", "View", "Follow what is selected, or stop", () => toggleFollowing(page), "Shift F"),
+    command("frame", "View", "Frame the selection", () => frameSelection(page, page.selection.peek()), "F"),
+    command("follow", "View", "Follow the selection, or stop", () => toggleFollowing(page), "Shift F"),
     command("projection", "View", "Perspective or orthographic", () => views.toggleProjection()),
-    command("first_person", "View", "First person from what is selected, or the robot", () => toggleFirstPerson(page)),
+    command("first_person", "View", "First person from the selection, or the robot", () => toggleFirstPerson(page)),
     command("picture", "View", "Save a picture of the view", () => (dialog.value = "picture")),
     command("video", "View", "Record a video of the view, or stop", () => videos.toggleView()),
     ...SIDES.map((side) =>
@@ -49,7 +49,7 @@ export function pageCommands(shell: Shell): readonly Command[] {
     open.value = !open.peek();
   };
   return [
-    command("deselect", "View", "Select nothing, shut large pictures", () => leave(shell), "Escape"),
+    command("deselect", "View", "Clear the selection, close large pictures", () => leave(shell), "Escape"),
     command("cameras", "View", "Show or hide the cameras", toggle(shell.showsCameras)),
     command("link", "View", "Link to this view", () => (dialog.value = "link")),
     ...[...sidePages(shell, "left"), ...sidePages(shell, "right")].map(({ id, title }) =>
@@ -75,13 +75,13 @@ export function pageCommands(shell: Shell): readonly Command[] {
     command("download_rviz", "Displays", "Download as .rviz", () => download(shell)),
     command("reset_displays", "Displays", "Reset all displays", () => page.displays.reset()),
     command("theme", "Page", "Light or dark theme", () => switchTheme(page.theme)),
-    command("notices", "Page", "List what is missing", () => (dialog.value = "notices")),
+    command("notices", "Page", "List the faults", () => (dialog.value = "notices")),
     command("palette", "Page", "Search commands", () => (dialog.value = "palette"), "Ctrl K"),
     command("help", "Page", "Keys", () => (dialog.value = "help"), "?"),
   ];
 }
 
-/** Shut what is enlarged; else select nothing. */
+/** Close enlarged cameras; with none, clear the selection. */
 function leave({ page, enlarged }: Shell): void {
   if (enlarged.peek().size > 0) enlarged.value = new Set();
   else page.selection.value = null;

@@ -1,4 +1,4 @@
-/** What the others have selected, in the scene: an outline in their color, and their name. */
+/** Selections of other people in the scene: an outline in their color, and their name. */
 
 import { effect, untracked } from "@preact/signals";
 
@@ -14,7 +14,7 @@ export function othersOutlines(page: Page): readonly Outlined[] {
     .filter(({ thin }) => thin.length > 0);
 }
 
-/** Keep each name at what its person has selected. */
+/** Keep each person's name at their selection. */
 export function labelOthers(page: Page): void {
   effect(() => {
     page.world.progress.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- of models that come, too

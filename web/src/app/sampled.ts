@@ -1,10 +1,10 @@
-/** Values that are read again while they are shown. */
+/** Values that are polled while they are shown. */
 
 import { useEffect, useState } from "preact/hooks";
 
 const REFRESH = 100; // ms
 
-/** A value that is read again ten times a second. */
+/** Value that is polled ten times a second. */
 export function useSampled<T>(read: () => T): T {
   const [, refresh] = useState(0);
   useEffect(() => {

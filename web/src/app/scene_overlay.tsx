@@ -1,4 +1,4 @@
-/** What acts on the scene lies in its free part. */
+/** Overlays of the scene's free part: tools, notices, camera tiles, drive. */
 
 import type { JSX } from "preact";
 

@@ -1,4 +1,4 @@
-/** What the page's own components work with: the page, and where its parts are. */
+/** State that the page's components share: the page, and its open parts. */
 
 import { computed, effect, signal, type Signal } from "@preact/signals";
 
@@ -31,20 +31,20 @@ export class Shell {
   readonly notices: Notices;
   readonly dock: DockSlot;
   readonly dialog = signal<OpenDialog>(null);
-  /** How the scene is split where there is room. */
+  /** Split of the scene on wide pages. */
   readonly split: Signal<PaneLayout>;
-  /** The menu of a thing in scene or tree; null: none is open. */
+  /** Open menu of an object in the scene or tree; null: none. */
   readonly menu = signal<OpenMenu | null>(null);
-  /** Name of the model that Paste puts into the world once more. */
+  /** Name of the model that Paste copies. */
   readonly copied = signal<string | null>(null);
-  /** The link whose form of a force is to take the focus; null once it has it. */
+  /** Link whose force form is to take the focus; null once it has the focus. */
   readonly wrench = signal<{ readonly model: string; readonly link: string } | null>(null);
   /** The display that is selected in its panel. */
   readonly display = signal<Display | null>(null);
-  /** The .rviz file that took the place of the session's: opened or saved by the person; null: none did. */
+  /** The .rviz file that the person opened or saved in place of the session's; null: none. */
   readonly openedFile = signal<RvizFileInfo | null>(null);
   readonly showsCameras = signal(recall("cameras", true, isBoolean));
-  /** False: the browser has no WebGL, and what acts on the 3D view is not offered. */
+  /** False: the browser has no WebGL, and controls of the 3D view are not offered. */
   readonly isDrawn = computed(() => this.page.scene.status.value.kind !== "unsupported");
   /** Name of the robot: the session's, else that of the robot description. */
   readonly robot = computed(() => {
@@ -58,13 +58,13 @@ export class Shell {
     const { session, world, displays } = this.page;
     return this.showsCameras.value ? cameraTopics(session, world.manifest.value, displays.displays.value) : [];
   });
-  /** Edges of the scene that panels, tiles and the disc cover [px]; the camera looks into the middle of the rest. */
+  /** Edges of the scene that panels, tiles and the disc cover [px]; the view is centered in the rest. */
   readonly insets = computed(() =>
     this.layout.insets({ tiles: this.cameras.value.length > 0, drive: this.page.drive.topic.value !== null }),
   );
-  /** Topics of cameras that are shown large. */
+  /** Topics of enlarged cameras. */
   readonly enlarged = signal<ReadonlySet<string>>(new Set());
-  /** Rows of the Displays page that were opened or closed. */
+  /** Open state of rows of the Displays page. */
   readonly openDisplays = signal<ReadonlyMap<string, boolean>>(new Map());
 
   readonly insertion: Insertion;
@@ -89,7 +89,7 @@ export class Shell {
     effect(() => remember("cameras", this.showsCameras.value));
   }
 
-  /** Ask what started the page to do something; a refusal becomes a notice. */
+  /** Send a request to the server; a refusal becomes a notice. */
   request<N extends RequestName>(title: string, name: N, fields: Fields<N>): void {
     this.page.connection.request(name, fields).catch((error: unknown) => {
       this.notices.report(title, error instanceof Error ? error.message : String(error));

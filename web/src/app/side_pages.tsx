@@ -1,4 +1,4 @@
-/** Pages of the side panels: at the left is what there is, at the right what is selected, the views and the tools. */
+/** Pages of the side panels: the world and displays at the left; the selection, views and tools at the right. */
 
 import type { ComponentType } from "preact";
 
@@ -35,7 +35,7 @@ const SIDE_PAGES: Readonly<Record<SideName, readonly SidePageInfo[]>> = {
   ],
 };
 
-/** Pages of a side panel here. */
+/** Pages of a side panel in this session. */
 export function sidePages(shell: Shell, side: SideName): readonly SidePageInfo[] {
   return SIDE_PAGES[side].filter(({ edits }) => edits !== true || canEdit(shell));
 }

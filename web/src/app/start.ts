@@ -1,4 +1,4 @@
-/** What a page shows first: displays of the session's file or its kind's own, and the robot in the middle. */
+/** First look of a page: displays of the session's file or its kind's defaults, and the robot in the middle. */
 
 import { computed, effect, untracked } from "@preact/signals";
 import { Box3, Sphere } from "three";
@@ -11,9 +11,9 @@ import { bodiesOf } from "../page/world_nodes";
 
 /** Wall seconds in which more of a robot may appear. */
 const SETTLING = 3;
-/** Marker Scale of a robot's frames by its radius [1/m]: axes as long as a sixth of it. */
+/** Marker Scale of a robot's frames per radius [1/m]: axes are a sixth of the radius long. */
 const AXES_SHARE = 0.8;
-/** From where a robot is seen first, before its right side as a person stands [rad]. */
+/** First view of a robot: from the front right, at a standing person's height [rad]. */
 const FIRST_LOOK: Readonly<Record<string, number>> = { Yaw: -1.05, Pitch: 0.4 };
 /** The scene's own background, by theme: --scene. */
 const BACKGROUNDS: Readonly<Record<"dark" | "light", Rgb>> = { dark: [22, 25, 28], light: [207, 211, 214] };
@@ -48,7 +48,7 @@ export function startDisplays(shell: Shell): void {
   });
 }
 
-/** Take the file and the fixed frame that the session asks for later, unless a person has changed what is shown. */
+/** Follow later changes of the session's file and fixed frame, unless a person has changed the displays. */
 function followSession({ page, notices, openedFile }: Shell): void {
   let shown = page.session;
   effect(() => {
@@ -80,7 +80,7 @@ function loadTf({ page }: Shell, name: string, yaml: Yaml): void {
   tf?.properties.find((property) => property.name === name)?.load(yaml);
 }
 
-/** Of a simulated world's frames, those of the robot are shown, and the robot is selected. */
+/** Show only the robot's frames of a simulated world, and select the robot. */
 function showRobotsFrames(shell: Shell): void {
   const { page } = shell;
   const stop = page.world.manifest.subscribe((manifest) => {
@@ -95,7 +95,7 @@ function showRobotsFrames(shell: Shell): void {
   });
 }
 
-/** Show the robot once there is a description of one. */
+/** Show the robot once its description is published. */
 function showRobot({ page }: Shell): void {
   const { connection, displays } = page;
   const described = computed(() => connection.parameters.value.has("/robot_description"));
@@ -107,7 +107,7 @@ function showRobot({ page }: Shell): void {
   });
 }
 
-/** Show the view of the page's address, now and whenever another is opened; true: there is one. */
+/** Show the view of the page's address, now and whenever it changes; true: the address has one. */
 function showLinked(shell: Shell): boolean {
   const show = (): boolean => {
     const linked = linkedView(location.hash);
@@ -118,7 +118,7 @@ function showLinked(shell: Shell): boolean {
   return show();
 }
 
-/** Frame the robot once it is there, unless a file says where to look from or a person has begun to look around. */
+/** Frame the robot once it appears, unless a file has a view or a person has moved the camera. */
 export function startView(shell: Shell): void {
   const { page } = shell;
   const { session, world, scene, views } = page;

@@ -1,4 +1,4 @@
-/** Light or dark: what was chosen here, else what the browser prefers. */
+/** Light or dark theme: the choice made here, otherwise the browser's preference. */
 
 import { effect, signal, type Signal } from "@preact/signals";
 

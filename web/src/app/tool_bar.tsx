@@ -1,4 +1,4 @@
-/** The tools: icons in a simulation, rviz's names in a ROS graph. One is on. */
+/** The tool bar: icons in a simulation, rviz's names in a ROS graph. */
 
 import type { JSX } from "preact";
 
@@ -12,7 +12,7 @@ import type { Shell } from "./shell";
 /** rviz's names, shortened where the icon says the rest. */
 const SHORT: Readonly<Record<string, string>> = { "Move Camera": "Move camera", "Focus Camera": "Focus" };
 
-/** Tools that need no hint: what they do is what a person tries first. */
+/** Tools without a hint: their use is what a person tries first. */
 const MOVES_THE_VIEW = ["rviz/Interact", "rviz/MoveCamera"];
 
 export function ToolBar({ shell }: { readonly shell: Shell }): JSX.Element {
@@ -55,7 +55,7 @@ function offeredTools({ page }: Shell): readonly Tool[] {
   return page.tools.tools.filter(({ acts }) => !acts || canControl(page));
 }
 
-/** rviz's letter, with Shift where the letter drives the robot. */
+/** rviz's key, with Shift if the key drives the robot. */
 function keyOf(shell: Shell, shortcut: string): string {
   const letter = shortcut.toUpperCase();
   return shell.page.drive.topic.value !== null && "WASD".includes(letter) ? `Shift ${letter}` : letter;

@@ -1,4 +1,4 @@
-/** Edits that can be taken back, newest last. */
+/** Edits that can be undone, newest last. */
 
 import { computed, signal, type ReadonlySignal } from "@preact/signals";
 
@@ -17,7 +17,7 @@ export class UndoHistory implements PageUndo {
   private readonly undone = signal<readonly Edit[]>([]);
   private readonly others = signal<ReadonlySignal<DeferredUndo | null> | null>(null);
   private readonly other = computed(() => this.others.value?.value ?? null);
-  /** Edits that were asked for and are not recorded yet. */
+  /** Edits in progress, which are not recorded yet. */
   private readonly pending = new Set<Promise<unknown>>();
   readonly undoTitle = computed(() =>
     this.other.value === null ? (this.done.value.at(-1)?.title ?? null) : this.other.value.undoTitle,
@@ -40,7 +40,7 @@ export class UndoHistory implements PageUndo {
     this.undone.value = [];
   }
 
-  /** Record something once it is done; what is taken back or done again meanwhile waits for it. */
+  /** Record an edit when it is done; undo and redo wait for it meanwhile. */
   ask<T>(edit: Promise<T>): Promise<T> {
     const pending = edit.finally(() => this.pending.delete(pending));
     this.pending.add(pending);

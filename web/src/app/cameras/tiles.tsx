@@ -125,13 +125,13 @@ function VideoButton({
   );
 }
 
-/** The worst of what a display says about its picture. */
+/** Most severe fault of a display's picture. */
 function displayFault(display: PictureDisplay): string | null {
   const fault = [...display.statuses.value.values()].find(({ level }) => level === "error");
   return fault?.text ?? null;
 }
 
-/** Pictures of a topic while there is one to read, with rests between them [ms]; 0: all of them. The last one stays till the next. */
+/** Pictures of a topic with pauses between them [ms]; 0: all pictures. The last picture stays until the next. */
 function useStream(shell: Shell, topic: string | null, rest: number): PictureStream | CameraSamples | null {
   const [stream, setStream] = useState<PictureStream | CameraSamples | null>(null);
   useEffect(() => {
@@ -147,7 +147,7 @@ function useStream(shell: Shell, topic: string | null, rest: number): PictureStr
   return stream;
 }
 
-/** True while any part of an element is seen in a page that is, so that tiles out of sight cost nothing. */
+/** True while any part of an element is visible in a visible page, so that tiles out of sight cost nothing. */
 function useSeen(element: { readonly current: HTMLElement | null }): boolean {
   const [isInSight, setInSight] = useState(false);
   const [isHidden, setHidden] = useState(document.hidden);

@@ -1,4 +1,4 @@
-/** Which cameras have a tile: those of the world, image topics that the launch shows, and displays of pictures. */
+/** Cameras with a tile: cameras of the world, image topics that the launch shows, and displays of pictures. */
 
 import type { Manifest, PageSession } from "../../protocol/generated/page_messages";
 import type { Display } from "../../displays/display";
@@ -9,9 +9,9 @@ import type { TopicInfo } from "../../protocol/connection";
 export interface CameraTopic {
   readonly name: string;
   readonly topic: string;
-  /** As the model of a simulated camera says [Hz]; null: it is another's. */
+  /** Update rate of a simulated camera [Hz]; null: not simulated. */
   readonly rate: number | null;
-  /** The display whose picture it is; none: the topic's own. */
+  /** Display that draws the picture; absent: the topic's own picture. */
   readonly display?: PictureDisplay;
 }
 
@@ -34,12 +34,12 @@ export function cameraTopics(
   return [...requested, ...cameras.filter(({ topic }) => !taken.has(topic)), ...shown];
 }
 
-/** What tells tiles apart: a topic may have one by itself and one with the scene over it. */
+/** Unique key of a tile: a topic may have one tile of its own and one with the scene drawn over it. */
 export function tileKey({ topic, display }: CameraTopic): string {
   return display === undefined ? topic : `${display.className} ${display.name.value} ${topic}`;
 }
 
-/** The compressed topic where there is one and the page comes over a network; raw pictures of a camera fill it. */
+/** Compressed topic, if there is one and the page comes over a network, which raw pictures would fill. */
 export function streamedTopic(topic: string, topics: ReadonlyMap<string, TopicInfo>, host: string): string {
   const compressed = `${topic}/compressed`;
   const isNear = /^(localhost|127\.|\[::1\])/.test(host);

@@ -13,8 +13,8 @@ const FIXED: readonly (readonly [string, readonly (readonly [string, string])[]]
     [
       ["Left drag", "Turn"],
       ["Middle drag, Shift left drag", "Move sideways"],
-      ["Wheel, right drag", "Nearer and farther"],
-      ["Right click, a finger that rests, Shift F10", "Menu of a model, in a simulation"],
+      ["Wheel, right drag", "Zoom"],
+      ["Right click, long press, Shift F10", "Menu of a model, in a simulation"],
       ["Ctrl drag on a part", "Pull it by a spring, in a simulation"],
       ["Arrows, + −", "Turn and zoom, when the scene has the focus"],
     ],
@@ -35,7 +35,7 @@ const FIXED: readonly (readonly [string, readonly (readonly [string, string])[]]
       ["Enter", "Frame it, or edit its value"],
       ["Space", "Show or hide"],
       ["F2, Delete, Alt ↑ ↓", "Rename, remove, move a display"],
-      ["Delete", "Shut the panel whose tab has the focus"],
+      ["Delete", "Close the focused panel"],
     ],
   ],
 ];

@@ -13,7 +13,7 @@ export function chooseRviz(shell: Shell): void {
   input.click();
 }
 
-/** Take files that are dropped onto the page, models where they can be inserted; returns how to stop. */
+/** Open files dropped onto the page, and upload models if they can be inserted; returns a function that stops. */
 export function acceptDroppedFiles(shell: Shell): () => void {
   const events = new AbortController();
   const hasFile = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") === true;

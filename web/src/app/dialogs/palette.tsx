@@ -68,7 +68,7 @@ export function Palette({ shell }: { readonly shell: Shell }): JSX.Element {
           </div>
         ))}
       </div>
-      {matches.value.length === 0 && <p class="empty">No command is named so.</p>}
+      {matches.value.length === 0 && <p class="empty">No matching command.</p>}
     </Dialog>
   );
 }

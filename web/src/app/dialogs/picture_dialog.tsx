@@ -1,4 +1,4 @@
-/** Saves what the view shows as a picture, in any size. */
+/** Saves the view as a picture of any size. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";

@@ -1,4 +1,4 @@
-/** Asks for a name below the folder where Trundle was started, and before what is there is replaced. */
+/** Asks for a name below the folder where Trundle was started, and before a file is replaced. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -13,12 +13,12 @@ export interface SaveFileProps {
   readonly shell: Shell;
   readonly title: string;
   readonly kind: "File" | "Folder";
-  /** Name to begin with; null: the folder cannot be written. */
+  /** Proposed name; null: the folder cannot be written. */
   readonly offered: string | null;
-  /** Ending that a name gets that has none. */
+  /** Extension that is added to a name without one. */
   readonly ending?: string;
   readonly note: string;
-  /** Saves, and does what follows; returns the files that may not be replaced, null: it is saved. */
+  /** Saves; returns the files that exist already; null: saved. */
   readonly save: (name: string, replace: boolean) => Promise<FilesExist | null>;
   readonly download?: () => Promise<void> | void;
 }
@@ -126,5 +126,5 @@ export function SaveFile({
 }
 
 function question(files: string): string {
-  return files.includes(", ") ? `${files} are there already. Replace them?` : `${files} is there already. Replace it?`;
+  return files.includes(", ") ? `${files} exist already. Replace them?` : `${files} exists already. Replace it?`;
 }

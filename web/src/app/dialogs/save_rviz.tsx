@@ -1,4 +1,4 @@
-/** Saving the displays as an .rviz file. */
+/** Dialog that saves the displays as an .rviz file. */
 
 import type { JSX } from "preact";
 
@@ -15,7 +15,7 @@ export function SaveRviz({ shell }: { readonly shell: Shell }): JSX.Element {
       kind="File"
       offered={rvizFile(shell)?.name ?? newName(shell)}
       ending=".rviz"
-      note="What is shown, the views and the tools, as rviz reads them."
+      note="Displays, views and tools, in rviz's format."
       save={async (file, replace) => {
         const answer = await connection.request("save_rviz_as", { file, text: displays.save(), replace });
         if ("exists" in answer) return answer;

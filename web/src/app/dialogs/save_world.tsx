@@ -1,4 +1,4 @@
-/** Saving the world as SDF, with what was changed while it ran. */
+/** Dialog that saves the world as SDF, with changes that were made while it ran. */
 
 import type { JSX } from "preact";
 
@@ -24,7 +24,7 @@ export function SaveWorld({ shell }: { readonly shell: Shell }): JSX.Element {
       title="Save the world as SDF"
       kind="File"
       offered={world.manifest.value?.file ?? null}
-      note="What was changed is saved, where everything stands now. It starts at rest, at time 0."
+      note="The world is saved with its changes and current poses. It starts at rest, at time 0."
       save={async (file, replace) => {
         const answer = await connection.request("save_world", { file, replace });
         if ("exists" in answer) return answer;
@@ -48,5 +48,5 @@ function downloadName({ page }: Shell): string {
 
 function report(shell: Shell, done: string, lost: readonly string[]): void {
   if (lost.length === 0) shell.notices.report("World", done, "ok");
-  else shell.notices.report("World", `${done}, but it does not hold: ${lost.join("; ")}`, "warn");
+  else shell.notices.report("World", `${done}, but without: ${lost.join("; ")}`, "warn");
 }

@@ -1,4 +1,4 @@
-/** Several steps at once, or a time to go to: back in what is kept, on in what is not simulated yet. */
+/** Dialog for several steps at once, or for a time: back into recorded time, or forward into simulated time to come. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -63,7 +63,7 @@ export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
           <p class="t2">
             {fixed(state.timeline.start_ns / NS, 2)} s to {fixed(state.timeline.end_ns / NS, 2)} s{" "}
             {session.kind === "simulation"
-              ? "are kept; a later time is simulated, and then time stands still."
+              ? "are recorded; a later time is simulated, and then the simulation pauses."
               : "were recorded."}
           </p>
         )}

@@ -51,7 +51,7 @@ function Choices({ choose }: { readonly choose: (kind: "file" | "folder") => voi
   );
 }
 
-/** How much of a model is sent; once all is, the server looks into it. */
+/** Progress of an upload; after the last byte the server checks the model. */
 function Sending({ title, upload }: { readonly title: string; readonly upload: ModelUpload }): JSX.Element {
   const progress = upload.progress.value;
   const isSent = progress !== null && progress.sent >= progress.total;

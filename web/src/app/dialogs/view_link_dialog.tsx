@@ -10,8 +10,8 @@ import type { Shell } from "../shell";
 import { linkTo } from "../views/view_link";
 
 const TEXTS = {
-  control: "Whoever has this link sees the page from here, and can drive and change everything.",
-  look: "Whoever has this link sees the page from here, and can drive and change nothing.",
+  control: "People with this link get this view, and can drive and change everything.",
+  look: "People with this link get this view, and cannot drive or change anything.",
 };
 
 export function LinkDialog({ shell }: { readonly shell: Shell }): JSX.Element {
@@ -35,9 +35,9 @@ export function LinkDialog({ shell }: { readonly shell: Shell }): JSX.Element {
     <Dialog title="Link to this view" class="save" onClose={() => (shell.dialog.value = null)}>
       <div class="form">
         {!session.view_only && (
-          <div role="group" aria-label="What the link allows">
+          <div role="group" aria-label="Rights of the link">
             <Button small on={!looks.value} onClick={() => (looks.value = false)}>
-              Look and control
+              View and control
             </Button>
             <Button small on={looks.value} onClick={() => (looks.value = true)}>
               Look only

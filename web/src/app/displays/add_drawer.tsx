@@ -1,4 +1,4 @@
-/** What can be added: topics that nothing shows, or a display of any class. */
+/** Drawer of displays to add: for topics that no display shows, or of any class. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -27,9 +27,7 @@ export function AddDrawer({ shell, onClose }: { readonly shell: Shell; readonly 
         <Button icon="close" label="Close this list" small onClick={onClose} />
       </div>
       <div class="scroll">
-        {tab.value === "topic" && offers.length === 0 && (
-          <p class="empty">Every topic that a display could show is shown.</p>
-        )}
+        {tab.value === "topic" && offers.length === 0 && <p class="empty">All topics with a display are shown.</p>}
         {tab.value === "topic"
           ? offers.map(({ topic, className }) => (
               <Entry

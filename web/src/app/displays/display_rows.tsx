@@ -25,7 +25,7 @@ export interface DisplayRowsOf extends RowsOf {
 let count = 0;
 const keys = new WeakMap<Display, string>();
 
-/** A key of its own for each display. */
+/** Unique key of a display. */
 export function displayKey(display: Display): string {
   const known = keys.get(display) ?? `display/${(count += 1)}`;
   keys.set(display, known);
@@ -63,7 +63,7 @@ function isSilent(display: Display): boolean {
   return faults.length > 0 && faults.every(([, status]) => isSilence(status));
 }
 
-/** The reason of a fault, with what to do: "No transform" stands out. */
+/** Row with the reason of a fault and the advice; "No transform" is emphasized. */
 export function faultRow(key: string, depth: number, status: Status): TreeRow {
   const [head, rest] = splitFault(status.text);
   return {
@@ -80,7 +80,7 @@ export function faultRow(key: string, depth: number, status: Status): TreeRow {
   };
 }
 
-/** The words of a fault that stand out, and the rest: "No transform" and " from [amcl] to [map]". */
+/** Emphasized words of a fault, and the rest: "No transform" and " from [amcl] to [map]". */
 function splitFault(text: string): readonly [string, string] {
   const at = text.search(/ (from|for|of|\[)|:/);
   return at < 0 ? [text, ""] : [text.slice(0, at), text.slice(at)];

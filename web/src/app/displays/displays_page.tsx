@@ -1,4 +1,4 @@
-/** The Displays page: rviz's tree, what can be added, and the file. */
+/** The Displays page: rviz's tree, the drawer of new displays, and the file. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";

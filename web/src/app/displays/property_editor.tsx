@@ -25,7 +25,7 @@ import { Select } from "../../theme/select";
 import { TextField } from "../../theme/text_field";
 import type { Page } from "../../page/page";
 
-/** Change a property as if a file said so, undoable; words that are no value of its kind change nothing. */
+/** Set a property from a file's value, undoable; values of another kind change nothing. */
 export function change(page: Page, property: Property<unknown>, yaml: Yaml): void {
   const before = property.value.peek();
   page.displays.edit(

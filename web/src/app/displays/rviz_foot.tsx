@@ -1,4 +1,4 @@
-/** The .rviz file: how much it was changed, and how to save it. */
+/** The .rviz file: number of its changes, and buttons that save it. */
 
 import type { JSX } from "preact";
 
@@ -38,7 +38,7 @@ export function RvizFoot({ shell }: { readonly shell: Shell }): JSX.Element | nu
   );
 }
 
-/** What the displays were read from or saved as last; null: no file. */
+/** File that the displays were last loaded from or saved to; null: no file. */
 export function rvizFile({ openedFile, page }: Shell): RvizFileInfo | null {
   return openedFile.value ?? page.session.rviz;
 }
@@ -65,7 +65,7 @@ export function save(shell: Shell): void {
   );
 }
 
-/** Hand the text to the browser. */
+/** Download the file's text. */
 export function download(shell: Shell): void {
   const { displays } = shell.page;
   const name = rvizFile(shell)?.name ?? newName(shell);

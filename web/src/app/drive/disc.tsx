@@ -15,7 +15,7 @@ export function DriveDisc({ drive }: { readonly drive: Drive }): JSX.Element {
   const reach = Math.max(1, Math.hypot(x, y) / REACH);
   const [cx, cy] = [x / reach, y / reach];
   const velocities =
-    command === null ? "stands" : `${fixed(command.linear, 2)} m/s, ${fixed(command.angular, 2)} rad/s`;
+    command === null ? "stopped" : `${fixed(command.linear, 2)} m/s, ${fixed(command.angular, 2)} rad/s`;
   const drag = (event: TargetedPointerEvent<SVGSVGElement>): void => {
     const box = event.currentTarget.getBoundingClientRect();
     const scale = 112 / box.width / REACH;

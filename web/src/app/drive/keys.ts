@@ -29,7 +29,7 @@ const TELEOP: Readonly<Record<string, DriveInput>> = {
 
 const DEAD_ZONE = 0.15;
 
-/** Listen until the returned function is called; without `pads` gamepads are somebody else's, as of a node that reads one. */
+/** Listen until the returned function is called; without `pads`, gamepads are ignored, since a node reads them. */
 export function listenToDriveKeys(drive: Drive, { pads = true } = {}): () => void {
   const keyDown = (event: KeyboardEvent): void => {
     if (event.ctrlKey || event.metaKey || event.altKey) {

@@ -1,4 +1,4 @@
-/** Drive: the disc, what goes out, its limits, and the topic. */
+/** Drive: the disc, the commanded velocities, their limits, and the topic. */
 
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
@@ -32,10 +32,10 @@ export function DriveView({ shell }: { readonly shell: Shell }): JSX.Element | n
     <div class="drive float">
       <DriveDisc drive={drive} />
       <div class="driven">
-        <Limit name="v" full="Greatest speed" value={command?.linear ?? 0} limit={drive.linearLimit} unit="m/s" />
+        <Limit name="v" full="Largest speed" value={command?.linear ?? 0} limit={drive.linearLimit} unit="m/s" />
         <Limit
           name="w"
-          full="Greatest turning speed"
+          full="Largest turning speed"
           value={command?.angular ?? 0}
           limit={drive.angularLimit}
           unit="rad/s"
@@ -52,7 +52,7 @@ function Topic({ drive, topic }: { readonly drive: Drive; readonly topic: string
   if (topics.length < 2) return <span class="cap">{topic}</span>;
   return (
     <span class="cap">
-      <Select label="Topic that is driven" value={topic} choices={topics} onChange={(name) => drive.choose(name)} />
+      <Select label="Driven topic" value={topic} choices={topics} onChange={(name) => drive.choose(name)} />
     </span>
   );
 }

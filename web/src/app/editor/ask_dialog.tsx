@@ -1,4 +1,4 @@
-/** Asks before something is done that cannot be taken back. */
+/** Asks before an action that cannot be undone. */
 
 import type { JSX } from "preact";
 

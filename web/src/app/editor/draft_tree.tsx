@@ -1,4 +1,4 @@
-/** The tree of the model that is edited, in place of the world's, with what can be added below it. */
+/** Tree of the edited model, which replaces the world's, with the drawer of new parts below it. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -82,7 +82,7 @@ export function DraftTree({ shell, draft }: TreeProps): JSX.Element {
   );
 }
 
-/** How many findings there are, worst first. */
+/** Numbers of findings, errors first. */
 function Verdict({ draft }: { readonly draft: DraftInfo }): JSX.Element {
   const findings = draft.parts.flatMap((part) => part.findings);
   const errors = findings.filter(({ severity }) => severity === "error").length;
@@ -134,7 +134,7 @@ function rows(draft: DraftInfo, shut: ReadonlySet<string>, selected: string | nu
   });
 }
 
-/** Links show what is on them only when they are opened. */
+/** True for links, whose parts are hidden until the link is opened. */
 function isShutAtFirst(part: PartPath): boolean {
   return part.length > 0;
 }

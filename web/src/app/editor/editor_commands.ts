@@ -40,8 +40,8 @@ export function editorCommands(shell: Shell): readonly Command[] {
       () => !isOpen() && model() !== null,
       () => void editor.begin(model()),
     ),
-    command("save_model", "Save the model that is edited…", isOpen, () => (shell.dialog.value = "save_model")),
-    command("finish_model", "Put the model that is edited into the world", isOpen, () => void editor.finish()),
+    command("save_model", "Save the edited model…", isOpen, () => (shell.dialog.value = "save_model")),
+    command("finish_model", "Put the edited model into the world", isOpen, () => void editor.finish()),
     command("leave_model", "Leave the model editor", isOpen, () => editor.leave()),
     command(
       "copy_part",

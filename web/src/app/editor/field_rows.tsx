@@ -1,4 +1,4 @@
-/** Rows of a part's form: each shows a value, or the default in its place, and sets it. */
+/** Rows of a part's form: each shows and sets a value or its default. */
 
 import type { JSX } from "preact";
 
@@ -41,7 +41,7 @@ function numbersOf(value: DraftField["value"]): readonly number[] | null {
   return Array.isArray(value) ? (value as readonly number[]) : null;
 }
 
-/** One number of several; the others stay. */
+/** Values that change one number of several; null keeps a number. */
 function only(length: number, index: number, value: number): readonly (number | null)[] {
   return Array.from({ length }, (_, i) => (i === index ? value : null));
 }
@@ -49,7 +49,7 @@ function only(length: number, index: number, value: number): readonly (number | 
 interface CellProps {
   readonly label: string;
   readonly unit?: string | undefined;
-  /** Null: the default counts. */
+  /** Null: the default is used. */
   readonly value: number | null;
   readonly placeholder: string;
   readonly minimum?: number | undefined;

@@ -1,4 +1,4 @@
-/** Edits of the draft: asked of the server, which answers with the draft as it is then. */
+/** Edits of the draft: requests to the server, which answers with the edited draft. */
 
 import { computed, signal } from "@preact/signals";
 import { Box3, Vector3 } from "three";
@@ -12,10 +12,10 @@ import type { Answer, Fields, RequestName } from "../../protocol/connection";
 import type { FieldValue, PartPath } from "../../scene/draft";
 import { poseFields } from "../../page/request_fields";
 
-/** From what is there to a new model, and half of what the view shows around it [m]. */
+/** Distance from the other models to a new one, and half the width of the view around it [m]. */
 const BESIDE = 1.5;
 
-/** Something that is done only if the person agrees. */
+/** Question to the person before an action. */
 export interface Question {
   readonly title: string;
   readonly text: string;
@@ -45,7 +45,7 @@ export class ModelEditor {
     );
   }
 
-  /** Edit a copy of a model, or a new one beside all that can move. */
+  /** Edit a copy of a model, or a new model next to all movable ones. */
   async begin(model: string | null): Promise<void> {
     const { world, views } = this.page;
     const movable = (world.manifest.peek()?.models ?? []).filter((model) => !model.static);
@@ -69,7 +69,7 @@ export class ModelEditor {
     return this.ask("Move", "draft_place", { part, ...poseFields(position, orientation) });
   }
 
-  /** Add a part to what is selected, and select it. */
+  /** Add a part to the selected one, and select it. */
   async add(kind: AddPart["kind"], type: string): Promise<void> {
     const selection = this.page.selection.peek();
     await this.change("Add", "draft_add", { into: selection?.kind === "part" ? selection.part : [], kind, type });
@@ -110,8 +110,8 @@ export class ModelEditor {
     else
       this.question.value = {
         title: "Leave the editor?",
-        text: "What was changed is thrown away, but for what was saved.",
-        action: "Throw it away",
+        text: "Changes that are not saved are discarded.",
+        action: "Discard",
         run: throwAway,
       };
   }

@@ -1,4 +1,4 @@
-/** What can be added to the model that is edited: links, joints, sensors, plugins. */
+/** Drawer of parts to add to the edited model: links, joints, sensors, plugins. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -58,7 +58,7 @@ export function PartDrawer({ shell, draft, onClose }: DrawerProps): JSX.Element 
           <input
             type="search"
             placeholder="Search"
-            aria-label="Search what can be added"
+            aria-label="Search parts"
             onInput={(event) => (search.value = event.currentTarget.value)}
           />
         </label>
@@ -115,7 +115,7 @@ function offersOf(tab: string, offers: DraftOffers | null): readonly Offer[] {
   }
 }
 
-/** Where the next part goes. */
+/** Line that names the parent of the next part. */
 function Target({
   shell,
   draft,

@@ -1,4 +1,4 @@
-/** Form of the selected part of the model that is edited: what is wrong with it, then its values. */
+/** Form of the selected part of the edited model: its findings, then its values. */
 
 import type { JSX } from "preact";
 

@@ -1,4 +1,4 @@
-/** Saving the model that is edited: model.sdf and model.config in a folder below that where Trundle was started. */
+/** Dialog that saves the edited model: model.sdf and model.config, below the folder where Trundle was started. */
 
 import type { JSX } from "preact";
 

@@ -1,4 +1,4 @@
-/** A button for something to insert: dragged into the scene, or pressed and then a place; Enter puts it into the middle. */
+/** A button that inserts an item: by a drag into the scene, by a press and a click there, or by Enter in the middle. */
 
 import type { ComponentChildren, JSX, TargetedPointerEvent } from "preact";
 import { useRef } from "preact/hooks";
@@ -6,7 +6,7 @@ import { useRef } from "preact/hooks";
 import type { Insertable } from "../../page/insertable";
 import type { Shell } from "../shell";
 
-/** A shorter way of the pointer is a press [px]. */
+/** Shorter drags of the pointer are presses [px]. */
 const CLICK = 4;
 
 export interface InsertButtonProps {
@@ -68,7 +68,7 @@ export function InsertButton({ shell, item, class: name, tip, children }: Insert
   );
 }
 
-/** Place of a pointer in the scene [px]; null: it is over something else. */
+/** Position of a pointer in the scene [px]; null: it is over another element. */
 function inScene(element: HTMLElement, { clientX, clientY }: PointerEvent): [number, number] | null {
   const { left, top } = element.getBoundingClientRect();
   return document.elementFromPoint(clientX, clientY) === element ? [clientX - left, clientY - top] : null;

@@ -10,7 +10,7 @@ import type { Page, Selection } from "../../page/page";
 import { ModelUpload, type UploadContext } from "./model_upload";
 import { findModel } from "../../page/selection_lookup";
 
-/** Code that a model would run, of which a person is asked. */
+/** Question whether a model may run its code. */
 export interface CodeConsent {
   readonly title: string;
   readonly files: readonly string[];
@@ -23,7 +23,7 @@ export interface InsertionContext extends UploadContext {
 }
 
 export class Insertion {
-  /** Null before the server has answered. */
+  /** Models; null before the server has answered. */
   readonly models = signal<readonly ModelEntry[] | null>(null);
   readonly consentRequest = signal<CodeConsent | null>(null);
   readonly upload: ModelUpload;
@@ -47,7 +47,7 @@ export class Insertion {
     );
   }
 
-  /** Have something follow the pointer. */
+  /** Choose the item that follows the pointer. */
   choose(item: Insertable): void {
     const { layout, page } = this.context;
     page.tools.insert?.choose(item);
@@ -101,7 +101,7 @@ export class Insertion {
   }
 }
 
-/** Select a model or a light once the page knows of it. */
+/** Select a model or a light once the manifest has it. */
 export function selectOnceAdded(page: Page, selection: Extract<Selection, { kind: "model" | "light" }>): void {
   const stop = effect(() => {
     const lights = page.world.manifest.value?.lights ?? [];

@@ -4,7 +4,7 @@ import type { Command } from "../../page/page";
 import type { Shell } from "../shell";
 import { canEdit } from "../world/edits";
 
-/** Keys while something follows the pointer. */
+/** Commands with keys while an item follows the pointer. */
 export function insertionCommands(shell: Shell): readonly Command[] {
   const { insert } = shell.page.tools;
   if (insert === null || !canEdit(shell)) return [];
@@ -18,9 +18,7 @@ export function insertionCommands(shell: Shell): readonly Command[] {
   });
   return [
     { id: "upload_model", title: "Upload a model", group: "Simulation", run: () => shell.insertion.upload.open() },
-    command("insert.place", "Put what is being inserted into the middle of the view", "Enter", () =>
-      insert.placeInMiddle(),
-    ),
+    command("insert.place", "Insert in the middle of the view", "Enter", () => insert.placeInMiddle()),
     command("insert.leave", "Insert nothing", "Escape", () => shell.page.tools.use("rviz/Interact")),
   ];
 }

@@ -10,7 +10,7 @@ export interface ModelFile {
 }
 
 const MAX_FILES = 2000;
-/** As the server takes of one model [B]. */
+/** Largest model that the server accepts [B]. */
 const MAX_BYTES = 512 * 1024 * 1024;
 
 /** Let the person choose a file, or a folder with all that is in it. */
@@ -24,7 +24,7 @@ export function chooseModel(kind: "file" | "folder", take: (files: readonly Mode
   input.click();
 }
 
-/** Files and folders that are dropped; what is carried can be read during the event alone. */
+/** Dropped files and folders; the transfer can be read only during the event. */
 export function droppedModel(carried: DataTransfer): Promise<readonly ModelFile[]> {
   const entries = [...carried.items].map((item) => item.webkitGetAsEntry()).filter((entry) => entry !== null);
   const files = [...carried.files].map((file) => ({ path: file.name, file }));
@@ -46,7 +46,7 @@ async function filesBelow(entries: readonly FileSystemEntry[]): Promise<readonly
   return files;
 }
 
-/** What is in a folder, of which a reader returns a part at a time. */
+/** Entries of a folder, which a reader returns in parts. */
 async function entriesOf(folder: FileSystemDirectoryEntry): Promise<readonly FileSystemEntry[]> {
   const reader = folder.createReader();
   const all: FileSystemEntry[] = [];
@@ -59,12 +59,12 @@ async function entriesOf(folder: FileSystemDirectoryEntry): Promise<readonly Fil
   }
 }
 
-/** Name of what was chosen: of the file, or of the folder. */
+/** Name of the chosen file or folder. */
 export function titleOf(files: readonly ModelFile[]): string {
   return files[0]?.path.split("/")[0] ?? "";
 }
 
-/** Bytes that are sent of all. */
+/** Called with the bytes sent and the total [B]. */
 export type Progress = (sent: number, total: number) => void;
 
 /** Send a model to the server; returns the names of the models in it, or throws a sentence. */
@@ -83,7 +83,7 @@ export async function sendModel(
   return read(answer, "the answer to the upload", uploadedModels).models;
 }
 
-/** Post a form; unlike fetch, a request of this kind says in every browser how much of it is sent. */
+/** Post a form by XMLHttpRequest, which unlike fetch reports its progress in every browser. */
 function post(url: string, form: FormData, signal: AbortSignal, progress: Progress): Promise<string> {
   const request = new XMLHttpRequest();
   return new Promise((resolve, reject) => {

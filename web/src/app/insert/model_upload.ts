@@ -1,4 +1,4 @@
-/** The upload of a model, after which it is among those to insert. */
+/** Upload of a model, which can be inserted afterwards. */
 
 import { signal, type Signal } from "@preact/signals";
 
@@ -16,12 +16,12 @@ export interface UploadContext {
 }
 
 export class ModelUpload {
-  /** What is being sent; null: nothing is. */
+  /** Name of the model being sent; null: none. */
   readonly title = signal<string | null>(null);
-  /** Bytes that are sent, and those of all; null: none is yet. */
+  /** Bytes sent, and the total; null: not started. */
   readonly progress = signal<{ readonly sent: number; readonly total: number } | null>(null);
   readonly fault = signal("");
-  /** Uploads so far; pictures of those before are old. */
+  /** Number of uploads; changes the addresses of the models' pictures. */
   readonly count = signal(0);
 
   private aborter = new AbortController();
@@ -40,7 +40,7 @@ export class ModelUpload {
     this.aborter.abort();
   }
 
-  /** Upload files; what is wrong is said by the dialog. */
+  /** Upload files; errors go to `fault`, which the dialog shows. */
   async send(chosen: Promise<readonly ModelFile[]> | readonly ModelFile[]): Promise<void> {
     if (this.title.peek() !== null) return;
     this.fault.value = "";

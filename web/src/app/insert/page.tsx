@@ -33,7 +33,7 @@ export function InsertPage({ shell }: { readonly shell: Shell }): JSX.Element {
       ? "Looking for models."
       : models.length === 0
         ? "There are no models on the model path."
-        : "Nothing is named so.";
+        : "No matching model.";
   return (
     <>
       <div class="simple" role="group" aria-label="Simple shapes and lights">
@@ -82,7 +82,7 @@ function ModelButton({ shell, model }: { readonly shell: Shell; readonly model: 
   );
 }
 
-/** The server's picture of a model, asked for once it is seen. */
+/** The server's picture of a model, loaded once it is visible. */
 function Picture({ name, version }: { readonly name: string; readonly version: number }): JSX.Element {
   const failed = useSignal(false);
   if (failed.value) return <Icon name="model" />;

@@ -1,4 +1,4 @@
-/** Sections with which a model is held in the air, copied, deleted, or pushed by a force for a time. */
+/** Sections that hold a model in the air, copy or delete it, or push it by a force for a time. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -16,7 +16,7 @@ const LIMITS = { min: -1e6, max: 1e6 };
 const AXES = ["x", "y", "z"] as const;
 const ZERO: Triple = [0, 0, 0];
 
-/** What can be done with a model as a whole. */
+/** Buttons of actions on a whole model. */
 export function ModelButtons({
   shell,
   name,
@@ -46,7 +46,7 @@ export function ModelButtons({
   );
 }
 
-/** Pushes a link at its centre of mass with a force and a torque that are typed. */
+/** Pushes a link at its centre of mass with the typed force and torque. */
 export function WrenchSection({
   shell,
   model,

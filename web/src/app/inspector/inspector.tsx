@@ -1,4 +1,4 @@
-/** The Inspector: what is selected, with units, and the file and line it comes from. */
+/** The Inspector: the selected object's values with units, and its source file and line. */
 
 import type { JSX } from "preact";
 

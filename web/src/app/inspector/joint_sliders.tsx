@@ -16,7 +16,7 @@ import { NumbersRow } from "./value_rows";
 import { canEdit, editWorld } from "../world/edits";
 import type { Fields } from "../../protocol/connection";
 
-/** Range of a velocity slider [rad/s or m/s]. */
+/** Largest velocity of a slider [rad/s or m/s]. */
 const FASTEST = 10;
 
 export function ModelJoints({
@@ -99,7 +99,7 @@ interface TargetProps {
   readonly state: JointState;
 }
 
-/** Commands of the joint's motor as numbers: the last one holds. */
+/** Commands of the joint's motor as numbers; the last one is in effect. */
 function JointTargets({ shell, model, joint, state }: TargetProps): JSX.Element {
   const [metre, newton] = joint.type === "prismatic" ? ["m", "N"] : ["rad", "N m"];
   const targets: readonly (readonly [TargetName, number, string])[] = [
@@ -131,7 +131,7 @@ function JointTargets({ shell, model, joint, state }: TargetProps): JSX.Element 
 type TargetName = "position" | "velocity" | "effort";
 type Target = Readonly<Partial<Record<TargetName, number>>>;
 
-/** Command a joint; `before` takes it back. */
+/** Command a joint; `before` are the values that undo restores. */
 function driveJoint(shell: Shell, model: string, joint: string, after: Target, before: Target): void {
   const fields = (target: Target): Fields<"joint"> => ({ model, joint, ...target });
   void editWorld(shell, `Joint ${joint}`, "joint", fields(after), fields(before));

@@ -1,4 +1,4 @@
-/** The value of a joint that a person looks for: a wheel's velocity, else its position. */
+/** Main value of a joint: a wheel's velocity, otherwise the position. */
 
 import type { JointInfo } from "../../protocol/generated/page_messages";
 import type { JointState } from "../../scene/simulated_world";
@@ -12,7 +12,7 @@ export interface JointValue {
   readonly text: string;
 }
 
-/** Without limits a joint turns for ever, and its position says nothing. */
+/** True for a joint without limits, whose position has no meaning. */
 export function turnsFreely(joint: JointInfo): boolean {
   return joint.lower === null || joint.upper === null;
 }

@@ -18,12 +18,12 @@ import { canEdit, editWorld } from "../world/edits";
 import { bodiesOf } from "../../page/world_nodes";
 import { poseFields, withNumber } from "../../page/request_fields";
 
-/** Lightest and heaviest link that the server takes [kg]. */
+/** Smallest and largest mass of a link that the server accepts [kg]. */
 const MASSES = { min: 1e-6, max: 1e6 };
 
 interface ModelProps {
   readonly shell: Shell;
-  /** In full: `outer::inner`. */
+  /** Full name: `outer::inner`. */
   readonly name: string;
   readonly model: ModelInfo;
 }
@@ -67,7 +67,7 @@ export function ModelSections({ shell, name, model }: ModelProps): JSX.Element {
   );
 }
 
-/** Moves a model so that one of its links is somewhere. */
+/** Function that moves a model so that one of its links has a given pose. */
 function mover(shell: Shell, model: string, { name }: LinkInfo): (after: Transform, before: Transform) => void {
   const fields = ({ position, orientation }: Transform): Fields<"pose"> => ({
     model,

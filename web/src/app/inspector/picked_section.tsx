@@ -1,4 +1,4 @@
-/** Fields of what was picked, nested as in its message. */
+/** Fields of the picked object, nested as in its message. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";

@@ -1,4 +1,4 @@
-/** A menu of values of what is inspected, each of which is plotted or no longer. */
+/** Menu of the inspected object's values; each entry starts or stops a plot. */
 
 import type { JSX } from "preact";
 
@@ -10,7 +10,7 @@ interface PlotMenuProps {
   readonly shell: Shell;
   /** `model::link`, or a joint's. */
   readonly owner: string;
-  /** As `pose.x`. */
+  /** Names of values, as `pose.x`. */
   readonly values: readonly string[];
 }
 

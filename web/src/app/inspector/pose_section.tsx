@@ -1,4 +1,4 @@
-/** Section with a pose, of which each number can be typed where it can be set. */
+/** Section with a pose, whose numbers can be edited if the pose can be set. */
 
 import type { JSX } from "preact";
 
@@ -16,9 +16,9 @@ const ANGLES = ["roll", "pitch", "yaw"] as const;
 interface PoseProps {
   readonly within: string;
   readonly pose: () => Transform | null;
-  /** Shown at the right of the heading. */
+  /** Menu at the right of the heading. */
   readonly menu?: JSX.Element;
-  /** Moves it there; without it the numbers are only shown. */
+  /** Moves it to the pose; absent: read-only. */
   readonly onCommit?: ((after: Transform, before: Transform) => void) | undefined;
 }
 

@@ -33,7 +33,7 @@ export function twistOf(first: StampedPose, second: StampedPose): Twist | null {
 export class MotionSamples {
   private samples: StampedPose[] = [];
 
-  /** Take a pose, later than those before unless time went back. */
+  /** Add a pose, later than the previous ones unless time went back. */
   add(pose: StampedPose): void {
     const isRecent = ({ time }: StampedPose): boolean => time < pose.time && time >= pose.time - WINDOW;
     const recent = this.samples.filter(isRecent);

@@ -1,4 +1,4 @@
-/** Section with the twist of a body, of which each number can be typed where it can be set. */
+/** Section with the twist of a body, whose numbers can be edited if the twist can be set. */
 
 import type { JSX } from "preact";
 import { useEffect, useMemo } from "preact/hooks";
@@ -15,7 +15,7 @@ const STILL: Twist = { linear: [0, 0, 0], angular: [0, 0, 0] };
 interface TwistProps {
   readonly page: Page;
   readonly body: number;
-  /** Sets it once; without it the numbers are only shown. */
+  /** Sets it once; absent: read-only. */
   readonly onCommit?: ((after: Twist, before: Twist) => void) | undefined;
 }
 

@@ -1,10 +1,10 @@
-/** Rows of the Inspector: a name with a value, or with numbers that can be typed. */
+/** Rows of the Inspector: a name with a value, or with editable numbers. */
 
 import type { JSX } from "preact";
 
 import { NumberField } from "../../theme/number_field";
 
-/** Characters that a row shows of a value; one that is longer is shown whole where the pointer rests on it. */
+/** Characters of a value that a row shows; the tooltip shows the whole of a longer one. */
 const LONG = 20;
 
 export function KeyValue({
@@ -29,7 +29,7 @@ export function KeyValue({
 
 interface NumbersProps {
   readonly name: string;
-  /** Of each number, for a screen reader: "mu", "mu2". */
+  /** Name of each number, for screen readers: "mu", "mu2". */
   readonly labels: readonly string[];
   readonly values: readonly number[];
   readonly decimals?: number;

@@ -1,4 +1,4 @@
-/** The notice: one line with counts, and how to see the list. */
+/** The notice: one line with counts, and a button that opens the list. */
 
 import type { JSX } from "preact";
 

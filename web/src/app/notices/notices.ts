@@ -10,7 +10,7 @@ import type { Page } from "../../page/page";
 
 export interface Notice {
   readonly level: StatusLevel;
-  /** What has the fault: a display's name, "Server". */
+  /** Source of the fault: a display's name, "Server". */
   readonly title: string;
   readonly text: string;
   readonly advice?: string;
@@ -18,15 +18,15 @@ export interface Notice {
 }
 
 const MAX_REPORTS = 100;
-/** Begin of the ids of warnings about the world's, the robot's and the launch's files. */
+/** Prefix of the ids of warnings about the world's, the robot's and the launch's files. */
 const FILE = "file/";
 
 export class Notices {
   private readonly reports = signal<readonly Notice[]>([]);
   private readonly dismissed = signal("");
-  /** Every fault there is, most severe first. */
+  /** All faults, most severe first. */
   readonly all: ReadonlySignal<readonly Notice[]>;
-  /** The line: "17 displays have no data · 1 has no transform"; empty: nothing to say. */
+  /** Summary of the faults: "17 displays have no data · 1 has no transform"; empty text: no fault. */
   readonly line: ReadonlySignal<{ readonly level: StatusLevel; readonly text: string }>;
 
   constructor({ displays, connection, world }: Pick<Page, "displays" | "connection" | "world">) {
@@ -71,20 +71,20 @@ export class Notices {
     });
   }
 
-  /** Say that something that a person asked for could not be done. */
+  /** Report a failed action of the person. */
   report(title: string, text: string, level: StatusLevel = "error"): void {
     const notice: Notice = { level, title, text };
     this.reports.value = [...this.reports.peek().filter((other) => other.text !== text), notice].slice(-MAX_REPORTS);
   }
 
-  /** Hide the line until it says something else. */
+  /** Hide the line until its text changes. */
   dismiss(): void {
     this.dismissed.value = this.line.peek().text;
     this.reports.value = [];
   }
 }
 
-/** Nothing came yet: a ring and "no data", not a fault. */
+/** True if no data has come yet, which is not a fault. */
 export function isSilence({ level, text }: Pick<Notice, "level" | "text">): boolean {
   return level === "none" || (level === "warn" && /^No \w+ received$/.test(text));
 }

@@ -8,9 +8,9 @@ import { pictureUrl } from "../../protocol/picture_urls";
 import { fixed } from "../../theme/format";
 import type { Shell } from "../shell";
 
-/** From a picture that came, and from one that did not, to the next [ms]. */
+/** Pause after a loaded picture, and after a failed one [ms]. */
 const REFRESH = { loaded: 500, failed: 3000 };
-/** Largest picture that is asked for [px]. */
+/** Largest requested picture [px]. */
 const [MAX_WIDTH, MAX_HEIGHT] = [960, 720];
 const TURN = 0.01; // rad per pixel
 
@@ -30,7 +30,7 @@ export function Pictures({ shell, reason }: { readonly shell: Shell; readonly re
     const size = { width: Math.round(share * width.peek()), height: Math.round(share * height.peek()) };
     shown.value = pictureUrl("camera.png", { ...size, ...view.peek() }, performance.now());
   };
-  /** One after the other: a slow machine would never finish one that the next replaces. */
+  /** Request the next picture after a pause; never two at once, which a slow machine would not finish. */
   const askIn = (wait: number): void => {
     timer.current = window.setTimeout(ask, wait);
   };

@@ -1,4 +1,4 @@
-/** What stands in place of the scene or over it: loading, an empty world, a browser without WebGL. */
+/** Notes in place of the scene or over it: loading, an empty world, a browser without WebGL. */
 
 import type { JSX } from "preact";
 
@@ -10,7 +10,7 @@ export function SceneNotes({ shell }: { readonly shell: Shell }): JSX.Element | 
   const status = shell.page.scene.status.value;
   if (status.kind === "unsupported") return <Pictures shell={shell} reason={status.reason} />;
   if (status.kind === "lost")
-    return <Note text="The graphics card was taken away; the browser will give it back, or load the page again." />;
+    return <Note text="The graphics context was lost; the browser may restore it, or load the page again." />;
   return <Loading shell={shell} />;
 }
 

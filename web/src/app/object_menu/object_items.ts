@@ -1,4 +1,4 @@
-/** Entries of the menu of a thing in the world, in the order of Gazebo's right click. */
+/** Entries of an object's menu, in the order of Gazebo's right-click menu. */
 
 import { Vector3 } from "three";
 
@@ -16,7 +16,7 @@ import { findModel, placed } from "../../page/selection_lookup";
 
 type InModel = Extract<Selection, { kind: "model" | "link" }>;
 
-/** What can be done with a selection; `at`: where the menu was asked for, in the world [m]. */
+/** Menu entries for a selection; `at`: point of the world where the menu was opened [m]. */
 export function objectItems(shell: Shell, selected: Selection | null, at: Vector3 | null): readonly MenuItem[] {
   const selection = placed(selected);
   const inModel = selection?.kind === "model" || selection?.kind === "link" ? selection : null;

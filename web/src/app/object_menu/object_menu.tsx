@@ -1,4 +1,4 @@
-/** The menu of a thing in the scene or in the tree, by the right button, a long press, or the keyboard's menu key. */
+/** Menu of an object in the scene or tree, opened by the right button, a long press, or the keyboard's menu key. */
 
 import type { JSX } from "preact";
 import type { Vector3 } from "three";
@@ -29,7 +29,7 @@ export function ObjectMenu({ shell }: { readonly shell: Shell }): JSX.Element | 
   );
 }
 
-/** Select a thing, and open its menu at a point of the page [px]. */
+/** Select an object, and open its menu at a point of the page [px]. */
 export function openMenu(
   shell: Shell,
   selection: Selection | null,
@@ -42,7 +42,7 @@ export function openMenu(
   shell.menu.value = { selection, x, y, at, from: document.activeElement };
 }
 
-/** Open the menu of what is under a point of the scene [px]. */
+/** Open the menu of the object under a point of the scene [px]. */
 export function openSceneMenu(shell: Shell, x: number, y: number): void {
   const { scene } = shell.page;
   const pick = scene.pick(x, y);
@@ -58,7 +58,7 @@ export function openSceneMenu(shell: Shell, x: number, y: number): void {
   );
 }
 
-/** Open the menu of what is selected, in the middle of the scene. */
+/** Open the menu of the selection, in the middle of the scene. */
 export function openSelectedMenu(shell: Shell): void {
   const { scene, selection } = shell.page;
   const { left, top } = scene.element.getBoundingClientRect();

@@ -1,4 +1,4 @@
-/** The form of a force and a torque on a link, opened in the Inspector. */
+/** Opens the form of a force and a torque on a link in the Inspector. */
 
 import type { Selection } from "../../page/page";
 import type { Shell } from "../shell";

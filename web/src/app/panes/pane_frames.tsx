@@ -1,4 +1,4 @@
-/** Edges of the panes, the name of each one's view with its menu, and the edge of a camera's picture. */
+/** Frames of the panes, titles of their views with menus, and the frame of a camera's picture. */
 
 import { computed } from "@preact/signals";
 import type { JSX } from "preact";
@@ -59,7 +59,7 @@ function PaneName({
   );
 }
 
-/** The edge of a simulated camera's picture, while one looks through it. */
+/** Frame of a simulated camera's picture, while looking through it. */
 function CameraFrame({ pane }: { readonly pane: ViewPane }): JSX.Element | null {
   const frame = pane.cameraFrame.value;
   if (frame === null) return null;

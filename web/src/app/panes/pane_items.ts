@@ -1,4 +1,4 @@
-/** Entries of a pane's menu: what its view can be. */
+/** Entries of a pane's menu: its possible views. */
 
 import type { ViewPane } from "../../scene/view_controller";
 import type { MenuItem } from "../../theme/menu_list";

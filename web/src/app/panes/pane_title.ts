@@ -1,4 +1,4 @@
-/** What a pane's view is called, over its picture. */
+/** Title of a pane's view, over its picture. */
 
 import { FIXED_FRAME, type Property } from "../../rviz/properties";
 import type { ViewController, SixSides } from "../../scene/view_controller";
@@ -19,7 +19,7 @@ const SIDES: readonly (readonly [SixSides, number])[] = [
 ];
 const CLOSE = 0.01; // rad
 
-/** As "Top", "Perspective", "First person · base_link". */
+/** Title such as "Top", "Perspective", "First person · base_link". */
 export function paneTitle({ className, properties }: ViewController): string {
   const of = (name: string): unknown =>
     properties.find((property: Property<unknown>) => property.name === name)?.value.value;
@@ -33,7 +33,7 @@ export function paneTitle({ className, properties }: ViewController): string {
     : `${kind} · ${target.slice(target.lastIndexOf(":") + 1)}`;
 }
 
-/** The side that is looked from straight; null: none. */
+/** Side of an axis-aligned view; null: the view is not axis-aligned. */
 function sideOf(yaw: number, pitch: number): string | null {
   if (Math.abs(Math.abs(pitch) - Math.PI / 2) < CLOSE) return pitch > 0 ? "Top" : "Bottom";
   if (Math.abs(pitch) > CLOSE) return null;

@@ -7,7 +7,7 @@ import type { Page } from "../../page/page";
 import { isOneOf, recall, remember } from "../../page/storage";
 import type { Layout } from "../layout";
 
-/** The remembered layout, which the scene has unless the page is a phone's. */
+/** Signal with the remembered layout; the scene of a phone's page has one pane. */
 export function recallSplit({ views }: Pick<Page, "views">, layout: Layout): Signal<PaneLayout> {
   const split = signal(recall<PaneLayout>("split", "one", isOneOf(...PANE_LAYOUTS)));
   views.onFileLayout = (fileLayout) => {
@@ -19,7 +19,7 @@ export function recallSplit({ views }: Pick<Page, "views">, layout: Layout): Sig
   return split;
 }
 
-/** Split the scene as a person chooses, which is remembered; what a link shows is not. */
+/** Set the layout that a person chose, and remember it; a link's layout is not remembered. */
 export function chooseSplit(split: Signal<PaneLayout>, layout: PaneLayout): void {
   split.value = layout;
   remember("split", layout);

@@ -44,7 +44,7 @@ export function splitCommands({ page, split, layout }: Shell): readonly Command[
     {
       id: "pane.next",
       group: "View",
-      title: "Next of the views",
+      title: "Next view",
       keys: "V",
       enabled: isSplit,
       run: () => page.views.stepPane(1),
@@ -52,7 +52,7 @@ export function splitCommands({ page, split, layout }: Shell): readonly Command[
     {
       id: "pane.previous",
       group: "View",
-      title: "View before",
+      title: "Previous view",
       keys: "Shift V",
       enabled: isSplit,
       run: () => page.views.stepPane(-1),

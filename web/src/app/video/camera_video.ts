@@ -4,7 +4,7 @@ import { PictureStream } from "../../displays/pictures/picture_stream";
 import type { Connection } from "../../protocol/connection";
 import type { Recording } from "./recording";
 
-/** Hand the pictures of an image topic to a recording; returns how to stop. */
+/** Hand the pictures of an image topic to a recording; returns a function that stops. */
 export function recordCamera(connection: Connection, topic: string, recording: Recording): () => void {
   const stream = new PictureStream(connection, topic);
   const stop = stream.picture.subscribe((picture) => {

@@ -7,7 +7,7 @@ const MIN_BITRATE = 1e6; // bits per second
 
 /** Takes its pictures from one canvas, whose size stays. */
 export interface VideoFile {
-  /** What differs from an MP4 in the time of its pictures, for the person who records; "": nothing. */
+  /** Difference of its timing from an MP4's, for the person who records; "": none. */
   readonly remark: string;
   /** True while the encoder takes no picture. */
   readonly isBusy: boolean;

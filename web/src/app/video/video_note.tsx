@@ -1,4 +1,4 @@
-/** What stands over the scene while a video is recorded. */
+/** Note over the scene while a video is recorded. */
 
 import type { JSX } from "preact";
 

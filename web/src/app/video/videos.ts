@@ -31,12 +31,12 @@ export class Videos {
     this.toggle("", "the view", (recording) => recordView(this.page.scene, recording));
   }
 
-  /** Likewise a camera, by its topic. */
+  /** Record a camera, by its topic, or end that and hand the file to the person. */
   toggleCamera(topic: string, name: string): void {
     this.toggle(topic, name, (recording) => recordCamera(this.page.connection, topic, recording));
   }
 
-  /** Whether a camera is recorded, by its topic; "": the view. */
+  /** True if a camera is being recorded, by its topic; "": the view. */
   has(topic: string): boolean {
     return this.running.value.some((video) => video.topic === topic);
   }

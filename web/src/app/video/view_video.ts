@@ -5,7 +5,7 @@ import type { SceneView } from "../../scene/scene_view";
 import type { Recording } from "./recording";
 import { RATE } from "./video_file";
 
-/** Hand the pictures to a recording; returns how to stop. */
+/** Hand the pictures to a recording; returns a function that stops. */
 export function recordView(scene: SceneView, recording: Recording): () => void {
   const period = 1000 / RATE;
   const draw = (): void => scene.invalidate(); // also while nothing moves

@@ -1,4 +1,4 @@
-/** Views from the world's own things: first person from a model or link, and through a simulated camera. */
+/** Views from objects of the world: first person from a model or link, and through a simulated camera. */
 
 import type { CameraInfo } from "../../protocol/generated/page_messages";
 import { isFollowing, robotTarget, targetOf } from "./following";
@@ -6,10 +6,10 @@ import type { Command, Page } from "../../page/page";
 import { allModels } from "../../page/world_nodes";
 import { selectedBodies } from "../../page/selection_lookup";
 
-/** Height over what is ridden on [m]. */
+/** Height of the first person's eye over the body [m]. */
 const OVER = 0.05;
 
-/** Look ahead from over what is selected, else the robot; a second time goes back to circling it. */
+/** Look ahead from above the selection, otherwise the robot; a second call returns to an orbit. */
 export function toggleFirstPerson(page: Page): void {
   const { views, selection, world } = page;
   if (views.current.peek().className === "rviz/FrameAligned" && isFollowing(page)) {

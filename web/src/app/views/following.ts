@@ -1,4 +1,4 @@
-/** The view follows what is selected, or the robot. */
+/** Follows the selection, or the robot, with the view. */
 
 import { FIXED_FRAME } from "../../rviz/properties";
 import { simulatedRobot } from "./framing";
@@ -13,7 +13,7 @@ export function isFollowing({ views }: Page): boolean {
   return target !== undefined && target.value.value !== FIXED_FRAME;
 }
 
-/** Follow what is selected, else the robot; what follows already stops. */
+/** Follow the selection, otherwise the robot; a view that follows already stops. */
 export function toggleFollowing(page: Page): void {
   if (isFollowing(page)) page.views.follow(null);
   else {

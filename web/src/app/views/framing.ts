@@ -1,4 +1,4 @@
-/** How the camera frames a selection. */
+/** Framing of a selection by the camera. */
 
 import { Box3, Quaternion, Sphere, Vector3, type Mesh, type Object3D } from "three";
 
@@ -8,7 +8,7 @@ import type { Page, Selection } from "../../page/page";
 import { bodiesOf, robotOf, type ScopedModel } from "../../page/world_nodes";
 import { findLink, placed, selectedBodies } from "../../page/selection_lookup";
 
-/** Frame a selection; with none the robot, else all there is. */
+/** Frame a selection; with none the robot, otherwise everything. */
 export function frameSelection(page: Page, selection: Selection | null): void {
   if (selection?.kind === "frame") {
     const pose = page.frames.lookup(page.displays.fixedFrame.peek(), selection.frame, 0n);
@@ -24,7 +24,7 @@ export function simulatedRobot(page: Page): ScopedModel | undefined {
   return robotOf(page.world.manifest.peek());
 }
 
-/** The robot's extent in the fixed frame, or that of the whole world or of all frames; empty: there is nothing to see yet. */
+/** Extent of the robot, the whole world or all frames, in the fixed frame; empty: nothing to see yet. */
 export function robotBox(page: Page): Box3 {
   const manifest = page.world.manifest.peek();
   if (manifest === null) return drawnBox(page);
@@ -56,7 +56,7 @@ function addVisible(box: Box3, root: Object3D): void {
   });
 }
 
-/** True where a box shows so much else than another that the picture must change. */
+/** True if two boxes differ so much that the camera must move. */
 export function differs(box: Box3, other: Box3): boolean {
   const [a, b] = [box, other].map((bounds) => bounds.getBoundingSphere(new Sphere()));
   if (a === undefined || b === undefined || other.isEmpty()) return true;
@@ -79,7 +79,7 @@ export function targetPose(page: Page, target: string): Transform | null {
   return pose;
 }
 
-/** Bodies with an outline: the selected link's is broad, its model's thin, and what is hovered thin. */
+/** Bodies with an outline: broad for the selected link, thin for its model and the hovered object. */
 export function outlinedBodies(page: Page): { readonly thin: readonly number[]; readonly broad: readonly number[] } {
   const selection = placed(page.selection.value);
   if (selection?.kind === "part" && selection.part.length > 0)

@@ -1,4 +1,4 @@
-/** Names of what can be shown of the world, and what this browser remembers of it. */
+/** Names of the parts of the world that can be shown, and the browser's memory of them. */
 
 import { effect, untracked } from "@preact/signals";
 
@@ -41,7 +41,7 @@ export function isWorldPartShown({ world }: Pick<Page, "world">, part: WorldPart
   return world.shown.world.value.get(part) ?? (part === "grid" && world.manifest.value?.scene.grid === true);
 }
 
-/** Hide or show a model, or a link (`model::link`). */
+/** Toggle the visibility of a model, or a link (`model::link`). */
 export function toggleHidden({ world, scene }: Pick<Page, "world" | "scene">, name: string): void {
   const names = new Set(world.hidden.peek());
   if (!names.delete(name)) names.add(name);
@@ -54,7 +54,7 @@ const isWorldPart = isOneOf(...WORLD_PARTS);
 
 type Saved<Key extends string> = readonly (readonly [Key, boolean])[];
 
-/** Remember what is shown: of all models everywhere, of single ones in the world of this name. */
+/** Remember the shown parts: of all models everywhere, of single models in the world of this name. */
 export function rememberShown({ world }: Pick<Page, "world">): void {
   const { shown } = world;
   shown.all.value = new Set(recall("shown", ["visuals"], isListOf(isPart)));

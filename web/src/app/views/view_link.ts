@@ -1,4 +1,4 @@
-/** Links that keep the view: behind the page's address stands from where one looks. */
+/** Links that keep the view, in the fragment of the page's address. */
 
 import type { Signal } from "@preact/signals";
 
@@ -27,7 +27,7 @@ export function linkTo(
   return `${url.href}${KEY}${encodeURIComponent(JSON.stringify(shownViews(views), short))}`;
 }
 
-/** The view that a link's end holds, as an .rviz file would; null: none that can be read. */
+/** View in a link's fragment, as in an .rviz file; null: no readable view. */
 export function linkedView(hash: string): YamlMapping | null {
   if (!hash.startsWith(KEY) || hash.length > LONGEST) return null;
   try {
@@ -43,7 +43,7 @@ function shownViews(views: Pick<Views, "current" | "layout" | "panes" | "active"
   return views.layout.peek() === "one" ? views.current.peek().save() : savePanes(views);
 }
 
-/** Show what a link holds: a view in the active pane, or several panes. */
+/** Show a link's view in the active pane, or its views in several panes. */
 export function showLinkedView(views: Views, split: Signal<PaneLayout>, linked: YamlMapping): void {
   const layout = savedLayout(linked);
   split.value = layout ?? "one";

@@ -1,4 +1,4 @@
-/** What is shown of every model, and of the world itself; a video of the view. */
+/** Menu of the parts shown of all models and of the world, and of a video of the view. */
 
 import type { JSX } from "preact";
 
@@ -41,7 +41,7 @@ function shownItems(page: Page): readonly MenuItem[] {
   return [...parts, ...world];
 }
 
-/** What is shown of one model. */
+/** Section of the parts shown of one model. */
 export function ShownSection({ shell, model }: { readonly shell: Shell; readonly model: string }): JSX.Element {
   const { shown } = shell.page.world;
   return (

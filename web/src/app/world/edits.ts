@@ -1,4 +1,4 @@
-/** Edits of the running world: what the server has done can be undone. */
+/** Edits of the running world, which can be undone. */
 
 import type { SimulatedWorld } from "../../scene/simulated_world";
 import type { WorldEditor } from "../../page/world_editor";
@@ -31,7 +31,7 @@ async function editAndRecord<N extends RequestName>(
   shell.page.undo.record(title, send(after), send(before));
 }
 
-/** What the tools change the world by; `shell` is there once the page is drawn. */
+/** Editor that tools change the world with; `shell` returns the shell once the page is drawn. */
 export function makeEditor(world: SimulatedWorld, shell: () => Shell): WorldEditor {
   return {
     world,
@@ -49,7 +49,7 @@ export function makeEditor(world: SimulatedWorld, shell: () => Shell): WorldEdit
   };
 }
 
-/** True if what is shown is simulated now, and can be changed. */
+/** True if the page shows a running simulation that may be changed. */
 export function canEdit(shell: Shell): boolean {
   return shell.page.session.kind === "simulation" && canControl(shell.page);
 }

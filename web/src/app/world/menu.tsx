@@ -1,4 +1,4 @@
-/** What can be done with the world as a whole, above its tree. */
+/** Menu of actions on the whole world, above its tree. */
 
 import type { JSX } from "preact";
 

@@ -19,7 +19,7 @@ export function holdModel(shell: Shell, model: string, on: boolean): void {
   void editWorld(shell, `${on ? "Hold" : "Release"} of ${model}`, "hold", { model, on }, { model, on: !on });
 }
 
-/** Put a model back as it came, with its joints, at rest, and its plugins as at their start. */
+/** Reset a model's pose, joints, velocities and plugins to their initial state. */
 export function resetModel(shell: Shell, model: string): void {
   const reset: Request = { request: "reset_model", fields: { model } };
   void change(shell, `Reset of ${model}`, reset, { request: "undo_reset", fields: { model } });
@@ -41,7 +41,7 @@ export function copyModel(shell: Shell, model: string, at: Vector3 | null = null
   });
 }
 
-/** From a model within bounds to its copy, which stands beside it, or on a point. */
+/** Offset from a model within bounds to its copy next to it, or on a point [m]. */
 function copyOffset(bounds: Box3, at: Vector3 | null): Vector3 {
   if (at === null) return new Vector3(bounds.max.x - bounds.min.x + GAP, 0, 0);
   const foot = bounds.getCenter(new Vector3()).setZ(bounds.min.z);
@@ -66,7 +66,7 @@ export function deleteLight(shell: Shell, light: string): void {
   );
 }
 
-/** Commands for what is selected. */
+/** Commands for the selected model or light. */
 export function modelCommands(shell: Shell): readonly Command[] {
   const selected = (): string | null => modelOf(shell.page.selection.peek());
   const command = (id: string, title: string, keys: string | null, run: (model: string) => void): Command => ({
@@ -87,7 +87,7 @@ export function modelCommands(shell: Shell): readonly Command[] {
   ];
 }
 
-/** An edit that another kind of request takes back, and `again` redoes; true: it is done. */
+/** Make an edit that another kind of request undoes, and `again` redoes; true: done. */
 function change(shell: Shell, ...edit: Change): Promise<boolean> {
   return shell.page.undo.ask(changeAndRecord(shell, ...edit));
 }

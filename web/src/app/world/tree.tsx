@@ -1,4 +1,4 @@
-/** The World page: search, and the tree of what is simulated. */
+/** The World page: search, and the tree of the simulated world. */
 
 import { useComputed, useSignal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -53,7 +53,7 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
         {canEdit(shell) && <WorldMenu shell={shell} />}
       </div>
       <div class="scroll">
-        {nodes.length === 0 && <p class="empty">Nothing is named so.</p>}
+        {nodes.length === 0 && <p class="empty">No matching object.</p>}
         <Tree
           label="World"
           rows={nodes.map((row) => rows.current.of(shell, row, row.node.key === selected))}
@@ -92,7 +92,7 @@ function openedAtFirst(manifest: Manifest | null): ReadonlySet<string> {
   return new Set(shown.length === 1 || robot !== null ? shown.map(({ name }) => name) : []);
 }
 
-/** Rows of the tree; one that shows what it did before is the same object. */
+/** Rows of the tree; an unchanged row stays the same object. */
 class WorldRows {
   private readonly known = new WeakMap<WorldNode, { readonly shows: string; readonly row: TreeRow }>();
 
