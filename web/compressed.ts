@@ -1,4 +1,4 @@
-/** Beside each larger file of text a smaller one for browsers that take it: `index.js.gz`. */
+/** Adds a gzip file beside each larger text file, for browsers that accept it: `index.js.gz`. */
 
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";

@@ -8,7 +8,7 @@ const FILE = "licenses.txt";
 const OWN = readFileSync(new URL("../LICENSE", import.meta.url), "utf8");
 const RULE = `\n${"=".repeat(100)}\n`;
 
-/** Packages that others carry in their own bundle, without their licence. */
+/** Packages bundled inside others without their licence. */
 const CARRIED: Readonly<Record<string, readonly string[]>> = { "@foxglove/rosmsg": ["nearley", "moo"] };
 
 interface PackageJson {
@@ -60,7 +60,7 @@ function sectionsOf(folder: string): string[] {
   return [`${about.name} ${about.version}\n\n${text}`, ...carried];
 }
 
-/** Trundle's own licence stands first; no other has its text repeated by who does not ship it. */
+/** Text for a package without a licence file: Apache-2.0 only, whose text is Trundle's own. */
 function withoutFile({ name, license, author }: PackageJson): string {
   if (license !== "Apache-2.0") throw new Error(`${name} has the licence ${license}, but no file with its text`);
   const holder = typeof author === "string" ? author : (author?.name ?? "its authors");

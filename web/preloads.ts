@@ -1,4 +1,4 @@
-/** Scripts that the document's own script imports later are named in it, so that they come at once and beside each other. */
+/** Adds preload links for the scripts that the document's script imports later, so that they load in parallel. */
 
 import type { HtmlTagDescriptor, Plugin, Rolldown } from "vite";
 
@@ -21,7 +21,7 @@ export function preloads(): Plugin {
   };
 }
 
-/** True for a library that is imported by itself: few ask for what it does. */
+/** True for a library that is imported by itself, since few pages use it. */
 export function isLibrary({ facadeModuleId }: Rolldown.OutputChunk): boolean {
   return facadeModuleId?.includes("/node_modules/") ?? false;
 }

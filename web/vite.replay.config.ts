@@ -1,4 +1,4 @@
-/** The viewer of replays: one script and one style sheet, which stand in each replay's HTML. */
+/** Viewer of replays: one script and one style sheet, which each replay's HTML contains. */
 
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";

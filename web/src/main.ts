@@ -1,4 +1,4 @@
-/** What the document runs first: it is small, so that session, WebGL and the rest of the page begin beside each other. */
+/** First script of the document: small, so that session, WebGL and the rest of the page load in parallel. */
 
 import "./theme/tokens.css";
 import "./theme/base.css";
@@ -20,7 +20,7 @@ async function start(root: HTMLElement): Promise<void> {
   }
 }
 
-/** Fetch what the page is for, as JSON; throws a sentence. */
+/** Fetch the page's session as JSON; throws a sentence. */
 async function fetchSession(): Promise<string> {
   const url = new URL("session.json", location.href);
   url.search = location.search; // which may say that the page only looks

@@ -5,7 +5,7 @@ import { GraphNames } from "../protocol/graph_names";
 import type { TFMessage } from "../protocol/generated/ros_messages";
 import type { TransformTree } from "./transform_tree";
 
-/** Wall clocks are set back by less [ns]; simulations begin again at 0. */
+/** Smallest jump back that counts as a restart [ns]: wall clocks are set back by less. */
 const JUMP = 100_000_000n;
 
 /**

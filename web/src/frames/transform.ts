@@ -13,7 +13,7 @@ export class NoTransform {
   constructor(
     /** "No transform from [laser] to [map]" */
     readonly text: string,
-    /** What to do: "nothing publishes laser. Frames here: base_link, odom" */
+    /** Advice: "nothing publishes laser. Frames here: base_link, odom" */
     readonly advice: string,
   ) {}
 }

@@ -37,7 +37,7 @@ export class TransformHistory {
     return this.#at(this.#samples.length - 1);
   }
 
-  /** Add a transform; one that is older than what is kept is left out. */
+  /** Add a transform; one older than the cache is dropped. */
   add(sample: Sample): void {
     this.arrivals.add(performance.now(), 0);
     const samples = this.#samples;
@@ -50,7 +50,7 @@ export class TransformHistory {
     while (samples.length > MAX_SAMPLES || this.oldest.stamp < this.newest.stamp - CACHE_TIME) samples.shift();
   }
 
-  /** The transform at a time [ns], interpolated; what tf2 says when it would be extrapolated. */
+  /** Transform at a time [ns], interpolated, or tf2's extrapolation error. */
   lookup(stamp: bigint): Sample | string {
     const { oldest, newest } = this;
     if (stamp > newest.stamp || stamp < oldest.stamp) return extrapolation(stamp, oldest.stamp, newest.stamp);

@@ -1,4 +1,4 @@
-/** Buffer of transforms with the meaning of tf2's. */
+/** Buffer of transforms that behaves as tf2's. */
 
 import { signal } from "@preact/signals";
 import { Quaternion, Vector3 } from "three";
@@ -11,9 +11,9 @@ import { TransformHistory, type Sample } from "./transform_history";
 
 /** Ancestors that a frame may have, to find loops; tf2's number. */
 const MAX_ANCESTORS = 1000;
-/** Bounds the memory that a publisher of ever new names can take. */
+/** Bounds the memory that a publisher of ever new names can use. */
 const MAX_FRAMES = 10_000;
-/** Frames that an advice names. */
+/** Largest number of frames that an advice lists. */
 const MAX_NAMES = 12;
 
 const LOOP = "The tf tree is invalid because it contains a loop";
@@ -22,10 +22,10 @@ export class TransformTree implements FrameTree {
   readonly frames = signal<readonly string[]>([]);
   readonly #moving = new Map<string, TransformHistory>();
   readonly #static = new Map<string, Sample>();
-  /** All frames, also those that are parents only. */
+  /** All frames, including those that are only parents. */
   readonly #names = new Set<string>();
 
-  /** Add transforms; those that tf2 refuses are left out: numbers that are none, frames in themselves or without name. */
+  /** Add transforms; those that tf2 refuses are dropped: NaNs, frames that are their own parents or without a name. */
   add(transforms: readonly TransformStamped[], isStatic: boolean): void {
     let isOther = false;
     for (const { header, child_frame_id, transform } of transforms) {
@@ -39,7 +39,7 @@ export class TransformTree implements FrameTree {
     if (isOther) this.frames.value = [...this.#names].sort();
   }
 
-  /** Forget all but static transforms, as when the time goes back: static ones are sent once. */
+  /** Forget all but static transforms, as when time goes back: static ones are sent only once. */
   clearMoving(): void {
     this.#moving.clear();
     this.#names.clear();
@@ -79,7 +79,7 @@ export class TransformTree implements FrameTree {
     return (this.#static.get(name) ?? this.#moving.get(name)?.newest)?.parent ?? null;
   }
 
-  /** The pose of `from` in `to`, or why there is none. */
+  /** Pose of `from` in `to`, or the reason why there is none. */
   #find(to: string, from: string, time: bigint): Transform | string {
     for (const name of [from, to]) if (!this.#names.has(name)) return this.#unknown(name);
     const up = this.#ancestors(from);
@@ -108,7 +108,7 @@ export class TransformTree implements FrameTree {
     return `nothing publishes ${name}. Frames here: ${names.slice(0, MAX_NAMES).join(", ")}${rest}`;
   }
 
-  /** A frame and those above it; null: they are a loop. */
+  /** A frame and its ancestors; null: they form a loop. */
   #ancestors(name: string): string[] | null {
     const chain = [name];
     for (let at = this.#newest(name); at !== undefined; at = this.#newest(at.parent)) {
@@ -130,7 +130,7 @@ export class TransformTree implements FrameTree {
     return time ?? 0n;
   }
 
-  /** Pose of a frame in one above it, or why there is none at that time. */
+  /** Pose of a frame in an ancestor, or the reason why there is none at that time. */
   #compose(frame: string, ancestor: string, stamp: bigint): Transform | string {
     const position = new Vector3();
     const orientation = new Quaternion();
@@ -151,7 +151,7 @@ export class TransformTree implements FrameTree {
     return this.#static.get(name) ?? this.#moving.get(name)?.newest;
   }
 
-  /** Make a frame known; false: there are too many. */
+  /** Add a frame's name; false: too many names. */
   #enter(name: string): boolean {
     if (this.#names.has(name)) return true;
     if (this.#names.size >= MAX_FRAMES) return false;

@@ -1,4 +1,4 @@
-/** Driving with a dead man's rule: commands go out at 10 Hz while something is held, then one release. */
+/** Driving with a dead man's switch: commands are sent at 10 Hz while a control is held, then one release. */
 
 import { computed, effect, signal } from "@preact/signals";
 
@@ -9,10 +9,10 @@ import { isNumber, recall, remember } from "./storage";
 
 const PERIOD = 100; // ms
 const TWISTS = ["geometry_msgs/Twist", "geometry_msgs/TwistStamped"];
-/** Not every subscriber says its type; by convention this is the topic's name. */
+/** Conventional name of velocity topics, for subscribers whose type is unknown. */
 const BY_NAME = /(^|\/)cmd_vel$/;
 
-/** Shares −1…1 of the limits. */
+/** Input of a control: ratios −1…1 of the velocity limits. */
 export interface DriveInput {
   readonly linear: number;
   readonly angular: number;
@@ -25,7 +25,7 @@ export class Drive {
   private known: readonly string[] = [];
   private timer: ReturnType<typeof setInterval> | undefined;
 
-  /** Topics of velocities that a node which does not only watch listens to, the session's first. */
+  /** Velocity topics with a subscriber other than watchers, the session's first. */
   readonly topics = computed<readonly string[]>(() => {
     const { connection, session } = this.page;
     if (session.view_only) return [];
@@ -45,10 +45,10 @@ export class Drive {
   });
   /** The topic that is driven; null: there is none. */
   readonly topic = computed(() => this.chosen.value ?? this.topics.value[0] ?? null);
-  /** Greatest velocities [m/s], [rad/s]. */
+  /** Largest velocities [m/s], [rad/s]. */
   readonly linearLimit;
   readonly angularLimit;
-  /** Velocities that go out now [m/s], [rad/s]; null: nothing is held. */
+  /** Commanded velocities [m/s], [rad/s]; null: no control is held. */
   readonly command = computed<DriveInput | null>(() => {
     if (this.inputs.value.size === 0) return null;
     const sum = (part: keyof DriveInput): number =>
@@ -72,7 +72,7 @@ export class Drive {
     this.chosen.value = topic;
   }
 
-  /** Hold a key, the disc or a stick; without a connection or topic nothing is held. */
+  /** Hold a key, the disc or a stick; ignored without a connection or topic. */
   hold(source: string, linear: number, angular: number): void {
     if (this.topic.peek() === null || this.page.connection.state.peek().kind !== "connected") return;
     this.inputs.value = new Map(this.inputs.peek()).set(source, { linear: clamp(linear), angular: clamp(angular) });

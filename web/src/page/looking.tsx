@@ -1,4 +1,4 @@
-/** Pages whose link only allows looking: the server refuses everything else, and the page does not offer it. */
+/** View-only pages: the server refuses changes, and the page does not offer them. */
 
 import type { ComponentChildren, JSX } from "preact";
 
@@ -6,12 +6,12 @@ import type { Page } from "./page";
 
 export const LOOKS_ONLY = "This link only allows looking.";
 
-/** True if what is shown may be changed. */
+/** True if the page is not view-only. */
 export function canControl({ session }: Pick<Page, "session">): boolean {
   return !session.view_only;
 }
 
-/** Controls of what is shown; where the link only allows looking they are off, and a line says why. */
+/** Controls that change the session; on a view-only page they are disabled, and a line says why. */
 export function Controls({
   page,
   children,

@@ -21,13 +21,13 @@ interface SelectedSensor {
   readonly sensor: string;
 }
 
-/** What has a plugin. */
+/** Owner of a plugin. */
 export type PluginOwner =
   | { readonly kind: "world" }
   | { readonly kind: "model"; readonly model: string }
   | SelectedSensor;
 
-/** What is selected, in tree or scene. */
+/** Selection in tree or scene. */
 export type Selection =
   | { readonly kind: "model"; readonly model: string }
   | { readonly kind: "link"; readonly model: string; readonly link: string }
@@ -37,9 +37,9 @@ export type Selection =
   | { readonly kind: "world" }
   | { readonly kind: "light"; readonly light: string }
   | { readonly kind: "frame"; readonly frame: string }
-  /** Of the model that is edited. */
+  /** Part of the edited model. */
   | { readonly kind: "part"; readonly part: PartPath }
-  /** Something that a display drew: fields of what was picked. */
+  /** Object that a display drew, with its fields. */
   | { readonly kind: "picked"; readonly title: string; readonly fields: Readonly<Record<string, unknown>> };
 
 /** An entry of the palette (Ctrl K) and of the help (?). */
@@ -47,7 +47,7 @@ export interface Command {
   readonly id: string;
   readonly title: string;
   readonly group: "Simulation" | "View" | "Displays" | "Tools" | "Panels" | "Page";
-  /** As `Space` or `Shift R`; never one of the browser's own. */
+  /** Keys, as `Space` or `Shift R`; never a shortcut of the browser. */
   readonly keys?: string;
   readonly enabled?: () => boolean;
   readonly run: () => void;
@@ -55,19 +55,19 @@ export interface Command {
 
 export interface Commands {
   readonly all: ReadonlySignal<readonly Command[]>;
-  /** Add commands; returns how to remove them. */
+  /** Add commands; returns a function that removes them. */
   add(...commands: readonly Command[]): () => void;
 }
 
-/** The page's own stack. */
+/** Undo stack of the page. */
 export interface PageUndo extends UndoStack {
-  /** While there is another stack, it is the one whose edits are taken back. */
+  /** Use another stack while it is not null. */
   defer(other: ReadonlySignal<DeferredUndo | null>): void;
-  /** An edit that is recorded once it is done; what is taken back meanwhile waits for it. */
+  /** Record an edit when it is done; undo and redo wait for it meanwhile. */
   ask<T>(edit: Promise<T>): Promise<T>;
 }
 
-/** Edits that something else remembers. */
+/** Undo stack kept elsewhere, as by the server. */
 export interface DeferredUndo {
   readonly undoTitle: string | null;
   readonly redoTitle: string | null;
@@ -76,7 +76,7 @@ export interface DeferredUndo {
 }
 
 export interface Page {
-  /** As it is now: what reads it in an effect or a component follows its changes. */
+  /** Current session; effects and components that read it follow its changes. */
   readonly session: PageSession;
   readonly connection: Connection;
   readonly frames: FrameTree;
@@ -91,6 +91,6 @@ export interface Page {
   readonly undo: PageUndo;
   readonly drive: Drive;
   readonly theme: Signal<"light" | "dark">;
-  /** Who is at this page. */
+  /** People at this page. */
   readonly people: ReadonlySignal<People>;
 }

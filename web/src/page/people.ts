@@ -1,4 +1,4 @@
-/** People at the same page: who is there, and what each has selected. */
+/** People at the same page, and their selections. */
 
 import { computed, effect, signal, type ReadonlySignal } from "@preact/signals";
 
@@ -10,7 +10,7 @@ import { placed } from "./selection_lookup";
 const NOBODY: People = { you: 0, people: [] };
 const COLORS = 6;
 
-/** Follow who is there, and show them what is selected here. */
+/** Follow the people at the page, and send them the selection. */
 export function followPeople(
   connection: Connection,
   selection: ReadonlySignal<Selection | null>,
@@ -29,7 +29,7 @@ export function followPeople(
   return people;
 }
 
-/** What others are shown of a selection; null: nothing of the simulated world. */
+/** Selection as shown to others; null: nothing of the simulated world. */
 function shared(selected: Selection | null): SharedSelection | null {
   const selection = placed(selected);
   switch (selection?.kind) {
@@ -52,7 +52,7 @@ export function colorOf({ number }: Person): `--${string}` {
   return `--person-${((number - 1) % COLORS) + 1}`;
 }
 
-/** Everybody but the person at this page. */
+/** All people except the person at this page. */
 export function others({ you, people }: People): readonly Person[] {
   return people.filter(({ number }) => number !== you);
 }

@@ -1,4 +1,4 @@
-/** Finding what a selection names in the world. */
+/** Lookup of a selection's object in the world. */
 
 import type { JointInfo, LinkInfo, ModelInfo, PluginInfo, SensorInfo } from "../protocol/generated/page_messages";
 import { bodiesOfPart } from "../scene/draft";
@@ -33,13 +33,13 @@ export function findPlugin(page: Pick<Page, "world">, owner: PluginOwner, plugin
   return of()?.plugins.find(({ name }) => name === plugin) ?? null;
 }
 
-/** What has a place in the world: a sensor's link, a plugin's owner. */
+/** Selection with a pose in the world: a sensor's link, a plugin's owner. */
 export function placed(selection: Selection | null): Exclude<Selection, { readonly kind: "sensor" | "plugin" }> | null {
   if (selection?.kind === "plugin") return placed(selection.of);
   return selection?.kind === "sensor" ? { kind: "link", model: selection.model, link: selection.link } : selection;
 }
 
-/** Bodies of a selection; none for what is not simulated. */
+/** Bodies of a selection; empty for one that is not simulated. */
 export function selectedBodies(page: Page, selected: Selection | null): readonly number[] {
   const selection = placed(selected);
   if (selection === null) return [];

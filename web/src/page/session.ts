@@ -1,4 +1,4 @@
-/** What this page is for, as it changes. */
+/** The page's session, as it changes. */
 
 import { effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
 
@@ -8,10 +8,10 @@ import { pageSession } from "../protocol/generated/page_checks";
 import type { PageSession } from "../protocol/generated/page_messages";
 
 const TOPIC = "trundle/session";
-/** What tells a page from another one, also where the page cannot read the rest. */
+/** Fields that identify a session, also if the page cannot read the rest. */
 const identity = struct<{ readonly kind: string; readonly version: string }>(() => ({ kind: text, version: text }));
 
-/** The session as it is now. A page of another kind is another page: `onOther` is called. */
+/** Current session. `onOther` is called when it becomes one of another kind. */
 export function liveSession(
   first: PageSession,
   connection: Connection,
@@ -26,7 +26,7 @@ export function liveSession(
   return session;
 }
 
-/** Call a function for each item of a list, now and for those that come later; returns how to stop. */
+/** Call a function for each item of a list, now and for later items; returns a function that stops. */
 export function forEachNew(items: () => readonly string[], act: (item: string) => void): () => void {
   const seen = new Set<string>();
   return effect(() => {

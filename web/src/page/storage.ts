@@ -1,4 +1,4 @@
-/** What this browser remembers of the page. Without storage (private windows, file pages) nothing is remembered. */
+/** Browser storage of the page. Without storage (private windows, file pages) nothing is remembered. */
 
 import { parseJson } from "../protocol/json";
 
@@ -12,7 +12,7 @@ export function remember(key: string, value: unknown): void {
   }
 }
 
-/** What was remembered, or the fallback where there is nothing of its type. */
+/** Stored value, or the fallback if none of its type is stored. */
 export function recall<T>(key: string, fallback: T, is: (value: unknown) => value is T): T {
   try {
     const value: unknown = parseJson(localStorage.getItem(PREFIX + key) ?? "null");

@@ -19,7 +19,7 @@ export interface Tool {
   readonly cursor: string;
   /** True: it publishes. */
   readonly acts: boolean;
-  /** What a person does next, for the hint. */
+  /** Next action of the person, shown as a hint. */
   readonly hint: ReadonlySignal<string>;
   activate(): void;
   deactivate(): void;
@@ -29,16 +29,16 @@ export interface Tool {
 
 /** Puts a model, a shape or a light into the world. */
 export interface Inserter extends Tool {
-  /** What is being inserted; null: nothing is chosen. */
+  /** Item being inserted; null: none. */
   readonly chosen: ReadonlySignal<Insertable | null>;
   /** Inserts something at a point of the world [m]. */
   onPlace: (item: Insertable, point: Vector3) => void;
-  /** Have something follow the pointer; null: nothing any more. */
+  /** Choose the item that follows the pointer; null: none. */
   choose(item: Insertable | null): void;
-  /** Show it where a point of the view [px] meets the world. */
+  /** Show the item at the point of the world under a point of the view [px]. */
   hover(x: number, y: number): void;
   hide(): void;
-  /** Insert it where a point of the view [px] meets the world. */
+  /** Insert the item at the point of the world under a point of the view [px]. */
   place(x: number, y: number): void;
   placeInMiddle(): void;
 }

@@ -8,7 +8,7 @@ import type { PluginOwner, Selection } from "./page";
 export interface WorldNode {
   readonly key: string;
   readonly label: string;
-  /** The one value that matters; a joint's is its index, as it changes. */
+  /** Main value; for a joint, whose value changes, the joint itself. */
   readonly detail: string | { readonly joint: JointInfo };
   readonly icon: IconName | null;
   readonly selection: Selection | null;
@@ -17,7 +17,7 @@ export interface WorldNode {
   readonly children: readonly WorldNode[];
 }
 
-/** A model with its name in full: `outer::inner`. */
+/** Model with its full name: `outer::inner`. */
 export interface ScopedModel {
   readonly name: string;
   readonly model: ModelInfo;
@@ -47,7 +47,7 @@ export function bodiesOf(model: ModelInfo): readonly number[] {
   return [...model.links.map((link) => link.body), ...model.models.flatMap(bodiesOf)];
 }
 
-/** The tree of a world; most worlds are called `default`, which says less than the page's title. */
+/** Tree of a world, under the page's title, since most worlds are called `default`. */
 export function worldNode(manifest: Manifest, title = manifest.name): WorldNode {
   const lights = manifest.lights.map(({ name, type }) => leaf({ kind: "light", light: name }, name, type, "light"));
   const models = robotFirst(manifest).map((model) => modelNode(model, ""));
@@ -145,14 +145,14 @@ function mass(kilograms: number): string {
   return kilograms > 0 ? `${fixed(kilograms, kilograms < 0.1 ? 3 : 2)} kg` : "";
 }
 
-/** A node that is seen, and how deep it is. */
+/** Visible node and its depth. */
 export interface VisibleNode {
   readonly node: WorldNode;
   readonly depth: number;
   readonly isOpen: boolean | undefined;
 }
 
-/** Nodes that are seen: below open ones, or those that match a search and their parents. */
+/** Visible nodes: children of open ones, or those that match a search and their ancestors. */
 export function visibleNodes(
   root: WorldNode,
   isOpen: (node: WorldNode) => boolean,
@@ -174,7 +174,7 @@ function matches(node: WorldNode, query: string): boolean {
   return node.label.toLowerCase().includes(query) || node.children.some((child) => matches(child, query));
 }
 
-/** Key of the node that stands for a selection; "": none does. */
+/** Key of a selection's node; "": none. */
 export function keyOf(selection: Selection | null): string {
   switch (selection?.kind) {
     case "world":

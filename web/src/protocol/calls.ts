@@ -1,4 +1,4 @@
-/** What is asked of the server and answered later: services, assets and requests to what started the page. */
+/** Calls to the server that are answered later: services, assets and requests. */
 
 import { signal } from "@preact/signals";
 
@@ -12,7 +12,7 @@ import { parseSchema, type Schema } from "./schema";
 import { callFrame, type Send, type ServerBinary } from "./wire";
 import { writeMessage } from "./writer";
 
-/** Answers that are awaited, by a number of their own. */
+/** Pending answers, by number. */
 class Pending<T> {
   readonly #waiting = new Map<number, { resolve: (value: T) => void; reject: (reason: Error) => void }>();
   #next = 0;
@@ -56,7 +56,7 @@ export class Calls {
     this.#publishServices();
   }
 
-  /** The connection is lost: nothing is answered any more. */
+  /** Reject all pending calls, since the connection is lost. */
   lost(): void {
     for (const pending of [this.#calls, this.#assets, this.#requests]) {
       pending.rejectAll("the connection was lost before the answer came");

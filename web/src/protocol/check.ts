@@ -8,7 +8,7 @@ export class MessageFault extends Error {}
 /** Returns a value, which is a T; throws a `Mismatch` where it is none. */
 export type Check<T> = (value: unknown) => T;
 
-/** Where a value is not what its type says: `path` leads there from the value, empty: the value itself. */
+/** Mismatch of a value with its type; `path` leads to it from the checked value, empty: the value itself. */
 class Mismatch extends Error {
   constructor(
     readonly reason: string,
@@ -44,7 +44,7 @@ export function checked<T>(value: unknown, name: string, check: Check<T>): T {
   }
 }
 
-/** What a person is told of a message that cannot be read. */
+/** Error for the person about a message that cannot be read. */
 export function fault(name: string, reason: string): MessageFault {
   return new MessageFault(
     `The page cannot read ${name}: ${reason}. The server may be of another version: load the page again.`,
@@ -68,7 +68,7 @@ export const flag: Check<boolean> = (value) => (typeof value === "boolean" ? val
 
 export const number: Check<number> = (value) => (typeof value === "number" ? value : wrong(value, "a number"));
 
-/** Also null, which the server writes for numbers that are not finite: JSON has none. */
+/** Number, or null, which the server writes for non-finite numbers: JSON has none. */
 export const float: Check<number> = (value) => (value === null ? NaN : number(value));
 
 export const json: Check<Json> = (value) => (value === undefined ? wrong(value, "JSON") : (value as Json));
@@ -127,7 +127,7 @@ export function struct<T>(fields: () => { readonly [K in keyof NoInfer<T>]-?: Ch
   };
 }
 
-/** One of several structs, by the field that says which. */
+/** One of several structs, by their tag field. */
 /* @__NO_SIDE_EFFECTS__ */
 export function tagged<T>(tag: string, structs: () => Readonly<Record<string, Check<NoInfer<T>>>>): Check<T> {
   let checks: Readonly<Record<string, Check<T>>> | null = null;
@@ -140,7 +140,7 @@ export function tagged<T>(tag: string, structs: () => Readonly<Record<string, Ch
   };
 }
 
-/** One of several kinds of values; of one that is none of them the last check says why. */
+/** One of several kinds of values; the last check reports the mismatch. */
 /* @__NO_SIDE_EFFECTS__ */
 export function oneOf<T extends readonly unknown[]>(
   ...checks: { readonly [K in keyof T]: Check<T[K]> }

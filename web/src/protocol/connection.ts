@@ -26,7 +26,7 @@ export interface ServiceInfo {
   readonly response: string;
 }
 
-/** Who publishes, subscribes and serves: names of topics and services to names of nodes. */
+/** Publishers, subscribers and servers: names of topics and services to names of nodes. */
 export interface GraphInfo {
   /** Types of topics that are subscribed to, published or not. */
   readonly types: ReadonlyMap<string, string>;
@@ -96,7 +96,7 @@ export interface Connection {
     options?: { readonly every?: boolean; readonly onError?: (text: string) => void },
   ): Subscription;
   /**
-   * Payload as it came: of the server's own channels (`trundle/…`), or of a topic that is only to be measured.
+   * Raw payload: of the server's own channels (`trundle/…`), or of a topic that is only to be measured.
    * Where `onPayload` throws a `MessageFault`, a notice tells.
    */
   subscribeRaw(topic: string, onPayload: (payload: DataView) => void): Subscription;

@@ -9,14 +9,14 @@ export type DecodeRequest =
   | { readonly kind: "decode"; readonly channel: number; readonly payloads: readonly DataView[] }
   | { readonly kind: "close"; readonly channel: number };
 
-/** Results of one "decode", in its order: messages, or sentences about what is wrong. */
+/** Results of one "decode", in its order: messages, or error sentences. */
 export interface DecodeResponse {
   readonly channel: number;
   readonly results: readonly (RosMessage | string)[];
 }
 
 export class DecodeService {
-  /** Channel → its schema, or what is wrong with its definition. */
+  /** Channel → its schema, or the error in its definition. */
   readonly #schemas = new Map<number, Schema | string>();
 
   constructor(private readonly respond: (response: DecodeResponse, buffers: ArrayBuffer[]) => void) {}
@@ -40,7 +40,7 @@ export class DecodeService {
   }
 }
 
-/** What a function returns, or the sentence of its error. */
+/** Result of a function, or its error's sentence. */
 function attempt<T>(work: () => T): T | string {
   try {
     return work();

@@ -7,7 +7,7 @@ import type { RosMessage } from "./ros_types";
 const MAX_FRAMES = 10_000;
 const MAX_BYTES = 256 * 1024 * 1024;
 
-/** What of a Worker is used. */
+/** Part of Worker that is used. */
 export interface DecodePort {
   onmessage: ((event: MessageEvent<DecodeResponse>) => void) | null;
   postMessage(request: DecodeRequest, transfer: ArrayBuffer[]): void;
@@ -22,13 +22,13 @@ export interface Frame {
 export interface Decoded {
   readonly time: bigint;
   readonly bytes: number;
-  /** The message, or a sentence about what is wrong with it. */
+  /** Message, or an error sentence. */
   readonly result: RosMessage | string;
 }
 
 /** A channel's queue: one batch is with the worker, the others wait. */
 export class DecodeQueue {
-  /** Keep all that wait, not only the newest. */
+  /** True: keep all waiting messages, not only the newest. */
   every = false;
   #waiting: Frame[] = [];
   #waitingBytes = 0;
@@ -81,7 +81,7 @@ export class Decoder {
     port.onmessage = (event) => this.#queues.get(event.data.channel)?.receive(event.data.results);
   }
 
-  /** A queue for messages of a type; returns it and how to close it. */
+  /** Queue for messages of a type; returns it and a function that closes it. */
   open(
     name: string,
     definition: string,

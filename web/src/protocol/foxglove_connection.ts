@@ -30,7 +30,7 @@ export class FoxgloveConnection implements Connection {
   readonly #publications: Publications;
   readonly #system: SystemState;
   readonly #notices = new Notices();
-  /** The server's last word on the time [ns]; null: the wall clock is the time. */
+  /** Last time from the server [ns]; null: the wall clock is used. */
   #time: bigint | null = null;
 
   constructor(open: () => Socket, decodePort: DecodePort) {
@@ -141,7 +141,7 @@ export class FoxgloveConnection implements Connection {
     this.#socket.send({ op: "trundle/presence", selection });
   }
 
-  /** Handle a frame; a notice tells of what cannot be read. */
+  /** Handle a frame; a notice reports one that cannot be read. */
   #receive(data: string | ArrayBuffer): void {
     try {
       if (typeof data === "string") this.#receiveText(data);
@@ -202,7 +202,7 @@ export class FoxgloveConnection implements Connection {
     else this.#calls.receiveAsset(frame);
   }
 
-  /** A server greeted, which knows nothing of the one before. */
+  /** Start with a server that has just greeted. */
   #greeted(capabilities: readonly string[]): void {
     this.#time = null;
     this.#notices.clear();

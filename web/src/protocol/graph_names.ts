@@ -11,14 +11,14 @@ export class GraphNames {
     this.remappings = new Map(Object.entries(remappings));
   }
 
-  /** The name as the graph has it; that of nothing is nothing. */
+  /** Resolved name; empty for an empty name. */
   resolve(name: string): string {
     if (name === "") return "";
     const global = name.startsWith("/") ? name : join(this.namespace, name);
     return this.remappings.get(global) ?? global;
   }
 
-  /** Where a parameter may be: by its name, then in the namespaces above, as searchParam goes up. */
+  /** Candidate names of a parameter: its own, then in the namespaces above, as searchParam tries them. */
   search(name: string): readonly string[] {
     const names = [this.resolve(name)];
     if (name === "" || name.startsWith("/")) return names;

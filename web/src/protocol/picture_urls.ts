@@ -9,7 +9,7 @@ interface Pictures {
   readonly "model.glb": Omit<RenderModel, "kind">;
 }
 
-/** The address of a picture; `version` tells it from earlier ones, which the browser may have kept. */
+/** Address of a picture; `version` avoids the browser's cached copy of an earlier one. */
 export function pictureUrl<F extends keyof Pictures>(file: F, request: Pictures[F], version?: number): string {
   const fields = Object.entries({ ...request, ...(version === undefined ? {} : { version }) });
   return `${file}?${new URLSearchParams(fields.map(([name, value]) => [name, String(value)])).toString()}`;

@@ -17,7 +17,7 @@ export class Publications {
     private readonly definition: (type: string) => Promise<string>,
   ) {}
 
-  /** Begin again with a server that knows of none. */
+  /** Begin again with a server without publications. */
   restart(): void {
     this.#channels.clear();
   }

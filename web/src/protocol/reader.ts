@@ -19,7 +19,7 @@ const ARRAYS = {
 
 type Numeric = keyof typeof ARRAYS;
 
-/** Objects that a message may have beyond 8 per byte: its bytes do not bound how many are empty. */
+/** Extra objects of a message beyond 8 per byte, since empty ones take no bytes. */
 const MAX_EMPTY = 10_000;
 
 /** Below this size a string is decoded without TextDecoder, whose calls are slow. */
@@ -39,7 +39,7 @@ export function readMessage(schema: Schema, payload: DataView, buffers = new Set
 
 class Reader {
   #offset = 0;
-  /** Objects that may still be made. */
+  /** Objects that may still be created. */
   #objects: number;
   readonly #view: DataView;
   readonly #bytes: Uint8Array;

@@ -8,7 +8,7 @@ import type { ClientFrame } from "./wire";
 /** Seconds until the next attempt, after each one that failed; the last of them from then on. */
 const DELAYS = [1, 1, 2, 3, 5];
 
-/** What of a WebSocket is used. */
+/** Part of WebSocket that is used. */
 export type Socket = Pick<WebSocket, "send" | "close" | "onopen" | "onmessage" | "onclose">;
 
 export class ReconnectingSocket {
@@ -31,7 +31,7 @@ export class ReconnectingSocket {
     return true;
   }
 
-  /** The server has greeted: the connection stands. */
+  /** The server has greeted: the connection is established. */
   established(): void {
     this.#failures = 0;
     this.state.value = { kind: "connected" };
@@ -52,7 +52,7 @@ export class ReconnectingSocket {
     this.onLost();
   }
 
-  /** The state counts the seconds, until it stays at "lost, 0 s" during the attempt. */
+  /** Count down the seconds in the state, which stays at "lost, 0 s" during the attempt. */
   #wait(seconds: number): void {
     this.state.value = { kind: "lost", retryInSeconds: seconds };
     if (seconds === 0) this.#connect();

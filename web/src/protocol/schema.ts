@@ -2,7 +2,7 @@
 
 import { parse } from "@foxglove/rosmsg";
 
-/** Primitive types and their size [bytes]; of a string the least. */
+/** Primitive types and their size [bytes]; of a string the minimum. */
 export const PRIMITIVES = {
   bool: 1,
   int8: 1,
@@ -25,7 +25,7 @@ export type Primitive = keyof typeof PRIMITIVES;
 export interface Field {
   readonly name: string;
   readonly type: Primitive | Schema;
-  /** null: one value; "any": an array with its length before it; else the length of the array. */
+  /** null: a single value; "any": an array of variable length; otherwise the length of the array. */
   readonly length: null | "any" | number;
 }
 
@@ -33,7 +33,7 @@ export interface Schema {
   /** Datatype, as `sensor_msgs/LaserScan`. */
   readonly name: string;
   readonly fields: readonly Field[];
-  /** The least size of a message [bytes]. */
+  /** Smallest size of a message [bytes]. */
   readonly minimum: number;
 }
 

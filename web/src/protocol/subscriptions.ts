@@ -21,7 +21,7 @@ interface Topic {
   readonly subscribers: Set<Subscriber>;
   readonly raw: Set<(payload: DataView) => void>;
   readonly statistics: ArrivalStatistics;
-  /** Subscriptions at the server: the last one stands, of those before it messages may be on their way. */
+  /** Ids of subscriptions at the server; only the last is active, but messages of earlier ones may still arrive. */
   readonly ids: number[];
   decoding: { readonly queue: DecodeQueue; readonly close: () => void } | null;
 }
@@ -109,7 +109,7 @@ export class Subscriptions {
     return null;
   }
 
-  /** The server dropped these numbers of messages, since the connection began. */
+  /** Set the numbers of messages that the server dropped since the connection began. */
   setServerDrops(drops: Readonly<Record<string, number>>): void {
     for (const [name, count] of Object.entries(drops)) {
       const topic = this.#topics.get(name);
@@ -132,7 +132,7 @@ export class Subscriptions {
     return topic;
   }
 
-  /** Subscribe, also where that is done already: so a later subscriber gets what is latched. */
+  /** Subscribe again, so that a later subscriber gets latched messages. */
   #attachAgain(topic: Topic): void {
     const channel = this.#channel(topic.name);
     if (channel === undefined) return;

@@ -1,4 +1,4 @@
-/** Parameters and the graph of the system, which the server tells of while somebody watches. */
+/** Parameters and the graph of the system, which the server sends while subscribed. */
 
 import { batch, signal } from "@preact/signals";
 
@@ -25,7 +25,7 @@ export class SystemState {
 
   constructor(private readonly send: Send) {}
 
-  /** Begin again with a server that has told nothing yet, and what it can. */
+  /** Begin again with a new server of these capabilities. */
   restart(capabilities: readonly string[]): void {
     this.#capabilities = capabilities;
     this.parameters.value = new Map();

@@ -24,7 +24,7 @@ export class ArrivalStatistics {
     this.count += 1;
   }
 
-  /** A new connection begins, in which the server counts from 0. */
+  /** Keep the server's drops so far: a new connection counts from 0. */
   keepServerDrops(): void {
     this.dropped += this.serverDropped;
     this.serverDropped = 0;

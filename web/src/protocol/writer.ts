@@ -105,7 +105,7 @@ class Writer {
     else this.#view.setBigUint64(at, BigInt.asUintN(64, value), true);
   }
 
-  /** Place for some bytes: their offset. */
+  /** Reserve some bytes; returns their offset. */
   #take(bytes: number): number {
     const at = this.#offset;
     this.#offset += bytes;

@@ -1,4 +1,4 @@
-/** A recording that plays in a file of its own: the world and its motion stand in the document. */
+/** Replay that plays in a single file: the document contains the world and its motion. */
 
 import "../scene/conventions";
 import "../theme/tokens.css";
@@ -21,7 +21,7 @@ import { Bar } from "./bar";
 import { Player } from "./player";
 import { RecordedWorld, unpacked } from "./recorded_world";
 
-/** From where a recording without a view is seen [rad]. */
+/** First view of a recording without a view [rad]. */
 const FIRST_LOOK: Readonly<Record<string, number>> = { Yaw: -1.05, Pitch: 0.4 };
 
 async function start(root: HTMLElement): Promise<void> {
@@ -47,7 +47,7 @@ async function start(root: HTMLElement): Promise<void> {
   render(<Bar player={player} title={about.title} start={about.start} />, bar);
 }
 
-/** Look from where the address or the file says, else at what moves. */
+/** Set the first view: the address', the file's, otherwise one of the moving bodies. */
 function lookFirst(views: ViewList, { view }: ReplayAbout, world: RecordedWorld): void {
   const first = linkedView(location.hash) ?? view;
   if (first !== null) {

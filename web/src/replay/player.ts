@@ -1,4 +1,4 @@
-/** Time of a replay: it plays, in a loop, at a speed, or stands still. */
+/** Time of a replay: plays in a loop at a speed, or is paused. */
 
 import { signal } from "@preact/signals";
 
@@ -11,7 +11,7 @@ export class Player {
 
   constructor(readonly duration: number) {}
 
-  /** Wall time has passed [s]. */
+  /** Advance by wall time [s]. */
   advance(elapsed: number): void {
     if (!this.isPlaying.peek() || this.duration <= 0) return;
     this.time.value = (this.time.peek() + elapsed * this.speed.peek()) % this.duration;

@@ -44,7 +44,7 @@ export class RecordedWorld {
     this.scene.invalidate();
   }
 
-  /** What moves, or all but planes without an end where nothing does. */
+  /** Bounds of the moving bodies, or without any, of all but infinite planes. */
   bounds(): Box3 {
     this.model.root.updateWorldMatrix(true, true);
     const names = new Set(

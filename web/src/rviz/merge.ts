@@ -1,10 +1,10 @@
-/** Values put into a YAML document so that what they do not name stays as it was: keys, order, comments. */
+/** Merges values into a YAML document and keeps all else: unknown keys, order, comments. */
 
 import { isMap, isScalar, isSeq, Scalar, type Document, type Node, type YAMLMap, type YAMLSeq } from "yaml";
 
 import { isMapping, type Yaml, type YamlMapping } from "./properties";
 
-/** The node that stands for a value: the old one where it fits, changed in place, else a fresh one. */
+/** Node of a value: the old one changed in place if it fits, otherwise a new one. */
 export function merge(document: Document, old: unknown, value: Yaml): Node {
   if (isMapping(value) && isMap(old)) return mergeMapping(document, old, value);
   if (Array.isArray(value) && isSeq(old)) return mergeSequence(document, old, value as readonly Yaml[]);
@@ -43,7 +43,7 @@ function findEntry(old: readonly unknown[], entry: Yaml): number {
   return exact >= 0 ? exact : old.findIndex((node) => matches(node, ["Class"]));
 }
 
-/** `rviz/Grid` and `rviz_default_plugins/Grid` are one class, `Orbit (rviz)` and `Orbit (rviz_default_plugins)`, too. */
+/** Class name without its package: `rviz/Grid` and `rviz_default_plugins/Grid` are one class. */
 function shortName(name: unknown): unknown {
   if (typeof name !== "string") return name;
   return name

@@ -2,7 +2,7 @@
 
 import { signal, type ReadonlySignal, type Signal } from "@preact/signals";
 
-/** A value as it stands in an .rviz file. */
+/** Value in an .rviz file. */
 export type Yaml = string | number | boolean | null | readonly Yaml[] | { readonly [key: string]: Yaml };
 export type YamlMapping = Readonly<Record<string, Yaml>>;
 
@@ -19,7 +19,7 @@ export abstract class Property<T> {
   readonly children: Property<unknown>[] = [];
   /** Changes when children come or go. */
   readonly version = signal(0);
-  /** Its key in the file, which is its name but for topics of ROS 2's files. */
+  /** Key in the file: the name, except for topics of ROS 2's files. */
   key: string;
   abstract readonly kind: string;
 
@@ -39,7 +39,7 @@ export abstract class Property<T> {
     return child;
   }
 
-  /** Take a property below this one away. */
+  /** Remove a child property. */
   remove(child: Property<unknown>): void {
     const index = this.children.indexOf(child);
     if (index < 0) return;
@@ -49,7 +49,7 @@ export abstract class Property<T> {
 
   /** The value as the file has it; undefined: not saved. */
   abstract encode(): Yaml | undefined;
-  /** Take the file's value; false: it is not one of this kind, and nothing changed. */
+  /** Set the value from the file; false: not of this kind, unchanged. */
   abstract decode(yaml: Yaml): boolean;
 
   /** The value and the children's, as rviz nests them: a mapping with `Value` where there are children. */

@@ -1,4 +1,4 @@
-/** An .rviz file: read for what is understood, written back with all the rest as it was. */
+/** An .rviz file: the page reads what it understands, and writes the rest back unchanged. */
 
 import { parseDocument, type Document } from "yaml";
 
@@ -8,7 +8,7 @@ import { merge } from "./merge";
 /** A file that is not one of rviz's; its message is a sentence. */
 export class RvizFileError extends Error {}
 
-/** What the page knows of a file. */
+/** Content of an .rviz file that the page understands. */
 export interface RvizContent {
   readonly globalOptions: YamlMapping;
   readonly displays: readonly Yaml[];

@@ -6,13 +6,13 @@ import { Icon, type IconName } from "./icons";
 
 export interface ButtonProps {
   readonly icon?: IconName;
-  /** Name for screen readers and the tooltip; needed where there is no text. */
+  /** Name for screen readers and the tooltip; required without text. */
   readonly label?: string;
   /** Shown in the tooltip beside the name. */
   readonly keys?: string | undefined;
   readonly tone?: "plain" | "line" | "primary";
   readonly small?: boolean;
-  /** For buttons that are on or off. */
+  /** State of a toggle button. */
   readonly on?: boolean;
   readonly disabled?: boolean;
   readonly class?: string;

@@ -1,4 +1,4 @@
-/** A text field with a list of known values: topics, frames. Other values are taken, too. */
+/** Text field with a list of known values: topics, frames. Other values are accepted, too. */
 
 import type { JSX, TargetedKeyboardEvent } from "preact";
 import { useId, useRef, useState } from "preact/hooks";
@@ -100,7 +100,7 @@ function put(list: HTMLElement | null, anchor: HTMLElement | null): void {
   if (list !== null && anchor !== null && list.classList.contains("menu")) placeBelow(list, anchor);
 }
 
-/** Choices that contain a text, those that begin with it first. */
+/** Choices that contain a text; those that begin with it first. */
 function matching(choices: readonly Choice[], text: string): readonly Choice[] {
   const query = text.toLowerCase();
   const rank = (choice: Choice): number => choice.value.toLowerCase().indexOf(query);

@@ -1,18 +1,18 @@
 /** Numbers as the page writes them: fixed decimals, a true minus sign, no negative zero. */
 
-/** A number with fixed decimals; "—" where there is none. */
+/** Number with fixed decimals; "—": no value. */
 export function fixed(value: number | null | undefined, decimals: number): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "—";
   const text = value.toFixed(decimals);
   return text.startsWith("-") ? (Number(text) === 0 ? text.slice(1) : `−${text.slice(1)}`) : text;
 }
 
-/** A number with as many digits as it needs, at most six significant ones. */
+/** Number with at most six significant digits, without trailing zeros. */
 export function plain(value: number): string {
   return Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace("-", "−") : String(value);
 }
 
-/** A number a person typed, with either minus sign; null: it is none. */
+/** Typed number, with either minus sign; null: not a number. */
 export function parseNumber(text: string): number | null {
   const trimmed = text.trim().replace("−", "-").replace(",", ".");
   const value = Number(trimmed);
@@ -33,7 +33,7 @@ export function clock(seconds: number, decimals = 2): string {
     : `${sign}${minutes}:${two(rest)}${fraction}`;
 }
 
-/** ROS time [ns]: the time of day where it counts from 1970, else as `clock`. */
+/** ROS time [ns]: the time of day if it counts from 1970, otherwise as `clock`. */
 export function rosTime(nanoseconds: bigint): string {
   const seconds = Number(nanoseconds / 1_000_000n) / 1000;
   if (seconds < 1e9) return clock(seconds);

@@ -1,10 +1,10 @@
-/** A finger that rests for half a second: what the right button is for a mouse. */
+/** Long press: a finger that rests for half a second, as the right button of a mouse. */
 
 const DURATION = 500; // ms
-/** A longer way is a drag [px]. */
+/** Longer motions are drags [px]. */
 const SLOP = 10;
 
-/** The finger's leaving is no click on what has come under it. */
+/** Suppress the click of the finger's release on an element that has appeared under it. */
 function swallowClick(): void {
   const swallow = (event: MouseEvent): void => {
     event.preventDefault();
@@ -19,7 +19,7 @@ export class LongPress {
   private x = 0;
   private y = 0;
 
-  /** A pointer goes down; a finger that rests does something. */
+  /** Handle a pointer going down; call `act` if a finger rests. */
   begin({ pointerType, clientX, clientY }: PointerEvent, act: () => void): void {
     this.end();
     if (pointerType !== "touch") return;
@@ -34,7 +34,7 @@ export class LongPress {
     if (Math.hypot(clientX - this.x, clientY - this.y) > SLOP) this.end();
   }
 
-  /** The finger leaves, or another comes. */
+  /** Cancel: the finger was released, or another came down. */
   end(): void {
     clearTimeout(this.timer);
   }

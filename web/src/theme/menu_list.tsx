@@ -1,4 +1,4 @@
-/** Lists of actions that float: below a button, or at a point; an entry can open a list of its own beside it. */
+/** Floating lists of actions: below a button, or at a point; an entry can open a submenu. */
 
 import type { JSX } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
@@ -14,11 +14,11 @@ export interface MenuItem {
   readonly color?: `--${string}`;
   readonly checked?: boolean;
   readonly disabled?: boolean;
-  /** The menu stays open after it, as for a row of check marks. */
+  /** True: the menu stays open afterwards, as for a row of check marks. */
   readonly stays?: boolean;
   /** A line lies above it. */
   readonly starts?: boolean;
-  /** What it opens beside it, instead of running. */
+  /** Submenu that it opens instead of running. */
   readonly items?: () => readonly MenuItem[];
   readonly run?: () => void;
 }
@@ -26,14 +26,14 @@ export interface MenuItem {
 interface MenuProps {
   readonly items: readonly MenuItem[];
   readonly label?: string;
-  /** A press on it does not close the menu. */
+  /** Element on which a press does not close the menu. */
   readonly anchor?: HTMLElement;
-  /** Gives the list its place. */
+  /** Positions the list. */
   readonly place: (list: HTMLElement) => void;
   readonly onClose: () => void;
 }
 
-/** A list that closes by Escape, by a choice and by a press elsewhere. */
+/** Menu that closes by Escape, by a choice and by a press elsewhere. */
 export function Menu({ items, label, anchor, place, onClose }: MenuProps): JSX.Element {
   const root = useRef<HTMLDivElement>(null);
   useEffect(() => {
@@ -120,7 +120,7 @@ function List({ items, label, place, onClose, onBack }: ListProps): JSX.Element 
 interface EntryProps {
   readonly item: MenuItem;
   readonly isOpen: boolean;
-  /** The pointer or the keyboard asks for what it opens. */
+  /** Called when the pointer or the keyboard opens its submenu. */
   readonly onOpen: () => void;
   readonly onClose: () => void;
 }
@@ -163,7 +163,7 @@ function Entry({ item, isOpen, onOpen, onClose }: EntryProps): JSX.Element {
   );
 }
 
-/** Put a floating element below its anchor, or above where there is no room below. */
+/** Put a floating element below its anchor, or above if there is no room below. */
 export function placeBelow(element: HTMLElement, anchor: HTMLElement): void {
   const box = anchor.getBoundingClientRect();
   const { offsetHeight: height } = element;

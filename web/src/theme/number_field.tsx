@@ -8,7 +8,7 @@ import { TextField } from "./text_field";
 export interface NumberFieldProps {
   readonly label: string;
   readonly value: number;
-  /** Fixed decimals; without them as many as the number needs. */
+  /** Fixed decimals; absent: as many as the number needs. */
   readonly decimals?: number;
   readonly unit?: string | undefined;
   readonly min?: number | undefined;
@@ -20,7 +20,7 @@ export interface NumberFieldProps {
   readonly onCommit: (value: number) => void;
 }
 
-/** A sentence about a text that is no number within its limits; null: it is one. */
+/** Error sentence if a text is not a number within the limits; null: valid. */
 export function numberFault(text: string, limits: Pick<NumberFieldProps, "min" | "max" | "integer">): string | null {
   const value = parseNumber(text);
   if (value === null) return `"${text}" is not a number.`;

@@ -6,7 +6,7 @@ import type { StatusLevel } from "../rviz/status_level";
 
 const NAMES: Readonly<Record<StatusLevel, string>> = { ok: "OK", warn: "Warning", error: "Error", none: "No data" };
 
-/** An empty label: the text beside it says as much. */
+/** Shape of a status; an empty label if the text beside it says the same. */
 export function StatusShape({
   level,
   label = NAMES[level],

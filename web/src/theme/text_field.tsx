@@ -1,4 +1,4 @@
-/** A line of text that is applied by Enter or by leaving it; Esc leaves it as it was. */
+/** Text field that commits on Enter or blur; Esc reverts. */
 
 import type { ComponentChildren, JSX, TargetedKeyboardEvent } from "preact";
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
@@ -6,7 +6,7 @@ import { useLayoutEffect, useRef, useState } from "preact/hooks";
 export interface TextFieldProps {
   readonly label: string;
   readonly value: string;
-  /** A sentence if the text cannot be taken, else null. */
+  /** Returns an error sentence if the text is invalid, otherwise null. */
   readonly check?: (text: string) => string | null;
   readonly onCommit: (text: string) => void;
   readonly class?: string;
@@ -14,14 +14,14 @@ export interface TextFieldProps {
   readonly disabled?: boolean;
   readonly before?: ComponentChildren;
   readonly after?: ComponentChildren;
-  /** Keys that are not the field's own; arrows of a number field. */
+  /** Handles further keys, as the arrows of a number field. */
   readonly onKey?: (event: KeyboardEvent, text: string) => string | null;
 }
 
 export function TextField(props: TextFieldProps): JSX.Element {
   const { label, value, check = () => null, onCommit, placeholder, disabled, before, after, onKey } = props;
   const [draft, setDraft] = useState<string | null>(null);
-  /** What it showed when it got the focus or a click: a number that moves would take the selection away before anything is typed. */
+  /** Value shown on focus or click; a changing number would clear the selection before anything is typed. */
   const [committed, setCommitted] = useState<string | null>(null);
   const input = useRef<HTMLInputElement>(null);
   const fault = draft === null ? null : check(draft);
@@ -30,7 +30,7 @@ export function TextField(props: TextFieldProps): JSX.Element {
     setDraft(null);
     setCommitted(null);
   };
-  /** The text as the browser has it: a key may come before the last one is drawn. */
+  /** Commit the browser's text, since a key may come before the last one is drawn. */
   const commit = (text: string): void => {
     if (text !== (committed ?? value) && check(text) === null) onCommit(text);
     showValue();

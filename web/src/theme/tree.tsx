@@ -8,11 +8,11 @@ import { LongPress } from "./long_press";
 
 export interface TreeRow {
   readonly key: string;
-  /** 0 for the outermost. */
+  /** Depth; 0: the outermost. */
   readonly depth: number;
   /** Name for screen readers where the row's text is not enough. */
   readonly label?: string;
-  /** Undefined: nothing below it. */
+  /** Undefined: no children. */
   readonly open?: boolean | undefined;
   readonly selected?: boolean;
   readonly class?: string;
@@ -26,7 +26,7 @@ export interface TreeProps {
   readonly onSelect: (key: string) => void;
   readonly onHover?: (key: string | null) => void;
   readonly onActivate?: (key: string) => void;
-  /** A row's menu is asked for, at a point of the page [px]. */
+  /** Opens a row's menu at a point of the page [px]. */
   readonly onMenu?: (key: string, x: number, y: number) => void;
   /** Keys that are not the tree's own. */
   readonly onKey?: (key: string, event: KeyboardEvent) => void;
@@ -90,13 +90,13 @@ function isTouch(event: MouseEvent): boolean {
   return event instanceof PointerEvent && event.pointerType === "touch";
 }
 
-/** Where a row's menu opens [px]. */
+/** Position of a row's menu [px]. */
 function below(row: HTMLElement): [number, number] {
   const { left, bottom } = row.getBoundingClientRect();
   return [left + 24, bottom];
 }
 
-/** Draw a row; what it does is what the tree is asked for at that time. */
+/** Draw a row, whose handlers are the tree's current ones. */
 function drawRow(
   row: TreeRow,
   isInOrder: boolean,

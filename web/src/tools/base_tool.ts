@@ -13,7 +13,7 @@ import type { Tool } from "../page/tool";
 import type { PointerInput } from "../scene/pointer_input";
 import type { WorldEditor } from "../page/world_editor";
 
-/** What tools work with. */
+/** Parts of the page that tools use. */
 export interface ToolContext {
   readonly connection: Pick<Connection, "publish" | "now">;
   readonly names: GraphNames;
@@ -24,7 +24,7 @@ export interface ToolContext {
   readonly hovered: Signal<Selection | null>;
   /** Null where no world can be changed. */
   readonly editor: WorldEditor | null;
-  /** True for a person who may only look: nothing in the scene can be pressed. */
+  /** True on a view-only page: nothing in the scene can be pressed. */
   readonly looksOnly: boolean;
 }
 
@@ -40,7 +40,7 @@ export abstract class BaseTool implements Tool {
   /** Keys of the file that are not ours, kept as they were. */
   private unknown: YamlMapping = {};
 
-  /** `finish`: its work is done, and the tool before it is used again. */
+  /** `finish`: called when its work is done, so that the previous tool is used again. */
   constructor(
     protected readonly context: ToolContext,
     protected readonly finish: () => void,

@@ -1,4 +1,4 @@
-/** rviz's FocusCamera: the camera looks at the point that is clicked. */
+/** rviz's FocusCamera: turns the camera to the clicked point. */
 
 import { BaseTool } from "./base_tool";
 import type { PointerInput } from "../scene/pointer_input";

@@ -1,4 +1,4 @@
-/** Base of the tools with handles at what is selected: a drag of one moves a model, a light or a joint. */
+/** Base of the tools with handles at the selection: a drag of one moves a model, a light or a joint. */
 
 import { computed, effect, type ReadonlySignal } from "@preact/signals";
 import { Matrix4, Quaternion, Vector3, type Camera, type Ray } from "three";
@@ -18,7 +18,7 @@ import { selectionOf } from "./picked";
 import type { PointerInput } from "../scene/pointer_input";
 import type { WorldEditor } from "../page/world_editor";
 
-/** Wall seconds after which the server hears again of a drag that rests; after one it lets go. */
+/** Wall seconds after which a resting drag is sent again; after one second the server releases it. */
 const RENEWAL = 0.3;
 const MODES = {
   axis: InteractionMode.moveAxis,
@@ -33,9 +33,9 @@ interface Dragged {
   readonly drag: Drag;
   readonly handle: Handle;
   readonly from: Transform;
-  /** Where it is asked to be. */
+  /** Requested pose. */
   to: Transform;
-  /** Height of the target's place over its lowest point [m]. */
+  /** Height of the target's origin over its lowest point [m]. */
   readonly height: number;
 }
 
@@ -59,17 +59,17 @@ export abstract class HandleTool extends BaseTool {
     this.target = computed(() => targetOf(editor, context.selection.value));
   }
 
-  /** What is said while nothing is dragged. */
+  /** Hint while nothing is dragged. */
   protected abstract readonly usage: string;
   /** Handles of a target, in the axes of the handles. */
   protected abstract handlesOf(target: HandleTarget): readonly Handle[];
-  /** The handle that a press on the target itself stands for; null: none. */
+  /** Handle that a press on the target itself uses; null: none. */
   protected abstract readonly body: Handle | null;
-  /** Move what was dragged to where it snaps. */
+  /** Snap the dragged pose. */
   protected abstract snap(to: Transform, from: Transform, input: PointerInput): void;
-  /** True if it is to stand on what is under the pointer. */
+  /** True if the target is placed on the surface under the pointer. */
   protected abstract standsOnSurface(input: PointerInput, handle: Handle): boolean;
-  /** What is said of a drag on its way. */
+  /** Hint during a drag. */
   protected abstract describe(to: Transform, from: Transform): string;
 
   activate(): void {
@@ -92,7 +92,7 @@ export abstract class HandleTool extends BaseTool {
               ? this.handlesOf(target)
               : [{ kind: target.axis.turns ? "ring" : "axis", axis: target.axis.direction }],
         );
-        this.hint.value = target === null ? "Click what to move." : this.usage;
+        this.hint.value = target === null ? "Click an object to move." : this.usage;
         scene.invalidate();
       }),
     ];
@@ -195,7 +195,7 @@ export abstract class HandleTool extends BaseTool {
     scene.invalidate();
   }
 
-  /** Where the pointer meets something else than the target, in the world. */
+  /** Point of the world where the pointer meets another object than the target. */
   private surfaceUnder(target: HandleTarget, { x, y }: PointerInput): Vector3 | null {
     const { scene } = this.context;
     const objects = target.bodies.flatMap((body) => this.editor.world.object(body) ?? []);
@@ -222,7 +222,7 @@ export abstract class HandleTool extends BaseTool {
     this.context.scene.invalidate();
   }
 
-  /** The server refuses: there is nothing to drag any more. */
+  /** End the drag, since the server refused. */
   private abandon(): void {
     const { dragged } = this;
     this.dragged = null;
@@ -256,7 +256,7 @@ export abstract class HandleTool extends BaseTool {
     this.place(scene.camera.peek(), scene.paneSize.peek().height);
   }
 
-  /** Put the handles where their target is, or is dragged to, in a size for a camera of a picture of this height [px]. */
+  /** Place the handles at their target, or at its dragged pose, sized for a picture of this height [px]. */
   private place(camera: Camera, height: number): void {
     const target = this.target.peek();
     const pose = this.dragged?.to ?? target?.pose() ?? null;

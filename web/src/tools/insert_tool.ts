@@ -9,9 +9,9 @@ import type { Inserter } from "../page/tool";
 import { InsertionGhost } from "./insertion_ghost";
 import type { PointerInput } from "../scene/pointer_input";
 
-/** A point of the ground farther than this is taken for a part of the sky [m]. */
+/** Distance from which on the ground counts as sky [m]. */
 const FARTHEST = 500;
-/** Heights of the free part of the view, from its middle down, at one of which the ground is met. */
+/** Heights in the free part of the view, from its middle down, at which the ground is looked for. */
 const DOWN = [0.5, 0.6, 0.7, 0.8, 0.9];
 
 export class InsertTool extends BaseTool implements Inserter {
@@ -19,7 +19,7 @@ export class InsertTool extends BaseTool implements Inserter {
   readonly name = "Insert";
   readonly shortcut = "e";
   readonly icon = "plus";
-  /** What is being inserted; null: nothing is chosen. */
+  /** Item being inserted; null: none. */
   readonly chosen = signal<Insertable | null>(null);
   /** Inserts something at a point of the world [m]. */
   onPlace: (item: Insertable, point: Vector3) => void = () => undefined;
@@ -33,7 +33,7 @@ export class InsertTool extends BaseTool implements Inserter {
     this.choose(null);
   }
 
-  /** Have something follow the pointer; null: nothing any more. */
+  /** Choose the item that follows the pointer; null: none. */
   choose(item: Insertable | null): void {
     const { scene } = this.context;
     this.ghost?.dispose();
@@ -52,14 +52,14 @@ export class InsertTool extends BaseTool implements Inserter {
     scene.invalidate();
   }
 
-  /** A click places; drags are the camera's. */
+  /** Insert by a click; drags move the camera. */
   pointer({ kind, button, x, y }: PointerInput): boolean {
     if (kind === "move") this.hover(x, y);
     else if (kind === "up" && button === 0) this.place(x, y);
     return false;
   }
 
-  /** Show it where a point of the view [px] meets the world. */
+  /** Show the item at the point of the world under a point of the view [px]. */
   hover(x: number, y: number): void {
     const point = this.meet(x, y);
     if (point === null) this.hide();
@@ -76,7 +76,7 @@ export class InsertTool extends BaseTool implements Inserter {
     this.context.scene.invalidate();
   }
 
-  /** Insert what is chosen where a point of the view [px] meets the world; the tool's work is done. */
+  /** Insert the item at the point of the world under a point of the view [px], and finish the tool. */
   place(x: number, y: number): void {
     const item = this.chosen.peek();
     const point = this.meet(x, y);
@@ -86,16 +86,16 @@ export class InsertTool extends BaseTool implements Inserter {
     this.finish();
   }
 
-  /** Insert what is chosen in the middle of what is seen, or below it where the sky is there. */
+  /** Insert the item in the middle of the view, or below it if the sky is there. */
   placeInMiddle(): void {
     const { left, top, width, height } = this.context.scene.freePart.peek();
     const x = left + width / 2;
     const y = DOWN.map((share) => top + share * height).find((candidate) => this.meet(x, candidate) !== null);
     if (y !== undefined) this.place(x, y);
-    else this.hint.value = "Nothing but sky is seen: turn the view down.";
+    else this.hint.value = "Only the sky is visible: turn the view down.";
   }
 
-  /** Where a point of the view [px] meets something, or the ground, in the world. */
+  /** Point of the world under a point of the view [px]: of an object, or of the ground. */
   private meet(x: number, y: number): Vector3 | null {
     const { scene } = this.context;
     const point = scene.pick(x, y)?.point ?? scene.pickGround(x, y);

@@ -1,4 +1,4 @@
-/** What follows the pointer until it is placed: see-through, with its bounds. */
+/** Transparent preview of the inserted item, which follows the pointer, with its bounds. */
 
 import {
   Box3,
@@ -29,7 +29,7 @@ const HEIGHTS = { point: 2, spot: 2, directional: 5 } as const;
 export class InsertionGhost extends Group {
   private isDisposed = false;
 
-  /** `onChange`: more of it has come. */
+  /** `onChange`: called when more of it is loaded. */
   constructor(
     item: Insertable,
     private readonly color: Color,
@@ -63,7 +63,7 @@ export class InsertionGhost extends Group {
     this.onChange();
   }
 
-  /** A model that the server cannot show beforehand is a metre of bounds. */
+  /** Load a model's preview; a box of 1 m if the server cannot send one. */
   private async load(model: string): Promise<void> {
     const group = new Group();
     try {
@@ -97,7 +97,7 @@ function shapeOf(name: "box" | "sphere" | "cylinder"): Mesh {
   return mesh;
 }
 
-/** A bulb above the point, on a thread. */
+/** Preview of a light: a bulb above the point, on a line. */
 function lightOf(height: number): Group {
   const bulb = new Mesh(new SphereGeometry(0.15, 16, 12), new MeshBasicMaterial({ color: BULB }));
   bulb.position.z = height;

@@ -1,4 +1,4 @@
-/** rviz's Interact: presses what has handlers, such as interactive markers; elsewhere a drag is the camera's. */
+/** rviz's Interact: sends presses to objects with handlers, as interactive markers; other drags move the camera. */
 
 import { BoolProperty } from "../rviz/properties";
 import type { Pick, PointerTarget, TargetEvent } from "../scene/scene_view";
@@ -17,15 +17,15 @@ export class Interact extends BaseTool {
   private hoveredTarget: PointerTarget | null = null;
   private dragged: PointerTarget | null = null;
   private waiting: PointerInput | null = null;
-  /** What a click selects: what was pressed. */
+  /** Pressed object, which a click selects. */
   private pressed: Pick | null = null;
   private stop: (() => void) | null = null;
-  /** What a drag with Ctrl pulls, as in MuJoCo's viewer. */
+  /** Point that a drag with Ctrl pulls, as in MuJoCo's viewer. */
   private readonly pulled =
     this.context.editor === null ? null : new PulledPoint(this.context.scene, this.context.editor);
 
   activate(): void {
-    this.hint.value = "Click selects. Drag turns the camera, or moves what can be moved.";
+    this.hint.value = "Click selects. Drag turns the camera, or moves interactive objects.";
     this.stop = this.context.scene.onTick(() => this.hover());
   }
 
@@ -71,7 +71,7 @@ export class Interact extends BaseTool {
     return true;
   }
 
-  /** Once a frame, since a search takes a while in a large world. */
+  /** Update the hovered object, once a frame, since picking takes a while in a large world. */
   private hover(): void {
     const input = this.waiting;
     this.waiting = null;
@@ -82,7 +82,7 @@ export class Interact extends BaseTool {
     this.context.hovered.value = selection?.kind === "link" ? selection : null;
   }
 
-  /** What reacts to the pointer there; null: nothing, or the person only looks. */
+  /** Handlers of the picked object; null: none, or a view-only page. */
   private targetOf(pick: Pick | null): PointerTarget | null {
     return pick === null || this.context.looksOnly ? null : pointerTargetOf(pick.object);
   }

@@ -1,4 +1,4 @@
-/** rviz's MoveCamera: every drag is the camera's. */
+/** rviz's MoveCamera: every drag moves the camera. */
 
 import { BaseTool } from "./base_tool";
 

@@ -1,4 +1,4 @@
-/** Moves what is selected by arrows, squares and a ring, or by itself over the ground. */
+/** Moves the selection by arrows, squares and a ring, or by a drag of itself over the ground. */
 
 import { Vector3 } from "three";
 
@@ -22,7 +22,7 @@ export class MoveModel extends HandleTool {
   readonly cell = this.add(new NumberProperty("Grid", 0.1, { min: 0.001, max: 100, unit: "m" }));
   readonly stands = this.add(
     new BoolProperty("Snap to Surfaces", false, {
-      description: "Stands on what is under the pointer, not only with Shift",
+      description: "Place on the surface under the pointer, not only with Shift",
     }),
   );
   protected readonly axes = this.add(new EnumProperty("Axes", "World", ["World", "Model"]));

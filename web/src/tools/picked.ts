@@ -1,4 +1,4 @@
-/** What a pick selects: a link of the simulated world, or what a display drew. */
+/** Selection of a pick: a link of the simulated world, or an object that a display drew. */
 
 import type { Object3D } from "three";
 
@@ -21,7 +21,7 @@ export function selectionOf(pick: Pick | null): Selection | null {
   return null;
 }
 
-/** Its own name, else that of what it is part of: the display's. */
+/** Name of an object, otherwise of its nearest named ancestor: the display's. */
 function nameOf(object: Object3D): string {
   for (let at: Object3D | null = object; at !== null; at = at.parent) if (at.name !== "") return at.name;
   return "Selection";

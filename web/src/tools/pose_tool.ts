@@ -11,7 +11,7 @@ import type { PointerInput } from "../scene/pointer_input";
 
 /** rviz's arrow [m]. */
 const PROPORTIONS = { shaftLength: 2, shaftDiameter: 0.2, headLength: 0.5, headDiameter: 0.35 };
-/** Share of the distance to the camera that the arrow is long; rviz's has a fixed size. */
+/** Length of the arrow as a ratio of the distance to the camera; rviz's has a fixed size. */
 const LENGTH = 0.12;
 
 export abstract class PoseTool extends BaseTool {
@@ -22,7 +22,7 @@ export abstract class PoseTool extends BaseTool {
   private readonly arrow = new Arrow(PROPORTIONS);
 
   activate(): void {
-    this.hint.value = "Press where it is, drag to where it looks.";
+    this.hint.value = "Press at its position, drag in its direction.";
     this.arrow.setColor(this.color);
     this.arrow.userData[NOT_PICKED] = true;
   }

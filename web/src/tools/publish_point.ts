@@ -1,4 +1,4 @@
-/** rviz's PublishPoint: publishes the point that is clicked. */
+/** rviz's PublishPoint: publishes the clicked point. */
 
 import { BoolProperty, TopicProperty } from "../rviz/properties";
 import { BaseTool } from "./base_tool";
@@ -13,7 +13,7 @@ export class PublishPoint extends BaseTool {
   readonly shortcut = "u";
   readonly icon = "point";
   readonly singleClick = this.add(
-    new BoolProperty("Single click", true, { description: "Go back to the tool before after one click" }),
+    new BoolProperty("Single click", true, { description: "Return to the previous tool after one click" }),
   );
   readonly topic = this.add(new TopicProperty("Topic", "/clicked_point", [TYPE]));
 

@@ -1,4 +1,4 @@
-/** Pulls what is pressed by a spring to the pointer, as MuJoCo's viewer pushes bodies. */
+/** Pulls the pressed body by a spring to the pointer, as MuJoCo's viewer does. */
 
 import { BaseTool, type ToolContext } from "./base_tool";
 import { PulledPoint } from "./handles/pulled_point";
@@ -22,7 +22,7 @@ export class PushModel extends BaseTool {
   }
 
   activate(): void {
-    this.hint.value = "Press a part and drag: a spring pulls it to the pointer while time runs.";
+    this.hint.value = "Press a part and drag: a spring pulls it to the pointer while the simulation runs.";
   }
 
   deactivate(): void {
@@ -42,7 +42,7 @@ export class PushModel extends BaseTool {
 
   private press(input: PointerInput): boolean {
     if (!this.pulled.begin(input)) return false;
-    if (this.editor.world.state.peek()?.paused === true) this.hint.value = "Paused: it moves once time runs.";
+    if (this.editor.world.state.peek()?.paused === true) this.hint.value = "Paused: it moves once the simulation runs.";
     return true;
   }
 }

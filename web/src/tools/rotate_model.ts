@@ -1,4 +1,4 @@
-/** Turns what is selected by rings about its axes. */
+/** Turns the selection by rings about its axes. */
 
 import { Vector3 } from "three";
 

@@ -1,4 +1,4 @@
-/** rviz's Select: a click or a box selects; the selection shows what was picked. */
+/** rviz's Select: selects by a click or a box; the Inspector shows the picked fields. */
 
 import { BaseTool } from "./base_tool";
 import { selectionOf, selectionOfAll } from "./picked";

@@ -1,4 +1,4 @@
-/** rviz's SetGoal, "2D Nav Goal": tells a navigation where to go. */
+/** rviz's SetGoal, "2D Nav Goal": publishes a goal for navigation. */
 
 import type { Vector3 } from "three";
 

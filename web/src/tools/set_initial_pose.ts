@@ -1,4 +1,4 @@
-/** rviz's SetInitialPose, "2D Pose Estimate": tells a localisation where the robot is. */
+/** rviz's SetInitialPose, "2D Pose Estimate": publishes the robot's pose for localization. */
 
 import type { Vector3 } from "three";
 

@@ -21,9 +21,9 @@ import type { PointerInput } from "../scene/pointer_input";
 
 /** In rviz's order. */
 const CLASSES = [Interact, MoveCamera, Select, FocusCamera, Measure, SetInitialPose, SetGoal, PublishPoint];
-/** ROS 2's classes have rviz's names; that of its goal is another. */
+/** ROS 2's names that differ from rviz's. */
 const ALIASES: Readonly<Record<string, string>> = { SetGoal2D: "SetGoal" };
-/** Tools that stay on; the others go back to the one of these that was on last. */
+/** Tools that stay on; after others, the last of these is used again. */
 const LASTING: readonly string[] = [
   "rviz/Interact",
   "rviz/MoveCamera",
@@ -38,7 +38,7 @@ export class ToolList implements ToolBox {
   readonly insert: InsertTool | null;
   private readonly chosen;
   private lasting: string = "rviz/Interact";
-  /** Entries of the file, in its order, with those that are no tools of ours. */
+  /** Entries of the file, in order, including unknown tools. */
   private entries: readonly YamlMapping[] = [];
 
   constructor(context: ToolContext) {

@@ -39,7 +39,7 @@ describe("a curve", () => {
     const curve = new Curve(page, "/odom.twist.z");
     expect(curve.fault.value).toBe("No message yet");
     page.connection.receive("/odom", { twist: { x: 1, y: 2 } });
-    expect(curve.fault.value).toBe("There is no z; fields there: x, y");
+    expect(curve.fault.value).toBe("There is no z; fields here: x, y");
     const list = new Curve(page, "/scan.ranges");
     page.connection.receive("/scan", { ranges: [1, 2] });
     expect(list.fault.value).toBe("This is a list of 2; choose one, as [0]");

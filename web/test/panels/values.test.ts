@@ -74,10 +74,10 @@ describe("typed values", () => {
   test.each([
     ["level", "200", "level must be a whole number from -128 to 127"],
     ["level", "1.5", "level must be a whole number from -128 to 127"],
-    ["position", "[1, 2]", "position has 3 elements, here are 2"],
+    ["position", "[1, 2]", "position has 3 elements, not 2"],
     ["data", "3", "data must be a list, as [1, 2]"],
     ["points", "[{w: 1}]", "points[0] has no field w; fields here: x, y, z"],
-    ["points", "[[1, 2]]", "points[0] has 3 fields, here are 2 values"],
+    ["points", "[[1, 2]]", "points[0] has 3 fields, not 2"],
     ["on", "maybe", "on must be true or false"],
     ["timeout", "soon", "timeout must be seconds, or now"],
     ["position", "[1", /^This is not YAML: /],

@@ -22,7 +22,7 @@ const DOT = 0.04;
 
 export type HandleKind = "axis" | "plane" | "ring" | "free";
 
-/** One handle: what is seen, and what the pointer meets. */
+/** Handle: its visible shape, and its broader pick shape. */
 export class HandleShape extends Group {
   private readonly material = new MeshBasicMaterial({ depthTest: false, depthWrite: false, transparent: true });
   private readonly unseen = new MeshBasicMaterial({ visible: false });

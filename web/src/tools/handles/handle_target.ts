@@ -8,24 +8,24 @@ import type { Request } from "../../protocol/connection";
 export interface HandleTarget {
   /** "Move of cart". */
   readonly title: string;
-  /** Bodies that go with it. */
+  /** Bodies that move with it. */
   readonly bodies: readonly number[];
-  /** Its only axis, in the frame of `pose`, if it has only one. */
+  /** Single axis, in the frame of `pose`; null: all axes. */
   readonly axis: { readonly direction: Vector3; readonly turns: boolean } | null;
-  /** Place of the handles in the world; null: it is gone. */
+  /** Pose of the handles in the world; null: the object was removed. */
   pose(): Transform | null;
-  /** True: what it moves remembers the edit, which is only asked for. */
+  /** True: the edit is recorded elsewhere, as in the draft. */
   readonly isRemembered?: boolean;
-  /** A drag begins; returns what it asks for on its way, and at its end. */
+  /** Begin a drag; returns its requests. */
   begin(): Drawn;
 }
 
 export interface Drawn {
-  /** While it is dragged; null: nothing is asked before its end. */
+  /** Request during the drag; null: none. */
   move(to: Transform): Request | null;
-  /** To end the drag, before what is asked for last; null: nothing. */
+  /** Request that ends the drag, before the last `place`; null: none. */
   readonly release: Request | null;
   place(to: Transform): Request;
-  /** A joint's position on its way. */
+  /** Text of a joint's position during the drag. */
   describe?(to: Transform): string;
 }

@@ -1,4 +1,4 @@
-/** Requests that come faster than they are answered: one at a time, of those that wait only the newest. */
+/** Requests that come faster than their answers: one at a time; of waiting requests only the newest is kept. */
 
 export class LatestRequest {
   private waiting: (() => Promise<boolean>) | null = null;
@@ -12,7 +12,7 @@ export class LatestRequest {
     if (!this.isBusy) void this.drain();
   }
 
-  /** Forget what waits. */
+  /** Drop waiting requests. */
   clear(): void {
     this.waiting = null;
   }

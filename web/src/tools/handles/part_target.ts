@@ -1,4 +1,4 @@
-/** What the handles move of the model that is edited: a link, or the whole model. */
+/** Handle targets of the edited model: a link, or the whole model. */
 
 import { Matrix4, Quaternion, Vector3, type Object3D } from "three";
 
@@ -10,7 +10,7 @@ import type { WorldEditor } from "../../page/world_editor";
 import { findPart, linkAround, type PartPath, bodiesOfPart } from "../../scene/draft";
 import { orientationOf, poseFields } from "../../page/request_fields";
 
-/** The handles of a part's link, or of the model; null: they move nothing. */
+/** Handle target of a part's link, or of the model; null: the part cannot be moved. */
 export function partTarget(editor: WorldEditor, path: PartPath): HandleTarget | null {
   const { world } = editor;
   const draft = world.manifest.value?.draft ?? null;
@@ -38,7 +38,7 @@ export function partTarget(editor: WorldEditor, path: PartPath): HandleTarget | 
   };
 }
 
-/** Objects follow the pointer; the server hears of it at the end. */
+/** Drag of objects with the pointer; the server is sent the last pose. */
 function drag(objects: readonly Object3D[], part: PartPath, whole: Transform | null): Drawn {
   const [first] = objects;
   const from = whole ?? {

@@ -10,16 +10,16 @@ import type { WorldEditor } from "../../page/world_editor";
 import { LatestRequest } from "./latest_request";
 import { findModel } from "../../page/selection_lookup";
 
-/** Time after which the server hears again of a pull that rests [ms]; after a second it lets go, however slowly pictures are drawn. */
+/** Time after which a resting pull is sent again [ms]; after a second the server releases it. */
 const RENEWAL = 300;
 
 interface Pulled {
   readonly model: string;
   readonly link: string;
   readonly body: number;
-  /** In the link's frame. */
+  /** Pulled point in the link's frame. */
   readonly point: Vector3;
-  /** Through the point, parallel to the picture, in the world. */
+  /** Plane through the point, parallel to the picture, in the world. */
   readonly plane: Plane;
   readonly target: Vector3;
 }
@@ -43,7 +43,7 @@ export class PulledPoint {
     this.line.userData[NOT_PICKED] = true;
   }
 
-  /** Grasp what is under the pointer; false: there is nothing to pull. */
+  /** Grasp the object under the pointer; false: none can be pulled. */
   begin(input: PointerInput): boolean {
     const { scene, editor } = this;
     const pick = scene.pick(input.x, input.y);
@@ -76,7 +76,7 @@ export class PulledPoint {
     scene.invalidate();
   }
 
-  /** Let it go. */
+  /** Release it. */
   end(): void {
     const { pulled } = this;
     this.pulled = null;
@@ -96,7 +96,7 @@ export class PulledPoint {
     this.requests.send(() => this.editor.ask("Push", "pull", fields));
   }
 
-  /** Ask again and again; returns how to end it. */
+  /** Send the pull repeatedly; returns a function that stops. */
   private renew(): () => void {
     const timer = setInterval(() => {
       if (this.pulled !== null) this.ask(this.pulled);

@@ -1,4 +1,4 @@
-/** The handles of what is selected: as large on the screen at any distance, in front of all else. */
+/** Handles of the selection: of constant size on the screen, in front of everything. */
 
 import {
   Group,
@@ -38,7 +38,7 @@ export class SelectionHandles extends Group {
     this.visible = false;
   }
 
-  /** Show these handles instead of those before. */
+  /** Replace the handles. */
   show(handles: readonly Handle[]): void {
     this.clear();
     this.lit = null;
@@ -52,7 +52,7 @@ export class SelectionHandles extends Group {
     this.paint();
   }
 
-  /** Put them where a pose is, for a picture of this height [px]. */
+  /** Place them at a pose, for a picture of this height [px]. */
   place({ position, orientation }: Transform, camera: Camera, height: number): void {
     this.position.copy(position);
     this.quaternion.copy(orientation);
@@ -61,7 +61,7 @@ export class SelectionHandles extends Group {
     this.updateMatrixWorld();
   }
 
-  /** The handle that a ray in the fixed frame meets, and where. */
+  /** Handle that a ray in the fixed frame meets, and the point. */
   hit(ray: Ray): { readonly handle: Handle; readonly point: Vector3 } | null {
     if (!this.visible) return null;
     this.raycaster.ray.copy(ray);
@@ -73,7 +73,7 @@ export class SelectionHandles extends Group {
     return hits[0] ?? null;
   }
 
-  /** Light one up; true if another was before. */
+  /** Highlight one; true: the highlight changed. */
   light(handle: Handle | null): boolean {
     if (handle === this.lit) return false;
     this.lit = handle;
@@ -100,7 +100,7 @@ export class SelectionHandles extends Group {
   }
 }
 
-/** The turn after which x and y lie in the plane of a normal, towards the positive sides of the other axes. */
+/** Rotation after which x and y lie in the plane of a normal, towards the positive sides of the other axes. */
 function turnOfPlane(normal: Vector3): Quaternion {
   const third = (2 * Math.PI) / 3;
   const diagonal = new Vector3(1, 1, 1).normalize();

@@ -1,10 +1,10 @@
-/** Places on a grid, and angles at steps. */
+/** Snapping of positions to a grid, and of angles to steps. */
 
 import { Quaternion, Vector3 } from "three";
 
 import type { Transform } from "../../frames/transform";
 
-/** Move a place to the grid, in the directions in which it has moved. */
+/** Snap a position to the grid, in the directions in which it has moved. */
 export function snapToGrid(to: Transform, from: Transform, cell: number): void {
   for (const axis of ["x", "y", "z"] as const) {
     if (Math.abs(to.position[axis] - from.position[axis]) > 1e-6)

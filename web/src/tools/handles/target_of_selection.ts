@@ -1,4 +1,4 @@
-/** What the handles of a selection move: a model, a light or a joint. */
+/** Handle targets of selections: a model, a light or a joint. */
 
 import { Quaternion, Vector3 } from "three";
 
@@ -15,7 +15,7 @@ import type { WorldEditor } from "../../page/world_editor";
 import { findJoint, findLink, findModel } from "../../page/selection_lookup";
 import { orientationOf, poseFields } from "../../page/request_fields";
 
-/** What the handles of a selection move; null: nothing. */
+/** Handle target of a selection; null: it cannot be moved. */
 export function targetOf(editor: WorldEditor, selection: Selection | null): HandleTarget | null {
   switch (selection?.kind) {
     case "model":
@@ -137,7 +137,7 @@ function within({ lower, upper }: JointInfo, position: number): number {
   return Math.min(upper ?? Infinity, Math.max(lower ?? -Infinity, position));
 }
 
-/** A copy that stays as it is. */
+/** Independent copy. */
 export function copyOf({ position, orientation }: Transform): Transform {
   return { position: position.clone(), orientation: new Quaternion().copy(orientation) };
 }
