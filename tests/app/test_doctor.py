@@ -1,4 +1,4 @@
-"""`trundle doctor` and roswtf: states of ports, variables, names, and faults of a running graph."""
+"""`trundle doctor` and roswtf: checks of the environment and faults of a running graph."""
 
 import json
 import socket
@@ -27,7 +27,7 @@ def _checks(environment: dict[str, str], folder: Path) -> dict[str, Check]:
     return {check.name: check for check in environment_checks(env, folder)}
 
 
-def test_the_machine_has_what_tests_need() -> None:
+def test_states_of_machine_checks() -> None:
     checks = {check.name: check for check in machine_checks({"PATH": "/nowhere", "TERM": "dumb"})}
 
     assert [checks[name].state for name in ("python", "trundle", "mujoco")] == ["ok"] * 3
@@ -35,7 +35,7 @@ def test_the_machine_has_what_tests_need() -> None:
     assert "C++ nodes and plugins cannot be compiled" in checks["compiler"].cost
 
 
-def test_the_full_mujoco_beside_mujoco_core_is_a_problem(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_mujoco_and_mujoco_core_together_are_a_problem(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("trundle.app.doctor.machine.version", "4.0.1".format)
 
     checks = {check.name: check for check in machine_checks({"PATH": ""})}
@@ -44,7 +44,7 @@ def test_the_full_mujoco_beside_mujoco_core_is_a_problem(monkeypatch: pytest.Mon
     assert "pip uninstall mujoco mujoco-core && pip install mujoco-core==4.0.1" in checks["mujoco"].cost
 
 
-def test_the_gpu_is_named_or_what_it_lacks() -> None:
+def test_the_gpu_is_named_or_explained() -> None:
     gpu = {check.name: check for check in machine_checks({"PATH": ""})}["gpu"]
 
     if gpu.state == "ok":
@@ -53,23 +53,23 @@ def test_the_gpu_is_named_or_what_it_lacks() -> None:
         assert gpu.cost.startswith("many worlds at once are stepped by the processors: ")
 
 
-def test_a_terminal_that_is_not_utf_8_is_named(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_terminal_without_term_is_reported(capsys: pytest.CaptureFixture[str]) -> None:
     checks = {check.name: check for check in machine_checks({"PATH": ""})}
     assert "no TERM" in checks["terminal"].found
 
 
 def test_wrong_variables_are_problems(tmp_path: Path) -> None:
-    here = f"{tmp_path}:{tmp_path / 'gone'}"
-    wrong = {
+    paths = f"{tmp_path}:{tmp_path / 'gone'}"
+    variables = {
         "ROS_MASTER_URI": "http://no-such-host.invalid:11311",
         "ROS_HOSTNAME": "no-such-host.invalid",
-        "ROS_PACKAGE_PATH": here,
-        "GAZEBO_MODEL_PATH": here,
+        "ROS_PACKAGE_PATH": paths,
+        "GAZEBO_MODEL_PATH": paths,
     }
 
-    checks = _checks(wrong, tmp_path)
+    checks = _checks(variables, tmp_path)
 
-    assert {name for name, check in checks.items() if check.state == "problem"} == set(wrong)
+    assert {name for name, check in checks.items() if check.state == "problem"} == set(variables)
     assert str(tmp_path / "gone") in checks["ROS_PACKAGE_PATH"].cost
     assert "set ROS_IP" in checks["ROS_HOSTNAME"].cost
 
@@ -80,12 +80,12 @@ def test_packages_and_models_are_counted(tmp_path: Path) -> None:
         (tmp_path / "src" / name / "package.xml").write_text(f"<package><name>{name}</name></package>")
     before = int(_checks({}, tmp_path)["ROS_PACKAGE_PATH"].found.partition("; ")[2].split()[0])
 
-    found = _checks({"ROS_PACKAGE_PATH": str(tmp_path / "src")}, tmp_path)["ROS_PACKAGE_PATH"].found
+    count = _checks({"ROS_PACKAGE_PATH": str(tmp_path / "src")}, tmp_path)["ROS_PACKAGE_PATH"].found
 
-    assert found in (f"{before + 2} packages found; 1 folders", f"{before} packages found; 1 folders")
+    assert count in (f"{before + 2} packages found; 1 folders", f"{before} packages found; 1 folders")
 
 
-def test_a_master_is_told_from_silence(graph: Graph, tmp_path: Path) -> None:
+def test_a_running_master_is_distinguished_from_a_missing_one(graph: Graph, tmp_path: Path) -> None:
     assert "a master answers" in _checks({"ROS_MASTER_URI": graph.core.uri}, tmp_path)["ROS_MASTER_URI"].found
     silent = _checks({"ROS_MASTER_URI": "http://127.0.0.1:9"}, tmp_path)["ROS_MASTER_URI"]
     assert (silent.state, silent.cost) == ("missing", "roscore starts one")
@@ -105,7 +105,7 @@ def test_the_command_prints_a_table_and_json(
     assert "problem  ROS_PACKAGE_PATH" in capsys.readouterr().out
 
 
-def test_costs_stand_below_what_was_found() -> None:
+def test_costs_are_printed_below_the_results() -> None:
     checks = [
         Check(name="a", state="ok", found="1"),
         Check(name="bcd", state="missing", found="none", cost="less"),
@@ -122,7 +122,7 @@ def test_a_healthy_graph_has_no_faults(graph: Graph) -> None:
     assert graph_faults(MasterProxy(graph.core.uri)) == []
 
 
-def test_faults_of_a_graph_are_named(graph: Graph) -> None:
+def test_faults_of_a_graph_are_reported(graph: Graph) -> None:
     first, second = graph.node("first"), graph.node("second")
     first.advertise("/mixed", "std_msgs/String")
     second.subscribe("/mixed", "std_msgs/Float64", lambda _: None)
@@ -146,7 +146,7 @@ def test_faults_of_a_graph_are_named(graph: Graph) -> None:
     assert "Nodes wait for /clock, which no node publishes:" in faults
 
 
-def test_roswtf_prints_them_in_its_words(
+def test_roswtf_prints_its_report(
     graph: Graph, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     graph.node("second").subscribe("/lonely", "std_msgs/String", lambda _: None)
@@ -161,7 +161,7 @@ def test_roswtf_prints_them_in_its_words(
     assert "WARNING The following node subscriptions are unconnected:\n * /lonely: /second" in printed
 
 
-def test_without_a_master_roswtf_says_so(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_roswtf_reports_a_missing_master(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setenv("ROS_MASTER_URI", "http://127.0.0.1:9")
 
     assert main(["--as", "roswtf"]) == 0

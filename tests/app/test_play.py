@@ -1,4 +1,4 @@
-"""A state log on a page."""
+"""Playback of a state log on a page."""
 
 from pathlib import Path
 from typing import Any, cast
@@ -21,7 +21,7 @@ PENDULUM = """<sdf version="1.6"><world name="w"><model name="m"><link name="arm
 
 
 @pytest.fixture
-def recorded(tmp_path: Path) -> tuple[Simulation, Path]:
+def recording(tmp_path: Path) -> tuple[Simulation, Path]:
     """Two seconds of a pendulum."""
     (tmp_path / "w.sdf").write_text(PENDULUM)
     sim = trundle.load(str(tmp_path / "w.sdf"))
@@ -32,14 +32,14 @@ def recorded(tmp_path: Path) -> tuple[Simulation, Path]:
     return sim, tmp_path / "run.log"
 
 
-def shown(recorded: tuple[Simulation, Path], **options: Any) -> tuple[LogPage, FakeServer]:
+def open_page(recording: tuple[Simulation, Path], **options: Any) -> tuple[LogPage, FakeServer]:
     server = FakeServer()
-    return LogPage(cast(PageServer, server), read_state_log(recorded[1]), recorded[0], PlayOptions(**options)), server
+    return LogPage(cast(PageServer, server), read_state_log(recording[1]), recording[0], PlayOptions(**options)), server
 
 
-def test_a_log_is_played_with_its_poses_and_joints(recorded: tuple[Simulation, Path]) -> None:
-    page, server = shown(recorded, speed=2.0)
-    log = read_state_log(recorded[1])
+def test_a_log_is_played_with_its_poses_and_joints(recording: tuple[Simulation, Path]) -> None:
+    page, server = open_page(recording, speed=2.0)
+    log = read_state_log(recording[1])
 
     page.update(0.5)
 
@@ -54,8 +54,8 @@ def test_a_log_is_played_with_its_poses_and_joints(recorded: tuple[Simulation, P
     assert (state.timeline.start_ns, state.timeline.end_ns, state.speed) == (0, 2_000_000_000, 2.0)
 
 
-def test_the_world_of_a_log_comes_with_its_files(recorded: tuple[Simulation, Path]) -> None:
-    page, server = shown(recorded)
+def test_the_world_of_a_log_is_served_with_its_files(recording: tuple[Simulation, Path]) -> None:
+    page, server = open_page(recording)
     while not server.worlds:
         page.update(0.01)
 
@@ -64,8 +64,8 @@ def test_the_world_of_a_log_comes_with_its_files(recorded: tuple[Simulation, Pat
     assert {file["url"] for file in manifest["files"]} <= set(files)
 
 
-def test_a_person_seeks_and_what_a_log_cannot_do_is_refused(recorded: tuple[Simulation, Path]) -> None:
-    page, server = shown(recorded)
+def test_pause_seek_and_speed_requests_are_answered(recording: tuple[Simulation, Path]) -> None:
+    page, server = open_page(recording)
     pause, seek = server.ask(Pause()), server.ask(Seek(1_500_000_000))
     fast = server.ask(SetSpeed(None))
 
@@ -75,8 +75,8 @@ def test_a_person_seeks_and_what_a_log_cannot_do_is_refused(recorded: tuple[Simu
     assert [server.answers[number] for number in (pause, seek, fast)] == [None, None, None]
 
 
-def test_pictures_are_drawn_of_the_time_that_is_shown(recorded: tuple[Simulation, Path]) -> None:
-    page, server = shown(recorded)
+def test_pictures_are_rendered_at_the_time_of_playback(recording: tuple[Simulation, Path]) -> None:
+    page, server = open_page(recording)
     number = server.ask(RenderView(width=64, height=48))
 
     page.update(0.1)
@@ -84,8 +84,8 @@ def test_pictures_are_drawn_of_the_time_that_is_shown(recorded: tuple[Simulation
     assert server.pictures.get(timeout=60)[0] == number
 
 
-def test_an_empty_log_is_refused(recorded: tuple[Simulation, Path]) -> None:
-    _, file = recorded
+def test_an_empty_log_is_refused(recording: tuple[Simulation, Path]) -> None:
+    _, file = recording
     with file.open("rb") as log:
         header = log.readline()
     file.write_bytes(header)

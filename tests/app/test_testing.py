@@ -1,4 +1,4 @@
-"""Fixture for users' own tests."""
+"""pytest fixtures for users' tests."""
 
 import subprocess
 import sys
@@ -17,11 +17,11 @@ def test_it_falls(trundle_sim):
 """
 
 
-def test_a_users_test_simulates_the_model_beside_it(tmp_path: Path) -> None:
+def test_trundle_sim_loads_a_model_next_to_the_test(tmp_path: Path) -> None:
     (tmp_path / "m.sdf").write_text(MODEL)
     (tmp_path / "test_robot.py").write_text(TEST)
 
-    done = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(tmp_path)],
         capture_output=True,
         text=True,
@@ -29,7 +29,7 @@ def test_a_users_test_simulates_the_model_beside_it(tmp_path: Path) -> None:
         check=False,
     )
 
-    assert "1 passed" in done.stdout, done.stdout + done.stderr
+    assert "1 passed" in process.stdout, process.stdout + process.stderr
 
 
 SWEEP_TEST = """
@@ -49,14 +49,14 @@ pass: [z < 40]
 
 
 @pytest.mark.slow
-def test_a_users_test_runs_the_plan_beside_it(tmp_path: Path) -> None:
+def test_trundle_sweep_runs_a_plan_next_to_the_test(tmp_path: Path) -> None:
     pytest.importorskip("pyarrow", reason="pyarrow, of the extra `sweep`, is not installed")
     (tmp_path / "m.sdf").write_text(MODEL)
     (tmp_path / "falls.yaml").write_text(PLAN)
     (tmp_path / "rises.yaml").write_text(PLAN.replace("z < 40", "z > 30"))
     (tmp_path / "test_robot.py").write_text(SWEEP_TEST)
 
-    done = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(tmp_path)],
         capture_output=True,
         text=True,
@@ -64,6 +64,6 @@ def test_a_users_test_runs_the_plan_beside_it(tmp_path: Path) -> None:
         check=False,
     )
 
-    assert "1 failed, 1 passed" in done.stdout, done.stdout + done.stderr
-    assert "rises.yaml: ok in 1 of 4 variations" in done.stdout
-    assert "  row 0: not z > 30: z = 9.95" in done.stdout
+    assert "1 failed, 1 passed" in process.stdout, process.stdout + process.stderr
+    assert "rises.yaml: ok in 1 of 4 variations" in process.stdout
+    assert "  row 0: not z > 30: z = 9.95" in process.stdout

@@ -1,1 +1,1 @@
-"""The `trundle` command, and what each of its tasks does."""
+"""The `trundle` command, and the work of its subcommands."""

@@ -1,4 +1,4 @@
-"""`trundle convert`: a description, or a recorded run, written in another format."""
+"""`trundle convert`: converts a description or a recorded run to another format."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -33,15 +33,15 @@ def convert(
     start: Path,
     output: Path | None = None,
 ) -> str | bytes:
-    """Read a description and write it in a format.
+    """Read a description and convert it.
 
     Args:
-        file: a path, a folder with model.config, model://NAME, or "-" for standard input.
-        to: the format.
-        environment: variables that locate packages and models.
-        report: takes what cannot be read or written.
-        start: packages are searched around it, too.
-        output: file to write, with copies of the meshes beside it; None: only return the content.
+        file: path, folder with model.config, model://NAME, or "-" for standard input.
+        to: output format.
+        environment: environment variables that locate packages and models.
+        report: collects findings of reading and writing.
+        start: packages are searched around it too.
+        output: path of the file to write, with copies of the meshes beside it; None: only return the content.
 
     Returns:
         The content: text, or the bytes of a GLB.
@@ -52,35 +52,35 @@ def convert(
     """
     path = Path(file)
     if not is_stream(file) and path.is_file() and is_state_log(path):
-        content = _written_recording(path, to, report)
+        content = _convert_recording(path, to, report)
         if output is not None:
             write_atomically(output, content)
         return content
     if to == "html":
-        raise UsageError(f"{file} is no recording; an HTML replay is made of one by trundle run --record")
+        raise UsageError(f"{file} is not a recording; for an HTML replay, record one with trundle run --record")
     loaded = load_input(file, report, packages=Packages(environment, start=start), start=start)
     if output is None:
-        return _written(loaded, to, written_uri, lambda _: None, report)
+        return _convert_description(loaded, to, written_uri, lambda _: None, report)
     copies = FileCopies(output, report)
-    content = _written(loaded, to, copies.relative_uri, copies.png_path, report)
+    content = _convert_description(loaded, to, copies.relative_uri, copies.png_path, report)
     copies.copy()
     write_atomically(output, content)
     return content
 
 
-def _written_recording(file: Path, to: Format, report: Diagnostics) -> str | bytes:
+def _convert_recording(file: Path, to: Format, report: Diagnostics) -> str | bytes:
     if to not in ("glb", "html"):
         raise UsageError(f"{file} is a recording; it is converted to glb or html")
     from trundle.page.replay.page_file import replay_page
     from trundle.page.replay.recorded_motion import animated_world, motion_of_log
 
-    from .recorded_run import open_recording  # these load the physics, which few formats need
+    from .recorded_run import open_recording  # these import the physics, which few formats need
 
     motion = motion_of_log(*open_recording(file, report), title=file.name)
     return replay_page(motion, report) if to == "html" else animated_world(motion, report)
 
 
-def _written(
+def _convert_description(
     loaded: LoadedDescription,
     to: _DescriptionFormat,
     uri_of: UriOf,
@@ -104,12 +104,12 @@ def _written(
         case "urdf":
             models = flattened(loaded.world).models
             if len(models) != 1:
-                raise DescriptionError(loaded.world.at, f"a URDF is one robot; here are {len(models)} models")
+                raise DescriptionError(loaded.world.at, f"a URDF describes one robot, not {len(models)} models")
             return write_urdf(models[0], uri_of=uri_of, report=report)
 
 
 def _glb(loaded: LoadedDescription, report: Diagnostics) -> bytes:
-    """Return the visuals as described, with joints at zero; a model without a world has no lights but its own."""
+    """Return the visuals with joints at zero; a model outside a world has only its own lights."""
     from trundle.sim.gltf import glb_from_scene
     from trundle.sim.render import DEFAULT_LIGHTS, report_unreadable_textures, scene_from_world
     from trundle.sim.simulation import with_actors

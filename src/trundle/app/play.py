@@ -31,7 +31,7 @@ from trundle.spatial import NS_PER_S
 from .recorded_run import open_recording
 
 _FRAME_S = 1 / 30
-_ALIVE_S = 0.5
+_POLL_S = 0.5
 _BAG_MAGIC = (b"#ROSBAG", b"#ROSRECORD", b"\x89MCAP0\r\n")
 
 
@@ -42,11 +42,11 @@ class PlayOptions:
     host: str = "127.0.0.1"
     port: int | None = None
     allowed: AllowedNames = AllowedNames()
-    """Hosts and origins that the page serves beside its own."""
+    """Hosts and origins that the page serves besides its own."""
     view_only: bool = False
-    """True: print a second link, which only allows looking."""
+    """True: print a second link, which is view-only."""
     opens_browser: bool = True
-    """Open the page where there is a display; False: print its URL only."""
+    """True: open the page where there is a display; False: only print its URL."""
     speed: float = 1.0
     """Recorded seconds per second of wall time."""
     paused: bool = False
@@ -91,13 +91,13 @@ def play_bag(file: Path, options: PlayOptions) -> int:
     with stop_flag() as stop, PageServer.start(session, at=options.address, bag=playing) as server:
         say = Console(sys.stderr, Diagnostics()).line
         announce_page(server, options.address, say, opens_browser=options.opens_browser)
-        while not stop.wait(_ALIVE_S) and server.alive:
+        while not stop.wait(_POLL_S) and server.alive:
             pass
     return 130
 
 
 def _is_bag(file: Path) -> bool:
-    """True if a file begins as a ROS bag or an MCAP file does."""
+    """True if a file begins like a ROS bag or an MCAP file."""
     with open_file(file) as stream:
         return stream.read(max(map(len, _BAG_MAGIC))).startswith(_BAG_MAGIC)
 
@@ -109,9 +109,9 @@ class LogPage:
         """Show a log.
 
         Args:
-            server: the page's.
-            log: what was recorded.
-            simulation: of the log's world; it does not run.
+            server: page server.
+            log: recorded states.
+            simulation: simulation of the log's world, which does not run.
             options: speed and pause.
         """
         self._server = server
@@ -131,11 +131,11 @@ class LogPage:
 
     def run(self, stop: StopFlag) -> None:
         """Play until stopped."""
-        then = time.monotonic()
+        previous = time.monotonic()
         while not stop.wait(_FRAME_S):
             now = time.monotonic()
-            self.update(now - then)
-            then = now
+            self.update(now - previous)
+            previous = now
         self._builder.close()
         self._pictures.close()
 
@@ -153,9 +153,9 @@ class LogPage:
             else:
                 server.respond(request.id)
         playback.advance(wall_s)
-        while (built := self._builder.poll()) is not None:
-            self._simulation.report.extend(built.report.findings)
-            server.set_world(built.manifest, built.files)
+        while (world := self._builder.poll()) is not None:
+            self._simulation.report.extend(world.report.findings)
+            server.set_world(world.manifest, world.files)
         sample = playback.sample
         if server.is_watched(POSES):
             poses = self._bones.with_bones(self._log.poses[sample], self._animation_state)
@@ -165,7 +165,7 @@ class LogPage:
         server.put_state(playback.state)
 
     def _animation_state(self, actor: str) -> AnimationState:
-        """State of an actor's script at the time shown; what a plugin did with it is not recorded."""
+        """State of an actor's script at the displayed time; plugins' changes to it are not recorded."""
         player = self._simulation.actors.get(actor)
         return AnimationState() if player is None else player.animation_state(self._playback.time_ns)
 
@@ -176,7 +176,7 @@ class LogPage:
 
 
 def _joint_columns(log: StateLog, joints: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Return (samples, joints, 3): positions, their change over time, and no efforts, which are not recorded."""
+    """Return (samples, joints, 3): positions, their time derivative, and NaN for efforts, which are not recorded."""
     positions = log.positions[:, joints]
     columns = np.full((*positions.shape, 3), np.nan)
     columns[..., 0] = positions

@@ -1,4 +1,4 @@
-"""Run that was recorded: its state log, and the world in it."""
+"""Recorded run: its state log, and the world in it."""
 
 import os
 from pathlib import Path

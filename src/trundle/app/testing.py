@@ -32,8 +32,8 @@ def trundle_sim(request: pytest.FixtureRequest) -> "Callable[..., LoadedSimulati
     def make(file: str, *, seed: int = 0) -> "LoadedSimulation":
         from trundle import load
 
-        beside = request.path.parent / file
-        return load(str(beside) if "://" not in file and os.path.exists(beside) else file, seed=seed)
+        path = request.path.parent / file
+        return load(str(path) if "://" not in file and os.path.exists(path) else file, seed=seed)
 
     return make
 

@@ -30,15 +30,15 @@ class ViewOptions:
     port: int | None = None
     """Port of the page; None: 8080 or the next free one."""
     allowed: AllowedNames = AllowedNames()
-    """Hosts and origins that the page serves beside its own."""
+    """Hosts and origins that the page serves besides its own."""
     view_only: bool = False
-    """True: print a second link, which only allows looking."""
+    """True: print a second link, which is view-only."""
     opens_browser: bool = True
-    """Open the page where there is a display; False: print its URL only."""
+    """True: open the page where there is a display; False: only print its URL."""
 
 
 def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> int:
-    """Show the graph that ROS_MASTER_URI names until Ctrl-C; return the exit code.
+    """Show the graph of ROS_MASTER_URI until Ctrl-C; return the exit code.
 
     Raises:
         UsageError: no master answers there.
@@ -54,20 +54,20 @@ def view(options: ViewOptions, environment: Mapping[str, str] | None = None) -> 
     report = Diagnostics()
     show = Console(sys.stderr, report)
     warn_of_network(options.host, show.line)
-    with stop_flag() as stop, ExitStack() as open_things:
-        loop = open_things.enter_context(GraphLoop())
-        # Anonymous, as rviz is: a second node of the name rviz would shut that of a launch down.
+    with stop_flag() as stop, ExitStack() as resources:
+        loop = resources.enter_context(GraphLoop())
+        # Anonymous like rviz: a second node named rviz would shut down a launch's.
         node = Node(anonymous_name("rviz"), loop=loop, master_uri=uri, host=options.host)
         loop.run(follow_time(node))
         at = PageAddress(host=options.host, port=options.port, allowed=options.allowed, view_only=options.view_only)
         graph = GraphAddress(master_uri=uri, host=options.host)
         page = GraphPage(SharedPage(say=show.line, at=at, graph=graph, opens_browser=options.opens_browser))
-        open_things.callback(page.close)
-        shown = loop.spawn(page.show(node, config=options.config, fixed_frame=options.fixed_frame))
+        resources.callback(page.close)
+        showing = loop.spawn(page.show(node, config=options.config, fixed_frame=options.fixed_frame))
         while not stop.wait(0.1):
             show.findings()
-            if shown.done():
-                return shown.result()
-        shown.cancel()
+            if showing.done():
+                return showing.result()
+        showing.cancel()
         loop.run(asyncio.sleep(0))
     return 130

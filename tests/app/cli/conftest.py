@@ -14,15 +14,16 @@ from trundle.app.cli import main
 
 @dataclass
 class Graph(graphs.Graph):
-    """A running master that ROS_MASTER_URI names, and nodes on it."""
+    """Running master at ROS_MASTER_URI, and nodes registered with it."""
 
     capsys: pytest.CaptureFixture[str]
 
     def trundle(self, *arguments: str) -> tuple[int, str, str]:
-        """Run a command in this process: exit code, standard output, standard error."""
+        """Run a command in this process; return exit code, standard output and standard error."""
         self.capsys.readouterr()
         code = main(arguments)
-        return (code, *self.capsys.readouterr())
+        out, error = self.capsys.readouterr()
+        return code, out, error
 
 
 @pytest.fixture
@@ -39,9 +40,9 @@ def no_master(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def original(graph: Graph, tmp_path: Path) -> Callable[..., str]:
-    """Debian's own ROS 1 tools on the same graph: `original("rostopic", "list")` is their output.
+    """Debian's ROS 1 tools on the same graph: `original("rostopic", "list")` returns their output.
 
-    They have to end with 0, or with the `code` that is given.
+    Their exit code must be 0, or the argument `code`.
     """
     if not Path("/usr/bin/rostopic").exists():
         pytest.skip("Debian's ROS 1 tools are not installed")
@@ -55,17 +56,17 @@ def original(graph: Graph, tmp_path: Path) -> Callable[..., str]:
         "PYTHONWARNINGS": "ignore",
     }
 
-    def run(command: str, *arguments: str, typed: str | None = None, path: Path | None = None, code: int = 0) -> str:
-        done = subprocess.run(
+    def run(command: str, *arguments: str, stdin: str | None = None, path: Path | None = None, code: int = 0) -> str:
+        process = subprocess.run(
             [f"/usr/bin/{command}", *arguments],
             env={**environment, **({"ROS_PACKAGE_PATH": str(path)} if path else {})},
-            input=typed,
+            input=stdin,
             capture_output=True,
             text=True,
             timeout=100,
             check=False,
         )
-        assert done.returncode == code, done.stdout + done.stderr
-        return done.stdout
+        assert process.returncode == code, process.stdout + process.stderr
+        return process.stdout
 
     return run

@@ -1,36 +1,36 @@
-"""Table of all subcommands, ROS' and Trundle's: the command lines of both, and the output expected."""
+"""Table of all subcommands of ROS and Trundle: their command lines and the expected output."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class Row:
-    """One subcommand; `{folder}` in it is a folder to write to."""
+    """One subcommand; `{folder}` is replaced by a writable folder."""
 
-    ours: str
-    """Words after `trundle`; empty: Trundle has no such subcommand."""
-    says: str = ""
+    trundle: str
+    """Words after `trundle`; empty: not in Trundle."""
+    output: str = ""
     """Regular expression of the output."""
     original: str = ""
-    """ROS' command; default: the same words after rostopic and the like; '-': only Trundle has it."""
-    typed: str | None = None
+    """ROS' command; default: the same words after rostopic, rosnode, etc.; '-': only in Trundle."""
+    stdin: str | None = None
     endless: bool = False
-    """True: it is ended by Ctrl-C after the output."""
-    stays: bool = False
-    """True: it goes on while the rows after it run, which show whether it works."""
-    original_says: str | None = None
-    """Regular expression of ROS' output, where it differs."""
+    """True: interrupted by SIGINT after the output."""
+    background: bool = False
+    """True: it keeps running while later rows use it."""
+    original_output: str | None = None
+    """Regular expression of ROS' output, if different."""
 
     @property
-    def words_of_original(self) -> str:
+    def original_command(self) -> str:
         """Command line of the original; empty: none."""
         if self.original:
             return self.original.lstrip("-")
-        tool, _, rest = self.ours.partition(" ")
+        tool, _, rest = self.trundle.partition(" ")
         return f"/usr/bin/ros{tool} {rest}"
 
 
-_TICKS = "{folder}/x.bag"
+_BAG = "{folder}/x.bag"
 _LASER = "0 0 1 0 0 0 base laser"
 ROWS = [
     Row("topic list", "/chatter"),
@@ -51,7 +51,7 @@ ROWS = [
     Row("node ping -c 1 /talker", "xmlrpc reply from http://"),
     Row("node ping -a", "Will ping the following nodes"),
     Row("node machine", r"127\.0\.0\.1|localhost"),
-    Row("node cleanup", typed="n\n"),
+    Row("node cleanup", stdin="n\n"),
     Row("param set /a/b 5"),
     Row("param get /a/b", "^5$"),
     Row("param list", "/a/b"),
@@ -79,25 +79,25 @@ ROWS = [
     Row("srv md5 std_srvs/SetBool", "^09fb03525b03e7ea1fd3992bafd87e16$"),
     Row("srv package std_srvs", "std_srvs/Empty"),
     Row("srv packages", "std_srvs"),
-    Row(f"bag record -O {_TICKS} -l 3 /tick"),
-    Row(f"bag info {_TICKS}", "/tick +3 msgs"),
-    Row(f"bag check {_TICKS}", "does not need any migrations"),
-    Row(f"bag check -n -g {{folder}}/rules.bmr {_TICKS}", "does not need any migrations"),
-    Row(f"bag filter {_TICKS} {{folder}}/y.bag topic=='/tick'"),
-    Row(f"bag compress {_TICKS}"),
+    Row(f"bag record -O {_BAG} -l 3 /tick"),
+    Row(f"bag info {_BAG}", "/tick +3 msgs"),
+    Row(f"bag check {_BAG}", "does not need any migrations"),
+    Row(f"bag check -n -g {{folder}}/rules.bmr {_BAG}", "does not need any migrations"),
+    Row(f"bag filter {_BAG} {{folder}}/y.bag topic=='/tick'"),
+    Row(f"bag compress {_BAG}"),
     Row("bag decompress {folder}/y.bag"),
     Row("bag reindex {folder}/z.bag"),
-    Row(f"bag fix {_TICKS} {{folder}}/w.bag", "migrated successfully"),
-    Row(f"bag play -i -d 0 -q {_TICKS}"),
+    Row(f"bag fix {_BAG} {{folder}}/w.bag", "migrated successfully"),
+    Row(f"bag play -i -d 0 -q {_BAG}"),
     Row(
         "tf static 0 0 1 0 0 0 base laser",
         original="/usr/lib/tf2_ros/static_transform_publisher 0 0 1 0 0 0 base laser",
-        stays=True,
+        background=True,
     ),
     Row("tf echo map laser", "At time ", original="/usr/lib/tf/tf_echo map laser", endless=True),
     Row("", "At time ", original="/usr/lib/tf2_tools/echo.py map laser", endless=True),
     Row("tf monitor", "All Broadcasters:", original="/usr/lib/tf/tf_monitor", endless=True),
-    # Debian's tf/view_frames itself is broken: it searches bytes for text when it asks for Graphviz' version.
+    # Debian's tf/view_frames is broken: it searches bytes for a str when it reads Graphviz' version.
     Row("tf tree -t 1 -o {folder}/frames.gv", original="/usr/lib/tf2_tools/view_frames.py"),
     Row("graph", "/talker", original="/usr/bin/rosgraph", endless=True),
     Row("log -c 1", "hello", original="/usr/bin/rosconsole echo", endless=True),

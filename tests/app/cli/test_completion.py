@@ -1,4 +1,4 @@
-"""Tab completion, as a shell asks for it."""
+"""Tab completion, called like a shell calls it."""
 
 import os
 import subprocess
@@ -13,7 +13,7 @@ from trundle.ros import StaticTransformBroadcaster, Transform
 
 @pytest.fixture
 def complete(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
-    """Completions that a shell would offer for a line."""
+    """Function that returns the completions of a command line."""
     node = graph.node("talker", params={"rate": 5})
     node.advertise("/chatter", "std_msgs/String")
     node.advertise_service("~enable", "std_srvs/SetBool", lambda _: {})
@@ -28,18 +28,18 @@ def complete(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any
     (package / "drive").chmod(0o755)
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
 
-    def words(line: str, **more: str) -> list[str]:
-        answer = tmp_path / "words"
-        asked = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_IFS": "\n", "_ARGCOMPLETE_STDOUT_FILENAME": str(answer)}
-        env = {**os.environ, **asked, "COMP_LINE": line, "COMP_POINT": str(len(line)), **more}
+    def completions(line: str, **variables: str) -> list[str]:
+        output = tmp_path / "words"
+        argcomplete = {"_ARGCOMPLETE": "1", "_ARGCOMPLETE_IFS": "\n", "_ARGCOMPLETE_STDOUT_FILENAME": str(output)}
+        env = {**os.environ, **argcomplete, "COMP_LINE": line, "COMP_POINT": str(len(line)), **variables}
         subprocess.run([sys.executable, "-m", "trundle"], env=env, check=True, timeout=60)
-        return answer.read_text().split("\n")
+        return output.read_text().split("\n")
 
-    return words
+    return completions
 
 
 @pytest.mark.parametrize(
-    ("line", "offered"),
+    ("line", "completion"),
     [
         ("trundle to", "topic "),
         ("trundle topic ec", "echo "),
@@ -64,8 +64,8 @@ def complete(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any
         ("trundle check willow", "willowgarage.world "),
     ],
 )
-def test_words_and_live_names_are_completed(complete: Any, line: str, offered: str) -> None:
-    assert complete(line) == [offered]
+def test_words_and_names_of_the_graph_are_completed(complete: Any, line: str, completion: str) -> None:
+    assert complete(line) == [completion]
 
 
 @pytest.mark.parametrize("words", ["fix a.bag b.bag", "check a.bag -g"])
@@ -75,5 +75,5 @@ def test_rule_files_are_completed(complete: Any, tmp_path: Path, words: str) -> 
     assert complete(f"trundle bag {words} {tmp_path}/ru") == [f"{tmp_path}/rules.bmr "]
 
 
-def test_without_a_master_nothing_is_offered(complete: Any) -> None:
+def test_without_a_master_there_are_no_completions(complete: Any) -> None:
     assert complete("trundle node info /ta", ROS_MASTER_URI="http://127.0.0.1:9/") == [""]

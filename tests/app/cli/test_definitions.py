@@ -14,10 +14,11 @@ from trundle.ros import Messages
 def _run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
     capsys.readouterr()
     code = main(arguments)
-    return (code, *capsys.readouterr())
+    out, error = capsys.readouterr()
+    return code, out, error
 
 
-def test_a_type_is_shown_with_what_is_inside(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_type_is_shown_with_its_nested_fields(capsys: pytest.CaptureFixture[str]) -> None:
     assert _run(capsys, "msg", "show", "geometry_msgs/Twist") == (
         0,
         "geometry_msgs/Vector3 linear\n  float64 x\n  float64 y\n  float64 z\n"
@@ -51,16 +52,16 @@ def test_types_and_packages_are_listed(capsys: pytest.CaptureFixture[str]) -> No
         (["msg", "show", "std_msgs/Str"], "trundle msg: error: no message type 'std_msgs/Str' (did you mean "),
     ],
 )  # fmt: skip
-def test_what_is_not_there_is_said(capsys: pytest.CaptureFixture[str], arguments: list[str], error: str) -> None:
-    code, out, said = _run(capsys, *arguments)
+def test_an_unknown_type_is_an_error(capsys: pytest.CaptureFixture[str], arguments: list[str], error: str) -> None:
+    code, out, message = _run(capsys, *arguments)
     assert (code, out) == (1, "")
-    assert said.startswith(error)
+    assert message.startswith(error)
 
 
 @pytest.mark.slow
 @pytest.mark.real_ros
-def test_every_line_is_rosmsgs(capsys: pytest.CaptureFixture[str], original: Any, tmp_path: Path) -> None:
-    """The originals read definitions from packages, written here from Trundle's definitions."""
+def test_output_is_equal_to_rosmsg(capsys: pytest.CaptureFixture[str], original: Any, tmp_path: Path) -> None:
+    """rosmsg reads definitions from packages, which are written here from Trundle's definitions."""
     messages = Messages()
     for folder, names, text in (
         ("msg", messages.type_names(), messages.text),
@@ -80,9 +81,11 @@ def test_every_line_is_rosmsgs(capsys: pytest.CaptureFixture[str], original: Any
         (["srv", "list"], messages.service_names()),
         (["srv", "packages", "-s"], [name.partition("/")[0] for name in messages.service_names()]),
     ):
-        theirs = original(f"ros{arguments[0]}", *arguments[1:], path=tmp_path)
-        known = set(names)  # the originals also see Debian's packages, some of them twice
-        assert _run(capsys, *arguments)[1].split() == [word for word in dict.fromkeys(theirs.split()) if word in known]
+        expected = original(f"ros{arguments[0]}", *arguments[1:], path=tmp_path)
+        known = set(names)  # rosmsg also lists Debian's packages, some of them twice
+        assert _run(capsys, *arguments)[1].split() == [
+            word for word in dict.fromkeys(expected.split()) if word in known
+        ]
     for arguments in (
         ["msg", "package", "sensor_msgs", "-s"],
         ["msg", "show", "gazebo_msgs/ODEJointProperties"],

@@ -1,4 +1,4 @@
-"""Packages fetched by the commands that tutorials name, from a git server on this machine."""
+"""Packages fetched by the commands in tutorials, from a git server on this machine."""
 
 import os
 import pty
@@ -60,7 +60,7 @@ def index(server: GitServer, tmp_path: Path) -> Path:
 
 @pytest.fixture
 def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A workspace with a package that needs three others, the folder of this test's user beside it."""
+    """A workspace with a package that needs three others, and a data folder next to it."""
     package = tmp_path / "ws/src/my_robot"
     package.mkdir(parents=True)
     (package / "package.xml").write_text(manifest("my_robot", "arm_bringup", "hand", "rospy", "python3-serial"))
@@ -73,10 +73,10 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def fetched(tmp_path: Path) -> list[str]:
-    return sorted(str(each.relative_to(tmp_path / "data/trundle/packages")) for each in tmp_path.glob("data/*/*/*/*"))
+    return sorted(str(path.relative_to(tmp_path / "data/trundle/packages")) for path in tmp_path.glob("data/*/*/*/*"))
 
 
-def test_rosdep_fetches_what_a_workspace_needs(
+def test_rosdep_fetches_the_dependencies_of_a_workspace(
     workspace: Path, index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = ["rosdep", "install", "--from-paths", "src", "--ignore-src", "-r", "-y", "--rosdistro", "noetic", "--index"]
@@ -88,13 +88,13 @@ def test_rosdep_fetches_what_a_workspace_needs(
     assert "part of Trundle: catkin rospy" in out
     assert "/me/arm (noetic-devel): arm_bringup\n" in out
     assert out.splitlines()[-1] == f"Python libraries: {sys.executable} -m pip install pyserial"
-    assert sorted(os.listdir(workspace / "src")) == ["my_robot"], "the workspace is as it was"
+    assert sorted(os.listdir(workspace / "src")) == ["my_robot"], "the workspace is unchanged"
 
 
-def test_a_hostile_repository_and_index_reach_nothing(
+def test_a_hostile_repository_or_index_cannot_run_code_or_read_files(
     workspace: Path, server: GitServer, index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """By `rosdep install` as by `pack get`: links, submodules and setup files of a package, rows of the index."""
+    """`rosdep install` and `pack get`: a package's links, submodules and setup files, and rows of the index."""
     (tmp_path / "secret").write_text("mine")
     ran = tmp_path / "ran"
     evil = {
@@ -117,7 +117,7 @@ def test_a_hostile_repository_and_index_reach_nothing(
 
     for words in (["--as", "rosdep", "install", "--from-paths", "src", "-y"], ["pack", "get", "-y", *rows]):
         assert main([*words, "--index", str(index)]) == 0
-        assert "of the system, if they are needed: local option program\n" in capsys.readouterr().out
+        assert "system packages, if needed: local option program\n" in capsys.readouterr().out
         assert not ran.exists()
         assert sorted(os.listdir(data / "you/evil")) == [".git", ".gitmodules", "package.xml", "setup.py"]
         assert (data / "me/arm_msgs/package.xml").is_file()
@@ -125,55 +125,61 @@ def test_a_hostile_repository_and_index_reach_nothing(
 
 
 @pytest.mark.usefixtures("workspace")
-def test_nothing_is_fetched_unasked(index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_nothing_is_fetched_without_confirmation(
+    index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["pack", "get", "hand", "--index", str(index)]) == 1
-    assert capsys.readouterr().err == "trundle pack: error: nothing is fetched without an answer; -y is one\n"
+    assert capsys.readouterr().err == "trundle pack: error: fetching needs a confirmation; -y gives it\n"
     assert fetched(tmp_path) == []
 
 
 @pytest.fixture
 def web(index: Path, tmp_path: Path) -> Iterator[str]:
-    """Address of a web server with an index of the published form, and one that names a file of the machine."""
+    """Address of a web server with a published index, and an index that refers to a local file."""
     folder = tmp_path / "web"
     (folder / "noetic").mkdir(parents=True)
     shutil.copy(index, folder / "noetic/distribution.yaml")
     for name, file in (("index-v4", "noetic/distribution.yaml"), ("hostile", f"file://{index}")):
         (folder / f"{name}.yaml").write_text(f"distributions: {{noetic: {{distribution: ['{file}']}}}}\n")
     handler = partial(SimpleHTTPRequestHandler, directory=str(folder))
-    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as served:
-        thread = Thread(target=served.serve_forever)
+    with ThreadingHTTPServer(("127.0.0.1", 0), handler) as http:
+        thread = Thread(target=http.serve_forever)
         thread.start()
-        yield f"http://127.0.0.1:{served.server_port}"
-        served.shutdown()
+        yield f"http://127.0.0.1:{http.server_port}"
+        http.shutdown()
         thread.join()
 
 
 @pytest.mark.usefixtures("workspace")
 def test_an_index_is_read_from_the_web(web: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """One from there names no files of this machine."""
+    """An index from the web cannot refer to local files."""
     assert main(["pack", "get", "-y", "arm_bringup", "--index", f"{web}/index-v4.yaml"]) == 0
     assert fetched(tmp_path) == ["me/arm", "me/arm_msgs"]
     capsys.readouterr()
 
-    for name, what in (("hostile", "an index is fetched from http:// or https://"), ("gone", "not fetched: ")):
+    for name, message in (("hostile", "an index is fetched from http:// or https://"), ("gone", "not fetched: ")):
         assert main(["pack", "get", "-y", "hand", "--index", f"{web}/{name}.yaml"]) == 1
-        assert what in capsys.readouterr().err
+        assert message in capsys.readouterr().err
     assert fetched(tmp_path) == ["me/arm", "me/arm_msgs"]
 
 
 @pytest.mark.usefixtures("workspace")
-def test_all_that_a_launch_needs_is_fetched(index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Also what only a xacro file names, which is read once the includes are there."""
+def test_all_packages_of_a_launch_file_are_fetched(
+    index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Also packages that only a xacro file names, which is read after the includes were fetched."""
     assert main(["pack", "get", "-y", "--index", str(index), "--missing", "my_robot", "my.launch"]) == 0
     assert fetched(tmp_path) == ["me/arm", "me/arm_msgs", "me/hand"]
-    assert capsys.readouterr().out.splitlines()[-1] == "all is here that could be fetched"
+    assert capsys.readouterr().out.splitlines()[-1] == "all available packages are fetched"
 
     assert main(["launch", "my_robot", "my.launch", "--dump-params"]) == 0
     assert "palm" in capsys.readouterr().out
 
 
 @pytest.mark.usefixtures("workspace")
-def test_what_is_missing_is_found_with_the_variables_of_hooks(index: Path, workspace: Path, tmp_path: Path) -> None:
+def test_missing_packages_are_found_with_the_variables_of_env_hooks(
+    index: Path, workspace: Path, tmp_path: Path
+) -> None:
     package = workspace / "src/my_robot"
     (package / "env-hooks").mkdir()
     (package / "env-hooks/my.sh").write_text("export MY_LAUNCH=arm.launch\n")
@@ -185,8 +191,8 @@ def test_what_is_missing_is_found_with_the_variables_of_hooks(index: Path, works
 def test_a_launch_offers_to_fetch_on_a_terminal(
     workspace: Path, server: GitServer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Asked once, also for what only the robot's file names."""
-    here, there = pty.openpty()
+    """One prompt, also for packages that only the robot's file names."""
+    terminal, stdin = pty.openpty()
     code = (
         "import sys; from trundle.robots import repositories; from trundle.robots.repositories import Entry, Index\n"
         f"index = Index([Entry('{server.address}/me/' + r, {{}}, (p,)) for r, p in "
@@ -194,21 +200,21 @@ def test_a_launch_offers_to_fetch_on_a_terminal(
         "repositories.shipped_index = lambda: index\n"
         "from trundle.app.cli.main import main; sys.exit(main(['launch', 'my_robot', 'my.launch', '--dump-params']))"
     )
-    os.write(here, b"\n")
+    os.write(terminal, b"\n")
     words = [sys.executable, "-c", code]
-    done = subprocess.run(words, stdin=there, stdout=subprocess.PIPE, stderr=there, cwd=workspace, check=False)
-    os.close(there)
-    said = os.read(here, 100_000).decode()
-    os.close(here)
+    process = subprocess.run(words, stdin=stdin, stdout=subprocess.PIPE, stderr=stdin, cwd=workspace, check=False)
+    os.close(stdin)
+    output = os.read(terminal, 100_000).decode()
+    os.close(terminal)
 
-    assert said.count("fetch 2 repositories? [Y/n]") == said.count("[Y/n]") == 1
-    assert done.returncode == 0, said
-    assert "palm" in done.stdout.decode()
+    assert output.count("fetch 2 repositories? [Y/n]") == output.count("[Y/n]") == 1
+    assert process.returncode == 0, output
+    assert "palm" in process.stdout.decode()
     assert fetched(tmp_path) == ["me/arm", "me/arm_msgs", "me/hand"]
 
 
 @pytest.mark.usefixtures("workspace")
-def test_a_missing_package_names_the_commands_that_help(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_a_missing_package_is_an_error_with_a_remedy(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     (tmp_path / "a.launch").write_text('<launch><include file="$(find turtlebot3_gazebo)/a.launch"/></launch>')
 
     assert main(["launch", str(tmp_path / "a.launch")]) == 1
@@ -218,8 +224,8 @@ def test_a_missing_package_names_the_commands_that_help(capsys: pytest.CaptureFi
 
 
 @pytest.mark.usefixtures("workspace")
-def test_all_missing_packages_are_named_at_once(capsys: pytest.CaptureFixture[str], workspace: Path) -> None:
-    """Those of launch files, nodes, the robot's file and its meshes, each with its line and address."""
+def test_all_missing_packages_are_reported_together(capsys: pytest.CaptureFixture[str], workspace: Path) -> None:
+    """Packages of launch files, nodes, the robot's file and its meshes, with line and address."""
     package = workspace / "src/my_robot"
     (package / "my.launch").write_text(
         """<launch>
@@ -251,16 +257,16 @@ def test_all_missing_packages_are_named_at_once(capsys: pytest.CaptureFixture[st
     *_, last = lines = capsys.readouterr().err.splitlines()
     errors = {line.split("'")[1]: line for line in lines if ": error: no package" in line}
     assert set(errors) == set(names)
-    for name, at in names.items():
-        assert errors[name].startswith(f"{package}/{at}: error: no package '{name}'")
+    for name, location in names.items():
+        assert errors[name].startswith(f"{package}/{location}: error: no package '{name}'")
         assert ("; it is published at https://github.com/" in errors[name]) == (name in published)
     assert set(last.partition(" fetches them")[0].split()[3:]) == published
 
 
-def test_a_list_of_repositories_is_named_where_no_index_has_a_package(
+def test_repository_lists_are_named_if_no_index_has_a_package(
     workspace: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """As dependencies.rosinstall of a repository, whose packages were never released."""
+    """For example a repository's dependencies.rosinstall, with packages that were never released."""
     lists = workspace / "src/my_robot/repos/my_robot.repos"
     lists.parent.mkdir()
     lists.write_text("repositories: {}\n")
@@ -269,34 +275,34 @@ def test_a_list_of_repositories_is_named_where_no_index_has_a_package(
 
     assert main(["launch", str(launch)]) == 1
 
-    what = f"no index has no_such_control; lists of repositories here: {lists}: vcs import in trundle shell fetches"
-    assert f"{what} what one names\n" in capsys.readouterr().err
+    message = f"no index has no_such_control; lists of repositories here: {lists}: vcs import in trundle shell fetches"
+    assert f"{message} what one names\n" in capsys.readouterr().err
 
 
-def test_files_of_a_package_whose_nodes_have_stand_ins_are_fetched(
+def test_files_of_a_package_with_stand_in_nodes_are_fetched_if_needed(
     workspace: Path, index: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Only when they are asked for: a package that merely depends on it needs none."""
+    """A package that only depends on it needs no files."""
     launch = workspace / "camera.launch"
     launch.write_text('<launch><include file="$(find usb_cam)/launch/usb_cam-test.launch"/></launch>')
     assert main(["launch", str(launch)]) == 1
-    said = capsys.readouterr().err
-    assert f"{launch}:1: error: no package 'usb_cam'; " in said
-    assert said.splitlines()[-1].startswith("trundle pack get usb_cam fetches them; ")
+    errors = capsys.readouterr().err
+    assert f"{launch}:1: error: no package 'usb_cam'; " in errors
+    assert errors.splitlines()[-1].startswith("trundle pack get usb_cam fetches them; ")
     (workspace / "src/my_robot/package.xml").write_text(manifest("my_robot", "usb_cam"))
     assert main(["--as", "rosdep", "install", "my_robot", "-y", "--index", str(index)]) == 0
     assert fetched(tmp_path) == []
 
     assert main(["pack", "get", "-y", "--index", str(index), "--missing", str(launch)]) == 0
 
-    assert fetched(tmp_path) == ["me/usb_cam"], "image_view has a stand-in, and its files were not asked for"
+    assert fetched(tmp_path) == ["me/usb_cam"], "image_view has a stand-in, and none of its files is needed"
     capsys.readouterr()
     assert main(["launch", str(launch), "--dump-params"]) == 0
     assert "/usb_cam/video_device: /dev/video9" in capsys.readouterr().out
 
 
 @pytest.mark.usefixtures("workspace")
-def test_nodes_of_a_machine_that_was_left_out_are_left_out_too(
+def test_nodes_of_a_skipped_machine_are_skipped(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv(LENIENT, "0")  # restored after the test
@@ -318,11 +324,11 @@ def test_nodes_of_a_machine_that_was_left_out_are_left_out_too(
     assert "/there" not in out
 
 
-def test_apt_fetches_packages_of_ros(index: Path, workspace: Path, tmp_path: Path) -> None:
-    """Names have - for _; the rest of the line is for the machine's own apt, which `sudo` would start, too."""
+def test_apt_fetches_ros_packages(index: Path, workspace: Path, tmp_path: Path) -> None:
+    """Names have - for _; the other arguments go to the system's apt, also after `sudo`."""
     programs = tmp_path / "programs"
     programs.mkdir()
-    (programs / "apt-get").write_text(f'#!/bin/sh\necho "$@" >> {tmp_path}/own\n')
+    (programs / "apt-get").write_text(f'#!/bin/sh\necho "$@" >> {tmp_path}/apt.log\n')
     (programs / "apt-get").chmod(0o755)
     code = (
         "import sys; from trundle.robots import repositories; from trundle.robots.repositories import read_index\n"
@@ -337,9 +343,9 @@ def test_apt_fetches_packages_of_ros(index: Path, workspace: Path, tmp_path: Pat
 
     assert apt("apt-get", "install", "-y", "ros-noetic-arm-bringup", "tmux") == 0
     assert fetched(tmp_path) == ["me/arm", "me/arm_msgs"]
-    assert (tmp_path / "own").read_text() == "install -y tmux\n"
+    assert (tmp_path / "apt.log").read_text() == "install -y tmux\n"
     assert apt("apt-get", "update") == 0
-    assert (tmp_path / "own").read_text() == "install -y tmux\nupdate\n"
+    assert (tmp_path / "apt.log").read_text() == "install -y tmux\nupdate\n"
     assert apt("sudo", "apt-get", "install", "-y", "ros-kinetic-hand") == 0
     assert fetched(tmp_path) == ["me/arm", "me/arm_msgs", "me/hand"]
 

@@ -1,4 +1,4 @@
-"""`trundle graph`, `log`, `exec` and `pack`: the tools around a graph."""
+"""`trundle graph`, `log`, `exec` and `pack`."""
 
 import json
 import os
@@ -42,7 +42,7 @@ def test_the_graph_is_drawn(graph: Any, tmp_path: Path) -> None:
     assert graph.trundle("graph", "-o", "graph.pdf")[0] == 1
 
 
-def test_loops_are_drawn_too() -> None:
+def test_loops_are_drawn() -> None:
     items: list[Item] = [("node", "/a"), ("topic", "/t"), ("node", "/b"), ("topic", "/u")]
     circle = [(items[i], items[(i + 1) % 4]) for i in range(4)]
     picture = parse_xml(graph_svg(NodeGraph(items, circle)), name="x.svg")
@@ -78,14 +78,14 @@ def chatter(graph: Any) -> Any:
         (["-x", "spin|lens"], "[/motor]: getting <hot>"),
     ],
 )
-def test_what_nodes_log_is_shown_and_filtered(graph: Any, chatter: Any, arguments: list[str], ends: str) -> None:
+def test_log_messages_are_shown_and_filtered(graph: Any, chatter: Any, arguments: list[str], ends: str) -> None:
     code, out, _ = graph.trundle("log", "-c", "2", *arguments)
     assert code == 0
     assert len(out.splitlines()) == 2
     assert all(line.endswith(ends) for line in out.splitlines())
 
 
-def test_logs_are_json_if_asked(graph: Any, chatter: Any) -> None:
+def test_log_messages_are_printed_as_json(graph: Any, chatter: Any) -> None:
     line = json.loads(graph.trundle("log", "-c", "1", "--json", "-l", "error")[1])
     assert (line["level"], line["node"], line["text"]) == ("error", "/camera", "lens cap on")
     assert graph.trundle("log", "-g", "(")[0] == 1
@@ -113,7 +113,9 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "src"
 
 
-def test_packages_and_what_they_need_are_found(graph: Any, workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_packages_and_their_dependencies_are_found(
+    graph: Any, workspace: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     assert graph.trundle("pack", "find", "my_robot")[1] == f"{workspace / 'my_robot'}\n"
     assert f"my_two {workspace / 'my_two'}\n" in graph.trundle("pack", "list")[1]
     assert graph.trundle("pack", "deps1", "my_robot")[1] == "my_tools\nmy_msgs\n"
@@ -129,30 +131,30 @@ def test_packages_and_what_they_need_are_found(graph: Any, workspace: Path, monk
     assert graph.trundle("pack", "find")[1] == f"{workspace / 'my_tools'}\n"
 
 
-def test_packages_that_need_each_other_end(graph: Any, workspace: Path) -> None:
+def test_cyclic_dependencies_are_listed_once(graph: Any, workspace: Path) -> None:
     manifest = workspace / "my_msgs" / "package.xml"
     manifest.write_text(manifest.read_text().replace("</package>", "<exec_depend>my_robot</exec_depend></package>"))
     assert graph.trundle("pack", "depends", "my_robot")[1] == "my_msgs\nmy_tools\n"
 
 
 @pytest.mark.real_ros
-def test_packages_are_rospacks(graph: Any, workspace: Path) -> None:
+def test_dependencies_are_equal_to_rospack(graph: Any, workspace: Path) -> None:
     """rospack ignores build and test dependencies."""
     if not Path("/usr/bin/rospack").exists():
         pytest.skip("Debian's rospack-tools is not installed")
-    for name, needs in (
+    for name, dependencies in (
         ("built", "<buildtool_depend>my_two</buildtool_depend><build_depend>my_tools</build_depend>"),
         ("mixed", "<depend>built</depend><test_depend>my_two</test_depend><exec_depend>my_robot</exec_depend>"),
     ):
         text = (workspace / "my_robot/package.xml").read_text().replace("my_robot", name)
         (workspace / name).mkdir()
-        (workspace / name / "package.xml").write_text(text.replace("</package>", f"{needs}</package>"))
+        (workspace / name / "package.xml").write_text(text.replace("</package>", f"{dependencies}</package>"))
     env = {"PATH": "/usr/bin", "ROS_PACKAGE_PATH": str(workspace), "ROS_VERSION": "1", "HOME": str(workspace)}
     for words in ("find mixed", "depends1 built", "depends1 mixed", "depends mixed", "deps my_robot"):
-        done = subprocess.run(
+        process = subprocess.run(
             ["/usr/bin/rospack", *words.split()], env=env, capture_output=True, text=True, check=True, timeout=60
         )
-        assert graph.trundle("pack", *words.split()) == (0, done.stdout, "")
+        assert graph.trundle("pack", *words.split()) == (0, process.stdout, "")
 
 
 def test_stock_nodes_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
@@ -177,17 +179,17 @@ def test_a_program_of_a_package_is_run(graph: Any, workspace: Path) -> None:
     assert graph.trundle("exec", "my_rocket", "fly")[0] == 2
     with _exec("--debug", "my_robot", "drive") as process:
         program = f"{workspace / 'my_robot'}/scripts/drive"
-        looked = f"[rosrun] Looking in rospack dir: {workspace / 'my_robot'}\n[rosrun] Running  {program}\n\n"
-        assert process.communicate(timeout=60)[0] == looked
+        output = f"[rosrun] Looking in rospack dir: {workspace / 'my_robot'}\n[rosrun] Running  {program}\n\n"
+        assert process.communicate(timeout=60)[0] == output
 
 
-def test_a_stock_node_runs_here(graph: Any) -> None:
-    got: list[Any] = []
-    graph.node("n").subscribe("/tf", "tf2_msgs/TFMessage", got.append)
+def test_a_stock_node_runs_until_sigint(graph: Any) -> None:
+    messages: list[Any] = []
+    graph.node("n").subscribe("/tf", "tf2_msgs/TFMessage", messages.append)
     words = ["0", "0", "0.1", "0", "0", "0", "base", "laser", "10", "__name:=mount"]
     with _exec("tf", "static_transform_publisher", *words) as process:
         try:
-            graph.until(lambda: got)
+            graph.until(lambda: messages)
             assert "/mount\n" in graph.trundle("node", "list")[1]
             process.send_signal(signal.SIGINT)
             assert process.wait(PATIENCE_S) == 0
@@ -197,8 +199,8 @@ def test_a_stock_node_runs_here(graph: Any) -> None:
 
 
 @pytest.mark.slow
-def test_gazebo_is_started_as_rosrun_starts_it(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The node's name is /gazebo, whatever the program's."""
+def test_gazebo_is_started_like_by_rosrun(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The node's name is /gazebo for every program's name."""
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     client = graph.node("client")
     with _exec("gazebo_ros", "gzserver", "-u", "worlds/shapes.world") as process:
@@ -216,11 +218,11 @@ def test_gazebo_is_started_as_rosrun_starts_it(graph: Any, tmp_path: Path, monke
 @pytest.mark.parametrize(
     "command", ["topic list", "node list", "service list", "param list", "graph", "topic type /rosout"]
 )
-def test_light_commands_load_nothing_heavy(graph: Any, command: str) -> None:
-    """They answer as fast as the interpreter starts: no asyncio, no numpy."""
+def test_light_commands_import_no_heavy_modules(graph: Any, command: str) -> None:
+    """Neither asyncio nor numpy, so that they start fast."""
     code = (
         f"import sys; from trundle.app.cli import main; assert main({command.split()!r}) == 0;"
         "print([name for name in ('asyncio', 'numpy', 'rosbags', 'yaml', 'lxml') if name in sys.modules])"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
-    assert done.stdout.splitlines()[-1] == "[]"
+    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+    assert process.stdout.splitlines()[-1] == "[]"

@@ -1,4 +1,4 @@
-"""`--help` of every command and subcommand has examples, and they are commands that it takes."""
+"""`--help` of every command and subcommand has valid examples."""
 
 import argparse
 import re
@@ -9,12 +9,12 @@ import pytest
 
 from trundle.app.cli.main import COMMANDS, make_parser
 
-WITHOUT = {"trundle bag decrypt", "trundle bag encrypt"}
+WITHOUT_EXAMPLES = {"trundle bag decrypt", "trundle bag encrypt"}
 """Subcommands that are not supported."""
 
 
 def _parsers(parser: argparse.ArgumentParser) -> Iterator[argparse.ArgumentParser]:
-    """The parser and those of its subcommands."""
+    """The parser and the parsers of its subcommands."""
     yield parser
     for action in parser._actions:
         if isinstance(action, argparse._SubParsersAction):  # pyright: ignore[reportPrivateUsage]
@@ -22,7 +22,7 @@ def _parsers(parser: argparse.ArgumentParser) -> Iterator[argparse.ArgumentParse
 
 
 def _examples(parser: argparse.ArgumentParser) -> list[list[str]]:
-    """Words of each example, without the comments beside them and what they are piped to."""
+    """Words of each example, without comments and pipes."""
     text = (parser.description or "").partition("\n\n")[0]
     lines = text.removeprefix("examples:").strip("\n").splitlines() if text.startswith("examples:") else []
     commands = [re.split(r"\s{2,}", line.removeprefix("  "))[0].partition(" | ")[0] for line in lines]
@@ -31,19 +31,19 @@ def _examples(parser: argparse.ArgumentParser) -> list[list[str]]:
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_command_has_examples(name: str) -> None:
-    assert {parser.prog for parser in _parsers(make_parser(name)) if not _examples(parser)} <= WITHOUT
+    assert {parser.prog for parser in _parsers(make_parser(name)) if not _examples(parser)} <= WITHOUT_EXAMPLES
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_a_subcommand_has_the_examples_that_run_it(name: str) -> None:
+def test_examples_of_a_subcommand_run_it(name: str) -> None:
     _, *subcommands = _parsers(make_parser(name))
     for parser in subcommands:
         assert all(" ".join(words).startswith(parser.prog) for words in _examples(parser))
 
 
-@pytest.mark.parametrize("name", [name for name in COMMANDS if name != "activate"])  # whose example is `eval`'s
-def test_its_examples_are_arguments_that_it_takes(name: str) -> None:
+@pytest.mark.parametrize("name", [name for name in COMMANDS if name != "activate"])  # its example starts with `eval`
+def test_examples_are_accepted_by_the_parser(name: str) -> None:
     for program, command, *words in _examples(make_parser(name)):
         assert program == "trundle"
-        if words != ["--list"]:  # which prints and exits
+        if words != ["--list"]:  # prints and exits
             assert make_parser(command).parse_known_args(words)[1] == [], words

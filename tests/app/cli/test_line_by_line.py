@@ -1,4 +1,4 @@
-"""Output line by line equal to the original's, on the same graph."""
+"""Output equal to ROS' own tools line by line, on the same graph."""
 
 import math
 from pathlib import Path
@@ -9,7 +9,7 @@ import pytest
 pytestmark = [pytest.mark.slow, pytest.mark.real_ros]
 
 HEADER = {"seq": 3, "stamp": {"secs": 7, "nsecs": 5_000_000}, "frame_id": "laser"}
-ODD = [0.1, -0.0, 1e-9, 1e20, math.inf, math.nan]
+SPECIAL_FLOATS = [0.1, -0.0, 1e-9, 1e20, math.inf, math.nan]
 TOPICS: dict[str, tuple[str, Any]] = {
     "/text": ("std_msgs/String", {"data": 'say "hi"\nto: [me]'}),
     "/umlaut": ("std_msgs/String", {"data": "Bär"}),
@@ -21,12 +21,12 @@ TOPICS: dict[str, tuple[str, Any]] = {
     "/when": ("std_msgs/Time", {"data": {"secs": 5, "nsecs": 7}}),
     "/long": ("std_msgs/Duration", {"data": {"secs": -5, "nsecs": 7}}),
     "/nothing": ("std_msgs/Empty", {}),
-    "/colour": ("std_msgs/ColorRGBA", {"r": 0.5, "a": 1}),
-    "/numbers": ("std_msgs/Float64MultiArray", {"data": ODD}),
+    "/color": ("std_msgs/ColorRGBA", {"r": 0.5, "a": 1}),
+    "/numbers": ("std_msgs/Float64MultiArray", {"data": SPECIAL_FLOATS}),
     "/bytes": ("std_msgs/UInt8MultiArray", {"layout": {"dim": [{"label": "x", "size": 2}]}, "data": [1, 255]}),
     "/twist": ("geometry_msgs/Twist", {"linear": {"x": 0.5}}),
     "/odom": ("nav_msgs/Odometry", {"header": HEADER, "child_frame_id": "base", "pose": {"covariance": [0.1] * 36}}),
-    "/scan": ("sensor_msgs/LaserScan", {"header": HEADER, "ranges": ODD}),
+    "/scan": ("sensor_msgs/LaserScan", {"header": HEADER, "ranges": SPECIAL_FLOATS}),
     "/joints": ("sensor_msgs/JointState", {"header": HEADER, "name": ["a", "b c", ""], "position": [1, 2.5]}),
     "/picture": ("sensor_msgs/Image", {"encoding": "mono8", "data": bytes([1, 2, 200])}),
     "/cloud": ("sensor_msgs/PointCloud2", {"fields": [{"name": "x", "datatype": 7, "count": 1}], "data": b"\1\2"}),
@@ -84,30 +84,30 @@ def talker(graph: Any) -> Any:
     node = graph.node("talker")
     for topic, (kind, fields) in TOPICS.items():
         node.advertise(topic, kind, latch=True).publish(fields)
-    node.subscribe("/heard", "std_msgs/String", lambda _: None)
+    node.subscribe("/listened", "std_msgs/String", lambda _: None)
     node.advertise_service("~empty", "std_srvs/Empty", lambda _: {})
     node.advertise_service("~plan", "nav_msgs/GetPlan", lambda _: {"plan": {"poses": [{}]}})
     node.advertise_service(
         "~switch", "std_srvs/SetBool", lambda request: {"success": request.data, "message": "x: 'y'"}
     )
     graph.ready(node)
-    kinds = {"name": "car", "size": 1.5, "on": True, "wheels": 4, "parts": ["a", 2, {"b": 1e-7}], "text": "a\nb: c\n"}
-    graph.loop.run(node.params.set("/robot", {**kinds, "empty": {}, "none": [], "number_text": "5"}))
+    values = {"name": "car", "size": 1.5, "on": True, "wheels": 4, "parts": ["a", 2, {"b": 1e-7}], "text": "a\nb: c\n"}
+    graph.loop.run(node.params.set("/robot", {**values, "empty": {}, "none": [], "number_text": "5"}))
     return node
 
 
 @pytest.mark.parametrize("words", ECHOES)
-def test_messages_are_printed_alike(graph: Any, original: Any, talker: Any, words: str) -> None:
+def test_messages_are_printed_like_rostopic(graph: Any, original: Any, talker: Any, words: str) -> None:
     arguments = ["echo", "-n", "1", *words.split()]
-    ours, theirs = graph.trundle("topic", *arguments)[1], original("rostopic", *arguments)
+    output, expected = graph.trundle("topic", *arguments)[1], original("rostopic", *arguments)
     if words.startswith("-p") and not words.startswith(("-p /odom", "-p /scan", "-p /joints")):
-        # Without a header the first column is the time of arrival.
-        ours, theirs = (_without_time(text) for text in (ours, theirs))
-    assert ours == theirs
+        # Without a header the first column is the time of receipt.
+        output, expected = (_without_time(text) for text in (output, expected))
+    assert output == expected
 
 
 @pytest.mark.parametrize("words", WORDS)
-def test_the_graph_is_described_alike(graph: Any, original: Any, talker: Any, tmp_path: Path, words: str) -> None:
+def test_the_graph_is_described_like_by_ros(graph: Any, original: Any, talker: Any, tmp_path: Path, words: str) -> None:
     file = tmp_path / "file.yaml"
     file.write_text("a: 1\nb: {c: deg(90)}\n---\n_ns: sub\nd: [1, x]\n")
     spaced = (word.replace("_", " ") if "{" in word else word for word in words.split())
@@ -135,7 +135,9 @@ def test_the_graph_is_described_alike(graph: Any, original: Any, talker: Any, tm
         *((2, f"msg {words}") for words in ("show std_msgs::String", "show a b")),
     ],
 )
-def test_what_is_wrong_ends_alike(graph: Any, original: Any, talker: Any, code: int, words: str) -> None:
+def test_errors_have_the_exit_codes_of_the_original(
+    graph: Any, original: Any, talker: Any, code: int, words: str
+) -> None:
     tool, *arguments = (word.replace("_", " ") if ":" in word else word for word in words.split())
     if tool == "msg":
         arguments = words.split()[1:]
@@ -143,7 +145,7 @@ def test_what_is_wrong_ends_alike(graph: Any, original: Any, talker: Any, code: 
 
 
 @pytest.mark.parametrize("words", ["show geometry_msgs/PoseStamped", "show -r std_msgs/String", "package std_msgs"])
-def test_types_are_shown_alike(graph: Any, original: Any, words: str) -> None:
+def test_types_are_shown_like_rosmsg(graph: Any, original: Any, words: str) -> None:
     if not Path("/usr/share/geometry_msgs/msg").is_dir():
         pytest.skip("Debian's ros-geometry-msgs is not installed")
     assert graph.trundle("msg", *words.split())[1] == original("rosmsg", *words.split(), path=Path("/usr/share"))

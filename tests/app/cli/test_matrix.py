@@ -1,4 +1,4 @@
-"""Every subcommand of ROS against Trundle's master and nodes, and the reverse; prints a table."""
+"""Every subcommand of ROS with Trundle's master and nodes, and the reverse; prints a table."""
 
 import os
 import re
@@ -58,52 +58,52 @@ while not rospy.is_shutdown():
 
 @contextmanager
 def _started(command: Sequence[str], env: dict[str, str], folder: Path) -> Iterator["subprocess.Popen[str]"]:
-    """Run a program; kill it when it takes too long, and at the end of the block."""
+    """Run a program; kill it after a timeout or at the end of the block."""
     pipes: Any = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
     with subprocess.Popen(command, env=env, cwd=folder, text=True, **pipes) as process:
-        guard = threading.Timer(PATIENCE_S, process.kill)
-        guard.start()
+        timeout = threading.Timer(PATIENCE_S, process.kill)
+        timeout.start()
         try:
             yield process
         finally:
-            guard.cancel()
+            timeout.cancel()
             process.kill()
 
 
-def _run(command: Sequence[str], row: Row, says: str, env: dict[str, str], folder: Path) -> str:
-    """Run one row; return the fault, or empty."""
+def _run(command: Sequence[str], row: Row, pattern: str, env: dict[str, str], folder: Path) -> str:
+    """Run one row; return the error, or empty."""
     with _started(command, env, folder) as process:
         assert process.stdin is not None
         assert process.stdout is not None
-        if row.typed:
-            process.stdin.write(row.typed)
+        if row.stdin:
+            process.stdin.write(row.stdin)
         process.stdin.close()
-        said = ""
+        output = ""
         for line in process.stdout:
-            said += line
-            if row.endless and re.search(says, said, re.MULTILINE):
+            output += line
+            if row.endless and re.search(pattern, output, re.MULTILINE):
                 process.send_signal(signal.SIGINT)
                 break
         process.stdout.read()
         code = process.wait()
-    if not re.search(says, said, re.MULTILINE):
-        return f"{says!r} is not in {said[-300:]!r}"
-    return "" if row.endless or code == 0 else f"exit code {code}: {said[-300:]!r}"
+    if not re.search(pattern, output, re.MULTILINE):
+        return f"{pattern!r} is not in {output[-300:]!r}"
+    return "" if row.endless or code == 0 else f"exit code {code}: {output[-300:]!r}"
 
 
-def _fill(folder: Path) -> None:
-    """Write what the rows read: a file, a package with a program, and the package.xml that Debian's packages lack."""
+def _write_inputs(folder: Path) -> None:
+    """Write the rows' inputs: a file, a package with a program, and package.xml for Debian's packages without one."""
     (folder / "p.yaml").write_text("d: 1\n")
-    lacking = {
-        kind.parent
+    without_manifest = {
+        folder.parent
         for pattern in ("*/msg", "*/srv")
-        for kind in Path("/usr/share").glob(pattern)
-        if not (kind.parent / "package.xml").exists()
+        for folder in Path("/usr/share").glob(pattern)
+        if not (folder.parent / "package.xml").exists()
     }
-    for name in ("fruits", *(package.name for package in lacking)):
+    for name in ("fruits", *(package.name for package in without_manifest)):
         (folder / "packages" / name).mkdir(parents=True)
         (folder / "packages" / name / "package.xml").write_text(PACKAGE.format(name=name))
-    for package in lacking:
+    for package in without_manifest:
         for kind in (package / "msg", package / "srv"):
             if kind.is_dir():
                 (folder / "packages" / package.name / kind.name).symlink_to(kind)
@@ -112,37 +112,37 @@ def _fill(folder: Path) -> None:
     apple.chmod(0o755)
 
 
-def _judge(results: list[tuple[str, str]], title: str, capsys: pytest.CaptureFixture[str]) -> None:
-    """Print the table; fail if a row did."""
+def _report(results: list[tuple[str, str]], title: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """Print the table; fail if a row failed."""
     with capsys.disabled():
         print(f"\n{title}")
-        for words, wrong in results:
-            verdict = {"": "ok", _NOT_INSTALLED: "-"}.get(wrong, "FAIL")
-            print(f"  {verdict:4}  {words}  {wrong}".rstrip())
-    assert [words for words, wrong in results if wrong not in ("", _NOT_INSTALLED)] == []
+        for words, error in results:
+            state = {"": "ok", _NOT_INSTALLED: "-"}.get(error, "FAIL")
+            print(f"  {state:4}  {words}  {error}".rstrip())
+    assert [words for words, error in results if error not in ("", _NOT_INSTALLED)] == []
 
 
-def _go(env: dict[str, str], folder: Path, *, originals: bool) -> list[tuple[str, str]]:
-    _fill(folder)
+def _run_rows(env: dict[str, str], folder: Path, *, originals: bool) -> list[tuple[str, str]]:
+    _write_inputs(folder)
     results: list[tuple[str, str]] = []
     with ExitStack() as background:
         for row in ROWS:
-            words = row.words_of_original if originals else row.ours
+            words = row.original_command if originals else row.trundle
             if not words:
                 continue
             command = words.format(folder=folder).split()
-            says = (row.original_says if originals else None) or row.says
+            pattern = (row.original_output if originals else None) or row.output
             if not originals:
                 command = [sys.executable, "-m", "trundle", *command]
-            wrong = ""
+            error = ""
             if originals and not Path(command[0]).exists():
-                wrong = _NOT_INSTALLED
-            elif row.stays:
+                error = _NOT_INSTALLED
+            elif row.background:
                 background.enter_context(_started(command, env, folder))
             else:
-                wrong = _run(command, row, says, env, folder)
-            results.append((words, wrong))
-            if row.ours.startswith("bag record"):
+                error = _run(command, row, pattern, env, folder)
+            results.append((words, error))
+            if row.trundle.startswith("bag record"):
                 (folder / "z.bag").write_bytes((folder / "x.bag").read_bytes())
     return results
 
@@ -160,7 +160,7 @@ def _environment(uri: str, folder: Path) -> dict[str, str]:
     }
 
 
-def test_every_original_tool_works_on_our_graph(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_tool_of_ros_works_with_trundles_graph(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with GraphLoop() as loop:
         core = Core(loop, port=0)
         loop.run(core.start())
@@ -179,7 +179,7 @@ def test_every_original_tool_works_on_our_graph(tmp_path: Path, capsys: pytest.C
         loop.run(node.wait_registered())
         talking = loop.spawn(talk())
         env = _environment(core.uri, tmp_path)
-        _judge(_go(env, tmp_path, originals=True), "Debian's tools on our master and node", capsys)
+        _report(_run_rows(env, tmp_path, originals=True), "Debian's tools with Trundle's master and node", capsys)
         talking.cancel()
         loop.run(core.stop(), PATIENCE_S)
 
@@ -215,7 +215,7 @@ def _await_service(master: MasterProxy, name: str) -> None:
 
 
 @pytest.mark.skipif(not Path("/usr/bin/rosmaster").exists(), reason="Debian's python3-rosmaster is not installed")
-def test_every_tool_of_ours_works_on_a_real_graph(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_trundle_command_works_with_the_graph_of_ros(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with _real_graph(tmp_path) as uri:
         env = {**os.environ, **_environment(uri, tmp_path)}
-        _judge(_go(env, tmp_path, originals=False), "our tools on Debian's master and node", capsys)
+        _report(_run_rows(env, tmp_path, originals=False), "Trundle's commands with Debian's master and node", capsys)

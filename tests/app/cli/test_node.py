@@ -48,7 +48,7 @@ def test_a_node_is_described_as_by_rosnode(graph: Any) -> None:
     )
 
 
-def test_an_unknown_node_is_said(graph: Any) -> None:
+def test_an_unknown_node_is_an_error(graph: Any) -> None:
     code, _, error = graph.trundle("node", "info", "/nobody")
     assert (code, error) == (1, "cannot contact [/nobody]: unknown node\n")
     assert graph.trundle("node", "kill", "/nobody") == (1, "", "ERROR: Unknown node(s):\n * /nobody\n")
@@ -72,7 +72,7 @@ def test_a_node_is_killed(graph: Any) -> None:
     assert graph.trundle("node", "list")[1] == "/rosout\n"
 
 
-def test_the_node_to_kill_is_asked_for(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_node_to_kill_is_prompted_for(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     node = graph.node("victim")
     graph.ready(node)
 
@@ -90,7 +90,7 @@ def test_the_node_to_kill_is_asked_for(graph: Any, monkeypatch: pytest.MonkeyPat
     graph.until(lambda: node.closed.is_set())
 
 
-def test_cleanup_ends_where_nobody_answers(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_cleanup_without_an_answer_exits_with_1(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     MasterProxy(graph.core.uri, "/gone").call("registerPublisher", "/a", STRING, "http://127.0.0.1:9/")
     monkeypatch.setattr("sys.stdin", StringIO(""))
     assert graph.trundle("node", "cleanup")[0] == 1
@@ -103,12 +103,12 @@ def test_machines_are_listed(graph: Any) -> None:
 
 @pytest.mark.parametrize(
     "command",
-    ["topic pub -r 10 /said std_msgs/String x", "topic echo /said", "tf echo a b", "bag record -a -O a.bag"],
+    ["topic pub -r 10 /chatter std_msgs/String x", "topic echo /chatter", "tf echo a b", "bag record -a -O a.bag"],
 )
 def test_a_command_ends_when_its_node_is_killed(graph: Any, tmp_path: Path, command: str) -> None:
     words = [sys.executable, "-m", "trundle", *command.split(), "__name:=tool"]
     node = graph.node("talker")
-    node.advertise("/said", STRING, latch=True).publish({"data": "hello"})
+    node.advertise("/chatter", STRING, latch=True).publish({"data": "hello"})
     graph.ready(node)
     with subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.DEVNULL) as process:
         try:
@@ -121,4 +121,4 @@ def test_a_command_ends_when_its_node_is_killed(graph: Any, tmp_path: Path, comm
             process.kill()
     if "record" in words:
         with open_bag(tmp_path / "a.bag") as bag:
-            assert "/said" in [connection.topic for connection in bag.connections]
+            assert "/chatter" in [connection.topic for connection in bag.connections]

@@ -1,9 +1,10 @@
-"""Commands that have no equal in `trundle`: rosversion, rosclean, check_urdf, urdf_to_graphiz, gz."""
+"""Commands without a counterpart in `trundle`: rosversion, rosclean, check_urdf, urdf_to_graphiz, gz."""
 
 import os
 import re
 import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -39,7 +40,7 @@ def test_rosversion_prints_versions(home: Path, capsys: pytest.CaptureFixture[st
     assert "Cannot locate [none]" in capsys.readouterr().err
 
 
-def test_rosversion_asks_the_master(graph, capsys: pytest.CaptureFixture[str]) -> None:
+def test_rosversion_reads_the_parameter_of_the_master(graph: Any, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--as", "rosversion", "-d"]) == 0
     assert capsys.readouterr().out == "noetic\n"
 
@@ -85,9 +86,9 @@ def test_check_urdf_prints_the_tree(home: Path, capsys: pytest.CaptureFixture[st
 def test_urdf_to_graphiz_writes_both_files(home: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--as", "urdf_to_graphiz", "arm.urdf"]) == 0
 
-    drawn = "arm.pdf" if shutil.which("dot") else "arm.svg"
+    picture = "arm.pdf" if shutil.which("dot") else "arm.svg"
     assert "Created file arm.gv" in capsys.readouterr().out
-    assert (home / drawn).stat().st_size > 0
+    assert (home / picture).stat().st_size > 0
     text = (home / "arm.gv").read_text()
     assert '"base" -> "shoulder" [label="xyz: 0 0 0.5 \\nrpy: 0 0 0"]' in text
     assert '"shoulder" -> "upper"' in text
@@ -121,14 +122,14 @@ def test_gz_sdf_checks_and_prints(home: Path, capsys: pytest.CaptureFixture[str]
         ("rosmsg", 0),
     ],
 )
-def test_help_is_printed_where_the_originals_print_it(line: str, code: int, capsys: pytest.CaptureFixture[str]) -> None:
-    """gz of Gazebo 11 by its source, tools/gz.cc; the others as Debian's, tried beside these."""
+def test_help_goes_to_the_stream_of_the_original(line: str, code: int, capsys: pytest.CaptureFixture[str]) -> None:
+    """gz as in Gazebo 11's source, tools/gz.cc; the others compared with Debian's."""
     assert main(["--as", *line.split()]) == code
     printed = capsys.readouterr()
-    helped, other = (printed.err, printed.out) if line.startswith("gz") else (printed.out, printed.err)
-    asked = [line.split()[0], *line.split()[2:]]
-    assert (f"usage: {' '.join(asked)} " in helped, other) == (True, "")
-    assert all(name in helped for name in {"gz": ["sdf", "model"], "rostopic": ["echo", "pub"]}.get(line, []))
+    help_text, other = (printed.err, printed.out) if line.startswith("gz") else (printed.out, printed.err)
+    program = [line.split()[0], *line.split()[2:]]
+    assert (f"usage: {' '.join(program)} " in help_text, other) == (True, "")
+    assert all(name in help_text for name in {"gz": ["sdf", "model"], "rostopic": ["echo", "pub"]}.get(line, []))
 
 
 def test_an_unknown_name_is_wrong_usage(capsys: pytest.CaptureFixture[str]) -> None:

@@ -16,15 +16,15 @@ def test_values_are_set_and_printed_as_yaml(graph: Any) -> None:
     assert graph.trundle("param", "get", "-p", "/a") == (0, "b: 1\nc: - x\n- 2.5\n- true\n", "")
 
 
-def test_setting_a_dictionary_keeps_its_neighbours(graph: Any) -> None:
+def test_setting_a_dictionary_keeps_its_other_keys(graph: Any) -> None:
     graph.trundle("param", "set", "/a/x", "1")
     graph.trundle("param", "set", "/a", "{y: 2}")
     assert graph.trundle("param", "get", "/a")[1] == "x: 1\ny: 2\n\n"
 
 
-@pytest.mark.parametrize(("written", "value"), [("", ""), ("'5'", "5"), ("5", 5), ("deg(180)", math.pi)])
-def test_values_are_yaml_with_angles(graph: Any, written: str, value: object) -> None:
-    graph.trundle("param", "set", "/v", written)
+@pytest.mark.parametrize(("text", "value"), [("", ""), ("'5'", "5"), ("5", 5), ("deg(180)", math.pi)])
+def test_values_are_yaml_with_angles(graph: Any, text: str, value: object) -> None:
+    graph.trundle("param", "set", "/v", text)
     assert graph.core.parameters.get("/v") == value
 
 
@@ -59,7 +59,7 @@ def test_parameters_are_deleted(graph: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "complaint"),
+    ("arguments", "message"),
     [
         (("get", "/nope"), "ERROR: Parameter [/nope] is not set\n"),
         (("set", "/a", "{1: 2}"), "ERROR: YAML dictionaries must have string keys."),
@@ -69,14 +69,14 @@ def test_parameters_are_deleted(graph: Any) -> None:
         (("load", "/no/such.yaml"), "ERROR: file [/no/such.yaml] does not exist\n"),
     ],
 )
-def test_what_cannot_be_done_is_one_sentence(graph: Any, arguments: tuple[str, ...], complaint: str) -> None:
+def test_errors_are_one_sentence(graph: Any, arguments: tuple[str, ...], message: str) -> None:
     code, out, error = graph.trundle("param", *arguments)
     assert (code, out) == (1, "")
-    assert complaint in error
+    assert message in error
 
 
 @pytest.mark.parametrize("command", [["param", "list"], ["topic", "list"], ["node", "list"]])
-def test_without_a_master_it_says_what_to_do(
+def test_without_a_master_the_error_names_trundle_core(
     no_master: None, capsys: pytest.CaptureFixture[str], command: list[str]
 ) -> None:
     assert main(command) == 1

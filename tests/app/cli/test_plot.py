@@ -15,7 +15,7 @@ from trundle.ros import WallClock
 
 @pytest.fixture
 def bag(graph: Any, tmp_path: Path) -> Path:
-    """Fifty points on a line, a second apart as their publisher's clock has it."""
+    """Fifty points on a line, stamped by the publisher's clock."""
     node = graph.node("talker")
     publisher = node.advertise("/points", "geometry_msgs/PointStamped", queue_size=None)
     joints = node.advertise("/joints", "sensor_msgs/JointState", queue_size=None)
@@ -37,8 +37,8 @@ def bag(graph: Any, tmp_path: Path) -> Path:
 
 
 def _lines(svg: str) -> list[list[tuple[float, float]]]:
-    found = re.findall(r'<polyline [^>]*points="([^"]*)"', svg)
-    return [[(float(x), float(y)) for x, y in (pair.split(",") for pair in line.split())] for line in found]
+    lines = re.findall(r'<polyline [^>]*points="([^"]*)"', svg)
+    return [[(float(x), float(y)) for x, y in (pair.split(",") for pair in line.split())] for line in lines]
 
 
 def test_a_bag_is_drawn_as_a_picture(graph: Any, bag: Path, tmp_path: Path) -> None:
@@ -47,7 +47,7 @@ def test_a_bag_is_drawn_as_a_picture(graph: Any, bag: Path, tmp_path: Path) -> N
     assert graph.trundle("plot", "/points/point/x:y", "-b", str(bag), "-o", str(target)) == (0, "", "")
 
     rising, level = _lines(target.read_text())
-    assert rising[0][1] > rising[-1][1], "upwards is less in a picture"
+    assert rising[0][1] > rising[-1][1], "y of a picture points down"
     assert len({y for _, y in level}) == 1
     assert ">/points/point/x<" in target.read_text()
 
@@ -80,7 +80,7 @@ def test_a_running_topic_is_drawn(graph: Any, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("words", "complaint"),
+    ("words", "message"),
     [
         (["/points/header/frame_id"], "/points/header/frame_id is a string, not a number"),
         (["/points/point"], "/points/point is a geometry_msgs/Point, not a number; fields here: x, y, z"),
@@ -89,19 +89,19 @@ def test_a_running_topic_is_drawn(graph: Any, tmp_path: Path) -> None:
         (["/points/point/x", "-o", "x.png"], "x.png does not end in .svg"),
     ],
 )
-def test_what_cannot_be_drawn_is_one_sentence(graph: Any, bag: Path, words: list[str], complaint: str) -> None:
+def test_errors_are_one_sentence(graph: Any, bag: Path, words: list[str], message: str) -> None:
     code, _, error = graph.trundle("plot", *words, "-b", str(bag))
-    assert (code, error.startswith(f"ERROR: {complaint}")) == (1, True), error
+    assert (code, error.startswith(f"ERROR: {message}")) == (1, True), error
 
 
-def test_a_curve_is_broken_where_it_is_no_number() -> None:
+def test_a_curve_is_interrupted_at_nan_and_infinity() -> None:
     curve = Curve("c", [(0.0, 1.0), (1.0, 2.0), (2.0, math.nan), (3.0, math.inf), (4.0, 1.0), (5.0, 1.0)])
     assert len(_lines(curves_svg([curve]))) == 2
     assert "*" in curves_text([curve], columns=60, rows=10)
 
 
-def test_large_numbers_near_one_another_are_told_apart() -> None:
-    """Map coordinates and stamps: all ticks of the axis were 4.5e+06 before."""
+def test_ticks_of_large_close_numbers_have_enough_digits() -> None:
+    """Map coordinates and stamps: all ticks of the axis used to be 4.5e+06."""
     curve = Curve("easting", [(0.0, 4_500_000.0), (1.0, 4_500_000.5)])
     marks = [text.text for text in parse_xml(curves_svg([curve]), name="x.svg").all("text")]
     assert {"4500000", "4500000.2", "4500000.4"} <= set(marks)
@@ -110,19 +110,19 @@ def test_large_numbers_near_one_another_are_told_apart() -> None:
     assert max(map(len, text.splitlines())) <= 60
 
 
-def test_the_noise_of_what_is_at_rest_is_not_magnified() -> None:
+def test_noise_of_a_constant_is_not_magnified() -> None:
     (line,) = _lines(curves_svg([Curve("x", [(0.0, 0.8), (1.0, 0.8 + 1e-10)])]))
     assert line[0][1] == line[1][1]
 
 
-def test_the_greatest_double_is_no_number_to_draw() -> None:
+def test_the_largest_double_is_not_drawn() -> None:
     curve = Curve("limit", [(0.0, sys.float_info.max), (1.0, -sys.float_info.max), (2.0, 1.0), (3.0, 2.0)])
     (line,) = _lines(curves_svg([curve]))
     assert len(line) == 2
     assert "limit = 2" in curves_text([curve], columns=60, rows=10)
 
 
-def test_a_spike_among_a_hundred_thousand_points_is_seen() -> None:
+def test_a_spike_among_a_hundred_thousand_points_is_drawn() -> None:
     points = [(i / 1000, float(i == 54_321)) for i in range(100_000)]
     (line,) = _lines(curves_svg([Curve("c", points)]))
     assert len(line) < 4000

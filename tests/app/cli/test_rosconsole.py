@@ -1,4 +1,4 @@
-"""Debian's rosconsole with a node of ours."""
+"""Debian's rosconsole with a Trundle node."""
 
 from typing import Any
 

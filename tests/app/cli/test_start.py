@@ -1,4 +1,4 @@
-"""Start of `trundle`: Ctrl-C before Python handles it, the path of its script, the terminal's encoding."""
+"""Start of `trundle`: Ctrl-C before Python handles it, paths, and the terminal's encoding."""
 
 import os
 import shutil
@@ -25,27 +25,27 @@ def _run(*command: str | Path) -> subprocess.CompletedProcess[str]:
 
 
 @pytest.fixture
-def beside(tmp_path: Path) -> Path:
-    """The program, in a folder without its script."""
+def program(tmp_path: Path) -> Path:
+    """The program in a folder without its script."""
     return Path(shutil.copy(_installed(), tmp_path / "trundle"))
 
 
-def test_ctrl_c_before_python_has_begun_ends_it_without_a_word(beside: Path) -> None:
-    script = beside.with_name("_trundle")
+def test_ctrl_c_before_python_starts_exits_silently(program: Path) -> None:
+    script = program.with_name("_trundle")
     script.write_text(f'#!/bin/sh\nkill -INT $$\nexec "{sys.executable}" -m trundle "$@"\n')
     script.chmod(0o755)
 
-    done = _run(beside, "--version")
+    process = _run(program, "--version")
 
-    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
+    assert (process.returncode, process.stdout, process.stderr) == (-signal.SIGINT, "", "")
 
 
-def test_ctrl_c_is_let_through_afterwards() -> None:
-    held = "import signal; print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, []))"
-    started = f"import sys; sys.argv[1:] = ['--version']; from trundle.__main__ import main; main(); {held}"
-    with_it_held = f"import signal, os, sys; signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]); {started}"
+def test_sigint_is_unblocked_after_the_start() -> None:
+    print_mask = "import signal; print(signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, []))"
+    started = f"import sys; sys.argv[1:] = ['--version']; from trundle.__main__ import main; main(); {print_mask}"
+    blocked = f"import signal, os, sys; signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT]); {started}"
 
-    assert _run(sys.executable, "-c", with_it_held).stdout.splitlines()[-1] == "False"
+    assert _run(sys.executable, "-c", blocked).stdout.splitlines()[-1] == "False"
 
 
 @pytest.mark.parametrize(
@@ -57,7 +57,7 @@ def test_ctrl_c_is_let_through_afterwards() -> None:
     ],
     ids=["callback of a weak reference", "finalizer", "busy machine"],
 )
-def test_ctrl_c_where_python_drops_exceptions_still_ends_it(dropping: str) -> None:
+def test_ctrl_c_where_python_drops_exceptions_still_interrupts(dropping: str) -> None:
     waits = """
         import os, signal, sys, threading, time, types, weakref, trundle.app.cli, trundle.__main__
         start = threading.Thread.start
@@ -77,13 +77,13 @@ def test_ctrl_c_where_python_drops_exceptions_still_ends_it(dropping: str) -> No
         sys.exit(trundle.__main__.main())
     """
 
-    done = _run(sys.executable, "-c", textwrap.dedent(waits).replace("DROPPING", dropping))
+    process = _run(sys.executable, "-c", textwrap.dedent(waits).replace("DROPPING", dropping))
 
-    assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.endswith("interrupted\n")
+    assert (process.returncode, process.stderr) == (0, "")
+    assert process.stdout.endswith("interrupted\n")
 
 
-def test_ctrl_c_while_python_ends_is_no_traceback() -> None:
+def test_ctrl_c_during_pythons_exit_prints_no_traceback() -> None:
     lingers = """
         import sys, threading, time, trundle.app.cli, trundle.__main__
         def command():
@@ -99,11 +99,11 @@ def test_ctrl_c_while_python_ends_is_no_traceback() -> None:
         assert running.stdout is not None
         assert running.stdout.readline() == "done\n"
         running.send_signal(signal.SIGINT)
-        _, said = running.communicate(timeout=50)
-    assert (running.returncode, said) == (-signal.SIGINT, "")
+        _, errors = running.communicate(timeout=50)
+    assert (running.returncode, errors) == (-signal.SIGINT, "")
 
 
-def test_a_command_in_a_scripts_background_is_ended_by_sigint_as_are_its_children() -> None:
+def test_sigint_ends_a_background_command_of_a_script_and_its_children() -> None:
     """A shell without job control starts `trundle … &` with SIGINT ignored."""
     waits = """
         import subprocess, sys, time, trundle.app.cli, trundle.__main__
@@ -125,7 +125,7 @@ def test_a_command_in_a_scripts_background_is_ended_by_sigint_as_are_its_childre
         assert running.wait(50) == 130
 
 
-def test_help_and_runs_are_the_same_without_docstrings_and_asserts(tmp_path: Path) -> None:
+def test_output_is_the_same_without_docstrings_and_asserts(tmp_path: Path) -> None:
     file = tmp_path / "robot.urdf"
     file.write_text('<robot name="r"><link name="base"/></robot>')
     for words in (["xacro", "--help"], ["check", "--tree", str(file)]):
@@ -133,7 +133,7 @@ def test_help_and_runs_are_the_same_without_docstrings_and_asserts(tmp_path: Pat
         assert (optimized.returncode, optimized.stdout, optimized.stderr) == (0, plain.stdout, plain.stderr)
 
 
-def test_a_link_to_it_and_arguments_of_any_kind(tmp_path: Path) -> None:
+def test_the_program_runs_through_a_link_with_any_arguments(tmp_path: Path) -> None:
     link = tmp_path / "a b" / "robot"
     link.parent.mkdir()
     link.symlink_to(_installed())
@@ -144,7 +144,7 @@ def test_a_link_to_it_and_arguments_of_any_kind(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("command", "shown"), [("check --tree", "\\xdcber"), ("xacro", '<link name="&#220;ber"/>')])
 @pytest.mark.parametrize("terminal", [{"PYTHONIOENCODING": "ascii"}, {"LC_ALL": "POSIX", "PYTHONCOERCECLOCALE": "0"}])
-def test_letters_that_a_terminal_lacks_are_written_by_number(
+def test_letters_that_a_terminal_lacks_are_escaped(
     tmp_path: Path, terminal: dict[str, str], command: str, shown: str
 ) -> None:
     file = tmp_path / "robot.urdf"
@@ -152,37 +152,37 @@ def test_letters_that_a_terminal_lacks_are_written_by_number(
     words = [sys.executable, "-m", "trundle", *command.split(), str(file)]
     env = {**os.environ, "PYTHONUTF8": "0", **terminal}
 
-    done = subprocess.run(words, env=env, capture_output=True, text=True, check=False)
+    process = subprocess.run(words, env=env, capture_output=True, text=True, check=False)
 
-    assert done.returncode == 0, done.stderr
-    assert shown in done.stdout
+    assert process.returncode == 0, process.stderr
+    assert shown in process.stdout
 
 
-def test_files_are_utf_8_whatever_the_terminal_is(tmp_path: Path) -> None:
-    """In the C locale, Python writes ASCII unless told otherwise."""
+def test_files_are_utf_8_in_every_locale(tmp_path: Path) -> None:
+    """In the C locale, Python writes ASCII by default."""
     env = {**os.environ, "PYTHONUTF8": "0", "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0"}
     words = [sys.executable, "-m", "trundle", "--as", "catkin_create_pkg", "cart", "-D", "für Rüben", "--author", "Zoë"]
 
-    done = subprocess.run(words, env=env, cwd=tmp_path, capture_output=True, text=True, check=False)
+    process = subprocess.run(words, env=env, cwd=tmp_path, capture_output=True, text=True, check=False)
 
-    assert done.returncode == 0, done.stderr
+    assert process.returncode == 0, process.stderr
     assert "für Rüben" in (tmp_path / "cart/package.xml").read_text(encoding="utf-8")
 
 
-def test_without_its_script_it_says_which_is_missing_and_what_to_do(beside: Path) -> None:
-    done = _run(beside, "--version")
+def test_a_missing_script_is_reported_with_its_path(program: Path) -> None:
+    process = _run(program, "--version")
 
-    assert done.returncode == 1
-    assert done.stderr == f"{beside.with_name('_trundle')}: No such file or directory; install Trundle again\n"
+    assert process.returncode == 1
+    assert process.stderr == f"{program.with_name('_trundle')}: No such file or directory; install Trundle again\n"
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "ascii"])
-def test_a_name_that_the_terminal_cannot_show_is_written_with_backslashes(tmp_path: Path, encoding: str) -> None:
-    """Archives of the years before UTF-8 have names in Latin-1."""
+def test_a_file_name_that_is_not_utf_8_is_escaped(tmp_path: Path, encoding: str) -> None:
+    """Old archives have names in Latin-1."""
     env = {**os.environ, "PYTHONIOENCODING": f"{encoding}:strict"}
     words = [os.fsencode(sys.executable), b"-m", b"trundle", b"check", b"r\xf6bot.urdf"]
-    done = subprocess.run(words, env=env, cwd=tmp_path, capture_output=True, check=False)
+    process = subprocess.run(words, env=env, cwd=tmp_path, capture_output=True, check=False)
 
-    assert done.returncode == 1
-    assert done.stdout.splitlines()[-1] == b"r\\udcf6bot.urdf: refused; 1 error"
-    assert b"Traceback" not in done.stderr
+    assert process.returncode == 1
+    assert process.stdout.splitlines()[-1] == b"r\\udcf6bot.urdf: refused; 1 error"
+    assert b"Traceback" not in process.stderr

@@ -1,4 +1,4 @@
-"""Lowest points of turned shapes."""
+"""Lowest points of rotated shapes."""
 
 import math
 
@@ -18,7 +18,7 @@ CUBE = Mesh(
 
 
 @pytest.mark.parametrize(
-    ("geometry", "roll", "below"),
+    ("geometry", "roll", "depth"),
     [
         (Box((2.0, 2.0, 2.0)), math.pi / 4, math.sqrt(2)),
         (CUBE, math.pi / 4, math.sqrt(2)),
@@ -30,6 +30,6 @@ CUBE = Mesh(
         (Plane((0.0, 0.0, 1.0), (1.0, 1.0)), 0.0, -math.inf),
     ],
 )
-def test_a_shape_reaches_as_low_as_its_lowest_point(geometry: ShapeGeometry, roll: float, below: float) -> None:
-    """Turns about x, and then about the vertical, which changes nothing."""
-    assert lowest_point(geometry, Pose.from_rpy(4.0, 5.0, 6.0, roll, 0.0, 0.8)) == pytest.approx(6.0 - below)
+def test_lowest_point_of_a_rotated_shape(geometry: ShapeGeometry, roll: float, depth: float) -> None:
+    """Rotation about x, then about the vertical, which has no effect."""
+    assert lowest_point(geometry, Pose.from_rpy(4.0, 5.0, 6.0, roll, 0.0, 0.8)) == pytest.approx(6.0 - depth)

@@ -1,4 +1,4 @@
-"""RobotModel's shapes: every link, in its colours, red where it has none."""
+"""RobotModel's shapes: every link in its colors, red without a material."""
 
 from pathlib import Path
 
@@ -46,13 +46,13 @@ endsolid hub
 
 @pytest.fixture
 def packages(tmp_path: Path) -> Packages:
-    """A package `car` with a manifest and, so far, no mesh."""
+    """A package `car` with a manifest and without its mesh."""
     (tmp_path / "car").mkdir()
     (tmp_path / "car" / "package.xml").write_text("<package><name>car</name></package>")
     return Packages({"ROS_PACKAGE_PATH": str(tmp_path)}, start=tmp_path)
 
 
-def test_links_are_bodies_root_first_and_visuals_keep_their_colours(packages: Packages) -> None:
+def test_links_are_bodies_root_first_and_visuals_keep_their_colors(packages: Packages) -> None:
     report = Diagnostics()
     robot = read_robot(parse_xml(_URDF, name="car.urdf"), report)
 
@@ -75,7 +75,7 @@ def test_collision_shapes_are_a_scene_of_the_same_bodies(packages: Packages) -> 
     assert [shape.geometry for shape in scene.shapes] == [Sphere(2.0)]
 
 
-def test_a_mesh_that_is_not_there_is_named_at_its_line(packages: Packages) -> None:
+def test_a_missing_mesh_is_a_warning_with_its_line(packages: Packages) -> None:
     report = Diagnostics()
     robot = read_robot(parse_xml(_URDF, name="car.urdf"), report)
 
@@ -88,7 +88,7 @@ def test_a_mesh_that_is_not_there_is_named_at_its_line(packages: Packages) -> No
     assert ": error: " not in warning
 
 
-def test_a_mesh_is_found_in_its_package_and_stretched(packages: Packages, tmp_path: Path) -> None:
+def test_a_mesh_is_found_in_its_package_and_scaled(packages: Packages, tmp_path: Path) -> None:
     (tmp_path / "car" / "hub.stl").write_text(_HUB)
     report = Diagnostics()
     text = _URDF.replace('hub.stl"', 'hub.stl" scale="2 3 4"')

@@ -1,4 +1,4 @@
-"""`trundle new`: what it writes has no findings, its tests pass, and nothing is overwritten."""
+"""`trundle new`: its files have no findings, their tests pass, and nothing is overwritten."""
 
 import os
 import subprocess
@@ -15,7 +15,7 @@ _TIMEOUT_S = 300.0
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    folder = tmp_path / "own"  # packages beside it count, and other tests' folders lie beside tmp_path
+    folder = tmp_path / "own"  # packages next to it are found, and tmp_path is next to other tests' folders
     folder.mkdir()
     monkeypatch.chdir(folder)
     monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
@@ -23,38 +23,40 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def _pytest(folder: Path) -> None:
-    """Run the tests that were written, in a process of their own."""
+    """Run the generated tests in a new process."""
     words = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "test"]
     env = {key: value for key, value in os.environ.items() if not key.startswith(("PYTEST", "COV"))}
-    done = subprocess.run(words, cwd=folder, env=env, capture_output=True, text=True, timeout=_TIMEOUT_S, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
+    process = subprocess.run(
+        words, cwd=folder, env=env, capture_output=True, text=True, timeout=_TIMEOUT_S, check=False
+    )
+    assert process.returncode == 0, process.stdout + process.stderr
 
 
 @pytest.mark.parametrize("kind", ROBOTS)
-def test_each_robot_is_checked_without_a_warning(kind: str, folder: Path) -> None:
+def test_robots_have_no_warnings(kind: str, folder: Path) -> None:
     assert main(["new", "robot", "rover", "--kind", kind]) == 0
     assert main(["check", "urdf/rover.urdf.xacro", "--strict"]) == 0
     assert main(["check", "launch/rover.launch", "--strict"]) == 0
 
 
 @pytest.mark.parametrize(
-    ("what", "name", "files"),
+    ("template", "name", "files"),
     [
         ("world", "yard", ["worlds/yard.world"]),
         ("plugin", "hover_box", ["models/hover_box"]),
         ("launch", "bringup", ["launch/bringup.launch"]),
     ],
 )
-def test_worlds_models_and_launch_files_are_checked_without_a_warning(
-    what: str, name: str, files: list[str], folder: Path
+def test_worlds_models_and_launch_files_have_no_warnings(
+    template: str, name: str, files: list[str], folder: Path
 ) -> None:
-    assert main(["new", what, name]) == 0
+    assert main(["new", template, name]) == 0
     for file in files:
         assert main(["check", file, "--strict"]) == 0
 
 
 @pytest.mark.slow
-def test_the_tests_they_bring_along_pass(folder: Path) -> None:
+def test_generated_tests_pass(folder: Path) -> None:
     for kind in ROBOTS:
         assert main(["new", "robot", f"my_{kind}", "--kind", kind]) == 0
     assert main(["new", "world", "yard"]) == 0
@@ -63,7 +65,7 @@ def test_the_tests_they_bring_along_pass(folder: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_package_its_node_and_its_message_work(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_generated_package_node_and_message_work(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert main(["new", "package", "patrol"]) == 0
     package = folder / "patrol"
     monkeypatch.chdir(package)
@@ -75,11 +77,11 @@ def test_a_package_its_node_and_its_message_work(folder: Path, monkeypatch: pyte
     for test in ("patrol", "circle"):
         words = [sys.executable, "-m", "trundle", "test", f"test/{test}.test"]
         env = {**os.environ, "ROS_TEST_RESULTS_DIR": str(folder / "results"), "ROS_HOME": str(folder / "ros")}
-        done = subprocess.run(words, env=env, capture_output=True, text=True, timeout=_TIMEOUT_S, check=False)
-        assert done.returncode == 0, done.stdout + done.stderr
+        process = subprocess.run(words, env=env, capture_output=True, text=True, timeout=_TIMEOUT_S, check=False)
+        assert process.returncode == 0, process.stdout + process.stderr
 
 
-def test_nothing_is_written_over(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_existing_files_are_not_overwritten(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "launch").mkdir()
     (folder / "launch/rover.launch").write_text("mine")
 
@@ -94,23 +96,23 @@ def test_nothing_is_written_over(folder: Path, capsys: pytest.CaptureFixture[str
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
-        (["node", "patrol"], "a node belongs into a package"),
-        (["message", "Speed"], "a message belongs into a package"),
+        (["node", "patrol"], "a node belongs in a package"),
+        (["message", "Speed"], "a message belongs in a package"),
         (["robot", "../rover"], "is not a name"),
-        (["world", "yard", "--kind", "arm"], "--kind is a robot's"),
+        (["world", "yard", "--kind", "arm"], "--kind is only for robots, not for a world"),
     ],
 )
-def test_wrong_requests_say_what_to_do(
-    words: list[str], said: str, folder: Path, capsys: pytest.CaptureFixture[str]
+def test_invalid_arguments_are_explained(
+    words: list[str], message: str, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["new", *words]) == 1
-    assert said in capsys.readouterr().err
+    assert message in capsys.readouterr().err
     assert list(folder.iterdir()) == []
 
 
-def test_a_message_has_a_name_in_camel_case(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_message_name_must_be_camel_case(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", "package", "patrol"]) == 0
     assert main(["new", "message", "wheel_speed", "-C", "patrol"]) == 1
-    assert "like WheelSpeed" in capsys.readouterr().err
+    assert "such as WheelSpeed" in capsys.readouterr().err

@@ -1,6 +1,6 @@
 """The `trundle` command: arguments in, exit code out.
 
-Only the module of the given command is imported, so that `trundle topic list` starts fast.
+Only the requested command's module is imported, so that `trundle topic list` starts fast.
 """
 
 from .main import main

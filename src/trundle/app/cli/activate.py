@@ -1,4 +1,4 @@
-"""Print what makes the commands of ROS 1 and Gazebo available in this shell."""
+"""Print shell code that makes the commands of ROS 1 and Gazebo available."""
 
 import argparse
 import shlex
@@ -18,7 +18,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print it; on a terminal, only how to use it."""
+    """Print the code; on a terminal, only how to use it."""
     if sys.stdout.isatty():
         print('eval "$(trundle activate)" makes the commands available in this shell')
         return 0

@@ -1,4 +1,4 @@
-"""List what is wrong or not supported in a file: SDF, URDF, xacro or launch."""
+"""List errors and unsupported elements of a file: SDF, URDF, xacro or launch."""
 
 import argparse
 import os
@@ -45,22 +45,22 @@ def _check(args: argparse.Namespace) -> int:
     with quiet_imports():
         from trundle.gazebo.check.check_file import check
 
-    outcome = check(args.file, dict(os.environ), start=Path.cwd(), collisions=args.collisions)
-    warned = any(finding.severity == "warning" for finding in outcome.report.findings)
+    result = check(args.file, dict(os.environ), start=Path.cwd(), collisions=args.collisions)
+    warned = any(finding.severity == "warning" for finding in result.report.findings)
     if args.graph is not None:
         from trundle.base.atomic_write import write_atomically
         from trundle.base.drawing.tree import tree_svg
 
-        write_atomically(args.graph, tree_svg(outcome.trees(), title=args.file))
+        write_atomically(args.graph, tree_svg(result.trees(), title=args.file))
     if args.json:
         import json
 
-        json.dump(outcome.as_json(), sys.stdout, allow_nan=False)
+        json.dump(result.as_json(), sys.stdout, allow_nan=False)
         print()
     else:
-        if args.tree and not outcome.is_refused:
+        if args.tree and not result.is_refused:
             from trundle.base.drawing.tree import tree_text
 
-            print(tree_text(outcome.trees()))
-        print(colored(outcome.text(), sys.stdout))
-    return 1 if outcome.report.errors or (args.strict and warned) else 0
+            print(tree_text(result.trees()))
+        print(colored(result.text(), sys.stdout))
+    return 1 if result.report.errors or (args.strict and warned) else 0

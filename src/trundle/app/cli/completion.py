@@ -11,7 +11,7 @@ from trundle.robots.names import anonymous_name
 from trundle.ros import MasterProxy, Messages, RosError, uri_host
 
 _TIMEOUT_S = 0.5
-"""Timeout of graph queries: the user is waiting."""
+"""Timeout of graph queries; the user waits for them."""
 _FRAMES_S = 5.0
 """Timeout for the first transform."""
 
@@ -24,7 +24,7 @@ def complete(parser: argparse.ArgumentParser, command: str) -> None:
                 if isinstance(choice, argparse.ArgumentParser):
                     complete(choice, command)
         source = _SOURCES.get((command, action.dest)) or _SOURCES.get(("", action.dest))
-        completer = _BEHIND.get((command, action.dest)) or (source and _completer(source))
+        completer = _COMPLETERS.get((command, action.dest)) or (source and _completer(source))
         if completer:
             setattr(action, "completer", completer)  # noqa: B010 - argcomplete reads this attribute
 
@@ -40,10 +40,10 @@ def _completer(source: Callable[[], Iterable[str]]) -> Callable[..., list[str]]:
 
 
 def _state(table: int) -> set[str]:
-    return {name for name, _ in _ask("getSystemState")[table]}
+    return {name for name, _ in _call_master("getSystemState")[table]}
 
 
-def _ask(method: str) -> Any:
+def _call_master(method: str) -> Any:
     return MasterProxy(caller_id="/completion", timeout_s=_TIMEOUT_S).call(method)
 
 
@@ -52,7 +52,7 @@ def _topics() -> set[str]:
 
 
 def _nodes() -> set[str]:
-    return {node for table in _ask("getSystemState") for _, nodes in table for node in nodes}
+    return {node for table in _call_master("getSystemState") for _, nodes in table for node in nodes}
 
 
 def _machines() -> set[str]:
@@ -62,7 +62,7 @@ def _machines() -> set[str]:
 
 
 def _frames() -> set[str]:
-    """Frames received within a short time; frames published more rarely are missing."""
+    """Return the frames received within a short time, without more rarely published ones."""
     import asyncio
 
     from trundle.ros import GraphLoop, Node, TransformListener
@@ -90,7 +90,7 @@ def _services() -> set[str]:
 
 
 def _params() -> list[str]:
-    return _ask("getParamNames")
+    return _call_master("getParamNames")
 
 
 def _packages() -> Iterable[str]:
@@ -116,9 +116,9 @@ def _service_packages() -> set[str]:
 
 
 def _topic_type(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
-    """Type of the topic if known, else all message types."""
+    """Return the type of the topic if known, else all message types."""
     try:
-        types: dict[str, str] = dict(_ask("getTopicTypes"))
+        types: dict[str, str] = dict(_call_master("getTopicTypes"))
     except RosError:
         types = {}
     known = types.get(str(getattr(parsed_args, "topic", "")))
@@ -134,21 +134,21 @@ def _programs(parsed_args: argparse.Namespace, **_: Any) -> list[str]:
 
 
 def _launch_words(parsed_args: argparse.Namespace, prefix: str, **_: Any) -> list[str]:
-    """Packages and files; after a package, its launch files."""
+    """Return packages and files; after a package, its launch files."""
     from argcomplete.completers import FilesCompleter
 
     from trundle.robots.packages import Packages
 
     packages = Packages(os.environ, start=Path.cwd())
-    before: list[str] = list(parsed_args.words or [])
-    folder = packages.find_package(before[0]) if before else None
+    typed_words: list[str] = list(parsed_args.words or [])
+    folder = packages.find_package(typed_words[0]) if typed_words else None
     if folder is not None:
         return sorted({path.name for path in folder.rglob("*.launch")})
     return [*FilesCompleter(("launch", "test", "xml"))(prefix), *sorted(packages.ros_packages())]
 
 
 def _sweep_words(parsed_args: argparse.Namespace, prefix: str, **_: Any) -> list[str]:
-    """Plans, and first the word `report`."""
+    """Return plans, and as the first word also `report`."""
     from argcomplete.completers import FilesCompleter
 
     plans = list(FilesCompleter(("yaml", "yml"))(prefix))
@@ -156,7 +156,7 @@ def _sweep_words(parsed_args: argparse.Namespace, prefix: str, **_: Any) -> list
 
 
 def _descriptions(prefix: str, **_: Any) -> list[str]:
-    """Files, models of the model path, and worlds that come with Trundle."""
+    """Return files, models of the model path, and shipped worlds."""
     from argcomplete.completers import FilesCompleter
 
     from trundle.robots.packages import Packages
@@ -195,7 +195,7 @@ _SOURCES: dict[tuple[str, str], Callable[[], Iterable[str]]] = {
     ("service", "type"): _service_types,
 }
 """(command, argument) → completions; '' for any command."""
-_BEHIND: dict[tuple[str, str], Callable[..., list[str]]] = {
+_COMPLETERS: dict[tuple[str, str], Callable[..., list[str]]] = {
     ("bag", "genrules"): _rule_files,
     ("bag", "rules"): _rule_files,
     ("check", "file"): _descriptions,

@@ -20,7 +20,7 @@ EXAMPLES = """
   trundle core -p 11312         beside another master
 """
 _CONNECT_S = 10.0
-"""Timeout of a connection to this process, which the system accepts by itself, however slow the process is."""
+"""Timeout of a connection to this process [s]; the operating system accepts it, however slow the process is."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -61,7 +61,7 @@ def main(args: argparse.Namespace) -> int:
         print(f"ROS_MASTER_URI={core.uri}", flush=True)
         print(f"started core service [/rosout]; run_id {core.run_id}; Ctrl-C stops it", file=sys.stderr, flush=True)
         try:
-            reason = _next(reasons)
+            reason = _next_reason(reasons)
         finally:
             loop.run(core.stop())
     print(f"core stopped: {reason}", file=sys.stderr)
@@ -91,8 +91,8 @@ def _warn_of_other_master(uri: str | None, port: int) -> None:
     if not _is_local(host):
         print(f"WARNING: ROS_MASTER_URI [{uri}] host is not set to this machine", file=sys.stderr, flush=True)
     elif port not in (0, named_port):
-        what = f"WARNING: ROS_MASTER_URI port [{named_port}] does not match this roscore [{port}]"
-        print(f"{what}; unset it, or start this one with -p {named_port}", file=sys.stderr, flush=True)
+        warning = f"WARNING: ROS_MASTER_URI port [{named_port}] does not match this roscore [{port}]"
+        print(f"{warning}; unset it, or start this one with -p {named_port}", file=sys.stderr, flush=True)
 
 
 def _is_local(host: str) -> bool:
@@ -114,7 +114,7 @@ def _log_folder(run_id: str) -> Path | None:
     return folder
 
 
-def _next(reasons: SimpleQueue[str]) -> str:
+def _next_reason(reasons: SimpleQueue[str]) -> str:
     while True:
         with suppress(Empty):
             return reasons.get(timeout=1.0)  # wakes up for Ctrl-C, on Windows too

@@ -1,4 +1,4 @@
-"""Make annotated pictures of a varied world, to train vision on."""
+"""Generate annotated images of a varied world, for training vision models."""
 
 import argparse
 import sys
@@ -13,7 +13,7 @@ EXAMPLES = """
   trundle dataset plan.yaml --show 7                  picture 7 alone, drawn with its annotations: plan.000007.png
   trundle dataset plan.yaml -o data --workers 4       in another folder, by four processes
 """
-_LISTED = 10
+_MAX_LISTED = 10
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -28,7 +28,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Make the pictures of a plan."""
+    """Generate the images of a plan."""
     with quiet_imports():
         from trundle.studies.datasets import load_dataset_plan
     plan = load_dataset_plan(args.plan, count=args.count)
@@ -45,6 +45,6 @@ def main(args: argparse.Namespace) -> int:
     if result.interrupted:
         print(f"stopped; `trundle dataset {args.plan}` goes on", file=sys.stderr)
         return 130
-    for number, reason in sorted(result.failed.items())[:_LISTED]:
+    for number, reason in sorted(result.failed.items())[:_MAX_LISTED]:
         print(f"picture {number}: {reason}", file=sys.stderr)
     return 1 if result.failed else 0

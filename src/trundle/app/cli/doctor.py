@@ -1,4 +1,4 @@
-"""List what this machine has and lacks for simulating and for ROS, and what that costs."""
+"""List what this machine has and lacks for simulation and ROS, and the consequences."""
 
 import argparse
 import json

@@ -63,7 +63,7 @@ def main(args: argparse.Namespace) -> int:
     from trundle.ros.rospy.environment import with_finder
 
     packages = Packages(os.environ, start=Path.cwd())
-    for variables in packages.hook_variables().values():  # as `source devel/setup.bash` sets them
+    for variables in packages.hook_variables().values():  # like `source devel/setup.bash`
         os.environ.update(variables)
     folder = packages.find_package(args.package)
     workspace = None if folder is None else packages.workspace_of(folder)
@@ -72,12 +72,12 @@ def main(args: argparse.Namespace) -> int:
     if args.debug:
         print(f"[rosrun] Looking in rospack dir: {folder or 'none'}")
     match find_node(args.package, args.executable, packages.find_package, env=os.environ):
-        case MissingNode(why):
-            print(f"trundle exec: error: {why}", file=sys.stderr)
+        case MissingNode(reason):
+            print(f"trundle exec: error: {reason}", file=sys.stderr)
             return _NO_PACKAGE if folder is None else _NO_PROGRAM
         case Executable(path):
             if folder is not None and "/" not in args.executable:
-                path = _chosen(path, same_named_programs(folder, path))
+                path = _choose_program(path, same_named_programs(folder, path))
             if args.show_translation:
                 return _show_translation(path)
             command = [*shlex.split(args.prefix), *command_prefix(path, os.environ), str(path), *args.arguments]
@@ -98,24 +98,24 @@ def main(args: argparse.Namespace) -> int:
             if args.prefix:
                 raise UsageError(f"--prefix is for programs; {args.package}/{args.executable} runs in this process")
             command = stand_in.command
-            return _stand_in(args, stand_in) if command is None else args.run_command(command, args.arguments)
+            return _run_stand_in(args, stand_in) if command is None else args.run_command(command, args.arguments)
 
 
 def _show_translation(program: Path) -> int:
-    """Print what is changed in a Python 2 program."""
+    """Print the translation of a Python 2 program."""
     from trundle.ros.rospy.python2.cache import changes
 
-    print(changes(program) or f"{program} is no Python 2: it runs as it is")
+    print(changes(program) or f"{program} is not a Python 2 program; it runs unchanged")
     return 0
 
 
-def _chosen(first: Path, programs: list[Path]) -> Path:
-    """Program to run among those of one name: chosen by the user at a terminal, else the first."""
+def _choose_program(first: Path, programs: list[Path]) -> Path:
+    """Return the program to run among those of one name: the user's choice at a terminal, else the first."""
     if len(programs) < 2:
         return first
     if not sys.stdin.isatty():
         others = ", ".join(str(path) for path in programs if path != first)
-        print(f"[rosrun] Running {first}; of the same name are {others}", file=sys.stderr)
+        print(f"[rosrun] Running {first}; others of this name: {others}", file=sys.stderr)
         return first
     print("[rosrun] You have chosen a non-unique executable, please pick one of the following:")
     print("\n".join(f"{i}) {path}" for i, path in enumerate(programs, 1)))
@@ -124,7 +124,7 @@ def _chosen(first: Path, programs: list[Path]) -> Path:
 
 
 class _List(argparse.Action):
-    """Prints the built-in nodes and exits, whatever the other arguments, like --help."""
+    """Prints the built-in nodes and exits, like --help."""
 
     def __init__(self, option_strings: list[str], dest: str, help: str) -> None:
         super().__init__(option_strings, dest, nargs=0, help=help)
@@ -136,7 +136,7 @@ class _List(argparse.Action):
         parser.exit()
 
 
-def _stand_in(args: argparse.Namespace, stand_in: "BuiltinReplacement") -> int:
+def _run_stand_in(args: argparse.Namespace, stand_in: "BuiltinReplacement") -> int:
     import yaml
 
     from trundle.gazebo.nodes import CLIENTS, ROSCPP, WINDOWS, WORLDS, NodeHost, default_name, run_builtin_node
@@ -144,10 +144,10 @@ def _stand_in(args: argparse.Namespace, stand_in: "BuiltinReplacement") -> int:
     from trundle.ros import GraphLoop, Loggers, Node, master_uri_from_env
 
     words = parse_arguments(args.arguments)
-    what = (args.package, args.executable)
+    key = (args.package, args.executable)
     with interrupted_by_signals(), GraphLoop() as loop:
         node = Node(
-            words.name or default_name(*what, words.rest),
+            words.name or default_name(*key, words.rest),
             loop=loop,
             master_uri=words.master_uri or master_uri_from_env(),
             namespace=words.namespace or os.environ.get("ROS_NAMESPACE", "/"),
@@ -155,19 +155,19 @@ def _stand_in(args: argparse.Namespace, stand_in: "BuiltinReplacement") -> int:
             params={name: yaml.safe_load(text) for name, text in words.params.items()},
             host=words.host,
         )
-        if what in ROSCPP:
+        if key in ROSCPP:
             node.log.loggers = Loggers.for_roscpp(args.package)
         with ExitStack() as stack:
-            page = stack.enter_context(closing(_page(node))) if what in WINDOWS | CLIENTS else None
-            display = _display(page) if page is not None and what in WINDOWS else None
-            world = stack.enter_context(_world(node, page)) if what in WORLDS else None
+            page = stack.enter_context(closing(_page(node))) if key in WINDOWS | CLIENTS else None
+            display = _display(page) if page is not None and key in WINDOWS else None
+            world = stack.enter_context(_world(node, page)) if key in WORLDS else None
             host = NodeHost(display=display, simulator=world)
             return loop.run(run_builtin_node(stand_in, node, list(words.rest), host), None)
 
 
 @contextmanager
 def _world(node: "Node", page: "SharedPage | None") -> "Generator[GazeboWorld]":
-    """Simulated world of a gzserver node, with its findings printed."""
+    """Yield the simulated world of a gzserver node, and print its findings."""
     from trundle.base.console import Console
     from trundle.base.diagnostics import Diagnostics
     from trundle.live.gazebo.world import GazeboWorld
@@ -186,11 +186,11 @@ def _world(node: "Node", page: "SharedPage | None") -> "Generator[GazeboWorld]":
         say=show.line,
         page=page,
     )
-    telling = node.loop.spawn(_show_findings(show))
+    printing = node.loop.spawn(_show_findings(show))
     try:
         yield world
     finally:
-        telling.cancel()
+        printing.cancel()
         world.close()
         show.findings()
 
@@ -202,7 +202,7 @@ async def _show_findings(show: "Console") -> None:
 
 
 def _page(node: "Node") -> "SharedPage":
-    """Page of a node with a window."""
+    """Return the page of a node with a window."""
     from trundle.page import GraphAddress
     from trundle.page.shared_page import SharedPage
 

@@ -29,10 +29,10 @@ class Expression:
         try:
             return eval(self._code, names)
         except Exception as error:  # user code may raise anything
-            where = f" on {names['topic']}" if "topic" in names else ""
-            raise UsageError(f"{self._text!r} fails{where}: {type(error).__name__}: {error}") from None
+            location = f" on {names['topic']}" if "topic" in names else ""
+            raise UsageError(f"{self._text!r} fails{location}: {type(error).__name__}: {error}") from None
 
 
 def expression(text: str | None) -> Expression | None:
-    """Compile an option's value, if given."""
+    """Compile an option's value; None if it is None."""
     return None if text is None else Expression(text)

@@ -1,4 +1,4 @@
-"""Fetching packages: the options, the question, and what is printed."""
+"""Options, prompts and output of commands that fetch packages."""
 
 import argparse
 import os
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 _LISTS = tuple(f"{depth}*.{ending}" for ending in ("repos", "rosinstall") for depth in ("", "*/", "*/*/"))
-"""Places of lists that READMEs name, in a repository or beside it."""
+"""Patterns of lists of repositories, in a repository or beside it."""
 _MAX_LISTS = 5
 
 
@@ -39,8 +39,8 @@ def add_fetch_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _distro() -> str:
-    named = os.environ.get("ROS_DISTRO", "")
-    return named if named in ROSDISTROS else "noetic"
+    distro = os.environ.get("ROS_DISTRO", "")
+    return distro if distro in ROSDISTROS else "noetic"
 
 
 def defaults() -> dict[str, Any]:
@@ -76,15 +76,15 @@ def fetch_folder(args: argparse.Namespace) -> Path:
 
 
 def fetch_packages(names: Iterable[str], args: argparse.Namespace, *, for_files: bool = False) -> int:
-    """Show what would be fetched, ask, fetch, and print what is left to do by hand; return the exit code.
+    """Print the plan, ask, fetch, and print the remaining manual steps; return the exit code.
 
     Args:
-        names: of packages.
+        names: names of packages.
         args: options that `add_fetch_options` declared.
-        for_files: packages are wanted for their files, also where their nodes have stand-ins.
+        for_files: True: fetch packages for their files, even if their nodes have stand-ins.
 
     Raises:
-        UsageError: standard input is no terminal, and -y is not given.
+        UsageError: standard input is not a terminal, and -y is missing.
     """
     fetcher = make_fetcher(args)
     names = list(dict.fromkeys(names))
@@ -101,10 +101,10 @@ def fetch_packages(names: Iterable[str], args: argparse.Namespace, *, for_files:
 
 
 def offer(names: Sequence[str]) -> bool:
-    """Name the command that fetches missing packages; on a terminal, ask and fetch; True if there are new ones."""
+    """Name the command that fetches missing packages; on a terminal, ask and fetch. Return True if any were fetched."""
     fetcher = make_fetcher(argparse.Namespace(**defaults()))
     plan = fetcher.plan(names, for_files=True)
-    published = [name for needed in plan.checkouts.values() for name in needed]
+    published = [name for packages in plan.checkouts.values() for name in packages]
     if plan.unknown and (lists := _repository_lists()):
         print(
             f"no index has {' '.join(plan.unknown)}; lists of repositories here: {' '.join(map(str, lists))}: "
@@ -120,8 +120,8 @@ def offer(names: Sequence[str]) -> bool:
             file=sys.stderr,
         )
         return False
-    for wanted, needed in plan.checkouts.items():
-        print(f"  {' '.join(needed)}: {wanted.url.removesuffix('.git')}", file=sys.stderr)
+    for checkout, packages in plan.checkouts.items():
+        print(f"  {' '.join(packages)}: {checkout.url.removesuffix('.git')}", file=sys.stderr)
     if not ask(plan):
         return False
     result = fetcher.fetch(published, for_files=True)
@@ -134,30 +134,31 @@ def _repository_lists() -> list[Path]:
     from trundle.robots.packages import Packages
 
     folders = Packages(os.environ, start=Path.cwd()).package_folders()
-    found = (file for folder in folders for pattern in _LISTS for file in sorted(folder.glob(pattern)))
-    return list(dict.fromkeys(found))[:_MAX_LISTS]
+    files = (file for folder in folders for pattern in _LISTS for file in sorted(folder.glob(pattern)))
+    return list(dict.fromkeys(files))[:_MAX_LISTS]
 
 
 def print_plan(plan: "FetchPlan", folder: Path) -> None:
-    """Print where each package comes from."""
+    """Print the source of each package."""
     if plan.present:
-        print(f"here already: {' '.join(plan.present)}")
+        print(f"already here: {' '.join(plan.present)}")
     if plan.built_in:
         print(f"part of Trundle: {' '.join(plan.built_in)}")
-    for wanted, needed in plan.checkouts.items():
-        print(f"{wanted.url.removesuffix('.git')} ({wanted.branch or 'its default branch'}): {' '.join(needed)}")
+    for checkout, packages in plan.checkouts.items():
+        branch = checkout.branch or "its default branch"
+        print(f"{checkout.url.removesuffix('.git')} ({branch}): {' '.join(packages)}")
     if plan.checkouts:
-        print(f"into {folder}, with the packages that these need; nothing of them is run or built")
+        print(f"into {folder}, with the packages that these need; they are neither run nor built")
 
 
 def ask(plan: "FetchPlan") -> bool:
     """Ask on the terminal whether to fetch.
 
     Raises:
-        UsageError: standard input is no terminal.
+        UsageError: standard input is not a terminal.
     """
     if not sys.stdin.isatty():
-        raise UsageError("nothing is fetched without an answer; -y is one")
+        raise UsageError("fetching needs a confirmation; -y gives it")
     count = len(plan.checkouts)
     return confirm(f"fetch {count} {'repository' if count == 1 else 'repositories'}?")
 
@@ -172,7 +173,7 @@ def _print_rest(libraries: list[str], unknown: list[str]) -> None:
     if libraries:
         print(f"Python libraries: {sys.executable} -m pip install {' '.join(dict.fromkeys(libraries))}")
     if unknown:
-        print(f"of the system, if they are needed: {' '.join(unknown)}")
+        print(f"system packages, if needed: {' '.join(unknown)}")
 
 
 def _log(line: str) -> None:

@@ -1,4 +1,4 @@
-"""Draw the graph: which node publishes what to whom, as rqt_graph does."""
+"""Draw the nodes and topics of the graph, as rqt_graph does."""
 
 import argparse
 import json

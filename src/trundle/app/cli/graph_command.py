@@ -62,7 +62,7 @@ def global_name(name: str, script: str) -> str:
 
 
 def master(script: str) -> MasterProxy:
-    """Proxy of the master at ROS_MASTER_URI."""
+    """Return a proxy of the master at ROS_MASTER_URI."""
     return MasterProxy(caller_id=f"/{script}")
 
 
@@ -71,7 +71,7 @@ def running_node(base: str, words: Arguments | None = None) -> Generator["tuple[
     """Run an anonymous node; shut it down on exit, Ctrl-C and `rosnode kill`.
 
     Args:
-        base: prefix of its name.
+        base: prefix of the node's name.
         words: name and remappings from the command line.
     """
     from trundle.ros import GraphLoop, Node
@@ -99,9 +99,9 @@ def interrupted_by_signals() -> Generator[None]:
     if threading.current_thread() is not threading.main_thread():  # only the main thread handles signals
         yield
         return
-    before = {number: signal.signal(number, interrupt) for number in ending_signals()}
+    old_handlers = {number: signal.signal(number, interrupt) for number in ending_signals()}
     try:
         yield
     finally:
-        for number, handler in before.items():
+        for number, handler in old_handlers.items():
             signal.signal(number, handler)

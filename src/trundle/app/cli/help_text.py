@@ -1,4 +1,4 @@
-"""Text of `--help`: examples first, then what the command does."""
+"""Text of `--help`: examples, then the description of the command."""
 
 import argparse
 
@@ -14,18 +14,20 @@ def describe(parser: argparse.ArgumentParser, examples: str, summary: str) -> No
     """Set the description of a command and of its subcommands, each with the examples that run it.
 
     Args:
-        parser: with its arguments declared.
-        examples: a command on each line, with the program's name as in `parser.prog`.
-        summary: what the command does.
+        parser: parser with declared arguments.
+        examples: one command per line, with the program's name as in `parser.prog`.
+        summary: description of the command.
     """
     parser.description = _description(examples, summary)
     for action in parser._actions:  # argparse has no public access to its arguments
         if isinstance(action, argparse._SubParsersAction):  # pyright: ignore[reportPrivateUsage]
             for choice in action._choices_actions:
                 subparser = action.choices[choice.dest]
-                own = [line for line in examples.splitlines() if f"{line.strip()} ".startswith(f"{subparser.prog} ")]
+                own_examples = [
+                    line for line in examples.splitlines() if f"{line.strip()} ".startswith(f"{subparser.prog} ")
+                ]
                 summary = subparser.description or _sentence(choice.help or "")
-                subparser.description = _description("\n".join(own), summary)
+                subparser.description = _description("\n".join(own_examples), summary)
                 subparser.formatter_class = HelpFormatter
 
 

@@ -42,7 +42,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="launch file ('-': standard input) and its arguments",
     )
     add = field_option(parser)
-    headless = "no browser page; rviz idles, a node that wants a terminal has this one"
+    headless = "no browser page; rviz idles, a node that needs a terminal gets this one"
     add("--headless", action="store_true", help=headless)
     add("--duration", type=float, dest="duration_s", metavar="S", help="stop after S seconds of ROS time")
     add("--speed", type=read_speed, metavar="X|max", help="real-time factor (1); max: as fast as possible")
@@ -61,8 +61,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("--host", help="address that everything binds (127.0.0.1)")
     add("--strict", action="store_true", help="treat warnings about the file as errors")
     add("--screen", action="store_const", const="screen", dest="output", help="show the output of every node")
-    what = "log the output of every node, overriding the file and --screen"
-    parser.add_argument("--log", action="store_true", help=what)
+    log = "log the output of every node, overriding the file and --screen"
+    parser.add_argument("--log", action="store_true", help=log)
     add("--required", action="store_true", dest="all_required", help="stop the launch when any node ends")
     add("--wait", action="store_true", dest="wait_for_master", help="wait for a master")
     parser.add_argument("--local", action="store_true", help="no remote nodes, as always here")

@@ -1,4 +1,4 @@
-"""Show what nodes log, as rqt_console does."""
+"""Show the log messages of nodes, as rqt_console does."""
 
 import argparse
 import json
@@ -17,10 +17,10 @@ EXAMPLES = """
   trundle log -l warn
   trundle log -n '/move_base.*' -g 'timed? out'
 """
-_WAITING = 10_000
+_QUEUE_SIZE = 10_000
 """Queue size for slow terminals; the oldest lines are dropped."""
-_LONGEST_WAIT_S = 0.5
-"""Until Ctrl-C is looked for: Linux may give a signal to another thread, and this one would wait on."""
+_POLL_S = 0.5
+"""Timeout of a wait [s]: Linux may deliver Ctrl-C's signal to another thread."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -37,9 +37,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
 @ros_errors
 def main(args: argparse.Namespace) -> int:
     """Print until the count is reached, or Ctrl-C."""
-    node_name, found, excluded = (_pattern(text) for text in (args.node, args.grep, args.exclude))
-    least = LEVELS[args.level]
-    inbox: queue.Queue[Any] = queue.Queue(_WAITING)
+    node_name, included, excluded = (_pattern(text) for text in (args.node, args.grep, args.exclude))
+    min_level = LEVELS[args.level]
+    inbox: queue.Queue[Any] = queue.Queue(_QUEUE_SIZE)
 
     def on_message(message: Any) -> None:
         if inbox.full():
@@ -51,12 +51,12 @@ def main(args: argparse.Namespace) -> int:
         node.subscribe("/rosout_agg", "rosgraph_msgs/Log", on_message, queue_size=None)
         while args.count is None or printed < args.count:
             try:
-                message = inbox.get(timeout=_LONGEST_WAIT_S)
+                message = inbox.get(timeout=_POLL_S)
             except queue.Empty:
                 continue
-            if message.level < least or (node_name is not None and not node_name.fullmatch(message.name)):
+            if message.level < min_level or (node_name is not None and not node_name.fullmatch(message.name)):
                 continue
-            if found is not None and not found.search(message.msg):
+            if included is not None and not included.search(message.msg):
                 continue
             if excluded is not None and excluded.search(message.msg):
                 continue

@@ -1,4 +1,4 @@
-"""Finds the command, parses its arguments and turns errors into one sentence and an exit code.
+"""Finds the command, parses its arguments, and turns errors into a message and an exit code.
 
 A command is a module or a package of this folder: the first line of its docstring is its help, `EXAMPLES` opens
 `--help`, `configure(parser)` declares the arguments and `main(args)` does the work and returns the exit code.
@@ -23,7 +23,7 @@ from trundle.robots.names import Arguments, parse_arguments
 
 from .help_text import HelpFormatter, describe
 from .originals import ORIGINALS
-from .originals.whole_help import EXIT_CODES, print_whole_help
+from .originals.original_help import EXIT_CODES, print_original_help
 from .quiet_imports import quiet_imports
 
 COMMANDS: dict[str, str] = {
@@ -33,7 +33,7 @@ COMMANDS: dict[str, str] = {
     "play": "show a recorded run or a bag in the browser",
     "view": "show a running ROS graph in the browser, as rviz does",
     "page": "print the links of the pages that run",
-    "check": "list what is wrong or not supported in a file",
+    "check": "list errors and unsupported elements of a file",
     "convert": "convert a robot or world to SDF, URDF, MJCF or GLB, a recorded run to HTML",
     "render": "render an image or a video of a robot or a world",
     "sweep": "run a world or a launch file many times with different values",
@@ -62,7 +62,7 @@ COMMANDS: dict[str, str] = {
 
 REMAPPED = ("bag", "service", "tf", "topic")
 """Commands that take `a:=b` and `__name:=n` anywhere, as rosbag, rosservice, rostopic and tf in launch files."""
-_OF_ROS = ("core", "topic", "node", "param", "service", "bag", "msg", "srv", "tf", "plot", "log", "exec")
+_ROS_COMMANDS = ("core", "topic", "node", "param", "service", "bag", "msg", "srv", "tf", "plot", "log", "exec")
 """Commands that exit with 0 on Ctrl-C, as their originals do."""
 _INTERMIXED = (
     "launch",
@@ -95,7 +95,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         return _main(arguments)
     except KeyboardInterrupt:
-        return EXIT_OK if arguments and arguments[0] in _OF_ROS else EXIT_INTERRUPTED
+        return EXIT_OK if arguments and arguments[0] in _ROS_COMMANDS else EXIT_INTERRUPTED
     except Exception as error:
         if (reason := shortage(error)) is None:
             raise
@@ -122,9 +122,9 @@ def _main(arguments: list[str]) -> int:
         return EXIT_OK
     name = arguments[0]
     if name not in COMMANDS:
-        near = nearest(name, COMMANDS)
-        meant = f"; did you mean {near!r}?" if near else "."
-        print(f"trundle: no command {name!r}{meant} Commands: {', '.join(COMMANDS)}", file=sys.stderr)
+        suggestion = nearest(name, COMMANDS)
+        hint = f"; did you mean {suggestion!r}?" if suggestion else "."
+        print(f"trundle: no command {name!r}{hint} Commands: {', '.join(COMMANDS)}", file=sys.stderr)
         return EXIT_USAGE
     return _run(name, arguments[1:], program=f"trundle {name}")
 
@@ -142,12 +142,12 @@ def _run_original(arguments: Sequence[str]) -> int:
         print(f"usage: {program} [ARGUMENTS]\n\nexamples:\n  {program}\n\nOpen {program}'s panel of the page.")
         return EXIT_OK
     if program in EXIT_CODES:
-        code = print_whole_help(program, arguments[1:], make_parser(name, program=program))
+        code = print_original_help(program, arguments[1:], make_parser(name, program=program))
         if code is not None:
             return code
     try:
-        is_own = words and not name.startswith("originals.")
-        code = _run(name, [*words, *arguments[1:]], program=f"trundle {name}" if is_own else program)
+        is_subcommand = words and not name.startswith("originals.")
+        code = _run(name, [*words, *arguments[1:]], program=f"trundle {name}" if is_subcommand else program)
     except KeyboardInterrupt:
         return EXIT_OK
     return EXIT_OK if code == EXIT_INTERRUPTED else code
@@ -157,9 +157,9 @@ def _run(name: str, arguments: Sequence[str], *, program: str) -> int:
     """Run a command's module.
 
     Args:
-        name: of its module.
-        arguments: after its name.
-        program: name in messages.
+        name: name of its module.
+        arguments: arguments after its name.
+        program: program's name in messages.
     """
     parser = make_parser(name, program=program)
     try:
@@ -172,11 +172,11 @@ def _run(name: str, arguments: Sequence[str], *, program: str) -> int:
         if sys.stdout is not None:  # None if closed: `trundle … >&-`
             sys.stdout.flush()
         return code
-    except SystemExit as stop:  # raised by argparse: 0 after --help, 2 for wrong usage
-        return int(stop.code or 0)
+    except SystemExit as system_exit:  # raised by argparse: 0 after --help, 2 for wrong usage
+        return int(system_exit.code or 0)
     except TrundleError as error:
-        what = str(error) if _has_location(str(error)) else f"{program}: error: {error}"
-        print(colored(what, sys.stderr), file=sys.stderr)
+        message = str(error) if _has_location(str(error)) else f"{program}: error: {error}"
+        print(colored(message, sys.stderr), file=sys.stderr)
         if error.missing_packages and name != "pack":
             from .fetching import offer
 
@@ -213,8 +213,8 @@ def _set_error_handler(*, as_xml: bool) -> None:
 
 def _apply_remap_arguments(words: Arguments) -> None:
     """Apply `__ns:=`, `__master:=`, `__ip:=` and `__hostname:=` as their environment variables."""
-    given = {"ROS_NAMESPACE": words.namespace, "ROS_MASTER_URI": words.master_uri, "ROS_HOSTNAME": words.host}
-    os.environ.update({variable: value for variable, value in given.items() if value})
+    variables = {"ROS_NAMESPACE": words.namespace, "ROS_MASTER_URI": words.master_uri, "ROS_HOSTNAME": words.host}
+    os.environ.update({variable: value for variable, value in variables.items() if value})
 
 
 def _set_variables(parsed: argparse.Namespace) -> None:
@@ -241,13 +241,13 @@ def make_parser(
     """Return the parser of a command's module.
 
     Args:
-        name: of the module.
-        parser: the one to extend; None: a new one.
-        program: its name in usage and examples; empty: `trundle NAME`.
+        name: name of the module.
+        parser: parser to extend; None: a new one.
+        program: program's name in usage and examples; empty: `trundle NAME`.
     """
     command = _command(name)
     program = program or f"trundle {name}"
-    summary = (command.__doc__ or _written_docstring(command) or "").partition("\n")[0]
+    summary = (command.__doc__ or _parsed_docstring(command) or "").partition("\n")[0]
     parser = parser or argparse.ArgumentParser(prog=program, formatter_class=HelpFormatter)
     examples = command.EXAMPLES.strip("\n").replace(f"trundle {name}", program)
     command.configure(parser)
@@ -255,7 +255,7 @@ def make_parser(
     return parser
 
 
-def _written_docstring(command: CommandModule) -> str | None:
+def _parsed_docstring(command: CommandModule) -> str | None:
     """Return a module's docstring as its file has it; `python -OO` drops those of modules."""
     return ast.get_docstring(ast.parse(Path(command.__file__).read_bytes()))
 

@@ -22,10 +22,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     kinds = ("package", "robot", "world", "plugin", "node", "launch", "message")
     parser.add_argument("what", choices=kinds, metavar="KIND", help=" | ".join(kinds))
-    parser.add_argument("name", help="letters, digits and _; a message's is like WheelSpeed")
+    parser.add_argument("name", help="letters, digits and _; for a message in camel case, such as WheelSpeed")
     parser.add_argument("--kind", choices=_ROBOTS, help="kind of robot (differential)")
-    where = "folder to write to (this one, which is a package for a node or message)"
-    parser.add_argument("-C", "--directory", type=Path, default=Path(), metavar="DIR", help=where)
+    directory = "folder to write to (this one, which is a package for a node or message)"
+    parser.add_argument("-C", "--directory", type=Path, default=Path(), metavar="DIR", help=directory)
 
 
 def main(args: argparse.Namespace) -> int:
@@ -33,31 +33,31 @@ def main(args: argparse.Namespace) -> int:
     from trundle.app.scaffold import next_steps, scaffolds, write_scaffold
 
     if args.kind is not None and args.what != "robot":
-        raise UsageError(f"--kind is a robot's; a {args.what} has none")
+        raise UsageError(f"--kind is only for robots, not for a {args.what}")
     scaffold = scaffolds(args.kind or _ROBOTS[0])[args.what]
     folder = args.directory
     if args.what == "package":
         package, folder = args.name, folder / args.name
-        _refuse_used(folder)
+        _check_unused(folder)
     else:
         package = _package_of(folder)
     if scaffold.needs_package and package is None:
         raise UsageError(
-            f"a {args.what} belongs into a package, and {folder.absolute()} has no package.xml; "
+            f"a {args.what} belongs in a package, and {folder.absolute()} has no package.xml; "
             "'trundle new package NAME' makes one"
         )
-    written = write_scaffold(scaffold, args.name, folder, package=package or "")
+    paths = write_scaffold(scaffold, args.name, folder, package=package or "")
     if args.what == "package":
-        written = [*_write_package(args.directory, args.name), *written]
-    for path in written:
+        paths = [*_write_package(args.directory, args.name), *paths]
+    for path in paths:
         print(f"Created file {path}")
     print("\n".join(f"  {step}" for step in next_steps(scaffold, args.name, package or "")))
     return 0
 
 
-def _refuse_used(folder: Path) -> None:
+def _check_unused(folder: Path) -> None:
     if os.path.lexists(folder):
-        raise UsageError(f"{folder} exists already; nothing is written")
+        raise UsageError(f"{folder} exists; nothing is written")
 
 
 def _write_package(parent: Path, name: str) -> list[Path]:
@@ -65,15 +65,15 @@ def _write_package(parent: Path, name: str) -> list[Path]:
 
     needs = ("geometry_msgs", "rospy", "rosunit")
     for _ in create_package(parent, NewPackage(name=name, dependencies=needs)):
-        pass  # its lines are those of catkin_create_pkg
+        pass  # catkin_create_pkg prints these lines
     return [parent / name / "package.xml", parent / name / "CMakeLists.txt"]
 
 
 def _package_of(folder: Path) -> str | None:
-    """Return the name in a folder's package.xml, if there is one."""
+    """Return the name of the package in a folder; None if there is none."""
     from trundle.robots.packages import Packages
 
     if not os.path.isfile(folder / "package.xml"):
         return None
     known = Packages(os.environ, start=folder / "package.xml").ros_packages()
-    return next((name for name, each in known.items() if each.resolve() == folder.resolve()), None)
+    return next((name for name, path in known.items() if path.resolve() == folder.resolve()), None)

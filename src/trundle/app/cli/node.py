@@ -72,7 +72,7 @@ def _uri(proxy: MasterProxy, node: str) -> str | None:
         return None
 
 
-def _ask(uri: str, method: str, *arguments: object) -> Any:
+def _call_node(uri: str, method: str, *arguments: object) -> Any:
     """Call a node's slave API.
 
     Raises:
@@ -130,12 +130,12 @@ def _description(node: str, state: Any, types: dict[str, str]) -> str:
 
 
 def _connections(proxy: MasterProxy, uri: str, state: Any) -> str:
-    text = f"Pid: {_ask(uri, 'getPid')}\n"
-    links = [link for link in _ask(uri, "getBusInfo") if len(link) < 6 or link[5]]
+    text = f"Pid: {_call_node(uri, 'getPid')}\n"
+    links = [link for link in _call_node(uri, "getBusInfo") if len(link) < 6 or link[5]]
     if links:
         text += "Connections:\n"
     for _, peer, direction, transport, topic, *more in links:
-        text += f" * topic: {topic}\n    * to: {_peer(proxy, state, topic, peer)}\n"
+        text += f" * topic: {topic}\n    * to: {_peer_name(proxy, state, topic, peer)}\n"
         text += f"    * direction: {({'i': 'inbound', 'o': 'outbound'}).get(direction, 'unknown')}"
         match = _CONNECTION.match(more[1]) if len(more) > 1 else None
         text += " ({} - {}) [{}]".format(*match.groups()) if match else ""
@@ -143,8 +143,8 @@ def _connections(proxy: MasterProxy, uri: str, state: Any) -> str:
     return text
 
 
-def _peer(proxy: MasterProxy, state: Any, topic: str, peer: str) -> str:
-    """Name of the node at an address."""
+def _peer_name(proxy: MasterProxy, state: Any, topic: str, peer: str) -> str:
+    """Return the name of the node at an address."""
     if peer.startswith("http://"):
         for name, nodes in [*state[0], *state[1]]:
             if name == topic:
@@ -180,7 +180,7 @@ def _ping_one(node: str, count: int | None) -> bool:
     try:
         while True:
             start = time.perf_counter()
-            _ask(uri, "getPid")
+            _call_node(uri, "getPid")
             times.append((time.perf_counter() - start) * 1000.0)
             print(f"xmlrpc reply from {uri}\ttime={times[-1]:f}ms", flush=True)
             if count and len(times) >= count:
@@ -211,7 +211,7 @@ def _kill(args: argparse.Namespace) -> int:
         if unknown := [node for node in nodes if node not in running]:
             raise RosError("Unknown node(s):\n" + "\n".join(f" * {node}" for node in unknown))
     else:
-        nodes = [_chosen(running)] if running else []
+        nodes = [_choose_node(running)] if running else []
     if not nodes:
         print("No nodes running", file=sys.stderr)
         return 0
@@ -223,7 +223,7 @@ def _kill(args: argparse.Namespace) -> int:
             if uri is None:
                 failed.append(node)
             else:
-                _ask(uri, "shutdown", "user request")
+                _call_node(uri, "shutdown", "user request")
         except (OSError, RosError):  # many nodes exit before they answer
             pass
     if failed:
@@ -233,7 +233,7 @@ def _kill(args: argparse.Namespace) -> int:
     return 0
 
 
-def _chosen(nodes: list[str]) -> str:
+def _choose_node(nodes: list[str]) -> str:
     """Prompt for a node."""
     print("\n".join(f"{i}. {node}" for i, node in enumerate(nodes, 1)))
     print("\nPlease enter the number of the node you wish to kill.\n> ", end="", flush=True)
@@ -258,19 +258,19 @@ def _cleanup(_: argparse.Namespace) -> int:
         return 0
     for node in dead:
         print("Unregistering", node)
-        _forget(node, _uri(proxy, node) or "", state, proxy)
+        _unregister(node, _uri(proxy, node) or "", state, proxy)
     print("done")
     return 0
 
 
 def _answers(uri: str | None) -> bool:
     try:
-        return uri is not None and bool(_ask(uri, "getPid"))
+        return uri is not None and bool(_call_node(uri, "getPid"))
     except (OSError, RosError):
         return False
 
 
-def _forget(node: str, uri: str, state: Any, proxy: MasterProxy) -> None:
+def _unregister(node: str, uri: str, state: Any, proxy: MasterProxy) -> None:
     as_node = MasterProxy(proxy.uri, node)
     publishers, subscribers, services = ([n for n, nodes in table if node in nodes] for table in state)
     for topic in publishers:

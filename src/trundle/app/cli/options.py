@@ -14,27 +14,27 @@ _Options = TypeVar("_Options", bound="DataclassInstance")
 
 
 def field_option(parser: argparse.ArgumentParser) -> Callable[..., argparse.Action]:
-    """Return a function that declares an option of which `dest` names a field; `read_options` knows its default."""
+    """Return a function that declares an option for the field `dest`, with the default of `read_options`' dataclass."""
     return partial(parser.add_argument, default=argparse.SUPPRESS)
 
 
 def read_options(kind: type[_Options], args: argparse.Namespace, **more: object) -> _Options:
-    """Make the options of a command from its arguments.
+    """Make a command's options from its arguments.
 
     Args:
         kind: dataclass of the options, with their defaults.
-        args: those that have the name of a field are its value.
-        more: further fields.
+        args: arguments; those with a field's name set it.
+        more: values of further fields.
     """
     from dataclasses import fields  # which takes inspect with it
 
     names = {field.name for field in fields(kind)}
-    given: dict[str, Any] = {name: value for name, value in vars(args).items() if name in names}
-    return kind(**given | more)
+    values: dict[str, Any] = {name: value for name, value in vars(args).items() if name in names}
+    return kind(**values | more)
 
 
 def add_timeline(parser: argparse.ArgumentParser) -> None:
-    """Declare the option of commands whose page goes back in time."""
+    """Declare the option of commands whose page has a timeline."""
     field_option(parser)(
         "--timeline",
         type=_megabytes,
@@ -65,15 +65,15 @@ def add_lenient(parser: argparse.ArgumentParser) -> None:
 
 def add_page_access(parser: argparse.ArgumentParser) -> None:
     """Declare the options of commands that serve a page."""
-    for option, metavar, what in (
+    for option, metavar, help_ in (
         ("--allow-host", "NAME", "also accept this host name, as behind a proxy; repeatable"),
         ("--allow-origin", "ORIGIN", "also accept the page by this origin, such as https://robot.example; repeatable"),
     ):
-        parser.add_argument(option, action="append", default=[], metavar=metavar, help=what)
-    what = "print a second link, which only allows looking"
-    parser.add_argument("--view-only", action="store_true", help=what)
-    what = "print the page's URL only; else it is opened where a terminal has a display"
-    field_option(parser)("--no-browser", action="store_false", dest="opens_browser", help=what)
+        parser.add_argument(option, action="append", default=[], metavar=metavar, help=help_)
+    view_only = "print a second link, which is view-only"
+    parser.add_argument("--view-only", action="store_true", help=view_only)
+    no_browser = "only print the page's URL; else open it if a terminal has a display"
+    field_option(parser)("--no-browser", action="store_false", dest="opens_browser", help=no_browser)
 
 
 def page_access(args: argparse.Namespace) -> "AllowedNames":
@@ -89,5 +89,5 @@ def page_access(args: argparse.Namespace) -> "AllowedNames":
 
 def add_renderer(parser: argparse.ArgumentParser) -> None:
     """Declare the option of commands that render."""
-    what = "renderer: Trundle's own, or OpenGL over EGL, without textures and fog (cpu)"
-    parser.add_argument("--renderer", choices=("cpu", "egl"), default="cpu", help=what)
+    renderer = "renderer: Trundle's own, or OpenGL over EGL, without textures and fog (cpu)"
+    parser.add_argument("--renderer", choices=("cpu", "egl"), default="cpu", help=renderer)

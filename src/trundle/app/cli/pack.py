@@ -1,4 +1,4 @@
-"""Find packages and what they need, as rospack does."""
+"""Find packages and their dependencies, as rospack does."""
 
 import argparse
 import os
@@ -27,7 +27,7 @@ EXAMPLES = """
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    _about_one(commands.add_parser("find", help="folder of a package"), _find)
+    _configure_query(commands.add_parser("find", help="folder of a package"), _find)
     commands.add_parser("list", help="names and folders of all packages").set_defaults(run=_list)
     commands.add_parser("list-names", help="names of all packages").set_defaults(run=_list_names)
     for name, alias, run, help_ in (
@@ -36,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         ("depends-on", [], _depends_on, "packages that depend on a package, recursively"),
         ("depends-on1", [], _depends_on1, "packages that depend on a package directly"),
     ):
-        _about_one(commands.add_parser(name, aliases=alias, help=help_), run)
+        _configure_query(commands.add_parser(name, aliases=alias, help=help_), run)
     get = commands.add_parser("get", help="fetch packages, and those that they need")
     get.add_argument("names", nargs="*", metavar="NAME", help="packages; with --missing: [PKG] FILE [ARG:=VALUE]")
     get.add_argument("--missing", action="store_true", help="fetch what a launch file needs and is not here")
@@ -44,7 +44,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     get.set_defaults(run=_get)
 
 
-def _about_one(parser: argparse.ArgumentParser, run: Callable[[argparse.Namespace, Packages], int]) -> None:
+def _configure_query(parser: argparse.ArgumentParser, run: Callable[[argparse.Namespace, Packages], int]) -> None:
     parser.add_argument("package", nargs="?", help="package of the working directory by default")
     parser.add_argument("-q", dest="quiet", action="store_true", help="suppress error messages")
     parser.set_defaults(run=run)
@@ -55,7 +55,7 @@ def main(args: argparse.Namespace) -> int:
     packages = Packages(os.environ, start=Path.cwd())
     try:
         if getattr(args, "package", "") is None:
-            args.package = _here(packages)
+            args.package = _current_package(packages)
         return int(args.run(args, packages))
     except TrundleError:
         if getattr(args, "quiet", False):
@@ -63,7 +63,7 @@ def main(args: argparse.Namespace) -> int:
         raise
 
 
-def _here(packages: Packages) -> str:
+def _current_package(packages: Packages) -> str:
     for name, folder in packages.ros_packages().items():
         if folder.resolve() == Path.cwd():
             return name
@@ -85,13 +85,13 @@ def _get(args: argparse.Namespace, _: Packages) -> int:
         return fetch_packages(args.names, args, for_files=True)
     from trundle.live.launch.missing_packages import missing_packages
 
-    asked: set[str] = set()
-    while names := [name for name in missing_packages(args.names, os.environ) if name not in asked]:
+    fetched: set[str] = set()
+    while names := [name for name in missing_packages(args.names, os.environ) if name not in fetched]:
         if code := fetch_packages(names, args, for_files=True):
             return code
-        asked.update(names)
-        args.yes = True  # what the packages need in turn was part of the question
-    print("nothing is missing" if not asked else "all is here that could be fetched")
+        fetched.update(names)
+        args.yes = True  # the first answer includes dependencies of the fetched packages
+    print("nothing is missing" if not fetched else "all available packages are fetched")
     return 0
 
 
@@ -107,62 +107,62 @@ def _list_names(_: argparse.Namespace, packages: Packages) -> int:
 
 
 def _depends(args: argparse.Namespace, packages: Packages) -> int:
-    _named(args, packages)
-    _print(_all_needs(args.package, packages.ros_packages()))
+    _check_exists(args, packages)
+    _print(_dependencies(args.package, packages.ros_packages()))
     return 0
 
 
 def _depends1(args: argparse.Namespace, packages: Packages) -> int:
-    _named(args, packages)
-    _print(_own_needs(args.package, packages.ros_packages()))
+    _check_exists(args, packages)
+    _print(_direct_dependencies(args.package, packages.ros_packages()))
     return 0
 
 
 def _depends_on(args: argparse.Namespace, packages: Packages) -> int:
-    _named(args, packages)
+    _check_exists(args, packages)
     known = packages.ros_packages()
-    _print(sorted(name for name in known if args.package in _all_needs(name, known)))
+    _print(sorted(name for name in known if args.package in _dependencies(name, known)))
     return 0
 
 
 def _depends_on1(args: argparse.Namespace, packages: Packages) -> int:
-    _named(args, packages)
+    _check_exists(args, packages)
     known = packages.ros_packages()
-    _print(sorted(name for name in known if args.package in _own_needs(name, known)))
+    _print(sorted(name for name in known if args.package in _direct_dependencies(name, known)))
     return 0
 
 
-def _named(args: argparse.Namespace, packages: Packages) -> None:
+def _check_exists(args: argparse.Namespace, packages: Packages) -> None:
     if args.package not in packages.ros_packages():
         raise UsageError(packages.why_not_found(args.package))
 
 
-def _own_needs(name: str, known: Mapping[str, Path]) -> list[str]:
-    """Direct dependencies that are ROS packages; others are system packages."""
+def _direct_dependencies(name: str, known: Mapping[str, Path]) -> list[str]:
+    """Return the direct dependencies that are ROS packages; others are system packages."""
     try:
-        return [each for each in run_dependencies(known[name]) if each in known]
+        return [dependency for dependency in run_dependencies(known[name]) if dependency in known]
     except TrundleError as error:
         print(f"WARNING: {error}", file=sys.stderr)
         return []
 
 
-def _all_needs(name: str, known: Mapping[str, Path]) -> list[str]:
-    """All dependencies, deepest first."""
-    found: dict[str, None] = {}
-    waiting = [(name, iter(_own_needs(name, known)))]
+def _dependencies(name: str, known: Mapping[str, Path]) -> list[str]:
+    """Return all dependencies, deepest first."""
+    result: dict[str, None] = {}
+    stack = [(name, iter(_direct_dependencies(name, known)))]
     entered = {name}
-    while waiting:
-        current, below = waiting[-1]
-        for each in below:
-            if each not in entered:
-                entered.add(each)
-                waiting.append((each, iter(_own_needs(each, known))))
+    while stack:
+        current, dependencies = stack[-1]
+        for dependency in dependencies:
+            if dependency not in entered:
+                entered.add(dependency)
+                stack.append((dependency, iter(_direct_dependencies(dependency, known))))
                 break
         else:
-            waiting.pop()
-            found[current] = None
-    del found[name]
-    return list(found)
+            stack.pop()
+            result[current] = None
+    del result[name]
+    return list(result)
 
 
 def _print(names: Iterable[str]) -> None:

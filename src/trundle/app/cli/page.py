@@ -1,6 +1,6 @@
-"""Print the links of the pages that run.
+"""Print the links of the running pages.
 
-A page opens with its link only: it holds the token of the session. The links are in files that only the user who
+A page opens only by its link, which has the token of the session. The links are in files that only the user who
 started the pages may read.
 """
 
@@ -23,19 +23,19 @@ def configure(parser: argparse.ArgumentParser) -> None:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     link = commands.add_parser("link", help="print the links of this user's pages, the newest first")
     kind = link.add_mutually_exclusive_group()
-    kind.add_argument("--view-only", action="store_true", help="links that only allow looking")
+    kind.add_argument("--view-only", action="store_true", help="links that are view-only")
     kind.add_argument("--foxglove", action="store_true", help="links for Foxglove and Lichtblick")
-    link.add_argument("--port", type=int, help="of the page at this port alone")
+    link.add_argument("--port", type=int, help="only the page at this port")
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print the links, a line each."""
+    """Print the links, one per line."""
     from trundle.page import read_link_files
 
     pages = [page for page in read_link_files(os.environ) if args.port in (None, page.port)]
     if not pages:
-        where = "" if args.port is None else f" at port {args.port}"
-        raise UsageError(f"no page of this user runs{where}; start one, for example with 'trundle run WORLD'")
+        location = "" if args.port is None else f" at port {args.port}"
+        raise UsageError(f"no page of this user runs{location}; start one, for example with 'trundle run WORLD'")
     for page in pages:
         link = page.view_url if args.view_only else page.foxglove_url if args.foxglove else page.url
         sys.stdout.write(f"{link}\n")

@@ -100,12 +100,12 @@ def _set(args: argparse.Namespace) -> int:
     if args.textfile is not None and args.binfile is not None:
         args.refuse("only one of -t and -b may be given")
     if args.textfile is not None:
-        _put(name, _read(args.textfile).decode("utf-8", "replace"), args.verbose)
+        _set_param(name, _read(args.textfile).decode("utf-8", "replace"), args.verbose)
     elif args.binfile is not None:
-        _put(name, _read(args.binfile), args.verbose)
+        _set_param(name, _read(args.binfile), args.verbose)
     else:
         (value,) = list(_documents(args.value or "!!str", "the value")) or [""]
-        set_leaves(name, value, lambda n, v: _put(n, v, args.verbose))
+        set_leaves(name, value, lambda n, v: _set_param(n, v, args.verbose))
     return 0
 
 
@@ -113,12 +113,12 @@ def _load(args: argparse.Namespace) -> int:
     text = (read_standard_input() if args.file == "-" else _read(args.file)).decode("utf-8", "replace")
     if args.verbose:
         print("reading parameters from " + ("stdin" if args.file == "-" else f"[{args.file}]"))
-    above = global_name(args.namespace, _SCRIPT).rstrip("/") or "/"
+    base_namespace = global_name(args.namespace, _SCRIPT).rstrip("/") or "/"
     loaded: list[tuple[str, Any]] = []
     for document in _documents(text, args.file):
-        namespace = above
+        namespace = base_namespace
         if isinstance(document, dict) and "_ns" in document:
-            namespace = join_names(above, str(document.pop("_ns")))
+            namespace = join_names(base_namespace, str(document.pop("_ns")))
             if args.verbose:
                 print(f"reading parameters into namespace [{namespace}]")
         loaded.append((namespace, document))
@@ -126,8 +126,8 @@ def _load(args: argparse.Namespace) -> int:
         if namespace == "/" and not isinstance(document, dict):
             raise UsageError("global / can only be set to a dictionary")
         if args.verbose:
-            set_leaves(namespace, document, _say)
-        set_leaves(namespace, document, lambda n, v: _put(n, v, verbose=False))
+            set_leaves(namespace, document, _print_param)
+        set_leaves(namespace, document, lambda n, v: _set_param(n, v, verbose=False))
     return 0
 
 
@@ -137,7 +137,7 @@ def _dump(args: argparse.Namespace) -> int:
         print(f"dumping namespace [{args.namespace}] to file [{args.file}]")
     tree = master(_SCRIPT).call("getParam", name)
     if args.verbose:
-        set_leaves(name, tree, _say)
+        set_leaves(name, tree, _print_param)
     text = _dump_yaml(tree)
     if not args.file:
         sys.stdout.write(text)
@@ -157,7 +157,7 @@ def _delete(args: argparse.Namespace) -> int:
     return 0
 
 
-def _put(name: str, value: object, verbose: bool) -> None:
+def _set_param(name: str, value: object, verbose: bool) -> None:
     try:
         master(_SCRIPT).call("setParam", name, value)
     except ValueError as error:
@@ -166,7 +166,7 @@ def _put(name: str, value: object, verbose: bool) -> None:
         print(f"set parameter [{name}] to [{_plain(value)}]")
 
 
-def _say(name: str, value: object) -> None:
+def _print_param(name: str, value: object) -> None:
     print(f"{name}={_plain(value)}")
 
 
@@ -202,7 +202,7 @@ def _dump_yaml(value: object) -> str:
     return yaml.dump(value)
 
 
-def _documents(text: str, where: str) -> Iterator[Any]:
+def _documents(text: str, name: str) -> Iterator[Any]:
     """Parse YAML as rosparam does, with `deg(90)` and `rad(pi/2)`."""
     import yaml
 
@@ -223,11 +223,11 @@ def _documents(text: str, where: str) -> Iterator[Any]:
     try:
         yield from yaml.load_all(text, Loader)
     except yaml.YAMLError as error:
-        raise UsageError(f"{where} is not YAML: {error}") from None
+        raise UsageError(f"{name} is not YAML: {error}") from None
 
 
 def _angle(text: str, interpreter: "Interpreter") -> float:
-    """Value in radians of `deg(n)` or `rad(…)`, an expression of numbers and the names of `math`."""
+    """Return the value [rad] of `deg(n)` or `rad(…)`, whose expression has numbers and names of `math`."""
     from trundle.base.expressions import MATH_NAMES
 
     inner = text[4:-1]

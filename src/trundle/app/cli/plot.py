@@ -31,8 +31,8 @@ EXAMPLES = """
   trundle plot /odom/pose/pose/position/x:y -o p.svg   as an image, of ten seconds
   trundle plot /joint_states/position -b run.bag       from a bag, one curve for each joint
 """
-_SHOWN_S, _REDRAWN_S = 30.0, 0.2
-"""Time span shown in the terminal, and redraw interval [s]."""
+_SPAN_S, _REDRAW_S = 30.0, 0.2
+"""Time span in the terminal, and redraw interval [s]."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -45,7 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 @ros_errors
 def main(args: argparse.Namespace) -> int:
-    """Record, then draw; in the terminal, both at once."""
+    """Record, then draw; in the terminal, draw while recording."""
     target = Path(args.output) if args.output else None
     if target is not None and target.suffix != ".svg":
         raise UsageError(f"{target} does not end in .svg")
@@ -66,20 +66,20 @@ def _from_bag(names: Sequence[str], path: Path) -> list[Curve]:
         types = {connection.topic: connection.type for connection in bag.connections}
         traces: list[TopicSeries] = []
         for name in names:
-            found = split_topic(global_name(name, "plot"), types)
-            if found is None:
+            field = split_topic(global_name(name, "plot"), types)
+            if field is None:
                 raise UsageError(f"no topic of {name} in {path}; topics there: {', '.join(sorted(types))}")
-            traces.append(TopicSeries(name, TopicField(topic=found[0], type=types[found[0]], path=found[1])))
-        checked: set[str] = set()
+            traces.append(TopicSeries(name, TopicField(topic=field[0], type=types[field[0]], path=field[1])))
+        checked_names: set[str] = set()
         for message in bag.messages(lambda c: any(c.topic == trace.source.topic for trace in traces)):
             kind = message.connection.type
             messages.add_definition(kind, message.connection.definition)
             value = messages.deserialize(message.data, kind)
             for trace in traces:
                 if trace.source.topic == message.connection.topic:
-                    if trace.name not in checked:
+                    if trace.name not in checked_names:
                         trace.check(messages)
-                        checked.add(trace.name)
+                        checked_names.add(trace.name)
                     trace.add_message(value, message.stamp_ns / 1e9)
     return recent_curves(traces)
 
@@ -107,9 +107,9 @@ def _from_graph(names: Sequence[str], duration_s: float | None, *, draws: bool) 
 
 
 def _subscribed_series(loop: GraphLoop, traces: Sequence[TopicSeries]) -> Iterator[list[Curve]]:
-    """Current curves, at the redraw interval."""
+    """Yield the current curves, at the redraw interval."""
     while True:
-        time.sleep(_REDRAWN_S)
+        time.sleep(_REDRAW_S)
         yield loop.run(_snapshot(traces))
 
 
@@ -120,5 +120,5 @@ async def _snapshot(traces: Sequence[TopicSeries]) -> list[Curve]:
 def _terminal(curves: Sequence[Curve]) -> str:
     size = shutil.get_terminal_size((80, 24))
     end = max(curve.points[-1][0] for curve in curves)
-    shown = [Curve(curve.name, [p for p in curve.points if p[0] >= end - _SHOWN_S]) for curve in curves]
-    return curves_text(shown, columns=size.columns, rows=size.lines - len(curves) - 3)
+    recent = [Curve(curve.name, [p for p in curve.points if p[0] >= end - _SPAN_S]) for curve in curves]
+    return curves_text(recent, columns=size.columns, rows=size.lines - len(curves) - 3)

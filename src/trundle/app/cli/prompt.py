@@ -16,11 +16,11 @@ def read_line() -> str:
     raise UsageError("standard input ended before there was an answer; nothing was done")
 
 
-def read_number(most: int) -> int:
-    """Read a number from 1 to `most`; repeats the prompt until valid."""
-    numbers = {str(number): number for number in range(1, most + 1)}
+def read_number(maximum: int) -> int:
+    """Read a number from 1 to `maximum`; repeat the prompt until it is valid."""
+    numbers = {str(number): number for number in range(1, maximum + 1)}
     while (answer := read_line()) not in numbers:
-        print(f"ERROR: please enter a number from 1 to {most} (ctrl-C to cancel)", flush=True)
+        print(f"ERROR: please enter a number from 1 to {maximum} (ctrl-C to cancel)", flush=True)
     return numbers[answer]
 
 

@@ -27,7 +27,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--size", type=_size, metavar="WxH", help="size in pixels (800x600, or the camera's)")
     content = parser.add_mutually_exclusive_group()
     content.add_argument("--depth", action="store_true", help="render depth: 16 bit, millimetres")
-    content.add_argument("--seg", action="store_true", help="render a segmentation: one colour per visual")
+    content.add_argument("--seg", action="store_true", help="render a segmentation: one color per visual")
     parser.add_argument("--at", type=_seconds, default=0.0, metavar="S", help="simulated time of the image (0)")
     parser.add_argument("--orbit", action="store_true", help="video of one turn around the scene")
     parser.add_argument("--duration", type=_seconds, metavar="S", help=f"length of a video ({_VIDEO_S:g})")
@@ -43,34 +43,34 @@ def main(args: argparse.Namespace) -> int:
     from trundle.base.atomic_write import replaced_atomically
     from trundle.base.diagnostics import Diagnostics, UsageError
 
-    moves = args.output.suffix.lower() in VIDEO_SUFFIXES
+    is_video = args.output.suffix.lower() in VIDEO_SUFFIXES
     if args.orbit and (args.camera or args.duration is not None):
         raise UsageError("--orbit turns around the scene once; it excludes --camera and --duration")
-    if (args.orbit or args.duration is not None) and not moves:
+    if (args.orbit or args.duration is not None) and not is_video:
         raise UsageError(f"a video's file ends in {', '.join(VIDEO_SUFFIXES)}, not in {args.output.suffix!r}")
-    if moves and args.depth:
+    if is_video and args.depth:
         raise UsageError("depth needs 16 bits, which videos lack; write a .png")
     report = Diagnostics()
-    content = "depth" if args.depth else "segmentation" if args.seg else "colour"
+    content = "depth" if args.depth else "segmentation" if args.seg else "color"
     options = PictureOptions(camera=args.camera, size=args.size, content=content, at_s=args.at, renderer=args.renderer)
     try:
-        studio = PictureRenderer(args.file, dict(os.environ), report, start=Path.cwd(), options=options)
+        renderer = PictureRenderer(args.file, dict(os.environ), report, start=Path.cwd(), options=options)
     finally:
         for warning in report.warnings:
             print(warning, file=sys.stderr)
-    if studio.empty_reason:
-        print(f"{args.file}: {studio.empty_reason}", file=sys.stderr)
-    if moves:
+    if renderer.empty_reason:
+        print(f"{args.file}: {renderer.empty_reason}", file=sys.stderr)
+    if is_video:
         frames = (
-            turntable(studio)
+            turntable(renderer)
             if args.orbit
-            else simulated_frames(studio, _VIDEO_S if args.duration is None else args.duration)
+            else simulated_frames(renderer, _VIDEO_S if args.duration is None else args.duration)
         )
         write_video(frames, args.output, report_progress=_print_progress)
         return 0
     try:
         with replaced_atomically(args.output) as file:
-            studio.render().save(file)
+            renderer.render().save(file)
     except (OSError, ValueError) as error:
         raise UsageError(f"cannot write {args.output}: {getattr(error, 'strerror', None) or error}") from None
     return 0

@@ -1,4 +1,4 @@
-"""Fetches the repositories of a list into a workspace."""
+"""Fetch the repositories of a list into a workspace."""
 
 import argparse
 import sys
@@ -11,12 +11,12 @@ from .fetching import defaults, make_fetcher
 
 
 def fetch_list(text: str, name: str, folder: Path) -> int:
-    """Fetch what is not there yet, and return the exit code.
+    """Fetch the missing repositories, and return the exit code.
 
     Args:
-        text: of a .rosinstall or .repos file.
-        name: of the file, in errors.
-        folder: below which each repository has the folder that the list names.
+        text: text of a .rosinstall or .repos file.
+        name: name of the file, in errors.
+        folder: parent of the repositories' folders.
 
     Raises:
         DescriptionError: the list cannot be read.
@@ -26,7 +26,7 @@ def fetch_list(text: str, name: str, folder: Path) -> int:
     for listed in read_repository_list(text, name):
         target = folder.absolute() / listed.folder
         if target.exists():
-            print(f"{listed.folder}: here already")
+            print(f"{listed.folder}: already here")
             continue
         try:
             fetcher.fetch_repository(Checkout(listed.url, listed.branch, ""), target)

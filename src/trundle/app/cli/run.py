@@ -46,8 +46,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("--no-sensors", action="store_false", dest="sensors", help="switch every sensor off")
     add_renderer(parser)
     add("--strict", action="store_true", help="treat warnings about the file as errors")
-    reaction = "action when the physics diverges (pause with a page, exit without)"
-    add("--on-instability", choices=("pause", "reset", "exit"), help=reaction)
+    on_instability = "action when the physics diverges (pause with a page, exit without)"
+    add("--on-instability", choices=("pause", "reset", "exit"), help=on_instability)
     add("--record", type=Path, metavar="FILE", help="write a state log for `trundle play`")
     add_timeline(parser)
     add_page_access(parser)
@@ -63,23 +63,23 @@ def main(args: argparse.Namespace) -> int:
 
     options = read_options(RunOptions, args, allowed=page_access(args))
     try:
-        outcome = run(args.file, options)
+        result = run(args.file, options)
     except TrundleError as error:
-        if args.json:  # as `check --json`, for scripts that read it whatever happens
-            at, what = (
+        if args.json:  # like `check --json`, for scripts that always read it
+            at, message = (
                 (error.at, error.what) if isinstance(error, DescriptionError) else (Source(args.file), str(error))
             )
-            refusal = {"models": [], "diagnostics": [Diagnostic("error", at, what).as_json()]}
+            refusal = {"models": [], "diagnostics": [Diagnostic("error", at, message).as_json()]}
             print(json.dumps(refusal))
         raise
     if args.json:
-        json.dump(outcome.as_json(), sys.stdout, allow_nan=False)
+        json.dump(result.as_json(), sys.stdout, allow_nan=False)
         print()
     else:
-        print(outcome.summary())
-    if outcome.recording_failed:
+        print(result.summary())
+    if result.recording_failed:
         return 1
-    return 130 if outcome.interrupted else 0
+    return 130 if result.interrupted else 0
 
 
 def _positive(text: str) -> float:

@@ -1,4 +1,4 @@
-"""Open a shell in which the commands of ROS 1 and Gazebo are Trundle's."""
+"""Open a shell with Trundle's commands under the names of ROS 1 and Gazebo."""
 
 import argparse
 import os

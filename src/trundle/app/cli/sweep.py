@@ -1,4 +1,4 @@
-"""Run a world or a launch file many times with different values, and report what came out."""
+"""Run a world or a launch file many times with different values, and report the results."""
 
 import argparse
 import sys
@@ -27,10 +27,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder of the results (PLAN.sweep)")
     parser.add_argument("--workers", type=int, metavar="N", help="number of processes (one for each processor)")
-    where = "Ray cluster that runs them: HOST:PORT, `auto` for the one of this machine, `local` for a new one"
-    parser.add_argument("--address", metavar="ADDR", help=where)
-    steps = "what steps the rows: cpu, or cuda: an NVIDIA GPU, many rows at once, in single precision (cpu)"
-    parser.add_argument("--device", choices=("cpu", "cuda"), default="cpu", help=steps)
+    address = "Ray cluster that runs them: HOST:PORT, `auto` for the one of this machine, `local` for a new one"
+    parser.add_argument("--address", metavar="ADDR", help=address)
+    device = "what steps the rows: cpu, or cuda: an NVIDIA GPU, many rows at once, in single precision (cpu)"
+    parser.add_argument("--device", choices=("cpu", "cuda"), default="cpu", help=device)
     parser.add_argument("--row", type=int, metavar="N", help="run row N again, in the browser; nothing is written")
     parser.add_argument("--headless", action="store_true", help="with --row: no browser page, print its result")
     parser.add_argument("--port", type=int, metavar="N", help="with --row: the page's port (8080, or a free one)")

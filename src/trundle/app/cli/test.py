@@ -19,8 +19,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "words", nargs="+", metavar="[PKG] FILE [ARG:=VALUE]", help="test file and its arguments, or a plan"
     )
-    where = "JUnit XML file of the results (as rostest: in ROS_TEST_RESULTS_DIR or ~/.ros/test_results)"
-    parser.add_argument("--junit", type=Path, metavar="FILE", help=where)
+    help_ = "JUnit XML file of the results (as rostest: in ROS_TEST_RESULTS_DIR or ~/.ros/test_results)"
+    parser.add_argument("--junit", type=Path, metavar="FILE", help=help_)
     text = "show the output of every node; write no result files"
     parser.add_argument("-t", "--text", action="store_true", help=text)
     parser.add_argument("--package", metavar="PKG", help="package of the results (that of FILE)")
@@ -38,8 +38,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help="name of the results file, in rostest's folder",
     )
-    where = "folder with a subfolder of results per package, instead of ROS_TEST_RESULTS_DIR"
-    parser.add_argument("--results-base-dir", type=Path, dest="results_folder", metavar="DIR", help=where)
+    help_ = "folder with a subfolder of results per package, instead of ROS_TEST_RESULTS_DIR"
+    parser.add_argument("--results-base-dir", type=Path, dest="results_folder", metavar="DIR", help=help_)
     reuse = "use the master at ROS_MASTER_URI instead of one per test"
     parser.add_argument("-r", "--reuse-master", action="store_true", help=reuse)
     parser.add_argument("-c", "--clear", action="store_true", help="with -r: delete its parameters before each test")

@@ -1,4 +1,4 @@
-"""Waits for a topic, given by name or field path."""
+"""Wait for a topic, given by name or field path."""
 
 import sys
 import time
@@ -10,21 +10,21 @@ _POLL_S = 0.1
 
 
 def wait_for_topic(proxy: MasterProxy, name: str, messages: Messages) -> TopicField:
-    """Wait for the topic of a name or field path."""
+    """Wait for a topic, and return it with the field path."""
     warned = False
     while True:
         types = {topic: kind for topic, kind in proxy.call("getTopicTypes") if kind != "*"}
-        found = split_topic(name, types)
-        why = ""
-        if found is not None:
-            field = TopicField(topic=found[0], type=types[found[0]], path=found[1])
+        match = split_topic(name, types)
+        detail = ""
+        if match is not None:
+            field = TopicField(topic=match[0], type=types[match[0]], path=match[1])
             try:
                 if field.path and messages.has(field.type):
                     field_type(field.type, field.path, messages)
                 return field
-            except UsageError as error:  # /imu/data may be a topic published later, besides /imu
-                why = f"; {field.topic} is: {error}"
+            except UsageError as error:  # /imu/data may be a later topic besides /imu
+                detail = f"; {field.topic} is: {error}"
         if not warned:
             warned = True
-            print(f"WARNING: topic [{name}] does not appear to be published yet{why}", file=sys.stderr, flush=True)
+            print(f"WARNING: topic [{name}] does not appear to be published yet{detail}", file=sys.stderr, flush=True)
         time.sleep(_POLL_S)

@@ -1,1 +1,1 @@
-"""`trundle doctor` and `roswtf`: what a machine and a graph have and lack."""
+"""`trundle doctor` and `roswtf`: checks of a machine and a graph."""

@@ -8,23 +8,23 @@ State: TypeAlias = Literal["ok", "missing", "problem"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Check:
-    """Finding on one part of the machine."""
+    """Result of one check."""
 
     name: str
     state: State
-    """missing: something is left out; problem: something does not work."""
+    """missing: an optional part is missing; problem: something does not work."""
     found: str
-    """Version, path or number; how it is."""
+    """Version, path, number or state."""
     cost: str = ""
-    """Effect, and way out; empty if all is well."""
+    """Consequence and remedy; empty if all is well."""
 
     def as_json(self) -> dict[str, str]:
-        """Fields as `doctor --json` prints them."""
+        """Return the fields as `doctor --json` prints them."""
         return {"name": self.name, "state": self.state, "found": self.found, "cost": self.cost}
 
 
 def table(checks: list[Check]) -> str:
-    """Return the checks as columns: state, name, what was found; the cost is below it."""
+    """Return the checks as columns: state, name, finding; the cost is on the next line."""
     width = max(len(check.name) for check in checks)
     lines: list[str] = []
     for check in checks:

@@ -1,4 +1,4 @@
-"""Addresses, variables, folders and caches that a run uses."""
+"""Checks of addresses, variables, folders and caches that a run uses."""
 
 import os
 import shutil
@@ -16,14 +16,14 @@ from .check import Check
 _PAGE_PORT = 8080
 _LOOPBACK = "127.0.0.1"
 _TIMEOUT_S = 2.0
-_LEAST_FREE_BYTES = 200 * 1024 * 1024
+_MIN_FREE_BYTES = 200 * 1024 * 1024
 
 
 def environment_checks(environment: Mapping[str, str], start: Path) -> Iterator[Check]:
     """Yield findings on the network, ROS' variables, packages, models and disks.
 
     Args:
-        environment: that of the commands.
+        environment: environment variables of the commands.
         start: working folder.
     """
     yield _master_port()
@@ -31,13 +31,13 @@ def environment_checks(environment: Mapping[str, str], start: Path) -> Iterator[
     yield _master(environment)
     yield _host_name(environment)
     packages = Packages(environment, start=start)
-    yield _listed(environment, "ROS_PACKAGE_PATH", f"{len(packages.ros_packages())} packages found")
+    yield _check_path_variable(environment, "ROS_PACKAGE_PATH", f"{len(packages.ros_packages())} packages found")
     folders = packages.model_folders()
     models = sum(len(list(folder.glob("*/model.config"))) for folder in folders if os.path.isdir(folder))
-    yield _listed(environment, "GAZEBO_MODEL_PATH", f"{models} models found, ~/.gazebo/models included")
-    yield _writable("mesh cache", cache_folder(), "meshes are read again at each start")
+    yield _check_path_variable(environment, "GAZEBO_MODEL_PATH", f"{models} models found, ~/.gazebo/models included")
+    yield _check_writable("mesh cache", cache_folder(), "meshes are read again at each start")
     logs = Path(environment.get("ROS_LOG_DIR") or Path(environment.get("ROS_HOME") or Path.home() / ".ros") / "log")
-    yield _writable("logs", logs, "launches keep no logs; set ROS_LOG_DIR")
+    yield _check_writable("logs", logs, "launches keep no logs; set ROS_LOG_DIR")
 
 
 def _is_free(port: int) -> bool:
@@ -91,7 +91,7 @@ def _master(environment: Mapping[str, str]) -> Check:
 
 
 def _host_name(environment: Mapping[str, str]) -> Check:
-    """Return whether other nodes can reach those here by the name that they advertise."""
+    """Check whether other machines can resolve the host name that nodes here advertise."""
     variable = next((name for name in ("ROS_HOSTNAME", "ROS_IP") if environment.get(name)), None)
     host = environment[variable] if variable else socket.gethostname()
     name = variable or "host name"
@@ -103,23 +103,23 @@ def _host_name(environment: Mapping[str, str]) -> Check:
     return Check(name=name, state="ok", found=f"{host} is {', '.join(addresses)}")
 
 
-def _listed(environment: Mapping[str, str], variable: str, found: str) -> Check:
+def _check_path_variable(environment: Mapping[str, str], variable: str, found: str) -> Check:
     entries = [entry for entry in environment.get(variable, "").split(os.pathsep) if entry]
-    lost = [entry for entry in entries if not os.path.isdir(entry)]
-    if lost:
-        return Check(name=variable, state="problem", found=found, cost=f"no such folder: {', '.join(lost)}")
+    missing = [entry for entry in entries if not os.path.isdir(entry)]
+    if missing:
+        return Check(name=variable, state="problem", found=found, cost=f"no such folder: {', '.join(missing)}")
     return Check(
         name=variable, state="ok", found=f"{found}; {len(entries)} folders" if entries else f"not set; {found}"
     )
 
 
-def _writable(name: str, folder: Path, cost: str) -> Check:
-    there = next((each for each in (folder, *folder.parents) if os.path.exists(each)), folder)
-    if not os.access(there, os.W_OK):
+def _check_writable(name: str, folder: Path, cost: str) -> Check:
+    existing = next((path for path in (folder, *folder.parents) if os.path.exists(path)), folder)
+    if not os.access(existing, os.W_OK):
         return Check(name=name, state="problem", found=f"{folder} cannot be written", cost=cost)
     size = sum(path.stat().st_size for path in folder.rglob("*") if path.is_file() and not path.is_symlink())
-    free = shutil.disk_usage(there).free
+    free = shutil.disk_usage(existing).free
     found = f"{folder}: {size / 1e6:.1f} MB, {free / 1e9:.1f} GB free"
-    if free < _LEAST_FREE_BYTES:
+    if free < _MIN_FREE_BYTES:
         return Check(name=name, state="problem", found=found, cost="the disk is nearly full")
     return Check(name=name, state="ok", found=found)

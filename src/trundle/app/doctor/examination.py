@@ -12,10 +12,10 @@ from .machine import machine_checks
 
 
 def examine(environment: Mapping[str, str], start: Path) -> list[Check]:
-    """Return findings on this machine, its surroundings and the running graph, if there is one.
+    """Check this machine, its environment and the running graph, if there is one.
 
     Args:
-        environment: that of the commands.
+        environment: environment variables of the commands.
         start: working folder.
     """
     return [*machine_checks(environment), *environment_checks(environment, start), *_graph(environment)]

@@ -9,16 +9,16 @@ from trundle.ros import MasterProxy, RosError, blocking_call, uri_host
 
 _CALLER = "/roswtf"
 _TIMEOUT_S = 3.0
-_OWN_TOPICS = frozenset({"/rosout", "/rosout_agg", "/statistics", "/tf", "/tf_static"})
-"""Topics to which many nodes subscribe that need no publisher."""
+_OPTIONAL_TOPICS = frozenset({"/rosout", "/rosout_agg", "/statistics", "/tf", "/tf_static"})
+"""Topics with many subscribers that need no publisher."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GraphFault:
-    """Fault with the names that have it."""
+    """Fault, with the affected names."""
 
     is_error: bool
-    """False: it may be intended."""
+    """True: an error; False: a warning, as it may be intended."""
     what: str
     names: tuple[str, ...]
 
@@ -27,7 +27,7 @@ class GraphFault:
 
 
 def graph_faults(proxy: MasterProxy) -> list[GraphFault]:
-    """Ask the master and every node; return what is wrong.
+    """Query the master and every node; return the faults.
 
     Raises:
         MasterUnreachableError: no master answers.
@@ -41,30 +41,32 @@ def graph_faults(proxy: MasterProxy) -> list[GraphFault]:
     unconnected = (
         f"{topic}: {', '.join(names)}"
         for topic, names in sorted(subscribers.items())
-        if not publishers.get(topic) and topic not in _OWN_TOPICS
+        if not publishers.get(topic) and topic not in _OPTIONAL_TOPICS
     )
-    lost = (f"{service} ({node})" for service, names in sorted(services.items()) for node in names if node in dead)
-    found = [
-        _fault("Could not contact the following nodes:", _of(states, "dead"), is_error=True),
-        _fault("The addresses of the following nodes are unknown here:", _of(states, "unknown"), is_error=True),
-        _fault("The following services belong to nodes that do not answer:", lost, is_error=True),
+    unreachable = (
+        f"{service} ({node})" for service, names in sorted(services.items()) for node in names if node in dead
+    )
+    faults = [
+        _fault("Could not contact the following nodes:", _nodes_in(states, "dead"), is_error=True),
+        _fault("The addresses of the following nodes are unknown here:", _nodes_in(states, "unknown"), is_error=True),
+        _fault("The following services belong to nodes that do not answer:", unreachable, is_error=True),
         _fault(
             "The following topics are used with different types:",
-            _mismatches(proxy, _of(states, "alive")),
+            _mismatches(proxy, _nodes_in(states, "alive")),
             is_error=True,
         ),
         _fault("Nodes wait for /clock, which no node publishes:", _waiting(proxy, publishers), is_error=True),
         _fault("The following node subscriptions are unconnected:", unconnected, is_error=False),
     ]
-    return [fault for fault in found if fault.names]
+    return [fault for fault in faults if fault.names]
 
 
 def _fault(what: str, names: Iterator[str], *, is_error: bool) -> GraphFault:
     return GraphFault(is_error=is_error, what=what, names=tuple(names))
 
 
-def _of(states: dict[str, str], state: str) -> Iterator[str]:
-    return (node for node, each in states.items() if each == state)
+def _nodes_in(states: dict[str, str], state: str) -> Iterator[str]:
+    return (node for node, node_state in states.items() if node_state == state)
 
 
 def _state(proxy: MasterProxy, node: str) -> str:

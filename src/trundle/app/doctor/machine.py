@@ -1,4 +1,4 @@
-"""Programs and libraries of this machine."""
+"""Checks of the programs and libraries of this machine."""
 
 import os
 import platform
@@ -32,9 +32,10 @@ def machine_checks(environment: Mapping[str, str]) -> Iterator[Check]:
     yield Check(name="trundle", state="ok", found=version("trundle"))
     yield _mujoco()
     for module, (extra, cost) in _EXTRAS.items():
-        is_there = find_spec(module) is not None
-        yield Check(name=extra, state="ok" if is_there else "missing", found=module if is_there else "not installed",
-                    cost="" if is_there else cost)  # fmt: skip
+        if find_spec(module) is not None:
+            yield Check(name=extra, state="ok", found=module)
+        else:
+            yield Check(name=extra, state="missing", found="not installed", cost=cost)
     yield _gpu()
     path = environment.get("PATH", os.defpath)
     yield _first(
@@ -78,9 +79,13 @@ def _first(name: str, candidates: tuple[str, ...], find: Callable[[str], str | N
 
 
 def _ros(environment: Mapping[str, str]) -> Check:
-    """Return the tools of an installed ROS 1, those of this shell left out."""
-    own = environment.get("TRUNDLE_SHELL", "")
-    folders = [f for f in environment.get("PATH", "").split(os.pathsep) if f and not (own and f.startswith(own))]
+    """Check for the tools of an installed ROS 1, without those of `trundle shell`."""
+    shell_folder = environment.get("TRUNDLE_SHELL", "")
+    folders = [
+        f
+        for f in environment.get("PATH", "").split(os.pathsep)
+        if f and not (shell_folder and f.startswith(shell_folder))
+    ]
     installed = shutil.which("rostopic", path=os.pathsep.join([*folders, "/opt/ros/noetic/bin"]))
     if installed is None:
         cost = "compiled nodes of others do not run; trundle's commands and stand-ins need no ROS"
@@ -89,10 +94,10 @@ def _ros(environment: Mapping[str, str]) -> Check:
 
 
 def _browser(environment: Mapping[str, str], path: str) -> Check:
-    """Return the browser that can show the page; whether it has WebGL, only its page can say."""
-    found = next((each for name in _BROWSERS if (each := shutil.which(name, path=path))), None)
-    own_windows = sys.platform in ("darwin", "win32")
-    if own_windows or (found is not None and (environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY"))):
+    """Check for a browser that can show the page; only the page can check WebGL."""
+    found = next((program for name in _BROWSERS if (program := shutil.which(name, path=path))), None)
+    is_desktop = sys.platform in ("darwin", "win32")
+    if is_desktop or (found is not None and (environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY"))):
         return Check(name="browser", state="ok", found=found or "the system's")
     cost = "open the page on another machine: ssh -L 8080:localhost:8080 HERE; it needs WebGL 2, and says so"
     return Check(name="browser", state="missing", found=f"{found}, no display" if found else "none", cost=cost)

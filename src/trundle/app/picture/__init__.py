@@ -1,1 +1,1 @@
-"""`trundle render`: pictures and videos of what a file describes."""
+"""`trundle render`: images and videos of a robot or world."""

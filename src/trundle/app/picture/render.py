@@ -1,4 +1,4 @@
-"""Pictures of a description, from one of its cameras or in a three-quarter view."""
+"""Images of a description, from one of its cameras or in a three-quarter view."""
 
 from collections.abc import Mapping
 from colorsys import hsv_to_rgb
@@ -38,9 +38,9 @@ _SAMPLES = 2
 """Supersampling per axis, against jagged edges."""
 _MAX_PX = 3840 * 2160
 _GOLDEN = 0.61803398875
-_COLOURS = [(0.0, 0.0, 0.0)] + [hsv_to_rgb(i * _GOLDEN % 1.0, 0.5 + i % 3 * 0.2, 1.0 - i % 2 * 0.3) for i in range(255)]
-_PALETTE = np.round(np.array(_COLOURS) * 255.0).astype(np.uint8)
-"""(256, 3) RGB: black for the background, then colours that differ much from one to the next."""
+_COLORS = [(0.0, 0.0, 0.0)] + [hsv_to_rgb(i * _GOLDEN % 1.0, 0.5 + i % 3 * 0.2, 1.0 - i % 2 * 0.3) for i in range(255)]
+_PALETTE = np.round(np.array(_COLORS) * 255.0).astype(np.uint8)
+"""(256, 3) RGB: black for the background, then colors of which consecutive ones differ much."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,8 +51,8 @@ class PictureOptions:
     """Camera sensor's name; None: a three-quarter view of everything but planes."""
     size: tuple[int, int] | None = None
     """Width and height [px]; None: the camera's, or 800 × 600."""
-    content: Literal["colour", "depth", "segmentation"] = "colour"
-    """Depth is uint16 in millimetres, 0 for the background; segmentation has a colour per visual."""
+    content: Literal["color", "depth", "segmentation"] = "color"
+    """Depth is uint16 in millimetres, 0 for the background; segmentation has a color per visual."""
     at_s: float = 0.0
     """Simulated time of the picture [s]."""
     renderer: RendererName = "cpu"
@@ -67,11 +67,11 @@ class PictureRenderer:
         """Read a file and simulate it up to the picture's time.
 
         Args:
-            file: as `trundle run` takes it.
-            environment: variables that locate packages and models.
-            report: takes all findings.
-            start: packages are searched around it, too.
-            options: of the picture.
+            file: see `trundle run`.
+            environment: environment variables that locate packages and models.
+            report: collects all findings.
+            start: packages are searched around it too.
+            options: picture options.
 
         Raises:
             DescriptionError: the file cannot be read.
@@ -81,15 +81,15 @@ class PictureRenderer:
         loaded = load_world(file, packages, report)
         self._content = options.content
         self.empty_reason = empty_reason(loaded.flat)
-        """Reason why the picture is empty, or drawn from the URDF without physics; None: neither."""
+        """Why the picture is empty or drawn from the URDF without physics; None: neither."""
         self.simulation = Simulation(loaded.flat, report)
         scene = scene_from_world(loaded.flat, report)
-        self._written: NDArray[np.float64] = np.zeros((0, 7))
-        """(N, 7) poses of bodies that are drawn and not simulated."""
-        robot = loaded.robot if options.camera is None and not _is_seen(loaded.flat) else None
+        self._static_poses: NDArray[np.float64] = np.zeros((0, 7))
+        """(N, 7) poses of bodies that are drawn but not simulated."""
+        robot = loaded.robot if options.camera is None and not _has_visuals(loaded.flat) else None
         if robot is not None and any(link.visuals for link in robot.links):
-            self.empty_reason = "nothing of it can be simulated; it is drawn as it is written"
-            scene, self._written = _add_robot(scene, robot, packages, report)
+            self.empty_reason = "it cannot be simulated; it is drawn as in the file"
+            scene, self._static_poses = _add_robot(scene, robot, packages, report)
         if options.camera is None:
             scene = replace(scene, ambient=STUDIO_LIGHT, background=BACKDROP)
         self._scene, self._renderer = scene, RENDERERS[options.renderer](scene)
@@ -103,31 +103,34 @@ class PictureRenderer:
             self._sensor = _camera(options.camera, mount_cameras(self.simulation, lambda _: self._renderer))
             self._lens = self._sensor.intrinsics
             if options.content == "depth" and self._sensor.optics.lens is not None:
-                raise UsageError(f"camera {options.camera!r} is a wide-angle one; only pinholes see depths")
+                raise UsageError(f"camera {options.camera!r} is a wide-angle camera; depth needs a pinhole camera")
             if options.size is not None and not self._sensor.is_pinhole:
-                own = f"{self._lens.width_px}x{self._lens.height_px}"
-                raise UsageError(f"camera {options.camera!r} looks through a lens; its picture has its own size, {own}")
+                camera_size = f"{self._lens.width_px}x{self._lens.height_px}"
+                raise UsageError(
+                    f"camera {options.camera!r} has a lens; the size of its picture is fixed, {camera_size}"
+                )
             if options.size is not None:
                 self._lens = replace(self._lens, width_px=width, height_px=height)
         if self._lens.width_px * self._lens.height_px > _MAX_PX:
-            asked = f"{self._lens.width_px}x{self._lens.height_px}"
-            raise UsageError(f"a picture of {asked} is too large; it may have {_MAX_PX} pixels, as 3840x2160 has")
+            size = f"{self._lens.width_px}x{self._lens.height_px}"
+            raise UsageError(f"a picture of {size} is too large; it may have {_MAX_PX} pixels, as 3840x2160 has")
         if options.at_s > 0.0:
             self.simulation.run(options.at_s)
         added = [options.camera is None and model.added for model in loaded.flat.models for _ in model.links]
         self._ground = np.flatnonzero(added)
-        self._sunk_m = 0.0
+        self._ground_offset_m = 0.0
         self._cloud = scene_corners(scene, self._poses(self.simulation.snapshot()))
         rows = self._poses(self.simulation.snapshot())
         heights = [
-            lowest_point(each.geometry, pose_from_row(rows[each.body]) @ each.body_from_shape) for each in scene.shapes
+            lowest_point(shape.geometry, pose_from_row(rows[shape.body]) @ shape.body_from_shape)
+            for shape in scene.shapes
         ]
-        self._sunk_m = min([0.0, *heights])
+        self._ground_offset_m = min([0.0, *heights])
 
     def _poses(self, snapshot: Snapshot) -> NDArray[np.float64]:
-        """Poses to draw; the added ground plane is lowered to the lowest point, so that it hides nothing."""
-        poses = np.concatenate([snapshot.poses, self._written])
-        poses[self._ground, 2] += self._sunk_m
+        """Return the poses to draw; the added ground plane is lowered to the lowest point, to hide nothing."""
+        poses = np.concatenate([snapshot.poses, self._static_poses])
+        poses[self._ground, 2] += self._ground_offset_m
         return poses
 
     def render(self, *, turned_rad: float = 0.0) -> Image.Image:
@@ -136,35 +139,35 @@ class PictureRenderer:
         self._renderer.update(self._poses(snapshot))
         update_skins(self._renderer, self._scene, self.simulation.animation_state)
         if self._sensor is not None:
-            eye = self._sensor.world_from_camera(snapshot)
+            world_from_camera = self._sensor.world_from_camera(snapshot)
         else:
-            eye = three_quarter_pose(self._cloud, self._lens, turned_rad)
-        bent = None if self._sensor is None or self._sensor.is_pinhole else self._sensor.projection
+            world_from_camera = three_quarter_pose(self._cloud, self._lens, turned_rad)
+        distorted = None if self._sensor is None or self._sensor.is_pinhole else self._sensor.projection
 
-        def drawn(view: CameraProjection, *, depth: bool = False, segmentation: bool = False) -> Picture:
-            views = [(eye @ face, lens) for face, lens in view.pinhole_views]
+        def render_view(view: CameraProjection, *, depth: bool = False, segmentation: bool = False) -> Picture:
+            views = [(world_from_camera @ face, lens) for face, lens in view.pinhole_views]
             return view.compose(self._renderer.render(views, depth=depth, segmentation=segmentation))
 
-        view = bent or PinholeProjection(self._lens)
+        view = distorted or PinholeProjection(self._lens)
         if self._content == "depth":
-            ranges = drawn(view, depth=True).depth
+            ranges = render_view(view, depth=True).depth
             assert ranges is not None
             millimetres = np.where(np.isfinite(ranges), np.minimum(ranges * 1000.0, 65535.0), 0.0)
             return Image.fromarray(millimetres.astype(np.uint16))
         if self._content == "segmentation":
-            segments = drawn(view, segmentation=True).segmentation
+            segments = render_view(view, segmentation=True).segmentation
             assert segments is not None
             return Image.fromarray(_PALETTE[np.where(segments < 0, 0, segments % (len(_PALETTE) - 1) + 1)])
-        if bent is not None:
-            return Image.fromarray(drawn(bent).rgb)
+        if distorted is not None:
+            return Image.fromarray(render_view(distorted).rgb)
         width, height = self._lens.width_px, self._lens.height_px
         large = replace(self._lens, width_px=width * _SAMPLES, height_px=height * _SAMPLES)
-        picture = Image.fromarray(drawn(PinholeProjection(large)).rgb)
+        picture = Image.fromarray(render_view(PinholeProjection(large)).rgb)
         return picture.resize((width, height), Image.Resampling.BOX)
 
 
-def _is_seen(world: World) -> bool:
-    """True if a model of the file, not the added ground, has a visual."""
+def _has_visuals(world: World) -> bool:
+    """True if a model of the file has a visual, apart from the added ground."""
     return any(link.visuals for model in world.models if not model.added for link in model.links)
 
 
@@ -172,26 +175,26 @@ def _camera(name: str, cameras: list[CameraSensor]) -> CameraSensor:
     for camera in cameras:
         if camera.name == name:
             return camera
-    there = ", ".join(repr(camera.name) for camera in cameras) or "none"
-    raise UsageError(f"no camera {name!r}; cameras there: {there}")
+    names = ", ".join(repr(camera.name) for camera in cameras) or "none"
+    raise UsageError(f"no camera {name!r}; cameras there: {names}")
 
 
 def _add_robot(
     scene: Scene, robot: Robot, packages: Packages, report: Diagnostics
 ) -> tuple[Scene, NDArray[np.float64]]:
-    """Preview a URDF that cannot be simulated, such as one without masses, on the ground, its joints at zero.
+    """Add a URDF that cannot be simulated, such as one without masses, on the ground with joints at zero.
 
     Returns:
-        the scene with the robot's links as further bodies; their (links, 7) poses in the world.
+        The scene with the robot's links as further bodies, and their (links, 7) poses in the world.
     """
-    from .robot_scene import robot_scene  # slow to load; other pictures do not need it
+    from .robot_scene import robot_scene  # slow to import; other pictures do not need it
 
-    drawn = robot_scene(robot, packages, report)
+    robot_part = robot_scene(robot, packages, report)
     poses = root_from_links(robot, {})
-    links = [poses[name] for name in drawn.bodies]
-    heights = [lowest_point(shape.geometry, links[shape.body] @ shape.body_from_shape) for shape in drawn.shapes]
+    links = [poses[name] for name in robot_part.bodies]
+    heights = [lowest_point(shape.geometry, links[shape.body] @ shape.body_from_shape) for shape in robot_part.shapes]
     rows = rows_from_poses(links)
     rows[:, 2] -= min(heights, default=0.0)
     first = len(scene.bodies)
-    moved = tuple(replace(shape, body=shape.body + first) for shape in drawn.shapes)
-    return replace(scene, bodies=(*scene.bodies, *drawn.bodies), shapes=(*scene.shapes, *moved)), rows
+    moved = tuple(replace(shape, body=shape.body + first) for shape in robot_part.shapes)
+    return replace(scene, bodies=(*scene.bodies, *robot_part.bodies), shapes=(*scene.shapes, *moved)), rows

@@ -1,4 +1,4 @@
-"""A URDF as rviz's RobotModel draws it: every link as written, nothing lumped."""
+"""Scene of a URDF as rviz's RobotModel draws it: every link as written, without merging fixed ones."""
 
 from pathlib import Path
 
@@ -9,14 +9,14 @@ from trundle.robots.packages import Packages
 from trundle.robots.robot import Robot, RobotBox, RobotCylinder, RobotMesh, RobotShape, RobotSphere
 from trundle.sim.render import Scene, Shape, ShapeGeometry
 
-_UNPAINTED: Rgba = (1.0, 0.0, 0.0, 1.0)
-"""rviz draws what has no material in red; the first robot of urdf_tutorial is known for it."""
+_NO_MATERIAL: Rgba = (1.0, 0.0, 0.0, 1.0)
+"""rviz draws shapes without a material in red, as in the first robot of urdf_tutorial."""
 
 
 def robot_scene(robot: Robot, packages: Packages, report: Diagnostics, *, collisions: bool = False) -> Scene:
-    """Turn a robot's visuals, or its collision shapes, into a scene whose bodies are the links, root first.
+    """Return a scene of a robot's visuals, or its collision shapes; its bodies are the links, root first.
 
-    A mesh that cannot be found or read is named and left out.
+    A mesh that cannot be found or read is reported and left out.
     """
     links = sorted(robot.links, key=lambda link: link.name != robot.root)  # stable: the others stay in file order
     shapes: list[Shape] = []
@@ -25,24 +25,24 @@ def robot_scene(robot: Robot, packages: Packages, report: Diagnostics, *, collis
             geometry = _geometry(shape, packages, report)
             if geometry is None:
                 continue
-            look = shape.rgba or _seen_from_afar(shape, packages, report)
+            rgba = shape.rgba or _texture_color(shape, packages, report)
             shapes += (
                 Shape(
                     name=shape.name or link.name,
                     body=body,
-                    geometry=piece,
+                    geometry=part,
                     body_from_shape=shape.link_from_shape,
-                    rgba=look or (piece.rgba if isinstance(piece, Mesh) else None) or _UNPAINTED,
+                    rgba=rgba or (part.rgba if isinstance(part, Mesh) else None) or _NO_MATERIAL,
                 )
-                for piece in (
-                    geometry.split_by_material() if isinstance(geometry, Mesh) and look is None else (geometry,)
+                for part in (
+                    geometry.split_by_material() if isinstance(geometry, Mesh) and rgba is None else (geometry,)
                 )
             )
     return Scene(bodies=tuple(link.name for link in links), shapes=tuple(shapes))
 
 
-def _seen_from_afar(shape: RobotShape, packages: Packages, report: Diagnostics) -> Rgba | None:
-    """The colour of its texture: the page draws none."""
+def _texture_color(shape: RobotShape, packages: Packages, report: Diagnostics) -> Rgba | None:
+    """Return the mean color of a shape's texture, since the page draws no textures."""
     if not shape.texture:
         return None
     try:

@@ -23,30 +23,30 @@ VIDEO_SUFFIXES = (".mp4", *_PILLOW)
 """Suffixes of video files."""
 
 
-def turntable(studio: PictureRenderer) -> Iterator[Image.Image]:
+def turntable(renderer: PictureRenderer) -> Iterator[Image.Image]:
     """Yield frames of one turn around a scene at rest."""
     count = int(_TURN_S * FRAMES_PER_S)
     for i in range(count):
-        yield studio.render(turned_rad=2.0 * math.pi * i / count)
+        yield renderer.render(turned_rad=2.0 * math.pi * i / count)
 
 
-def simulated_frames(studio: PictureRenderer, duration_s: float) -> Iterator[Image.Image]:
+def simulated_frames(renderer: PictureRenderer, duration_s: float) -> Iterator[Image.Image]:
     """Yield frames of the simulation from now on, at real-time speed."""
-    start_ns = studio.simulation.time_ns
+    start_ns = renderer.simulation.time_ns
     for i in range(max(round(duration_s * FRAMES_PER_S), 1)):
-        behind_s = (start_ns - studio.simulation.time_ns) * 1e-9 + i / FRAMES_PER_S
-        if behind_s > 0.0:
-            studio.simulation.run(behind_s)
-        yield studio.render()
+        remaining_s = (start_ns - renderer.simulation.time_ns) * 1e-9 + i / FRAMES_PER_S
+        if remaining_s > 0.0:
+            renderer.simulation.run(remaining_s)
+        yield renderer.render()
 
 
 def write_video(frames: Iterator[Image.Image], output: Path, *, report_progress: Callable[[int], None]) -> None:
     """Write frames to a file, in the format of its suffix.
 
     Args:
-        frames: all of one size.
-        output: ends in one of `VIDEO_SUFFIXES`.
-        report_progress: takes the number of frames done.
+        frames: images of equal size.
+        output: path with one of `VIDEO_SUFFIXES`.
+        report_progress: called with the number of written frames.
 
     Raises:
         UsageError: it cannot be written, or its package is not installed.
@@ -62,11 +62,11 @@ def write_video(frames: Iterator[Image.Image], output: Path, *, report_progress:
 
 
 def _write_pillow(frames: Iterator[Image.Image], output: Path, report_progress: Callable[[int], None]) -> None:
-    kept: list[Image.Image] = []
+    images: list[Image.Image] = []
     for frame in frames:
-        kept.append(frame)
-        report_progress(len(kept))
-    first, *rest = kept
+        images.append(frame)
+        report_progress(len(images))
+    first, *rest = images
     duration_ms = 1000 // FRAMES_PER_S
     first.save(output, _PILLOW[output.suffix.lower()], save_all=True, append_images=rest, duration=duration_ms, loop=0)
 
@@ -75,8 +75,8 @@ def _write_mp4(frames: Iterator[Image.Image], output: Path, report_progress: Cal
     try:
         import av
     except ImportError:
-        what = "mp4 needs the package 'av': pip install 'trundle[video]'; .webp, .apng and .gif need nothing"
-        raise UsageError(what) from None
+        message = "mp4 needs the package 'av': pip install 'trundle[video]'; .webp, .apng and .gif need no package"
+        raise UsageError(message) from None
     with av.open(str(output), "w", format="mp4") as container:
         stream = container.add_stream("libx264", rate=FRAMES_PER_S, options={"crf": "20"})
         stream.pix_fmt = "yuv420p"

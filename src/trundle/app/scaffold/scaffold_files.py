@@ -1,4 +1,4 @@
-"""Files of each kind, and how they are written."""
+"""Files of each kind of scaffold, and their writer."""
 
 import os
 import re
@@ -18,14 +18,14 @@ ROBOTS = ("differential", "car", "arm", "quadruped")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scaffold:
-    """Kind of thing to write."""
+    """Files of one kind, and their next steps."""
 
     files: Mapping[str, str]
-    """Path, with @NAME@ → template."""
+    """Path with @NAME@ → template."""
     next_steps: tuple[str, ...]
     """Commands that run it."""
     needs_package: bool = False
-    """True: it is found only in a package."""
+    """True: ROS finds it only in a package."""
     is_camel_case: bool = False
 
 
@@ -49,7 +49,7 @@ _NODE = {
 
 
 def scaffolds(robot: str = ROBOTS[0]) -> dict[str, Scaffold]:
-    """Return what can be written, by name; those of packages go into one.
+    """Return the scaffolds by kind.
 
     Args:
         robot: one of ROBOTS.
@@ -95,10 +95,10 @@ def write_scaffold(scaffold: Scaffold, name: str, folder: Path, *, package: str)
     """Write the files; return their paths.
 
     Args:
-        scaffold: what to write.
-        name: of the thing.
-        folder: the package's, or another.
-        package: its name.
+        scaffold: scaffold to write.
+        name: name of the package, robot, world or other kind.
+        folder: folder to write to, such as a package's.
+        package: name of the package; empty: none.
 
     Raises:
         UsageError: an invalid name, or a file that exists or cannot be written; then nothing is written.
@@ -106,7 +106,9 @@ def write_scaffold(scaffold: Scaffold, name: str, folder: Path, *, package: str)
     _check_name(name, is_camel_case=scaffold.is_camel_case)
     values = {"@NAME@": name, "@PACKAGE@": package, "@CLASS@": "".join(part.title() for part in name.split("_"))}
     texts = {
-        folder / _filled(path, values): _filled((_TEMPLATES / f"{template}.in").read_text(encoding="utf-8"), values)
+        folder / _substitute(path, values): _substitute(
+            (_TEMPLATES / f"{template}.in").read_text(encoding="utf-8"), values
+        )
         for path, template in scaffold.files.items()
     }
     for path in texts:
@@ -124,11 +126,11 @@ def write_scaffold(scaffold: Scaffold, name: str, folder: Path, *, package: str)
 
 
 def next_steps(scaffold: Scaffold, name: str, package: str) -> list[str]:
-    """Return the commands that run what was written."""
-    return [_filled(step, {"@NAME@": name, "@PACKAGE@": package}) for step in scaffold.next_steps]
+    """Return the commands that run the written files."""
+    return [_substitute(step, {"@NAME@": name, "@PACKAGE@": package}) for step in scaffold.next_steps]
 
 
-def _filled(text: str, values: Mapping[str, str]) -> str:
+def _substitute(text: str, values: Mapping[str, str]) -> str:
     for variable, value in values.items():
         text = text.replace(variable, value)
     return text
@@ -136,6 +138,6 @@ def _filled(text: str, values: Mapping[str, str]) -> str:
 
 def _check_name(name: str, *, is_camel_case: bool) -> None:
     if is_camel_case and _CAMEL_CASE.fullmatch(name) is None:
-        raise UsageError(f"{name!r} is not a name of a message; they are like WheelSpeed")
+        raise UsageError(f"{name!r} is not a message name, such as WheelSpeed")
     if _NAME.fullmatch(name) is None:
         raise UsageError(f"{name!r} is not a name; letters, digits and _ are allowed, a letter first")

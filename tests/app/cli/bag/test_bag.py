@@ -1,4 +1,4 @@
-"""`trundle bag`, with rosbag's output; each reads the other's bags."""
+"""`trundle bag`, with rosbag's output; Trundle and rosbag read each other's bags."""
 
 import os
 import re
@@ -38,7 +38,7 @@ def _started(*command: str, **environment: str) -> Iterator["subprocess.Popen[st
 def bag(tmp_path: Path) -> Path:
     """Two topics over one second, one of them latched."""
     messages = Messages()
-    path = tmp_path / "made.bag"
+    path = tmp_path / "points.bag"
     with create_bag(path) as out:
         for i in range(21):
             kind, fields = ("geometry_msgs/PointStamped", {"header": {"stamp": {"secs": i}}, "point": {"x": i}})
@@ -59,7 +59,7 @@ def bag(tmp_path: Path) -> Path:
 
 
 def _on_disk(path: Path) -> int:
-    """Messages already on disk, which SIGKILL would not lose."""
+    """Number of messages already on disk, which survive SIGKILL."""
     try:
         return sum(1 for _ in recover_messages(path))
     except BagError:  # the file has no message yet
@@ -73,7 +73,7 @@ def _counts(path: Path) -> dict[str, int]:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 @pytest.mark.parametrize("name", ["x.bag", "x.mcap"])
-def test_a_recording_that_is_ended_can_be_read(graph: Any, tmp_path: Path, name: str, number: signal.Signals) -> None:
+def test_an_interrupted_recording_can_be_read(graph: Any, tmp_path: Path, name: str, number: signal.Signals) -> None:
     publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
     path = tmp_path / name
     with _started("-m", "trundle", "bag", "record", "-O", str(path), "/a") as process:
@@ -99,8 +99,8 @@ def test_a_recording_that_is_ended_can_be_read(graph: Any, tmp_path: Path, name:
     assert _counts(path) == {"/a": 200}
 
 
-def test_the_old_form_of_a_size_is_understood(graph: Any, tmp_path: Path) -> None:
-    """Scripts of before 2012 write `rosbag record --split 1024`."""
+def test_the_deprecated_split_size_is_accepted(graph: Any, tmp_path: Path) -> None:
+    """Scripts written before 2012 have `rosbag record --split 1024`."""
     publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
     record = ["-m", "trundle", "bag", "record", "--split", "1", "/a", "-O", str(tmp_path / "x.bag")]
     with _started(*record) as process:
@@ -119,7 +119,7 @@ def test_the_old_form_of_a_size_is_understood(graph: Any, tmp_path: Path) -> Non
     assert f"]: Closing '{tmp_path / 'x_0.bag'}'.\n" in out
 
 
-def test_a_recording_in_a_shells_background_hears_sigint(graph: Any, tmp_path: Path) -> None:
+def test_a_background_job_of_a_shell_handles_sigint(graph: Any, tmp_path: Path) -> None:
     """Scripts write `rosbag record … & kill -INT $!`; a shell starts its background jobs with SIGINT ignored."""
     publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
     path = tmp_path / "x.bag"
@@ -133,13 +133,13 @@ def test_a_recording_in_a_shells_background_hears_sigint(graph: Any, tmp_path: P
     assert path.exists()
 
 
-def test_a_bag_is_played_at_its_pace_with_its_clock(graph: Any, bag: Path) -> None:
-    got: list[tuple[str, Any]] = []
+def test_a_bag_is_played_with_rate_and_clock(graph: Any, bag: Path) -> None:
+    messages: list[tuple[str, Any]] = []
     clock: list[int] = []
     node = graph.node("listener")
     subscriptions = [
-        node.subscribe("/points", "geometry_msgs/PointStamped", lambda m: got.append(("/points", m.point.x))),
-        node.subscribe("/moved", STRING, lambda m: got.append(("/moved", m.data))),
+        node.subscribe("/points", "geometry_msgs/PointStamped", lambda m: messages.append(("/points", m.point.x))),
+        node.subscribe("/moved", STRING, lambda m: messages.append(("/moved", m.data))),
         node.subscribe("/clock", "rosgraph_msgs/Clock", lambda m: clock.append(m.clock.sec * 10**9 + m.clock.nanosec)),
     ]
     graph.ready(node)
@@ -154,9 +154,9 @@ def test_a_bag_is_played_at_its_pace_with_its_clock(graph: Any, bag: Path) -> No
     assert out.splitlines()[0].endswith(f": Opening {bag}")
     assert out.endswith("\nWaiting 0 seconds after advertising topics... done.\n\n"
                         "Hit space to toggle paused, or 's' to step.\n\nDone.\n")  # fmt: skip
-    graph.until(lambda: len(got) >= 13)
-    assert [value for topic, value in got if topic == "/points"] == [4.0, *map(float, range(6, 17))]
-    assert ("/moved", "map") in got
+    graph.until(lambda: len(messages) >= 13)
+    assert [value for topic, value in messages if topic == "/points"] == [4.0, *map(float, range(6, 17))]
+    assert ("/moved", "map") in messages
     assert clock == sorted(clock)
     assert START_NS + 200_000_000 <= clock[0] <= clock[-1] < START_NS + 900_000_000
 
@@ -183,8 +183,8 @@ def test_bags_are_described_filtered_and_compressed(graph: Any, bag: Path, tmp_p
     assert graph.trundle("bag", "check", str(some)) == (0, "Bag file does not need any migrations.\n", "")
 
 
-def test_filter_ends_and_prints_as_rosbags_does(graph: Any, bag: Path, tmp_path: Path) -> None:
-    """Scripts look at its exit codes."""
+def test_filter_has_rosbags_output_and_exit_codes(graph: Any, bag: Path, tmp_path: Path) -> None:
+    """Scripts use the exit codes."""
     copy = str(tmp_path / "copy.bag")
     assert graph.trundle("bag", "filter", "none.bag", copy, "True")[0] == 2
     assert graph.trundle("bag", "filter", str(bag), str(bag), "True")[0] == 3
@@ -196,8 +196,8 @@ def test_filter_ends_and_prints_as_rosbags_does(graph: Any, bag: Path, tmp_path:
 
 
 @pytest.mark.parametrize("name", ["out.bag", "out.mcap"])
-def test_a_bag_that_does_not_fit_leaves_the_last_one(bag: Path, tmp_path: Path, name: str) -> None:
-    """`bag filter` had removed the last one, and left the beginning of another."""
+def test_a_full_disk_leaves_the_existing_bag(bag: Path, tmp_path: Path, name: str) -> None:
+    """`bag filter` used to replace the existing bag by an incomplete one."""
     last, source, out = (tmp_path / folder / name for folder in ("last", "source", "out"))
     for path in (last, source, out):
         path.parent.mkdir()
@@ -209,15 +209,15 @@ def test_a_bag_that_does_not_fit_leaves_the_last_one(bag: Path, tmp_path: Path, 
     ):
         arguments = [sys.executable, "-m", "trundle", "bag", *map(str, words)]
         limited = ["sh", "-c", 'ulimit -f 1; exec "$@"', "sh", *arguments]
-        done = subprocess.run(limited, capture_output=True, text=True, check=False)
-        assert done.returncode == 1
-        assert re.fullmatch(rf"ERROR: {out}(\.part)? cannot be written: File too large\n", done.stderr)
+        process = subprocess.run(limited, capture_output=True, text=True, check=False)
+        assert process.returncode == 1
+        assert re.fullmatch(rf"ERROR: {out}(\.part)? cannot be written: File too large\n", process.stderr)
         assert [path.name for path in out.parent.iterdir()] == [name]
         assert out.read_bytes() == last.read_bytes()
 
 
 @pytest.mark.real_ros
-def test_progress_is_rosbags(graph: Any, original: Any, bag: Path, tmp_path: Path) -> None:
+def test_progress_is_printed_like_rosbag(graph: Any, original: Any, bag: Path, tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
     options = ["--output-dir", str(tmp_path / "out")]
     cut_off = tmp_path / "cut_off.bag"
@@ -229,8 +229,8 @@ def test_progress_is_rosbags(graph: Any, original: Any, bag: Path, tmp_path: Pat
         ["decompress", str(bag), *options],
         ["reindex", str(cut_off), *options],
     ):
-        ours, theirs = graph.trundle("bag", *arguments)[1], original("rosbag", *arguments)
-        assert _without_time(ours) == _without_time(theirs)
+        output, expected = graph.trundle("bag", *arguments)[1], original("rosbag", *arguments)
+        assert _without_time(output) == _without_time(expected)
 
 
 def _without_time(text: str) -> str:
@@ -238,23 +238,23 @@ def _without_time(text: str) -> str:
 
 
 @pytest.mark.real_ros
-def test_a_recorded_topic_has_the_name_it_was_asked_for_by(graph: Any, original: Any, tmp_path: Path) -> None:
-    """`<remap from="scan" to="/robot/scan"/>` of a launch file changes the topic subscribed to, not the one written."""
+def test_a_remapped_topic_is_recorded_by_its_given_name(graph: Any, original: Any, tmp_path: Path) -> None:
+    """`<remap from="scan" to="/robot/scan"/>` changes the topic that is subscribed to, not the topic in the bag."""
     node = graph.node("talker")
     node.advertise("/robot/scan", STRING, latch=True).publish({"data": "hello"})
     graph.ready(node)
     for topic in ("scan", "/scan"):
         words = ["bag", "record", "-q", "-l", "1", topic, "/scan:=/robot/scan", "-O"]
-        assert graph.trundle(*words, str(tmp_path / "ours.bag"))[0] == 0
-        original(f"ros{words[0]}", *words[1:], str(tmp_path / "theirs.bag"))
-        assert _counts(tmp_path / "ours.bag") == _counts(tmp_path / "theirs.bag") == {topic: 1}
+        assert graph.trundle(*words, str(tmp_path / "trundle.bag"))[0] == 0
+        original(f"ros{words[0]}", *words[1:], str(tmp_path / "rosbag.bag"))
+        assert _counts(tmp_path / "trundle.bag") == _counts(tmp_path / "rosbag.bag") == {topic: 1}
 
 
 @pytest.mark.real_ros
-def test_a_remapping_after_topics_is_none_of_them(graph: Any, original: Any, bag: Path) -> None:
+def test_a_remapping_after_topics_is_not_a_topic(graph: Any, original: Any, bag: Path) -> None:
     """A launch file's <remap> comes after its args."""
-    got: list[str] = []
-    graph.node("listener").subscribe("/robot/moved", STRING, lambda m: got.append(m.data))
+    received: list[str] = []
+    graph.node("listener").subscribe("/robot/moved", STRING, lambda m: received.append(m.data))
     words = [
         "-q",
         "--wait-for-subscribers",
@@ -267,12 +267,12 @@ def test_a_remapping_after_topics_is_none_of_them(graph: Any, original: Any, bag
         "__ns:=/robot",
     ]
     assert graph.trundle("bag", "play", *words)[0] == 0
-    graph.until(lambda: got == ["map"])
+    graph.until(lambda: received == ["map"])
     original("rosbag", "play", *words)
-    graph.until(lambda: got == ["map", "map"])
+    graph.until(lambda: received == ["map", "map"])
 
 
-def test_what_udp_was_asked_for_comes_over_tcp(graph: Any, tmp_path: Path) -> None:
+def test_udp_is_replaced_by_tcp(graph: Any, tmp_path: Path) -> None:
     node = graph.node("talker")
     node.advertise("/a", STRING, latch=True).publish({"data": "hello"})
     graph.ready(node)
@@ -294,7 +294,7 @@ def test_topics_and_types_are_read_from_a_bag(graph: Any, bag: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "complaint"),
+    ("arguments", "message"),
     [
         (["record"], "You must specify a topic name"),
         (["record", "-e", "["], "not a regular expression: '['"),
@@ -308,10 +308,10 @@ def test_topics_and_types_are_read_from_a_bag(graph: Any, bag: Path) -> None:
         (["filter", "none.bag", "x.bag", "True"], "Cannot locate input bag file [none.bag]"),
     ],
 )
-def test_what_cannot_be_done_is_one_sentence(graph: Any, arguments: list[str], complaint: str) -> None:
+def test_errors_are_one_sentence(graph: Any, arguments: list[str], message: str) -> None:
     code, _, error = graph.trundle("bag", *arguments)
     assert code in (1, 2)
-    assert complaint in error
+    assert message in error
     assert "Traceback" not in error
 
 
@@ -326,19 +326,19 @@ def test_what_cannot_be_done_is_one_sentence(graph: Any, arguments: list[str], c
         ["fix", "x.bag", "x.bmr"],
     ],
 )
-def test_wrong_words_end_as_rosbags_do(graph: Any, arguments: list[str]) -> None:
+def test_wrong_usage_exits_like_rosbag(graph: Any, arguments: list[str]) -> None:
     code, _, error = graph.trundle("bag", *arguments)
     assert (code, error.startswith(f"usage: trundle bag {arguments[0]} ")) == (2, True)
 
 
-def test_a_key_that_is_not_there_is_said_and_the_next_bag_follows(graph: Any, bag: Path) -> None:
+def test_a_missing_key_is_an_error_for_each_bag(graph: Any, bag: Path) -> None:
     code, out, error = graph.trundle("bag", "info", "-y", "-k", "topics[9]", str(bag), str(bag))
     assert (code, out, error) == (0, "---\n", 'Error getting key "topics[9]"\n' * 2)
 
 
 @pytest.mark.slow
 @pytest.mark.real_ros
-def test_every_line_of_info_is_rosbags(graph: Any, original: Any, bag: Path) -> None:
+def test_info_prints_the_lines_of_rosbag(graph: Any, original: Any, bag: Path) -> None:
     keys = ("end", "topics", "types", "topics[0]", "topics[-1].type", "nope")
     for compression in (None, "-j", "--lz4"):
         if compression:
@@ -351,24 +351,24 @@ def test_every_line_of_info_is_rosbags(graph: Any, original: Any, bag: Path) -> 
 
 @pytest.mark.real_ros
 @pytest.mark.parametrize("compression", ["none", "bz2", "lz4"])
-def test_bags_of_ours_are_reindexed_by_the_original(graph: Any, original: Any, bag: Path, compression: str) -> None:
+def test_rosbag_reindexes_bags_written_by_trundle(graph: Any, original: Any, bag: Path, compression: str) -> None:
     if compression != "none":
         assert graph.trundle("bag", "compress", "-q", f"--{compression}", str(bag))[0] == 0
-        (bag.parent / "made.orig.bag").unlink()
+        (bag.parent / "points.orig.bag").unlink()
     original("rosbag", "reindex", "-q", str(bag))
-    assert (bag.parent / "made.orig.bag").exists()
+    assert (bag.parent / "points.orig.bag").exists()
     assert _counts(bag) == {"/points": 20, "/fixed": 1}
 
 
 @pytest.mark.real_ros
 @pytest.mark.parametrize("compression", ["none", "-j", "--lz4"])
-def test_bags_of_ours_are_played_by_the_original(
+def test_rosbag_plays_bags_written_by_trundle(
     graph: Any, original: Any, bag: Path, tmp_path: Path, compression: str
 ) -> None:
-    got: list[float] = []
+    points: list[float] = []
     fixed: list[str] = []
     node = graph.node("listener")
-    node.subscribe("/points", "geometry_msgs/PointStamped", lambda m: got.append(m.point.x), queue_size=None)
+    node.subscribe("/points", "geometry_msgs/PointStamped", lambda m: points.append(m.point.x), queue_size=None)
     node.subscribe("/fixed", STRING, lambda m: fixed.append(m.data))
     graph.ready(node)
     if compression != "none":
@@ -376,31 +376,31 @@ def test_bags_of_ours_are_played_by_the_original(
     play = ["/usr/lib/rosbag/play", "--wait-for-subscribers", "-q", str(bag)]
     with _started(*play, ROS_IP="127.0.0.1", HOME=str(tmp_path)) as process:
         assert process.wait(PATIENCE_S) == 0
-    graph.until(lambda: len(got) == 20)
+    graph.until(lambda: len(points) == 20)
     graph.until(lambda: fixed == ["map"])
 
 
 @pytest.mark.real_ros
 @pytest.mark.parametrize("compression", ["none", "-j", "--lz4"])
-def test_bags_of_the_original_are_read_here(graph: Any, original: Any, tmp_path: Path, compression: str) -> None:
+def test_trundle_reads_bags_written_by_rosbag(graph: Any, original: Any, tmp_path: Path, compression: str) -> None:
     node = graph.node("talker")
     publisher = node.advertise("/points", "geometry_msgs/PointStamped")
     fixed = node.advertise("/fixed", STRING, latch=True)
     fixed.publish({"data": "map"})
-    theirs = tmp_path / "theirs.bag"
+    path = tmp_path / "rosbag.bag"
     options = [] if compression == "none" else [compression]
-    record = ["/usr/lib/rosbag/record", *options, "--chunksize=1", "-O", str(theirs), "/points", "/fixed"]
+    record = ["/usr/lib/rosbag/record", *options, "--chunksize=1", "-O", str(path), "/points", "/fixed"]
     with _started(*record, ROS_IP="127.0.0.1", HOME=str(tmp_path)) as process:
         graph.until(lambda: publisher.has_subscribers and fixed.has_subscribers)
 
         def is_written() -> bool:
             publisher.publish({"point": {"x": 1.5}})
-            return _on_disk(theirs.with_name("theirs.bag.active")) > 20
+            return _on_disk(path.with_name("rosbag.bag.active")) > 20
 
         graph.until(is_written)
         process.send_signal(signal.SIGINT)
         assert process.wait(PATIENCE_S) == 0
-    counts = _counts(theirs)
+    counts = _counts(path)
     assert counts["/fixed"] == 1
     assert counts["/points"] >= 20
-    assert graph.trundle("bag", "play", "-i", "-q", str(theirs))[0] == 0
+    assert graph.trundle("bag", "play", "-i", "-q", str(path))[0] == 0

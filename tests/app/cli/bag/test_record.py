@@ -37,19 +37,19 @@ def _counts(path: Path) -> dict[str, int]:
         return dict(zip([c.topic for c in bag.connections], bag.counts, strict=True))
 
 
-def test_a_silent_recording_ends_at_its_time_too(graph: Any, tmp_path: Path) -> None:
-    """The time counts from the start of the recording, as in rosbag, not from the first message."""
+def test_a_recording_without_messages_ends_after_its_duration(graph: Any, tmp_path: Path) -> None:
+    """As in rosbag, the duration starts with the recording, not with the first message."""
     path = tmp_path / "x.bag"
     assert graph.trundle("bag", "record", "-q", "--duration", "0.5", "-O", str(path), "/silent")[0] == 0
     assert _counts(path) == {}
 
 
-def test_a_silent_recording_is_split_at_its_times(graph: Any, tmp_path: Path) -> None:
+def test_a_recording_without_messages_is_split_by_duration(graph: Any, tmp_path: Path) -> None:
     with _recording(tmp_path / "x.bag", "--split", "--duration", "0.5", "/silent"):
         graph.until((tmp_path / "x_1.bag").exists)
 
 
-def test_a_topic_is_recorded_beside_those_of_a_node(graph: Any, tmp_path: Path) -> None:
+def test_a_topic_is_recorded_in_addition_to_a_nodes_topics(graph: Any, tmp_path: Path) -> None:
     node = graph.node("talker")
     publishers = [node.advertise(topic, STRING, latch=True) for topic in ("/a", "/b", "/c")]
     for publisher in publishers:
@@ -63,19 +63,19 @@ def test_a_topic_is_recorded_beside_those_of_a_node(graph: Any, tmp_path: Path) 
 
 
 @pytest.mark.real_ros
-def test_a_prefix_that_ends_in_bag_loses_that(graph: Any, original: Any, tmp_path: Path) -> None:
+def test_the_suffix_bag_is_removed_from_a_prefix(graph: Any, original: Any, tmp_path: Path) -> None:
     node = graph.node("talker")
     node.advertise("/a", STRING, latch=True).publish({"data": "hello"})
     graph.ready(node)
     words = ["record", "-q", "-l", "1", "/a", "-o"]
-    assert graph.trundle("bag", *words, str(tmp_path / "ours.bag"))[0] == 0
-    original("rosbag", *words, str(tmp_path / "theirs.bag"))
-    assert sorted(path.name.partition("_")[0] for path in tmp_path.glob("*.bag")) == ["ours", "theirs"]
+    assert graph.trundle("bag", *words, str(tmp_path / "trundle.bag"))[0] == 0
+    original("rosbag", *words, str(tmp_path / "rosbag.bag"))
+    assert sorted(path.name.partition("_")[0] for path in tmp_path.glob("*.bag")) == ["rosbag", "trundle"]
 
 
 @pytest.mark.parametrize("cause", ["full", "removed"])
-def test_a_recording_that_breaks_off_fails(graph: Any, tmp_path: Path, cause: str) -> None:
-    """On a disk that is full (files of 512 or 1024 bytes times 20 are the largest), or without its folder."""
+def test_a_recording_that_cannot_be_written_fails(graph: Any, tmp_path: Path, cause: str) -> None:
+    """The disk is full (the largest file is 20 blocks of 512 or 1024 bytes), or the folder was removed."""
     publisher = graph.node("talker").advertise("/a", STRING, queue_size=None)
     folder = tmp_path / "bags"
     folder.mkdir()
@@ -90,18 +90,18 @@ def test_a_recording_that_breaks_off_fails(graph: Any, tmp_path: Path, cause: st
                 publisher.publish({"data": 1000 * "."})
                 time.sleep(0.005)
             assert process.stderr is not None
-            said = process.stderr.read()
+            errors = process.stderr.read()
         finally:
             process.kill()
-    why = "File too large" if cause == "full" else "No such file or directory"
+    reason = "File too large" if cause == "full" else "No such file or directory"
     assert process.returncode == 1
-    assert f"recording failed: {folder}/x.bag.active: {why}" in said
+    assert f"recording failed: {folder}/x.bag.active: {reason}" in errors
     if cause == "full":
         assert {message.connection.topic for message in recover_messages(folder / "x.bag.active")} >= {"/a"}
 
 
 @pytest.mark.slow
-def test_a_launch_whose_recording_breaks_off_fails(tmp_path: Path) -> None:
+def test_a_launch_whose_recording_cannot_be_written_fails(tmp_path: Path) -> None:
     file = tmp_path / "a.launch"
     file.write_text(
         '<launch><node pkg="rostopic" type="rostopic" name="talk" '
@@ -110,6 +110,6 @@ def test_a_launch_whose_recording_breaks_off_fails(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "trundle", "launch", str(file), "--headless", "--record", str(tmp_path / "x.bag")]
     env = {**os.environ, "HOME": str(tmp_path), "ROS_MASTER_URI": "http://127.0.0.1:0"}
     limited = ["sh", "-c", 'ulimit -f 2000 && exec "$@"', "sh", *command]
-    done = subprocess.run(limited, env=env, capture_output=True, text=True, check=False, timeout=PATIENCE_S)
-    assert done.returncode == 1
-    assert f"recording failed: {tmp_path}/x.bag.active: File too large" in done.stderr
+    process = subprocess.run(limited, env=env, capture_output=True, text=True, check=False, timeout=PATIENCE_S)
+    assert process.returncode == 1
+    assert f"recording failed: {tmp_path}/x.bag.active: File too large" in process.stderr

@@ -25,17 +25,17 @@ PACKAGE = """<package format="2"><name>old_rules</name><version>1.0.0</version><
 """
 BAGS: dict[str, Content] = {
     "new field": [("/p", POINT, OLD_POINT, [{"x": i, "y": -i} for i in range(3)])],
-    "types within": [
+    "nested types": [
         ("/s", "geometry_msgs/PointStamped", STAMPED, [{"header": {"stamp": {"secs": 4}, "frame": "map"}}]),
         ("/a", "geometry_msgs/PoseArray", POSES, [{"poses": [{"position": {"x": i}}] * i} for i in range(3)]),
     ],
-    "every kind": [
+    "changed fields": [
         ("/c", "std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\n", [{"r": 0.5}]),
         ("/j", "sensor_msgs/JointState", JOINTS + OLD_HEADER, [{"name": ["a", "b"], "velocity": [1, 2, 3]}]),
         ("/d", "std_msgs/MultiArrayDimension", "int32 A=5\nstring label\nuint32 size\nuint32 stride\n", [{"size": 3}]),
         ("/i", "sensor_msgs/CompressedImage", f"Header header\nuint8[] data{OLD_HEADER}", [{"data": b"abc"}]),
     ],
-    "nothing": [("/t", "std_msgs/String", "string data\n", [{"data": "x"}])],
+    "unchanged": [("/t", "std_msgs/String", "string data\n", [{"data": "x"}])],
 }
 
 
@@ -53,14 +53,14 @@ def _fields(path: Path, topic: str) -> list[Any]:
         ]
 
 
-def _dumped(path: Path) -> list[Any]:
+def _contents(path: Path) -> list[Any]:
     with open_bag(path) as bag:
         return [
             (m.stamp_ns, m.connection.topic, m.connection.type, m.connection.md5sum, m.data) for m in bag.messages()
         ]
 
 
-def test_rules_are_written_completed_and_run(graph: Any, old: Path, tmp_path: Path) -> None:
+def test_rules_are_generated_completed_and_applied(graph: Any, old: Path, tmp_path: Path) -> None:
     rules, new = tmp_path / "rules.bmr", tmp_path / "new.bag"
     before = old.read_bytes()
     code, out, _ = graph.trundle("bag", "fix", str(old), str(new))
@@ -79,8 +79,8 @@ def test_rules_are_written_completed_and_run(graph: Any, old: Path, tmp_path: Pa
     assert old.read_bytes() == before
 
 
-def test_rules_are_added_to_those_of_a_file(graph: Any, tmp_path: Path) -> None:
-    old = write_old_bag(tmp_path / "old.bag", [*BAGS["new field"], *BAGS["every kind"]])
+def test_rules_are_appended_to_a_rule_file(graph: Any, tmp_path: Path) -> None:
+    old = write_old_bag(tmp_path / "old.bag", [*BAGS["new field"], *BAGS["changed fields"]])
     rules = tmp_path / "rules.bmr"
     assert graph.trundle("bag", "check", str(old), "-a", "-g", str(rules))[0] == 2
     rules.write_text(RULE)
@@ -96,24 +96,24 @@ def test_rules_are_added_to_those_of_a_file(graph: Any, tmp_path: Path) -> None:
     assert rules.read_text() == text
 
 
-def test_force_leaves_new_fields_at_0(graph: Any, old: Path, tmp_path: Path) -> None:
+def test_force_sets_new_fields_to_0(graph: Any, old: Path, tmp_path: Path) -> None:
     new = tmp_path / "new.bag"
     assert graph.trundle("bag", "fix", "--force", str(old), str(new)) == (0, "Bag migrated successfully.\n", "")
     assert [(m.x, m.y, m.z) for m in _fields(new, "/p")] == [(0, 0, 0), (1, -1, 0), (2, -2, 0)]
 
 
-def test_a_text_that_was_lost_is_no_matter_where_the_sums_are_alike(graph: Any, tmp_path: Path) -> None:
+def test_a_wrong_definition_is_ignored_if_the_md5sums_are_equal(graph: Any, tmp_path: Path) -> None:
     old, new = tmp_path / "old.bag", tmp_path / "new.bag"
     for md5sum, code in ((Messages().md5("std_msgs/String"), 0), ("0" * 32, 1)):
         old.unlink(missing_ok=True)
         with create_bag(old) as out:
-            made = BagConnection(topic="/a", type="std_msgs/String", md5sum=md5sum, definition="Nix x\n")
-            out.write(BagMessage(made, 10**18, b"\1\0\0\0x"))
+            connection = BagConnection(topic="/a", type="std_msgs/String", md5sum=md5sum, definition="Nix x\n")
+            out.write(BagMessage(connection, 10**18, b"\1\0\0\0x"))
         assert graph.trundle("bag", "fix", str(old), str(new))[0] == code
     assert [message.data for message in _fields(new, "/a")] == ["x"]
 
 
-def test_where_a_type_moved_is_asked(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_new_name_of_a_type_is_prompted_for(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     old = write_old_bag(tmp_path / "old.bag", [("/v", "gone/Vector", "float64 x\nfloat64 y\nfloat64 z\n", [{"y": 2}])])
     rules, new, answers = tmp_path / "rules.bmr", tmp_path / "new.bag", iter(["nix/Nix", "geometry_msgs/Vector3"])
 
@@ -126,10 +126,10 @@ def test_where_a_type_moved_is_asked(graph: Any, tmp_path: Path, monkeypatch: py
     assert graph.trundle("bag", "fix", str(old), str(new), str(rules))[0] == 0
     assert [m.y for m in _fields(new, "/v")] == [2.0]
     assert graph.trundle("bag", "fix", "--force", str(old), str(new))[0] == 0
-    assert [kind for _, _, kind, *_ in _dumped(new)] == ["gone/Vector"]
+    assert [kind for _, _, kind, *_ in _contents(new)] == ["gone/Vector"]
 
 
-def test_no_answer_is_no_rule_file(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_an_answer_no_rule_file_is_written(graph: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     old = write_old_bag(tmp_path / "old.bag", [("/v", "gone/Vector", "float64 x\n", [{}])])
 
     def end(_: str) -> str:
@@ -142,28 +142,28 @@ def test_no_answer_is_no_rule_file(graph: Any, tmp_path: Path, monkeypatch: pyte
 
 
 @pytest.mark.parametrize(
-    ("text", "complaint"),
+    ("text", "message"),
     [
         (RULE.replace("+ 1", "+ nix"), "rules.bmr:7: NameError: name 'nix' is not defined"),
         (RULE.replace("+ 1", "+"), "rules.bmr:7: invalid syntax"),
         (RULE.replace("old_msg.x + 1", "'a'"), "rules.bmr:6: a: field 'z' is a float64, got 'a'"),
     ],
 )
-def test_a_rule_that_fails_leaves_everything_as_it_was(
-    graph: Any, old: Path, tmp_path: Path, text: str, complaint: str
+def test_a_failing_rule_leaves_the_files_unchanged(
+    graph: Any, old: Path, tmp_path: Path, text: str, message: str
 ) -> None:
     rules, new = tmp_path / "rules.bmr", tmp_path / "new.bag"
     rules.write_text(text)
     before = old.read_bytes()
     code, out, error = graph.trundle("bag", "fix", str(old), str(new), str(rules))
-    assert (code, out, error) == (1, "", f"ERROR: {tmp_path}/{complaint}\n")
+    assert (code, out, error) == (1, "", f"ERROR: {tmp_path}/{message}\n")
     assert (old.read_bytes(), sorted(os.listdir(tmp_path))) == (before, ["old.bag", "rules.bmr"])
     new.write_text("something else")
     assert graph.trundle("bag", "fix", str(old), str(new), str(rules))[0] == 1
     assert new.read_text() == "something else"
 
 
-def test_rules_of_packages_are_named_and_left_out_on_request(
+def test_rules_of_packages_are_reported_and_can_be_disabled(
     graph: Any, old: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     package = tmp_path / "src/old_rules"
@@ -182,7 +182,9 @@ def test_rules_of_packages_are_named_and_left_out_on_request(
     assert [m.z for m in _fields(Path(new), "/p")] == [1, 2, 3]
 
 
-def test_rosbuilds_export_is_read(graph: Any, old: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_export_of_a_rosbuild_manifest_is_read(
+    graph: Any, old: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     package = tmp_path / "src/older_rules"
     package.mkdir(parents=True)
     depend = '<depend package="rosbagmigration"/>'
@@ -195,7 +197,7 @@ def test_rosbuilds_export_is_read(graph: Any, old: Path, tmp_path: Path, monkeyp
     assert graph.trundle("bag", "fix", str(old), str(tmp_path / "new.bag"))[0] == 1
 
 
-def _completed(path: Path) -> Path:
+def _complete_rules(path: Path) -> Path:
     path.write_text(path.read_text().replace("valid = False", "valid = True"))
     return path
 
@@ -203,16 +205,17 @@ def _completed(path: Path) -> Path:
 @pytest.mark.slow
 @pytest.mark.real_ros
 @pytest.mark.parametrize("name", BAGS)
-def test_every_line_and_every_message_is_rosbags(graph: Any, original: Any, tmp_path: Path, name: str) -> None:
+def test_output_and_messages_are_equal_to_rosbag(graph: Any, original: Any, tmp_path: Path, name: str) -> None:
     old = write_old_bag(tmp_path / "old.bag", BAGS[name])
-    theirs, ours = tmp_path / "theirs.bmr", tmp_path / "ours.bmr"
+    original_rules, trundle_rules = tmp_path / "rosbag.bmr", tmp_path / "trundle.bmr"
     assert graph.trundle("bag", "check", "-n", str(old))[1] == original("rosbag", "check", "-n", str(old))
-    written = original("rosbag", "check", "-n", "-g", str(theirs), str(old))
-    assert graph.trundle("bag", "check", "-n", "-g", str(ours), str(old))[1] == written.replace("theirs", "ours")
-    for rules in (theirs, ours):
-        named = [str(_completed(rules))] if rules.exists() else []
-        original("rosbag", "fix", "-n", str(old), str(tmp_path / "a.bag"), *named)
-        assert graph.trundle("bag", "fix", "-n", str(old), str(tmp_path / "b.bag"), *named)[0] == 0
-        assert _dumped(tmp_path / "b.bag") == _dumped(tmp_path / "a.bag")
+    expected = original("rosbag", "check", "-n", "-g", str(original_rules), str(old))
+    expected = expected.replace("rosbag.bmr", "trundle.bmr")
+    assert graph.trundle("bag", "check", "-n", "-g", str(trundle_rules), str(old))[1] == expected
+    for rules in (original_rules, trundle_rules):
+        arguments = [str(_complete_rules(rules))] if rules.exists() else []
+        original("rosbag", "fix", "-n", str(old), str(tmp_path / "a.bag"), *arguments)
+        assert graph.trundle("bag", "fix", "-n", str(old), str(tmp_path / "b.bag"), *arguments)[0] == 0
+        assert _contents(tmp_path / "b.bag") == _contents(tmp_path / "a.bag")
     checked = original("rosbag", "check", "-n", str(tmp_path / "b.bag"))
     assert checked.endswith("Bag file does not need any migrations.\n") or "ready to be migrated" in checked

@@ -11,7 +11,7 @@ from trundle.ros import ServiceError
 
 @pytest.fixture
 def server(graph: Any) -> Any:
-    """A node with a service of each kind that printing treats apart."""
+    """A node with one service for each output format."""
     node = graph.node("server")
 
     def enable(request: Any) -> dict[str, Any]:
@@ -62,12 +62,12 @@ def test_a_service_is_called(graph: Any, server: Any, arguments: list[str], out:
     assert graph.trundle("service", "call", *arguments) == (0, out, "")
 
 
-def test_requests_are_piped_in(graph: Any, server: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_requests_are_read_from_standard_input(graph: Any, server: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "stdin", io.StringIO("{name: a}\n---\n[1, 2, 3, b]\n---\n"))
     assert graph.trundle("service", "call", "/spawn")[1] == 'name: "a0"\nname: "b3"\n'
 
 
-def test_what_cannot_be_called_is_said(graph: Any, server: Any) -> None:
+def test_a_failed_call_is_an_error(graph: Any, server: Any) -> None:
     assert graph.trundle("service", "call", "/nope") == (2, "", "ERROR: Service [/nope] is not available.\n")
     assert graph.trundle("service", "info", "/nope") == (1, "", "ERROR: Unknown service: /nope\n")
     code, _, error = graph.trundle("service", "call", "/server/enable", "false")
@@ -84,7 +84,7 @@ def test_what_cannot_be_called_is_said(graph: Any, server: Any) -> None:
 
 @pytest.mark.slow
 @pytest.mark.real_ros
-def test_every_line_is_rosservices(graph: Any, server: Any, original: Any) -> None:
+def test_output_is_equal_to_rosservice(graph: Any, server: Any, original: Any) -> None:
     for arguments in (
         ["list"],
         ["list", "-n", "/server"],

@@ -1,4 +1,4 @@
-"""`trundle tf`: transforms as tf's own tools print them."""
+"""`trundle tf`, with the output of tf's tools."""
 
 import signal
 import subprocess
@@ -76,22 +76,22 @@ def test_the_frames_are_drawn_as_a_tree(graph: Any, robot: Any, tmp_path: Path) 
     assert graph.trundle("tf", "tree", "-o", "frames.pdf")[0] == 1
 
 
-def test_breaks_in_the_tree_are_named(graph: Any, robot: Any) -> None:
+def test_faults_of_the_tree_are_warnings(graph: Any, robot: Any) -> None:
     one, two = graph.node("one"), graph.node("two")
     broadcasters = TransformBroadcaster(one), TransformBroadcaster(two)
 
-    async def quarrel() -> None:
+    async def publish_both() -> None:
         while True:
             for parent, broadcaster in zip(("map", "world"), broadcasters, strict=True):
                 broadcaster.send_transform(Transform(parent=parent, child="camera", stamp_ns=one.clock.now_ns()))
             await WallClock().sleep(0.01)
 
-    quarrelling = graph.loop.spawn(quarrel())
+    publishing = graph.loop.spawn(publish_both())
     error = ""
     while not error.count("alternating parents"):  # until both have published
         code, _, error = graph.trundle("tf", "tree", "-t", "0.2")
         assert code == 0
-    quarrelling.cancel()
+    publishing.cancel()
     assert "WARNING: 2 unconnected trees; roots: " in error
     assert (
         "WARNING: 'camera' has alternating parents: 'map' (by /one) and 'world' (by /two); a frame must have one parent"
@@ -109,36 +109,36 @@ def test_delays_and_rates_are_measured(graph: Any, robot: Any) -> None:
 def test_the_chain_between_two_frames_is_measured(graph: Any, robot: Any) -> None:
     code, out, error = graph.trundle("tf", "monitor", "laser", "/odom", "-n", "1")
     assert (code, error) == (0, "")
-    waited, _, table = out.partition("\n")
-    assert waited.startswith("Waiting for transform chain to become available between laser and /odom ")
+    first_line, _, table = out.partition("\n")
+    assert first_line.startswith("Waiting for transform chain to become available between laser and /odom ")
     assert "RESULTS: for laser to /odom\nChain is: laser -> base -> odom\nNet delay     avg = " in table
     assert "\nFrames:\nFrame: base published by /robot " in table
     assert graph.trundle("tf", "monitor", "laser")[0] == 2
 
 
-def test_rate_and_digits_are_parameters_as_of_tf_echo(graph: Any, robot: Any) -> None:
+def test_rate_and_precision_are_private_parameters(graph: Any, robot: Any) -> None:
     code, out, _ = graph.trundle("tf", "echo", "base", "laser", "-n", "2", "_precision:=1", "_rate:=200", "__name:=me")
     assert code == 0
     assert out.startswith("Precision default value was overriden, new value: 1\nAt time 0.0\n- Translation: [0.5, 0.0")
     assert graph.trundle("tf", "echo", "a", "b", "_rate:=fast")[0] == 1
 
 
-def test_without_transforms_that_is_said(graph: Any) -> None:
+def test_a_tree_without_transforms_is_an_error(graph: Any) -> None:
     assert graph.trundle("tf", "tree", "-t", "0.1") == (1, "", "ERROR: no tf data received\n")
 
 
 def test_a_static_transform_is_published(graph: Any) -> None:
-    got: list[Any] = []
-    graph.node("n").subscribe("/tf_static", "tf2_msgs/TFMessage", got.append)
+    messages: list[Any] = []
+    graph.node("n").subscribe("/tf_static", "tf2_msgs/TFMessage", messages.append)
     words = ["0", "-0.5", "1e-1", "0", "0", "0", "base", "laser"]
     with subprocess.Popen([sys.executable, "-m", "trundle", "tf", "static", *words], stderr=subprocess.PIPE) as process:
         try:
-            graph.until(lambda: got)
+            graph.until(lambda: messages)
             process.send_signal(signal.SIGINT)
             assert process.wait(PATIENCE_S) == 0
         finally:
             process.kill()
-    transform = got[0].transforms[0]
+    transform = messages[0].transforms[0]
     assert (transform.header.frame_id, transform.child_frame_id) == ("base", "laser")
     assert (transform.transform.translation.y, transform.transform.translation.z) == (-0.5, 0.1)
     assert graph.trundle("tf", "static", "1", "2")[0] == 1

@@ -32,7 +32,7 @@ def _started(*arguments: str) -> Iterator["subprocess.Popen[str]"]:
 
 @pytest.fixture
 def latched(graph: Any) -> Any:
-    """A node with one latched topic of each kind that printing treats apart."""
+    """A node with one latched topic for each output format."""
     node = graph.node("latcher")
     for topic, kind, fields in [
         ("/text", STRING, {"data": 'say "hi"\n'}),
@@ -85,7 +85,7 @@ def test_a_topic_is_described(graph: Any) -> None:
     assert graph.trundle("topic", "info", "/nope") == (1, "", "ERROR: Unknown topic /nope\n")
 
 
-def test_types_are_told_and_found(graph: Any, latched: Any) -> None:
+def test_types_are_printed_and_topics_found_by_type(graph: Any, latched: Any) -> None:
     assert graph.trundle("topic", "type", "/twist")[1] == "geometry_msgs/Twist\n"
     assert graph.trundle("topic", "type", "/tree/transforms")[1] == (
         "tf2_msgs/TFMessage transforms geometry_msgs/TransformStamped[]\n"
@@ -131,7 +131,7 @@ def test_messages_are_printed_for_plotting(graph: Any, latched: Any) -> None:
     )
 
 
-def test_a_filter_lets_through_what_it_says(graph: Any) -> None:
+def test_a_filter_selects_messages(graph: Any) -> None:
     node = graph.node("n")
     publisher = node.advertise("/count", "std_msgs/Int32", queue_size=None)
 
@@ -156,28 +156,28 @@ def test_a_filter_lets_through_what_it_says(graph: Any) -> None:
 def test_one_message_is_published(
     graph: Any, monkeypatch: pytest.MonkeyPatch, arguments: list[str], linear: float, angular: float
 ) -> None:
-    got: list[Any] = []
-    monkeypatch.setattr(topic_pub, "time", SimpleNamespace(sleep=lambda _: graph.until(lambda: got)))
+    messages: list[Any] = []
+    monkeypatch.setattr(topic_pub, "time", SimpleNamespace(sleep=lambda _: graph.until(lambda: messages)))
     node = graph.node("n")
-    node.subscribe("/cmd", "geometry_msgs/Twist", got.append)
+    node.subscribe("/cmd", "geometry_msgs/Twist", messages.append)
     graph.ready(node)
     code, out, _ = graph.trundle("topic", "pub", *arguments)
     assert (code, out) == (0, "publishing and latching message for 3.0 seconds\n")
-    assert [(m.linear.x, m.angular.z) for m in got] == [(linear, angular)]
+    assert [(m.linear.x, m.angular.z) for m in messages] == [(linear, angular)]
 
 
-def test_messages_are_published_again_and_again_until_ctrl_c(graph: Any) -> None:
-    got: list[Any] = []
+def test_messages_are_published_repeatedly_until_ctrl_c(graph: Any) -> None:
+    messages: list[Any] = []
     node = graph.node("n")
-    node.subscribe("/stamped", "std_msgs/Header", got.append)
+    node.subscribe("/stamped", "std_msgs/Header", messages.append)
     graph.ready(node)
     with _started("pub", "-r", "50", "-s", "/stamped", "std_msgs/Header", "{stamp: now, frame_id: x}") as process:
-        graph.until(lambda: len(got) > 3)
+        graph.until(lambda: len(messages) > 3)
         process.send_signal(signal.SIGINT)
         assert process.wait(PATIENCE_S) == 0
         assert process.stderr is not None
         assert process.stderr.read() == ""
-    assert got[1].stamp != got[2].stamp
+    assert messages[1].stamp != messages[2].stamp
     graph.until(lambda: "/stamped" not in graph.trundle("topic", "list", "-p")[1])
 
 
@@ -190,7 +190,7 @@ def test_a_message_is_latched_until_ctrl_c(graph: Any) -> None:
         assert process.wait(PATIENCE_S) == 0
 
 
-def test_a_subscriber_of_another_type_is_told_of_once(graph: Any) -> None:
+def test_a_subscriber_of_another_type_is_one_warning(graph: Any) -> None:
     node = graph.node("listener")
     node.subscribe("/greeting", "std_msgs/Int32", lambda _: None)
     graph.ready(node)
@@ -209,7 +209,7 @@ def test_a_subscriber_of_another_type_is_told_of_once(graph: Any) -> None:
         assert process.stderr.read() == ""
 
 
-def test_a_launch_file_may_name_and_remap_what_it_publishes_with(graph: Any) -> None:
+def test_the_publishing_node_can_be_renamed_and_remapped(graph: Any) -> None:
     words = ("/greeting", STRING, "hello", "__name:=talker", "/greeting:=/welcome", "_rate:=5")
     with _started("pub", *words) as process:
         assert process.stdout is not None
@@ -219,25 +219,25 @@ def test_a_launch_file_may_name_and_remap_what_it_publishes_with(graph: Any) -> 
 
 
 def test_piped_documents_are_published(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    got: list[str] = []
+    lines: list[str] = []
     node = graph.node("n")
-    node.subscribe("/lines", STRING, lambda m: got.append(m.data))
+    node.subscribe("/lines", STRING, lambda m: lines.append(m.data))
     graph.ready(node)
     monkeypatch.setattr(topic_pub, "_SUBSCRIBER_S", PATIENCE_S)
     monkeypatch.setattr(sys, "stdin", io.StringIO("data: one\n---\ndata: two\n---\n"))
     assert graph.trundle("topic", "pub", "/lines", STRING)[0] == 0
-    graph.until(lambda: got == ["one", "two"])
+    graph.until(lambda: lines == ["one", "two"])
 
 
-def test_the_one_message_of_a_file_is_published_again_and_again(graph: Any, tmp_path: Path) -> None:
+def test_a_files_only_message_is_published_repeatedly(graph: Any, tmp_path: Path) -> None:
     file = tmp_path / "line.yaml"
     file.write_text("data: one\n")
     command = [sys.executable, "-m", "trundle", "topic", "pub", "-f", str(file), "/lines", STRING]
-    got: list[Any] = []
+    messages: list[Any] = []
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         try:
-            graph.node("n").subscribe("/lines", STRING, got.append)
-            graph.until(lambda: len(got) > 2)
+            graph.node("n").subscribe("/lines", STRING, messages.append)
+            graph.until(lambda: len(messages) > 2)
             process.send_signal(signal.SIGINT)
             assert process.wait(PATIENCE_S) == 0
             assert process.stdout is not None
@@ -246,7 +246,7 @@ def test_the_one_message_of_a_file_is_published_again_and_again(graph: Any, tmp_
             process.kill()
 
 
-def test_namespace_and_master_may_be_words(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_namespace_and_master_can_be_arguments(graph: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     node = graph.node("/ns/other")
     node.advertise("rel", STRING, latch=True).publish({"data": "hello"})
     graph.ready(node)
@@ -257,27 +257,27 @@ def test_namespace_and_master_may_be_words(graph: Any, monkeypatch: pytest.Monke
     assert _echo(graph, "rel", *words) == 'data: "hello"\n---\n'
 
 
-def test_of_piped_documents_a_latch_keeps_the_first(graph: Any) -> None:
+def test_latching_publishes_only_the_first_piped_document(graph: Any) -> None:
     command = [sys.executable, "-m", "trundle", "topic", "pub", "-l", "/greeting", STRING]
-    got: list[Any] = []
+    messages: list[Any] = []
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         try:
             assert process.stdin is not None
             assert process.stdout is not None
-            graph.node("n").subscribe("/greeting", STRING, got.append)
+            graph.node("n").subscribe("/greeting", STRING, messages.append)
             process.stdin.write("data: one\n---\ndata: two\n---\n")
             process.stdin.flush()
             assert process.stdout.readline() == "publishing and latching message. Press ctrl-C to terminate\n"
-            graph.until(lambda: got)
+            graph.until(lambda: messages)
             process.send_signal(signal.SIGINT)
             assert process.wait(PATIENCE_S) == 0
         finally:
             process.kill()
-    assert [message.data for message in got] == ["one"]
+    assert [message.data for message in messages] == ["one"]
 
 
 @pytest.mark.parametrize(
-    ("arguments", "complaint"),
+    ("arguments", "message"),
     [
         (["/cmd", "geometry_msgs/Twist", "{linaer: 1}"], "has no field 'linaer'; fields here: 'linear', 'angular'\n"),
         (
@@ -290,10 +290,10 @@ def test_of_piped_documents_a_latch_keeps_the_first(graph: Any) -> None:
         (["/cmd", STRING, "--rate=-5", "x"], "rate must be greater than zero"),
     ],
 )
-def test_what_cannot_be_published_is_one_sentence(graph: Any, arguments: list[str], complaint: str) -> None:
+def test_errors_are_one_sentence(graph: Any, arguments: list[str], message: str) -> None:
     code, _, error = graph.trundle("topic", "pub", *arguments)
     assert code in (1, 2)
-    assert complaint in error
+    assert message in error
 
 
 @pytest.mark.parametrize(
@@ -319,7 +319,7 @@ def test_messages_are_measured_until_ctrl_c(graph: Any, command: str, first: str
     ticking.cancel()
 
 
-class _Standing(WallClock):
+class _SettableClock(WallClock):
     """Clock that the test sets."""
 
     now = 0
@@ -328,8 +328,8 @@ class _Standing(WallClock):
         return self.now
 
 
-def test_delays_are_measured_by_the_headers_stamp() -> None:
-    clock, messages = _Standing(), Messages()
+def test_delays_are_measured_from_the_headers_stamp() -> None:
+    clock, messages = _SettableClock(), Messages()
     delay = DelayMeter(clock, -1)
     assert delay.text() is None
     for now, stamp in ((100.0, 99.0), (101.0, 100.75), (102.0, 101.25)):
@@ -347,7 +347,7 @@ def test_a_topic_without_stamps_has_no_delay(graph: Any, latched: Any) -> None:
     )
 
 
-def test_wrong_usage_is_exit_code_two(graph: Any) -> None:
+def test_wrong_usage_exits_with_2(graph: Any) -> None:
     assert graph.trundle("topic", "pub", "/cmd")[0] == 2
     assert graph.trundle("topic", "nonsense")[0] == 2
     code, out, _ = graph.trundle("topic", "--help")

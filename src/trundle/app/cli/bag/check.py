@@ -10,19 +10,19 @@ from .rules import load_rules, migrations, transition, unmigrated_types
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print the migrations a bag needs, and write missing rules."""
-    if why_not := _refusal(args):
-        return args.refuse(why_not)
+    """Print the migrations that a bag needs, and write missing rules."""
+    if refusal := _refusal(args):
+        return args.refuse(refusal)
     with open_bag(Path(args.bag)) as bag:
         rules = load_rules([*args.rules, *([args.genrules] if args.append else [])], with_plugins=not args.noplugins)
-        found = unmigrated_types(migrations(bag, rules))
-    if not found:
+        unmigrated = unmigrated_types(migrations(bag, rules))
+    if not unmigrated:
         print("Bag file does not need any migrations.")
         return 0
     print("The following migrations need to occur:")
-    for migration in found:
+    for migration in unmigrated:
         print("\n".join(migration.lines()))
-    missing = [rule for migration in found for rule in migration.missing]
+    missing = [rule for migration in unmigrated for rule in migration.missing]
     if args.genrules is None:
         if missing:
             print("\nTo generate rules, please run with -g <rulefile>")
@@ -42,26 +42,26 @@ def main(args: argparse.Namespace) -> int:
 def _refusal(args: argparse.Namespace) -> str:
     if args.genrules is None:
         return "Cannot specify -a without also specifying -g." if args.append else ""
-    is_there = Path(args.genrules).is_file()
-    if is_there and not args.append:
+    exists = Path(args.genrules).is_file()
+    if exists and not args.append:
         return f"The file {args.genrules} already exists.  Include -a if you intend to append."
-    if args.append and not is_there:
+    if args.append and not exists:
         return f"The file {args.genrules} does not exist, and so -a is invalid."
     return ""
 
 
 def _texts(missing: list[Rule], rules: Migrator) -> list[str]:
-    """Python source of the rules to complete, each once; asks the user for the new names of moved types."""
+    """Return the Python source of each rule to complete; ask the user for the new names of moved types."""
     texts: dict[str, None] = {}
-    waiting = list(missing)
-    for rule in waiting:
+    pending = list(missing)
+    for rule in pending:
         if isinstance(rule, PlaceholderRule):
             completed = _completed(rule, rules)
             print(f"Creating the migration rule for {completed.new_type} requires additional missing rules:")
-            within = [sub for sub in missing_rules(completed.sub_rules) if sub not in waiting]
-            for sub in within:
-                print("\n".join(transition(sub.old_class, sub.new_class, indent=1)))
-            waiting += within
+            new_rules = [rule for rule in missing_rules(completed.sub_rules) if rule not in pending]
+            for new_rule in new_rules:
+                print("\n".join(transition(new_rule.old_class, new_rule.new_class, indent=1)))
+            pending += new_rules
             rule = completed
         if isinstance(rule, GeneratedRule):
             texts[rule.text()] = None

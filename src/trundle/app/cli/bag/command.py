@@ -173,7 +173,7 @@ def _positive(text: str) -> float:
 
 
 def _import_on_use(module: str, name: str) -> Callable[[argparse.Namespace], int]:
-    """Command function that imports its module when called."""
+    """Return a command function that imports its module when called."""
 
     def run(args: argparse.Namespace) -> int:
         return getattr(import_module(f".{module}", __package__), name)(args)

@@ -24,9 +24,9 @@ from trundle.ros import (
 
 from ..expression import Expression, expression
 
-_EVERY_S = 1.0
-_BESIDE_PATH = 37
-"""Columns besides the path."""
+_PERIOD_S = 1.0
+_OTHER_COLUMNS = 37
+"""Columns of the line other than the path."""
 
 
 def filter_bag(args: argparse.Namespace) -> int:
@@ -38,7 +38,7 @@ def filter_bag(args: argparse.Namespace) -> int:
     if source.resolve() == target.resolve():
         print(f"Cannot use same file as input and output [{source}]", file=sys.stderr)
         return 3
-    wanted, printed = Expression(args.expression), expression(args.print)
+    condition, printed = Expression(args.expression), expression(args.print)
     messages = Messages(bare=True)
     with open_bag(source) as bag:
         meter = _ProgressMeter(args.outbag, _size(bag), is_quiet=printed is not None)
@@ -51,10 +51,10 @@ def filter_bag(args: argparse.Namespace) -> int:
                     "m": MessageView(messages.deserialize(message.data, connection.type), messages),
                     "t": MessageView(messages.stamp(message.stamp_ns)),
                 }
-                is_wanted = bool(wanted.value(**names))
+                is_match = bool(condition.value(**names))
                 if printed is not None:
-                    print("MATCH" if is_wanted else "NO MATCH", printed.value(**names))
-                if is_wanted:
+                    print("MATCH" if is_match else "NO MATCH", printed.value(**names))
+                if is_match:
                     out.write(message)
                 meter.step(len(message.data))
         meter.finish()
@@ -62,7 +62,7 @@ def filter_bag(args: argparse.Namespace) -> int:
 
 
 def _size(bag: BagReader) -> int:
-    """Uncompressed size of a bag [bytes]; the file's size if it has no chunks."""
+    """Return the uncompressed size of a bag [bytes]; the file's size if it has no chunks."""
     return sum(chunk.size for chunk in bag.chunks) or bag.path.stat().st_size
 
 
@@ -99,26 +99,26 @@ def _cut_off(path: Path) -> Generator[Opened]:
     yield path.stat().st_size, chain(first, messages)
 
 
-def _rewrite(args: argparse.Namespace, compression: str, opened: Opening) -> int:
-    """Rewrite each bag; failures are printed, leave the bag unchanged, and do not stop the others."""
+def _rewrite(args: argparse.Namespace, compression: str, open_messages: Opening) -> int:
+    """Rewrite each bag; a failure is printed, leaves its bag unchanged, and does not stop the others."""
     failures = 0
     for name in args.bags:
         try:
-            _rewrite_one(Path(name), args, compression, opened)
+            _rewrite_one(Path(name), args, compression, open_messages)
         except (BagError, UsageError, OSError) as error:
             print(f"ERROR: {error}", file=sys.stderr)
             failures += 1
     return 1 if failures else 0
 
 
-def _rewrite_one(path: Path, args: argparse.Namespace, compression: str, opened: Opening) -> None:
+def _rewrite_one(path: Path, args: argparse.Namespace, compression: str, open_messages: Opening) -> None:
     target = path if args.output_dir is None else Path(args.output_dir) / path.name
     backup = path.with_name(f"{path.stem}.orig{path.suffix}")
     is_in_place = target.resolve() == path.resolve()
     if is_in_place and backup.exists() and not args.force:
         raise UsageError(f"Skipping {path}. Backup path {backup} already exists.")
     replaced = replaced_bag(target, compression=compression, backup=backup if is_in_place else None)
-    with replaced as out, opened(path) as (size, messages):
+    with replaced as out, open_messages(path) as (size, messages):
         meter = _ProgressMeter(str(target), size, is_quiet=args.quiet)
         for message in messages:
             out.write(message)
@@ -141,7 +141,7 @@ class _ProgressMeter:
     def step(self, size: int) -> None:
         """Add processed bytes."""
         self._done += size
-        if time.monotonic() - self._printed_s > _EVERY_S:
+        if time.monotonic() - self._printed_s > _PERIOD_S:
             self._print(self._done)
 
     def finish(self) -> None:
@@ -156,13 +156,13 @@ class _ProgressMeter:
             print(f"\r {self._line(done, self._printed_s - self._start_s)}", end="", flush=True)
 
     def _line(self, done: int, elapsed_s: float) -> str:
-        width = max(4, shutil.get_terminal_size().columns - _BESIDE_PATH)
+        width = max(4, shutil.get_terminal_size().columns - _OTHER_COLUMNS)
         path = self._path if len(self._path) <= width else f"...{self._path[3 - width :]}"
         total = byte_text(self._total)
         if done >= self._total:
             return f"{path:<{width}} 100% {total:>19} {_clock(elapsed_s)}    "
-        left = _clock(elapsed_s * (self._total / done - 1.0)) if done else "--:--"
-        return f"{path:<{width}} {100 * done // self._total:3}% {byte_text(done):>8} / {total:>8} {left} ETA"
+        remaining = _clock(elapsed_s * (self._total / done - 1.0)) if done else "--:--"
+        return f"{path:<{width}} {100 * done // self._total:3}% {byte_text(done):>8} / {total:>8} {remaining} ETA"
 
 
 def _clock(seconds: float) -> str:

@@ -22,8 +22,8 @@ def main(args: argparse.Namespace) -> int:
         raise UsageError(f"Cannot use same file as input and output [{source}]")
     with open_bag(source) as bag:
         rules = load_rules(args.rules, with_plugins=not args.noplugins, is_forced=args.force)
-        found = migrations(bag, rules)
-        impossible = [each for each in unmigrated_types(found) if each.missing]
+        plan = migrations(bag, rules)
+        impossible = [migration for migration in unmigrated_types(plan) if migration.missing]
         if impossible and not args.force:
             print("Bag could not be migrated.  The following migrations could not be performed:")
             for migration in impossible:
@@ -32,7 +32,7 @@ def main(args: argparse.Namespace) -> int:
                 "Try running 'bag check' to create the necessary rule files or run 'bag fix' with the '--force' option."
             )
             return 1
-        _write(bag, target, {connection: _plan(connection, each, rules) for connection, each in found.items()})
+        _write(bag, target, {connection: _plan(connection, step, rules) for connection, step in plan.items()})
     print("Bag migrated successfully.")
     return 0
 
@@ -54,7 +54,7 @@ def _write(bag: BagReader, target: Path, plans: dict[BagConnection, tuple[BagCon
 
 
 def _plan(connection: BagConnection, migration: Migration, rules: Migrator) -> tuple[BagConnection, Convert]:
-    """Connection and converter for the output; messages of unknown types stay unchanged."""
+    """Return the output's connection and converter; messages of unknown types stay unchanged."""
     old, new = migration.old, migration.new
     if new is None:
         return connection, lambda data: data

@@ -23,34 +23,34 @@ def main(args: argparse.Namespace) -> int:
     names = [*args.bags, *args.more_bags]
     if not names:
         args.refuse("You must specify at least 1 bag file to play back.")
-    say = _quiet if args.quiet else _say
+    print_text = _print_nothing if args.quiet else _print
     with ExitStack() as stack, running_node("play", args.words) as (loop, node):
         bags: list[BagReader] = []
         for name in names:
-            say(f"[ INFO] [{time.time():.9f}]: Opening {name}\n")
+            print_text(f"[ INFO] [{time.time():.9f}]: Opening {name}\n")
             bags.append(stack.enter_context(open_bag(Path(name))))
         if args.prefix:
-            say(f"[ INFO] [{time.time():.9f}]: Using prefix '{args.prefix}'' for topics \n")
-        say("\n")
+            print_text(f"[ INFO] [{time.time():.9f}]: Using prefix '{args.prefix}'' for topics \n")
+        print_text("\n")
         player = Player(node, bags, _options(args))
         if player.is_empty:
             print("No messages to play on specified topics.  Exiting.", file=sys.stderr)
             return 0
         if args.rate_control_topic:
-            say("Creating rate control topic subscriber... done.\n")
+            print_text("Creating rate control topic subscriber... done.\n")
         publishers = player.advertise()
         player.is_paused = args.pause
         _provide_pausing(node, player)
         loop.run(node.wait_registered(), None)
-        say(f"Waiting {args.delay:g} seconds after advertising topics...")
+        print_text(f"Waiting {args.delay:g} seconds after advertising topics...")
         time.sleep(max(0.0, args.delay))
-        say(" done.\n")
-        say("\nHit space to toggle paused, or 's' to step.\n")
+        print_text(" done.\n")
+        print_text("\nHit space to toggle paused, or 's' to step.\n")
         if args.wait_for_subscribers:
-            say("Waiting for subscribers.\n")
+            print_text("Waiting for subscribers.\n")
             while not all(publisher.has_subscribers for publisher in publishers):
                 time.sleep(_CONNECTED_S)
-            say("Finished waiting for subscribers.\n")
+            print_text("Finished waiting for subscribers.\n")
         with _keys() as pressed:
             poll = _PlayerConsole(player, pressed, quiet=args.quiet)
             player.play(poll)
@@ -58,8 +58,8 @@ def main(args: argparse.Namespace) -> int:
                 player.keep_alive(poll)
             while args.loop:
                 player.play(poll)
-        say("\nDone.\n")
-        loop.flush_deliveries()  # the last messages are sent; slow subscribers get a moment more
+        print_text("\nDone.\n")
+        loop.flush_deliveries()  # then slow subscribers get a little more time
         time.sleep(_CONNECTED_S)
     return 0
 
@@ -97,7 +97,7 @@ class _PlayerConsole:
     def __init__(self, player: Player, pressed: Callable[[], str], *, quiet: bool) -> None:
         self._player = player
         self._pressed = pressed
-        self._tells = sys.stdout.isatty() and not quiet
+        self._shows_status = sys.stdout.isatty() and not quiet
         self._printed_s = 0.0
 
     def __call__(self) -> None:
@@ -111,11 +111,11 @@ class _PlayerConsole:
                 player.uses_pause_topics = not player.uses_pause_topics
             case _:
                 pass
-        if self._tells and time.monotonic() - self._printed_s > _TERMINAL_S:
+        if self._shows_status and time.monotonic() - self._printed_s > _TERMINAL_S:
             self._printed_s = time.monotonic()
             now, start, end = (ns / 1e9 for ns in (player.now_ns, player.start_ns, player.end_ns))
             state = "PAUSED " if player.is_paused else "RUNNING"
-            _say(
+            _print(
                 f" [{state}]  Bag Time: {now:13.6f}   Duration: {max(0.0, now - start):.6f} / {end - start:.6f}"
                 "               \r"
             )
@@ -123,7 +123,7 @@ class _PlayerConsole:
 
 @contextmanager
 def _keys() -> Generator[Callable[[], str]]:
-    """Yield a function that returns the key pressed since its last call, or ''; restores the terminal at the end."""
+    """Yield a function that returns the pressed key, or ''; restore the terminal at the end."""
     if not sys.stdin.isatty():
         yield lambda: ""
         return
@@ -135,17 +135,17 @@ def _keys() -> Generator[Callable[[], str]]:
         yield lambda: ""
         return
     terminal = sys.stdin.fileno()
-    before = termios.tcgetattr(terminal)
+    old_modes = termios.tcgetattr(terminal)
     tty.setcbreak(terminal)
     try:
         yield lambda: sys.stdin.read(1) if select.select([sys.stdin], [], [], 0)[0] else ""
     finally:
-        termios.tcsetattr(terminal, termios.TCSADRAIN, before)
+        termios.tcsetattr(terminal, termios.TCSADRAIN, old_modes)
 
 
-def _say(text: str) -> None:
+def _print(text: str) -> None:
     print(text, end="", flush=True)
 
 
-def _quiet(_: str) -> None:
+def _print_nothing(_: str) -> None:
     pass

@@ -25,7 +25,7 @@ def main(args: argparse.Namespace) -> int:
         print(f"Recording from: {args.node}", flush=True)
     with running_node("record", args.words) as (loop, node):
         loop.run(follow_time(node), None)
-        recorder = Recorder(node, options, log=(lambda _: None) if args.quiet else _say)
+        recorder = Recorder(node, options, log=(lambda _: None) if args.quiet else _log)
         recorder.start()
         try:
             while not recorder.done.wait(0.5):
@@ -39,7 +39,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _without_size(args: argparse.Namespace) -> list[str]:
-    """Topics to record, without the size in the deprecated `--split 1024`."""
+    """Return the topics to record, without the size in the deprecated `--split 1024`."""
     topics: list[str] = args.topics
     if args.split and topics and topics[0].isdigit():
         print(f"--split {topics[0]}: deprecated, use --split --size {topics[0]}", file=sys.stderr)
@@ -81,7 +81,7 @@ def _options(args: argparse.Namespace, topics: tuple[str, ...]) -> RecorderOptio
     )
 
 
-def _say(text: str) -> None:
+def _log(text: str) -> None:
     """Print in roscpp's format."""
     print(f"[ INFO] [{time.time():.9f}]: {text}", flush=True)
 
@@ -89,9 +89,9 @@ def _say(text: str) -> None:
 @contextmanager
 def _uninterrupted() -> Generator[None]:
     """Ignore signals while a bag is closed: a second Ctrl-C must not cost its index."""
-    before = {number: signal.signal(number, signal.SIG_IGN) for number in ending_signals()}
+    old_handlers = {number: signal.signal(number, signal.SIG_IGN) for number in ending_signals()}
     try:
         yield
     finally:
-        for number, handler in before.items():
+        for number, handler in old_handlers.items():
             signal.signal(number, handler)

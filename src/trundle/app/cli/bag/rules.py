@@ -1,4 +1,4 @@
-"""Common part of `trundle bag check` and `fix`: rules, and the migration of each type in a bag."""
+"""Common parts of `trundle bag check` and `fix`: rules, and the migration of each type in a bag."""
 
 import os
 import sys
@@ -31,7 +31,7 @@ class Migration:
     missing: list[Rule]
 
     def lines(self) -> list[str]:
-        """Lines in rosbag's format."""
+        """Return the lines in rosbag's format."""
         lines = transition(self.path[0].old, self.path[-1].new, indent=0)
         if self.missing:
             lines.append(f"    {len(self.missing)} rules missing:")
@@ -50,7 +50,7 @@ def load_rules(files: list[str], *, with_plugins: bool, is_forced: bool = False)
     if with_plugins:
         from trundle.robots.packages import Packages, exported_rules
 
-        # Not from the working directory: looking at a bag must not run code beside it.
+        # Not from the working directory: reading a bag must not run code beside it.
         for package, path in exported_rules(Packages(os.environ, start=Path(os.sep)).ros_packages()):
             print(f"Using the rules of package {package}: {path}", file=sys.stderr)
             rules.append(RuleFile(path))
@@ -58,27 +58,27 @@ def load_rules(files: list[str], *, with_plugins: bool, is_forced: bool = False)
 
 
 def migrations(bag: BagReader, rules: Migrator) -> dict[BagConnection, Migration]:
-    """Migration of each connection, in the order of first messages."""
-    found: dict[BagConnection, Migration] = {}
-    waiting = set(bag.connections)
-    for message in bag.messages(waiting.__contains__):
+    """Return the migration of each connection, in the order of first messages."""
+    result: dict[BagConnection, Migration] = {}
+    pending = set(bag.connections)
+    for message in bag.messages(pending.__contains__):
         connection = message.connection
-        if connection in waiting:
-            waiting.remove(connection)
-            found[connection] = _migration(connection, rules)
-            if not waiting:
+        if connection in pending:
+            pending.remove(connection)
+            result[connection] = _migration(connection, rules)
+            if not pending:
                 break
-    return found
+    return result
 
 
-def unmigrated_types(found: dict[BagConnection, Migration]) -> list[Migration]:
-    """Migrations of changed types, one per type."""
-    by_type = {(each.old.kind, each.old.md5sum): each for each in reversed(found.values()) if each.path}
+def unmigrated_types(plan: dict[BagConnection, Migration]) -> list[Migration]:
+    """Return the migrations of changed types, one per type."""
+    by_type = {(step.old.kind, step.old.md5sum): step for step in reversed(plan.values()) if step.path}
     return list(reversed(by_type.values()))
 
 
 def transition(old: MessageClass, new: MessageClass | None, *, indent: int) -> list[str]:
-    """Old and new type in rosbag's format."""
+    """Return the old and new type in rosbag's format."""
     space = "    " * indent
     to = "Unknown" if new is None else f"{new.kind} [{new.md5sum}]"
     return [f"{space} * From: {old.kind} [{old.md5sum}]", f"{space}   To:   {to}"]
@@ -91,7 +91,7 @@ def _migration(connection: BagConnection, rules: Migrator) -> Migration:
     except MessageError:
         if known is None or known.md5sum != connection.md5sum:
             raise
-        old = known  # the recorded definition is missing or garbled
+        old = known  # the recorded definition is missing or invalid
     new = rules.target(old)
     path = rules.path(old, new)
     return Migration(old, new, path, missing_rules([step.rule for step in path]))

@@ -1,6 +1,6 @@
 """Commands of ROS 1, catkin and Gazebo under their own names, for `trundle shell`.
 
-Those that a command of Trundle equals are rows of the table; the others are modules here, of a command's form.
+Those with an equal command of Trundle are rows of the table; the others are command modules here.
 """
 
 from .table import FUNCTIONS, ORIGINALS

@@ -1,6 +1,6 @@
-"""Fetch the packages of `apt install ros-DISTRO-NAME`; all else is done by the machine's own apt.
+"""Fetch the packages of `apt install ros-DISTRO-NAME`; the machine's apt handles everything else.
 
-`sudo apt …` and `sudo rosdep …` are understood, too, as tutorials write them; any other sudo is the machine's own.
+`sudo apt …` and `sudo rosdep …` work too, as in tutorials; the machine's sudo handles everything else.
 """
 
 import argparse
@@ -12,7 +12,7 @@ from trundle.robots.packages import STOCK
 from trundle.robots.repositories import ROSDISTROS, shipped_index
 
 from ..fetching import defaults, fetch_packages
-from .own_program import run_own
+from .system_program import run_system_program
 
 EXAMPLES = """
   apt install ros-noetic-turtlebot3-gazebo
@@ -29,34 +29,34 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Fetch what ROS packages are named, and pass the rest on."""
+    """Fetch the named ROS packages, and pass the others on."""
     program, words = args.program, args.words
     if words[:1] in (["-h"], ["--help"]):
         args.print_help()
         return 0
     if program == "sudo":
-        own = [word for word in words if word not in ("-E", "-H")]
-        if own[:1] == ["rosdep"]:
-            return int(args.run_command(["originals.rosdep"], own[1:]))
-        if own[:1] not in (["apt"], ["apt-get"]) or not any(map(_NAME.fullmatch, own)):
-            return run_own(program, words)
-        program, *words = own
+        command = [word for word in words if word not in ("-E", "-H")]
+        if command[:1] == ["rosdep"]:
+            return int(args.run_command(["originals.rosdep"], command[1:]))
+        if command[:1] not in (["apt"], ["apt-get"]) or not any(map(_NAME.fullmatch, command)):
+            return run_system_program(program, words)
+        program, *words = command
     ros = [match for match in map(_NAME.fullmatch, words) if match is not None]
     if "install" not in words or not ros:
-        return run_own(program, words)
+        return run_system_program(program, words)
     code = fetch_packages(_package_names(match[2] for match in ros), _options(words, ros[0][1]))
     others = [word for word in words if not _NAME.fullmatch(word)]
     if any(not word.startswith("-") for word in others[others.index("install") + 1 :]):
-        return run_own(args.program, [*(["apt-get"] if args.program == "sudo" else []), *others]) or code
+        return run_system_program(args.program, [*(["apt-get"] if args.program == "sudo" else []), *others]) or code
     return code
 
 
 def _options(words: Sequence[str], distro: str) -> argparse.Namespace:
-    says_yes = any(word in ("-y", "--yes", "-qy", "-yq", "-qqy", "--assume-yes") for word in words)
-    return argparse.Namespace(**{**defaults(), "yes": says_yes, "distro": distro})
+    yes = any(word in ("-y", "--yes", "-qy", "-yq", "-qqy", "--assume-yes") for word in words)
+    return argparse.Namespace(**{**defaults(), "yes": yes, "distro": distro})
 
 
 def _package_names(names: Iterable[str]) -> list[str]:
-    """Return the names of packages, which apt writes with - for _."""
+    """Return the names of packages, in which apt replaces _ by -."""
     known = {name.replace("_", "-"): name for name in (*shipped_index().names(), *STOCK, *BUILT_IN)}
     return [known.get(name, name.replace("-", "_")) for name in names]

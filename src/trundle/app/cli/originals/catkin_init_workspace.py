@@ -1,4 +1,4 @@
-"""Make the CMakeLists.txt at the top of a workspace's sources, as catkin_init_workspace does."""
+"""Create the CMakeLists.txt of a workspace's source folder, as catkin_init_workspace does."""
 
 import argparse
 import os
@@ -15,7 +15,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Make it; nothing is overwritten."""
+    """Create the file; nothing is overwritten."""
     from trundle.ros.catkin import init_workspace
 
     print(init_workspace(Path(os.path.abspath(args.workspace)), os.environ))

@@ -1,4 +1,4 @@
-"""Make a workspace's devel space, as catkin_make does, and name what a compiler would have to build."""
+"""Create a workspace's devel space, as catkin_make does, and list the C++ targets, which are not built."""
 
 import argparse
 import os
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from trundle.base.diagnostics import UsageError
 
-from .own_program import find_own
+from .system_program import find_system_program
 
 if TYPE_CHECKING:
     from trundle.ros.catkin import CppTarget, PackageBuild, Workspace
@@ -32,7 +32,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--build", help="build space (build)")
     parser.add_argument("--pkg", nargs="+", default=[], help="only these packages")
     parser.add_argument("--only-pkg-with-deps", nargs="+", default=[], metavar="PKG", help="only these packages")
-    # What is passed on to CMake and make has no effect here.
+    # Options for CMake and make have no effect here.
     for flag in ("ninja", "nmake", "gmake"):
         parser.add_argument(f"--use-{flag}", action="store_true", help=argparse.SUPPRESS)
     for flag in ("--force-cmake", "--no-color", "--override-build-tool-check"):
@@ -46,25 +46,29 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Write the devel space; C++ is named, and not built."""
+    """Write the devel space, and list C++ targets, which are not built."""
     from trundle.robots.packages import write_configured_files
     from trundle.ros.catkin import init_workspace, open_workspace, report_package, write_devel_space
 
-    given = [f"-D{each}" for each in args.definitions] + args.cmake_args
+    definitions = [f"-D{definition}" for definition in args.definitions] + args.cmake_args
     base = Path(os.path.abspath(os.path.join(os.environ.get("PWD", "."), args.directory)))
     workspace = open_workspace(
-        base, source=args.source, build=args.build, devel=_last(given, _DEVEL), install=_last(given, _INSTALL)
+        base,
+        source=args.source,
+        build=args.build,
+        devel=_last(definitions, _DEVEL),
+        install=_last(definitions, _INSTALL),
     )
     for name, space in (("Base path", base), ("Source space", workspace.source), ("Build space", workspace.build)):
         print(f"{name}: {space}")
     print(f"Devel space: {workspace.devel}\nInstall space: {workspace.install}")
     known = workspace.packages()
-    packages = _chosen(known, [*args.pkg, *args.only_pkg_with_deps])
+    packages = _select(known, [*args.pkg, *args.only_pkg_with_deps])
     if not (workspace.source / "CMakeLists.txt").exists():
         print(init_workspace(workspace.source, os.environ))
-    is_ours = write_devel_space(workspace, os.environ)
+    is_written = write_devel_space(workspace, os.environ)
     print(f"-- Using CATKIN_DEVEL_PREFIX: {workspace.devel}")
-    if not is_ours:
+    if not is_written:
         print(f"-- {workspace.devel} was made by catkin itself; its setup files are kept")
     print(f"{_LINE}\n-- ~~  traversing {len(packages)} packages in topological order:")
     print("".join(f"-- ~~  - {name}\n" for name in packages) + _LINE)
@@ -76,13 +80,13 @@ def main(args: argparse.Namespace) -> int:
             print(f"--   configured: {os.path.relpath(path, workspace.base)}")
         build = report_package(known, name, os.environ)
         print("\n".join(_lines(build, workspace)))
-        left = [target for target in build.targets if target.built is None or target.fault is not None]
-        unbuilt += left
-        missing += build.missing if left else ()
+        remaining = [target for target in build.targets if target.built is None or target.fault is not None]
+        unbuilt += remaining
+        missing += build.missing if remaining else ()
     for target in args.targets:
         print(f"-- target {target!r} is not run: nothing is compiled here", file=sys.stderr)
     if unbuilt:
-        print(_way_out(len(unbuilt), missing), file=sys.stderr)
+        print(_build_advice(len(unbuilt), missing), file=sys.stderr)
     print(f"-- source {workspace.devel}/setup.bash makes the packages known to this shell")
     return 0
 
@@ -91,7 +95,7 @@ def _last(words: list[str], prefix: str) -> str | None:
     return next((word.removeprefix(prefix) for word in reversed(words) if word.startswith(prefix)), None)
 
 
-def _chosen(packages: Mapping[str, Path], names: list[str]) -> dict[str, Path]:
+def _select(packages: Mapping[str, Path], names: list[str]) -> dict[str, Path]:
     unknown = [name for name in names if name not in packages]
     if names and len(unknown) == len(names):
         raise UsageError(f'Packages "{", ".join(unknown)}" not found in the workspace')
@@ -103,39 +107,39 @@ def _chosen(packages: Mapping[str, Path], names: list[str]) -> dict[str, Path]:
 def _lines(build: "PackageBuild", workspace: "Workspace") -> list[str]:
     ready = ", ".join(build.ready) or "nothing to run"
     lines = [f"--   needs no building: {ready}"]
-    for each in build.targets:
-        kind = "library" if each.is_library else "program"
-        where = f"{os.path.relpath(each.target.file, workspace.base)}:{each.target.line}"
-        state = f"built: {each.built}" if each.built is not None else "C++, not built"
-        state += f", but not for this machine: {each.fault}" if each.fault is not None else ""
-        lines.append(f"--   {kind} {each.target.name} ({', '.join(each.target.sources)}; {where}): {state}")
-    if build.missing and any(each.built is None for each in build.targets):
+    for target in build.targets:
+        kind = "library" if target.is_library else "program"
+        location = f"{os.path.relpath(target.target.file, workspace.base)}:{target.target.line}"
+        state = f"built: {target.built}" if target.built is not None else "C++, not built"
+        state += f", but not for this machine: {target.fault}" if target.fault is not None else ""
+        lines.append(f"--   {kind} {target.target.name} ({', '.join(target.target.sources)}; {location}): {state}")
+    if build.missing and any(target.built is None for target in build.targets):
         lines.append(f"--   to build it, CMake has to find {', '.join(build.missing)}, which this machine lacks")
     return lines
 
 
-def _way_out(unbuilt: int, missing: list[str]) -> str:
-    """Return a line on how the rest could be built here.
+def _build_advice(unbuilt: int, missing: list[str]) -> str:
+    """Return a line on how to build the remaining targets here.
 
     Args:
         unbuilt: number of programs and libraries that are not built.
-        missing: what CMake has to find for them and this machine lacks.
+        missing: dependencies that CMake needs for them and this machine lacks.
     """
     from trundle.ros.catkin import debian_packages
 
     them = "them" if unbuilt > 1 else "it"
     count = f"{unbuilt} C++ target{'s are' if unbuilt > 1 else ' is'} not built; all else runs as it is"
-    original = find_own("catkin_make")
-    lacking = list(dict.fromkeys(missing if original else [*missing, "catkin"]))
-    packages = debian_packages(lacking) if lacking else {}
-    if original is not None and not lacking:
+    original = find_system_program("catkin_make")
+    required = list(dict.fromkeys(missing if original else [*missing, "catkin"]))
+    packages = debian_packages(required) if required else {}
+    if original is not None and not required:
         return f"-- {count}; {original} compiles {them}"
-    if len(packages) == len(lacking):
+    if len(packages) == len(required):
         install = f"apt install {' '.join(sorted(packages.values()))}"
         return f"-- {count}; {install}, and then {original or '/usr/bin/catkin_make'} compiles {them}"
     if original is not None:
-        without = ", ".join(name for name in lacking if name not in packages)
+        without = ", ".join(name for name in required if name not in packages)
         return f"-- {count}; {original} compiles {them}, once there is {without}, which apt does not have"
-    compiler = next((found for name in _COMPILERS if (found := shutil.which(name))), None)
+    compiler = next((path for name in _COMPILERS if (path := shutil.which(name))), None)
     has = f"there is a compiler, {compiler}, but no" if compiler else "there is neither a C++ compiler nor"
     return f"-- {count}; {has} catkin here, which ROS 1 brings"

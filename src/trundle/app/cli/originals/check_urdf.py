@@ -25,14 +25,14 @@ def main(args: argparse.Namespace) -> int:
     print(f"robot name is: {robot.name}")
     print("---------- Successfully Parsed XML ---------------")
     children = _children(robot)
-    below = children.get(robot.root, [])
-    print(f"root Link: {robot.root} has {len(below)} child(ren)")
-    _print_below(robot.root, children)
+    root_children = children.get(robot.root, [])
+    print(f"root Link: {robot.root} has {len(root_children)} child(ren)")
+    _print_descendants(robot.root, children)
     return 0
 
 
 def read_urdf(file: str) -> "Robot":
-    """Read a URDF as written; its findings go to standard error.
+    """Read a URDF as written; print its findings on standard error.
 
     Raises:
         UsageError: the file is not a URDF.
@@ -46,23 +46,23 @@ def read_urdf(file: str) -> "Robot":
     for finding in report.findings:
         print(finding, file=sys.stderr)
     if loaded.robot is None:
-        raise UsageError(f"{file} is not a URDF; 'trundle check' reads SDF, too")
+        raise UsageError(f"{file} is not a URDF; 'trundle check' also reads SDF")
     return loaded.robot
 
 
 def _children(robot: "Robot") -> dict[str, list[str]]:
-    """Return link → children, sorted by the joint's name, as urdfdom keeps them."""
+    """Return link → children, sorted by joint name, as in urdfdom."""
     children: dict[str, list[str]] = {}
     for joint in sorted(robot.joints, key=lambda joint: joint.name):
         children.setdefault(joint.parent, []).append(joint.child)
     return children
 
 
-def _print_below(root: str, children: dict[str, list[str]]) -> None:
-    """Print the links below the root, each with its number among its parent's."""
-    waiting = [(link, number, 1) for number, link in reversed(list(enumerate(children.get(root, []), 1)))]
-    while waiting:
-        link, number, level = waiting.pop()
+def _print_descendants(root: str, children: dict[str, list[str]]) -> None:
+    """Print the links below the root, each with its number among its siblings."""
+    stack = [(link, number, 1) for number, link in reversed(list(enumerate(children.get(root, []), 1)))]
+    while stack:
+        link, number, level = stack.pop()
         print(f"{'    ' * level}child({number}):  {link}")
-        below = children.get(link, [])
-        waiting += [(each, i, level + 1) for i, each in reversed(list(enumerate(below, 1)))]
+        link_children = children.get(link, [])
+        stack += [(child, i, level + 1) for i, child in reversed(list(enumerate(link_children, 1)))]

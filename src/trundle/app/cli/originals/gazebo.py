@@ -1,4 +1,4 @@
-"""Simulate a world on the ROS graph: gazebo with its window, the browser page, gzserver without."""
+"""Simulate a world on the ROS graph: gazebo with its window, a browser page; gzserver without."""
 
 import argparse
 import os
@@ -25,7 +25,7 @@ _UNSUPPORTED = {
     "initial_sim_time": "an initial time",
 }
 _PROVIDED = ("libgazebo_ros_",)
-"""Start of the plugins that gazebo_ros loads, whose work is done here."""
+"""Prefix of gazebo_ros' plugins, which this command replaces."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -54,12 +54,12 @@ def main(args: argparse.Namespace) -> int:
     """Simulate until Ctrl-C."""
     if args.play is not None:
         return args.run_command(("play",), [args.play])
-    for option, what in _UNSUPPORTED.items():
-        given = getattr(args, option)
-        names = given if isinstance(given, list) else [given] if given else []
+    for option, description in _UNSUPPORTED.items():
+        value = getattr(args, option)
+        names = value if isinstance(value, list) else [value] if value else []
         for name in names:
             if not str(name).startswith(_PROVIDED):
-                print(f"{args.program}: {what} ({name}) is not supported, and left out", file=sys.stderr)
+                print(f"{args.program}: {description} ({name}) is not supported, and ignored", file=sys.stderr)
     words = parse_arguments([args.world, *args.remappings]).rest
     options = ["-u"] if args.pause else []
     options += ["--record_path", args.record_path] if args.record_path else ["-r"] if args.record else []

@@ -24,7 +24,7 @@ EXAMPLES = """
 _POSE = (("x", "X"), ("y", "Y"), ("z", "Z"), ("roll", "R"), ("pitch", "P"), ("yaw", "A"))
 _PERIOD_S = 1.0
 _START_S = 10.0
-"""Time limit for a server that starts; there may be none."""
+"""Timeout for a starting server [s]; there may be none."""
 _STEPS = "stepping a world from outside is not supported; the page has buttons for it"
 
 
@@ -32,39 +32,39 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     add = commands.add_parser("sdf", help="check, print and convert SDF files")
-    how = add.add_mutually_exclusive_group(required=True)
-    how.add_argument("-k", "--check", metavar="FILE", help="check a file")
-    how.add_argument("-p", "--print", metavar="FILE", help="print a file as SDF")
+    action = add.add_mutually_exclusive_group(required=True)
+    action.add_argument("-k", "--check", metavar="FILE", help="check a file")
+    action.add_argument("-p", "--print", metavar="FILE", help="print a file as SDF")
     add.set_defaults(run=_sdf)
     add = commands.add_parser("model", help="add, remove and move models of the running world")
     add.add_argument("-m", "--model-name", required=True, metavar="NAME", help="its name in the world")
-    what = add.add_mutually_exclusive_group()
-    what.add_argument("-f", "--spawn-file", metavar="FILE", help="add a model from a file")
-    what.add_argument("-s", "--spawn-string", action="store_true", help="add a model from standard input")
-    what.add_argument("-d", "--delete", action="store_true", help="remove it")
-    what.add_argument("-i", "--info", action="store_true", help="print its links and joints")
-    what.add_argument("-p", "--pose", action="store_true", help="print its pose [m, rad]")
+    action = add.add_mutually_exclusive_group()
+    action.add_argument("-f", "--spawn-file", metavar="FILE", help="add a model from a file")
+    action.add_argument("-s", "--spawn-string", action="store_true", help="add a model from standard input")
+    action.add_argument("-d", "--delete", action="store_true", help="remove it")
+    action.add_argument("-i", "--info", action="store_true", help="print its links and joints")
+    action.add_argument("-p", "--pose", action="store_true", help="print its pose [m, rad]")
     for (name, metavar), letter in zip(_POSE, "xyzRPY", strict=True):
         add.add_argument(f"-{letter}", f"--pose-{name}", dest=name, type=float, metavar=metavar, help="[m] or [rad]")
     add.set_defaults(run=_model)
     add = commands.add_parser("world", help="pause and reset the running world")
-    what = add.add_mutually_exclusive_group(required=True)
-    what.add_argument("-p", "--pause", type=int, choices=(0, 1), help="1: pause, 0: go on")
-    what.add_argument("-r", "--reset-all", action="store_true", help="reset time and models")
-    what.add_argument("-o", "--reset-models", action="store_true", help="reset models")
+    action = add.add_mutually_exclusive_group(required=True)
+    action.add_argument("-p", "--pause", type=int, choices=(0, 1), help="1: pause, 0: go on")
+    action.add_argument("-r", "--reset-all", action="store_true", help="reset time and models")
+    action.add_argument("-o", "--reset-models", action="store_true", help="reset models")
     for option in (("-s", "--step"), ("-t", "--reset-time")):
-        what.add_argument(*option, action="store_true", help=argparse.SUPPRESS)
-    what.add_argument("-m", "--multi-step", help=argparse.SUPPRESS)
+        action.add_argument(*option, action="store_true", help=argparse.SUPPRESS)
+    action.add_argument("-m", "--multi-step", help=argparse.SUPPRESS)
     add.set_defaults(run=_world)
     add = commands.add_parser("stats", help="print the speed of the simulation every second")
     add.add_argument("-d", "--duration", type=float, metavar="S", help="stop after this time")
     add.add_argument("-p", "--plot", action="store_true", help="comma-separated")
     add.set_defaults(run=_stats)
     add = commands.add_parser("topic", help="list, print and measure topics")
-    what = add.add_mutually_exclusive_group(required=True)
-    what.add_argument("-l", "--list", action="store_true", help="list all topics")
+    action = add.add_mutually_exclusive_group(required=True)
+    action.add_argument("-l", "--list", action="store_true", help="list all topics")
     for letter, subcommand in (("i", "info"), ("e", "echo"), ("z", "hz"), ("b", "bw")):
-        what.add_argument(f"-{letter}", f"--{subcommand}", metavar="TOPIC", help=f"as rostopic {subcommand}")
+        action.add_argument(f"-{letter}", f"--{subcommand}", metavar="TOPIC", help=f"as rostopic {subcommand}")
     add.set_defaults(run=_topic)
 
 
@@ -109,12 +109,12 @@ def _model(args: argparse.Namespace) -> int:
             request = {"model_name": name, "model_xml": text, "initial_pose": _ros_pose(args, [0.0] * 6)}
             gazebo.change("spawn_sdf_model", "gazebo_msgs/SpawnModel", request)
         elif args.info:
-            found = gazebo.change("get_model_properties", "gazebo_msgs/GetModelProperties", {"model_name": name})
-            for kind, names in (("link", found.body_names), ("joint", found.joint_names)):
-                print("".join(f'{kind} {{\n  name: "{each}"\n}}\n' for each in names), end="")
+            properties = gazebo.change("get_model_properties", "gazebo_msgs/GetModelProperties", {"model_name": name})
+            for kind, names in (("link", properties.body_names), ("joint", properties.joint_names)):
+                print("".join(f'{kind} {{\n  name: "{name}"\n}}\n' for name in names), end="")
         else:
             now = _pose_of(gazebo, name)
-            if args.pose or all(getattr(args, each) is None for each, _ in _POSE):
+            if args.pose or all(getattr(args, field) is None for field, _ in _POSE):
                 print(" ".join(f"{value:g}" for value in now))
             else:
                 state = {"model_name": name, "pose": _ros_pose(args, now)}
@@ -131,18 +131,18 @@ def _pose_of(gazebo: "_Gazebo", name: str) -> list[float]:
     return [at.x, at.y, at.z, *rpy_from_quaternion((q.w, q.x, q.y, q.z))]
 
 
-def _ros_pose(args: argparse.Namespace, otherwise: list[float]) -> dict[str, Any]:
-    """Return the pose of the options, whose defaults are given, as geometry_msgs/Pose."""
+def _ros_pose(args: argparse.Namespace, defaults: list[float]) -> dict[str, Any]:
+    """Return the pose of the options as geometry_msgs/Pose; `defaults` is x, y, z, roll, pitch, yaw [m, rad]."""
     from trundle.spatial import quaternion_from_rpy
 
-    given = [getattr(args, name) for name, _ in _POSE]
-    x, y, z, *rpy = (default if value is None else value for value, default in zip(given, otherwise, strict=True))
+    options = [getattr(args, name) for name, _ in _POSE]
+    x, y, z, *rpy = (default if value is None else value for value, default in zip(options, defaults, strict=True))
     w, qx, qy, qz = quaternion_from_rpy(*rpy)
     return {"position": {"x": x, "y": y, "z": z}, "orientation": {"x": qx, "y": qy, "z": qz, "w": w}}
 
 
 def _stats(args: argparse.Namespace) -> int:
-    """Print lines of Gazebo's form; real time counts from the start of this command."""
+    """Print lines in Gazebo's format; real time counts from the start of this command."""
     if args.plot:
         print("# real-time factor (percent), simtime (sec), realtime (sec), paused (T or F)", flush=True)
     with _Gazebo() as gazebo:
@@ -183,7 +183,7 @@ class _Gazebo:
         """Call a service.
 
         Raises:
-            UsageError: there is none, or it does not answer.
+            UsageError: no such service, or it does not answer.
         """
         from trundle.ros import RosError
 
@@ -195,10 +195,10 @@ class _Gazebo:
             raise UsageError(f"{error}; start a world with gazebo, gzserver or a launch file") from None
 
     def change(self, service: str, kind: str, request: Mapping[str, Any]) -> Any:
-        """Call a service that says whether it did what it should.
+        """Call a service that reports its success.
 
         Raises:
-            UsageError: it did not.
+            UsageError: it failed.
         """
         response = self.call(service, kind, request)
         if not response.success:

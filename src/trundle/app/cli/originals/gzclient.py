@@ -21,7 +21,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(_: argparse.Namespace) -> int:
-    """Open it, and wait until Ctrl-C or the end of the server; the server keeps the page."""
+    """Open the page, and wait until Ctrl-C or the end of the server, which keeps the page."""
     from trundle.live.gazebo.standalone import OPEN_WINDOW, open_window
     from trundle.ros import ServiceError
 

@@ -1,4 +1,4 @@
-"""Folders by `package/subfolder`, as roscd and rosls take them."""
+"""Folders given as `package/subfolder`, as in roscd and rosls."""
 
 import os
 from collections.abc import Mapping
@@ -17,14 +17,14 @@ def find_location(location: str, environment: Mapping[str, str]) -> Path:
     """
     from trundle.robots.packages import Packages
 
-    name, _, below = location.partition("/")
+    name, _, subpath = location.partition("/")
     if name == "log":
-        return log_parent(environment) / below
+        return log_parent(environment) / subpath
     packages = Packages(environment, start=Path.cwd())
     folder = packages.find_package(name)
     if folder is None:
         raise UsageError(f"No such package/stack '{name}'\n{packages.why_not_found(name)}")
-    return folder / below
+    return folder / subpath
 
 
 def log_parent(environment: Mapping[str, str]) -> Path:

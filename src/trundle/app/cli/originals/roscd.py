@@ -1,4 +1,4 @@
-"""Print the folder of a package, to which the shell's function roscd goes."""
+"""Print the folder of a package, for the shell function roscd."""
 
 import argparse
 import os
@@ -19,6 +19,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print it."""
+    """Print the folder."""
     print(find_location(args.package, os.environ) if args.package else workspace_folder(os.environ))
     return 0

@@ -28,7 +28,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Run the subcommand; nothing is done where no logs are."""
+    """Run the subcommand; do nothing if there are no logs."""
     folder = log_parent(os.environ)
     return args.run(args, folder) if folder.is_dir() else 0
 
@@ -56,11 +56,11 @@ def _purge(args: argparse.Namespace, folder: Path) -> int:
         print("PLEASE BE CAREFUL TO VERIFY THE COMMAND BELOW!")
         if not _confirm(question):
             return 0
-    for each in sorted(folder.iterdir(), key=lambda path: path.lstat().st_mtime):
+    for path in sorted(folder.iterdir(), key=lambda path: path.lstat().st_mtime):
         if args.size is not None and size <= args.size * _MB:
             return 0
-        size -= _size(each)
-        _remove(each)
+        size -= _size(path)
+        _remove(path)
     if args.size is None and not folder.is_symlink():
         folder.rmdir()
     return 0
@@ -82,9 +82,9 @@ def _remove(path: Path) -> None:
 
 
 def _size(path: Path) -> int:
-    """Return the size on disk of a file or folder; links are not followed [B]."""
+    """Return the size on disk of a file or folder [bytes]; links are not followed."""
     paths = [path] if path.is_symlink() or not path.is_dir() else path.rglob("*")
-    return sum(os.lstat(each).st_size for each in paths if os.path.lexists(each))
+    return sum(os.lstat(item).st_size for item in paths if os.path.lexists(item))
 
 
 def _readable(size: int) -> str:

@@ -27,7 +27,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-i", "--ignore-src", action="store_true", help="leave out packages on ROS_PACKAGE_PATH too")
     parser.add_argument("--skip-keys", action="append", default=[], metavar="KEYS", help="leave out these names")
     parser.add_argument("-s", "--simulate", action="store_true", help="print what would be fetched")
-    for option in ("-r", "-q", "-a"):  # errors never stop the others here
+    for option in ("-r", "-q", "-a"):  # an error never stops other packages here
         parser.add_argument(option, action="store_true", help=argparse.SUPPRESS)
     for option in ("--os", "--dependency-types", "-t"):
         parser.add_argument(option, dest="unused", metavar="X", help=argparse.SUPPRESS)
@@ -56,30 +56,30 @@ def _dependencies(args: argparse.Namespace) -> list[str]:
     """Return the names that packages depend on, without the packages themselves."""
     if not args.names:
         raise UsageError("rosdep needs packages, or --from-paths and folders")
-    folders = _below(args.names) if args.from_paths else _named(args.names)
-    skipped = {*folders, *(name for words in args.skip_keys for name in words.split())}
+    folders = _packages_below(args.names) if args.from_paths else _find_packages(args.names)
+    excluded = {*folders, *(name for words in args.skip_keys for name in words.split())}
     names = [name for folder in folders.values() for name in (*build_dependencies(folder), *run_dependencies(folder))]
-    return [name for name in dict.fromkeys(names) if name not in skipped]
+    return [name for name in dict.fromkeys(names) if name not in excluded]
 
 
-def _below(paths: list[str]) -> dict[str, Path]:
+def _packages_below(paths: list[str]) -> dict[str, Path]:
     """Return the packages below folders."""
-    found: dict[str, Path] = {}
+    result: dict[str, Path] = {}
     for path in map(Path, paths):
         if not path.is_dir():
             raise UsageError(f"no folder {path}")
         root = path.absolute()
         packages = Packages({**os.environ, "ROS_PACKAGE_PATH": str(root)}, start=root).ros_packages()
-        found |= {name: folder for name, folder in packages.items() if folder.is_relative_to(root)}
-    if not found:
+        result |= {name: folder for name, folder in packages.items() if folder.is_relative_to(root)}
+    if not result:
         print(f"no packages below {' '.join(paths)}", file=sys.stderr)
-    return found
+    return result
 
 
-def _named(names: list[str]) -> dict[str, Path]:
+def _find_packages(names: list[str]) -> dict[str, Path]:
     packages = Packages(os.environ, start=Path.cwd())
-    found = {name: packages.find_package(name) for name in names}
-    for name, folder in found.items():
+    result = {name: packages.find_package(name) for name in names}
+    for name, folder in result.items():
         if folder is None:
             raise UsageError(packages.why_not_found(name))
-    return {name: folder for name, folder in found.items() if folder is not None}
+    return {name: folder for name, folder in result.items() if folder is not None}

@@ -14,10 +14,10 @@ EXAMPLES = """
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("package", nargs="?", metavar=USAGE_SUFFIX, help="package, and a folder in it; else: this one")
+    parser.add_argument("package", nargs="?", metavar=USAGE_SUFFIX, help="package, and a folder in it (this folder)")
 
 
 def main(args: argparse.Namespace) -> int:
-    """Run `ls`, whose form depends on the terminal."""
+    """Run `ls`, whose output depends on the terminal."""
     folder = find_location(args.package, os.environ) if args.package else "."
     return subprocess.run(["ls", "--", str(folder)], check=False).returncode

@@ -16,15 +16,15 @@ _DEFAULT_DISTRO = "noetic"
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    which = parser.add_mutually_exclusive_group(required=True)
-    which.add_argument("-d", "--distro", action="store_true", help="name of the ROS distribution")
-    which.add_argument("-a", "--all", action="store_true", help="all packages with their versions")
-    which.add_argument("package", nargs="?", help="name of a package")
+    choice = parser.add_mutually_exclusive_group(required=True)
+    choice.add_argument("-d", "--distro", action="store_true", help="name of the ROS distribution")
+    choice.add_argument("-a", "--all", action="store_true", help="all packages with their versions")
+    choice.add_argument("package", nargs="?", help="name of a package")
     parser.add_argument("-s", "--skip-newline", action="store_true", help="no newline at the end")
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print it."""
+    """Print the version."""
     from trundle.robots.packages import Packages
 
     end = "" if args.skip_newline else "\n"
@@ -54,7 +54,7 @@ def _distro() -> str:
 
 
 def _version(folder: Path) -> str:
-    """Return the version in a package.xml or stack.xml; `<unversioned>` if there is none, as rosversion says."""
+    """Return the version in a package.xml or stack.xml; `<unversioned>` if there is none, as in rosversion."""
     from trundle.base.diagnostics import DescriptionError
     from trundle.base.files import read_text
     from trundle.base.xmlnode import parse_xml
@@ -63,7 +63,7 @@ def _version(folder: Path) -> str:
     if not os.path.isfile(manifest):
         return "<unversioned>"
     try:
-        found = parse_xml(read_text(manifest), name=str(manifest)).find("version")
+        element = parse_xml(read_text(manifest), name=str(manifest)).find("version")
     except (OSError, DescriptionError):
         return "<unversioned>"
-    return "<unversioned>" if found is None else found.text.strip()
+    return "<unversioned>" if element is None else element.text.strip()

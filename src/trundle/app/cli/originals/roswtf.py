@@ -1,4 +1,4 @@
-"""Look for faults of the environment and of the running graph, as roswtf does."""
+"""Check the environment and the running graph, as roswtf does."""
 
 import argparse
 import os
@@ -18,12 +18,12 @@ _RULE = "=" * 80
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("file", nargs="?", metavar="LAUNCH_FILE", help="check this launch file, too")
+    parser.add_argument("file", nargs="?", metavar="LAUNCH_FILE", help="also check this launch file")
     parser.add_argument("--all", action="store_true", help=argparse.SUPPRESS)
 
 
 def main(args: argparse.Namespace) -> int:
-    """Print a summary of static checks, then one of the graph's."""
+    """Print a summary of static checks, then one of the graph's checks."""
     with quiet_imports():
         from trundle.app.doctor.environment_checks import environment_checks
         from trundle.app.doctor.graph_faults import graph_faults
@@ -31,7 +31,7 @@ def main(args: argparse.Namespace) -> int:
 
     print(f"{_RULE}\nStatic checks summary:\n")
     checks = environment_checks(os.environ, Path.cwd())
-    _print_summary([f"ERROR {each.name}: {each.cost}" for each in checks if each.state == "problem"], [])
+    _print_summary([f"ERROR {check.name}: {check.cost}" for check in checks if check.state == "problem"], [])
     if args.file is not None:
         args.run_command(("check",), [args.file])
     print(_RULE)

@@ -1,4 +1,4 @@
-"""Show the graph in the browser, under rviz' name and with its options; waits for a master, as rviz does."""
+"""Show the graph in the browser, with rviz' name and options; wait for a master, as rviz does."""
 
 import argparse
 

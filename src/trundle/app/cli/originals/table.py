@@ -47,7 +47,7 @@ ORIGINALS: dict[str, tuple[str, ...]] = {
     "xacro": ("xacro",),
     "xterm": ("originals.xterm", "xterm"),
 }
-"""Command → module in `trundle.app.cli` and the arguments before those given."""
+"""Command → module in `trundle.app.cli`, and arguments that precede the user's."""
 
 FUNCTIONS = ("roscd",)
-"""Commands that the shell itself runs, since they change its folder."""
+"""Commands that the shell runs itself, since they change its working directory."""

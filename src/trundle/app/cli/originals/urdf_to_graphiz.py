@@ -1,4 +1,4 @@
-"""Draw the links and joints of a URDF, as urdfdom's urdf_to_graphiz does: a .gv file, and a .pdf where Graphviz is."""
+"""Draw the links and joints of a URDF, as urdfdom's urdf_to_graphiz does: a .gv file, and with Graphviz a .pdf."""
 
 import argparse
 import shutil
@@ -23,7 +23,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Write NAME.gv, and NAME.pdf by Graphviz; where that is not installed, NAME.svg."""
+    """Write NAME.gv, and with Graphviz NAME.pdf, else NAME.svg."""
     from trundle.base.atomic_write import write_atomically
 
     robot = read_urdf(args.file)
@@ -41,7 +41,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def graphviz_text(robot: "Robot") -> str:
-    """Return links as boxes, joints as ellipses with their origins [m, rad], in Graphviz' language."""
+    """Return links as boxes and joints as ellipses with their origins [m, rad], in DOT."""
     lines = ["digraph G {", "node [shape=box];"]
     lines += [f'"{_quoted(link.name)}" [label="{_quoted(link.name)}"];' for link in robot.links]
     lines.append("node [shape=ellipse, color=blue, fontcolor=blue];")

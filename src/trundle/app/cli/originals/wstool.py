@@ -1,4 +1,4 @@
-"""Keep and fetch the list of a workspace's repositories, as wstool does."""
+"""Edit the list of a workspace's repositories, and fetch them, as wstool does."""
 
 import argparse
 import os
@@ -14,7 +14,7 @@ EXAMPLES = """
   wstool init src my_robot.rosinstall       a list for the workspace, and its repositories
   wstool set my_robot --git https://github.com/me/my_robot.git --version=noetic-devel -t src
   wstool merge -t src other.rosinstall      add another list
-  wstool update -t src                      fetch what is not there
+  wstool update -t src                      fetch the missing ones
   wstool info -t src
 """
 _LIST = ".rosinstall"
@@ -34,12 +34,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Change the list, fetch what it names, or print it."""
+    """Change the list, fetch its repositories, or print it."""
     folder = Path(args.words.pop(0)) if args.command == "init" and args.words else args.target_workspace
     file = folder / _LIST
     if args.command == "init":
         if os.path.lexists(file):
-            raise UsageError(f"{file} is there already")
+            raise UsageError(f"{file} exists already")
         return _merge(file, args.words, updates=bool(args.words))
     if not file.is_file():
         raise UsageError(f"no {file}; begin with: wstool init {folder}")

@@ -41,7 +41,7 @@ def main(args: argparse.Namespace) -> int:
         if not values and loop.messages.fields(loop.messages.service(kind).request):
             if sys.stdin.isatty():
                 raise UsageError(f"Please specify service arguments: {argument_names(kind, loop.messages)}")
-            requests = (each if isinstance(each, list) else [each] for each in piped_documents())
+            requests = (document if isinstance(document, list) else [document] for document in piped_documents())
         loop.run(follow_time(node))
         for request in requests:
             _call_once(loop, node, name, kind, request, verbose=args.verbose)
@@ -54,9 +54,9 @@ def _call_once(loop: GraphLoop, node: Node, name: str, kind: str, values: list[A
     try:
         request = node.new(types.request, values[0] if len(values) == 1 and isinstance(values[0], dict) else values)
     except MessageError as error:
-        given = "\n".join(f" * {value} (type {type(value).__name__})" for value in values)
+        arguments = "\n".join(f" * {value} (type {type(value).__name__})" for value in values)
         raise MessageError(
-            f"Incompatible arguments to call service:\n{error}\nProvided arguments are:\n{given}\n\n"
+            f"Incompatible arguments to call service:\n{error}\nProvided arguments are:\n{arguments}\n\n"
             f"Service arguments are: [{argument_names(kind, loop.messages)}]"
         ) from None
     response = loop.run(node.call_service(name, kind, request, timeout_s=None), None)
@@ -66,7 +66,7 @@ def _call_once(loop: GraphLoop, node: Node, name: str, kind: str, values: list[A
 
 
 def service_type(proxy: MasterProxy, name: str) -> str:
-    """Query a service's type from its provider, since the master does not know it."""
+    """Query a service's type from its provider, since the master does not have it."""
     try:
         uri = str(proxy.call("lookupService", name))
     except MasterError:
@@ -78,6 +78,6 @@ def service_type(proxy: MasterProxy, name: str) -> str:
 
 
 def argument_names(kind: str, messages: Messages | None = None) -> str:
-    """Names of a request's fields."""
+    """Return the names of a request's fields."""
     messages = messages or Messages()
     return " ".join(messages.fields(messages.service(kind).request))

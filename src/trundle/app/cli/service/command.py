@@ -31,7 +31,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add = commands.add_parser("call", help="call a service and print its answer")
     add.add_argument("service")
     add.add_argument("values", nargs="*", help="request as YAML, or its fields in order, or standard input")
-    add.add_argument("-v", dest="verbose", action="store_true", help="print the request, too")
+    add.add_argument("-v", dest="verbose", action="store_true", help="also print the request")
     add.add_argument("--wait", action="store_true", help="wait for the service")
     add.set_defaults(run=_call, failure=2)
     for name, run, help_ in (
@@ -101,14 +101,14 @@ def _args(args: argparse.Namespace) -> int:
 
 def _find(args: argparse.Namespace) -> int:
     proxy = master(_SCRIPT)
-    found: list[str] = []
+    names: list[str] = []
     for name, _ in _services(proxy):
         try:
             if _type_of(proxy, name) == args.type:
-                found.append(name)
+                names.append(name)
         except RosError:  # ended, or does not answer
             continue
-    print("\n".join(found))
+    print("\n".join(names))
     return 0
 
 

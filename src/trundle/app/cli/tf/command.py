@@ -46,7 +46,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _import_on_use(module: str) -> Callable[[argparse.Namespace], int]:
-    """Command function that imports its module when called."""
+    """Return a command function that imports its module when called."""
 
     def run(args: argparse.Namespace) -> int:
         return import_module(f".{module}", __package__).main(args)

@@ -11,7 +11,7 @@ from trundle.ros import Transform, TransformBuffer, TransformError, TransformLis
 from ..graph_command import running_node
 from ..yaml_input import yaml_value
 
-_FIRST_S = 1.0
+_FIRST_TIMEOUT_S = 1.0
 """Timeout of the first transform before failures are printed."""
 _DIGITS = range(16)
 
@@ -38,23 +38,23 @@ def main(args: argparse.Namespace) -> int:
                 return f"{error}\nThe current list of frames is:\n{_frames(listener.buffer)}"
 
         loop.run(node.wait_connected(), timeout_s=None)
-        until = time.monotonic() + _FIRST_S
-        while isinstance(found := loop.run(lookup()), str) and time.monotonic() < until:
+        deadline_s = time.monotonic() + _FIRST_TIMEOUT_S
+        while isinstance(transform := loop.run(lookup()), str) and time.monotonic() < deadline_s:
             time.sleep(0.01)
         while True:
-            if isinstance(found, str):
-                print(f"Failure at {clock.now_ns() / 1e9:.9f}\nException thrown:{found}", flush=True)
+            if isinstance(transform, str):
+                print(f"Failure at {clock.now_ns() / 1e9:.9f}\nException thrown:{transform}", flush=True)
             else:
-                print(_text(found, digits), flush=True)
+                print(_text(transform, digits), flush=True)
             printed += 1
             if args.count is not None and printed >= args.count:
-                return 1 if isinstance(found, str) else 0
+                return 1 if isinstance(transform, str) else 0
             time.sleep(1.0 / rate)
-            found = loop.run(lookup())
+            transform = loop.run(lookup())
 
 
 def _number(args: argparse.Namespace, name: str, default: float) -> float:
-    """Private parameter such as `_rate:=5`, else the default."""
+    """Return a private parameter such as `_rate:=5`, else the default."""
     text = args.words.params.get(name)
     value = default if text is None else yaml_value(text)
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -79,7 +79,7 @@ def _list(values: Sequence[float], digits: int) -> str:
 
 
 def _rpy(w: float, x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Roll, pitch, yaw by tf's formulas, for the same signs of zeros: a level frame has pitch -0."""
+    """Return roll, pitch, yaw [rad] by tf's formulas, with the same signs of zeros: a level frame has pitch -0."""
     sine = 2 * (x * z - w * y)
     if abs(sine) >= 1:
         roll = math.atan2(2 * (w * z - x * y) * math.copysign(1, sine), -2 * (x * z + w * y) * math.copysign(1, sine))

@@ -9,8 +9,8 @@ from trundle.ros import Clock, GraphLoop, Node, TransformBuffer, TransformError,
 from ..graph_command import running_node
 from .traffic import TransformMonitor
 
-_EVERY_S = 1.0
-_LOOKED_S = 0.01
+_PERIOD_S = 1.0
+_SAMPLE_S = 0.01
 """Sampling interval of a chain's delay."""
 
 
@@ -22,19 +22,19 @@ def main(args: argparse.Namespace) -> int:
     with running_node("tf_monitor", args.words) as (loop, node):
         clock = loop.run(follow_time(node))
         traffic = TransformMonitor(node, clock)
-        watched = _MonitoredChain.create(node, clock, *args.frames) if args.frames else None
+        monitored = _MonitoredChain.create(node, clock, *args.frames) if args.frames else None
         loop.run(node.wait_connected(), timeout_s=None)
-        if watched is not None:
-            _wait(loop, watched)
+        if monitored is not None:
+            _wait(loop, monitored)
 
         async def table() -> str:
-            return _table(traffic, watched)
+            return _table(traffic, monitored)
 
         while args.count is None or printed < args.count:
-            if watched is None:
-                time.sleep(_EVERY_S)
+            if monitored is None:
+                time.sleep(_PERIOD_S)
             else:
-                _run_until_report(loop, watched)
+                _run_until_report(loop, monitored)
             print(loop.run(table()), flush=True)
             printed += 1
     return 0
@@ -49,9 +49,9 @@ class _MonitoredChain:
     buffer: TransformBuffer
     clock: Clock
     chain: list[str]
-    looks: int = 0
+    samples: int = 0
     total_s: float = 0.0
-    most_s: float = 0.0
+    max_s: float = 0.0
 
     @classmethod
     def create(cls, node: Node, clock: Clock, target: str, source: str) -> "_MonitoredChain":
@@ -60,51 +60,51 @@ class _MonitoredChain:
     async def measure_delay(self) -> bool:
         """Sample the age of the newest transform; False if there is none."""
         try:
-            found = self.buffer.lookup_transform(self.target, self.source)
+            transform = self.buffer.lookup_transform(self.target, self.source)
         except TransformError:
             return False
         self.chain = self.buffer.path(self.target, self.source)
-        age_s = (self.clock.now_ns() - found.stamp_ns) / 1e9 if found.stamp_ns else 0.0
-        self.looks += 1
+        age_s = (self.clock.now_ns() - transform.stamp_ns) / 1e9 if transform.stamp_ns else 0.0
+        self.samples += 1
         self.total_s += age_s
-        self.most_s = max(self.most_s, age_s)
+        self.max_s = max(self.max_s, age_s)
         return True
 
 
-def _wait(loop: GraphLoop, watched: _MonitoredChain) -> None:
-    text = f"Waiting for transform chain to become available between {watched.target} and {watched.source} "
+def _wait(loop: GraphLoop, monitored: _MonitoredChain) -> None:
+    text = f"Waiting for transform chain to become available between {monitored.target} and {monitored.source} "
     print(text, end="", flush=True)
-    while not loop.run(watched.measure_delay()):
+    while not loop.run(monitored.measure_delay()):
         print(".", end="", flush=True)
-        time.sleep(_EVERY_S)
+        time.sleep(_PERIOD_S)
     print()
 
 
-def _run_until_report(loop: GraphLoop, watched: _MonitoredChain) -> None:
-    until = time.monotonic() + _EVERY_S
-    while time.monotonic() < until:
-        loop.run(watched.measure_delay())
-        time.sleep(_LOOKED_S)
+def _run_until_report(loop: GraphLoop, monitored: _MonitoredChain) -> None:
+    deadline_s = time.monotonic() + _PERIOD_S
+    while time.monotonic() < deadline_s:
+        loop.run(monitored.measure_delay())
+        time.sleep(_SAMPLE_S)
 
 
-def _table(traffic: TransformMonitor, watched: _MonitoredChain | None) -> str:
+def _table(traffic: TransformMonitor, monitored: _MonitoredChain | None) -> str:
     lines = ["", "", "", "RESULTS: for all Frames"]
-    if watched is not None:
-        average = watched.total_s / watched.looks
-        lines[-1] = f"RESULTS: for {watched.target} to {watched.source}"
-        lines.append(f"Chain is: {' -> '.join(watched.chain)}")
-        lines.append(f"Net delay     avg = {average:g}: max = {watched.most_s:g}")
+    if monitored is not None:
+        average = monitored.total_s / monitored.samples
+        lines[-1] = f"RESULTS: for {monitored.target} to {monitored.source}"
+        lines.append(f"Chain is: {' -> '.join(monitored.chain)}")
+        lines.append(f"Net delay     avg = {average:g}: max = {monitored.max_s:g}")
     lines += ["", "Frames:"]
     for child, frame in sorted(traffic.frames.items()):
-        if watched is not None and child not in watched.chain:
+        if monitored is not None and child not in monitored.chain:
             continue
-        average, most = sum(frame.delays) / len(frame.delays), max(frame.delays)
-        lines.append(f"Frame: {child} published by {frame.caller} Average Delay: {average:g} Max Delay: {most:g}")
+        average, maximum = sum(frame.delays) / len(frame.delays), max(frame.delays)
+        lines.append(f"Frame: {child} published by {frame.caller} Average Delay: {average:g} Max Delay: {maximum:g}")
     lines += ["", "All Broadcasters:"]
     for name, sender in sorted(traffic.senders.items()):
         span = sender.arrivals[-1] - sender.arrivals[0]
         rate = (len(sender.arrivals) - 1) / span if span > 0 else 0.0
         average = sum(sender.delays) / len(sender.delays) if sender.delays else 0.0
-        most = max(sender.delays, default=0.0)
-        lines.append(f"Node: {name} {rate:g} Hz, Average Delay: {average:g} Max Delay: {most:g}")
+        maximum = max(sender.delays, default=0.0)
+        lines.append(f"Node: {name} {rate:g} Hz, Average Delay: {average:g} Max Delay: {maximum:g}")
     return "\n".join(lines)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from trundle.ros import Clock, Node, RawMessage, to_nsec
 
-_KEPT = 1000
+_WINDOW = 1000
 """Window of the averages [messages]."""
 _TYPE = "tf2_msgs/TFMessage"
 
@@ -18,9 +18,9 @@ class FrameStatistics:
     parent: str
     caller: str
     is_static: bool
-    stamps: deque[float] = field(default_factory=lambda: deque[float](maxlen=_KEPT))
+    stamps: deque[float] = field(default_factory=lambda: deque[float](maxlen=_WINDOW))
     """Header stamps [s]."""
-    delays: deque[float] = field(default_factory=lambda: deque[float](maxlen=_KEPT))
+    delays: deque[float] = field(default_factory=lambda: deque[float](maxlen=_WINDOW))
     """Age on arrival [s]."""
 
     @property
@@ -35,8 +35,8 @@ class SenderStatistics:
     """Statistics of one broadcaster."""
 
     name: str
-    arrivals: deque[float] = field(default_factory=lambda: deque[float](maxlen=_KEPT))
-    delays: deque[float] = field(default_factory=lambda: deque[float](maxlen=_KEPT))
+    arrivals: deque[float] = field(default_factory=lambda: deque[float](maxlen=_WINDOW))
+    delays: deque[float] = field(default_factory=lambda: deque[float](maxlen=_WINDOW))
 
 
 class TransformMonitor:

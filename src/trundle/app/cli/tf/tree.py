@@ -34,28 +34,32 @@ def main(args: argparse.Namespace) -> int:
         async def frames() -> list[FrameStatistics]:
             return sorted(traffic.frames.values(), key=lambda frame: frame.child)
 
-        found = loop.run(frames())
-    if not found:
+        statistics = loop.run(frames())
+    if not statistics:
         raise UsageError("no tf data received")
-    for line in _breaks(found, traffic.other_parents):
+    for line in _faults(statistics, traffic.other_parents):
         print(f"WARNING: {line}", file=sys.stderr)
     if target is None:
-        print(tree_text(_roots(found, now_s)))
+        print(tree_text(_roots(statistics, now_s)))
         return 0
-    text = tree_svg(_roots(found, now_s), title="tf frames") if target.suffix == ".svg" else _graphviz(found, now_s)
+    text = (
+        tree_svg(_roots(statistics, now_s), title="tf frames")
+        if target.suffix == ".svg"
+        else _graphviz(statistics, now_s)
+    )
     write_atomically(target, text)
     print(f"{target} generated")
     return 0
 
 
-def _breaks(frames: list[FrameStatistics], rivals: Mapping[str, set[tuple[str, str]]]) -> Iterator[str]:
-    """Reasons why lookups between frames fail."""
+def _faults(frames: list[FrameStatistics], other_parents: Mapping[str, set[tuple[str, str]]]) -> Iterator[str]:
+    """Yield reasons why lookups between frames fail."""
     roots = sorted({frame.parent for frame in frames} - {frame.child for frame in frames})
     if len(roots) > 1:
         yield f"{len(roots)} unconnected trees; roots: {', '.join(map(repr, roots))}"
-    for child, places in sorted(rivals.items()):
-        below = " and ".join(f"{parent!r} (by {caller})" for parent, caller in sorted(places))
-        yield f"{child!r} has alternating parents: {below}; a frame must have one parent"
+    for child, parents in sorted(other_parents.items()):
+        names = " and ".join(f"{parent!r} (by {caller})" for parent, caller in sorted(parents))
+        yield f"{child!r} has alternating parents: {names}; a frame must have one parent"
 
 
 def _roots(frames: list[FrameStatistics], now_s: float) -> list[TreeNode]:
@@ -79,7 +83,7 @@ def _edge(frame: FrameStatistics, now_s: float) -> str:
 
 
 def _graphviz(frames: list[FrameStatistics], now_s: float) -> str:
-    """Graphviz text as of view_frames."""
+    """Return Graphviz text as view_frames writes it."""
     lines = ["digraph G {"]
     for frame in frames:
         rate = 10000.0 if frame.rate_hz is None else frame.rate_hz

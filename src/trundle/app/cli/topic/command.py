@@ -46,7 +46,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add = commands.add_parser("find", help="topics of a type")
     add.add_argument("type")
     add.set_defaults(run=_find)
-    # Subcommands with messages are in modules of their own, imported on use.
+    # Subcommands with messages are in separate modules, imported on use.
     add = commands.add_parser("echo", help="print messages")
     add.add_argument("topic", nargs="?", help="topic or field, as /odom/pose/pose or /tf/transforms[0]")
     add.add_argument("-b", "--bag", metavar="BAG", help="print from a bag")
@@ -83,7 +83,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add.add_argument("-r", "--rate", type=float, metavar="HZ", help="publish periodically")
     add.add_argument("-1", "--once", action="store_true", help="publish one message and stop after 3 s")
     add.add_argument("-f", "--file", help="read messages from a file of YAML documents")
-    add.add_argument("-l", "--latch", action="store_true", help="latch with -r, -f or piped messages, too")
+    add.add_argument("-l", "--latch", action="store_true", help="latch with -r, -f or piped messages too")
     add.add_argument(
         "-s", "--substitute-keywords", action="store_true", help="with -r, update 'now' and 'auto' each time"
     )
@@ -144,13 +144,13 @@ def _list(args: argparse.Namespace) -> int:
         return 0
     hosts = _hosts(proxy, publishers + subscribers)
     for host in sorted(set(hosts.values())):
-        here = [
-            [(topic, kind, own) for topic, kind, nodes in rows if (own := [n for n in nodes if hosts[n] == host])]
+        tables = [
+            [(topic, kind, local) for topic, kind, nodes in rows if (local := [n for n in nodes if hosts[n] == host])]
             for rows in (publishers, subscribers)
         ]
-        if (here[0] and not args.subscribers) or (here[1] and not args.publishers):
+        if (tables[0] and not args.subscribers) or (tables[1] and not args.publishers):
             print(f"Host [{host}]:")
-            _print_list(args, here[0], here[1], "  ")
+            _print_list(args, tables[0], tables[1], "  ")
     return 0
 
 
@@ -173,9 +173,9 @@ def _print_list(args: argparse.Namespace, publishers: Rows, subscribers: Rows, i
     print()
 
 
-def _print_counts(rows: Rows, what: str, indent: str) -> None:
+def _print_counts(rows: Rows, role: str, indent: str) -> None:
     for topic, kind, nodes in rows:
-        print(f"{indent} * {topic} [{kind}] {len(nodes)} {what}{'s' if len(nodes) > 1 else ''}")
+        print(f"{indent} * {topic} [{kind}] {len(nodes)} {role}{'s' if len(nodes) > 1 else ''}")
 
 
 def _info(args: argparse.Namespace) -> int:
@@ -209,10 +209,10 @@ def _type(args: argparse.Namespace) -> int:
         return 0
     from trundle.ros import field_type, split_topic
 
-    found = split_topic(name, types)
-    if found is None:
+    field = split_topic(name, types)
+    if field is None:
         raise UsageError(f"unknown topic type [{name}]")
-    topic, path = found
+    topic, path = field
     print(f"{types[topic]} {path} {field_type(types[topic], path)}")
     return 0
 

@@ -27,8 +27,8 @@ from ..expression import expression
 from ..graph_command import global_name, master, running_node
 from ..wait_for_topic import wait_for_topic
 
-_FIRST_S = 2.0
-_WAITING = 1000
+_FIRST_TIMEOUT_S = 2.0
+_QUEUE_SIZE = 1000
 """Queue size for slow terminals; the oldest messages are dropped."""
 
 
@@ -55,7 +55,7 @@ def main(args: argparse.Namespace) -> int:
         known = messages.has(field.type)
         node.deliver = inbox.put
         arrived: list[Any] = []
-        node.subscribe(field.topic, field.type if known else "*", arrived.append, queue_size=_WAITING)
+        node.subscribe(field.topic, field.type if known else "*", arrived.append, queue_size=_QUEUE_SIZE)
         if not isinstance(clock, WallClock):
             _wait_for_first(inbox)
         while not echo.is_done:
@@ -75,13 +75,13 @@ def _echo_bag(args: argparse.Namespace) -> int:
     name = "" if args.all else global_name(args.topic, "rostopic")
     with open_bag(Path(args.bag)) as bag:
         types = {connection.topic: connection.type for connection in bag.connections}
-        found = (None, "") if args.all else split_topic(name, types)
-        if found is None:
+        selection = (None, "") if args.all else split_topic(name, types)
+        if selection is None:
             raise UsageError(f"no topic [{name}] in {args.bag}; topics there: {', '.join(sorted(types))}")
-        for message in bag.messages(lambda c: found[0] in (None, c.topic)):
+        for message in bag.messages(lambda c: selection[0] in (None, c.topic)):
             connection = message.connection
             messages.add_definition(connection.type, connection.definition)
-            field = TopicField(topic=connection.topic, type=connection.type, path=found[1])
+            field = TopicField(topic=connection.topic, type=connection.type, path=selection[1])
             echo.print_message(messages.deserialize(message.data, connection.type), field, message.stamp_ns)
             if echo.is_done:
                 break
@@ -89,14 +89,14 @@ def _echo_bag(args: argparse.Namespace) -> int:
 
 
 def list_bag(args: argparse.Namespace) -> int:
-    """`topic list -b`: print the topics of a bag in order of first message, or the message count of one."""
+    """`topic list -b`: print the topics of a bag in order of first message, or one topic's message count."""
     with open_bag(Path(args.bag)) as bag:
         if not args.topic:
             print("\n".join(dict.fromkeys(message.connection.topic for message in bag.messages())))
             return 0
         name = global_name(args.topic, "rostopic")
-        below = f"{name.rstrip('/')}/"
-        stamps = [m.stamp_ns for m in bag.messages(lambda c: c.topic == name or c.topic.startswith(below))]
+        prefix = f"{name.rstrip('/')}/"
+        stamps = [m.stamp_ns for m in bag.messages(lambda c: c.topic == name or c.topic.startswith(prefix))]
     if not stamps:
         raise UsageError(f"no messages of {name} in {args.bag}")
     first, last = (time.strftime("%d %b %Y %H:%M:%S", time.localtime(ns / 1e9)) for ns in (stamps[0], stamps[-1]))
@@ -110,7 +110,7 @@ class _MessageEcho:
     def __init__(self, args: argparse.Namespace, messages: Messages) -> None:
         self._args = args
         self._messages = messages
-        self._wanted = expression(args.filter)
+        self._filter = expression(args.filter)
         self._printed = 0
 
     @property
@@ -122,7 +122,7 @@ class _MessageEcho:
         """Print a message, if it passes the filter."""
         if self.is_done:
             return
-        if self._wanted is not None and not self._wanted.value(m=MessageView(message), topic=field.topic):
+        if self._filter is not None and not self._filter.value(m=MessageView(message), topic=field.topic):
             return
         offset = now_ns if self._args.offset else None
         _print(self._args, self._messages, message, field.type, field, offset, now_ns, first=self._printed == 0)
@@ -132,7 +132,7 @@ class _MessageEcho:
 def _wait_for_first(inbox: "queue.Queue[Any]") -> None:
     """Warn if no message arrives under simulated time, which may have stopped."""
     try:
-        inbox.put(inbox.get(timeout=_FIRST_S))
+        inbox.put(inbox.get(timeout=_FIRST_TIMEOUT_S))
     except queue.Empty:
         print(
             "WARNING: no messages received and simulated time is active.\nIs /clock being published?",

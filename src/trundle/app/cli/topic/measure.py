@@ -26,10 +26,12 @@ def main(args: argparse.Namespace) -> int:
             field = wait_for_topic(master("rostopic"), global_name(name, "rostopic"), loop.messages)
             if is_rate:
                 meter: _Meter = RateMeter(clock, args.window)
-                wanted = expression(args.filter)
-                callback = meter.add_message if wanted is None else _filtered(meter.add_message, wanted, field.topic)
-                kind = "*" if wanted is None else field.type
-                if wanted is not None:  # warm up: a slow first read would cause a burst
+                condition = expression(args.filter)
+                callback = (
+                    meter.add_message if condition is None else _filtered(meter.add_message, condition, field.topic)
+                )
+                kind = "*" if condition is None else field.type
+                if condition is not None:  # warm up: a slow first read would cause a burst
                     loop.messages.deserialize(loop.messages.serialize(loop.messages.new(kind)), kind)
                 node.subscribe(field.topic, kind, callback, queue_size=None, tcp_nodelay=args.tcpnodelay)
             elif is_delay:
@@ -47,21 +49,25 @@ def main(args: argparse.Namespace) -> int:
         while True:
             try:
                 time.sleep(1.0)
-            finally:  # on Ctrl-C, report the last second, too
+            finally:  # on Ctrl-C, also report the last second
                 text = report(meters)
                 if text:
                     print(text, flush=True)
 
 
 def report(meters: dict[str, _Meter]) -> str | None:
-    """Report of the last second."""
+    """Return the report of the last second."""
     if len(meters) == 1:
         [meter] = meters.values()
         return meter.text()
     rows = [
-        [name, *(f"{v:.4}" for v in (found.rate_hz, found.min, found.max, found.deviation)), str(found.window)]
+        [
+            name,
+            *(f"{v:.4}" for v in (statistics.rate_hz, statistics.min, statistics.max, statistics.deviation)),
+            str(statistics.window),
+        ]
         for name, meter in meters.items()
-        if isinstance(meter, RateMeter) and (found := meter.statistics()) is not None
+        if isinstance(meter, RateMeter) and (statistics := meter.statistics()) is not None
     ]
     return _table(["topic", "rate", "min_delta", "max_delta", "std_dev", "window"], rows) if rows else "no new messages"
 
@@ -76,9 +82,9 @@ def _table(header: list[str], rows: list[list[str]]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _filtered(take: Callable[[Any], None], wanted: Expression, topic: str) -> Callable[[Any], None]:
+def _filtered(callback: Callable[[Any], None], condition: Expression, topic: str) -> Callable[[Any], None]:
     def filtered(message: Any) -> None:
-        if wanted.value(m=MessageView(message), topic=topic):
-            take(message)
+        if condition.value(m=MessageView(message), topic=topic):
+            callback(message)
 
     return filtered

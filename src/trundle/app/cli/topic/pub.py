@@ -54,30 +54,30 @@ def main(args: argparse.Namespace) -> int:
 def _publish_values(args: argparse.Namespace, node: Node, publisher: Publisher, values: list[Any]) -> None:
     message = _message(node, args.type, values)
     if args.rate is not None:
-        due = time.monotonic()
+        due_s = time.monotonic()
         while True:
             if args.substitute_keywords:
                 message = _message(node, args.type, values)
-            _say(args, node, message)
+            _print_verbose(args, node, message)
             publisher.publish(message)
-            due = max(due + 1 / args.rate, time.monotonic() - 1 / args.rate)
-            time.sleep(max(0.0, due - time.monotonic()))
+            due_s = max(due_s + 1 / args.rate, time.monotonic() - 1 / args.rate)
+            time.sleep(max(0.0, due_s - time.monotonic()))
     _announce(args, node, message, passes=args.once)
     publisher.publish(message)
     if args.once:
         time.sleep(_ONCE_S)
     else:
-        _stay()
+        _sleep_forever()
 
 
 def _announce(args: argparse.Namespace, node: Node, message: Any, *, passes: bool) -> None:
-    """Print what is published, in rostopic's words."""
-    shown = f"[{_text(node, args.type, message)}]" if args.verbose else "message"
-    how_long = f" for {_ONCE_S} seconds" if passes else ". Press ctrl-C to terminate"
-    print(f"publishing and latching {shown}{how_long}", flush=True)
+    """Print what is published, in rostopic's format."""
+    content = f"[{_text(node, args.type, message)}]" if args.verbose else "message"
+    duration = f" for {_ONCE_S} seconds" if passes else ". Press ctrl-C to terminate"
+    print(f"publishing and latching {content}{duration}", flush=True)
 
 
-def _stay() -> NoReturn:
+def _sleep_forever() -> NoReturn:
     while True:
         time.sleep(3600.0)
 
@@ -87,8 +87,8 @@ def _publish_documents(args: argparse.Namespace, node: Node, publisher: Publishe
     rate = args.rate or (None if args.latch or args.once else _PIPED_HZ)
     stays = rate is None and not args.once
     documents = list(yaml_file(args.file)) if args.file else piped_documents()
-    until = time.monotonic() + _SUBSCRIBER_S
-    while not publisher.has_subscribers and time.monotonic() < until:
+    deadline_s = time.monotonic() + _SUBSCRIBER_S
+    while not publisher.has_subscribers and time.monotonic() < deadline_s:
         time.sleep(0.01)
     repeats = isinstance(documents, list) and len(documents) == 1 and rate is not None
     if repeats:
@@ -97,12 +97,12 @@ def _publish_documents(args: argparse.Namespace, node: Node, publisher: Publishe
         for document in documents:
             message = _message(node, args.type, document if isinstance(document, list) else [document])
             if repeats:
-                _say(args, node, message)
+                _print_verbose(args, node, message)
             else:
                 _announce(args, node, message, passes=not stays)
             publisher.publish(message)
             if stays:  # -l alone: latch the first message
-                _stay()
+                _sleep_forever()
             time.sleep(1 / rate if rate else _ONCE_S)
             if args.once:
                 return
@@ -111,15 +111,15 @@ def _publish_documents(args: argparse.Namespace, node: Node, publisher: Publishe
 
 
 def _message(node: Node, type_name: str, values: list[Any]) -> Any:
-    given = values[0] if len(values) == 1 and isinstance(values[0], dict) else values
+    value = values[0] if len(values) == 1 and isinstance(values[0], dict) else values
     try:
-        return node.new(type_name, given)
+        return node.new(type_name, value)
     except MessageError as error:
         fields = ", ".join(f"{kind} {name}" for name, kind in node.messages.fields(type_name).items())
         raise MessageError(f"{error}\n{type_name} is: {fields}") from None
 
 
-def _say(args: argparse.Namespace, node: Node, message: Any) -> None:
+def _print_verbose(args: argparse.Namespace, node: Node, message: Any) -> None:
     if args.verbose:
         print(f"publishing {_text(node, args.type, message)}", flush=True)
 

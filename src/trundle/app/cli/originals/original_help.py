@@ -1,4 +1,4 @@
-"""Help of a command of ROS or Gazebo without a subcommand or after `help`, with the original's exit codes."""
+"""Help of ROS' and Gazebo's commands without a subcommand or after `help`, with the originals' exit codes."""
 
 import argparse
 import sys
@@ -20,16 +20,16 @@ _GZ = "gz"
 """Prints its help on stderr, also for an unknown subcommand or option, such as `gz --versions`."""
 
 
-def print_whole_help(program: str, arguments: Sequence[str], parser: argparse.ArgumentParser) -> int | None:
+def print_original_help(program: str, arguments: Sequence[str], parser: argparse.ArgumentParser) -> int | None:
     """Print help where the original does.
 
     Args:
-        program: name of the command, of `EXIT_CODES`.
-        arguments: after its name.
-        parser: of the command.
+        program: name of the command, a key of `EXIT_CODES`.
+        arguments: arguments after its name.
+        parser: parser of the command.
 
     Returns:
-        Its exit code, or None if nothing was printed: the arguments are to be parsed.
+        The exit code, or None if nothing was printed and the arguments are to be parsed.
     """
     commands = _subcommands(parser)
     first, second = [*arguments, "", ""][:2]
@@ -37,10 +37,10 @@ def print_whole_help(program: str, arguments: Sequence[str], parser: argparse.Ar
         return None
     if first not in ("", "help") and program != _GZ:
         return None
-    is_asked = first == "help"
-    shown = commands.get(second, parser) if is_asked else parser
-    shown.print_help(sys.stderr if program == _GZ else sys.stdout)
-    return EXIT_CODES[program][is_asked]
+    is_requested = first == "help"
+    help_parser = commands.get(second, parser) if is_requested else parser
+    help_parser.print_help(sys.stderr if program == _GZ else sys.stdout)
+    return EXIT_CODES[program][is_requested]
 
 
 def _subcommands(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
