@@ -28,11 +28,11 @@ def load(
     """Load a robot or world, ready to simulate; a robot alone gets a ground plane and a sun.
 
     Args:
-        file: SDF, URDF or xacro; a folder with model.config; model://NAME; or what was built with `Model` or `World`.
-        seed: of all random numbers.
-        plugins: run the plugins that the file asks for, with ROS where `ros` says so; what they load is in `report`.
-        ros: be part of a ROS graph: the one that ROS_MASTER_URI names, else one that is started here; a master's URI
-            joins that one. `close` the simulation, or use it in a `with` statement.
+        file: SDF, URDF or xacro; a folder with model.config; model://NAME; or a `Model` or `World`.
+        seed: seed of all random numbers.
+        plugins: run the file's plugins, with ROS if `ros` is set; loaded plugins are listed in `report`.
+        ros: join the ROS graph at ROS_MASTER_URI, or start a master if there is none; a master's URI joins its
+            graph. `close` the simulation, or use it in a `with` statement.
 
     Raises:
         TrundleError: one sentence with file and line. Warnings are in the simulation's `report`.
@@ -41,8 +41,8 @@ def load(
 
     from trundle.live.loaded_simulation import load_simulation
 
-    read = fspath(file) if isinstance(file, str | PathLike) else file
-    return load_simulation(read, seed=seed, plugins=plugins, ros=ros)
+    source = fspath(file) if isinstance(file, str | PathLike) else file
+    return load_simulation(source, seed=seed, plugins=plugins, ros=ros)
 
 
 def sweep(
@@ -55,20 +55,20 @@ def sweep(
 ) -> "SweepResult":
     """Run a world many times with different values; needs the extra `sweep`.
 
-    A call for the same plan goes on where the last one stopped.
+    A call with the same plan continues the interrupted one.
 
     Args:
-        plan: a plan's file, or its content as a dictionary, whose relative paths start in the working directory.
-        output: folder of the results; None: beside the plan's file, or `plan.sweep` in the working directory.
+        plan: plan file, or its content as a dictionary, with paths relative to the working directory.
+        output: folder of the results; None: next to the plan's file, or `plan.sweep` in the working directory.
         workers: number of processes; None: one for each processor.
-        address: of a Ray cluster, "auto" for the one of this machine, "local" for a new one; None: processes of this
-            machine, without Ray.
-        device: "cuda" steps many rows at once on an NVIDIA GPU, in single precision; without one a line says so, and
-            the processors run them.
+        address: address of a Ray cluster, "auto" for this machine's cluster, "local" for a new one; None: processes of
+            this machine, without Ray.
+        device: "cuda" steps many rows at once on an NVIDIA GPU, in single precision; without a GPU a message is
+            printed, and the CPU steps them.
 
     Raises:
         TrundleError: one sentence with file and line.
-        KeyboardInterrupt: Ctrl-C; what has been run is kept.
+        KeyboardInterrupt: Ctrl-C; finished runs are kept.
     """
     from pathlib import Path
 
@@ -85,19 +85,19 @@ def dataset(
     workers: int | None = None,
     address: str | None = None,
 ) -> "DatasetResult":
-    """Make annotated pictures of a varied world, to train vision on.
+    """Make annotated pictures of a varied world, to train computer vision.
 
-    A call for the same plan goes on where the last one stopped.
+    A call with the same plan continues the interrupted one.
 
     Args:
-        plan: a plan's file, or its content as a dictionary, whose relative paths start in the working directory.
-        output: folder of the dataset; None: beside the plan's file, or `plan.dataset` in the working directory.
+        plan: plan file, or its content as a dictionary, with paths relative to the working directory.
+        output: folder of the dataset; None: next to the plan's file, or `plan.dataset` in the working directory.
         workers: number of processes; None: one for each processor.
-        address: of a Ray cluster whose nodes share that folder; None: this machine alone.
+        address: address of a Ray cluster whose nodes share the folder; None: only this machine.
 
     Raises:
         TrundleError: one sentence with file and line.
-        KeyboardInterrupt: Ctrl-C; what has been made is kept.
+        KeyboardInterrupt: Ctrl-C; finished pictures are kept.
     """
     from pathlib import Path
 

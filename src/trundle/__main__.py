@@ -6,8 +6,8 @@ import sys
 def main() -> int:
     """Run the command; Ctrl-C before its start or after its end exits silently.
 
-    SIGINT is heard even if the starter ignores it, as a script does for `trundle … &`: `kill -INT $!` ends the command,
-    as it ends ROS 1's own, and what the command starts is ended by it too.
+    SIGINT is handled even if the parent ignores it, as a script does for `trundle … &`: `kill -INT $!` ends the
+    command, like ROS 1's commands, and the command's child processes.
     """
     try:
         import signal

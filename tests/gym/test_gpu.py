@@ -1,4 +1,4 @@
-"""Vector environments on a GPU; without one Warp's CPU device stands for it."""
+"""Vector environments on a GPU, or on Warp's CPU device without a GPU."""
 
 from importlib.util import find_spec
 
@@ -16,7 +16,7 @@ from trundle.live.loaded_simulation import load_simulation
 NAME = "Trundle/CartPole-v0"
 
 
-def test_without_a_gpu_a_warning_says_so_and_the_cpu_steps() -> None:
+def test_without_a_gpu_the_cpu_steps_with_a_warning() -> None:
     if warp_device() != "cpu":
         pytest.skip("there is a GPU")
     with pytest.warns(UserWarning, match="device='cuda': .*; the worlds are stepped by the CPU"):
@@ -39,7 +39,7 @@ def test_an_unknown_device_is_refused() -> None:
     find_spec("warp") is None or find_spec("mujoco_warp") is None,
     reason="mujoco-warp is not installed: trundle doctor says how",
 )
-def test_episodes_go_as_on_the_cpu_with_falls_and_resets() -> None:
+def test_episodes_on_the_gpu_equal_those_on_the_cpu() -> None:
     file, task = READY[NAME]
     cpu, gpu = (
         SimulationVectorEnv(Worlds(load_simulation(str(file)), Task(**task), rows=4, threads=1, gpu=device))
@@ -52,10 +52,10 @@ def test_episodes_go_as_on_the_cpu_with_falls_and_resets() -> None:
 
     for _ in range(60):
         assert second == pytest.approx(first, abs=1e-3)
-        # Towards one side for a while, so that poles fall.
+        # Constant efforts in one direction make poles fall.
         actions = np.sign(cpu.action_space.sample()[:1]) * np.full_like(cpu.action_space.sample(), 5.0)
         first, _, terminated, *_ = cpu.step(actions)
-        second, _, others, *_ = gpu.step(actions)
-        assert np.array_equal(terminated, others)
+        second, _, gpu_terminated, *_ = gpu.step(actions)
+        assert np.array_equal(terminated, gpu_terminated)
         ends += int(terminated.sum())
     assert ends > 0

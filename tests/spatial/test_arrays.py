@@ -1,4 +1,4 @@
-"""Arrays of poses obey the algebra of single ones."""
+"""Operations on arrays of poses equal the operations on single poses."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ _poses = st.builds(Pose.from_rpy, _number, _number, _number, _number, _number, _
 
 
 @given(_poses, _poses)
-def test_rows_compose_as_poses_do(a_from_b: Pose, b_from_c: Pose) -> None:
+def test_rows_compose_like_poses(a_from_b: Pose, b_from_c: Pose) -> None:
     expected = rows_from_poses([a_from_b @ b_from_c])
 
     assert compose_rows(rows_from_poses([a_from_b]), rows_from_poses([b_from_c])) == pytest.approx(expected, abs=1e-9)
@@ -35,7 +35,7 @@ def test_a_pose_and_its_inverse_cancel(pose: Pose) -> None:
     assert compose_rows(rows, invert_rows(rows)) == pytest.approx(rows_from_poses([Pose()]), abs=1e-9)
 
 
-def test_a_row_with_a_gap_is_no_pose() -> None:
+def test_rows_with_nan_are_not_finite() -> None:
     rows = rows_from_poses([Pose(), Pose()])
     rows[1, 4] = np.nan
 
@@ -43,31 +43,33 @@ def test_a_row_with_a_gap_is_no_pose() -> None:
 
 
 @given(_poses)
-def test_a_row_is_the_pose_it_was_made_from(pose: Pose) -> None:
+def test_a_row_converts_back_to_its_pose(pose: Pose) -> None:
     assert pose_from_row(rows_from_poses([pose])[0]) == pose
 
 
 @given(_poses)
 def test_matrices_and_quaternions_are_the_same_rotations(pose: Pose) -> None:
     matrix = matrix_from_quaternion(pose.quaternion)
-    again = np.array(quaternion_from_matrix(matrix))
+    quaternion = np.array(quaternion_from_matrix(matrix))
 
     assert matrix @ (1.0, -2.0, 3.0) == pytest.approx(pose.transform_vector((1.0, -2.0, 3.0)), abs=1e-9)
-    assert abs(again @ pose.quaternion) == pytest.approx(1.0, abs=1e-9)
+    assert abs(quaternion @ pose.quaternion) == pytest.approx(1.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("half_turn", [(0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0)])
-def test_half_turns_leave_their_matrices(half_turn: tuple[float, float, float, float]) -> None:
-    """The trace is −1 there: w cannot be divided by."""
+def test_matrices_of_half_turns_convert_back(half_turn: tuple[float, float, float, float]) -> None:
+    """The trace is −1, so that dividing by w is impossible."""
     assert quaternion_from_matrix(matrix_from_quaternion(half_turn)) == pytest.approx(half_turn)
 
 
 @given(_poses)
-def test_points_move_and_directions_turn(pose: Pose) -> None:
+def test_points_are_transformed_and_directions_rotated(pose: Pose) -> None:
     points = np.array([[1.0, 2.0, 3.0], [0.0, -1.0, 0.5]])
     origin = np.array(pose.position)
 
-    moved = transform_points(pose, points)
+    transformed = transform_points(pose, points)
 
-    assert moved == pytest.approx(np.array([pose.transform_point((x, y, z)) for x, y, z in points.tolist()]), abs=1e-9)
-    assert rotate_vectors(pose, points) + origin == pytest.approx(moved, abs=1e-9)
+    assert transformed == pytest.approx(
+        np.array([pose.transform_point((x, y, z)) for x, y, z in points.tolist()]), abs=1e-9
+    )
+    assert rotate_vectors(pose, points) + origin == pytest.approx(transformed, abs=1e-9)

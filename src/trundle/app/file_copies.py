@@ -67,7 +67,7 @@ class FileCopies:
                 for extra in _companions(path):
                     is_inside = extra.is_relative_to(path.parent)
                     _copy(extra, target.parent / (extra.relative_to(path.parent) if is_inside else extra.name))
-            pictures = [each for each in self._pictures.values() if each is not None]
+            pictures = [picture for picture in self._pictures.values() if picture is not None]
             for target, data in pictures:
                 (folder / target).parent.mkdir(exist_ok=True)
                 (folder / target).write_bytes(data)

@@ -1,6 +1,6 @@
 """Gymnasium environments: reinforcement learning in the world of any description.
 
-Importing it registers the ready ones, `Trundle/CartPole-v0` and others, with Gymnasium.
+Importing it registers the built-in environments, `Trundle/CartPole-v0` and others, with Gymnasium.
 """
 
 import lazy_loader

@@ -1,4 +1,4 @@
-"""Actions: how the numbers of an agent's action drive joints."""
+"""Actions: drive joints by the numbers of an agent's action."""
 
 import math
 from collections.abc import Callable
@@ -45,7 +45,7 @@ class PositionAction:
             for i, axis in enumerate(axes):
                 states.batch.command_position(axis, values[:, i], self.max_effort)
 
-        return _box(self, limits[:, 0], limits[:, 1], "limits; drive it by VelocityAction"), apply
+        return _action_space(self, limits[:, 0], limits[:, 1], "limits; use VelocityAction"), apply
 
 
 class VelocityAction:
@@ -56,8 +56,8 @@ class VelocityAction:
 
         Args:
             joints: names.
-            max_velocity: the joint's own limit holds as well.
-            max_effort: of the motors [N·m or N]; the joint's own limit holds as well.
+            max_velocity: upper bound in addition to the joint's limit.
+            max_effort: motor effort [N·m or N]; upper bound in addition to the joint's limit.
         """
         self.joints = joints
         self.max_velocity = max_velocity
@@ -72,7 +72,7 @@ class VelocityAction:
             for i, axis in enumerate(axes):
                 states.batch.command_velocity(axis, values[:, i], self.max_effort)
 
-        return _box(self, -high, high, "velocity limit; give max_velocity"), apply
+        return _action_space(self, -high, high, "velocity limit; give max_velocity"), apply
 
 
 class EffortAction:
@@ -83,7 +83,7 @@ class EffortAction:
 
         Args:
             joints: names.
-            max_effort: the joint's own limit holds as well.
+            max_effort: upper bound in addition to the joint's limit.
         """
         self.joints = joints
         self.max_effort = max_effort
@@ -97,10 +97,12 @@ class EffortAction:
             for i, axis in enumerate(axes):
                 states.batch.command_effort(axis, values[:, i])
 
-        return _box(self, -high, high, "effort limit; give max_effort"), apply
+        return _action_space(self, -high, high, "effort limit; give max_effort"), apply
 
 
-def _box(action: PositionAction | VelocityAction | EffortAction, low: _Array, high: _Array, needs: str) -> spaces.Box:
+def _action_space(
+    action: PositionAction | VelocityAction | EffortAction, low: _Array, high: _Array, missing: str
+) -> spaces.Box:
     if not (np.isfinite(low).all() and np.isfinite(high).all()):
-        raise UsageError(f"{type(action).__name__}({', '.join(map(repr, action.joints))}): a joint has no {needs}")
+        raise UsageError(f"{type(action).__name__}({', '.join(map(repr, action.joints))}): a joint has no {missing}")
     return spaces.Box(low.astype(np.float32), high.astype(np.float32), dtype=np.float32)

@@ -29,9 +29,9 @@ def make(
     """Make a Gymnasium environment of a robot or world.
 
     Args:
-        file: as `trundle.load` takes it.
+        file: see `trundle.load`.
         render_mode: "rgb_array" or None.
-        camera: name of the camera that `render` looks through; None: a three-quarter view.
+        camera: name of the camera of `render`; None: a three-quarter view.
         task: fields of `Task`, of which observations, actions and reward are required.
 
     Raises:
@@ -55,10 +55,10 @@ def make_vec(
     """Make a Gymnasium vector environment of many worlds, stepped by threads of this process or on a GPU.
 
     Args:
-        file: as `trundle.load` takes it.
+        file: see `trundle.load`.
         num_envs: number of worlds.
         threads: None: one for each core.
-        device: "cuda" steps on an NVIDIA GPU, in single precision; without one a warning says so, and the threads do.
+        device: "cuda" steps on an NVIDIA GPU, in single precision; without a GPU the threads step, with a warning.
         render_mode: see `make`.
         camera: see `make`.
         task: see `make`.
@@ -67,7 +67,7 @@ def make_vec(
         TrundleError: the file cannot be read, a name in it does not exist, or the GPU cannot step this world.
     """
     _check_render_mode(render_mode)
-    gpu = _gpu_of(device)
+    gpu = _find_gpu(device)
     if num_envs < 1:
         raise UsageError(f"num_envs={num_envs}: at least one world is needed")
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
@@ -79,7 +79,7 @@ def _load(file: "str | os.PathLike[str] | Model | World") -> LoadedSimulation:
     return load_simulation(os.fspath(file) if isinstance(file, str | os.PathLike) else file)
 
 
-def _gpu_of(device: str) -> str | None:
+def _find_gpu(device: str) -> str | None:
     if device not in _DEVICES:
         raise UsageError(f"device={device!r}: worlds are stepped on {' or '.join(map(repr, _DEVICES))}")
     if device == "cpu":
@@ -93,4 +93,4 @@ def _gpu_of(device: str) -> str | None:
 
 def _check_render_mode(mode: str | None) -> None:
     if mode not in _RENDER_MODES:
-        raise UsageError(f"render_mode={mode!r}: environments draw to arrays only, render_mode='rgb_array'")
+        raise UsageError(f"render_mode={mode!r}: environments render only to arrays, render_mode='rgb_array'")

@@ -1,4 +1,4 @@
-"""Score of a policy: its returns."""
+"""Evaluation of a policy by its returns."""
 
 from collections.abc import Callable
 from typing import Any
@@ -8,10 +8,8 @@ from gymnasium.vector import VectorEnv
 from numpy.typing import NDArray
 
 
-def score(
-    envs: "VectorEnv[Any, Any, Any]", policy: Callable[[object], object], *, seed: int = 0
-) -> NDArray[np.float64]:
-    """Return (worlds,) the return of an episode in each world, which begin with the seeds `seed`, `seed` + 1, …"""
+def score(envs: "VectorEnv[Any, Any, Any]", policy: Callable[[Any], object], *, seed: int = 0) -> NDArray[np.float64]:
+    """Return (worlds,) returns of one episode in each world; the seeds are `seed`, `seed` + 1, …"""
     observation, _ = envs.reset(seed=seed)
     returns, running = np.zeros(envs.num_envs), np.ones(envs.num_envs, dtype=np.bool_)
     while running.any():

@@ -8,60 +8,60 @@ from numpy.typing import NDArray
 
 _Array = NDArray[np.float64]
 _MAX_NORM = 0.5
-"""Largest norm of a gradient; longer ones are scaled down."""
+"""Largest norm of a gradient; larger gradients are scaled down."""
 _MOMENTUM, _SQUARE_MOMENTUM, _TINY = 0.9, 0.999, 1e-8
-"""Adam's own (Kingma and Ba, 2015)."""
+"""Defaults of Adam (Kingma and Ba, 2015)."""
 
 
 def evaluate(parameters: Sequence[_Array], inputs: _Array) -> _Array:
     """Return the outputs (…, outputs) for inputs (…, inputs).
 
     Args:
-        parameters: weights (inputs, outputs) and bias (outputs,) of each layer in turn; tanh is between the layers.
-        inputs: numbers of about one.
+        parameters: weights (inputs, outputs) and bias (outputs,) of each layer; tanh is applied between layers.
+        inputs: normalized inputs.
     """
     return _activations(parameters, inputs)[-1]
 
 
 def gradient(parameters: Sequence[_Array], inputs: _Array, slopes: _Array) -> list[_Array]:
-    """Return the derivative of a loss by each parameter.
+    """Return the derivative of a loss with respect to each parameter.
 
     Args:
         parameters: see `evaluate`.
         inputs: (rows, inputs)
-        slopes: (rows, outputs) derivative of the loss by the outputs.
+        slopes: (rows, outputs) derivative of the loss with respect to the outputs.
     """
     activations = _activations(parameters, inputs)
-    found: list[_Array] = []
+    derivatives: list[_Array] = []
     for layer in reversed(range(len(parameters) // 2)):
-        found += [slopes.sum(axis=0), activations[layer].T @ slopes]
+        derivatives += [slopes.sum(axis=0), activations[layer].T @ slopes]
         slopes = (slopes @ parameters[2 * layer].T) * (1.0 - np.square(activations[layer]))
-    return found[::-1]
+    return derivatives[::-1]
 
 
 def _activations(parameters: Sequence[_Array], inputs: _Array) -> list[_Array]:
-    """Return the inputs of every layer, and the outputs of the last."""
-    found, last = [inputs], len(parameters) // 2 - 1
+    """Return the inputs of every layer and the outputs of the last layer."""
+    activations, last = [inputs], len(parameters) // 2 - 1
     for layer in range(last + 1):
-        sums = found[-1] @ parameters[2 * layer] + parameters[2 * layer + 1]
-        found.append(sums if layer == last else np.tanh(sums))
-    return found
+        sums = activations[-1] @ parameters[2 * layer] + parameters[2 * layer + 1]
+        activations.append(sums if layer == last else np.tanh(sums))
+    return activations
 
 
 def initial_parameters(sizes: Sequence[int], random: np.random.Generator, *, last_scale: float) -> list[_Array]:
-    """Return orthogonal weights and no bias.
+    """Return orthogonal weights and zero biases.
 
     Args:
-        sizes: of the inputs, of each hidden layer, of the outputs.
-        random: generator.
-        last_scale: factor of the last layer; the others have √2.
+        sizes: numbers of inputs, of units in each hidden layer, and of outputs.
+        random: random number generator.
+        last_scale: scale of the last layer's weights; the other layers have √2.
     """
-    found: list[_Array] = []
+    parameters: list[_Array] = []
     for layer, (inputs, outputs) in enumerate(pairwise(sizes)):
         tall = np.linalg.qr(random.standard_normal((max(inputs, outputs), min(inputs, outputs))))[0]
         scale = last_scale if layer == len(sizes) - 2 else np.sqrt(2.0)
-        found += [scale * (tall if inputs >= outputs else tall.T), np.zeros(outputs)]
-    return found
+        parameters += [scale * (tall if inputs >= outputs else tall.T), np.zeros(outputs)]
+    return parameters
 
 
 class Adam:
@@ -70,14 +70,14 @@ class Adam:
     def __init__(self, parameters: Sequence[_Array]) -> None:
         """Optimize parameters, in place."""
         self._parameters = parameters
-        self._means = [np.zeros_like(each) for each in parameters]
-        self._squares = [np.zeros_like(each) for each in parameters]
+        self._means = [np.zeros_like(parameter) for parameter in parameters]
+        self._squares = [np.zeros_like(parameter) for parameter in parameters]
         self._steps = 0
 
     def step(self, gradients: Sequence[_Array], rate: float) -> None:
-        """Move the parameters against their gradients, by about `rate` each."""
+        """Move each parameter by about `rate` against its gradient."""
         self._steps += 1
-        norm = float(np.sqrt(sum(np.vdot(each, each) for each in gradients)))
+        norm = float(np.sqrt(sum(np.vdot(array, array) for array in gradients)))
         scale = min(1.0, _MAX_NORM / (norm + _TINY))
         rate *= np.sqrt(1.0 - _SQUARE_MOMENTUM**self._steps) / (1.0 - _MOMENTUM**self._steps)
         for parameter, mean, square, raw in zip(self._parameters, self._means, self._squares, gradients, strict=True):

@@ -1,4 +1,4 @@
-"""Observations: what the agent of an environment sees of the state."""
+"""Observations: values of the state that an agent gets."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol, TypeAlias
@@ -38,8 +38,8 @@ class Observation(Protocol):
         """Return a reader.
 
         Args:
-            states: of all worlds.
-            random: generator of each world, which `reset` replaces.
+            states: states of all worlds.
+            random: generator of each world, replaced by `reset`.
 
         Raises:
             UsageError: a name that does not exist.
@@ -78,7 +78,7 @@ class JointPositions:
 
 
 class JointVelocities:
-    """Velocities of joints [rad/s or m/s], which nothing bounds."""
+    """Velocities of joints [rad/s or m/s], unbounded."""
 
     def __init__(self, *joints: str) -> None:
         self.joints = joints
@@ -86,8 +86,8 @@ class JointVelocities:
     def reader(self, states: WorldStates, random: Generators) -> ObservationReader:
         """See `Observation`."""
         del random
-        endless = np.full(len(states.axes(*self.joints)), np.inf)
-        return StateReader(lambda states: states.joint_velocities(*self.joints), states, -endless, endless)
+        infinity = np.full(len(states.axes(*self.joints)), np.inf)
+        return StateReader(lambda states: states.joint_velocities(*self.joints), states, -infinity, infinity)
 
 
 class LinkPosition:
@@ -102,9 +102,9 @@ class LinkPosition:
         del random
         for name in filter(None, (self.link, self.relative_to)):
             states.link_index(name)
-        endless = np.full(3, np.inf)
+        infinity = np.full(3, np.inf)
         return StateReader(
-            lambda states: states.link_positions(self.link, relative_to=self.relative_to), states, -endless, endless
+            lambda states: states.link_positions(self.link, relative_to=self.relative_to), states, -infinity, infinity
         )
 
 
@@ -132,8 +132,8 @@ class LinkTwist:
         """See `Observation`."""
         del random
         states.link_index(self.link)
-        endless = np.full(6, np.inf)
-        return StateReader(lambda states: states.link_twists(self.link), states, -endless, endless)
+        infinity = np.full(6, np.inf)
+        return StateReader(lambda states: states.link_twists(self.link), states, -infinity, infinity)
 
 
 class Computed:
@@ -143,7 +143,7 @@ class Computed:
         """Compute an observation.
 
         Args:
-            call: returns (rows, values).
+            call: function that returns (rows, values).
             low: smallest values, (values,).
             high: largest values, (values,).
         """

@@ -17,14 +17,14 @@ _SAMPLES = 2
 
 
 class Overview:
-    """Three-quarter view of a world as loaded, or the view of one of its cameras."""
+    """Three-quarter view of the loaded world, or the view of one of its cameras."""
 
     def __init__(self, states: WorldStates, camera: str | None) -> None:
-        """Choose the view.
+        """Select the view.
 
         Args:
-            states: of the worlds.
-            camera: name; None: a three-quarter view, which does not move.
+            states: states of the worlds.
+            camera: camera's name; None: a fixed three-quarter view.
 
         Raises:
             UsageError: no such camera.
@@ -45,7 +45,7 @@ class Overview:
             far_m=1000.0,
         )
         corners = scene_corners(scene, simulation.engine.reader.link_poses())
-        self._eye = three_quarter_pose(corners, self._lens)
+        self._camera_pose = three_quarter_pose(corners, self._lens)
 
     def draw(self, row: int) -> NDArray[np.uint8]:
         """Return a picture (height, width, 3) of a world."""
@@ -53,5 +53,5 @@ class Overview:
             self._states.show(row)
             return self._camera.render().rgb
         self._renderer.update(self._states.batch.poses[row])
-        picture = Image.fromarray(self._renderer.render([(self._eye, self._lens)])[0].rgb)
+        picture = Image.fromarray(self._renderer.render([(self._camera_pose, self._lens)])[0].rgb)
         return np.asarray(picture.resize(_SIZE, Image.Resampling.BOX))

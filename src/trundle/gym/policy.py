@@ -1,4 +1,4 @@
-"""Policy: an action for an observation, by a small network."""
+"""Policy: a small network that returns an action for an observation."""
 
 from os import PathLike, fspath
 from pathlib import Path
@@ -22,14 +22,14 @@ _PARTS = ("mean", "deviation", "low", "high")
 
 
 class MlpPolicy(Struct, frozen=True, eq=False):
-    """Multilayer perceptron from normalized observations to actions, −1 … 1 being their range."""
+    """Multilayer perceptron from normalized observations to actions in −1 … 1."""
 
     parameters: tuple[_Array, ...]
     """Weights and bias of each layer; see `networks.evaluate`."""
     mean: _Array
-    """(observations,) mean of those of the training."""
+    """(observations,) mean of the training's observations."""
     deviation: _Array
-    """(observations,) standard deviation of those."""
+    """(observations,) standard deviation of the training's observations."""
     low: _Array
     """(actions,) smallest action."""
     high: _Array
@@ -44,25 +44,25 @@ class MlpPolicy(Struct, frozen=True, eq=False):
         return np.clip((observation - self.mean) / self.deviation, -_MAX_DEVIATION, _MAX_DEVIATION)
 
     def scale(self, outputs: _Array) -> _Array:
-        """Return actions from outputs, of which −1 … 1 is the range."""
+        """Return actions for outputs in −1 … 1."""
         return (self.low + self.high) / 2 + (self.high - self.low) / 2 * np.clip(outputs, -1.0, 1.0)
 
     def save(self, file: str | PathLike[str]) -> None:
         """Write a .npz file."""
-        layers = {f"layer_{number}": each for number, each in enumerate(self.parameters)}
-        with replaced_atomically(Path(file)) as half, half.open("wb") as stream:
+        layers = {f"layer_{number}": array for number, array in enumerate(self.parameters)}
+        with replaced_atomically(Path(file)) as temporary, temporary.open("wb") as stream:
             np.savez(stream, **layers, **{name: getattr(self, name) for name in _PARTS})
 
     @classmethod
     def load(cls, file: str | PathLike[str]) -> Self:
-        """Read a file of `save`.
+        """Read a file that `save` wrote.
 
         Raises:
-            UsageError: it is not such a file.
+            UsageError: the file is not a policy.
         """
         try:
             with open(file, "rb") as stream, np.load(stream, allow_pickle=False) as arrays:
-                if sum(each.file_size for each in arrays.zip.infolist()) > _MAX_BYTES:
+                if sum(entry.file_size for entry in arrays.zip.infolist()) > _MAX_BYTES:
                     raise ValueError(f"it holds more than {_MAX_BYTES >> 20} MiB")
                 names = [name for name in arrays.files if name.startswith("layer_")]
                 layers = tuple(np.asarray(arrays[f"layer_{number}"], np.float64) for number in range(len(names)))
@@ -86,6 +86,6 @@ class MlpPolicy(Struct, frozen=True, eq=False):
             and self.mean.ndim == 1
             and self.deviation.shape == self.mean.shape
             and self.low.shape == self.high.shape == size
-            and all(bool(np.isfinite(each).all()) for each in arrays)
+            and all(bool(np.isfinite(array).all()) for array in arrays)
             and bool((self.deviation > 0.0).all())
         )

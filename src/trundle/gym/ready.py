@@ -1,4 +1,4 @@
-"""Makers of the ready environments, as Gymnasium calls them."""
+"""Entry points of the built-in environments, called by Gymnasium."""
 
 from typing import Literal
 
@@ -9,7 +9,7 @@ from .vector_env import SimulationVectorEnv
 
 
 def make_ready(*, name: str, render_mode: str | None = None, camera: str | None = None) -> SimulationEnv:
-    """Make a ready environment; see `trundle.gym.make`."""
+    """Make a built-in environment; see `trundle.gym.make`."""
     file, task = READY[name]
     return make(file, render_mode=render_mode, camera=camera, **task)
 
@@ -23,7 +23,7 @@ def make_ready_vec(
     render_mode: str | None = None,
     camera: str | None = None,
 ) -> SimulationVectorEnv:
-    """Make many worlds of a ready environment; see `trundle.gym.make_vec`."""
+    """Make many worlds of a built-in environment; see `trundle.gym.make_vec`."""
     file, task = READY[name]
     return make_vec(
         file, num_envs=num_envs, threads=threads, device=device, render_mode=render_mode, camera=camera, **task

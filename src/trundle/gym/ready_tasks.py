@@ -1,4 +1,4 @@
-"""Tasks of the ready environments."""
+"""Tasks of the built-in environments."""
 
 import math
 
@@ -19,9 +19,9 @@ from .worlds import TaskArguments
 _FOLDER = ASSETS / "worlds"
 _Array = NDArray[np.float64]
 
-# -- a cart that keeps a pole upright
+# -- cart and pole: keep the pole upright
 
-_MAX_TILT, _MAX_WAY = 0.3, 2.2
+_MAX_TILT, _MAX_DISTANCE = 0.3, 2.2
 """[rad], [m]"""
 
 
@@ -30,8 +30,8 @@ def _upright(states: WorldStates) -> _Array:
 
 
 def _fallen(states: WorldStates) -> NDArray[np.bool_]:
-    way, tilt = states.joint_positions("slider", "hinge").T
-    return (np.abs(way) > _MAX_WAY) | (np.abs(tilt) > _MAX_TILT)
+    position, tilt = states.joint_positions("slider", "hinge").T
+    return (np.abs(position) > _MAX_DISTANCE) | (np.abs(tilt) > _MAX_TILT)
 
 
 def _disturb(simulation: Simulation, random: np.random.Generator) -> None:
@@ -49,13 +49,13 @@ CART_POLE = TaskArguments(
     max_steps=500,
 )
 
-# -- an arm that reaches
+# -- arm: reach a goal
 
 _REACHED_M = 0.05
 
 
 def _hand_error(states: WorldStates) -> _Array:
-    """Return the distances of hand and goal [m]."""
+    """Return the distances between hand and goal [m]."""
     return np.sqrt(np.square(states.link_positions("hand", relative_to="marker")).sum(axis=1))
 
 
@@ -64,7 +64,7 @@ def _closeness(states: WorldStates) -> _Array:
     return (error < _REACHED_M) - error
 
 
-def _place_goal_of_arm(simulation: Simulation, random: np.random.Generator) -> None:
+def _randomize_goal(simulation: Simulation, random: np.random.Generator) -> None:
     shoulder, elbow = random.uniform(-1.5, 1.5), random.uniform(0.4, 1.8)
     x = 0.5 * math.cos(shoulder) + 0.4 * math.cos(shoulder + elbow)
     y = 0.5 * math.sin(shoulder) + 0.4 * math.sin(shoulder + elbow)
@@ -79,16 +79,16 @@ ARM_REACH = TaskArguments(
     ],
     actions=VelocityAction("shoulder", "elbow"),
     reward=_closeness,
-    reset=_place_goal_of_arm,
+    reset=_randomize_goal,
     max_steps=60,
     period_s=0.04,
 )
 
-# -- a robot that drives to a goal, past a pillar that only its lidar sees
+# -- mobile robot: drive to a goal, around a pillar that only the lidar sees
 
 GOAL_M = 0.25
 _TOUCH_M = 0.33
-"""Distance of the middles of robot and pillar at which the episode ends [m]."""
+"""Distance between the centers of robot and pillar that ends the episode [m]."""
 _BONUS = 2.0
 _PERIOD_S = 0.2
 
@@ -107,19 +107,19 @@ def _has_crashed(states: WorldStates) -> NDArray[np.bool_]:
 
 
 def _progress(states: WorldStates) -> _Array:
-    """Return the way towards the goal in this step [m], a bonus at the goal, and its negative at the pillar."""
-    way = (states.link_positions("marker") - states.link_positions("chassis"))[:, :2]
-    closing = (way * states.link_twists("chassis")[:, :2]).sum(axis=1) / np.sqrt(np.square(way).sum(axis=1))
+    """Return the distance towards the goal in this step [m], plus a bonus at the goal or minus it at the pillar."""
+    offset = (states.link_positions("marker") - states.link_positions("chassis"))[:, :2]
+    closing = (offset * states.link_twists("chassis")[:, :2]).sum(axis=1) / np.sqrt(np.square(offset).sum(axis=1))
     return closing * _PERIOD_S + _BONUS * _has_arrived(states) - _BONUS * _has_crashed(states)
 
 
-def _place_goal_and_pillar(simulation: Simulation, random: np.random.Generator) -> None:
+def _randomize_goal_and_pillar(simulation: Simulation, random: np.random.Generator) -> None:
     bearing, distance = random.uniform(-math.pi, math.pi), random.uniform(1.8, 2.5)
     heading = bearing + random.uniform(-1.0, 1.0)
-    half, beside = distance * random.uniform(0.4, 0.6), random.uniform(-0.2, 0.2)
+    along, across = distance * random.uniform(0.4, 0.6), random.uniform(-0.2, 0.2)
     cos, sin = math.cos(bearing), math.sin(bearing)
     simulation["goal"].set_pose(Pose((distance * cos, distance * sin, 0.02)))
-    simulation["pillar"].set_pose(Pose((half * cos - beside * sin, half * sin + beside * cos, 0.26)))
+    simulation["pillar"].set_pose(Pose((along * cos - across * sin, along * sin + across * cos, 0.26)))
     simulation["robot"].set_pose(Pose.from_rpy(0.0, 0.0, 0.08, 0.0, 0.0, heading))
 
 
@@ -128,7 +128,7 @@ DRIVE_TO_GOAL = TaskArguments(
     actions=TwistAction("robot", max_forward=0.6, max_yaw_rate=2.0, backward=False),
     reward=_progress,
     terminated=lambda states: _has_arrived(states) | _has_crashed(states),
-    reset=_place_goal_and_pillar,
+    reset=_randomize_goal_and_pillar,
     max_steps=40,
     period_s=_PERIOD_S,
 )

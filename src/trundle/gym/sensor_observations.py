@@ -1,4 +1,4 @@
-"""Observations by sensors: lidar ranges and pictures of cameras."""
+"""Observations of sensors: lidar ranges and camera pictures."""
 
 import numpy as np
 from gymnasium import spaces
@@ -12,13 +12,13 @@ from .states import WorldStates
 
 
 class LidarRanges:
-    """Ranges of a lidar or ray sensor [m] with its noise, row by row; its limits where it sees nothing."""
+    """Ranges of a lidar or ray sensor [m] with its noise, row by row, clipped to its limits."""
 
     def __init__(self, sensor: str) -> None:
         """Observe a sensor.
 
         Args:
-            sensor: name as of `trundle.load(…).sensor`.
+            sensor: sensor's name, as in `trundle.load(…).sensor`.
         """
         self.sensor = sensor
 
@@ -33,7 +33,7 @@ class _LidarReader:
         self._states = states
         self._random = random
         scan = sensor.scan
-        self._noise = [NoiseSource(scan.noise, each) for each in random]
+        self._noise = [NoiseSource(scan.noise, generator) for generator in random]
         size = scan.vertical.values * scan.horizontal.values
         self.space = spaces.Box(np.float32(scan.min_m), np.float32(scan.max_m), (size,), dtype=np.float32)
 
@@ -54,13 +54,13 @@ class _LidarReader:
 
 
 class CameraPicture:
-    """Picture of a camera: (height, width, 3) uint8, through its lens and without noise."""
+    """Picture of a camera: (height, width, 3) uint8, with its lens and without noise."""
 
     def __init__(self, camera: str) -> None:
         """Observe a camera.
 
         Args:
-            camera: name as of `trundle.load(…).camera`.
+            camera: camera's name, as in `trundle.load(…).camera`.
         """
         self.camera = camera
 

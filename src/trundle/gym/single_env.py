@@ -17,9 +17,9 @@ class SimulationEnv(gymnasium.Env[Observed, Any]):
         """Wrap the first row of worlds.
 
         Args:
-            worlds: one row.
+            worlds: worlds of one row.
             render_mode: "rgb_array" or None.
-            camera: name of the camera that `render` looks through; None: a three-quarter view.
+            camera: name of the camera of `render`; None: a three-quarter view.
         """
         self.worlds = worlds
         self.metadata = {"render_modes": ["rgb_array"], "render_fps": round(1.0 / worlds.task.period_s)}
@@ -31,7 +31,7 @@ class SimulationEnv(gymnasium.Env[Observed, Any]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, object] | None = None
     ) -> tuple[Observed, dict[str, object]]:
-        """Begin an episode; the same seed gives the same bytes."""
+        """Begin an episode; the same seed gives bit-identical results."""
         super().reset(seed=seed, options=options)
         self.worlds.random[0] = self.np_random
         self.worlds.reset(0)
@@ -48,5 +48,7 @@ class SimulationEnv(gymnasium.Env[Observed, Any]):
         return None if self._overview is None else self._overview.draw(0)
 
     def _observation(self) -> Observed:
-        seen = self.worlds.observe()
-        return {name: rows[0] for name, rows in seen.items()} if isinstance(seen, dict) else seen[0]
+        observations = self.worlds.observe()
+        if isinstance(observations, dict):
+            return {name: rows[0] for name, rows in observations.items()}
+        return observations[0]

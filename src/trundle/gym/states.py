@@ -1,4 +1,4 @@
-"""States of many worlds, as the functions of a task see them."""
+"""States of many worlds, the argument of a task's functions."""
 
 from collections.abc import Sequence
 from functools import lru_cache
@@ -15,15 +15,15 @@ _Array = NDArray[np.float64]
 
 
 class WorldStates:
-    """Current states of the worlds of an environment; every array has a row for each world, a single one has one.
+    """Current states of the worlds of an environment; every array has a row for each world.
 
-    Names are `model::joint` and `model::link`, or a unique end of them.
+    Names are `model::joint` and `model::link`, or a unique suffix.
     """
 
     def __init__(self, simulation: LoadedSimulation, batch: Batch) -> None:
-        """Read a batch of states of a world."""
+        """Wrap a batch of states of a world."""
         self.simulation = simulation
-        """The world, in the state of the row last reset or shown."""
+        """The world, in the state of the row of the last `reset` or `show`."""
         self.batch = batch
         self.actions: _Array = np.zeros((len(batch.states), 0))
         """(rows, numbers) last action of each world; zero after a reset."""
@@ -76,7 +76,7 @@ class WorldStates:
 
         Args:
             link: name.
-            relative_to: link in whose frame they are; None: the world.
+            relative_to: link whose frame the positions are in; None: the world.
 
         Raises:
             UsageError: no such link.
@@ -97,9 +97,9 @@ class WorldStates:
 
     def _find_axes(self, joints: tuple[str, ...]) -> Sequence[int]:
         compiled = self.simulation.engine.compiled
-        found = [find_name(name, compiled.joint_names, "joint") for name in joints]
-        axes = [axis for joint in found for axis in compiled.joint_axes[joint]]
-        for name, joint in zip(joints, found, strict=True):
+        indices = [find_name(name, compiled.joint_names, "joint") for name in joints]
+        axes = [axis for joint in indices for axis in compiled.joint_axes[joint]]
+        for name, joint in zip(joints, indices, strict=True):
             if any(compiled.axis_actuator[axis] < 0 for axis in compiled.joint_axes[joint]):
                 raise UsageError(f"joint {name!r} is a ball joint, which has no axes; observe its link's pose")
             if not compiled.joint_axes[joint]:
@@ -110,38 +110,38 @@ class WorldStates:
         """Return the index of a link in `batch.poses`.
 
         Raises:
-            UsageError: none or several; the message lists the names there are.
+            UsageError: no or several matches; the message lists the names.
         """
         return find_name(link, self.simulation.engine.compiled.link_names, "link")
 
     def show(self, row: int) -> LoadedSimulation:
-        """Return the simulation in the state of a row, for its sensors and pictures."""
+        """Return the simulation in the state of a row, for sensors and pictures."""
         self.simulation.engine.set_row_state(self.batch.states[row])
-        return self._at_time_of(row)
+        return self._set_time_of(row)
 
     def show_links(self, row: int) -> LoadedSimulation:
-        """Return the simulation with the links of a row, for sensors of shapes; its reader has to be invalidated
+        """Return the simulation with the links of a row, for ray sensors; invalidate its reader
         afterwards.
         """
         self.simulation.engine.reader.show_link_poses(self.batch.poses[row])
-        return self._at_time_of(row)
+        return self._set_time_of(row)
 
-    def _at_time_of(self, row: int) -> LoadedSimulation:
+    def _set_time_of(self, row: int) -> LoadedSimulation:
         simulation = self.simulation
         simulation.set_step(round(float(self.time_s[row]) * NS_PER_S / simulation.step_ns))
         return simulation
 
 
 def find_name(name: str, names: Sequence[str], kind: str) -> int:
-    """Return the index of the name that `name` equals, or that alone ends in `::name`.
+    """Return the index of `name` in the names, or of the only name that ends in `::name`.
 
     Raises:
-        UsageError: none or several; the message lists them.
+        UsageError: no or several matches; the message lists them.
     """
-    found = [i for i, each in enumerate(names) if each == name]
-    found = found or [i for i, each in enumerate(names) if each.endswith(f"::{name}")]
-    if len(found) == 1:
-        return found[0]
-    if found:
-        raise UsageError(f"several {kind}s are called {name!r}; write one of {', '.join(names[i] for i in found)}")
+    matches = [i for i, other in enumerate(names) if other == name]
+    matches = matches or [i for i, other in enumerate(names) if other.endswith(f"::{name}")]
+    if len(matches) == 1:
+        return matches[0]
+    if matches:
+        raise UsageError(f"several {kind}s are called {name!r}; write one of {', '.join(names[i] for i in matches)}")
     raise UsageError(f"no {kind} {name!r}; there are: {', '.join(map(repr, names)) or 'none'}")

@@ -18,9 +18,9 @@ _Bools = NDArray[np.bool_]
 
 
 class SimulationVectorEnv(VectorEnv[Observed, NDArray[np.float32], Any]):
-    """Many worlds; made by `trundle.gym.make_vec`. Each equals a single environment of the same seed, bit for bit.
+    """Many worlds; made by `trundle.gym.make_vec`. Each is bit-identical to a single environment of the same seed.
 
-    A world whose episode has ended is reset by the next step, as in Gymnasium's own vector environments.
+    The step after an episode's end resets its world, as in Gymnasium's vector environments.
     """
 
     def __init__(self, worlds: Worlds, *, render_mode: str | None = None, camera: str | None = None) -> None:
@@ -47,8 +47,8 @@ class SimulationVectorEnv(VectorEnv[Observed, NDArray[np.float32], Any]):
         """Begin an episode of every world.
 
         Args:
-            seed: of the first world, and each next one has the next; or one for each.
-            options: none are known.
+            seed: seed of the first world, the following worlds have the following seeds; or one seed for each world.
+            options: ignored.
 
         Raises:
             UsageError: the number of seeds is wrong.
@@ -58,9 +58,9 @@ class SimulationVectorEnv(VectorEnv[Observed, NDArray[np.float32], Any]):
         seeds = [None] * self.num_envs if seeds is None else seeds
         if len(seeds) != self.num_envs:
             raise UsageError(f"{len(seeds)} seeds for {self.num_envs} worlds")
-        for row, own in enumerate(seeds):
-            if own is not None or not self._is_seeded:
-                self.worlds.random[row] = seeding.np_random(own)[0]
+        for row, row_seed in enumerate(seeds):
+            if row_seed is not None or not self._is_seeded:
+                self.worlds.random[row] = seeding.np_random(row_seed)[0]
             self.worlds.reset(row)
         self._is_seeded = True
         self._ended[:] = False
@@ -69,15 +69,15 @@ class SimulationVectorEnv(VectorEnv[Observed, NDArray[np.float32], Any]):
     def step(
         self, actions: NDArray[np.float32]
     ) -> tuple[Observed, NDArray[np.float64], _Bools, _Bools, dict[str, Any]]:
-        """Act for one period in each world, and reset those whose episodes ended at the last step."""
-        again = self._ended
-        step = self.worlds.step(actions, chosen=~again)
-        for row in np.flatnonzero(again).tolist():
+        """Act for one period in each world; reset worlds whose episodes ended in the last step."""
+        was_ended = self._ended
+        step = self.worlds.step(actions, chosen=~was_ended)
+        for row in np.flatnonzero(was_ended).tolist():
             self.worlds.reset(row)
-        rewards, terminated = np.where(again, 0.0, step.rewards), step.terminated & ~again
-        truncated = step.truncated & ~again
+        rewards, terminated = np.where(was_ended, 0.0, step.rewards), step.terminated & ~was_ended
+        truncated = step.truncated & ~was_ended
         self._ended = terminated | truncated
-        unstable = self.worlds.states.batch.unstable & ~again
+        unstable = self.worlds.states.batch.unstable & ~was_ended
         infos = {"unstable": unstable, "_unstable": unstable.copy()} if unstable.any() else {}
         return self.worlds.observe(), rewards, terminated, truncated, infos
 

@@ -1,4 +1,4 @@
-"""Worlds of an environment: one description, many states, a task."""
+"""Worlds of an environment: many states of one description, and a task."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Required, TypeAlias, TypedDict
@@ -19,21 +19,21 @@ from .states import WorldStates
 _Array = NDArray[np.float64]
 Observations: TypeAlias = Observation | Sequence[Observation] | Mapping[str, Observation]
 Observed: TypeAlias = NDArray[np.generic] | dict[str, NDArray[np.generic]]
-"""With a row for each world."""
+"""Arrays with a row for each world."""
 
 
 class Task(Struct, frozen=True, kw_only=True):
-    """Observations, actions and rewards; functions take all worlds at once, and return a value for each row."""
+    """Observations, actions and rewards; functions take the states of all worlds and return a value for each."""
 
     observations: Observations
-    """One, several joined to one array, or several by name."""
+    """One observation, several concatenated to one array, or several by name."""
     actions: Action | Sequence[Action]
     reward: Callable[[WorldStates], _Array]
     """(rows,) reward of the step."""
     terminated: Callable[[WorldStates], NDArray[np.bool_]] | None = None
-    """(rows,) True ends the episode."""
+    """(rows,) mask of the episodes that end."""
     reset: Callable[[LoadedSimulation, np.random.Generator], None] | None = None
-    """Changes one world as loaded, through its handles, at the beginning of an episode."""
+    """Changes one loaded world through its handles at the beginning of an episode."""
     max_steps: int | None = None
     """Steps after which an episode is truncated."""
     period_s: float = 0.02
@@ -41,7 +41,7 @@ class Task(Struct, frozen=True, kw_only=True):
 
 
 class TaskArguments(TypedDict, total=False):
-    """Fields of `Task`, as the makers of environments take them."""
+    """Fields of `Task`, as keyword arguments of `make` and `make_vec`."""
 
     observations: Required[Observations]
     actions: Required[Action | Sequence[Action]]
@@ -53,7 +53,7 @@ class TaskArguments(TypedDict, total=False):
 
 
 class Step(Struct, frozen=True):
-    """Result of a step, each (rows,)."""
+    """Result of a step; all arrays are (rows,)."""
 
     rewards: _Array
     terminated: NDArray[np.bool_]
@@ -69,25 +69,25 @@ class Worlds:
         """Set up the rows; `reset` begins their episodes.
 
         Args:
-            simulation: as loaded.
-            task: to learn.
+            simulation: loaded simulation.
+            task: task to learn.
             rows: number of worlds.
             threads: number of threads.
             gpu: see `Engine.batch`.
 
         Raises:
-            UsageError: a name in the task does not exist, or a setting is not possible.
+            UsageError: a name in the task does not exist, or a setting is invalid.
         """
         self.task = task
-        self.steps = _steps_of(task.period_s, simulation.step_ns)
+        self.steps = _steps_per_period(task.period_s, simulation.step_ns)
         batch = simulation.engine.batch(rows, threads=threads, gpu=gpu)
         self.states = WorldStates(simulation, batch)
         actions = task.actions if isinstance(task.actions, Sequence) else [task.actions]
-        bound = [action.bind(self.states) for action in actions]
-        self.action_space = _joined([space for space, _ in bound])
+        bindings = [action.bind(self.states) for action in actions]
+        self.action_space = _concatenated([space for space, _ in bindings])
         self._applies: list[tuple[slice, Apply]] = []
         first = 0
-        for space, apply in bound:
+        for space, apply in bindings:
             self._applies.append((slice(first, first + space.shape[0]), apply))
             first += space.shape[0]
         self.states.actions = np.zeros((rows, first))
@@ -98,9 +98,9 @@ class Worlds:
 
     def _make_readers(self, observations: Observations) -> dict[str, ObservationReader] | list[ObservationReader]:
         if isinstance(observations, Mapping):
-            return {name: each.reader(self.states, self.random) for name, each in observations.items()}
-        several = observations if isinstance(observations, Sequence) else [observations]
-        readers = [each.reader(self.states, self.random) for each in several]
+            return {name: part.reader(self.states, self.random) for name, part in observations.items()}
+        parts = observations if isinstance(observations, Sequence) else [observations]
+        readers = [part.reader(self.states, self.random) for part in parts]
         if len(readers) > 1 and any(reader.space.dtype == np.uint8 for reader in readers):
             raise UsageError("a picture cannot be joined to other observations; name them: observations={'eye': …}")
         return readers
@@ -111,24 +111,24 @@ class Worlds:
         readers = self._readers
         if isinstance(readers, dict):
             return spaces.Dict({name: reader.space for name, reader in readers.items()})
-        return readers[0].space if len(readers) == 1 else _joined([reader.space for reader in readers])
+        return readers[0].space if len(readers) == 1 else _concatenated([reader.space for reader in readers])
 
     def observe(self) -> Observed:
         """Return the observations of all worlds."""
         if isinstance(self._readers, dict):
             return {name: reader.read() for name, reader in self._readers.items()}
-        read = [reader.read() for reader in self._readers]
-        return read[0] if len(read) == 1 else np.concatenate(read, axis=1)
+        arrays = [reader.read() for reader in self._readers]
+        return arrays[0] if len(arrays) == 1 else np.concatenate(arrays, axis=1)
 
     def reset(self, row: int) -> None:
-        """Begin an episode of a world, with the random numbers of `random`."""
+        """Begin an episode of a world, with its generator in `random`."""
         simulation = self.states.simulation
-        started = self._loaded
+        state = self._loaded
         if self.task.reset is not None:
             simulation.reset()
             self.task.reset(simulation, self.random[row])
-            started = simulation.engine.world_row()
-        self.states.batch.write_row(row, started)
+            state = simulation.engine.world_row()
+        self.states.batch.write_row(row, state)
         self.states.actions[row] = 0.0
         self._elapsed[row] = 0
         for reader in self._readers.values() if isinstance(self._readers, dict) else self._readers:
@@ -144,7 +144,7 @@ class Worlds:
         Raises:
             UsageError: an action has the wrong shape, or is not finite.
         """
-        self.states.actions = self._checked(actions)
+        self.states.actions = self._check_actions(actions)
         for part, apply in self._applies:
             apply(self.states.actions[:, part])
         self.states.batch.step(self.steps, chosen=chosen)
@@ -161,23 +161,23 @@ class Worlds:
             truncated = self._elapsed >= self.task.max_steps
         return Step(rewards, terminated, truncated)
 
-    def _checked(self, actions: ArrayLike) -> _Array:
-        found, space = np.array(actions, dtype=np.float64), self.action_space
-        if found.shape != (shape := (len(self.random), *space.shape)):
-            raise UsageError(f"actions have shape {found.shape}, not {shape}")
-        if not np.isfinite(found).all():
+    def _check_actions(self, actions: ArrayLike) -> _Array:
+        values, space = np.array(actions, dtype=np.float64), self.action_space
+        if values.shape != (shape := (len(self.random), *space.shape)):
+            raise UsageError(f"actions have shape {values.shape}, not {shape}")
+        if not np.isfinite(values).all():
             raise UsageError("an action is not finite")
-        return np.clip(found, space.low, space.high)
+        return np.clip(values, space.low, space.high)
 
 
-def _steps_of(period_s: float, step_ns: int) -> int:
+def _steps_per_period(period_s: float, step_ns: int) -> int:
     period_ns = round(period_s * NS_PER_S)
     if period_ns < step_ns or period_ns % step_ns:
-        raise UsageError(f"period_s={period_s:g} is no multiple of the world's time step, {step_ns / NS_PER_S:g} s")
+        raise UsageError(f"period_s={period_s:g} is not a multiple of the world's time step, {step_ns / NS_PER_S:g} s")
     return period_ns // step_ns
 
 
-def _joined(boxes: "Sequence[spaces.Box[Any]]") -> "spaces.Box[Any]":
+def _concatenated(parts: "Sequence[spaces.Box[Any]]") -> "spaces.Box[Any]":
     return spaces.Box(
-        np.concatenate([box.low for box in boxes]), np.concatenate([box.high for box in boxes]), dtype=np.float32
+        np.concatenate([part.low for part in parts]), np.concatenate([part.high for part in parts]), dtype=np.float32
     )

@@ -1,4 +1,4 @@
-"""Poses, twists and wrenches: rigid-body quantities as small immutable values, and their algebra on arrays."""
+"""Poses, twists and wrenches as immutable values, and operations on arrays of them."""
 
 import lazy_loader
 

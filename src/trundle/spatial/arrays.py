@@ -1,4 +1,4 @@
-"""The same algebra on whole NumPy arrays: poses are rows x y z qw qx qy qz, quaternions rows w x y z."""
+"""Operations on NumPy arrays: poses are rows x y z qw qx qy qz, quaternions rows w x y z."""
 
 from collections.abc import Iterable
 
@@ -13,7 +13,7 @@ _CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 
 
 def pose_from_row(row: _Array) -> Pose:
-    """One row (7,) as a pose."""
+    """Return the pose of a row (7,)."""
     x, y, z, qw, qx, qy, qz = row.tolist()
     return Pose((x, y, z), (qw, qx, qy, qz))
 
@@ -24,18 +24,18 @@ def rows_from_poses(poses: Iterable[Pose]) -> _Array:
 
 
 def finite_rows(poses: _Array) -> NDArray[np.bool_]:
-    """Which rows of (N, 7) hold numbers alone: (N,), false where one is NaN or infinite."""
+    """Return (N,) a mask of the rows of (N, 7) without NaN or infinity."""
     return np.asarray(np.isfinite(poses).all(axis=1), dtype=np.bool_)
 
 
 def compose_rows(a_from_b: _Array, b_from_c: _Array) -> _Array:
-    """`a_from_c` (N, 7), row by row."""
+    """Return `a_from_c` (N, 7), row by row."""
     position = a_from_b[:, :3] + rotate_rows(a_from_b[:, 3:], b_from_c[:, :3])
     return np.hstack([position, multiply_rows(a_from_b[:, 3:], b_from_c[:, 3:])])
 
 
 def invert_rows(a_from_b: _Array) -> _Array:
-    """`b_from_a` (N, 7), row by row."""
+    """Return `b_from_a` (N, 7), row by row."""
     inverse = conjugate_rows(a_from_b[:, 3:])
     return np.hstack([-rotate_rows(inverse, a_from_b[:, :3]), inverse])
 
@@ -47,29 +47,29 @@ def rotate_rows(q: _Array, v: _Array) -> _Array:
 
 
 def multiply_rows(a: _Array, b: _Array) -> _Array:
-    """Hamilton products of quaternions (N, 4): first b, then a."""
+    """Return the Hamilton products of quaternions (N, 4): rotation by b, then by a."""
     scalar = a[:, 0] * b[:, 0] - np.einsum("ij,ij->i", a[:, 1:], b[:, 1:])
     vector = a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])
     return np.concatenate([scalar[:, None], vector], axis=1)
 
 
 def conjugate_rows(q: _Array) -> _Array:
-    """Inverse rotations (N, 4)."""
+    """Return the inverse rotations (N, 4)."""
     return q * _CONJUGATE
 
 
 def rotate_vectors(a_from_b: Pose, directions: _Array) -> _Array:
-    """Directions (…, 3) of frame b in frame a."""
+    """Express directions (…, 3) given in frame b in frame a."""
     return directions @ np.array(rotated_axes(a_from_b.quaternion))
 
 
 def transform_points(a_from_b: Pose, points: _Array) -> _Array:
-    """Points (…, 3) of frame b in frame a."""
+    """Express points (…, 3) given in frame b in frame a."""
     return rotate_vectors(a_from_b, points) + np.array(a_from_b.position)
 
 
 def matrix_from_quaternion(q: Quaternion) -> _Array:
-    """The (3, 3) rotation matrix of a unit quaternion."""
+    """Return the (3, 3) rotation matrix of a unit quaternion."""
     w, x, y, z = q
     return np.array(
         [
@@ -81,20 +81,20 @@ def matrix_from_quaternion(q: Quaternion) -> _Array:
 
 
 def quaternion_from_matrix(m: _Array) -> Quaternion:
-    """The unit quaternion of a rotation matrix (3, 3)."""
+    """Return the unit quaternion of a rotation matrix (3, 3)."""
     w, x, y, z = quaternions_from_matrices(m[None])[0].tolist()
     return (w, x, y, z)
 
 
 def quaternions_from_matrices(m: _Array) -> _Array:
-    """Unit quaternions (N, 4) of rotation matrices (N, 3, 3), each by the largest of Shepperd's four forms."""
+    """Return unit quaternions (N, 4) of rotation matrices (N, 3, 3), by the largest of Shepperd's four forms."""
     trace = np.trace(m, axis1=1, axis2=2)
-    four = np.empty((len(m), 4, 4))
-    four[:, 0, 0] = 1 + trace
+    forms = np.empty((len(m), 4, 4))
+    forms[:, 0, 0] = 1 + trace
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
-        four[:, i + 1, i + 1] = 1 + 2 * m[:, i, i] - trace
-        four[:, 0, i + 1] = four[:, i + 1, 0] = m[:, k, j] - m[:, j, k]
-        four[:, i + 1, j + 1] = four[:, j + 1, i + 1] = m[:, j, i] + m[:, i, j]
-    best = four[np.arange(len(m)), np.diagonal(four, axis1=1, axis2=2).argmax(axis=1)]
-    return np.asarray(best / np.linalg.norm(best, axis=1, keepdims=True), dtype=np.float64)
+        forms[:, i + 1, i + 1] = 1 + 2 * m[:, i, i] - trace
+        forms[:, 0, i + 1] = forms[:, i + 1, 0] = m[:, k, j] - m[:, j, k]
+        forms[:, i + 1, j + 1] = forms[:, j + 1, i + 1] = m[:, j, i] + m[:, i, j]
+    largest = forms[np.arange(len(m)), np.diagonal(forms, axis1=1, axis2=2).argmax(axis=1)]
+    return np.asarray(largest / np.linalg.norm(largest, axis=1, keepdims=True), dtype=np.float64)

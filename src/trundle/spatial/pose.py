@@ -17,7 +17,7 @@ from .vectors import ZERO, Vector3
 
 
 class Pose(Struct, frozen=True):
-    """A rigid transform `a_from_b`: where frame b's origin and axes are, seen from frame a."""
+    """Rigid transform `a_from_b`: origin and axes of frame b, expressed in frame a."""
 
     position: Vector3 = ZERO
     """[m]"""
@@ -26,7 +26,7 @@ class Pose(Struct, frozen=True):
 
     @classmethod
     def from_rpy(cls, x: float, y: float, z: float, roll: float = 0.0, pitch: float = 0.0, yaw: float = 0.0) -> Self:
-        """Position [m] and fixed-axis roll, pitch, yaw [rad], the six numbers of an SDF pose."""
+        """Make a pose of a position [m] and fixed-axis roll, pitch, yaw [rad], as in an SDF <pose>."""
         return cls((x, y, z), quaternion_from_rpy(roll, pitch, yaw))
 
     def __matmul__(self, other: "Pose") -> "Pose":
@@ -56,5 +56,5 @@ class Pose(Struct, frozen=True):
         return rpy_from_quaternion(self.quaternion)
 
     def as_list(self) -> list[float]:
-        """x, y, z [m], roll, pitch, yaw [rad], as SDF and `--json` write a pose."""
+        """Return x, y, z [m], roll, pitch, yaw [rad], as in SDF and `--json`."""
         return [*self.position, *self.rpy]

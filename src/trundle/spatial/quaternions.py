@@ -10,13 +10,13 @@ Quaternion: TypeAlias = tuple[float, float, float, float]
 
 IDENTITY_QUATERNION: Quaternion = (1.0, 0.0, 0.0, 0.0)
 _POLE = 1e-10
-"""Cosine of a pitch at which roll and yaw turn about the same axis."""
+"""Cosine of the pitch below which roll and yaw are about the same axis."""
 _SAME_RAD = 1e-9
-"""Half the angle between rotations that are the same."""
+"""Largest half angle between rotations that are treated as equal."""
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """Rotate about the fixed x, then y, then z axis [rad], as SDF and URDF write rotations."""
+    """Rotate about the fixed x, then y, then z axis [rad], as in SDF and URDF."""
     cr, sr = math.cos(roll / 2), math.sin(roll / 2)
     cp, sp = math.cos(pitch / 2), math.sin(pitch / 2)
     cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)
@@ -31,7 +31,7 @@ def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
 def rpy_from_quaternion(q: Quaternion) -> Vector3:
     """Return roll, pitch, yaw [rad]; within 1e-10 of pitch ±π/2, where they are not unique, yaw is 0.
 
-    Roll is what is left when yaw and pitch are undone: near the pole neither is exact by itself, their sum is.
+    Roll is the remaining rotation after undoing yaw and pitch: near the pole only their sum is exact.
     """
     w, x, y, z = q
     r00, r10 = 1 - 2 * (y * y + z * z), 2 * (x * y + w * z)
@@ -50,7 +50,7 @@ def quaternion_from_axis_angle(axis: Vector3, angle: float) -> Quaternion:
 
 
 def rotation_from_z(normal: Vector3) -> Quaternion:
-    """The shortest rotation that takes +z to a unit vector."""
+    """Return the shortest rotation from +z to a unit vector."""
     x, y, z = normal
     if z < -1 + 1e-12:
         return (0.0, 1.0, 0.0, 0.0)
@@ -61,7 +61,7 @@ def rotation_from_z(normal: Vector3) -> Quaternion:
 
 
 def quaternion_product(a: Quaternion, b: Quaternion) -> Quaternion:
-    """Hamilton product: first b, then a."""
+    """Return the Hamilton product: rotation by b, then by a."""
     aw, ax, ay, az = a
     bw, bx, by, bz = b
     return (
@@ -73,7 +73,7 @@ def quaternion_product(a: Quaternion, b: Quaternion) -> Quaternion:
 
 
 def conjugate(q: Quaternion) -> Quaternion:
-    """The inverse rotation."""
+    """Return the inverse rotation."""
     return (q[0], -q[1], -q[2], -q[3])
 
 
@@ -91,7 +91,7 @@ def rotate(q: Quaternion, v: Vector3) -> Vector3:
 
 
 def rotated_axes(q: Quaternion) -> tuple[Vector3, Vector3, Vector3]:
-    """`rotate` of the three unit axes, equal to the bit, in less than half the time."""
+    """Return `rotate` of the three unit axes, bit-identical and more than twice as fast."""
     w, x, y, z = q
     x2, y2, z2 = 2 * x, 2 * y, 2 * z
     return (
@@ -101,14 +101,14 @@ def rotated_axes(q: Quaternion) -> tuple[Vector3, Vector3, Vector3]:
     )
 
 
-def slerp(a: Quaternion, b: Quaternion, share: float) -> Quaternion:
-    """Turn from a to b the short way, at a constant rate; `share` 0 gives a, 1 gives b up to its sign."""
+def slerp(a: Quaternion, b: Quaternion, ratio: float) -> Quaternion:
+    """Interpolate from a to b along the shortest arc; `ratio` 0 gives a, 1 gives b up to its sign."""
     cosine = sum(p * q for p, q in zip(a, b, strict=True))
     if cosine < 0.0:
         b, cosine = (-b[0], -b[1], -b[2], -b[3]), -cosine
     angle = math.acos(min(cosine, 1.0))
     if angle < _SAME_RAD:
         return a
-    of_a, of_b = math.sin((1 - share) * angle) / math.sin(angle), math.sin(share * angle) / math.sin(angle)
-    w, x, y, z = (of_a * p + of_b * q for p, q in zip(a, b, strict=True))
+    weight_a, weight_b = math.sin((1 - ratio) * angle) / math.sin(angle), math.sin(ratio * angle) / math.sin(angle)
+    w, x, y, z = (weight_a * p + weight_b * q for p, q in zip(a, b, strict=True))
     return (w, x, y, z)

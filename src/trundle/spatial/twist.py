@@ -6,7 +6,7 @@ from .vectors import ZERO, Vector3
 
 
 class Twist(Struct, frozen=True):
-    """Velocity of a point of a body and of the body's rotation, in one stated frame."""
+    """Velocity of a point of a body and angular velocity of the body, in one frame."""
 
     linear: Vector3 = ZERO
     """[m/s]"""
@@ -14,5 +14,5 @@ class Twist(Struct, frozen=True):
     """[rad/s]"""
 
     def as_list(self) -> list[float]:
-        """[vx, vy, vz, wx, wy, wz]."""
+        """Return [vx, vy, vz, wx, wy, wz]."""
         return [*self.linear, *self.angular]

@@ -1,3 +1,3 @@
-"""Units of time: times are whole nanoseconds."""
+"""Units of time; times are integer nanoseconds."""
 
 NS_PER_S = 1_000_000_000

@@ -1,4 +1,4 @@
-"""Loads on rigid bodies."""
+"""Forces and torques on rigid bodies."""
 
 from msgspec import Struct
 
@@ -6,7 +6,7 @@ from .vectors import ZERO, Vector3, add
 
 
 class Wrench(Struct, frozen=True):
-    """Force at a point and torque, in one stated frame."""
+    """Force at a point and torque, in one frame."""
 
     force: Vector3 = ZERO
     """[N]"""
@@ -14,5 +14,5 @@ class Wrench(Struct, frozen=True):
     """[N·m]"""
 
     def __add__(self, other: "Wrench") -> "Wrench":
-        """Both at once, at one point."""
+        """Return the sum of two wrenches at the same point."""
         return Wrench(add(self.force, other.force), add(self.torque, other.torque))
