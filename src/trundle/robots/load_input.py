@@ -1,4 +1,4 @@
-"""Input of a description: by name, from a pipe or from standard input."""
+"""Input of a description: a file, a pipe or standard input."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -13,7 +13,7 @@ _STANDARD_INPUT = "-"
 
 
 class Piped(NamedTuple):
-    """Contents that came through a pipe or standard input."""
+    """Contents of a pipe or standard input."""
 
     name: str
     """Name in messages."""
@@ -21,10 +21,10 @@ class Piped(NamedTuple):
 
 
 def read_piped(file: str) -> Piped | None:
-    """Read standard input, "-", or a pipe; None: `file` is neither.
+    """Read standard input, "-", or a pipe; None if `file` is neither.
 
     Raises:
-        DescriptionError: it cannot be read.
+        DescriptionError: the file cannot be read.
     """
     is_standard = file == _STANDARD_INPUT
     if not is_standard and not is_stream(file):
@@ -36,13 +36,13 @@ def read_piped(file: str) -> Piped | None:
         raise DescriptionError(Source(name if is_standard else file), f"cannot be read: {error.strerror}") from None
 
 
-def report_workspace(file: str, packages: Packages, say: Callable[[str], None]) -> None:
-    """Print the workspace that a package:// was found in, if ROS_PACKAGE_PATH does not name it."""
+def report_workspace(file: str, packages: Packages, log: Callable[[str], None]) -> None:
+    """Log the workspace of a package:// URI, unless it is on ROS_PACKAGE_PATH."""
     scheme, _, rest = file.partition("://")
     folder = packages.find_package(rest.partition("/")[0]) if scheme == "package" else None
     workspace = None if folder is None else packages.workspace_of(folder)
     if workspace is not None:
-        say(f"using the workspace {workspace}")
+        log(f"using the workspace {workspace}")
 
 
 def load_input(
@@ -51,11 +51,11 @@ def load_input(
     """Read a description.
 
     Args:
-        file: as `trundle.robots.description.load` takes it, or "-" for standard input.
-        report: takes all findings.
-        packages: resolve URIs.
-        start: relative URIs in standard input start here.
-        piped: contents of `file`, if read already.
+        file: source for `trundle.robots.description.load`, or "-" for standard input.
+        report: receives all findings.
+        packages: resolves URIs.
+        start: base of relative URIs in standard input.
+        piped: contents of `file`, if already read.
 
     Raises:
         DescriptionError: the file cannot be read.
@@ -64,5 +64,5 @@ def load_input(
     piped = piped or read_piped(file)
     if piped is not None:
         return load_text(piped.data, name=piped.name, folder=start, packages=packages, report=report)
-    report_workspace(file, packages, lambda what: report.info(Source(file), what))
+    report_workspace(file, packages, lambda message: report.info(Source(file), message))
     return load(file, report, packages=packages)

@@ -20,7 +20,7 @@ class NoPackages:
     def absent_package(self, _file: Path, /) -> str | None:
         return None
 
-    def why_not_found(self, name: str, /) -> str:
+    def not_found_message(self, name: str, /) -> str:
         return f"no package {name!r}"
 
 

@@ -26,7 +26,7 @@ class OneFolder:
     def absent_package(self, _file: Path, /) -> str | None:
         return None
 
-    def why_not_found(self, name: str, /) -> str:
+    def not_found_message(self, name: str, /) -> str:
         return f"no package {name!r}"
 
 
@@ -124,7 +124,7 @@ def test_the_corpus_has_the_nodes_and_parameter_names_of_the_real_loader(shared:
         def absent_package(self, _file: Path, /) -> str | None:
             return None
 
-        def why_not_found(self, name: str, /) -> str:
+        def not_found_message(self, name: str, /) -> str:
             return f"no package {name!r}"
 
     compared = 0

@@ -49,7 +49,7 @@ def test_the_upper_edge_of_an_image_is_north(tmp_path: Path) -> None:
     north = np.zeros((9, 9), dtype=np.uint16)
     north[0] = 65535
     Image.fromarray(north).save(tmp_path / "north.png")
-    mesh = terrain_mesh(read_heights(tmp_path / "north.png", sampling=2, most=17), (2.0, 2.0, 1.0))
+    mesh = terrain_mesh(read_heights(tmp_path / "north.png", sampling=2, max_samples=17), (2.0, 2.0, 1.0))
     assert len(mesh.vertices) == 17 * 17
     assert mesh.vertices[mesh.vertices[:, 2] > 0.99][:, 1].min() == pytest.approx(1.0, abs=0.1)
 

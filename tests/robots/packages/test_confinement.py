@@ -33,7 +33,7 @@ def home(tmp_path: Path) -> Path:
 
 def resolve(uri: str, start: Path, home: Path, **environment: str) -> Path:
     packages = Packages({"HOME": str(home), **environment}, start=start)
-    return packages.resolve(uri, beside=start.parent, at=AT)
+    return packages.resolve(uri, folder=start.parent, at=AT)
 
 
 @pytest.mark.parametrize("holds", ["models/", "launch/", "urdf/", "package.xml", "manifest.xml", "model.config"])

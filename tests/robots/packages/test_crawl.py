@@ -38,7 +38,7 @@ def test_cyclic_and_broken_links_are_skipped(workspace: Path) -> None:
 
     assert packages.find_package("z") == workspace / "z"
     assert packages.skipped_folders() == {workspace / "loop": "Too many levels of symbolic links"}
-    assert f"but not in {workspace}/loop (Too many levels of symbolic links)" in packages.why_not_found("y")
+    assert f"but not in {workspace}/loop (Too many levels of symbolic links)" in packages.not_found_message("y")
 
 
 def test_two_links_upwards_cost_no_more_than_one(workspace: Path) -> None:

@@ -36,7 +36,7 @@ def model(folder: Path) -> Path:
 def resolve(uri: str, start: Path, **environment: str) -> Path:
     beside = start if start.is_dir() else start.parent
     return Packages({"HOME": str(start.anchor) + "nobody", **environment}, start=start).resolve(
-        uri, beside=beside, at=AT
+        uri, folder=beside, at=AT
     )
 
 
@@ -141,7 +141,7 @@ def test_a_package_exports_its_models_and_media(tmp_path: Path) -> None:
 
     assert packages.find_model("cup") == cup
     assert packages.find_world("worlds/kitchen.world") == gazebo / "worlds/kitchen.world"
-    assert packages.resolve("file://worlds/kitchen.world", beside=tmp_path, at=AT).is_file()
+    assert packages.resolve("file://worlds/kitchen.world", folder=tmp_path, at=AT).is_file()
 
 
 def test_manifests_are_read_once_for_all_files_of_an_environment(tmp_path: Path) -> None:
@@ -176,7 +176,7 @@ def test_a_folder_on_the_path_twice_is_reported_once(tmp_path: Path) -> None:
     path = f"{tmp_path}/ws/src:{tmp_path}/link:{tmp_path}/ws/src/"
     packages = Packages({"ROS_PACKAGE_PATH": path, "GAZEBO_MODEL_PATH": f"{arm}/models"}, start=arm / "meshes")
 
-    assert packages.why_not_found("hand").startswith(f"no package 'hand'; looked below {tmp_path}/ws/src; put ")
+    assert packages.not_found_message("hand").startswith(f"no package 'hand'; looked below {tmp_path}/ws/src; put ")
     with pytest.raises(UsageError) as caught:
         packages.find_model("cup")
     assert str(caught.value).count(f"{arm}/models") == 1
@@ -321,19 +321,19 @@ def test_a_name_with_a_slip_is_told_the_nearest(tmp_path: Path) -> None:
         (tmp_path / name / "package.xml").write_text(f"<package><name>{name}</name></package>")
     packages = Packages({"ROS_PACKAGE_PATH": str(tmp_path)}, start=tmp_path)
 
-    assert packages.why_not_found("arm_descripton").startswith(
+    assert packages.not_found_message("arm_descripton").startswith(
         "no package 'arm_descripton' (did you mean 'arm_description'?); looked below "
     )
     with pytest.raises(UsageError, match=r"no model 'rp2' \(did you mean 'rp2w'\?\); looked in "):
         packages.find_model("rp2")
-    assert "did you mean" not in packages.why_not_found("hunt"), "too different"
+    assert "did you mean" not in packages.not_found_message("hunt"), "too different"
 
 
 def test_a_published_name_is_no_slip_of_another(tmp_path: Path) -> None:
     (tmp_path / "package.xml").write_text("<package><name>hector_quadrotor_description</name></package>")
     packages = Packages({"ROS_PACKAGE_PATH": str(tmp_path)}, start=tmp_path)
 
-    why = packages.why_not_found("hector_sensors_description")
+    why = packages.not_found_message("hector_sensors_description")
 
     assert "did you mean" not in why
     assert "it is published at https://github.com/tu-darmstadt-ros-pkg/hector_models" in why
@@ -370,7 +370,7 @@ def test_a_workspace_behind_a_link_is_spelled_as_on_the_path(tmp_path: Path) -> 
     report = Diagnostics()
 
     assert packages.find_package("arm") == spelled
-    packages.warn_passed_over(report, Source("go.launch"))
+    packages.warn_shadowed(report, Source("go.launch"))
     assert report.warnings == []
 
 
@@ -386,4 +386,4 @@ def test_a_file_elsewhere_finds_the_packages_of_the_file_that_names_it(tmp_path:
     assert spawned.find_package("arm") == arm
     assert spawned.find_package("hand") == hand
     beside = tmp_path / "logs/spawned"
-    assert spawned.resolve("package://arm/meshes/arm.stl", beside=beside, at=AT) == arm / "meshes/arm.stl"
+    assert spawned.resolve("package://arm/meshes/arm.stl", folder=beside, at=AT) == arm / "meshes/arm.stl"

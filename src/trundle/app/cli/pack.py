@@ -73,7 +73,7 @@ def _current_package(packages: Packages) -> str:
 def _find(args: argparse.Namespace, packages: Packages) -> int:
     folder = packages.find_package(args.package)
     if folder is None:
-        raise UsageError(packages.why_not_found(args.package))
+        raise UsageError(packages.not_found_message(args.package))
     print(folder)
     return 0
 
@@ -134,7 +134,7 @@ def _depends_on1(args: argparse.Namespace, packages: Packages) -> int:
 
 def _check_exists(args: argparse.Namespace, packages: Packages) -> None:
     if args.package not in packages.ros_packages():
-        raise UsageError(packages.why_not_found(args.package))
+        raise UsageError(packages.not_found_message(args.package))
 
 
 def _direct_dependencies(name: str, known: Mapping[str, Path]) -> list[str]:

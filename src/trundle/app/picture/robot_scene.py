@@ -46,7 +46,7 @@ def _texture_color(shape: RobotShape, packages: Packages, report: Diagnostics) -
     if not shape.texture:
         return None
     try:
-        image = packages.resolve(shape.texture, beside=Path(shape.at.file).parent, at=shape.at)
+        image = packages.resolve(shape.texture, folder=Path(shape.at.file).parent, at=shape.at)
     except TrundleError as error:
         report.warn_error(error, shape.at, "the texture is left out")
         return None
@@ -63,7 +63,7 @@ def _geometry(shape: RobotShape, packages: Packages, report: Diagnostics) -> Sha
             return Sphere(radius)
         case RobotMesh(uri, scale):
             try:
-                mesh = load_mesh(packages.resolve(uri, beside=Path(shape.at.file).parent, at=shape.at))
+                mesh = load_mesh(packages.resolve(uri, folder=Path(shape.at.file).parent, at=shape.at))
             except TrundleError as error:
                 report.warn_error(error, shape.at, "this shape is not drawn")
                 return None

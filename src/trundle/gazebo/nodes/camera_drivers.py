@@ -232,11 +232,11 @@ class GsCam(CameraDriver):
         """See `CameraDriver.read`."""
         pipeline = settings.text("gscam_config", "") or self._environment.get("GSCAM_CONFIG", "")
         if not pipeline:
-            raise ParamError(f"{settings.where}: neither gscam_config nor the variable GSCAM_CONFIG is set")
+            raise ParamError(f"{settings.namespace}: neither gscam_config nor the variable GSCAM_CONFIG is set")
         match = _DEVICE.search(pipeline) or _LOCATION.search(pipeline)
         if match is None and not _DEFAULT_SOURCE.search(pipeline):
             supported = "v4l2src device=… and filesrc location=… are supported"
-            raise ParamError(f"{settings.where}: the source of the pipeline {pipeline!r} is unknown; {supported}")
+            raise ParamError(f"{settings.namespace}: the source of the pipeline {pipeline!r} is unknown; {supported}")
         self.source = "/dev/video0" if match is None else match[1]
         self.frame = settings.text("frame_id", "camera_frame").lstrip("/")
         self.encoding = settings.text("image_encoding", "rgb8")

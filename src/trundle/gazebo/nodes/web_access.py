@@ -96,7 +96,7 @@ def read_web_address(settings: RosParameters, *, port: int, address: str = "", n
     """
     port_number = settings.integer("port", port, minimum=0)
     if port_number > _MAX_PORT:
-        raise ParamError(f"parameter {settings.where}/port must be ≤ {_MAX_PORT}, got {port_number}")
+        raise ParamError(f"parameter {settings.namespace}/port must be ≤ {_MAX_PORT}, got {port_number}")
     origins = _read_names(settings, "allowed_origins")
     token = settings.text("token", "")
     return WebAddress(

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from trundle.base.diagnostics import DescriptionError, Source
 from trundle.robots.model import PluginTag
-from trundle.robots.packages import HELD
+from trundle.robots.packages import HELD_SUFFIX
 from trundle.robots.parameters import TagParameters
 
 from .gazebo_ros.namespaces import WITHOUT_EFFECT
@@ -170,7 +170,7 @@ def find_held_file(tag: PluginTag, environment: Mapping[str, str]) -> Path | Non
     """Return the uploaded code file that a plugin would run once a user approves it; None: no such file."""
     if _base_name(tag) in BUILTIN or _entry_points(_base_name(tag)):
         return None
-    name = f"{python_file_name(_base_name(tag))}{HELD}"
+    name = f"{python_file_name(_base_name(tag))}{HELD_SUFFIX}"
     return next((file for folder in _folders(tag, environment) if (file := folder / name).is_file()), None)
 
 

@@ -21,14 +21,14 @@ class _RecordingPackages(Packages):
     """Finder that records the names of missing packages; files of those are left out."""
 
     def __init__(
-        self, environment: Mapping[str, str], *, start: Path, known: "_RecordingPackages | None" = None
+        self, environment: Mapping[str, str], *, start: Path, fallback: "_RecordingPackages | None" = None
     ) -> None:
         environment = {**environment, LENIENT: "1"}
-        super().__init__(environment, start=start, known=known)
-        self.missing: dict[str, None] = {} if known is None else known.missing
+        super().__init__(environment, start=start, fallback=fallback)
+        self.missing: dict[str, None] = {} if fallback is None else fallback.missing
 
     def around(self, file: Path) -> "_RecordingPackages":
-        return _RecordingPackages(self._environment, start=file, known=self)
+        return _RecordingPackages(self._environment, start=file, fallback=self)
 
     def find_folder(self, name: str) -> Path | None:
         folder = super().find_folder(name)

@@ -59,7 +59,7 @@ def read_request(words: Sequence[str], packages: Packages) -> LaunchRequest:
         raise UsageError(f"no such file: {rest[0]}{similar_file(rest[0])}")
     package = packages.find_package(rest[0]) and packages.find_folder(rest[0])
     if package is None:
-        message = f"{packages.why_not_found(rest[0])}; {rest[0]!r} is no file either"
+        message = f"{packages.not_found_message(rest[0])}; {rest[0]!r} is no file either"
         raise UsageError(message, missing_packages=(rest[0],))
     if (workspace := packages.workspace_of(package)) is not None:
         print(f"using the workspace {workspace}", file=sys.stderr)

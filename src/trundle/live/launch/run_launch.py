@@ -117,7 +117,7 @@ def _read(
         env=env,
         namespace="/" + (request.namespace or env.get("ROS_NAMESPACE", "")).strip("/"),
     )
-    packages.warn_passed_over(report, Source(str(start)))
+    packages.warn_shadowed(report, Source(str(start)))
     for path in packages.configured_files:
         show.line(f"wrote {path} from its template, as catkin_make does")
     show.findings()

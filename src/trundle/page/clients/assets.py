@@ -79,7 +79,7 @@ class Assets:
         at = Source("page")
         if not uri.startswith(_SCHEMES):
             raise DescriptionError(at, f"{uri[:200]}: use one of {', '.join(_SCHEMES)}")
-        path = self._packages.resolve(uri, beside=self._start, at=at)
+        path = self._packages.resolve(uri, folder=self._start, at=at)
         if path.suffix.lower() not in _KINDS and path.is_file():
             raise DescriptionError(at, f"{uri}: only meshes, textures and robots are sent")
         size = os.stat(path).st_size

@@ -10,7 +10,7 @@ from trundle.base.diagnostics import UsageError
 from trundle.base.files import read_file
 from trundle.gazebo.plugins import find_held_file, find_user_file
 from trundle.robots.model import Model, PluginTag
-from trundle.robots.packages import HELD
+from trundle.robots.packages import HELD_SUFFIX
 
 from ..requests.answers import CodeQuestion
 
@@ -54,7 +54,7 @@ class CodeConsent:
         self._digests[token] = digest.digest()
         while len(self._digests) > _MAX_QUESTIONS:
             self._digests.pop(next(iter(self._digests)), None)
-        return CodeQuestion(code=tuple(str(file).removesuffix(HELD) for file in code), consent=token)
+        return CodeQuestion(code=tuple(str(file).removesuffix(HELD_SUFFIX) for file in code), consent=token)
 
     def _find(self, tag: PluginTag) -> Path | None:
         return find_user_file(tag, self._environment) or find_held_file(tag, self._environment)
@@ -80,5 +80,5 @@ def _read(file: Path) -> bytes:
 def _release(code: Mapping[Path, bytes]) -> None:
     """Write the contents that the user consented to; the held files may have changed since."""
     for file, content in code.items():
-        if file.name.endswith(HELD):
-            write_atomically(file.with_name(file.name.removesuffix(HELD)), content)
+        if file.name.endswith(HELD_SUFFIX):
+            write_atomically(file.with_name(file.name.removesuffix(HELD_SUFFIX)), content)

@@ -12,7 +12,7 @@ from aiohttp import BodyPartReader, MultipartReader
 
 from trundle.base.diagnostics import UsageError
 from trundle.base.output_folder import is_portable
-from trundle.robots.packages import HELD, Packages, is_stand_in
+from trundle.robots.packages import HELD_SUFFIX, Packages, is_stand_in
 
 from .archive import unpack
 from .model import find_models
@@ -110,7 +110,7 @@ class Uploads:
 def _hold_code(folder: Path) -> None:
     """Rename a model's files of code, so that nothing runs them before the user consents."""
     for file in [file for file in folder.rglob("*") if file.suffix.lower() == ".py"]:
-        file.rename(f"{file}{HELD}")
+        file.rename(f"{file}{HELD_SUFFIX}")
 
 
 async def _write_parts(parts: MultipartReader, tree: UploadTree) -> str:

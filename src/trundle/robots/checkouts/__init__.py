@@ -1,4 +1,4 @@
-"""Repositories of ROS packages fetched from the network into a folder of the user."""
+"""Fetching of ROS packages' repositories from the network into a user's folder."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Packages that are never fetched: Trundle does their work, or they only serve to compile."""
+"""Packages that are never fetched: Trundle replaces them, or they only serve to compile."""
 
 _BUILD = """
     ament_cmake ament_package catkin cmake_modules cpp_common gencpp geneus genlisp genmsg gennodejs genpy

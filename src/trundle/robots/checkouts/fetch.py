@@ -1,4 +1,4 @@
-"""Fetches repositories, and those of the packages that theirs need, until nothing is missing."""
+"""Fetching of packages' repositories and, recursively, of their dependencies'."""
 
 import os
 import re
@@ -17,25 +17,25 @@ from .git import NoBranchError, branches, checkout, remove_outside_links
 from .plan import FetchPlan, plan_fetch
 
 _LICENCE = re.compile(r"<license[^>]*>\s*([^<]*?)\s*</license>")
-_OF_ROS2 = re.compile(r"<build_type>\s*ament_\w+\s*</build_type>")
-_OF_ROS1 = re.compile(r"<build_type[^>]*>\s*catkin\s*</build_type>|<buildtool_depend[^>]*>\s*catkin\s*<")
+_AMENT_BUILD = re.compile(r"<build_type>\s*ament_\w+\s*</build_type>")
+_CATKIN_BUILD = re.compile(r"<build_type[^>]*>\s*catkin\s*</build_type>|<buildtool_depend[^>]*>\s*catkin\s*<")
 
 
 @dataclass(slots=True, kw_only=True)
 class FetchResult:
-    """Outcome of a fetch; each list is in the order of the names."""
+    """Result of a fetch; each list is in the order of the names."""
 
     folders: list[Path] = field(default_factory=list[Path])
-    """Repositories fetched."""
+    """Folders of the fetched repositories."""
     built_in: list[str] = field(default_factory=list[str])
     python_libraries: list[str] = field(default_factory=list[str])
     unknown: list[str] = field(default_factory=list[str])
     errors: list[str] = field(default_factory=list[str])
-    """Sentences about repositories that were not fetched."""
+    """Messages about repositories that were not fetched."""
 
 
 class Fetcher:
-    """Fetches into one folder."""
+    """Fetcher of repositories into one folder."""
 
     def __init__(
         self,
@@ -50,12 +50,12 @@ class Fetcher:
         """Create a fetcher.
 
         Args:
-            index: of published packages.
-            distro: whose branches are preferred.
-            folder: of the repositories; each is at OWNER/NAME below it.
-            environment: where packages are searched.
+            index: index of published packages.
+            distro: preferred distribution.
+            folder: root folder; each repository is at OWNER/NAME below it.
+            environment: environment with the search paths of packages.
             log: receives a line for each repository.
-            shows_progress: git writes its progress to stderr.
+            shows_progress: True to print git's progress to stderr.
         """
         self._index = index
         self._distro = distro
@@ -66,82 +66,84 @@ class Fetcher:
         self._environment = {**environment, "ROS_PACKAGE_PATH": os.pathsep.join(filter(None, [path, str(folder)]))}
 
     def plan(self, names: Iterable[str], *, for_files: bool = False) -> FetchPlan:
-        """Sort names of packages by where they come from; `for_files` as for `plan_fetch`."""
+        """Sort package names by source; `for_files` as in `plan_fetch`."""
         packages = self._packages()
         return plan_fetch(names, packages=packages, index=self._index, distro=self._distro, for_files=for_files)
 
     def fetch(self, names: Iterable[str], *, for_files: bool = False) -> FetchResult:
-        """Fetch packages and those that they need to run; a repository that fails does not stop the others.
+        """Fetch packages and their run dependencies; a repository that fails does not stop the others.
 
         Args:
-            names: of packages.
-            for_files: as for `plan_fetch`, of these; what they need in turn runs by stand-ins where there are some.
+            names: package names.
+            for_files: as in `plan_fetch`, for these packages only; stand-ins serve as dependencies.
         """
         result = FetchResult()
-        asked: set[str] = set()
-        waiting = list(dict.fromkeys(names))
-        while waiting:
-            asked.update(waiting)
-            plan = self.plan(waiting, for_files=for_files)
+        requested: set[str] = set()
+        pending = list(dict.fromkeys(names))
+        while pending:
+            requested.update(pending)
+            plan = self.plan(pending, for_files=for_files)
             for_files = False
             result.built_in += plan.built_in
             result.python_libraries += plan.python_libraries
             result.unknown += plan.unknown
-            for wanted, needed in plan.checkouts.items():
-                self._fetch_one(wanted, needed, result)
+            for repository, needed in plan.checkouts.items():
+                self._fetch_one(repository, needed, result)
             packages = self._packages()
-            here = [*plan.present, *(name for needed in plan.checkouts.values() for name in needed)]
-            below = [each for name in here for each in _needs(packages, name)]
-            waiting = [each for each in dict.fromkeys(below) if each not in asked]
+            available = [*plan.present, *(name for needed in plan.checkouts.values() for name in needed)]
+            dependencies = [dependency for name in available for dependency in _needs(packages, name)]
+            pending = [dependency for dependency in dict.fromkeys(dependencies) if dependency not in requested]
         for names_ in (result.built_in, result.python_libraries, result.unknown):
             names_[:] = dict.fromkeys(names_)
         return result
 
-    def fetch_repository(self, wanted: Checkout, folder: Path) -> None:
-        """Fetch a repository into a folder, with the branch that ROS 1 has there.
+    def fetch_repository(self, repository: Checkout, folder: Path) -> None:
+        """Fetch a repository into a folder, from a branch for ROS 1.
 
         Raises:
-            UsageError: it cannot be fetched, or its folder is taken.
+            UsageError: the repository cannot be fetched, or the folder exists.
         """
         if os.path.lexists(folder):
-            raise UsageError(f"{folder} is there already; remove it to fetch {wanted.url} again")
-        branch = wanted.branch
+            raise UsageError(f"{folder} is there already; remove it to fetch {repository.url} again")
+        branch = repository.branch
         try:
-            commit = self._checkout(wanted.url, branch, folder)
+            commit = self._checkout(repository.url, branch, folder)
         except NoBranchError:
-            branch = self._ros1_branch(wanted.url) or ""
-            commit = self._checkout(wanted.url, branch, folder)
-        if _is_for_ros2(folder) and (other := self._ros1_branch(wanted.url)):
-            self._log(f"{_shown(wanted.url)}: {branch or 'its default branch'} is for ROS 2")
+            branch = self._ros1_branch(repository.url) or ""
+            commit = self._checkout(repository.url, branch, folder)
+        if _is_for_ros2(folder) and (other := self._ros1_branch(repository.url)):
+            self._log(f"{_shown(repository.url)}: {branch or 'its default branch'} is for ROS 2")
             branch = other
             shutil.rmtree(folder)
-            commit = self._checkout(wanted.url, branch, folder)
-        self._log(f"{_shown(wanted.url)}: {branch or 'its default branch'}, commit {commit[:10]}, {_summary(folder)}")
+            commit = self._checkout(repository.url, branch, folder)
+        self._log(
+            f"{_shown(repository.url)}: {branch or 'its default branch'}, commit {commit[:10]}, {_summary(folder)}"
+        )
         for link in remove_outside_links(folder):
             self._log(f"  removed the link {link.relative_to(folder)}, which leads out of the repository")
         if os.path.isfile(folder / ".gitmodules"):
             self._log("  its submodules are not fetched")
 
-    def _fetch_one(self, wanted: Checkout, needed: list[str], result: FetchResult) -> None:
-        folder = checkout_folder(wanted.url, self._folder)
+    def _fetch_one(self, repository: Checkout, needed: list[str], result: FetchResult) -> None:
+        folder = checkout_folder(repository.url, self._folder)
         try:
-            self.fetch_repository(wanted, folder)
+            self.fetch_repository(repository, folder)
         except TrundleError as error:
             result.errors.append(f"{', '.join(needed)}: {error}")
             return
         result.folders.append(folder)
         packages = self._packages()
         missing = [name for name in needed if packages.find_package(name) is None]
-        result.errors += [f"{name}: {_shown(wanted.url)} does not hold it at this branch" for name in missing]
+        result.errors += [f"{name}: {_shown(repository.url)} does not hold it at this branch" for name in missing]
 
     def _checkout(self, url: str, branch: str, folder: Path) -> str:
         return checkout(url, branch, folder, shows_progress=self._shows_progress)
 
     def _ros1_branch(self, url: str) -> str | None:
-        """Return the branch that is named after the nearest distribution of ROS 1; None if none is."""
+        """Return the branch named after the nearest distribution of ROS 1, or None."""
         names = branches(url)
-        wanted = [f"{distro}{suffix}" for distro in nearest_distros(self._distro) for suffix in ("-devel", "")]
-        return next((name for name in (*wanted, "ros1") if name in names), None)
+        candidates = [f"{distro}{suffix}" for distro in nearest_distros(self._distro) for suffix in ("-devel", "")]
+        return next((name for name in (*candidates, "ros1") if name in names), None)
 
     def _packages(self) -> Packages:
         return Packages(self._environment, start=self._folder)
@@ -160,12 +162,12 @@ def _needs(packages: Packages, name: str) -> list[str]:
 
 def _is_for_ros2(folder: Path) -> bool:
     texts = [read_text(file) for file in _manifests(folder)]
-    return any(map(_OF_ROS2.search, texts)) and not any(map(_OF_ROS1.search, texts))
+    return any(map(_AMENT_BUILD.search, texts)) and not any(map(_CATKIN_BUILD.search, texts))
 
 
 def _summary(folder: Path) -> str:
     """Return the licences in a repository's manifests, and its size."""
-    licences = {each for file in _manifests(folder) for each in _LICENCE.findall(read_text(file))}
+    licences = {licence for file in _manifests(folder) for licence in _LICENCE.findall(read_text(file))}
     files = (Path(parent, name) for parent, _, names in os.walk(folder) for name in names)
     size = sum(file.lstat().st_size for file in files)
     return f"licence {', '.join(sorted(licences)) or 'not named'}, {size / 1e6:.1f} MB"

@@ -1,4 +1,4 @@
-"""Shallow checkouts by git, with nothing of the repository run: no hooks, submodules, filters or other protocols."""
+"""Shallow checkouts by git that run nothing of the repository: no hooks, submodules, filters or other protocols."""
 
 import os
 import re
@@ -24,20 +24,20 @@ _PROGRESS = re.compile(r"(Receiving objects|Resolving deltas|Updating files): [ 
 
 
 class NoBranchError(UsageError):
-    """Branch, tag or commit that the repository does not have."""
+    """Unknown branch, tag or commit."""
 
 
 def checkout(url: str, branch: str, folder: Path, *, shows_progress: bool) -> str:
     """Fetch one commit into a new folder, and return its id.
 
     Args:
-        url: checked by `repositories.https_address`.
+        url: address checked by `repositories.https_address`.
         branch: branch, tag or commit; '' is the default branch.
-        folder: appears when all is there.
-        shows_progress: git writes its progress to stderr.
+        folder: new folder, created when the checkout is complete.
+        shows_progress: True to print git's progress to stderr.
 
     Raises:
-        NoBranchError: there is no such branch.
+        NoBranchError: unknown branch.
         UsageError: git is not installed, or could not fetch.
     """
     folder.parent.mkdir(parents=True, exist_ok=True)
@@ -68,14 +68,14 @@ def branches(url: str) -> list[str]:
 
 
 def remove_outside_links(folder: Path) -> list[Path]:
-    """Remove symbolic links that lead out of a folder, and return them."""
-    inside = folder.resolve()
+    """Remove and return symbolic links that lead out of a folder."""
+    root = folder.resolve()
     removed: list[Path] = []
     for parent, folders, files in os.walk(folder):
-        for each in (Path(parent, name) for name in (*folders, *files)):
-            if each.is_symlink() and not each.resolve().is_relative_to(inside):
-                each.unlink()
-                removed.append(each)
+        for path in (Path(parent, name) for name in (*folders, *files)):
+            if path.is_symlink() and not path.resolve().is_relative_to(root):
+                path.unlink()
+                removed.append(path)
     return removed
 
 
@@ -110,7 +110,7 @@ def _git(arguments: Sequence[str], url: str, folder: Path | None = None, *, show
 
 
 def _read_messages(process: "subprocess.Popen[str]", *, shows: bool) -> str:
-    """Read what git writes to stderr to its end, and return the last line."""
+    """Read git's stderr to its end, and return the last line."""
     assert process.stderr is not None
     last = ""
     for line in process.stderr:  # progress ends with a carriage return, a line end in text mode

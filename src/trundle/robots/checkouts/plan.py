@@ -1,4 +1,4 @@
-"""Sorts names of packages by where they come from."""
+"""Plan of a fetch: package names sorted by source."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -11,31 +11,31 @@ from .built_in import BUILT_IN
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FetchPlan:
-    """Sources of some packages; each list is in the order of the names."""
+    """Package names by source; each list is in the order of the names."""
 
     checkouts: dict[Checkout, list[str]] = field(default_factory=dict[Checkout, list[str]])
-    """Repository → the packages wanted of it."""
+    """Repository → packages to fetch from it."""
     present: list[str] = field(default_factory=list[str])
-    """Packages that are here already."""
+    """Packages that already exist."""
     built_in: list[str] = field(default_factory=list[str])
-    """Packages whose work Trundle does itself."""
+    """Packages that Trundle replaces."""
     python_libraries: list[str] = field(default_factory=list[str])
     """PyPI's names."""
     unknown: list[str] = field(default_factory=list[str])
-    """Names that neither the index nor PyPI has: mostly libraries of the system."""
+    """Names that neither the index nor PyPI has, mostly system libraries."""
 
 
 def plan_fetch(
     names: Iterable[str], *, packages: Packages, index: Index, distro: str, for_files: bool = False
 ) -> FetchPlan:
-    """Sort names of packages, as package.xml and apt give them.
+    """Sort names of packages and system libraries, as in package.xml, by source.
 
     Args:
-        names: of packages and system libraries.
-        packages: those that are here.
-        index: of published packages.
-        distro: whose branches are preferred.
-        for_files: packages are wanted for their files, also where their nodes have stand-ins.
+        names: names to sort.
+        packages: existing packages.
+        index: index of published packages.
+        distro: preferred distribution.
+        for_files: True to fetch packages for their files even if their nodes have stand-ins.
     """
     plan = FetchPlan()
     built_in = BUILT_IN | (STOCK - STOCK_WITH_FILES if for_files else STOCK)

@@ -56,7 +56,7 @@ def load(
         UsageError: no such model.
     """
     loaded = _load(_find(source, packages), report, packages=packages, seed=seed, arguments=arguments)
-    packages.warn_passed_over(report, Source(source))
+    packages.warn_shadowed(report, Source(source))
     return loaded
 
 
@@ -208,7 +208,7 @@ def _find(source: str, packages: Packages) -> Path:
     if source.startswith("model://"):
         return packages.find_model(source.removeprefix("model://").strip("/"))
     if source.startswith("package://"):
-        return packages.resolve(source, beside=Path.cwd(), at=Source(source))
+        return packages.resolve(source, folder=Path.cwd(), at=Source(source))
     if source.startswith("file://"):
         return Path(unquote(source.removeprefix("file://")))
     path = Path(os.path.expanduser(source))

@@ -8,7 +8,7 @@ from .substitution import Substitution
 from .values import read_flag
 
 _NODES_OF_AN_ELEMENT = 5
-"""Nodes that take as long as a substituted element."""
+"""XML nodes that count for a substituted element in the reading budget."""
 
 
 class Attributes:
@@ -30,23 +30,23 @@ class Attributes:
                     report.warn(self.at, f"attribute {name!r} of <{node.tag}> is not known; it is ignored")
 
     def _evaluate_if_unless(self) -> bool:
-        wanted, unwanted = self.text("if"), self.text("unless")
-        if wanted is not None and unwanted is not None:
+        condition, negated = self.text("if"), self.text("unless")
+        if condition is not None and negated is not None:
             raise DescriptionError(self.at, f"<{self.node.tag}>: either 'if' or 'unless', not both")
         try:
-            if wanted is not None:
-                return read_flag(wanted)
-            return unwanted is None or not read_flag(unwanted)
+            if condition is not None:
+                return read_flag(condition)
+            return negated is None or not read_flag(negated)
         except ValueError as error:
             raise DescriptionError(
-                self.at, f"<{self.node.tag}> {'unless' if wanted is None else 'if'}: {error}"
+                self.at, f"<{self.node.tag}> {'unless' if condition is None else 'if'}: {error}"
             ) from None
 
     def count_values(self, count: int) -> None:
-        """Count what is read for this element.
+        """Count values read for this element.
 
         Raises:
-            ReadBudgetError: there is too much in all.
+            ReadBudgetError: the budget is exhausted.
         """
         self._substitution.files.budget.add_nodes(count, self.at)
 
@@ -59,7 +59,7 @@ class Attributes:
         """Substitute a text of this element.
 
         Raises:
-            MissingPackageError: another element than <arg> needs a missing package.
+            MissingPackageError: an element other than <arg> needs a missing package.
         """
         resolved = self._substitution.resolve(text, self._scope, self.at)
         if self.node.tag != "arg":
@@ -70,8 +70,8 @@ class Attributes:
         """Read a file that an attribute names.
 
         Raises:
-            DescriptionError: it may not be read, or its package is missing.
-            ValueError: it does not exist or cannot be read.
+            DescriptionError: the file may not be read, or its package is missing.
+            ValueError: the file does not exist or cannot be read.
         """
         self._substitution.refuse_absent(name, self.at)
         return self._substitution.files.read(name, self.at)
@@ -91,7 +91,7 @@ class Attributes:
         """True or false in any case; absent is false.
 
         Raises:
-            DescriptionError: the value is neither; unlike `if`, 1 and 0 are invalid, as in roslaunch.
+            DescriptionError: another value; 1 and 0 are invalid, unlike in `if`, as in roslaunch.
         """
         value = self.text(name)
         if value is None or value.lower() == "false":

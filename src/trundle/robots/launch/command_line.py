@@ -10,31 +10,31 @@ _USE = re.compile(r"""\$\(\s*arg\s+([^\s)]+)\s*\)|\barg\(\s*['"]([^'"]+)['"]\s*\
 
 
 class CommandLine:
-    """`name:=value` arguments, and the files that see them: those launched, and their includes with pass_all_args."""
+    """`name:=value` arguments, and the files to which they apply: launched ones, and includes with pass_all_args."""
 
     def __init__(self, arguments: Mapping[str, str]) -> None:
         self.arguments = arguments
         self._files: list[XmlNode] = []
 
     def apply_to(self, root: XmlNode) -> None:
-        """Register a file that sees the arguments."""
+        """Register a file to which the arguments apply."""
         self._files.append(root)
 
     def check_unused(self) -> None:
         """Reject arguments that no file declares or uses; roslaunch silently ignores misspelt ones.
 
         Raises:
-            UnknownArgumentError: an argument is unknown; the text names the closest match and all arguments.
+            UnknownArgumentError: an argument is unknown; the message names the closest match and all arguments.
         """
         texts = [text for root in self._files for text in _texts(root)]
         known = {name for root in self._files for name in _declared(root)} | set(_used(texts))
         for name in sorted(set(self.arguments) - known) if self._files else ():
             if not any(re.search(rf"\$\(eval\b.*\b{re.escape(name)}\b", text, re.DOTALL) for text in texts):
-                near = nearest(name, known) if len(known) > 1 else None
-                said = f"; the nearest is {near!r}" if near else ""
-                there_is = ", ".join(map(repr, sorted(known))) or "none"
-                what = f"no argument {name!r} to set{said}; the file's arguments: {there_is}"
-                raise UnknownArgumentError(self._files[0].at, what, name=name)
+                suggestion = nearest(name, known) if len(known) > 1 else None
+                hint = f"; the nearest is {suggestion!r}" if suggestion else ""
+                names = ", ".join(map(repr, sorted(known))) or "none"
+                message = f"no argument {name!r} to set{hint}; the file's arguments: {names}"
+                raise UnknownArgumentError(self._files[0].at, message, name=name)
 
 
 def _used(texts: Iterable[str]) -> Iterator[str]:

@@ -31,7 +31,7 @@ class CommandRunner(Protocol):
         """Return its standard output.
 
         Raises:
-            ValueError: the program cannot be run, or failed; the text says which.
+            ValueError: the program cannot be run, or failed, with the reason.
         """
         ...
 
@@ -47,13 +47,13 @@ def resolve_params(
     """Replace commands in the plan's parameters by their output; null values, which ROS cannot store, are reported.
 
     Args:
-        expand_xacro: called instead of commands named `xacro` or `xacro.py` in any folder: machines without ROS have
-            none, and `xacro.py` was removed in Noetic.
+        expand_xacro: replaces commands named `xacro` or `xacro.py` in any folder, which machines without ROS lack;
+            Noetic removed `xacro.py`.
         env: environment of the commands.
-        run: runs all other commands.
+        run: function that runs all other commands.
 
     Raises:
-        DescriptionError: a command failed, at its `<param>`; the launch is aborted, as by roslaunch.
+        DescriptionError: a command failed; the source is its `<param>`. roslaunch aborts the launch too.
     """
     resolved: list[LaunchParam] = []
     for param in plan.params:

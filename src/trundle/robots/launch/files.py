@@ -1,4 +1,4 @@
-"""Files that a launch reads: launch files and those that their attributes name."""
+"""Files of a launch: launch files, and files named by their attributes."""
 
 import os
 from dataclasses import dataclass, field
@@ -11,13 +11,13 @@ from trundle.base.xmlnode import ReadBudget
 
 
 class ReadCheck(Protocol):
-    """Refuses files that may not be read."""
+    """Check that refuses files outside the allowed folders."""
 
     def __call__(self, path: Path, at: Source, /, *, name: str) -> None:
-        """Check a file, which `name` names in messages.
+        """Check a file; `name` is its name in messages.
 
         Raises:
-            DescriptionError: it may not be read.
+            DescriptionError: the file may not be read.
         """
         ...
 
@@ -31,10 +31,10 @@ class LaunchFiles:
     budget: ReadBudget = field(default_factory=ReadBudget)
 
     def check(self, name: str, at: Source) -> None:
-        """Check a file before anything is known about it.
+        """Check a file before its existence is tested.
 
         Raises:
-            DescriptionError: it may not be read.
+            DescriptionError: the file may not be read.
         """
         if self.check_readable is not None:
             self.check_readable(Path(name), at, name=repr(name))
@@ -43,7 +43,7 @@ class LaunchFiles:
         """Read a file's bytes.
 
         Raises:
-            DescriptionError: it may not be read.
+            DescriptionError: the file may not be read.
             ValueError: the file does not exist or cannot be read.
         """
         self.check(name, at)

@@ -24,7 +24,7 @@ def read_launch_file(
 
 
 def parse_launch_text(text: str, name: str) -> XmlNode:
-    """Parse a launch file's text; `name` stands for its path in messages.
+    """Parse a launch file's text; `name` is its name in messages.
 
     Raises:
         DescriptionError: as `read_launch_file`.

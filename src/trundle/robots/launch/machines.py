@@ -1,4 +1,4 @@
-"""<machine>: addresses of the machines that nodes name."""
+"""Reader of <machine>."""
 
 from trundle.base.diagnostics import DescriptionError, Diagnostics
 from trundle.base.xmlnode import XmlNode
@@ -8,25 +8,29 @@ from .plan_builder import PlanBuilder
 from .scope import Scope
 from .substitution import Substitution
 
-_KNOWN = ("name", "address", "env-loader", "ssh-port", "user", "password", "default", "timeout")
-_OLD = ("ros-root", "ros-package-path", "ros-ip", "ros-hostname")
+_ATTRIBUTES = ("name", "address", "env-loader", "ssh-port", "user", "password", "default", "timeout")
+_REMOVED = ("ros-root", "ros-package-path", "ros-ip", "ros-hostname")
 _DEFAULTS = ("true", "false", "never")
 
 
 def read_machine(
     node: XmlNode, scope: Scope, substitution: Substitution, builder: PlanBuilder, report: Diagnostics
 ) -> None:
-    """Read a <machine>; a default one applies to the nodes after it.
+    """Read a <machine>; a default machine applies to the nodes after it.
 
     Raises:
-        DescriptionError: roslaunch rejects it, too.
+        DescriptionError: roslaunch rejects it too.
     """
-    attributes = Attributes(node, scope, substitution, report, (*_KNOWN, *_OLD))
+    attributes = Attributes(node, scope, substitution, report, (*_ATTRIBUTES, *_REMOVED))
     if not attributes.is_active:
         return
-    old = [name for name in _OLD if node.attribute(name)] + ["<env>" for child in node.children if child.tag == "env"]
-    if old:
-        raise DescriptionError(node.at, f"<machine> has no {old[0]} since ROS Fuerte; an 'env-loader' sets what it set")
+    removed = [name for name in _REMOVED if node.attribute(name)] + [
+        "<env>" for child in node.children if child.tag == "env"
+    ]
+    if removed:
+        raise DescriptionError(
+            node.at, f"<machine> has no {removed[0]} since ROS Fuerte; an 'env-loader' sets what it set"
+        )
     name, address = attributes.required("name"), attributes.required("address")
     default = (attributes.text("default") or "false").lower()
     if default not in _DEFAULTS:

@@ -1,4 +1,4 @@
-"""Packages that a launch needs but that are not installed."""
+"""Missing packages of a launch."""
 
 import re
 from collections.abc import Iterable
@@ -19,23 +19,23 @@ _PACKAGE = re.compile(r"\$\(find ([\w.-]+)\)")
 
 
 def element_name(node: XmlNode) -> str:
-    """Return the name of an element for a warning that it is left out."""
+    """Return an element's name for messages."""
     if node.tag in ("node", "test"):
         return f"the {node.tag} {node.attribute('name')!r} ({node.attribute('pkg')}/{node.attribute('type')})"
-    words = node.attribute("file") or node.attribute("name") or node.attribute("ns") or ""
-    named = _PACKAGE.sub(r"\1", words)
-    return f"<{node.tag}> {named}".strip()
+    text = node.attribute("file") or node.attribute("name") or node.attribute("ns") or ""
+    name = _PACKAGE.sub(r"\1", text)
+    return f"<{node.tag}> {name}".strip()
 
 
 class MissingPackages:
-    """Missing packages found by a second, tolerant reading after the first one failed."""
+    """Missing packages, collected by a second, tolerant reading after the first one failed."""
 
     def __init__(self) -> None:
-        self._places: dict[str, tuple[Source, str]] = {}
+        self._first_uses: dict[str, tuple[Source, str]] = {}
 
-    def add(self, name: str, at: Source, what_for: str = "") -> None:
-        """Record the first place that needs a package; `what_for` completes the error's sentence."""
-        self._places.setdefault(name, (at, what_for))
+    def add(self, name: str, at: Source, purpose: str = "") -> None:
+        """Record the first use of a package; `purpose` completes the error message."""
+        self._first_uses.setdefault(name, (at, purpose))
 
     def add_nodes(self, nodes: Iterable[LaunchNode], packages: PackageFinder) -> None:
         """Record the missing packages of nodes."""
@@ -44,11 +44,11 @@ class MissingPackages:
                 self.add(node.package, node.at, f" for the node {node.full_name}")
 
     def combined_error(self, first: MissingPackageError) -> DescriptionError:
-        """Error that names all missing packages, the first in full."""
-        others = sorted(self._places.items(), key=lambda item: (item[1][0].file, item[1][0].line or 0))
+        """Return an error that names all missing packages, the first in full."""
+        others = sorted(self._first_uses.items(), key=lambda item: (item[1][0].file, item[1][0].line or 0))
         more = [
-            DescriptionError(at, f"no package {name!r}{what_for}{repository_hint(name)}")
-            for name, (at, what_for) in others
+            DescriptionError(at, f"no package {name!r}{purpose}{repository_hint(name)}")
+            for name, (at, purpose) in others
             if f"no package {name!r}" not in first.what
         ]
         names = tuple(name for name, _ in others)

@@ -39,7 +39,7 @@ def read_node(
     """Read a <node> or <test> into the plan, with its parameters.
 
     Raises:
-        DescriptionError: roslaunch rejects it, too.
+        DescriptionError: roslaunch rejects it too.
     """
     is_test = node.tag == "test"
     known = (*_NODE, *_TEST_ONLY) if is_test else _NODE
@@ -58,26 +58,26 @@ def read_node(
     if not is_legal_name(name):
         report.warn(node.at, f"node name {name!r} is not a legal ROS name; it is used as it is")
 
-    own = scope.child(attributes.namespace())
-    inside = own.child(name)
+    node_scope = scope.child(attributes.namespace())
+    private_scope = node_scope.child(name)
     if attributes.flag("clear_params"):
-        builder.clear(inside.namespace)
-    private = _read_children(node, inside, own, substitution, builder, report)
+        builder.clear(private_scope.namespace)
+    private_params = _read_children(node, private_scope, node_scope, substitution, builder, report)
     # ~params of the scope first, so that the node's own override them.
-    for key, (value, at) in [*scope.private_params.items(), *private.items()]:
-        builder.set_param(f"{inside.namespace}/{key}", value, at)
+    for key, (value, at) in [*scope.private_params.items(), *private_params.items()]:
+        builder.set_param(f"{private_scope.namespace}/{key}", value, at)
 
     respawn, required = attributes.flag("respawn"), attributes.flag("required")
     if respawn and required:
         raise DescriptionError(node.at, f"node {name!r}: 'respawn' and 'required' cannot both be true")
-    read = LaunchNode(
+    launch_node = LaunchNode(
         name=name,
-        namespace=own.namespace,
+        namespace=node_scope.namespace,
         package=attributes.required("pkg"),
         type=attributes.required("type"),
         arguments=attributes.text("args") or "",
-        remappings=tuple(own.remappings.items()),
-        env=tuple(own.env),
+        remappings=tuple(node_scope.remappings.items()),
+        env=tuple(node_scope.env),
         output=_output(attributes),
         respawn=respawn,
         respawn_delay_s=attributes.number("respawn_delay", default=0.0),
@@ -92,32 +92,37 @@ def read_node(
         if not limit_s > 0.0:
             raise DescriptionError(node.at, f"time-limit must be > 0 s, got {limit_s:g}")
         test_name, retries = attributes.required("test-name"), _retries(attributes)
-        builder.add_test(LaunchTest(name=test_name, node=read, time_limit_s=limit_s, retries=retries))
+        builder.add_test(LaunchTest(name=test_name, node=launch_node, time_limit_s=limit_s, retries=retries))
         report.info(node.at, f"test {name!r} is not run: only `trundle test` runs tests")
     else:
-        builder.add_node(read)
+        builder.add_node(launch_node)
 
 
 def _read_children(
-    node: XmlNode, inside: Scope, own: Scope, substitution: Substitution, builder: PlanBuilder, report: Diagnostics
+    node: XmlNode,
+    private_scope: Scope,
+    node_scope: Scope,
+    substitution: Substitution,
+    builder: PlanBuilder,
+    report: Diagnostics,
 ) -> dict[str, PrivateParam]:
-    """Read child elements: remappings and environment into `own`; returns the ~params."""
+    """Read child elements: remappings and environment into `node_scope`; return the ~params."""
     private: dict[str, PrivateParam] = {}
     for child in node.children:
         match child.tag.lower():  # roslaunch ignores case here only
             case "param":
-                attributes = Attributes(child, inside, substitution, report, PARAM_ATTRIBUTES)
+                attributes = Attributes(child, private_scope, substitution, report, PARAM_ATTRIBUTES)
                 if attributes.is_active:
                     key, value = read_param(attributes)
                     key = canonical_name(key.removeprefix("~")).removeprefix("/")
                     private.pop(key, None)
                     private[key] = (value, child.at)
             case "rosparam":
-                read_rosparam(child, inside, substitution, builder, report)
+                read_rosparam(child, private_scope, substitution, builder, report)
             case "remap":
-                read_remap(child, inside, own, substitution, report)
+                read_remap(child, private_scope, node_scope, substitution, report)
             case "env":
-                read_env(child, inside, own, substitution, report)
+                read_env(child, private_scope, node_scope, substitution, report)
             case _:
                 report.warn(child.at, f"<{child.tag}> in <{node.tag}> is not known; it is ignored")
     return private

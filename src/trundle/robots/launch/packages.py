@@ -8,18 +8,18 @@ class PackageFinder(Protocol):
     """Finds the folders of packages."""
 
     def find_folder(self, name: str, /) -> Path | None:
-        """Folder that `$(find name)` stands for; None if the package is unknown."""
+        """Folder of a package, as in `$(find name)`; None if the package is unknown."""
         ...
 
     def absent_package(self, file: Path, /) -> str | None:
-        """Package whose absence is why a file below a `find_folder` is missing; None: another reason, or it is here."""
+        """Missing package to which a missing file belongs; None if the file exists or its package does."""
         ...
 
     @property
     def is_lenient(self) -> bool:
-        """True if elements that need missing packages are left out."""
+        """True to leave out elements that need missing packages."""
         ...
 
-    def why_not_found(self, name: str, /) -> str:
+    def not_found_message(self, name: str, /) -> str:
         """Error message for an unknown package, with the folders searched."""
         ...

@@ -28,18 +28,18 @@ PARAM_ATTRIBUTES = ("name", "type", *_SOURCES)
 
 
 def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
-    """Read a <param>: its name as written, and its value or the command for it.
+    """Read a <param>: its name as written, and its value or command.
 
     Raises:
         DescriptionError: no name, not exactly one source of the value, or a value that does not fit its type.
     """
     at = attributes.at
-    given = {source: text for source in _SOURCES if (text := attributes.text(source)) is not None}
+    sources = {source: text for source in _SOURCES if (text := attributes.text(source)) is not None}
     name = attributes.required("name").strip()
-    if len(given) != 1:
-        what = "none" if not given else " and ".join(map(repr, given))
-        raise DescriptionError(at, f"param {name!r} needs one of {', '.join(map(repr, _SOURCES))}; it has {what}")
-    ((source, text),) = given.items()
+    if len(sources) != 1:
+        listed = "none" if not sources else " and ".join(map(repr, sources))
+        raise DescriptionError(at, f"param {name!r} needs one of {', '.join(map(repr, _SOURCES))}; it has {listed}")
+    ((source, text),) = sources.items()
     # roslaunch does not substitute this attribute either.
     type_name = (attributes.node.attribute("type") or "auto").lower().strip()
     if type_name not in _TYPES:
@@ -73,13 +73,13 @@ def read_rosparam(
     if not attributes.is_active:
         return
     # `ns` is an old alias, joined before `param`.
-    below = join_names(attributes.text("ns") or "", attributes.text("param") or "")
-    name = scope.join(below) if below else scope.namespace
+    suffix = join_names(attributes.text("ns") or "", attributes.text("param") or "")
+    name = scope.join(suffix) if suffix else scope.namespace
     command = attributes.text("command") or "load"
     file = attributes.text("file")
     match command:
         case "load":
-            _load(attributes, builder, name, file, needs_mapping=not below or name == "/")
+            _load(attributes, builder, name, file, needs_mapping=not suffix or name == "/")
         case "dump" | "delete":
             _step(attributes, builder, command, name, file)
         case _:

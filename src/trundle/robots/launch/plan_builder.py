@@ -34,7 +34,7 @@ class PlanBuilder:
         """Add a node.
 
         Raises:
-            DescriptionError: another one has the same name.
+            DescriptionError: duplicate name.
         """
         if other := self._nodes.get(node.full_name):
             raise DescriptionError(node.at, f"two nodes are named {node.full_name!r}; the other one is at {other.at}")
@@ -44,7 +44,7 @@ class PlanBuilder:
         """Add a machine; `settings` start with its address.
 
         Raises:
-            DescriptionError: another one has the same name.
+            DescriptionError: duplicate name.
         """
         if name != "localhost" and self._machines.setdefault(name, settings) != settings:
             raise DescriptionError(at, f"two machines are named {name!r}, and they differ")
@@ -64,8 +64,8 @@ class PlanBuilder:
         parent = name.rpartition("/")[0]
         while parent:
             if parent in self._params:
-                there = self._params[parent].at
-                self._report.warn(at, f"parameter {name!r} lies below the parameter {parent!r} of {there}")
+                parent_at = self._params[parent].at
+                self._report.warn(at, f"parameter {name!r} lies below the parameter {parent!r} of {parent_at}")
             parent = parent.rpartition("/")[0]
         if len(self._params) >= _MAX_PARAMS:
             raise DescriptionError(at, f"more than {_MAX_PARAMS} parameters")
@@ -83,10 +83,10 @@ class PlanBuilder:
         )
 
     def _with_machine(self, node: LaunchNode) -> LaunchNode:
-        """Node with its machine's address; the <machine> may follow the node."""
+        """Return a node with its machine's address; the <machine> may follow the node."""
         if node.machine not in self._machines:
-            there = ", ".join(repr(name) for name in self._machines if name not in ("", "localhost")) or "none"
-            what = f"node {node.name!r}: no machine {node.machine!r}, so it cannot be launched; machines: {there}"
-            self._report.warn(node.at, what)
+            machines = ", ".join(repr(name) for name in self._machines if name not in ("", "localhost")) or "none"
+            message = f"node {node.name!r}: no machine {node.machine!r}, so it cannot be launched; machines: {machines}"
+            self._report.warn(node.at, message)
             return replace(node, address=None)
         return replace(node, address=str(self._machines[node.machine][0]))

@@ -25,7 +25,7 @@ from .scope import Scope
 from .substitution import Substitution
 
 _MAX_INCLUDE_DEPTH = 64
-"""Limit against files that include themselves; real launches nest less than a tenth as deep."""
+"""Limit for files that include themselves; published launch files nest less than a tenth as deep."""
 _MAX_INCLUDES_IN_ERROR = 8
 """Includes listed in an error."""
 
@@ -45,17 +45,17 @@ def read_launch(
     """Read launch files as one launch, without starting nodes or running commands.
 
     Args:
-        files: one or several, read in order.
+        files: one or more files, read in order.
         texts: (name, XML) of launch files not on disk, such as standard input; read after the files.
         packages: resolves `$(find …)`.
         report: receives warnings: unknown tags and attributes, deprecations, unsupported features.
         arguments: `name:=value` of the command line.
         env: environment for `$(env …)` and `$(optenv …)`.
         namespace: prefix of all names.
-        check_readable: refuses files that an element names, as for a file that is only looked at; None: all are read.
+        check_readable: refuses files named by elements, for a launch file that is only inspected; None: reads all.
 
     Raises:
-        DescriptionError: the file is invalid, with file and line; roslaunch rejects it, too.
+        DescriptionError: the file is invalid, with file and line; roslaunch rejects it too.
     """
     command_line = CommandLine(arguments or {})
 
@@ -95,7 +95,7 @@ def read_launch_text(
     arguments: Mapping[str, str] | None = None,
     env: Mapping[str, str] | None = None,
 ) -> LaunchPlan:
-    """Read a launch file's text; `name` stands for its path in messages.
+    """Read a launch file's text; `name` is its name in messages.
 
     Raises:
         DescriptionError: as `read_launch`.
@@ -125,7 +125,7 @@ def read_arguments(
 
 
 class _Reader:
-    """Walks launch files and fills a plan builder."""
+    """Reader of launch files into a plan builder."""
 
     def __init__(
         self,
@@ -137,11 +137,11 @@ class _Reader:
         missing: MissingPackages | None = None,
         files: LaunchFiles | None = None,
     ) -> None:
-        """`missing`: collect missing packages, skipping elements that cannot be read."""
+        """Create a reader; with `missing` it collects missing packages and skips elements that cannot be read."""
         self.builder = PlanBuilder(report)
         self._report = report
         self._command_line = command_line
-        self._goes_on = missing is not None
+        self._collects_missing = missing is not None
         self._is_lenient = packages.is_lenient
         self._files = files or LaunchFiles()
         self._substitution = Substitution(
@@ -149,13 +149,13 @@ class _Reader:
         )
 
     def read_root(self, root: XmlNode, file: Path, namespace: str) -> None:
-        """Read a file given on the command line."""
+        """Read a file of the command line."""
         arguments = dict(self._command_line.arguments)
         scope = Scope(namespace=canonical_name(namespace) or "/", file=str(file), arguments=arguments)
         self._launch(root, scope, depth=0)
 
     def read_declared(self, root: XmlNode, file: Path) -> None:
-        """Read the <arg>s of a file; required ones not given become ''."""
+        """Read the <arg>s of a file; required ones that are not set become ''."""
         scope = Scope(namespace="/", file=str(file), arguments=dict(self._command_line.arguments))
         for node in _launch_of(root).all("arg"):
             self._arg(node, scope, scope, top=True)
@@ -184,10 +184,10 @@ class _Reader:
             except MissingPackageError as error:
                 if self._is_lenient:
                     self._report.warn(error.at, f"{error.what}; {element_name(node)} is left out")
-                elif not self._goes_on:
+                elif not self._collects_missing:
                     raise
             except DescriptionError as error:
-                if not self._goes_on or isinstance(error, ReadBudgetError):
+                if not self._collects_missing or isinstance(error, ReadBudgetError):
                     raise
 
     def _child(self, node: XmlNode, scope: Scope, *, depth: int) -> None:
@@ -281,7 +281,7 @@ class _Reader:
                     self._report.warn(child.at, f"<{child.tag}> in <include> is not known; it is ignored")
         for name in sorted(passed.declared - set(passed.arguments)):
             raise DescriptionError(node.at, f"argument {name!r} is passed to {file!r} without a value")
-        given = passed.declared
+        passed_names = passed.declared
         passed.declared = set()
         self._files.check(file, node.at)
         self._substitution.refuse_absent(file, node.at)
@@ -291,25 +291,25 @@ class _Reader:
             root = read_launch_file(Path(file), self._report, self._files.budget, node.at)
             self._launch(root, passed, depth=depth + 1)
         except DescriptionError as error:
-            way = f"; included at {node.at}"
-            if depth >= _MAX_INCLUDES_IN_ERROR or error.what.endswith(way):
+            trace = f"; included at {node.at}"
+            if depth >= _MAX_INCLUDES_IN_ERROR or error.what.endswith(trace):
                 raise
-            raise type(error)(error.at, error.what + way) from None
-        if unused := sorted(given - passed.declared):
+            raise type(error)(error.at, error.what + trace) from None
+        if unused := sorted(passed_names - passed.declared):
             known = ", ".join(map(repr, sorted(passed.declared))) or "none"
             raise DescriptionError(node.at, f"{file!r} has no argument {unused[0]!r}; its arguments: {known}")
 
 
 def _launch_of(root: XmlNode) -> XmlNode:
-    """<launch> element of a file; like roslaunch, accepts it at any depth."""
+    """Return the <launch> element of a file, at any depth, as roslaunch does."""
     if root.tag == "launch":
         return root
-    found: list[XmlNode] = []
-    todo = [root]
-    while todo:
-        node = todo.pop()
-        todo += node.children
-        found += [node] if node.tag == "launch" else []
-    if len(found) != 1:
+    launches: list[XmlNode] = []
+    pending = [root]
+    while pending:
+        node = pending.pop()
+        pending += node.children
+        launches += [node] if node.tag == "launch" else []
+    if len(launches) != 1:
         raise DescriptionError(root.at, f"a launch file starts with <launch>, not <{root.tag}>")
-    return found[0]
+    return launches[0]

@@ -1,4 +1,4 @@
-"""Runs a program and captures its output, bounded in size; it may take its time, as with roslaunch."""
+"""Execution of a program with captured output, bounded in size but not in time, as in roslaunch."""
 
 import contextlib
 import os
@@ -14,7 +14,7 @@ from trundle.base.waiting import WaitNotice
 _MAX_BYTES = 64 * 1024 * 1024
 """Output limit; the largest robot descriptions are a few MB."""
 _CHUNK_BYTES = 65536
-_LOOK_S = 0.5
+_POLL_S = 0.5
 
 
 def run_command(argv: Sequence[str], /, *, env: Mapping[str, str]) -> str:
@@ -39,20 +39,20 @@ def run_command(argv: Sequence[str], /, *, env: Mapping[str, str]) -> str:
         notice = WaitNotice(f"command {argv[0]!r}")
         try:
             while any(reader.is_alive() for reader in readers):
-                readers[0].join(_LOOK_S)
-                readers[1].join(_LOOK_S if not readers[0].is_alive() else 0.0)
+                readers[0].join(_POLL_S)
+                readers[1].join(_POLL_S if not readers[0].is_alive() else 0.0)
                 notice.poll()
             process.wait()
-        except BaseException:  # Ctrl-C, which a session of its own does not hear
+        except BaseException:  # Ctrl-C, which does not reach a process in its own session
             _kill(process)
             raise
     output, errors = (bytes(reader.data) for reader in readers)
     if any(reader.is_full for reader in readers):
         raise ValueError(f"command {argv[0]!r} wrote more than {_MAX_BYTES // 2**20} MiB")
     if process.returncode != 0:
-        last = errors.decode(errors="replace").strip().splitlines()[-10:]
-        said = ": " + "\n".join(last) if last else ""
-        raise ValueError(f"command {argv[0]!r} returned {process.returncode}{said}")
+        tail = errors.decode(errors="replace").strip().splitlines()[-10:]
+        output_tail = ": " + "\n".join(tail) if tail else ""
+        raise ValueError(f"command {argv[0]!r} returned {process.returncode}{output_tail}")
     if errors:
         print(errors.decode(errors="replace"), end="", file=sys.stderr)
     try:

@@ -16,7 +16,7 @@ PrivateParam: TypeAlias = tuple[ParamValue | ParamCommand, Source]
 class Scope:
     """Scope of a launch file, group or node element.
 
-    A child copies its parent's settings, so that settings in a group do not leak out.
+    A child copies its parent's settings, so that settings in a group end with it.
     """
 
     namespace: str
@@ -53,7 +53,7 @@ class Scope:
         """Create the scope of an included file, with only the passed arguments."""
         scope = self.child(namespace)
         scope.file = file
-        if self.private_params:  # as roslaunch: ~params set in the file leak out if any were set before
+        if self.private_params:  # as in roslaunch, ~params set in the file apply after it if any were set before
             scope.private_params = self.private_params
         scope.arguments = dict(arguments)
         scope.declared = set()

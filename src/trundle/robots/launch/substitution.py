@@ -17,16 +17,16 @@ from .scope import Scope
 from .values import convert_value
 
 _COMMAND = re.compile(r"\$+\(([^)]+)\)")
-_LONGEST = 400
+_MAX_LENGTH = 400
 """Maximum length of an expression, and of its error, in a message."""
 _BASE_NAMES: Mapping[str, Any] = {"true": True, "false": False, **PYTHON_NAMES, **MATH_NAMES}
 """Names available in every expression, besides the functions that depend on the file.
 
 Includes Python builtins: roslaunch does not intend them, but its eval provides them and launch files use them.
 """
-_MISSING = "/no-package/"
-"""Folder of missing packages where reading goes on."""
-_IN_MISSING = re.compile(rf"{_MISSING}([\w.-]+)")
+_MISSING_ROOT = "/no-package/"
+"""Root of the paths that stand for missing packages in a tolerant reading."""
+_IN_MISSING = re.compile(rf"{_MISSING_ROOT}([\w.-]+)")
 _COMMANDS = ("find", "env", "optenv", "dirname", "anon", "arg")
 
 
@@ -64,23 +64,23 @@ class Substitution:
         """Refuse a substituted text that names a file of a missing package.
 
         Raises:
-            MissingPackageError: it does; an <arg> may have it, as long as no other element uses it.
+            MissingPackageError: the text names one; an <arg> may contain it, as long as no other element uses it.
         """
         if self.packages.is_lenient and (match := _IN_MISSING.search(text)):
             raise MissingPackageError(at, f"no package {match[1]!r}")
 
     def refuse_absent(self, file: str, at: Source) -> None:
-        """Refuse a file that is missing because its package is.
+        """Refuse a missing file of a missing package.
 
         Raises:
-            MissingPackageError: it is; stand-ins of the package's nodes bring no files.
+            MissingPackageError: the package is missing; the stand-ins of its nodes have no files.
         """
         name = self.packages.absent_package(Path(file))
         if name is None:
             return
         if self.missing is not None:
             self.missing.add(name, at)
-        raise MissingPackageError(at, f"{self.packages.why_not_found(name)}; its stand-in has no {Path(file).name}")
+        raise MissingPackageError(at, f"{self.packages.not_found_message(name)}; its stand-in has no {Path(file).name}")
 
     def _replace(self, text: str, commands: tuple[str, ...], scope: Scope, at: Source) -> str:
         def value(match: re.Match[str]) -> str:
@@ -89,17 +89,19 @@ class Substitution:
                 raise DescriptionError(at, f"{match[0]!r}: substitutions cannot hold one another outside $(eval …)")
             words = [word for word in body.split(" ") if word]
             if not words or words[0] not in _COMMANDS:
-                known = ", ".join(_COMMANDS)
+                commands_text = ", ".join(_COMMANDS)
                 extra = "; eval must be the whole attribute" if words and words[0] == "eval" else ""
-                raise DescriptionError(at, f"unknown substitution $({body}); there are {known}{extra}")
+                raise DescriptionError(at, f"unknown substitution $({body}); there are {commands_text}{extra}")
             if words[0] not in commands:
                 return match[0]
             before = match[0][: match[0].index("$(")]
             # As in roslaunch, text after a folder up to a blank is a path in it, with or without a slash.
-            between = "/" if words[0] == "find" and match.string[match.end() :][:1] not in ("", " ", "/", "\\") else ""
-            found = before + self._command(words[0], words[1:], body, scope, at) + between
-            self.files.budget.add_octets(len(found), at)
-            return found
+            separator = (
+                "/" if words[0] == "find" and match.string[match.end() :][:1] not in ("", " ", "/", "\\") else ""
+            )
+            replaced = before + self._command(words[0], words[1:], body, scope, at) + separator
+            self.files.budget.add_octets(len(replaced), at)
+            return replaced
 
         return _COMMAND.sub(value, text)
 
@@ -125,13 +127,13 @@ class Substitution:
         if name in scope.arguments:
             return scope.arguments[name]
         if name in scope.declared:
-            way_out = f"write {name}:=VALUE, or launch a file that includes this one with it"
-            raise DescriptionError(at, f"the argument {name!r} is required and was not given; {way_out}")
+            remedy = f"write {name}:=VALUE, or launch a file that includes this one with it"
+            raise DescriptionError(at, f"the argument {name!r} is required and was not given; {remedy}")
         declared = ", ".join(map(repr, sorted(scope.declared)))
-        there_is = f"; declared so far: {declared}" if declared else "; none is declared so far"
-        near = nearest(name, set(scope.arguments) - scope.declared)
-        given = f"; {near!r} is given" if near else ""
-        raise DescriptionError(at, f"no argument {name!r}{there_is}{given}")
+        hint = f"; declared so far: {declared}" if declared else "; none is declared so far"
+        nearest_name = nearest(name, set(scope.arguments) - scope.declared)
+        suggestion = f"; {nearest_name!r} is given" if nearest_name else ""
+        raise DescriptionError(at, f"no argument {name!r}{hint}{suggestion}")
 
     def _env(self, name: str, at: Source) -> str:
         if name not in self.env:
@@ -151,8 +153,8 @@ class Substitution:
         if self.missing is not None:
             self.missing.add(name, at)
         elif not self.packages.is_lenient:
-            raise MissingPackageError(at, self.packages.why_not_found(name))
-        return f"{_MISSING}{name}"
+            raise MissingPackageError(at, self.packages.not_found_message(name))
+        return f"{_MISSING_ROOT}{name}"
 
     def _eval(self, text: str, scope: Scope, at: Source) -> str:
         def arg(name: str) -> Any:
@@ -175,15 +177,15 @@ class Substitution:
 
         functions = {f.__name__: wrap_function(f) for f in (arg, env, optenv, find, anon, dirname)}
         try:
-            if "__" in text:  # roslaunch's rule and text
+            if "__" in text:  # roslaunch's rule and message
                 raise ExpressionError("may not contain double underscores")
             return str(self.interpreter.evaluate(text, _Names(scope.arguments, functions)))
         except DescriptionError:
             raise
         except Exception as error:  # user code may raise anything
-            what = f"not a Python expression: {error.msg}" if isinstance(error, SyntaxError) else str(error)
+            message = f"not a Python expression: {error.msg}" if isinstance(error, SyntaxError) else str(error)
             raise DescriptionError(
-                at, f"$(eval {text[:_LONGEST]}): {what[:_LONGEST] or type(error).__name__}"
+                at, f"$(eval {text[:_MAX_LENGTH]}): {message[:_MAX_LENGTH] or type(error).__name__}"
             ) from None
 
 
@@ -192,16 +194,16 @@ class _Names(Mapping[str, Any]):
 
     def __init__(self, arguments: Mapping[str, str], functions: Mapping[str, Any]) -> None:
         self._arguments = arguments
-        self._known = {**_BASE_NAMES, **functions}
+        self._names = {**_BASE_NAMES, **functions}
 
     def __getitem__(self, name: str) -> Any:
-        return self._known[name] if name in self._known else convert_value(self._arguments[name], "auto")
+        return self._names[name] if name in self._names else convert_value(self._arguments[name], "auto")
 
     def __iter__(self) -> Iterator[str]:
-        return iter({*self._known, *self._arguments})
+        return iter({*self._names, *self._arguments})
 
     def __len__(self) -> int:
-        return len({*self._known, *self._arguments})
+        return len({*self._names, *self._arguments})
 
 
 def _folder(scope: Scope) -> str:

@@ -35,11 +35,11 @@ def convert_value(text: str, kind: ParamType, count: Callable[[int], None] | Non
             return load_yaml(text, count)
 
 
-def _number(read: type[int] | type[float], text: str, what: str) -> int | float:
+def _number(read: type[int] | type[float], text: str, kind: str) -> int | float:
     try:
         return read(text)
     except ValueError:
-        raise ValueError(f"{text!r} is not {what}") from None
+        raise ValueError(f"{text!r} is not {kind}") from None
 
 
 def _auto_value(text: str) -> ParamValue:
@@ -106,8 +106,8 @@ def load_yaml(text: str, count: Callable[[int], None] | None = None) -> ParamVal
     """Parse YAML as rosparam does; dates become text.
 
     Args:
-        text: one document.
-        count: is called with the number of further values, with aliases expanded.
+        text: YAML document.
+        count: called with the number of further values, with aliases expanded.
 
     Raises:
         ValueError: the text is invalid, too large, or contains more than plain data.
@@ -127,7 +127,7 @@ def _plain(value: Any) -> ParamValue:
             return {str(key): _plain(item) for key, item in value.items()}
         case list() | tuple() | set():
             return [_plain(item) for item in value]
-        case datetime.date():  # covers datetime; parameters can be neither
+        case datetime.date():  # covers datetime; neither can be a parameter
             return value.isoformat()
         case _:
             return value

@@ -1,4 +1,4 @@
-"""xacro for commands that run it themselves, as Clearpath's env_run, which sets variables and runs its arguments."""
+"""xacro on PATH for commands that run it, such as Clearpath's env_run, which sets variables and runs its arguments."""
 
 import os
 import shlex
@@ -16,11 +16,11 @@ XACRO = ("xacro", "xacro.py")
 
 @contextmanager
 def provide_xacro(argv: Sequence[str], env: Mapping[str, str]) -> Generator[tuple[list[str], dict[str, str]]]:
-    """Yield a command and its environment, with Trundle's xacro in place of one that is not installed.
+    """Yield a command and its environment, with Trundle's xacro in place of a missing one.
 
     Args:
-        argv: a program and its arguments; paths to a missing xacro are replaced.
-        env: PATH is extended at its end, so that an installed xacro takes precedence.
+        argv: program and arguments; paths to a missing xacro are replaced.
+        env: environment; its PATH is extended at the end, so that an installed xacro takes precedence.
     """
     if os.name != "posix":
         yield list(argv), dict(env)

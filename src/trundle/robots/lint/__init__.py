@@ -1,1 +1,1 @@
-"""Lint of descriptions, without an engine: legal input that is most likely a mistake."""
+"""Lint of descriptions without an engine: valid input that is most likely a mistake."""

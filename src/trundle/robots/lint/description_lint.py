@@ -1,4 +1,4 @@
-"""Lint of inertias, overlaps and undriven joints; changes nothing."""
+"""Lint of inertias, overlaps and undriven joints."""
 
 import math
 import re
@@ -22,12 +22,10 @@ from trundle.spatial import Pose
 
 from .overlaps import report_overlaps
 
-_SLUGGISH = 2.0
-"""Factor on the largest moment of inertia that the mass could have within the link's shapes; beyond, the link is
-sluggish.
-"""
-_TWITCHY = 1e-4
-"""The same factor for a suspiciously small moment."""
+_MAX_MOMENT_RATIO = 2.0
+"""Maximum moment of inertia, relative to the largest that the mass could have within the link's shapes."""
+_MIN_MOMENT_RATIO = 1e-4
+"""Minimum of the same ratio."""
 _PASSIVE = frozenset({JointType.FIXED, JointType.BALL})
 _TRANSMISSION = re.compile(r"<transmission\b.*?</transmission>", re.DOTALL)
 
@@ -50,19 +48,19 @@ def _lint_inertia(link: Link, report: Diagnostics) -> None:
     reach = _reach(link)
     if reach is None or not inertial.mass > 0.0:
         return
-    most = inertial.mass * reach * reach
+    limit = inertial.mass * reach * reach
     largest = max(inertial.moments)
-    if largest > _SLUGGISH * most:
+    if largest > _MAX_MOMENT_RATIO * limit:
         report.warn(
             link.at,
             f"link {link.name!r}: a moment of inertia of {largest:g} kg·m² is too large for {inertial.mass:g} kg "
-            f"within {reach:.3g} m (at most {most:.3g}); it will turn far too slowly",
+            f"within {reach:.3g} m (at most {limit:.3g}); it will turn far too slowly",
         )
-    elif 0.0 < largest < _TWITCHY * most:
+    elif 0.0 < largest < _MIN_MOMENT_RATIO * limit:
         report.warn(
             link.at,
             f"link {link.name!r}: moments of inertia of at most {largest:g} kg·m² are tiny for {inertial.mass:g} kg "
-            f"within {reach:.3g} m ({most:.3g} would be the largest); it may jitter",
+            f"within {reach:.3g} m ({limit:.3g} would be the largest); it may jitter",
         )
 
 
@@ -93,13 +91,13 @@ def _shape_reach(geometry: Geometry, pose: Pose, inertial: Inertial) -> float | 
 
 
 def _lint_joints(model: Model, driven: str, report: Diagnostics) -> None:
-    told = driven + " ".join(plugin.node.xml() for plugin in model.plugins)
+    names_text = driven + " ".join(plugin.node.xml() for plugin in model.plugins)
     idle = [
         joint.name
         for joint in model.joints
         if joint.type not in _PASSIVE
         and not (joint.axis is not None and (joint.axis.is_rigid or joint.axis.mimic is not None))
-        and not re.search(rf"\b{re.escape(joint.name)}\b", told)
+        and not re.search(rf"\b{re.escape(joint.name)}\b", names_text)
     ]
     if idle:
         names = ", ".join(map(repr, idle[:8])) + (f" and {len(idle) - 8} more" if len(idle) > 8 else "")

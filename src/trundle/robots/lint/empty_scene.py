@@ -1,13 +1,13 @@
-"""Check for descriptions that show nothing, because all meshes are missing."""
+"""Check for descriptions that show nothing because all meshes are missing."""
 
 from trundle.robots.model import MeshFile, World, flattened
 
 
 def empty_reason(world: World) -> str:
-    """Return a sentence if visuals exist and none can be drawn, because their meshes are missing; else an empty text.
+    """Return a message if no visual can be drawn because all meshes are missing; else an empty text.
 
     Args:
-        world: added models are ignored.
+        world: world to check, except for added models.
     """
     models = [model for model in flattened(world).models if not model.added]
     shapes = [visual.geometry for model in models for link in model.links for visual in link.visuals]

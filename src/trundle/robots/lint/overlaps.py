@@ -1,4 +1,4 @@
-"""Overlaps of static models, one of which is likely misplaced."""
+"""Check for overlapping static models, of which one is likely misplaced."""
 
 from collections.abc import Iterator
 from itertools import combinations
@@ -8,21 +8,21 @@ from trundle.robots.model import Box, Capsule, Collision, Cylinder, Ellipsoid, M
 from trundle.spatial import Pose, Vector3
 
 _MAX_BODIES = 1000
-"""Most static models compared; of a larger world the first are."""
+"""Maximum static models compared; in a larger world only the first ones are."""
 
 
 def report_overlaps(models: tuple[Model, ...], report: Diagnostics) -> None:
-    """Report every pair of static models where the centre of a shape of one lies within a shape of the other.
+    """Report every pair of static models with the centre of one's shape inside the other's.
 
     Args:
-        models: without nested ones.
-        report: takes a note for each pair.
+        models: flattened models.
+        report: receives a note for each pair.
     """
-    still = [(model, list(_solids(model))) for model in models if model.static][:_MAX_BODIES]
-    for (first, solids), (second, others) in combinations(still, 2):
+    static = [(model, list(_solids(model))) for model in models if model.static][:_MAX_BODIES]
+    for (first, solids), (second, others) in combinations(static, 2):
         if any(_contains_center(one, other) or _contains_center(other, one) for one in solids for other in others):
-            what = f"model {second.name!r} overlaps model {first.name!r}, and both are static; is one misplaced?"
-            report.info(second.at, what)
+            message = f"model {second.name!r} overlaps model {first.name!r}, and both are static; is one misplaced?"
+            report.info(second.at, message)
 
 
 def _solids(model: Model) -> Iterator[tuple[Pose, Vector3]]:
@@ -53,8 +53,8 @@ def _contains_center(solid: tuple[Pose, Vector3], other: tuple[Pose, Vector3]) -
     (pose, half), (world_from_other, _) = solid, other
     if not _within_distance(pose.position, world_from_other.position, sum(half)):
         return False
-    middle = pose.inverse().transform_point(world_from_other.position)
-    return all(abs(at) < most for at, most in zip(middle, half, strict=True))
+    center = pose.inverse().transform_point(world_from_other.position)
+    return all(abs(coordinate) < bound for coordinate, bound in zip(center, half, strict=True))
 
 
 def _within_distance(a: Vector3, b: Vector3, distance: float) -> bool:

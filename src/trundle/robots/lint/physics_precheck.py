@@ -1,7 +1,7 @@
-"""Check without the engine that physics accepts a world as written.
+"""Check without an engine that physics accepts a world as written.
 
-Physics replaces values it cannot use, with a warning, but that needs loading and compiling. Most robots are boxes,
-cylinders and spheres on a tree of hinges, about which it reports nothing.
+Physics replaces invalid values with a warning, but only after loading and compiling. It reports nothing about most
+robots: trees of hinges with boxes, cylinders and spheres.
 """
 
 import math
@@ -27,18 +27,18 @@ from trundle.robots.model import (
 from trundle.spatial import ZERO
 
 _TYPES = frozenset({JointType.REVOLUTE, JointType.PRISMATIC, JointType.FIXED})
-_SMALLEST = 1e-3
-"""Smallest length [m] and mass [kg], at least ten times the values that physics raises."""
-_SMALLEST_MOMENT = 1e-8
-"""Smallest moment of inertia [kg·m²], ten times the value that physics raises."""
-_LARGEST = 1e6
+_MIN_VALUE = 1e-3
+"""Minimum length [m] and mass [kg], at least ten times the smallest that physics keeps."""
+_MIN_MOMENT = 1e-8
+"""Minimum moment of inertia [kg·m²], ten times the smallest that physics keeps."""
+_MAX_VALUE = 1e6
 
 
 def physics_accepts(world: World) -> bool:
-    """True if physics has nothing to report about a world; False if uncertain.
+    """True if physics certainly reports nothing about a world.
 
     Args:
-        world: without nested models.
+        world: flattened world.
     """
     if world.joints or not 1e-6 < world.physics.max_step_size_s < 0.1 or not _are_different(world.models):
         return False
@@ -58,7 +58,7 @@ def _is_plain_model(model: Model) -> bool:
 
 
 def _are_different(named: Iterable[Model] | Iterable[Link] | Iterable[Joint]) -> bool:
-    names = [each.name for each in named]
+    names = [part.name for part in named]
     return len(set(names)) == len(names)
 
 
@@ -84,10 +84,10 @@ def _is_plain_link(link: Link) -> bool:
 
 def _is_plain_inertial(inertial: Inertial) -> bool:
     numbers = (inertial.mass, *inertial.moments, *inertial.products, *inertial.link_from_com.position)
-    if not all(map(_is_finite, numbers)) or inertial.mass < _SMALLEST:
+    if not all(map(_is_finite, numbers)) or inertial.mass < _MIN_VALUE:
         return False
     smallest, middle, largest = sorted(_eigenvalues(inertial))
-    return smallest > _SMALLEST_MOMENT and largest < (smallest + middle) * (1 - 1e-6)
+    return smallest > _MIN_MOMENT and largest < (smallest + middle) * (1 - 1e-6)
 
 
 def _eigenvalues(inertial: Inertial) -> tuple[float, float, float]:
@@ -141,7 +141,7 @@ def _is_plain_collision(collision: Collision, *, can_move: bool) -> bool:
     lengths = _lengths(collision.geometry)
     if lengths is None:
         return isinstance(collision.geometry, Plane) and not can_move
-    return all(_SMALLEST <= length <= _LARGEST for length in lengths)
+    return all(_MIN_VALUE <= length <= _MAX_VALUE for length in lengths)
 
 
 def _lengths(geometry: Geometry) -> tuple[float, ...] | None:
@@ -159,4 +159,4 @@ def _lengths(geometry: Geometry) -> tuple[float, ...] | None:
 
 
 def _is_finite(number: float) -> bool:
-    return -_LARGEST <= number <= _LARGEST
+    return -_MAX_VALUE <= number <= _MAX_VALUE

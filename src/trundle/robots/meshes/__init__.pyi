@@ -10,10 +10,10 @@ from .skeleton import Motion as Motion, Skin as Skin, match_bones as match_bones
 from .skins import load_motion as load_motion, load_skin as load_skin
 from .solid_meshes import cone_mesh as cone_mesh, prism_mesh as prism_mesh, terrain_mesh as terrain_mesh
 from .texture import (
+    decoding_error as decoding_error,
     ignored_decoder_warnings as ignored_decoder_warnings,
     image_file as image_file,
     mean_color as mean_color,
     png_of as png_of,
-    why_undecoded as why_undecoded,
 )
 from .triangulation import triangulate as triangulate

@@ -15,7 +15,7 @@ _AXES = "XYZ"
 
 
 def read_bvh(text: str) -> Motion:
-    """Read a file in its own units and axes, as Gazebo does; a joint's rotations are applied in channel order.
+    """Read a file in its own units and axes, as Gazebo does; a joint's rotations apply in channel order.
 
     Raises:
         MeshError: not a BVH file, or truncated.
@@ -40,7 +40,7 @@ def read_bvh(text: str) -> Motion:
         numbers[: count * width].reshape(count, width), np.cumsum([len(c) for c in channels])[:-1], axis=1
     )
     times = np.arange(count, dtype=np.float64) * np.float64(step_s)
-    poses = (_poses(*each) for each in zip(bones, channels, frames, strict=True))
+    poses = (_poses(*arguments) for arguments in zip(bones, channels, frames, strict=True))
     return Motion(bones, {number: track_from_poses(times, pose) for number, pose in enumerate(poses)})
 
 
@@ -48,7 +48,7 @@ def _hierarchy(words: Iterator[str]) -> tuple[tuple[Bone, ...], list[list[str]]]
     """Return the joints, parents first, and the channels of each; end sites are not joints."""
     bones: list[Bone] = []
     channels: list[list[str]] = []
-    above: list[int] = []
+    enclosing: list[int] = []
     """Enclosing joints; −1 for an end site."""
     while (word := next(words)) != "MOTION":
         match word:
@@ -56,24 +56,26 @@ def _hierarchy(words: Iterator[str]) -> tuple[tuple[Bone, ...], list[list[str]]]
                 if len(bones) >= _MAX_BONES:
                     raise MeshError(f"more than {_MAX_BONES} joints")
                 name = next(words)
-                bones.append(Bone(name=name, id=name, parent=above[-1] if above else -1, is_joint=True, rest=np.eye(4)))
+                bones.append(
+                    Bone(name=name, id=name, parent=enclosing[-1] if enclosing else -1, is_joint=True, rest=np.eye(4))
+                )
                 channels.append([])
-                above.append(len(bones) - 1)
+                enclosing.append(len(bones) - 1)
             case "End":
                 next(words)
-                above.append(-1)
+                enclosing.append(-1)
             case "}":
-                if not above:
+                if not enclosing:
                     raise MeshError("a '}' too many")
-                above.pop()
+                enclosing.pop()
             case "OFFSET":
                 offset = [float(next(words)) for _ in range(3)]
-                if above and above[-1] >= 0:
-                    bones[above[-1]].rest[:3, 3] = offset
+                if enclosing and enclosing[-1] >= 0:
+                    bones[enclosing[-1]].rest[:3, 3] = offset
             case "CHANNELS":
                 names = [next(words) for _ in range(min(int(next(words)), 6))]
-                if above and above[-1] >= 0:
-                    channels[above[-1]] += names
+                if enclosing and enclosing[-1] >= 0:
+                    channels[enclosing[-1]] += names
             case _:
                 pass  # braces
     return tuple(bones), channels

@@ -1,6 +1,6 @@
 """Disk cache of meshes that are slow to read, keyed by the file's content.
 
-A cache that is read-only, damaged or writable by another user costs time and nothing else.
+A cache that is read-only, damaged or writable by another user only costs time.
 """
 
 import contextlib
@@ -21,7 +21,7 @@ from trundle.base.ownership import home_folder, is_owned_by_user
 from .raw import RawPart
 
 VERSION = 4
-"""Version in every key; raised when a reader's result changes for the same bytes."""
+"""Version in every key; increased when a reader's result changes for the same bytes."""
 _MAX_BYTES = 512 * 1024 * 1024
 
 
@@ -50,7 +50,7 @@ def load_parts(key: str) -> list[RawPart] | None:
 
 
 def save_parts(key: str, parts: Sequence[RawPart]) -> None:
-    """Save parts under a key, and remove the least recently used ones beyond the limit."""
+    """Save parts under a key, and remove the least recently used files beyond the limit."""
     packed = _packed(parts)
     if len(packed) > _MAX_BYTES // 8:
         return

@@ -56,7 +56,7 @@ def read_glb(data: bytes) -> list[RawPart]:
 
 
 def _check_counts(data: bytes) -> None:
-    """Refuse accessors that declare more than the file contains: their memory is allocated before reading."""
+    """Refuse accessors that declare more than the file contains, as trimesh allocates their memory first."""
     length = int.from_bytes(data[12:16], "little")
     if data[:4] != b"glTF" or data[16:20] != _JSON or len(data) < 20 + length:
         raise MeshError("not a binary glTF, or truncated")
@@ -69,7 +69,7 @@ def _check_counts(data: bytes) -> None:
 
 
 def _painted(part: RawPart, visual: Any, pictures: dict[int, bytes | None]) -> RawPart:
-    """Return a part with its material; trimesh flips glTF's v, which points down."""
+    """Return a part with its material; trimesh has already flipped glTF's v, which points down."""
     uv = getattr(visual, "uv", None)
     if uv is not None:
         part = replace(part, uv=at_corners(np.asarray(uv, dtype=np.float64), part.faces, 2))

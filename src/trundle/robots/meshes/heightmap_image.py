@@ -6,24 +6,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .mesh import MeshError
-from .texture import ignored_decoder_warnings, image_file, why_undecoded
+from .texture import decoding_error, ignored_decoder_warnings, image_file
 
 _MAX_PIXELS = 4096
-"""Largest side of an image [px]."""
+"""Maximum side of an image [px]."""
 MAX_SAMPLES = 1025
-"""Most samples per side of the terrain; larger ones are reduced."""
+"""Maximum samples per side of the terrain; larger ones are reduced."""
 
 
-def read_heights(path: Path, *, sampling: int = 1, most: int = MAX_SAMPLES) -> NDArray[np.float32]:
+def read_heights(path: Path, *, sampling: int = 1, max_samples: int = MAX_SAMPLES) -> NDArray[np.float32]:
     """Read an image as (rows, columns) heights from 0 (black) to 1 (white), upper edge first.
 
     Args:
-        path: a grey image of 8 or 16 bit, or one that is converted.
+        path: grey image of 8 or 16 bit; others are converted.
         sampling: samples per pixel and axis.
-        most: most samples per side.
+        max_samples: maximum samples per side.
 
     Raises:
-        MeshError: it cannot be read, is too large, or is a single line.
+        MeshError: the image cannot be read, is too large, or is a single line.
     """
     from PIL import Image  # slow to load, and few worlds have terrain
 
@@ -33,7 +33,7 @@ def read_heights(path: Path, *, sampling: int = 1, most: int = MAX_SAMPLES) -> N
                 raise MeshError(f"{image.size[0]} by {image.size[1]} pixels; 2 to {_MAX_PIXELS} are possible")
             deep = image.mode in ("I", "F") or image.mode.startswith("I;")
             grey = image if deep else image.convert("L")
-            columns, rows = (min((n - 1) * max(sampling, 1) + 1, most) for n in image.size)
+            columns, rows = (min((n - 1) * max(sampling, 1) + 1, max_samples) for n in image.size)
             heights = np.asarray(grey.convert("F").resize((columns, rows), Image.Resampling.BILINEAR))
             if not np.isfinite(heights).all():
                 raise MeshError("heights that are not finite")
@@ -41,4 +41,4 @@ def read_heights(path: Path, *, sampling: int = 1, most: int = MAX_SAMPLES) -> N
     except MeshError:
         raise
     except Exception as error:
-        raise MeshError(why_undecoded(error)) from None
+        raise MeshError(decoding_error(error)) from None

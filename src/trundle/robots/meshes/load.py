@@ -23,8 +23,8 @@ MAX_BYTES = 256 * 1024 * 1024
 _SLOW = frozenset({".dae", ".glb", ".obj"})
 """Formats worth caching; STL is as fast as the cache."""
 _FORMATS = _SLOW | {".stl"}
-_WORTH_KEEPING = 100_000
-"""Size from which caching is worthwhile [bytes]."""
+_MIN_CACHED_BYTES = 100_000
+"""Minimum size of a cached file."""
 _LIBRARY = re.compile(rb"^\s*mtllib\s+(.+?)\s*$", re.MULTILINE)
 
 
@@ -35,34 +35,34 @@ def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -
 
     Args:
         path: .dae, .stl, .obj or .glb.
-        submesh: only the parts of this name.
+        submesh: name of the parts to read; None: all.
         center: move the bounding box centre of the selected parts to the origin.
 
     Raises:
         MeshError: unreadable, too large, no triangles, or no such part.
     """
-    with faults_of(path):
+    with mesh_errors(path):
         suffix = path.suffix.lower()
         if suffix not in _FORMATS:
-            known = ", ".join(sorted(_FORMATS))
-            raise MeshError(f"{suffix or 'files without ending'} meshes are not supported; formats: {known}")
+            formats = ", ".join(sorted(_FORMATS))
+            raise MeshError(f"{suffix or 'files without ending'} meshes are not supported; formats: {formats}")
         stat = path.stat()
         return _load(path, suffix, submesh, center, (stat.st_mtime_ns, stat.st_size))
 
 
 @contextmanager
-def faults_of(path: Path) -> Generator[None]:
+def mesh_errors(path: Path) -> Generator[None]:
     """Convert every exception of a reader to a MeshError that starts with the file's name."""
     try:
-        with np.errstate(all="ignore"):  # of damaged numbers, which are refused once all are read
+        with np.errstate(all="ignore"):  # damaged numbers are refused after reading
             yield
     except MeshError as error:
         raise MeshError(f"{path}: {error}") from None
     except OSError as error:
         raise MeshError(f"{path}: {error.strerror or error}") from None
     except Exception as error:  # every reader has its own exceptions
-        what = " ".join(str(error).split()) or type(error).__name__
-        raise MeshError(f"{path}: not readable as {path.suffix.lower()}: {what[:200]}") from None
+        message = " ".join(str(error).split()) or type(error).__name__
+        raise MeshError(f"{path}: not readable as {path.suffix.lower()}: {message[:200]}") from None
 
 
 @lru_cache(maxsize=256)
@@ -80,20 +80,20 @@ def _load(path: Path, suffix: str, submesh: str | None, center: bool, state: tup
 
 def _parts(path: Path, suffix: str) -> list[RawPart]:
     data = read_file(path, max_bytes=MAX_BYTES)
-    if suffix not in _SLOW or len(data) < _WORTH_KEEPING:
+    if suffix not in _SLOW or len(data) < _MIN_CACHED_BYTES:
         return _read(data, suffix, path)
     key = hashlib.sha256(f"{cache.VERSION} {suffix} ".encode() + data)
     for name in _library_names(data) if suffix == ".obj" else []:
         key.update(_read_sibling(path, name) or b"")
-    kept = cache.load_parts(key.hexdigest())
-    if kept is None:
-        kept = _read(data, suffix, path)
-        cache.save_parts(key.hexdigest(), kept)
-    return kept
+    parts = cache.load_parts(key.hexdigest())
+    if parts is None:
+        parts = _read(data, suffix, path)
+        cache.save_parts(key.hexdigest(), parts)
+    return parts
 
 
 def material_libraries(path: Path) -> list[Path]:
-    """Return the files that an .obj takes its materials from, whether they are there or not; none of another mesh.
+    """Return the material libraries that an .obj names, existing or not; none for other formats.
 
     Raises:
         OSError: the mesh cannot be read.
@@ -132,7 +132,7 @@ def _sibling(path: Path, name: str) -> Path:
 
 
 def _read_sibling(path: Path, name: str) -> bytes | None:
-    """Read a file in the mesh's folder or below; None if it is missing, elsewhere or too large."""
+    """Read a file below the mesh's folder; None if it is missing, elsewhere or too large."""
     file = _sibling(path, name)
     try:
         inside = Path(os.path.realpath(file)).is_relative_to(os.path.realpath(path.parent))
@@ -142,10 +142,10 @@ def _read_sibling(path: Path, name: str) -> bytes | None:
 
 
 def joined(parts: Sequence[RawPart], path: Path, center: bool) -> Mesh:
-    """Join parts to one mesh, in order, without those that have no triangles.
+    """Join parts into one mesh, in order; parts without triangles are dropped.
 
     Raises:
-        MeshError: nothing is left, or the data is not a valid triangle mesh.
+        MeshError: no triangles, or an invalid triangle mesh.
     """
     parts = [part for part in parts if len(part.faces)]
     if not parts:
@@ -175,13 +175,13 @@ def check_vertices(vertices: NDArray[np.floating]) -> None:
     """Refuse vertices (N, 3) that are not finite, or so far away that their products overflow.
 
     Raises:
-        MeshError: one is; the message has its number, counted from 0.
+        MeshError: a vertex is; the message has its index.
     """
     are_near = (np.abs(vertices) <= MAX_LENGTH).all(axis=1)  # false for nan
     if not are_near.all():
         number = int(np.argmin(are_near))
-        place = " ".join(f"{value:g}" for value in vertices[number])
-        raise MeshError(f"vertex {number} is at {place}, which is not within ±{MAX_LENGTH:g}")
+        coordinates = " ".join(f"{value:g}" for value in vertices[number])
+        raise MeshError(f"vertex {number} is at {coordinates}, which is not within ±{MAX_LENGTH:g}")
 
 
 def _described(parts: Sequence[RawPart], path: Path) -> tuple[MeshPart, ...]:

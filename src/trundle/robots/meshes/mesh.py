@@ -28,7 +28,7 @@ class MeshPart(Struct, frozen=True, kw_only=True):
     first_face: int
     face_count: int
     rgba: Rgba | None = None
-    """Color in the file, or the texture's mean color. None: the file has none."""
+    """Color in the file, or the texture's mean color; None: the file has none."""
     texture: Texture | None = None
     """Texture, mapped by the mesh's `uv`."""
     tint: Rgba = (1.0, 1.0, 1.0, 1.0)

@@ -9,7 +9,7 @@ from .mesh import Rgba
 from .raw import RawPart, at_corners, triangle_fans, used_vertices
 
 ReadSibling = Callable[[str], bytes | None]
-"""Reads a file beside the mesh by its relative path; None if it is missing."""
+"""Reads a file by its path relative to the mesh; None if it is missing."""
 
 
 class _Group(Struct):
@@ -29,20 +29,20 @@ class _Material(Struct):
     texture: str | None = None
 
     def over(self, r: float, g: float, b: float) -> Rgba:
-        """Return its color, or the given one if it has none."""
+        """Return the material's color, or a default."""
         return (*(self.diffuse or (r, g, b)), self.opacity)
 
 
-def read_obj(data: bytes, beside: ReadSibling) -> list[RawPart]:
+def read_obj(data: bytes, read_sibling: ReadSibling) -> list[RawPart]:
     """Read an OBJ; lines and points are skipped.
 
     Raises:
         ValueError, IndexError: invalid numbers.
     """
     vertices: list[list[float]] = []
-    places: list[list[float]] = []
+    uvs: list[list[float]] = []
     normals: list[list[float]] = []
-    looks: dict[str, _Material] = {}
+    materials: dict[str, _Material] = {}
     groups: dict[tuple[str, str], _Group] = {}
     name, material = "", ""
     for line in data.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ").decode("utf-8", "replace").splitlines():
@@ -51,34 +51,35 @@ def read_obj(data: bytes, beside: ReadSibling) -> list[RawPart]:
             case ["v"]:
                 vertices.append([float(word) for word in words[1:4]])
             case ["vt"]:
-                places.append([float(word) for word in (*words[1:3], "0")[:2]])
+                uvs.append([float(word) for word in (*words[1:3], "0")[:2]])
             case ["vn"]:
                 normals.append([float(word) for word in words[1:4]])
             case ["f"]:
-                counts = (len(vertices), len(places), len(normals))
+                counts = (len(vertices), len(uvs), len(normals))
                 _add_face(groups.setdefault((name, material), _Group()), words[1:], counts)
             case ["o" | "g"]:
                 name = " ".join(words[1:])
             case ["usemtl"]:
                 material = " ".join(words[1:])
             case ["mtllib"]:
-                looks |= read_mtl(beside(line.split(maxsplit=1)[1].strip()) or b"")
+                materials |= read_mtl(read_sibling(line.split(maxsplit=1)[1].strip()) or b"")
             case _:
                 pass
     points = np.array(vertices, dtype=np.float64).reshape(-1, 3)
-    uv = np.array(places, dtype=np.float64).reshape(-1, 2)
+    uv = np.array(uvs, dtype=np.float64).reshape(-1, 2)
     directions = np.array(normals, dtype=np.float64).reshape(-1, 3)
-    return [_part(group, points, uv, directions, key[0], looks.get(key[1])) for key, group in groups.items()]
+    return [_part(group, points, uv, directions, key[0], materials.get(key[1])) for key, group in groups.items()]
 
 
 def _add_face(group: _Group, corners: list[str], counts: tuple[int, int, int]) -> None:
-    """Add a face; indices count from 1, or backwards from the latest if negative. `counts` are those of vertices,
-    texture coordinates and normals so far.
+    """Add a face; its indices count from 1, or backwards from the last if negative.
+
+    `counts` are the numbers of vertices, texture coordinates and normals so far.
     """
     for corner in corners:
-        index, place, normal = (*corner.split("/"), "", "")[:3]
+        index, uv, normal = (*corner.split("/"), "", "")[:3]
         group.corners.append(_index(index, counts[0]))
-        group.uv_corners.append(_index(place, counts[1]) if place else -1)
+        group.uv_corners.append(_index(uv, counts[1]) if uv else -1)
         group.normal_corners.append(_index(normal, counts[2]) if normal else -1)
     group.counts.append(len(corners))
 
@@ -98,15 +99,15 @@ def _part(
     uv_corners = np.array(group.uv_corners, dtype=np.int64)
     triangles = triangle_fans(corners, np.array(group.counts, dtype=np.int64))
     vertices, faces = used_vertices(points, corners[triangles])
-    own_uv = at_corners(uv, uv_corners[triangles], 2)
+    corner_uv = at_corners(uv, uv_corners[triangles], 2)
     return RawPart(
         names=(name,),
         vertices=vertices,
         faces=faces,
         rgba=None if look is None else look.over(0.8, 0.8, 0.8),
-        texture=None if look is None or own_uv is None else look.texture,
+        texture=None if look is None or corner_uv is None else look.texture,
         tint=(1.0, 1.0, 1.0, 1.0) if look is None else look.over(1.0, 1.0, 1.0),
-        uv=own_uv,
+        uv=corner_uv,
         normals=at_corners(normals, np.array(group.normal_corners, dtype=np.int64)[triangles], 3),
     )
 

@@ -1,4 +1,4 @@
-"""Result of the format readers: separate parts in the file's own units, in double precision."""
+"""Result of the format readers: parts in the file's own units, in double precision."""
 
 import numpy as np
 from msgspec import Struct
@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from .mesh import Rgba
 
 MAX_TRIANGLES = 20_000_000
-"""Most triangles of a mesh; a small file can instantiate one part repeatedly."""
+"""Maximum triangles of a mesh; a small file can instantiate one part repeatedly."""
 
 
 class RawSkin(Struct, frozen=True, eq=False, kw_only=True):
@@ -71,7 +71,7 @@ def at_corners(values: NDArray[np.float64], faces: NDArray[np.int64], size: int)
 
 
 def triangle_fans(indices: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Triangulate polygons, given one after another, as fans: (M, 3) positions in `indices`.
+    """Triangulate consecutive polygons as fans: (M, 3) positions in `indices`.
 
     Raises:
         ValueError: the counts do not add up.

@@ -1,4 +1,4 @@
-"""Files that a mesh names."""
+"""Files referenced by a mesh."""
 
 from pathlib import Path
 
@@ -9,7 +9,7 @@ _ENDINGS = frozenset({".dae", ".glb", ".obj", ".stl"})
 
 
 def referenced_files(path: Path) -> set[Path]:
-    """Return the textures and material libraries of a mesh; none of one that cannot be read, or of another file."""
+    """Return the textures and material libraries of a mesh; none for an unreadable mesh or another file."""
     if path.suffix.lower() not in _ENDINGS:
         return set()
     try:

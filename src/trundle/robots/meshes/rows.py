@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 
 def unique_rows(rows: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the index of the first of each distinct row of (N, K), in ascending order of the rows, and (N,) the number
-    of each row among them.
+    """Return the indices of the first occurrences of the distinct rows of (N, K), in ascending order of the rows, and
+    (N,) the number of each row among them.
 
-    NumPy's own `unique` of rows compares them field by field, in ten times the time.
+    `numpy.unique` of rows compares field by field and takes ten times as long.
     """
     order = np.lexsort(rows.T[::-1])
     ordered = rows[order]

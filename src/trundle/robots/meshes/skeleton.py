@@ -73,14 +73,12 @@ class Motion:
         object.__setattr__(self, "length_s", max(ends, default=0.0))
 
     def time_at(self, distance: float, scale: float) -> float:
-        """Return the time at which the root has moved a distance along x [m], repeated over the animation's total
-        distance.
-        """
+        """Return the time at which the root has moved a distance along x [m], modulo the animation's total distance."""
         track = self.tracks.get(root_of(self.bones))
-        way = None if track is None else np.maximum.accumulate(track.positions[:, 0]) * scale
-        if track is None or way is None or not way[-1] > 0.0:
+        travelled = None if track is None else np.maximum.accumulate(track.positions[:, 0]) * scale
+        if track is None or travelled is None or not travelled[-1] > 0.0:
             return 0.0
-        return float(np.interp(max(distance % float(way[-1]), float(way[0])), way, track.times))
+        return float(np.interp(max(distance % float(travelled[-1]), float(travelled[0])), travelled, track.times))
 
     def poses(self, time_s: float, scale: float) -> dict[int, _Array]:
         """Return parent_from_bone (4, 4) of each animated bone, with positions multiplied by `scale`."""
@@ -118,13 +116,13 @@ class Skin:
         return skin_from_bone[self.joint_indices]
 
     def vertices(self, poses: Mapping[int, _Array]) -> NDArray[np.float32]:
-        """Return the (N, 3) vertices for bones as `joint_poses` takes them."""
+        """Return the (N, 3) vertices for bone poses as in `joint_poses`."""
         moved = self.joint_poses(poses) @ self.bone_from_skin
-        found = np.zeros((len(self.bound), 3))
+        blended = np.zeros((len(self.bound), 3))
         for k in range(self.influences.shape[1]):
             along = np.einsum("nij,nj->ni", moved[self.influences[:, k], :3], self.bound)
-            found += self.weights[:, k, None] * along
-        return found.astype(np.float32)
+            blended += self.weights[:, k, None] * along
+        return blended.astype(np.float32)
 
 
 def root_of(bones: tuple[Bone, ...]) -> int:
@@ -133,7 +131,7 @@ def root_of(bones: tuple[Bone, ...]) -> int:
 
 
 def match_bones(skin: tuple[Bone, ...], motion: tuple[Bone, ...]) -> dict[int, int] | None:
-    """Return the skin's bone for each bone of a motion: by name, else by order if the skeletons branch alike.
+    """Return the skin's bone for each bone of a motion: by name, else by order if the skeletons have equal branches.
 
     None if the skeletons do not match.
     """
@@ -157,4 +155,4 @@ def track_from_poses(times: _Array, poses: _Array) -> Track:
 
 
 def _branches(bones: tuple[Bone, ...], joints: list[int]) -> list[int]:
-    return [sum(bones[each].parent == number for each in joints) for number in joints]
+    return [sum(bones[joint].parent == number for joint in joints) for number in joints]

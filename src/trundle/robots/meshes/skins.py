@@ -12,7 +12,7 @@ from trundle.base.files import read_file
 from .bvh import read_bvh
 from .collada.bones import metres_of, read_bones, read_motion
 from .collada.scene import read_collada, read_tree
-from .load import MAX_BYTES, faults_of, joined
+from .load import MAX_BYTES, joined, mesh_errors
 from .mesh import MeshError
 from .skeleton import Motion, Skin
 
@@ -23,7 +23,7 @@ def load_skin(path: Path) -> Skin:
     Raises:
         MeshError: unreadable, or no mesh is bound.
     """
-    with faults_of(path):
+    with mesh_errors(path):
         return _load_skin(path, _state(path))
 
 
@@ -33,7 +33,7 @@ def load_motion(path: Path) -> Motion:
     Raises:
         MeshError: unreadable, or without animation.
     """
-    with faults_of(path):
+    with mesh_errors(path):
         return _load_motion(path, _state(path))
 
 

@@ -14,10 +14,10 @@ _VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 
 
 def read_stl(data: bytes) -> list[RawPart]:
-    """Read either kind; many binary files start with `solid`, so the size decides.
+    """Read binary or ASCII STL; many binary files start with `solid`, so the size decides.
 
     Raises:
-        MeshError: neither.
+        MeshError: no STL.
     """
     may_be_text = data[:_HEADER].lstrip().lower().startswith(b"solid")
     count = int.from_bytes(data[80:_HEADER], "little") if len(data) >= _HEADER else 0
@@ -28,8 +28,8 @@ def read_stl(data: bytes) -> list[RawPart]:
         numbers = np.array(_VERTEX.findall(data), dtype="S")
         corners = numbers[: len(numbers) // 3 * 3].astype(np.float64)
     elif count:
-        there = max(len(data) - _HEADER, 0) // _TRIANGLE.itemsize
-        raise MeshError(f"declares {count} triangles and contains {there}")
+        available = max(len(data) - _HEADER, 0) // _TRIANGLE.itemsize
+        raise MeshError(f"declares {count} triangles and contains {available}")
     else:
         raise MeshError("no triangles")
     first, number = unique_rows(corners)

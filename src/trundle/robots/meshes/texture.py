@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 
 _MAX_BYTES = 256 * 1024 * 1024
 _MAX_PIXELS = 64 * 1024 * 1024
-_BOX = 4
-"""Pillow's filter number of BOX, which averages."""
+_BOX_FILTER = 4
+"""Pillow's number of its BOX filter, an average."""
 
 
 def find_texture(name: str, mesh: Path) -> Path | None:
-    """Return a texture's file beside the mesh or in the model's `materials/textures`; None if elsewhere."""
+    """Return a texture's file in the mesh's folder or the model's texture folders; None if elsewhere."""
     model = mesh.parent.parent
     relative = Path(name.replace("\\", "/"))
     candidates = (
@@ -33,29 +33,29 @@ def find_texture(name: str, mesh: Path) -> Path | None:
         model / "textures" / relative.name,
     )
     inside = os.path.realpath(model)
-    there = (path for path in candidates if os.path.isfile(path))
-    return next((path for path in there if Path(os.path.realpath(path)).is_relative_to(inside)), None)
+    existing = (path for path in candidates if os.path.isfile(path))
+    return next((path for path in existing if Path(os.path.realpath(path)).is_relative_to(inside)), None)
 
 
 def image_file(texture: Texture) -> io.BytesIO:
     """Return an image's file for decoding.
 
     Raises:
-        OSError: it is not a regular file, too large, or cannot be read.
+        OSError: the file is not regular, too large, or cannot be read.
     """
     return io.BytesIO(texture if isinstance(texture, bytes) else read_file(texture, max_bytes=_MAX_BYTES))
 
 
 @contextmanager
 def ignored_decoder_warnings() -> Generator[None]:
-    """Keep what Pillow's decoders say of damaged files off the terminal; what they refuse is reported by us."""
+    """Suppress the warnings of Pillow's decoders; their errors are reported by the caller."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
 
 
-def why_undecoded(error: Exception) -> str:
-    """Return the reason for a failed decoding; every decoder of Pillow has its own exceptions."""
+def decoding_error(error: Exception) -> str:
+    """Return the message of a decoder's exception, of which Pillow has many kinds."""
     from PIL import UnidentifiedImageError
 
     if isinstance(error, UnidentifiedImageError):
@@ -78,7 +78,7 @@ def _mean(texture: Texture, _changed_ns: int) -> Rgba:
     with ignored_decoder_warnings(), Image.open(image_file(texture)) as image:
         _check_size(image)
         image.draft("RGB", (64, 64))
-        pixel = image.convert("RGB").resize((1, 1), resample=_BOX).getpixel((0, 0))
+        pixel = image.convert("RGB").resize((1, 1), resample=_BOX_FILTER).getpixel((0, 0))
     assert isinstance(pixel, tuple)
     r, g, b = (value / 255.0 for value in pixel[:3])
     return (r, g, b, 1.0)

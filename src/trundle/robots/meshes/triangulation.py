@@ -8,7 +8,7 @@ Triangle: TypeAlias = tuple[Point, Point, Point]
 
 
 def triangulate(outlines: Sequence[Sequence[Point]]) -> list[Triangle]:
-    """Triangulate the area within an odd number of outlines; self-intersecting outlines give an approximation."""
+    """Triangulate the area inside an odd number of outlines; approximate for self-intersecting ones."""
     rings = [_cleaned(outline) for outline in outlines]
     rings = [ring for ring in rings if len(ring) >= 3 and _area(ring) != 0.0]
     depth = [sum(_is_inside(ring[0], other) for other in rings if other is not ring) for ring in rings]
@@ -53,8 +53,8 @@ def _bridged(ring: list[Point], holes: list[list[Point]]) -> list[Point]:
         start = max(range(len(hole)), key=lambda i: hole[i][0])
         turned = hole[start:] + hole[: start + 1]
         here = turned[0]
-        seen = [i for i, corner in enumerate(ring) if not _is_cut(here, corner, [ring, hole])]
-        to = min(seen or range(len(ring)), key=lambda i: (ring[i][0] - here[0]) ** 2 + (ring[i][1] - here[1]) ** 2)
+        visible = [i for i, corner in enumerate(ring) if not _is_cut(here, corner, [ring, hole])]
+        to = min(visible or range(len(ring)), key=lambda i: (ring[i][0] - here[0]) ** 2 + (ring[i][1] - here[1]) ** 2)
         ring = [*ring[: to + 1], *turned, *ring[to:]]
     return ring
 
@@ -73,7 +73,7 @@ def _is_cut(a: Point, b: Point, rings: Sequence[Sequence[Point]]) -> bool:
 
 
 def _orientation(a: Point, b: Point, c: Point) -> float:
-    """Return a positive value if a, b, c turn left."""
+    """Return a positive value if a, b, c are counter-clockwise."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 

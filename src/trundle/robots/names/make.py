@@ -28,15 +28,15 @@ def ros_name(sdf_name: str) -> str:
 
 def ros_names(sdf_names: Iterable[str]) -> dict[str, str]:
     """Convert SDF names to distinct legal ROS names: the second `left_arm` becomes `left_arm_2`."""
-    given = list(dict.fromkeys(sdf_names))
-    taken = {name for name in given if ros_name(name) == name}
+    names = list(dict.fromkeys(sdf_names))
+    used = {name for name in names if ros_name(name) == name}
     result: dict[str, str] = {}
-    for name in given:
+    for name in names:
         legal = ros_name(name)
         candidate, count = legal, 1
-        while candidate in taken and candidate != name:
+        while candidate in used and candidate != name:
             count += 1
             candidate = f"{legal}_{count}"
-        taken.add(candidate)
+        used.add(candidate)
         result[name] = candidate
     return result

@@ -8,7 +8,7 @@ _LEGAL_BASE = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
 def is_legal_name(name: str) -> bool:
-    """True if a graph name is legal; '' is, as it stands for the namespace."""
+    """True if a graph name is legal, including '', the name of the namespace."""
     return not name or (_LEGAL.fullmatch(name) is not None and "//" not in name)
 
 
@@ -39,9 +39,9 @@ def resolve_name(name: str, node: str, remappings: Mapping[str, str] | None = No
     """Resolve a name to a global name.
 
     Args:
-        name: as written: '/global', '~private', 'relative', or '' for the node's namespace.
+        name: '/global', '~private', 'relative', or '' for the node's namespace.
         node: full name of the node, such as '/robot/driver'.
-        remappings: global name to global name, applied last.
+        remappings: global name → global name, applied last.
     """
     if not name:
         return parent_namespace(node)

@@ -12,7 +12,12 @@ from .crawl import MANIFESTS as MANIFESTS
 from .dependencies import build_dependencies as build_dependencies, run_dependencies as run_dependencies
 from .gazebo_paths import is_stand_in as is_stand_in
 from .model_config import model_file as model_file, refuse_template as refuse_template
-from .package_finder import ALLOW_OUTSIDE as ALLOW_OUTSIDE, HELD as HELD, LENIENT as LENIENT, Packages as Packages
+from .package_finder import (
+    ALLOW_OUTSIDE as ALLOW_OUTSIDE,
+    HELD_SUFFIX as HELD_SUFFIX,
+    LENIENT as LENIENT,
+    Packages as Packages,
+)
 from .ros2 import refuse_ros2 as refuse_ros2, refuse_ros2_language as refuse_ros2_language
 from .ros_packages import fetched_folder as fetched_folder
 from .rule_exports import exported_rules as exported_rules

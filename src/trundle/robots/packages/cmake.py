@@ -1,5 +1,5 @@
-"""Programs and libraries that a package's CMakeLists.txt builds, and files that it configures, as far as it is simple
-to read.
+"""Partial interpreter of CMakeLists.txt: the programs and libraries that a package builds, and the files that it
+configures.
 """
 
 import os
@@ -16,22 +16,22 @@ _VARIABLE = re.compile(r"\$\{(\w+)\}")
 _ESCAPE = re.compile(r"\\(.)", re.DOTALL)
 _ESCAPED = {"n": "\n", "t": "\t", "r": "\r"}
 _LITERAL = re.compile(r"(?:[\w/-]|\\\\?\.)+\$?")
-"""Regular expression that is plain text, perhaps at the end; others are not evaluated."""
-_ADDS = re.compile(r"(\w+_)?add_executable")
-"""rosbuild, catkin_simple and CUDA have variants of the command."""
-_ADDS_LIBRARY = re.compile(r"(\w+_)?add_library")
-_NO_SOURCES = frozenset({"EXCLUDE_FROM_ALL", "MACOSX_BUNDLE", "WIN32", "STATIC", "SHARED", "MODULE", "OBJECT"})
-_NO_COMPONENTS = frozenset({"REQUIRED", "QUIET", "EXACT", "CONFIG", "MODULE", "NO_MODULE", "OPTIONAL_COMPONENTS"})
+"""Regular expression of plain text, optionally anchored at the end; others are not evaluated."""
+_ADD_EXECUTABLE = re.compile(r"(\w+_)?add_executable")
+"""add_executable, and its variants in rosbuild, catkin_simple and CUDA."""
+_ADD_LIBRARY = re.compile(r"(\w+_)?add_library")
+_TARGET_OPTIONS = frozenset({"EXCLUDE_FROM_ALL", "MACOSX_BUNDLE", "WIN32", "STATIC", "SHARED", "MODULE", "OBJECT"})
+_PACKAGE_OPTIONS = frozenset({"REQUIRED", "QUIET", "EXACT", "CONFIG", "MODULE", "NO_MODULE", "OPTIONAL_COMPONENTS"})
 _MAX_FOLDERS = 20
-"""Most files read, because a CMakeLists.txt may add itself."""
+"""Maximum files read, as a CMakeLists.txt may add itself."""
 _MAX_DEPTH = 20
-"""Largest depth of nested blocks."""
+"""Maximum depth of nested blocks."""
 _MAX_COMMANDS = 20_000
-"""Most commands run, those in loops each time."""
+"""Maximum commands run; those in a loop count in each round."""
 _MAX_GLOBBED = 200
 _MAX_CONFIGURED = 200
-_MAX_CHARACTERS, _LONGEST = 1_000_000, 1000
-"""Largest size of all variables and of one: a few lines of `set(A ${A}${A})` grow without bound."""
+_MAX_CHARACTERS, _MAX_LENGTH = 1_000_000, 1000
+"""Maximum total size of the variables, and of one: a few lines of `set(A ${A}${A})` grow without bound."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,7 +39,7 @@ class CMakeProgram:
     """Executable or library target."""
 
     name: str
-    """File name of the built program; of a library without `lib` and suffix."""
+    """File name of the built program; for a library, without `lib` and suffix."""
     target: str
     sources: tuple[str, ...]
     """As written, with known variables replaced."""
@@ -49,14 +49,14 @@ class CMakeProgram:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConfiguredFile:
-    """File that `configure_file` writes."""
+    """`configure_file` command."""
 
     template: Path
     output: Path
     copies: bool
-    """COPYONLY: nothing is replaced."""
+    """COPYONLY: no variable is replaced."""
     only_at: bool
-    """@ONLY: `${…}` is kept."""
+    """@ONLY: only `@…@` is replaced."""
     variables: dict[str, list[str]]
 
 
@@ -67,18 +67,20 @@ def cmake_programs(folder: Path) -> list[CMakeProgram]:
 
 
 def cmake_libraries(folder: Path) -> list[CMakeProgram]:
-    """Return the libraries of a package, plugins among them; those without sources of their own, too."""
+    """Return the libraries of a package, including plugins and libraries without sources."""
     reader = _read(folder)
-    return [replace(each, name=reader.output_names.get(each.target, each.name)) for each in reader.libraries]
+    return [
+        replace(library, name=reader.output_names.get(library.target, library.name)) for library in reader.libraries
+    ]
 
 
 def cmake_requirements(folder: Path) -> list[str]:
-    """Return the packages that CMake has to find: catkin's components and others, such as Boost."""
+    """Return the packages of `find_package`: catkin's components and others, such as Boost."""
     return list(dict.fromkeys(_read(folder).requirements))
 
 
 def cmake_configured(folder: Path) -> list[ConfiguredFile]:
-    """Return the files that a package's `configure_file` commands write to places known without a build folder."""
+    """Return a package's `configure_file` commands whose output does not depend on the build folder."""
     return _read(folder).configured
 
 
@@ -94,7 +96,7 @@ def _read(folder: Path) -> "_Reader":
 
 
 class _Reader:
-    """Reader of commands in order, as CMake; of a condition that only CMake can decide every branch is read."""
+    """Interpreter of commands in order; if only CMake can evaluate a condition, every branch is run."""
 
     def __init__(self, package: Path) -> None:
         self.programs: list[CMakeProgram] = []
@@ -106,7 +108,7 @@ class _Reader:
         """Target → OUTPUT_NAME."""
         self._package = str(package)
         self._devel = next((str(up.parent / "devel") for up in package.parents if up.name == "src"), "")
-        """Devel space of the workspace around it; "": there is none."""
+        """Devel space of the package's workspace; "": none."""
         self._variables: dict[str, list[str]] = {
             "PROJECT_NAME": [package.name],
             "CMAKE_PROJECT_NAME": [package.name],
@@ -168,28 +170,28 @@ class _Reader:
     def _foreach(self, block: Sequence[Command], file: Path) -> None:
         match self._expanded(block[0].words):
             case [name, "RANGE", last] if last.isdecimal() and len(last) < len(str(_MAX_COMMANDS)):
-                items = [str(each) for each in range(int(last) + 1)]
+                items = [str(value) for value in range(int(last) + 1)]
             case [name, "IN", *rest]:
-                items = [each for word in rest for each in self._variables.get(word, [word])]
-                items = [each for each in items if each not in ("LISTS", "ITEMS")]
+                items = [value for word in rest for value in self._variables.get(word, [word])]
+                items = [value for value in items if value not in ("LISTS", "ITEMS")]
             case [name, *items]:
                 pass
             case _:
                 return
-        for each in [path for item in items for path in self._globbed(item, file.parent)]:
-            self._variables[name] = [each]
+        for value in [path for item in items for path in self._globbed(item, file.parent)]:
+            self._variables[name] = [value]
             self._run(block[1:], file)
 
     def _globbed(self, item: str, folder: Path) -> list[str]:
-        """Return the files of a pattern in the package; an item that is none is itself."""
+        """Return the package's files that match a pattern; an item that is no pattern stays as it is."""
         if "*" not in item or ".." in item or "**" in item:
             return [item]
         try:
-            found = sorted(folder.glob(os.path.relpath(folder / item, folder)))
+            paths = sorted(folder.glob(os.path.relpath(folder / item, folder)))
         except (OSError, ValueError, NotImplementedError):
             return []
-        found = [path for path in found[:_MAX_GLOBBED] if path.is_relative_to(self._package)]
-        return [str(path if os.path.isabs(item) else path.relative_to(folder)) for path in found]
+        paths = [path for path in paths[:_MAX_GLOBBED] if path.is_relative_to(self._package)]
+        return [str(path if os.path.isabs(item) else path.relative_to(folder)) for path in paths]
 
     def _run_one(self, command: Command, words: list[str], file: Path) -> None:
         match command.name, words:
@@ -199,7 +201,7 @@ class _Reader:
                 self._variables[f"{name}_SOURCE_DIR"] = [self._package]
             case "set", [name, *values]:
                 values = values[: values.index("CACHE")] if "CACHE" in values else values
-                self._variables[name] = [each.replace(f"${{{name}}}", "") for each in values]  # not set before
+                self._variables[name] = [value.replace(f"${{{name}}}", "") for value in values]  # not set before
             case "option", [name, *rest]:
                 self._variables.setdefault(name, rest[1:2] or ["OFF"])
             case "list", ["APPEND", name, *values]:
@@ -212,8 +214,8 @@ class _Reader:
                 self._set_text(name, "".join(texts).replace(old, new))
             case "string", ["REGEX", "REPLACE", old, new, name, *texts] if _LITERAL.fullmatch(old):
                 self._set_text(name, _replaced("".join(texts), old.replace("\\", ""), new))
-            case "add_subdirectory", [inside, *_] if self._folders < _MAX_FOLDERS:
-                self.read(file.parent / inside)
+            case "add_subdirectory", [subfolder, *_] if self._folders < _MAX_FOLDERS:
+                self.read(file.parent / subfolder)
             case "configure_file", [template, output, *rest]:
                 self._configure(file.parent / template, output, rest)
             case (("add_message_files" | "add_service_files" | "add_action_files"), _) if "DIRECTORY" in words[:-1]:
@@ -226,19 +228,22 @@ class _Reader:
         match command.name, words:
             case "set_target_properties", [target, *properties] if "OUTPUT_NAME" in properties[:-1]:
                 self.output_names[target] = properties[properties.index("OUTPUT_NAME") + 1]
-            case name, [target, *rest] if _ADDS.fullmatch(name):
+            case name, [target, *rest] if _ADD_EXECUTABLE.fullmatch(name):
                 self.programs.append(self._target(target, rest, file, command.line))
-            case name, [target, *rest] if _ADDS_LIBRARY.fullmatch(name):
+            case name, [target, *rest] if _ADD_LIBRARY.fullmatch(name):
                 self.libraries.append(self._target(target, rest, file, command.line))
             case "find_package", ["catkin", *rest]:
-                self.requirements += ["catkin", *(word for word in rest if word not in {*_NO_COMPONENTS, "COMPONENTS"})]
+                self.requirements += [
+                    "catkin",
+                    *(word for word in rest if word not in {*_PACKAGE_OPTIONS, "COMPONENTS"}),
+                ]
             case "find_package", [package, *_]:
                 self.requirements.append(package)
             case _:
                 pass
 
     def _target(self, name: str, words: list[str], file: Path, line: int) -> CMakeProgram:
-        sources = tuple(word.removeprefix(f"{file.parent}/") for word in words if word not in _NO_SOURCES)
+        sources = tuple(word.removeprefix(f"{file.parent}/") for word in words if word not in _TARGET_OPTIONS)
         return CMakeProgram(name=name, target=name, sources=sources, file=file, line=line)
 
     def _configure(self, template: Path, output: str, options: Sequence[str]) -> None:
@@ -246,7 +251,7 @@ class _Reader:
         if output.startswith(shared):
             output = os.path.join(self._package, output.removeprefix(shared))  # roslaunch looks in both
         if not os.path.isabs(output) or len(self.configured) == _MAX_CONFIGURED:
-            return  # in the build folder, or by a variable that is not known
+            return  # in the build folder, or with an unknown variable
         path = Path(output, template.name) if os.path.isdir(output) else Path(output)
         self.configured.append(
             ConfiguredFile(
@@ -259,10 +264,10 @@ class _Reader:
         )
 
     def _set_text(self, name: str, text: str) -> None:
-        self._variables[name] = [text[:_LONGEST]]
+        self._variables[name] = [text[:_MAX_LENGTH]]
 
     def _expanded(self, words: Sequence[Word]) -> list[str]:
-        return [each for word in words for each in self._expand(word)]
+        return [value for word in words for value in self._expand(word)]
 
     def _expand(self, word: Word) -> list[str]:
         """Return a word with known variables replaced; a single variable may expand to several words."""
@@ -275,13 +280,15 @@ class _Reader:
             text = (
                 _ESCAPE.sub(lambda match: _ESCAPED.get(match[1], match[1]), word.text) if word.is_quoted else word.text
             )
-            words = [_VARIABLE.sub(lambda match: ";".join(self._variables.get(match[1], [match[0]]))[:_LONGEST], text)]
+            words = [
+                _VARIABLE.sub(lambda match: ";".join(self._variables.get(match[1], [match[0]]))[:_MAX_LENGTH], text)
+            ]
         self._budget -= sum(map(len, words))
         return words
 
 
 def _patterns(words: Sequence[str], folder: Path) -> list[str]:
-    """Return the patterns of file(GLOB); they are absolute unless RELATIVE stands before the folder."""
+    """Return the patterns of file(GLOB), absolute unless preceded by RELATIVE and a folder."""
     words = [word for word in words if word != "CONFIGURE_DEPENDS"]
     if words[:1] == ["RELATIVE"]:
         return words[2:]
@@ -289,7 +296,7 @@ def _patterns(words: Sequence[str], folder: Path) -> list[str]:
 
 
 def _replaced(text: str, pattern: str, new: str) -> str:
-    """Replace plain text, or with a final `$` only at the end."""
+    """Replace plain text; a pattern with a final `$` only at the end."""
     if not pattern.endswith("$"):
         return text.replace(pattern, new)
     ending = pattern.removesuffix("$")

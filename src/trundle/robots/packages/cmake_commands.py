@@ -1,4 +1,4 @@
-"""Commands of a CMakeLists.txt: their words, the blocks they form, and conditions."""
+"""Parser of a CMakeLists.txt into commands, blocks and conditions."""
 
 import os
 import re
@@ -30,7 +30,7 @@ class Command(NamedTuple):
 
 
 def parse_commands(text: str) -> list[Command]:
-    """Return the commands of a file in order; comments and what is no command are skipped."""
+    """Return the commands of a file in order; comments and other text are skipped."""
     text = _COMMENT.sub(lambda match: "\n" * match[0].count("\n"), text)
     commands: list[Command] = []
     line, counted = 1, 0
@@ -42,7 +42,7 @@ def parse_commands(text: str) -> list[Command]:
 
 
 def block_end(commands: Sequence[Command], start: int) -> int:
-    """Return the index of the command that ends the block at `start`; the number of commands if none does."""
+    """Return the index of the command that ends the block at `start`, or the number of commands."""
     begin = commands[start].name
     depth = 0
     for index in range(start, len(commands)):
@@ -65,12 +65,12 @@ def branches(block: Sequence[Command]) -> list[tuple[Command, Sequence[Command]]
 
 
 def is_true(words: Sequence[str], variables: Mapping[str, Sequence[str]]) -> bool | None:
-    """Evaluate a condition; None if it depends on what only CMake knows. Parentheses are such."""
-    for operator, decided in (("OR", True), ("AND", False)):
+    """Evaluate a condition; None if only CMake can, as with parentheses."""
+    for operator, absorbing in (("OR", True), ("AND", False)):
         if operator in words:
             at = len(words) - 1 - words[::-1].index(operator)
             values = is_true(words[:at], variables), is_true(words[at + 1 :], variables)
-            return decided if decided in values else None if None in values else not decided
+            return absorbing if absorbing in values else None if None in values else not absorbing
     match words:
         case ["NOT", *rest]:
             value = is_true(rest, variables)

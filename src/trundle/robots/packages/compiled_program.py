@@ -1,6 +1,6 @@
-"""Compiled programs and libraries that cannot run here, such as those of a devel folder copied from another machine.
+"""Detection of ELF programs and libraries that cannot run here, such as in a devel folder copied from another machine.
 
-The layout is that of the System V ABI, "Object Files" and "Dynamic Linking"; the search order is that of ld.so(8).
+The file layout is in the System V ABI, "Object Files" and "Dynamic Linking"; the search order in ld.so(8).
 """
 
 import mmap
@@ -18,7 +18,7 @@ _MACHINES = {3: "x86", 40: "ARM", 62: "x86-64", 183: "ARM64", 243: "RISC-V"}
 _RUN_BY = {"x86_64": {3, 62}, "aarch64": {40, 183}, "i686": {3}, "armv7l": {40}, "riscv64": {243}}
 _LOAD, _DYNAMIC, _INTERPRETER = 1, 2, 3
 _NEEDED, _STRINGS, _RPATH, _RUNPATH = 1, 5, 15, 29
-_MAX_SEGMENTS, _MAX_ENTRIES, _LONGEST = 200, 2000, 4096
+_MAX_SEGMENTS, _MAX_ENTRIES, _MAX_LENGTH = 200, 2000, 4096
 _CACHE = Path("/etc/ld.so.cache")
 _FOLDERS = ("/lib", "/usr/lib", "/lib64", "/usr/lib64", "/usr/local/lib")
 
@@ -31,7 +31,7 @@ class _Segment(NamedTuple):
 
 
 def compiled_fault(path: Path, env: Mapping[str, str]) -> str | None:
-    """Return why this machine cannot load a compiled file; None: it can, or the file is not compiled (ELF)."""
+    """Return why this machine cannot load an ELF file; None if it can, or the file is not ELF."""
     try:
         with open_file(path) as file:
             if file.read(4) != b"\x7fELF":
@@ -40,7 +40,7 @@ def compiled_fault(path: Path, env: Mapping[str, str]) -> str | None:
                 return "it is compiled for Linux"
             with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
                 return _fault(path, data, env)
-    except (OSError, ValueError, struct.error):  # damaged: the system's own message says it
+    except (OSError, ValueError, struct.error):  # damaged: starting it gives the system's message
         return None
 
 
@@ -51,17 +51,17 @@ def _fault(path: Path, data: mmap.mmap, env: Mapping[str, str]) -> str | None:
     if data[4:6] != b"\x02\x01" or not _CACHE.exists():  # only 64 bits, little-endian, and glibc's loader
         return None
     segments = list(_segments(data))
-    for each in segments:
-        loader = os.fsdecode(data[each.offset : each.offset + min(each.size, _LONGEST)].rstrip(b"\0"))
-        if each.kind == _INTERPRETER and not os.path.exists(loader):
+    for segment in segments:
+        loader = os.fsdecode(data[segment.offset : segment.offset + min(segment.size, _MAX_LENGTH)].rstrip(b"\0"))
+        if segment.kind == _INTERPRETER and not os.path.exists(loader):
             return f"its loader {loader} is not here"
     entries = list(_dynamic(data, segments))
-    own = [folder for tag, text in entries if tag != _NEEDED for folder in text.split(":")]
+    run_path = [folder for tag, text in entries if tag != _NEEDED for folder in text.split(":")]
     origin = os.path.dirname(os.path.realpath(path))
-    own = [folder.replace("${ORIGIN}", "$ORIGIN").replace("$ORIGIN", origin) for folder in own]
-    folders = [*own, *env.get("LD_LIBRARY_PATH", "").split(":"), *_FOLDERS]
-    known = read_file(_CACHE)
-    missing = [name for tag, name in entries if tag == _NEEDED and not _is_found(name, folders, known)]
+    run_path = [folder.replace("${ORIGIN}", "$ORIGIN").replace("$ORIGIN", origin) for folder in run_path]
+    folders = [*run_path, *env.get("LD_LIBRARY_PATH", "").split(":"), *_FOLDERS]
+    cache = read_file(_CACHE)
+    missing = [name for tag, name in entries if tag == _NEEDED and not _is_library_found(name, folders, cache)]
     return f"{', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not here" if missing else None
 
 
@@ -74,21 +74,23 @@ def _segments(data: mmap.mmap) -> Iterator[_Segment]:
 
 
 def _dynamic(data: mmap.mmap, segments: list[_Segment]) -> Iterator[tuple[int, str]]:
-    """Yield the tag and text of the entries that name libraries and folders."""
+    """Yield the tags and texts of the dynamic entries that name libraries and folders."""
     entries: list[tuple[int, int]] = []
-    for each in segments:
-        if each.kind == _DYNAMIC:
-            count = min(each.size // 16, _MAX_ENTRIES)
-            entries += [struct.unpack_from("<qQ", data, each.offset + 16 * index) for index in range(count)]
+    for segment in segments:
+        if segment.kind == _DYNAMIC:
+            count = min(segment.size // 16, _MAX_ENTRIES)
+            entries += [struct.unpack_from("<qQ", data, segment.offset + 16 * index) for index in range(count)]
     address = dict(entries).get(_STRINGS, 0)
-    place = (s.offset - s.address for s in segments if s.kind == _LOAD and s.address <= address < s.address + s.size)
-    strings = address + next(place, 0)
+    offsets = (s.offset - s.address for s in segments if s.kind == _LOAD and s.address <= address < s.address + s.size)
+    strings = address + next(offsets, 0)
     for tag, value in entries:
         if tag in (_NEEDED, _RPATH, _RUNPATH):
             start = strings + value
-            yield tag, os.fsdecode(data[start : min(max(data.find(b"\0", start), start), start + _LONGEST)])
+            yield tag, os.fsdecode(data[start : min(max(data.find(b"\0", start), start), start + _MAX_LENGTH)])
 
 
-def _is_found(library: str, folders: list[str], known: bytes) -> bool:
-    in_cache = any(os.fsencode(f"{before}{library}\0") in known for before in ("/", "\0"))  # names are ends of paths
+def _is_library_found(library: str, folders: list[str], cache: bytes) -> bool:
+    in_cache = any(
+        os.fsencode(f"{separator}{library}\0") in cache for separator in ("/", "\0")
+    )  # names are ends of paths
     return in_cache or any(os.path.exists(os.path.join(folder, library)) for folder in folders if folder)

@@ -1,4 +1,4 @@
-"""Files of a package that CMake's `configure_file` would write, such as `robot.xacro` from `robot.xacro.in`."""
+"""Replacement of CMake's `configure_file`, which writes files such as `robot.xacro` from `robot.xacro.in`."""
 
 import os
 import re
@@ -17,24 +17,24 @@ _OFF = frozenset({"", "0", "OFF", "NO", "FALSE", "N", "NOTFOUND"})
 
 
 def write_configured_files(folder: Path, *, replace: bool) -> list[Path]:
-    """Write the files that a package's CMakeLists.txt configures inside its folder, and return those written.
+    """Write the files that a package's CMakeLists.txt configures in its folder; return the files written.
 
-    Templates and files outside the package, and hidden files, are left out; what cannot be written, too.
+    Templates and outputs outside the package, hidden files, and files that cannot be written are skipped.
 
     Args:
-        folder: the package's.
-        replace: write again those that exist with another content.
+        folder: package folder.
+        replace: overwrite existing files with other content.
     """
     written: list[Path] = []
     root = Path(os.path.realpath(folder))
-    for each in cmake_configured(folder):
-        output, template = Path(os.path.realpath(each.output)), Path(os.path.realpath(each.template))
-        inside = output.relative_to(root).parts if output.is_relative_to(root) else (".",)
-        if any(part.startswith(".") for part in inside) or not template.is_relative_to(root) or output == template:
+    for configured in cmake_configured(folder):
+        output, template = Path(os.path.realpath(configured.output)), Path(os.path.realpath(configured.template))
+        parts = output.relative_to(root).parts if output.is_relative_to(root) else (".",)
+        if any(part.startswith(".") for part in parts) or not template.is_relative_to(root) or output == template:
             continue
         try:
-            if _write(each, output, replace=replace):
-                written.append(each.output)
+            if _write(configured, output, replace=replace):
+                written.append(configured.output)
         except (OSError, UsageError):  # a read-only package
             continue
     return written
@@ -53,7 +53,7 @@ def _write(configured: ConfiguredFile, output: Path, *, replace: bool) -> bool:
 
 
 def _configured_text(configured: ConfiguredFile) -> str:
-    """Return a template's text with variables replaced; those not defined are empty, as in CMake."""
+    """Return a template's text with variables replaced; undefined ones are empty, as in CMake."""
     text = read_text(configured.template)
     if configured.copies:
         return text

@@ -6,10 +6,10 @@ from pathlib import Path
 
 
 class WideFolders:
-    """Folders that are never a robot's own: homes, their parents, roots of disks."""
+    """Folders too wide to belong to one robot: homes, their parents, roots of disks."""
 
     def __init__(self, environment: Mapping[str, str]) -> None:
-        """Take the homes of an environment and of the current user."""
+        """Collect the homes of an environment and of the current user."""
         homes = {environment.get("HOME", ""), environment.get("USERPROFILE", ""), os.path.expanduser("~")}
         real = [Path(os.path.realpath(home)) for home in homes if os.path.isabs(home)]
         self._folders = {str(folder) for home in real for folder in (home, *home.parents)}
@@ -22,26 +22,26 @@ class WideFolders:
         """Return a folder's path without links; None if it is wide."""
         try:
             real = os.path.realpath(folder)
-        except OSError:  # a link that is gone meanwhile, as below /proc
+        except OSError:  # a link removed in the meantime, as below /proc
             return None
         return None if real in self._folders or os.path.dirname(real) == real else real
 
 
 class Confinement:
-    """Set of folders that files may be read from, without wide folders."""
+    """Set of readable folders, without wide ones."""
 
-    def __init__(self, folders: Iterable[Path], *, wide: WideFolders, beside: Iterable[Path] = ()) -> None:
-        """Allow folders with all their content, and the visible files directly in those of `beside`."""
+    def __init__(self, folders: Iterable[Path], *, wide: WideFolders, visible_in: Iterable[Path] = ()) -> None:
+        """Allow folders with all their content, and the visible files directly in the folders `visible_in`."""
         self._folders = {real for folder in folders if (real := wide.narrow(folder)) is not None}
-        self._beside = {os.path.realpath(folder) for folder in beside}
+        self._visible_in = {os.path.realpath(folder) for folder in visible_in}
 
     def allows(self, path: Path) -> bool:
-        """True if a file, with links resolved, is in one of the folders or below."""
+        """True if a file, with links resolved, is below one of the folders."""
         try:
             inner, real = "", os.path.realpath(path)
         except ValueError:  # no file can have this name
             return False
-        if os.path.dirname(real) in self._beside and not os.path.basename(real).startswith("."):
+        if os.path.dirname(real) in self._visible_in and not os.path.basename(real).startswith("."):
             return True
         while real not in self._folders and real != inner:
             inner, real = real, os.path.dirname(real)

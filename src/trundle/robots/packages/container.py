@@ -1,4 +1,4 @@
-"""Command lines that run the real program in a container, on the same graph."""
+"""Docker command lines that run the original program in a container, on the same graph."""
 
 import shlex
 from collections.abc import Mapping
@@ -11,27 +11,27 @@ _RUN = "docker run --rm -it --network host"
 
 
 def package_in_container(package: str, command: str, env: Mapping[str, str]) -> str:
-    """Command line that runs a command of a released package."""
-    inside = f"apt-get update && apt-get install -y {_debian(package)} && {command}"
-    return f"{_RUN} {_master(env)} {IMAGE} bash -c {shlex.quote(inside)}"
+    """Return the command line that runs a command of a released package."""
+    script = f"apt-get update && apt-get install -y {_debian(package)} && {command}"
+    return f"{_RUN} {_master(env)} {IMAGE} bash -c {shlex.quote(script)}"
 
 
 def source_in_container(folder: Path, command: str, env: Mapping[str, str], *, needs: str = "") -> str:
-    """Command line that compiles a package, mounted read-only, and runs a command with it.
+    """Return the command line that compiles a package, mounted read-only, and runs a command with it.
 
     Args:
-        folder: of the package.
-        command: run in the built workspace.
-        env: names the master.
-        needs: released package that the command needs.
+        folder: package folder.
+        command: command to run in the built workspace.
+        env: environment with the master's address.
+        needs: released package that the command needs; empty: none.
     """
-    installed = f" && apt-get install -y {_debian(needs)}" if needs else ""
-    inside = (
-        f"apt-get update{installed} && rosdep update && rosdep install -y --from-paths /ws/src; "
+    install = f" && apt-get install -y {_debian(needs)}" if needs else ""
+    script = (
+        f"apt-get update{install} && rosdep update && rosdep install -y --from-paths /ws/src; "
         f"cd /ws && catkin_make && . devel/setup.sh && {command}"
     )
     mount = shlex.quote(f"{folder}:/ws/src/{folder.name}:ro")
-    return f"{_RUN} -v {mount} {_master(env)} {IMAGE} bash -c {shlex.quote(inside)}"
+    return f"{_RUN} -v {mount} {_master(env)} {IMAGE} bash -c {shlex.quote(script)}"
 
 
 def _debian(package: str) -> str:
@@ -39,5 +39,5 @@ def _debian(package: str) -> str:
 
 
 def _master(env: Mapping[str, str]) -> str:
-    own = {"ROS_MASTER_URI": _MASTER, **{name: env[name] for name in _ADDRESSES if env.get(name)}}
-    return " ".join(f"-e {name}={shlex.quote(value)}" for name, value in own.items())
+    variables = {"ROS_MASTER_URI": _MASTER, **{name: env[name] for name in _ADDRESSES if env.get(name)}}
+    return " ".join(f"-e {name}={shlex.quote(value)}" for name, value in variables.items())

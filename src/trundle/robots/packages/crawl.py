@@ -1,4 +1,4 @@
-"""Folder walk for packages, as rospack does."""
+"""Search of folders for packages, as by rospack."""
 
 import os
 from collections import deque
@@ -6,40 +6,40 @@ from collections.abc import Iterator
 from pathlib import Path
 
 MANIFESTS = ("package.xml", "manifest.xml")
-_DEEPEST = 8
-"""Largest depth below a package path; rospack has no limit, real workspaces need five."""
+_MAX_DEPTH = 8
+"""Maximum depth below a package path; rospack has no limit, published workspaces need five."""
 _NOT_CRAWLED = frozenset({"build", "node_modules", "__pycache__"})
-_IGNORED_BY = "CATKIN_IGNORE"
-"""ROS 1's only marker file: robots for both ROS versions keep ROS 1 packages beside the others."""
-_ALONE_BY = frozenset({*MANIFESTS, "rospack_nosubdirs"})
+_IGNORE_MARKER = "CATKIN_IGNORE"
+"""ROS 1's ignore marker; ROS 2's are ignored, as they mark ROS 1 packages in repositories for both."""
+_NO_SUBFOLDER_MARKERS = frozenset({*MANIFESTS, "rospack_nosubdirs"})
 """Marker files of folders without packages below."""
 
 
 class Crawl:
     """Breadth-first walk of folders; folders that cannot be listed are skipped."""
 
-    def __init__(self, root: Path, *, max_folders: int | None = None, deepest: int = _DEEPEST) -> None:
+    def __init__(self, root: Path, *, max_folders: int | None = None, max_depth: int = _MAX_DEPTH) -> None:
         """Create a walk.
 
         Args:
             root: start folder.
-            max_folders: most folders visited; None: all.
-            deepest: largest depth below `root`.
+            max_folders: maximum folders visited; None: unlimited.
+            max_depth: maximum depth below `root`.
         """
         self._root = root
-        self.most = max_folders
-        self._deepest = deepest
+        self.max_folders = max_folders
+        self._max_depth = max_depth
         self.skipped: list[tuple[Path, str]] = []
         """Unreadable folders and broken links, with the reason."""
 
     def __iter__(self) -> Iterator[tuple[Path, set[str]]]:
-        """Yield every folder and the names in it, nearest first; folders inside a package are not visited."""
-        waiting = deque([(self._root, 0)])
-        entered: set[tuple[int, int]] = set()
-        looked_at = 0
-        while waiting and (self.most is None or looked_at < self.most):
-            folder, depth = waiting.popleft()
-            looked_at += 1
+        """Yield every folder with its entries' names, nearest first; folders inside a package are skipped."""
+        pending = deque([(self._root, 0)])
+        visited: set[tuple[int, int]] = set()
+        count = 0
+        while pending and (self.max_folders is None or count < self.max_folders):
+            folder, depth = pending.popleft()
+            count += 1
             try:
                 with os.scandir(folder) as listing:
                     entries = sorted(listing, key=lambda entry: entry.name)
@@ -49,13 +49,13 @@ class Crawl:
                     self.skipped.append((folder, str(error.strerror)))
                 continue
             names = {entry.name for entry in entries}
-            if _IGNORED_BY in names:
+            if _IGNORE_MARKER in names:
                 continue
             yield folder, names
-            same = (status.st_dev, status.st_ino)  # a link to a parent folder would repeat it
-            if depth < self._deepest and names.isdisjoint(_ALONE_BY) and same not in entered:
-                entered.add(same)
-                waiting.extend((Path(entry.path), depth + 1) for entry in entries if self._may_hold_packages(entry))
+            identity = (status.st_dev, status.st_ino)  # a link to a parent folder would repeat it
+            if depth < self._max_depth and names.isdisjoint(_NO_SUBFOLDER_MARKERS) and identity not in visited:
+                visited.add(identity)
+                pending.extend((Path(entry.path), depth + 1) for entry in entries if self._may_hold_packages(entry))
 
     def _may_hold_packages(self, entry: os.DirEntry[str]) -> bool:
         if entry.name.startswith(".") or entry.name in _NOT_CRAWLED:

@@ -7,14 +7,14 @@ from pathlib import Path
 from trundle.base.xmlnode import XmlNode, read_xml
 
 _RUN_DEPENDS = ("run_depend", "exec_depend", "depend")
-"""rospack's order; dependencies for building and testing are ignored."""
+"""Tags of run dependencies, in rospack's order."""
 _BUILD_DEPENDS = ("buildtool_depend", "build_depend", "build_export_depend", "depend", "run_depend", "exec_depend")
-"""Dependencies that order a build, as catkin sorts packages."""
+"""Tags of dependencies by which catkin sorts packages for a build."""
 _FOR_VERSION = re.compile(r"\$ROS_VERSION\s*==\s*['\"]?(\d)")
 
 
 def run_dependencies(folder: Path) -> list[str]:
-    """Return the names of packages and system dependencies that a package needs to run, in order.
+    """Return the names of a package's run dependencies, packages and system libraries, in order.
 
     Raises:
         DescriptionError: its manifest cannot be read.
@@ -23,7 +23,7 @@ def run_dependencies(folder: Path) -> list[str]:
 
 
 def build_dependencies(folder: Path) -> list[str]:
-    """Return the names of packages and system dependencies that are built before a package.
+    """Return the names of the packages and system libraries to build before a package.
 
     Raises:
         DescriptionError: its manifest cannot be read.
@@ -35,14 +35,14 @@ def _dependencies(folder: Path, tags: tuple[str, ...]) -> list[str]:
     manifest = folder / "package.xml"
     if os.path.exists(manifest):
         root = read_xml(manifest)
-        named = [each.text.strip() for tag in tags for each in root.all(tag) if _is_for_ros_1(each)]
+        names = [node.text.strip() for tag in tags for node in root.all(tag) if _is_for_ros_1(node)]
     else:
         root = read_xml(folder / "manifest.xml")  # rosbuild: <depend package="…"/>
-        named = [child.attribute("package") or "" for child in root.all("depend")]
-    return list(dict.fromkeys(name for name in named if name))
+        names = [child.attribute("package") or "" for child in root.all("depend")]
+    return list(dict.fromkeys(name for name in names if name))
 
 
 def _is_for_ros_1(child: XmlNode) -> bool:
-    """True unless `condition="$ROS_VERSION == 2"`, with which one package serves both versions."""
+    """True unless `condition="$ROS_VERSION == 2"`, as in packages for both ROS versions."""
     match = _FOR_VERSION.search(child.attribute("condition") or "")
     return match is None or match[1] == "1"

@@ -1,6 +1,6 @@
-"""Environment variables that packages set by catkin's environment hooks, as `source devel/setup.bash` does.
+"""Environment variables of catkin's environment hooks, which `source devel/setup.bash` sets.
 
-No hook is run: assignments of plain text are read, of variables that have the first word of the package's name.
+No hook is run: only plain-text assignments are read, to variables that begin with the first word of the package's name.
 """
 
 import os
@@ -12,47 +12,47 @@ from trundle.base.files import read_text
 
 _FOLDER = "env-hooks"
 _ENDINGS = (".sh", ".sh.in", ".sh.em", ".bash", ".bash.in", ".bash.em")
-_ASSIGNED = re.compile(
+_ASSIGNMENT = re.compile(
     r"""^\s*(?: : \s+ "?\$\{(?P<default>\w+):?=(?P<first>(?:[^{}\n]|\$\{\w+\})*)\}"?
               | (?:export\s+)?(?P<name>\w+)=(?P<value>[^\n]*) )""",
     re.MULTILINE | re.VERBOSE,
 )
 _COMMENT = re.compile(r"(?:^|\s)#.*$")
 _FIND = re.compile(r"`rospack\s+find\s+([\w-]+)`|\$\(rospack\s+find\s+([\w-]+)\)")
-_OWN_FOLDER = re.compile(r"@\(?(?:PROJECT_SOURCE_DIR|CMAKE_CURRENT_SOURCE_DIR)\)?@?")
-_USED = re.compile(r"\$\{(\w+)\}|\$(\w+)")
+_SOURCE_FOLDER = re.compile(r"@\(?(?:PROJECT_SOURCE_DIR|CMAKE_CURRENT_SOURCE_DIR)\)?@?")
+_REFERENCE = re.compile(r"\$\{(\w+)\}|\$(\w+)")
 _NOT_PLAIN = re.compile(r"[`$@;&|<>\\]")
 _RESERVED = re.compile(r"(?:ROS|RMW|LD|DYLD|PYTHON|TRUNDLE|GAZEBO|CATKIN|CMAKE|GIT|XDG)(?:_|\d*$)")
-"""Variables of programs themselves, whatever a package is called."""
+"""Variables of common programs, never set for a package."""
 _MAX_HOOKS, _MAX_BYTES = 20, 100_000
 
 
 def hook_variables(
     package: str, folder: Path, find: Callable[[str], Path | None], environment: Mapping[str, str]
 ) -> dict[str, str]:
-    """Return the variables that a package's hooks set, and that an environment lacks.
+    """Return the variables that a package's hooks set and that the environment lacks.
 
     Args:
-        package: package's name; variables that begin with its `hook_prefix` are read.
-        folder: the package's.
-        find: returns the folder of a package that a hook asks rospack for.
-        environment: of the user; its variables win.
+        package: package name; variables that begin with its `hook_prefix` are read.
+        folder: package folder.
+        find: returns a package's folder, as `rospack find` in a hook.
+        environment: user's environment, which takes precedence.
     """
     prefix = hook_prefix(package)
-    found: dict[str, str] = {}
+    variables: dict[str, str] = {}
     for text in _hooks(folder / _FOLDER):
-        for match in _ASSIGNED.finditer(text):
+        for match in _ASSIGNMENT.finditer(text):
             name, value = match["default"] or match["name"], match["first"] or match["value"] or ""
-            if not name.startswith(prefix) or _RESERVED.match(name) or name in found or name in environment:
+            if not name.startswith(prefix) or _RESERVED.match(name) or name in variables or name in environment:
                 continue
-            plain = _plain(value, folder, find, {**environment, **found})
-            if plain is not None:
-                found[name] = plain
-    return found
+            resolved = _plain(value, folder, find, {**environment, **variables})
+            if resolved is not None:
+                variables[name] = resolved
+    return variables
 
 
 def hook_prefix(package: str) -> str:
-    """Return the beginning of the variables of a package's hooks: TURTLEBOT_ for turtlebot_gazebo."""
+    """Return the prefix of variables that a package's hooks may set: TURTLEBOT_ for turtlebot_gazebo."""
     return f"{re.split('[_-]', package)[0].upper()}_"
 
 
@@ -68,8 +68,10 @@ def _hooks(folder: Path) -> Iterator[str]:
             continue
 
 
-def _plain(value: str, own: Path, find: Callable[[str], Path | None], known: Mapping[str, str]) -> str | None:
-    """Return a value without quotes, commands and variables; None if it has others than are understood."""
+def _plain(
+    value: str, package_folder: Path, find: Callable[[str], Path | None], variables: Mapping[str, str]
+) -> str | None:
+    """Return a value with quotes removed, commands and variables replaced; None if it has unsupported syntax."""
 
     def folder(match: re.Match[str]) -> str:
         return str(find(match[1] or match[2]) or match[0])
@@ -77,6 +79,6 @@ def _plain(value: str, own: Path, find: Callable[[str], Path | None], known: Map
     text = _COMMENT.sub("", value).strip()
     if text[:1] in ("'", '"') and text[-1:] == text[:1]:
         text = text[1:-1]
-    text = _OWN_FOLDER.sub(lambda _: str(own), _FIND.sub(folder, text))
-    text = _USED.sub(lambda match: known.get(match[1] or match[2], match[0]), text)
+    text = _SOURCE_FOLDER.sub(lambda _: str(package_folder), _FIND.sub(folder, text))
+    text = _REFERENCE.sub(lambda match: variables.get(match[1] or match[2], match[0]), text)
     return None if _NOT_PLAIN.search(text) else text

@@ -1,4 +1,4 @@
-"""Gazebo's paths of models, worlds and media: its two environment variables, package exports, and Trundle's own."""
+"""Search paths of models, worlds and media: Gazebo's environment variables, package exports, and Trundle's assets."""
 
 import os
 from collections.abc import Iterator, Mapping
@@ -15,24 +15,24 @@ from .ros_packages import RosPackages
 from .workspace import ancestor_folders, distinct_folders
 
 _CHECKOUT_EXAMPLES = [path for path in [ASSETS.parents[2] / "examples"] if os.path.isdir(path / "rp2w")]
-"""Examples of a checkout, which a wheel has in ASSETS."""
+"""Examples in a source checkout; a wheel has them in ASSETS."""
 _FUEL_CACHES = (".gz/fuel", ".ignition/fuel")
-"""Folders below HOME with downloads of newer Gazebo's tools."""
+"""Download folders of newer Gazebo's tools, below HOME."""
 _SUFFIXES = (".", "worlds", "models", "media/models", "Media/models", "media")
-"""Folders that Gazebo tries below a resource path, and `worlds`."""
+"""Subfolders that Gazebo tries below a resource path, and `worlds`."""
 
 
 def is_stand_in(path: Path) -> bool:
-    """True if a file belongs to a substitute for a model of the public database.
+    """True if a file belongs to a stand-in for a model of Gazebo's public database.
 
-    Its meshes have the originals' names with the suffix .obj, and the originals' frame and unit, because worlds saved
-    by Gazebo contain their URIs and scales in place of an <include>.
+    A stand-in's meshes have the original names with the suffix .obj, and the original frame and unit, as worlds saved
+    by Gazebo contain mesh URIs and scales in place of an <include>.
     """
     return ASSETS / "stand_ins" in path.parents
 
 
 _MAX_MODELS = 5000
-"""Most models of a list."""
+"""Maximum models in a list."""
 
 
 class GazeboPaths:
@@ -48,11 +48,11 @@ class GazeboPaths:
 
     @property
     def model_folders(self) -> list[Path]:
-        """Model folders in Gazebo's order, then Trundle's, then those that were added."""
-        return [*self._own_model_folders, *self._cache.added_models]
+        """Model folders: Gazebo's in its order, Trundle's, added ones."""
+        return [*self._standard_model_folders, *self._cache.added_models]
 
     @cached_property
-    def _own_model_folders(self) -> list[Path]:
+    def _standard_model_folders(self) -> list[Path]:
         return distinct_folders(
             [
                 self._home / ".gazebo" / "models",
@@ -75,24 +75,31 @@ class GazeboPaths:
         ]
 
     def find_model(self, name: str) -> Path | None:
-        """Return a model's folder: on the path, then near the file, then a substitute."""
+        """Return a model's folder: on the path, else near the file, else a stand-in."""
         if not name or name in (".", ".."):
             return None
-        along = (folder / name for folder in self.model_folders)
+        on_path = (folder / name for folder in self.model_folders)
         near = (folder / sub / name for folder in ancestor_folders(self._start) for sub in (".", "models"))
         stand_in = ASSETS / "stand_ins" / name
-        candidates = (*along, *(each for each in near if os.path.isfile(each / "model.config")), stand_in)
-        return next((each for each in candidates if os.path.isdir(each) and each not in self._cache.wide), None)
+        candidates = (
+            *on_path,
+            *(candidate for candidate in near if os.path.isfile(candidate / "model.config")),
+            stand_in,
+        )
+        return next(
+            (candidate for candidate in candidates if os.path.isdir(candidate) and candidate not in self._cache.wide),
+            None,
+        )
 
     def models(self) -> dict[str, Path]:
-        """Return the folder of every model that `find_model` finds, by name; the first of each name."""
+        """Return the folders of all models by name, as found by `find_model`."""
         near = [folder / sub for folder in ancestor_folders(self._start) for sub in (".", "models")]
-        found: dict[str, Path] = {}
-        for home in (*self.model_folders, *near, ASSETS / "stand_ins"):
-            for folder in [] if home in self._cache.wide else _folders(home):
-                if len(found) < _MAX_MODELS and os.path.isfile(folder / "model.config"):
-                    found.setdefault(folder.name, folder)
-        return found
+        folders: dict[str, Path] = {}
+        for parent in (*self.model_folders, *near, ASSETS / "stand_ins"):
+            for folder in [] if parent in self._cache.wide else _folders(parent):
+                if len(folders) < _MAX_MODELS and os.path.isfile(folder / "model.config"):
+                    folders.setdefault(folder.name, folder)
+        return folders
 
     def find_resource(self, name: str) -> Path | None:
         """Return a file below a resource folder, such as `worlds/empty.world` or `media/materials/scripts`."""
@@ -115,7 +122,7 @@ class GazeboPaths:
             folder = self._home / cache / parts.netloc / owner.lower() / kind / name.lower()
             versions = sorted((int(sub.name), sub) for sub in _folders(folder) if sub.name.isdecimal())
             if rest and rest[0].isdecimal():
-                versions = [each for each in versions if each[0] == int(rest[0])]
+                versions = [version for version in versions if version[0] == int(rest[0])]
             if versions:
                 return versions[-1][1]
         return None
@@ -136,7 +143,7 @@ class GazeboPaths:
 
 
 def _gazebo_exports(manifest: Path) -> list[dict[str, str]]:
-    from trundle.base.xmlnode import read_xml  # of what most commands ask of packages, only this takes lxml
+    from trundle.base.xmlnode import read_xml  # lxml is slow to load, and most commands need no exports
 
     try:
         if b"gazebo_ros" not in read_file(manifest):
@@ -149,7 +156,7 @@ def _gazebo_exports(manifest: Path) -> list[dict[str, str]]:
 
 def _folders(folder: Path) -> list[Path]:
     try:
-        return [each for each in folder.iterdir() if os.path.isdir(each)]
+        return [path for path in folder.iterdir() if os.path.isdir(path)]
     except OSError:
         return []
 

@@ -26,10 +26,10 @@ def model_file(folder: Path, report: Diagnostics) -> Path:
         report.warn(Source(str(manifest)), "manifest.xml is deprecated; name it model.config")
         config = manifest
     root = read_xml(config, report=report)
-    named = root.all("sdf")
-    if not named:
+    elements = root.all("sdf")
+    if not elements:
         raise DescriptionError(Source(str(config)), "no <sdf> element names the model's file")
-    best = max(named, key=lambda node: _rank(node, report))
+    best = max(elements, key=lambda node: _rank(node, report))
     if _rank(best, report) == _TOO_NEW:
         newest = ".".join(map(str, NEWEST))
         report.warn(best.at, f"SDF {best.attribute('version')} is newer than {newest}; it is read as {newest}")
@@ -46,12 +46,12 @@ def refuse_template(path: Path) -> None:
     """Refuse Ruby templates, from which some worlds are generated.
 
     Raises:
-        DescriptionError: it is a template.
+        DescriptionError: the file is a template.
     """
     if path.suffix in _TEMPLATES:
-        made = path.with_suffix("").name if path.suffix == ".erb" else f"{path.stem}.sdf"
+        output = path.with_suffix("").name if path.suffix == ".erb" else f"{path.stem}.sdf"
         raise DescriptionError(
-            Source(str(path)), f"a Ruby template, which is not run; expand it first: erb {path.name} > {made}"
+            Source(str(path)), f"a Ruby template, which is not run; expand it first: erb {path.name} > {output}"
         )
 
 

@@ -1,4 +1,4 @@
-"""Cache of package walks and manifests, shared by all files of one environment, as in rospack."""
+"""Cache of package searches and manifests, shared by all files of one environment, as in rospack."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,21 +11,21 @@ Folder: TypeAlias = tuple[Path, str | None]
 
 
 class PackageCache:
-    """Results of folder walks and manifests."""
+    """Results of package searches and manifests."""
 
     def __init__(self, environment: Mapping[str, str]) -> None:
         self.wide = WideFolders(environment)
         self.crawls: dict[tuple[Path, int | None], list[Folder]] = {}
-        """(start, most folders) → folders found."""
+        """(start, max_folders) → package folders."""
         self.installed: list[tuple[Path, str]] | None = None
         """System packages; None: not searched yet."""
         self.skipped: dict[Path, str] = {}
         """Unreadable folders, with the reason."""
         self.added_models: list[Path] = []
-        """Folders of models that were added to the model path."""
-        self.passed_over: dict[str, str] = {}
-        """Package → sentence on another one of its name; "": there is none, or it was reported."""
+        """Folders added to the model path."""
+        self.shadowed: dict[str, str] = {}
+        """Package → warning of another package of the same name; "": none, or reported."""
         self.configured: dict[Path, list[Path]] = {}
-        """Package folder → files that were written for it, as CMake's `configure_file` would."""
+        """Package folder → files written in place of CMake's `configure_file`."""
         self.exports: dict[Path, list[dict[str, str]]] = {}
         """Package folder → attributes of each exported <gazebo_ros>."""

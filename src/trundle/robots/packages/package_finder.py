@@ -18,19 +18,19 @@ from .gazebo_paths import GazeboPaths, is_stand_in
 from .package_cache import PackageCache
 from .ros_packages import RosPackages
 from .stock import DESCRIPTIONS, STOCK
-from .workspace import own_confinement
+from .workspace import package_confinement
 
 ALLOW_OUTSIDE = "TRUNDLE_ALLOW_OUTSIDE"
 """Environment variable; 1 allows descriptions to read any file; set by `--allow-outside`."""
 LENIENT = "TRUNDLE_LENIENT"
 """Environment variable; 1 ignores parts from missing packages; set by `--lenient`."""
 
-HELD = ".held"
-"""Ending of uploaded files of code, which are no plugins until a person agrees."""
+HELD_SUFFIX = ".held"
+"""Suffix of uploaded code files, which are not loaded as plugins until a user agrees."""
 
-_OWN_PACKAGES = ASSETS / "ros_packages"
-_LONGEST = 200
-"""Longest name or URI in a message."""
+_SHIPPED_PACKAGES = ASSETS / "ros_packages"
+_MAX_SHOWN = 200
+"""Maximum length of a name or URI in a message."""
 _FUEL_MODEL = re.compile(r"/models/([^/]+)(?:/(?:\d+|tip)(?:/files(/.*[^/]))?)?/?$")
 """Path of a model on Fuel, or of a file of one of its versions."""
 _MAX_NAMED = 3
@@ -39,91 +39,91 @@ _MAY_CONFIGURE = re.compile(r"\b(configure_file|include|add_subdirectory)\s*\(",
 
 
 class Packages:
-    """Resources that descriptions may refer to, in one environment."""
+    """Packages, models and worlds of one environment, as seen from one file or folder."""
 
-    def __init__(self, environment: Mapping[str, str], *, start: Path, known: "Packages | None" = None) -> None:
-        """Search with an environment, around a file or folder.
+    def __init__(self, environment: Mapping[str, str], *, start: Path, fallback: "Packages | None" = None) -> None:
+        """Create a finder.
 
         Args:
-            environment: ROS_PACKAGE_PATH, GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and HOME are read.
-            start: its package and workspace are searched too.
-            known: another instance, whose cache is shared and whose packages are searched last.
+            environment: environment with ROS_PACKAGE_PATH, GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and HOME.
+            start: file or folder whose package and workspace are searched too.
+            fallback: finder to share the cache with; its packages are searched last.
         """
         start = start.absolute()
         self._environment = environment
         self._start = start
-        self._cache = PackageCache(environment) if known is None else known._cache
-        self._earlier = known
+        self._cache = PackageCache(environment) if fallback is None else fallback._cache
+        self._fallback = fallback
 
     def around(self, file: Path) -> "Packages":
-        """Return the same resources, searched around another file."""
+        """Return a finder for another file, with this one as its fallback."""
         if file.absolute() == self._start:
             return self
-        return Packages(self._environment, start=file, known=self)
+        return Packages(self._environment, start=file, fallback=self)
 
     def find_package(self, name: str) -> Path | None:
         """Return the folder of a ROS package, or None."""
-        found = self._ros.find(name)
-        if name not in self._cache.passed_over:
-            other = self._ros.passed_over(name)
-            what = f"of two packages {name!r} the file's own workspace wins: {found}, not {other}"
-            self._cache.passed_over[name] = "" if other is None else what
-        return found
+        folder = self._ros.find(name)
+        if name not in self._cache.shadowed:
+            other = self._ros.shadowed(name)
+            message = f"of two packages {name!r} the file's own workspace wins: {folder}, not {other}"
+            self._cache.shadowed[name] = "" if other is None else message
+        return folder
 
     def find_folder(self, name: str) -> Path | None:
         """Return the folder of `$(find name)`.
 
-        For a stock package that is not installed it does not exist; for a sensor description package it is Trundle's
-        substitute. Files of the package that CMake would configure, and that are not there, are written first.
+        The folder of a stock package that is not installed does not exist; a sensor description package has a stand-in.
+        Missing files that CMake would configure are written first.
         """
-        found = self.find_package(name)
-        if found is not None and found not in self._cache.configured and not found.is_relative_to(ASSETS):
-            self._cache.configured[found] = _write_configured_files(found)
-        found = found or DESCRIPTIONS.get(name)
-        return found or (_OWN_PACKAGES / name if name in STOCK else None)
+        folder = self.find_package(name)
+        if folder is not None and folder not in self._cache.configured and not folder.is_relative_to(ASSETS):
+            self._cache.configured[folder] = _write_configured_files(folder)
+        folder = folder or DESCRIPTIONS.get(name)
+        return folder or (_SHIPPED_PACKAGES / name if name in STOCK else None)
 
     def stand_in_package(self, path: Path) -> str | None:
-        """Return the package that a shipped file, existing or not, substitutes; None for other files."""
+        """Return the package whose stand-in contains a file, existing or not; None for other files."""
         return next((name for name, folder in DESCRIPTIONS.items() if path.is_relative_to(folder)), None)
 
     def absent_package(self, file: Path) -> str | None:
-        """Return the package whose absence is why a file is missing; None: another reason, or it is there."""
+        """Return the missing package to which a missing file belongs; None if the file or its package exists."""
         if os.path.exists(file):
             return None
-        parts = file.relative_to(_OWN_PACKAGES).parts if file.is_relative_to(_OWN_PACKAGES) else ()
+        parts = file.relative_to(_SHIPPED_PACKAGES).parts if file.is_relative_to(_SHIPPED_PACKAGES) else ()
         return parts[0] if parts and parts[0] in STOCK else self.stand_in_package(file)
 
     @property
     def is_lenient(self) -> bool:
-        """True if parts from missing packages are ignored."""
+        """True to ignore parts from missing packages."""
         return self._environment.get(LENIENT) == "1"
 
     def workspace_of(self, package: Path) -> Path | None:
-        """Return the workspace around the start that contains a package, unless ROS_PACKAGE_PATH does."""
+        """Return the workspace of `start` if it contains a package; None if ROS_PACKAGE_PATH does."""
         return self._ros.workspace_of(package)
 
-    def warn_passed_over(self, report: Diagnostics, at: Source) -> None:
-        """Warn once of packages on ROS_PACKAGE_PATH that were passed over for those of a file's own workspace."""
-        for name, what in self._cache.passed_over.items():
-            if what:
-                self._cache.passed_over[name] = ""
-                report.warn(at, what)
+    def warn_shadowed(self, report: Diagnostics, at: Source) -> None:
+        """Warn once of packages on ROS_PACKAGE_PATH that a file's own workspace shadows."""
+        for name, message in self._cache.shadowed.items():
+            if message:
+                self._cache.shadowed[name] = ""
+                report.warn(at, message)
 
     @property
     def configured_files(self) -> list[Path]:
-        """Files that `find_folder` wrote."""
+        """Files written by `find_folder`."""
         return [path for written in self._cache.configured.values() for path in written]
 
     def hook_variables(self) -> dict[str, dict[str, str]]:
-        """Return the variables that environment hooks of packages set, and that the environment lacks, by package."""
-        found: dict[str, dict[str, str]] = {}
+        """Return the variables of packages' environment hooks that the environment lacks, by package."""
+        by_package: dict[str, dict[str, str]] = {}
         for name, folder in self.ros_packages().items():
             if variables := hook_variables(name, folder, self.find_package, self._environment):
-                found[name] = variables
-        return found
+                by_package[name] = variables
+        return by_package
 
     def variable(self, name: str) -> str | None:
-        """Return an environment variable: the user's own, else the one that a package's environment hook sets."""
+        """Return an environment variable: the user's, else a package's environment hook's."""
         if name in self._environment:
             return self._environment[name]
         for package, folder in self.ros_packages().items():
@@ -139,31 +139,31 @@ class Packages:
         return self._cache.skipped
 
     def package_folders(self) -> list[Path]:
-        """Return the folders of ROS packages: those of ROS_PACKAGE_PATH, and of the workspace around the start."""
+        """Return the folders searched for ROS packages: ROS_PACKAGE_PATH, and the workspace of `start`."""
         return list(self._ros.roots)
 
     def ros_packages(self) -> Mapping[str, Path]:
         """Return every ROS package by name."""
         return self._ros.all()
 
-    def why_not_found(self, name: str) -> str:
-        """Return a sentence about a missing package."""
-        looked = ", ".join(str(folder) for folder in self._ros.searched())
-        where = f"looked below {looked}" if looked else "ROS_PACKAGE_PATH is not set"
-        passed_over = [f"{folder} ({why})" for folder, why in self._cache.skipped.items()]
-        if passed_over:
-            rest = f" and {len(passed_over) - _MAX_NAMED} more" if len(passed_over) > _MAX_NAMED else ""
-            where += f", but not in {', '.join(passed_over[:_MAX_NAMED])}{rest}"
+    def not_found_message(self, name: str) -> str:
+        """Return an error message for a missing package."""
+        searched = ", ".join(str(folder) for folder in self._ros.searched())
+        where = f"looked below {searched}" if searched else "ROS_PACKAGE_PATH is not set"
+        skipped = [f"{folder} ({why})" for folder, why in self._cache.skipped.items()]
+        if skipped:
+            rest = f" and {len(skipped) - _MAX_NAMED} more" if len(skipped) > _MAX_NAMED else ""
+            where += f", but not in {', '.join(skipped[:_MAX_NAMED])}{rest}"
         where += "; put the folder that holds it on ROS_PACKAGE_PATH"
         hint = repository_hint(name)
-        near = "" if hint else did_you_mean(name, self._ros.all())
-        return f"no package {_shown(name)!r}{near}; {where}{hint}"
+        suggestion = "" if hint else did_you_mean(name, self._ros.all())
+        return f"no package {_shown(name)!r}{suggestion}; {where}{hint}"
 
     def find_model(self, name: str) -> Path:
         """Return the folder of `model://name`.
 
         Raises:
-            UsageError: it is missing; the message lists the folders searched.
+            UsageError: no such model; the message lists the folders searched.
         """
         folder = self._gazebo.find_model(name)
         if folder is None:
@@ -173,21 +173,21 @@ class Packages:
         return folder
 
     def add_models(self, folder: Path) -> None:
-        """Add a folder of models to the end of the model path, for `around` too."""
+        """Append a folder to the model path, also of finders made by `around`."""
         if folder not in self._cache.added_models:
             self._cache.added_models.append(folder)
 
     @property
     def added_models(self) -> Sequence[Path]:
-        """Folders that `add_models` was given."""
+        """Folders added by `add_models`."""
         return self._cache.added_models
 
     def models(self) -> Mapping[str, Path]:
-        """Return the folder of every model by name, as `find_model` finds it."""
+        """Return the folders of all models by name, as found by `find_model`."""
         return self._gazebo.models()
 
     def find_world(self, name: str) -> Path | None:
-        """Return a world file on GAZEBO_RESOURCE_PATH or of Trundle, as `gazebo worlds/empty.world` finds it."""
+        """Return a world file on GAZEBO_RESOURCE_PATH or of Trundle, as for `gazebo worlds/empty.world`."""
         path = self._gazebo.find_resource(name)
         return path if path is not None and os.path.isfile(path) else None
 
@@ -206,42 +206,42 @@ class Packages:
         )
         return [folder for folder in tries if os.path.isdir(folder)]
 
-    def resolve(self, uri: str, *, beside: Path, at: Source) -> Path:
+    def resolve(self, uri: str, *, folder: Path, at: Source) -> Path:
         """Return the file of a URI in a description.
 
         Args:
             uri: package://, model://, file://, or a path relative to the containing file.
-            beside: folder of the containing file.
+            folder: folder of the containing file.
             at: position of the URI.
 
         Raises:
-            DescriptionError: it is missing, or outside the readable folders.
+            DescriptionError: the file is missing, or outside the readable folders.
         """
-        root, path = self._located(uri, beside, at)
+        root, path = self._located(uri, folder, at)
         decoded = path.parent / unquote(path.name)
         if not os.path.exists(path) and os.path.exists(decoded):
             path = decoded
         if not os.path.exists(path) and is_stand_in(path) and os.path.exists(path.with_suffix(".obj")):
             path = path.with_suffix(".obj")
-        named = "" if root is None else f"{_shown(uri)}: "  # a path is already in the message
+        label = "" if root is None else f"{_shown(uri)}: "  # a path is already in the message
         if not os.path.exists(path):
-            raise DescriptionError(at, f"{named}no such file {_shown(str(path))}")
+            raise DescriptionError(at, f"{label}no such file {_shown(str(path))}")
         if is_stream(path):
-            raise DescriptionError(at, f"{named}{path} is a pipe, a device or a socket, not a file")
+            raise DescriptionError(at, f"{label}{path} is a pipe, a device or a socket, not a file")
         self.check_readable(path, at, name=uri, root=root)
         return path
 
     def check_readable(self, path: Path, at: Source, *, name: str, root: Path | None = None) -> None:
-        """Refuse a file that is neither below `root` nor in the folders given by the user.
+        """Refuse a file that is neither below `root` nor in the readable folders.
 
         Raises:
-            DescriptionError: it is elsewhere.
+            DescriptionError: the file is elsewhere.
         """
         if self._environment.get(ALLOW_OUTSIDE) == "1":
             return
         is_named = root is not None and Confinement([root], wide=self._cache.wide).allows(path)
         if not (
-            self._in_own.allows(path)
+            self._in_package.allows(path)
             or is_named
             or self._in_ros.allows(path)
             or self._in_gazebo.allows(path)
@@ -255,16 +255,16 @@ class Packages:
 
     @cached_property
     def _ros(self) -> RosPackages:
-        earlier = None if self._earlier is None else self._earlier._ros
-        return RosPackages(self._environment, self._start, self._cache, earlier=earlier)
+        fallback = None if self._fallback is None else self._fallback._ros
+        return RosPackages(self._environment, self._start, self._cache, fallback=fallback)
 
     @cached_property
     def _gazebo(self) -> GazeboPaths:
         return GazeboPaths(self._environment, self._start, self._ros, self._cache)
 
     @cached_property
-    def _in_own(self) -> Confinement:
-        return own_confinement(self._start, self._cache.wide)
+    def _in_package(self) -> Confinement:
+        return package_confinement(self._start, self._cache.wide)
 
     @cached_property
     def _in_ros(self) -> Confinement:
@@ -278,7 +278,7 @@ class Packages:
     def _in_added(self) -> Confinement:
         return Confinement(self._cache.added_models, wide=self._cache.wide)
 
-    def _located(self, uri: str, beside: Path, at: Source) -> tuple[Path | None, Path]:
+    def _located(self, uri: str, folder: Path, at: Source) -> tuple[Path | None, Path]:
         """Return the root folder of the URI's package or model, and the path."""
         scheme, separator, rest = uri.partition("://")
         if not separator:
@@ -291,24 +291,22 @@ class Packages:
             case "file" if rest.startswith("/"):
                 return None, Path(unquote(rest)) if separator else Path(rest)
             case "file":
-                found = None if os.path.exists(beside / rest) else self._gazebo.find_resource(rest)
-                return None, found or beside / rest
+                resource = None if os.path.exists(folder / rest) else self._gazebo.find_resource(rest)
+                return None, resource or folder / rest
             case _:
-                known = "package://, model://, file:// or relative paths"
-                raise DescriptionError(at, f"{_shown(uri)}: {_shown(scheme)}:// is not supported; use {known}")
+                fallback = "package://, model://, file:// or relative paths"
+                raise DescriptionError(at, f"{_shown(uri)}: {_shown(scheme)}:// is not supported; use {fallback}")
 
     def _in_package_or_model(self, scheme: str, rest: str, uri: str, at: Source) -> tuple[Path, Path]:
-        """Find a package or model; URDF has package://, its conversion to SDF model://, so each falls back to the
-        other.
-        """
+        """Find a package, else a model, or vice versa: conversion of URDF to SDF turns package:// into model://."""
         name, _, inside = rest.lstrip("/").partition("/")
         package = self.find_package(name) if scheme == "package" else None
         folder = package or self._gazebo.find_model(name) or self.find_package(name)
         if folder is not None:
             return folder, folder / inside
         no_model = f"no model {_shown(name)!r}{did_you_mean(name, self.models())}; {self._where_models_are()}"
-        looked = self.why_not_found(name) if scheme == "package" else no_model
-        raise DescriptionError(at, f"{_shown(uri)}: {looked}")
+        reason = self.not_found_message(name) if scheme == "package" else no_model
+        raise DescriptionError(at, f"{_shown(uri)}: {reason}")
 
     def _downloaded(self, url: str, at: Source) -> tuple[Path, Path]:
         folder = self._gazebo.find_downloaded(url)
@@ -330,7 +328,7 @@ class Packages:
 
 
 def _shown(name: str) -> str:
-    return name if len(name) <= _LONGEST else f"{name[:_LONGEST]}…"
+    return name if len(name) <= _MAX_SHOWN else f"{name[:_MAX_SHOWN]}…"
 
 
 def _write_configured_files(package: Path) -> list[Path]:

@@ -17,10 +17,10 @@ _READ_HERE = "only ROS 1 launch files are supported"
 
 
 def refuse_ros2_language(file: Path, *, is_launch: bool) -> None:
-    """Refuse a launch file in Python or YAML; `is_launch`: it was given as a launch file, whatever its name.
+    """Refuse a launch file in Python or YAML; with `is_launch`, whatever its name.
 
     Raises:
-        DescriptionError: it is one.
+        DescriptionError: the file is a ROS 2 launch file.
     """
     language = _IN_OTHER_LANGUAGES.get(file.suffix)
     if language is not None and (is_launch or _NAME.fullmatch(file.name)):
@@ -31,7 +31,7 @@ def refuse_ros2(node: "XmlNode") -> None:
     """Refuse ROS 2 syntax.
 
     Raises:
-        DescriptionError: at its first occurrence.
+        DescriptionError: an element uses it.
     """
     if shown := _shown_by(node):
         raise DescriptionError(node.at, f"{shown}: this is a launch file of ROS 2; {_READ_HERE}")
@@ -43,6 +43,6 @@ def _shown_by(node: "XmlNode") -> str | None:
     if node.tag == "node" and node.attribute("exec") is not None and node.attribute("type") is None:
         return "<node exec>"
     for name in node.attributes():
-        if found := _SUBSTITUTION.search(node.attribute(name) or ""):
-            return f"$({found[1]} …)"
+        if match := _SUBSTITUTION.search(node.attribute(name) or ""):
+            return f"$({match[1]} …)"
     return None

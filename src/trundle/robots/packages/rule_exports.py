@@ -19,7 +19,7 @@ def exported_rules(packages: Mapping[str, Path]) -> list[tuple[str, Path]]:
     """Return packages and their exported rule files; unreadable manifests are skipped.
 
     Args:
-        packages: folders by name.
+        packages: package folders by name.
     """
     return [
         (name, folder / file.replace("${prefix}/", ""))

@@ -1,4 +1,4 @@
-"""Surroundings of a file: its package, its workspace, and the folders searched for neighbours."""
+"""Package and workspace of a file, and its parent folders."""
 
 import os
 import stat
@@ -9,17 +9,17 @@ from .confinement import Confinement, WideFolders
 from .crawl import MANIFESTS, Crawl
 
 PARTS = frozenset({"launch", "urdf", "xacro", "meshes", "models", "worlds", "msg"})
-"""Folders that mark a package without package.xml, as in many published tutorials."""
+"""Folders that identify a package without package.xml, as in many published tutorials."""
 _CONTENTS = PARTS | {"config", "materials", "media", "params", "textures"}
-"""Folders that files of such a package may read."""
+"""Readable folders of such a package."""
 _SPACES = {"src": ("src", "devel/share", "install"), "devel": ("devel/share", "src"), "install": ("install", "src")}
-"""Folders of a catkin or colcon workspace, by the one that contains the file."""
-_DEEPEST = 3
-"""Largest depth below a workspace's `src`: a package in a group in a repository."""
-_MAX_LOOKED_AT = 500
+"""Space that contains the file → spaces of a catkin or colcon workspace to search."""
+_MAX_DEPTH = 3
+"""Maximum depth of packages below a workspace's `src`: repository, group, package."""
+_MAX_FOLDERS = 500
 
 
-def own_package(start: Path, wide: WideFolders) -> Path | None:
+def enclosing_package(start: Path, wide: WideFolders) -> Path | None:
     """Return the innermost package or model folder that contains a file or folder, with or without a manifest."""
     for folder in _with_parents(start):
         if any(os.path.exists(folder / name) for name in (*MANIFESTS, "model.config", *PARTS)) and folder not in wide:
@@ -27,32 +27,34 @@ def own_package(start: Path, wide: WideFolders) -> Path | None:
     return None
 
 
-def own_confinement(start: Path, wide: WideFolders) -> Confinement:
-    """Return the folders that a file may read as its own: its package or model folder.
+def package_confinement(start: Path, wide: WideFolders) -> Confinement:
+    """Return the folders readable by a file of a package or model.
 
-    Without a manifest or model.config these are its own folder, and the package's folders such as `meshes`.
+    Without a manifest or model.config these are the file's folder, and the package's folders such as `meshes`.
     """
     folders = list(_with_parents(start)) or [start.parent]
     for folder in folders:
         if any(os.path.isfile(folder / name) for name in (*MANIFESTS, "model.config")) and folder not in wide:
             return Confinement([folder], wide=wide)
-    own = folders[0]
-    around = next((folder for folder in folders if any(os.path.isdir(folder / part) for part in PARTS)), own)
-    return Confinement([own, *(around / name for name in _CONTENTS)], wide=wide, beside=[own, around])
+    start_folder = folders[0]
+    package = next((folder for folder in folders if any(os.path.isdir(folder / part) for part in PARTS)), start_folder)
+    return Confinement(
+        [start_folder, *(package / name for name in _CONTENTS)], wide=wide, visible_in=[start_folder, package]
+    )
 
 
 def workspaces(start: Path) -> Iterator[Path]:
-    """Yield the package folders of the workspace that contains a file or folder, those of its own kind first."""
+    """Yield the spaces of the workspace that contains a file or folder, starting with its own space."""
     for folder in _with_parents(start):
         if _has_manifest(folder):
-            continue  # `src` of a package holds programs
+            continue  # a package's `src` contains programs
         if folder.name in _SPACES and not _has_manifest(folder.parent):
-            beside = (folder.parent / space for space in _SPACES[folder.name])
+            spaces = (folder.parent / space for space in _SPACES[folder.name])
         elif _holds_packages(folder / "src"):
-            beside = (folder / space for space in _SPACES["src"])
+            spaces = (folder / space for space in _SPACES["src"])
         else:
             continue
-        yield from (space for space in beside if os.path.isdir(space))
+        yield from (space for space in spaces if os.path.isdir(space))
         return
 
 
@@ -61,52 +63,52 @@ def _has_manifest(folder: Path) -> bool:
 
 
 def _holds_packages(folder: Path) -> bool:
-    walk = Crawl(folder, max_folders=_MAX_LOOKED_AT, deepest=_DEEPEST)
+    walk = Crawl(folder, max_folders=_MAX_FOLDERS, max_depth=_MAX_DEPTH)
     return any(not names.isdisjoint(MANIFESTS) for _, names in walk)
 
 
 def distinct_folders(folders: Iterable[Path]) -> list[Path]:
-    """Return each folder once, with links resolved, under its first name."""
-    named: dict[str, Path] = {}
+    """Return the folders without duplicates after resolving links, under their first names."""
+    by_real_path: dict[str, Path] = {}
     for folder in folders:
-        named.setdefault(os.path.realpath(folder), folder)
-    return list(named.values())
+        by_real_path.setdefault(os.path.realpath(folder), folder)
+    return list(by_real_path.values())
 
 
 def program_folders(package: str, folder: Path, environment: Mapping[str, str]) -> list[Path]:
     """Return the folders in which catkin and colcon place a package's programs: lib/PACKAGE of a prefix.
 
     Args:
-        package: its name.
-        folder: its folder, in a source space or below a prefix's share.
-        environment: with CMAKE_PREFIX_PATH.
+        package: package name.
+        folder: package folder, in a source space or below a prefix's share.
+        environment: environment with CMAKE_PREFIX_PATH.
     """
     prefixes = [Path(entry) for entry in environment.get("CMAKE_PREFIX_PATH", "").split(os.pathsep) if entry]
     if folder.parent.name == "share":
         prefixes.append(folder.parent.parent)
-    sources = next((each for each in folder.parents if each.name == "src"), None)
+    sources = next((parent for parent in folder.parents if parent.name == "src"), None)
     if sources is not None:
         prefixes += [sources.parent / "devel", sources.parent / "install", sources.parent / "install" / package]
-    homes = (prefix / "lib" / package for prefix in prefixes)
-    return [home for home in dict.fromkeys(homes) if os.path.isdir(home)]
+    folders = (prefix / "lib" / package for prefix in prefixes)
+    return [path for path in dict.fromkeys(folders) if os.path.isdir(path)]
 
 
 def ancestor_folders(start: Path, *, levels: int = 4) -> list[Path]:
-    """Return the folder of a file and its nearest parents, in which neighbours are searched."""
+    """Return the folder of a file and its nearest parents."""
     return list(_with_parents(start))[:levels]
 
 
 def _with_parents(start: Path) -> Iterator[Path]:
-    """Yield a folder, or a file's, and its parents up to the root of the disk or a folder of temporary files."""
+    """Yield a folder, or a file's folder, and its parents below the root or a folder of temporary files."""
     folder = start if os.path.isdir(start) else start.parent
-    for each in (folder, *folder.parents):
-        if each.parent == each or (each != folder and _is_shared(each)):
+    for ancestor in (folder, *folder.parents):
+        if ancestor.parent == ancestor or (ancestor != folder and _is_shared(ancestor)):
             return
-        yield each
+        yield ancestor
 
 
 def _is_shared(folder: Path) -> bool:
-    """True for a folder such as /tmp, in which any user may create a `launch` or a package.xml."""
+    """True for a folder such as /tmp, in which any user may create a package."""
     try:
         mode = os.stat(folder).st_mode
     except OSError:

@@ -1,4 +1,4 @@
-"""Settings that files and users give by name: plugin parameters of SDF, parameters of the ROS graph."""
+"""Named parameters with typed access: of SDF plugins, and of the ROS graph."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Parameters that an XML element has as its children, such as an SDF <plugin>."""
+"""Parameters in the children of an XML element, such as an SDF <plugin>."""
 
 from collections.abc import Sequence
 from typing import Self
@@ -9,62 +9,62 @@ from trundle.base.xmlnode import XmlNode
 from .base import ParamError, Parameters
 
 _OFF = {"0", "0.0", "false"}
-"""Values of parameters that ask for nothing."""
+"""Values that disable a parameter."""
 
 
 class TagParameters(Parameters):
-    """Parameters of one element; a value of no use is named with its line, and the default is used."""
+    """Parameters of one element; an invalid value gives a warning with its line, and the default is used."""
 
     def __init__(self, node: XmlNode | None, report: Diagnostics) -> None:
-        """Read from an element; None: from one without any."""
+        """Wrap an element; None: no parameters."""
         self.node = node
         self.report = report
 
     def __contains__(self, name: str) -> bool:
-        """Tell whether the element has such a child."""
+        """True if the element has a child of that name."""
         return self._child(name) is not None
 
     def section(self, name: str) -> Self:
-        """The parameters of a child."""
+        """Return the parameters of a child."""
         return type(self)(self._child(name), self.report)
 
     def sections(self, name: str) -> list[Self]:
-        """The parameters of each child of one name."""
+        """Return the parameters of each child of one name."""
         return [type(self)(child, self.report) for child in self._children(name)]
 
     def text(self, name: str, default: str | None = None) -> str:
-        """A text; one that is needed is not empty."""
-        found = super().text(name, default)
-        if default is None and not found:
+        """Return a text; a required one must not be empty."""
+        value = super().text(name, default)
+        if default is None and not value:
             raise self._missing(name)
-        return found
+        return value
 
     def texts(self, name: str) -> list[str]:
-        """The text of each child of one name."""
+        """Return the texts of all children of one name."""
         return [child.text for child in self._children(name)]
 
     def attribute(self, name: str) -> str:
-        """An attribute of the element; empty where it has none."""
+        """Return an attribute of the element; empty if absent."""
         return "" if self.node is None else self.node.attribute(name) or ""
 
     @property
     def at(self) -> Source:
-        """Position of the start tag."""
-        assert self.node is not None, "the element is there"
+        """Source position of the start tag."""
+        assert self.node is not None, "the element exists"
         return self.node.at
 
-    def warn(self, what: str, name: str | None = None) -> None:
-        """Name what is wrong with the element, or with one of its parameters."""
+    def warn(self, message: str, name: str | None = None) -> None:
+        """Report a warning at the element, or at one of its parameters."""
         child = None if name is None else self._child(name)
-        self.report.warn(self.at if child is None else child.at, what)
+        self.report.warn(self.at if child is None else child.at, message)
 
     def ignore(self, *names: str) -> None:
-        """Count parameters as read that have no effect."""
+        """Mark parameters without effect as read."""
         for name in names:
             self._child(name)
 
     def warn_unsupported(self, *names: str) -> None:
-        """Count parameters as read, and name those that would have an effect."""
+        """Mark parameters as read, and warn of those that are not disabled."""
         for name in names:
             child = self._child(name)
             if child is not None and not set(child.text.split()) <= _OFF:
@@ -85,16 +85,16 @@ class TagParameters(Parameters):
         child = self._child(name)
         return None if child is None else child.text
 
-    def _refuse(self, name: str, what: str, default: object) -> None:
+    def _reject(self, name: str, message: str, default: object) -> None:
         if default is None:
-            raise ParamError(f"<{name}>{what}")
-        self.warn(f"<{name}>{what}; {_shown(default)} is used", name)
+            raise ParamError(f"<{name}>{message}")
+        self.warn(f"<{name}>{message}; {_formatted(default)} is used", name)
 
     def _missing(self, name: str) -> ParamError:
         return ParamError(f"<{name}> is missing")
 
 
-def _shown(value: object) -> str:
+def _formatted(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, float):

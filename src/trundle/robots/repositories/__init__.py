@@ -1,4 +1,4 @@
-"""Published repositories of ROS packages, by the names that rosdep and apt know them by."""
+"""Published repositories of ROS packages, by package name and rosdep key."""
 
 import lazy_loader
 

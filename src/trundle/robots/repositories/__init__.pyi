@@ -1,6 +1,6 @@
 from .address import https_address as https_address
 from .distribution import (
-    Listed as Listed,
+    ListedRepository as ListedRepository,
     read_distribution as read_distribution,
     read_repository_list as read_repository_list,
     write_rosinstall as write_rosinstall,

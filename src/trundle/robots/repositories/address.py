@@ -1,9 +1,9 @@
-"""Addresses, branches and folders of repositories: those that a hostile file could misuse are refused."""
+"""Validation of repository addresses, branches and folders from possibly hostile files."""
 
 import re
 
 _SCHEMES = ("https", "http", "git")
-"""Network protocols of git that run nothing here; file:// would copy local folders, ssh and ext run programs."""
+"""Protocols of git that run no program; file:// would copy local folders, ssh and ext run programs."""
 _SCP = re.compile(r"(?:ssh://)?git@([\w.-]+)[:/](?![/-])(.+)")
 _ADDRESS = re.compile(r"(\w+)://(?:[\w.-]+@)?([\w][\w.-]*)(:\d+)?/[\w.~/+%-]+")
 _BRANCH = re.compile(r"\w[\w./+#-]*")
@@ -13,13 +13,13 @@ def https_address(url: str) -> str:
     """Return the address of a repository; `git@host:path`, which needs a key, becomes https://host/path.
 
     Raises:
-        ValueError: git would do more with it than fetch from another machine.
+        ValueError: git would do more than fetch from another machine.
     """
-    if named := _SCP.fullmatch(url):
-        url = f"https://{named[1]}/{named[2]}"
+    if scp := _SCP.fullmatch(url):
+        url = f"https://{scp[1]}/{scp[2]}"
     match = _ADDRESS.fullmatch(url)
     if match is None or match[1] not in _SCHEMES or "/../" in f"{url}/":
-        raise ValueError(f"address {url!r} is refused; expected {', '.join(f'{each}://…' for each in _SCHEMES)}")
+        raise ValueError(f"address {url!r} is refused; expected {', '.join(f'{scheme}://…' for scheme in _SCHEMES)}")
     return url
 
 
@@ -27,7 +27,7 @@ def check_branch(name: str) -> str:
     """Return the name of a branch, tag or commit; '' is the default branch.
 
     Raises:
-        ValueError: it is none, such as an option of git.
+        ValueError: not a valid name, such as an option of git.
     """
     if name and (not _BRANCH.fullmatch(name) or ".." in name):
         raise ValueError(f"version {name!r} is refused; expected a branch, tag or commit")
@@ -38,7 +38,7 @@ def check_folder(path: str) -> str:
     """Return a relative path that stays below its folder.
 
     Raises:
-        ValueError: it is absolute, hidden, or leads outside.
+        ValueError: the path is absolute, hidden, or leads outside.
     """
     parts = path.split("/")
     if not path.isprintable() or "\\" in path or any(not part or part[0] in ".-~" or ":" in part for part in parts):

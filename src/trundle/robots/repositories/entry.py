@@ -1,4 +1,4 @@
-"""Facts about one repository."""
+"""Index entry of a repository."""
 
 from typing import NamedTuple
 
@@ -16,6 +16,6 @@ class Entry(NamedTuple):
 
 
 def nearest_distros(distro: str) -> list[str]:
-    """Return all distributions, nearest to one first; of two equally near ones the older, which has fewer changes."""
+    """Return all distributions, sorted by distance from one; of two at equal distance the older is first."""
     position = ROSDISTROS.index(distro)
     return sorted(ROSDISTROS, key=lambda other: abs(ROSDISTROS.index(other) - position))

@@ -1,4 +1,4 @@
-"""Index of packages: which repository and branch a distribution has them from."""
+"""Index of packages: repository and branch in each distribution."""
 
 from collections.abc import Iterable
 from functools import cache
@@ -19,7 +19,7 @@ class Checkout(NamedTuple):
     branch: str
     """'': the default branch."""
     distro: str
-    """Distribution that the branch is of; '' if unknown."""
+    """Distribution of the branch; '' if unknown."""
 
 
 class Index:
@@ -32,12 +32,12 @@ class Index:
                 self._by_package.setdefault(package, []).append(entry)
 
     def find(self, package: str, distro: str) -> Checkout | None:
-        """Return where a package is for a distribution, else for the nearest that has it; None if nowhere."""
+        """Return a package's repository for a distribution, else for the nearest one that has it, else None."""
         entries = self._by_package.get(package, [])
-        for each in nearest_distros(distro):
+        for candidate in nearest_distros(distro):
             for url, branches, _ in entries:
-                if each in branches:
-                    return Checkout(url, branches[each], each)
+                if candidate in branches:
+                    return Checkout(url, branches[candidate], candidate)
         return Checkout(entries[0].url, "", "") if entries else None
 
     def names(self) -> list[str]:
@@ -54,5 +54,5 @@ def shipped_index() -> Index:
 
 def repository_hint(package: str) -> str:
     """Return '; it is published at …' for a missing package, or nothing."""
-    found = shipped_index().find(package, "noetic")
-    return "" if found is None else f"; it is published at {found.url.removesuffix('.git')}"
+    checkout = shipped_index().find(package, "noetic")
+    return "" if checkout is None else f"; it is published at {checkout.url.removesuffix('.git')}"

@@ -1,4 +1,4 @@
-"""Index files of the user's: a distribution.yaml, or an index-v4.yaml that names several (REP 143, REP 153)."""
+"""Reader of users' index files: a distribution.yaml, or an index-v4.yaml that names several (REP 143, REP 153)."""
 
 import os
 from collections.abc import Iterator
@@ -27,11 +27,11 @@ def read_index(location: str, distro: str) -> Index:
     """Read an index.
 
     Args:
-        location: a URL, or the path of a file.
-        distro: distribution of a distribution.yaml, which does not say it.
+        location: URL or path.
+        distro: distribution of a distribution.yaml, which does not name it.
 
     Raises:
-        DescriptionError: it cannot be read.
+        DescriptionError: the index cannot be read.
     """
     if "://" not in location:
         location = os.path.abspath(os.path.expanduser(location))
@@ -49,11 +49,11 @@ def _distributions(document: dict[str, Any], location: str) -> Iterator[Entry]:
         facts = named.get(distro) if isinstance(named, dict) else None
         files = facts.get("distribution") if isinstance(facts, dict) else None
         for file in files if isinstance(files, list) else []:
-            yield from read_distribution(_load(_beside(location, str(file))), distro)
+            yield from read_distribution(_load(_resolve(location, str(file))), distro)
 
 
-def _beside(location: str, file: str) -> str:
-    """Return the location of a file that an index names; one from the web names only files of the web."""
+def _resolve(location: str, file: str) -> str:
+    """Return the location of a file named in an index; an index from the web may only name files from the web."""
     if urlsplit(location).scheme in _WEB:
         return urljoin(location, file)
     folder = Path(location).parent

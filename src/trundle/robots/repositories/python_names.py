@@ -1,4 +1,4 @@
-"""Python libraries by the keys that package.xml names them with."""
+"""Python libraries by rosdep key, as in package.xml."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""Table of facts made from the published rosdistro index.
+"""Table of repositories, made from the published rosdistro index.
 
 A line is a repository: its URL, `distro:branch …`, and its packages, separated by tabs.
 """

@@ -8,8 +8,8 @@ from .urdf_tree import Robot, RobotJoint
 
 
 def parent_from_child(joint: RobotJoint, position: float) -> Pose:
-    """Return the child link's frame in the parent's with the joint at `position` [rad or m], which fixed, floating and
-    planar joints ignore.
+    """Return the child link's pose in the parent's frame at `position` [rad or m]; fixed, floating and planar joints
+    ignore it.
     """
     if joint.type in ("fixed", "floating", "planar"):
         return joint.parent_from_joint
@@ -20,20 +20,20 @@ def parent_from_child(joint: RobotJoint, position: float) -> Pose:
 
 
 def root_from_links(robot: Robot, positions: Mapping[str, float]) -> dict[str, Pose]:
-    """Return every link's frame in the root link's; joints not named are at zero, mimic joints follow their leaders."""
-    followed = dict(positions)
+    """Return link poses in the root link's frame; other joints are at zero, mimic joints follow their leaders."""
+    joint_positions = dict(positions)
     for joint in robot.joints:
-        if joint.mimic is not None and joint.name not in followed:
-            leader = followed.get(joint.mimic.joint, 0.0)
-            followed[joint.name] = joint.mimic.multiplier * leader + joint.mimic.offset
-    below: dict[str, list[RobotJoint]] = {}
+        if joint.mimic is not None and joint.name not in joint_positions:
+            leader = joint_positions.get(joint.mimic.joint, 0.0)
+            joint_positions[joint.name] = joint.mimic.multiplier * leader + joint.mimic.offset
+    joints_by_parent: dict[str, list[RobotJoint]] = {}
     for joint in robot.joints:
-        below.setdefault(joint.parent, []).append(joint)
-    found = {robot.root: Pose()}
+        joints_by_parent.setdefault(joint.parent, []).append(joint)
+    poses = {robot.root: Pose()}
     pending = [robot.root]
     while pending:
         parent = pending.pop()
-        for joint in below.get(parent, []):
-            found[joint.child] = found[parent] @ parent_from_child(joint, followed.get(joint.name, 0.0))
+        for joint in joints_by_parent.get(parent, []):
+            poses[joint.child] = poses[parent] @ parent_from_child(joint, joint_positions.get(joint.name, 0.0))
             pending.append(joint.child)
-    return found
+    return poses

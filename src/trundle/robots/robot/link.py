@@ -20,22 +20,22 @@ from .values import read_number, read_origin, read_vector
 
 
 def read_link(node: XmlNode, materials: Materials, report: Diagnostics) -> RobotLink:
-    """Read one link as urdfdom does: a link with a fault is kept, and nothing is read after the fault."""
+    """Read one link as urdfdom does: after a fault the rest of the link is not read, but the link stays."""
     name = node.required_attribute("name")
     inertial, is_sound = _read_inertial(node, name, report)
     shapes: dict[str, list[RobotShape]] = {"visual": [], "collision": []}
     nodes = [*node.all("visual"), *node.all("collision")]
     read = 0
     while is_sound and read < len(nodes):
-        each = nodes[read]
-        shape = _read_shape(each, materials if each.tag == "visual" else None, report)
+        child = nodes[read]
+        shape = _read_shape(child, materials if child.tag == "visual" else None, report)
         is_sound = shape is not None
         read += 1
         if shape is not None:
-            shapes[each.tag].append(shape)
+            shapes[child.tag].append(shape)
     if nodes[read:]:
-        what = ", ".join(dict.fromkeys(f"<{each.tag}>" for each in nodes[read:]))
-        report.warn(nodes[read].at, f"link {name!r}: as by urdfdom, {what} after a fault is not read")
+        skipped = ", ".join(dict.fromkeys(f"<{child.tag}>" for child in nodes[read:]))
+        report.warn(nodes[read].at, f"link {name!r}: as by urdfdom, {skipped} after a fault is not read")
     node.attributes()
     node.report_unread(report)
     return RobotLink(
@@ -48,7 +48,7 @@ def read_link(node: XmlNode, materials: Materials, report: Diagnostics) -> Robot
 
 
 def _read_inertial(link: XmlNode, name: str, report: Diagnostics) -> tuple[RobotInertial | None, bool]:
-    """Return a link's inertial, and False if it is incomplete: urdfdom keeps the mass of a faulty inertia."""
+    """Return a link's inertial, and False if it is incomplete; urdfdom keeps the mass of an incomplete inertia."""
     node = link.find("inertial")
     if node is None:
         return None, True
@@ -62,8 +62,8 @@ def _read_inertial(link: XmlNode, name: str, report: Diagnostics) -> tuple[Robot
         values = [read_number(inertia, key, report) for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")]
     is_whole = None not in values
     if not is_whole:
-        what = f"link {name!r}: <inertial> without a whole <inertia>; as by urdfdom, its mass of {mass:g} kg is kept"
-        report.warn(node.at, f"{what} and its inertia is zero")
+        reason = f"link {name!r}: <inertial> without a whole <inertia>; as by urdfdom, its mass of {mass:g} kg is kept"
+        report.warn(node.at, f"{reason} and its inertia is zero")
     ixx, iyy, izz, ixy, ixz, iyz = cast(list[float], values) if is_whole else [0.0] * 6
     inertial = RobotInertial(
         mass=mass, link_from_com=read_origin(node, report), moments=(ixx, iyy, izz), products=(ixy, ixz, iyz)

@@ -1,4 +1,4 @@
-"""Reader of a URDF's <material>: a color, a texture, or the name of one defined before, by urdfdom's rules."""
+"""Reader of a URDF's <material> by urdfdom's rules: a color, a texture, or the name of an earlier one."""
 
 import math
 from collections.abc import Iterable
@@ -15,13 +15,13 @@ class RobotMaterial:
     """Color and texture of a material."""
 
     rgba: Rgba | None = None
-    """None without a color."""
+    """None: no color."""
     texture: str = ""
     """URI of the texture, as written."""
 
 
 class Materials:
-    """Materials by name; those defined inside a link are visible to the links after it."""
+    """Materials by name; a material defined in a link is available to later links."""
 
     def __init__(self, nodes: Iterable[XmlNode], report: Diagnostics) -> None:
         """Read the robot's materials."""

@@ -13,23 +13,23 @@ from .values import read_optional, read_origin, read_vector
 
 _TYPES: tuple[str, ...] = get_args(RobotJointType)
 _LIMITED = ("revolute", "prismatic")
-_FOR_OTHERS = ("gazebo", "transmission")
-"""Children of <robot> for the conversion to SDF and for ros_control."""
+_UNREAD_TAGS = ("gazebo", "transmission")
+"""Children of <robot> that other readers use: the conversion to SDF, and ros_control."""
 
 
 def read_robot(root: XmlNode, report: Diagnostics) -> Robot:
     """Read <robot>.
 
     Raises:
-        DescriptionError: not a tree: a joint names an unknown link, a link has two parents, there is no root or
-            several; or a limit that urdfdom requires is missing.
+        DescriptionError: the links form no tree (unknown link, two parents, no or several roots), or a limit that
+            urdfdom requires is missing.
     """
     if root.tag != "robot":
         raise DescriptionError(root.at, f"a URDF starts with <robot>, not <{root.tag}>")
     name = root.attribute("name")
     if not root.all("link"):
-        what = "the robot has no links; is it a part to include, or was a xacro macro never called?"
-        raise DescriptionError(root.at, what)
+        reason = "the robot has no links; is it a part to include, or was a xacro macro never called?"
+        raise DescriptionError(root.at, reason)
     if not name:
         raise DescriptionError(root.at, "<robot> needs a name; is it a part to include, not a robot?")
     version = root.attribute("version")
@@ -39,24 +39,24 @@ def read_robot(root: XmlNode, report: Diagnostics) -> Robot:
     link_nodes = root.all("link")
     links = [read_link(node, materials, report) for node in link_nodes]
     joints = [_read_joint(node, report) for node in root.all("joint")]
-    for tag in _FOR_OTHERS:
+    for tag in _UNREAD_TAGS:
         root.all(tag)
     for control in root.all("ros2_control"):
         control.mark_all_read()
-        what = "<ros2_control> is ROS 2's: nothing drives its joints; ROS 1 has <transmission> for each joint"
-        report.warn(control.at, f"{what}, the plugin libgazebo_ros_control.so and controllers in a launch file")
+        reason = "<ros2_control> is ROS 2's: nothing drives its joints; ROS 1 has <transmission> for each joint"
+        report.warn(control.at, f"{reason}, the plugin libgazebo_ros_control.so and controllers in a launch file")
     root.attributes()
     root.report_unread(report)
-    first = _root(root, links, joints)
-    reached = _reached(first, joints)
-    ring = [link for link in links if link.name not in reached]
-    if ring:
-        names = ", ".join(repr(link.name) for link in ring[:5])
-        report.warn(ring[0].at, f"links {names} form a loop apart from the root; as urdfdom does, they are left out")
+    root_link = _root(root, links, joints)
+    reached = _reached(root_link, joints)
+    loop = [link for link in links if link.name not in reached]
+    if loop:
+        names = ", ".join(repr(link.name) for link in loop[:5])
+        report.warn(loop[0].at, f"links {names} form a loop apart from the root; as urdfdom does, they are left out")
     return Robot(
         name=name,
         at=root.at,
-        root=first,
+        root=root_link,
         links=tuple(link for link in links if link.name in reached),
         joints=tuple(joint for joint in joints if joint.child in reached),
     )
@@ -69,15 +69,15 @@ def _root(node: XmlNode, links: list[RobotLink], joints: list[RobotJoint]) -> st
             raise DescriptionError(link.at, f"a second link {link.name!r}; the first is at {names[link.name].at}")
         names[link.name] = link
     parents: dict[str, RobotJoint] = {}
-    taken: set[str] = set()
+    joint_names: set[str] = set()
     for joint in joints:
-        if joint.name in taken:
+        if joint.name in joint_names:
             raise DescriptionError(joint.at, f"a second joint {joint.name!r}")
-        taken.add(joint.name)
+        joint_names.add(joint.name)
         for role, link in (("parent", joint.parent), ("child", joint.child)):
             if link not in names:
-                there = ", ".join(map(repr, names))
-                raise DescriptionError(joint.at, f"joint {joint.name!r}: no {role} link {link!r}; links here: {there}")
+                listed = ", ".join(map(repr, names))
+                raise DescriptionError(joint.at, f"joint {joint.name!r}: no {role} link {link!r}; links here: {listed}")
         if joint.child in parents:
             other = parents[joint.child].name
             raise DescriptionError(joint.at, f"link {joint.child!r} has two parents, by {other!r} and {joint.name!r}")
@@ -94,12 +94,12 @@ def _root(node: XmlNode, links: list[RobotLink], joints: list[RobotJoint]) -> st
 
 def _reached(root: str, joints: list[RobotJoint]) -> set[str]:
     """Return the root and every link below it."""
-    below: dict[str, list[str]] = {}
+    children_of: dict[str, list[str]] = {}
     for joint in joints:
-        below.setdefault(joint.parent, []).append(joint.child)
+        children_of.setdefault(joint.parent, []).append(joint.child)
     reached, pending = {root}, [root]
     while pending:
-        children = below.get(pending.pop(), [])
+        children = children_of.get(pending.pop(), [])
         reached.update(children)
         pending += children
     return reached
@@ -117,8 +117,8 @@ def _read_joint(node: XmlNode, report: Diagnostics) -> RobotJoint:
             raise DescriptionError(node.at, f"joint {name!r} has no <{tag} link=…>")
     dynamics = node.find("dynamics")
     if dynamics is not None and dynamics.attribute("damping") is None and dynamics.attribute("friction") is None:
-        what = f"joint {name!r}: <dynamics> with neither damping nor friction, for which urdfdom refuses the robot"
-        report.warn(dynamics.at, f"{what}; both are 0")
+        fault = f"joint {name!r}: <dynamics> with neither damping nor friction, for which urdfdom refuses the robot"
+        report.warn(dynamics.at, f"{fault}; both are 0")
     joint = RobotJoint(
         name=name,
         type=cast(RobotJointType, type_),
@@ -135,8 +135,8 @@ def _read_joint(node: XmlNode, report: Diagnostics) -> RobotJoint:
     node.find("calibration")  # for real hardware
     safety = node.find("safety_controller")  # for ros_control
     if safety is not None and safety.attribute("k_velocity") is None:
-        what = f"joint {name!r}: <safety_controller> without k_velocity, for which urdfdom refuses the robot"
-        report.warn(safety.at, f"{what}; it is ignored")
+        fault = f"joint {name!r}: <safety_controller> without k_velocity, for which urdfdom refuses the robot"
+        report.warn(safety.at, f"{fault}; it is ignored")
     node.report_unread(report)
     return joint
 

@@ -1,4 +1,4 @@
-"""Readers of numeric URDF attributes; a bad value is reported and gives None or the default."""
+"""Readers of numeric URDF attributes; an invalid value gives a warning, and None or the default."""
 
 from trundle.base.diagnostics import Diagnostics
 from trundle.base.xmlnode import MAX_LENGTH, MAX_NUMBER, XmlNode, is_within, parse_numbers
@@ -22,8 +22,8 @@ def read_vector(node: XmlNode, key: str, report: Diagnostics, *, limit: float = 
     text = node.attribute(key)
     values = parse_numbers(text or "")
     if values is None or len(values) != 3 or not is_within(values, limit):
-        what = f"<{node.tag} {key}={text!r}> needs three numbers within ±{limit:g}"
-        report.warn(node.at, f"{what}; it is ignored")
+        fault = f"<{node.tag} {key}={text!r}> needs three numbers within ±{limit:g}"
+        report.warn(node.at, f"{fault}; it is ignored")
         return None
     return (values[0], values[1], values[2])
 

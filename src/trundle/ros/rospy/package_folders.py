@@ -39,7 +39,7 @@ def _packages() -> "tuple[Packages, ...]":
     from trundle.robots.packages import Packages
 
     first = Packages(os.environ, start=starts[0])
-    return (first, *(Packages(os.environ, start=start, known=first) for start in starts[1:]))
+    return (first, *(Packages(os.environ, start=start, fallback=first) for start in starts[1:]))
 
 
 def _program_folder() -> Path | None:

@@ -23,7 +23,7 @@ def painted_terrain(terrain: Heightmap, at: Source, report: Diagnostics) -> Mesh
     """Return terrain with its layers as one texture; None with a warning if it cannot be drawn."""
     assert terrain.path is not None
     try:
-        heights = read_heights(terrain.path, most=_MAX_SAMPLES)
+        heights = read_heights(terrain.path, max_samples=_MAX_SAMPLES)
     except MeshError as error:
         report.warn(at, f"heightmap {terrain.uri!r}: {error}; it is not drawn")
         return None

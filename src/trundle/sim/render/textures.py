@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from trundle.base.diagnostics import Diagnostics, Source
-from trundle.robots.meshes import Texture, ignored_decoder_warnings, image_file, why_undecoded
+from trundle.robots.meshes import Texture, decoding_error, ignored_decoder_warnings, image_file
 
 from .scene import Scene
 
@@ -28,7 +28,7 @@ def load_texture(texture: Texture) -> NDArray[np.uint8] | str:
                 image.thumbnail((LARGEST_TEXTURE_PX, LARGEST_TEXTURE_PX))
             return np.ascontiguousarray(np.asarray(image.convert("RGB")))
     except Exception as error:  # every decoder behind Pillow fails in its own way
-        return why_undecoded(error)
+        return decoding_error(error)
 
 
 def report_unreadable_textures(scene: Scene, report: Diagnostics) -> None:

@@ -23,7 +23,7 @@ def find_location(location: str, environment: Mapping[str, str]) -> Path:
     packages = Packages(environment, start=Path.cwd())
     folder = packages.find_package(name)
     if folder is None:
-        raise UsageError(f"No such package/stack '{name}'\n{packages.why_not_found(name)}")
+        raise UsageError(f"No such package/stack '{name}'\n{packages.not_found_message(name)}")
     return folder / subpath
 
 

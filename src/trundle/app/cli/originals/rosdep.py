@@ -81,5 +81,5 @@ def _find_packages(names: list[str]) -> dict[str, Path]:
     result = {name: packages.find_package(name) for name in names}
     for name, folder in result.items():
         if folder is None:
-            raise UsageError(packages.why_not_found(name))
+            raise UsageError(packages.not_found_message(name))
     return {name: folder for name, folder in result.items() if folder is not None}

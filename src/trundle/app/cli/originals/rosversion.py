@@ -38,7 +38,7 @@ def main(args: argparse.Namespace) -> int:
         return 0
     folder = packages.find_package(args.package)
     if folder is None:
-        raise UsageError(f"Cannot locate [{args.package}]; {packages.why_not_found(args.package)}")
+        raise UsageError(f"Cannot locate [{args.package}]; {packages.not_found_message(args.package)}")
     print(_version(folder), end=end)
     return 0
 

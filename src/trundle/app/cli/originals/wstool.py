@@ -6,7 +6,7 @@ from pathlib import Path
 
 from trundle.base.diagnostics import UsageError
 from trundle.base.files import read_text
-from trundle.robots.repositories import Listed, read_repository_list, write_rosinstall
+from trundle.robots.repositories import ListedRepository, read_repository_list, write_rosinstall
 
 from ..repository_list import fetch_list
 
@@ -67,11 +67,11 @@ def _merge(file: Path, lists: list[str], *, updates: bool) -> int:
     return fetch_list(read_text(file), str(file), file.parent) if updates else 0
 
 
-def _add(file: Path, rows: list[Listed]) -> None:
+def _add(file: Path, rows: list[ListedRepository]) -> None:
     known = read_repository_list(read_text(file), str(file)) if file.is_file() else []
     merged = {row.folder: row for row in (*known, *rows)}
     file.write_text(write_rosinstall(merged.values()))
 
 
 def _entry(name: str, url: str, version: str) -> str:
-    return write_rosinstall([Listed(name, url, version)])
+    return write_rosinstall([ListedRepository(name, url, version)])

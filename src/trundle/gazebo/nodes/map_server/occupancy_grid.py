@@ -15,7 +15,7 @@ from trundle.base.atomic_write import write_atomically
 from trundle.base.diagnostics import UsageError
 from trundle.base.files import read_file
 from trundle.base.yaml_loader import load_yaml
-from trundle.robots.meshes import ignored_decoder_warnings, why_undecoded
+from trundle.robots.meshes import decoding_error, ignored_decoder_warnings
 
 _FREE, _OCCUPIED, _UNKNOWN = 0, 100, -1
 _MAX_BYTES = 256 * 1024 * 1024
@@ -102,7 +102,7 @@ def _pixels(picture: Path) -> NDArray[np.float64]:
     except UsageError:
         raise
     except Exception as error:  # every decoder of Pillow has its own exceptions
-        raise UsageError(f"{picture}: {why_undecoded(error)}") from None
+        raise UsageError(f"{picture}: {decoding_error(error)}") from None
     return pixels[:, :, None] if pixels.ndim == 2 else pixels
 
 

@@ -106,7 +106,7 @@ def read_sources(settings: RosParameters) -> list[Source]:
 def _config(settings: RosParameters, name: str) -> Sequence[bool]:
     values = settings.items(name)
     if len(values) != SIZE or not all(isinstance(value, bool | int) for value in values):
-        raise ParamError(f"parameter {settings.where}/{name} must be {SIZE} truth values, got {values!r}")
+        raise ParamError(f"parameter {settings.namespace}/{name} must be {SIZE} truth values, got {values!r}")
     return [bool(value) for value in values]
 
 

@@ -42,11 +42,11 @@ def read_options(settings: RosParameters) -> Options:
     """
     for name, reason in _UNSUPPORTED.items():
         if settings.flag(name, default=False):
-            raise ParamError(f"parameter {settings.where}/{name}: {reason}")
+            raise ParamError(f"parameter {settings.namespace}/{name}: {reason}")
     if "binary_encoder" in settings and settings.text("binary_encoder") not in ("default", "b64"):
-        raise ParamError(f"parameter {settings.where}/binary_encoder: {_UNSUPPORTED['bson_only_mode']}")
+        raise ParamError(f"parameter {settings.namespace}/binary_encoder: {_UNSUPPORTED['bson_only_mode']}")
     globs = {
-        name: read_globs(settings.text(name), f"{settings.where}/{name}") if name in settings else ()
+        name: read_globs(settings.text(name), f"{settings.namespace}/{name}") if name in settings else ()
         for name in ("topics_glob", "services_glob")
     }
     services = globs["services_glob"]

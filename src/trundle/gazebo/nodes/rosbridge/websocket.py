@@ -103,6 +103,6 @@ def _certificate(settings: RosParameters) -> ssl.SSLContext | None:
     try:
         context.load_cert_chain(certificate, key or None)
     except (OSError, ssl.SSLError) as error:
-        parameters = f"parameters {settings.where}/certfile and keyfile"
+        parameters = f"parameters {settings.namespace}/certfile and keyfile"
         raise UsageError(f"{parameters}: no certificate and key in {certificate!r}, {key!r}: {error}") from None
     return context

@@ -52,7 +52,7 @@ def reconfigurable_pid(node: Node, settings: RosParameters, endpoints: Endpoints
         pid.i_clamp, pid.antiwindup = min(clamps), bool(values["antiwindup"])
         return values
 
-    endpoints.add(ReconfigureServer(node, options, apply, namespace=settings.where))
+    endpoints.add(ReconfigureServer(node, options, apply, namespace=settings.namespace))
     return pid
 
 

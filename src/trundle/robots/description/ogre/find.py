@@ -57,7 +57,7 @@ def find_material(name: str, script: XmlNode, *, packages: Packages, report: Dia
 
 def _resolved(uri: XmlNode, folder: Path, packages: Packages, report: Diagnostics) -> Path | None:
     try:
-        return packages.resolve(uri.text, beside=folder, at=uri.at)
+        return packages.resolve(uri.text, folder=folder, at=uri.at)
     except DescriptionError as error:
         if not uri.text.endswith(_DEFAULT) and not _is_in_stand_in(uri.text, packages):
             report.warn(error.at, f"{error.what}; it is left out")

@@ -140,7 +140,7 @@ class Elements:
         """Return the included file and its content; None if it cannot be read."""
         uri = include.find("uri")
         try:
-            path = self.packages.resolve("" if uri is None else uri.text, beside=folder, at=Source("include"))
+            path = self.packages.resolve("" if uri is None else uri.text, folder=folder, at=Source("include"))
             file = model_file(path, Diagnostics()) if path.is_dir() else path
             return file, XmlDocument.read(file)
         except (DescriptionError, UsageError):

@@ -90,7 +90,7 @@ def _file(node: XmlNode, context: Context) -> tuple[Path | None, str]:
         context.report.warn(node.at, f"<{node.tag}> without <filename>; it is left out")
         return None, uri
     try:
-        return context.packages.resolve(uri, beside=context.folder, at=node.at), uri
+        return context.packages.resolve(uri, folder=context.folder, at=node.at), uri
     except DescriptionError as error:
         context.report.warn(error.at, f"{error.what}; this <{node.tag}> is left out")
         return None, uri

@@ -171,7 +171,7 @@ def _polyline(shapes: list[XmlNode], context: Context) -> Geometry:
 
 def _path(uri: str, shape: XmlNode, context: Context, otherwise: str) -> Path | None:
     try:
-        return context.packages.resolve(uri, beside=context.folder, at=shape.at)
+        return context.packages.resolve(uri, folder=context.folder, at=shape.at)
     except DescriptionError as error:
         context.report.warn(error.at, f"{error.what}; {otherwise}")
         return None

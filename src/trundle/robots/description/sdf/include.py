@@ -35,7 +35,7 @@ def open_include(node: XmlNode, context: Context) -> tuple[XmlNode, Context] | N
         report.warn(node.at, "<include> without <uri>; it is left out")
         return None
     try:
-        path = context.packages.resolve(uri, beside=context.folder, at=node.at)
+        path = context.packages.resolve(uri, folder=context.folder, at=node.at)
         file = model_file(path, report) if path.is_dir() else path
         return _root(file, node, context)
     except ReadBudgetError as error:

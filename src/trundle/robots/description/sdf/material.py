@@ -58,7 +58,7 @@ def _albedo(material: XmlNode, context: Context) -> Path | None:
     if image is None or not image.text:
         return None
     try:
-        return context.packages.resolve(image.text, beside=context.folder, at=image.at)
+        return context.packages.resolve(image.text, folder=context.folder, at=image.at)
     except DescriptionError as error:
         report.warn(error.at, f"{error.what}; the texture is left out")
         return None

@@ -270,7 +270,7 @@ class _Lowering:
 
     def _path(self, uri: str, shape: RobotShape, kind: str = "mesh") -> Path | None:
         try:
-            return self.context.packages.resolve(uri, beside=self.context.folder, at=shape.at)
+            return self.context.packages.resolve(uri, folder=self.context.folder, at=shape.at)
         except DescriptionError as error:
             self.report.warn(error.at, f"{error.what}; the {kind} is left out")
             return None

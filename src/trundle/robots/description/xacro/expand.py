@@ -193,7 +193,7 @@ def _patched(
     def find(name: str) -> str:
         folder = packages.find_folder(name)
         if folder is None:
-            raise MissingPackageError(name, f"$(find {name}): {packages.why_not_found(name)}")
+            raise MissingPackageError(name, f"$(find {name}): {packages.not_found_message(name)}")
         if packages.stand_in_package(folder) is not None and name not in warned:
             warned.add(name)
             message = f"no package {name!r}: a stand-in of boxes is used; put the original on ROS_PACKAGE_PATH"
@@ -314,7 +314,7 @@ def _parsed(data: bytes, filename: str, report: Diagnostics, budget: ReadBudget)
 def _expect_stand_in(file: Path, packages: Packages, at: Source) -> None:
     package = packages.absent_package(file)
     if package is not None:
-        message = f"{packages.why_not_found(package)}; its stand-in has no {file.name}"
+        message = f"{packages.not_found_message(package)}; its stand-in has no {file.name}"
         raise DescriptionError(at, message, missing_packages=(package,))
 
 

@@ -58,12 +58,12 @@ def read_motion(root: XmlNode, metres: float) -> Motion:
     tracks: dict[int, Track] = {}
     for number, (node, _) in enumerate(_nodes(root)):
         steps = _steps(node)
-        own = changes.get(node.attribute("id") or "", {})
-        moved = [(step, change) for step in steps for change in own.get(step.sid, [])]
+        node_changes = changes.get(node.attribute("id") or "", {})
+        moved = [(step, change) for step in steps for change in node_changes.get(step.sid, [])]
         if not moved:
             continue
         times = np.unique(np.concatenate([change[0] for _, change in moved]))
-        poses = np.stack([_metric(_product(_at(steps, own, time)), metres) for time in times.tolist()])
+        poses = np.stack([_metric(_product(_at(steps, node_changes, time)), metres) for time in times.tolist()])
         if np.isfinite(poses).all():
             tracks[number] = track_from_poses(times, poses)
     if not tracks:
@@ -93,13 +93,13 @@ def _nodes(root: XmlNode) -> Iterator[tuple[XmlNode, int]]:
 
 
 def _steps(node: XmlNode) -> list[_Step]:
-    found: list[_Step] = []
+    steps: list[_Step] = []
     for child in node.children:
         count = _COUNTS.get(child.tag)
         values = parse_numbers(child.text) if count else None
         if values is not None and len(values) == count:
-            found.append(_Step(child.tag, child.attribute("sid") or "", np.array(values)))
-    return found
+            steps.append(_Step(child.tag, child.attribute("sid") or "", np.array(values)))
+    return steps
 
 
 def _changes(root: XmlNode) -> dict[str, dict[str, list[_Change]]]:
@@ -112,15 +112,17 @@ def _changes(root: XmlNode) -> dict[str, dict[str, list[_Change]]]:
         animation = pending.pop(0)
         pending += animation.all("animation")
         channels += animation.all("channel")
-        elements |= {each.attribute("id") or "": each for tag in ("source", "sampler") for each in animation.all(tag)}
-    found: dict[str, dict[str, list[_Change]]] = {}
+        elements |= {
+            element.attribute("id") or "": element for tag in ("source", "sampler") for element in animation.all(tag)
+        }
+    changes: dict[str, dict[str, list[_Change]]] = {}
     for channel in channels:
         node, _, path = (channel.attribute("target") or "").partition("/")
         sid, component = _component(path)
         change = _change(channel, lambda name: elements.get((name or "").lstrip("#")), component)
         if change is not None:
-            found.setdefault(node, {}).setdefault(sid, []).append(change)
-    return found
+            changes.setdefault(node, {}).setdefault(sid, []).append(change)
+    return changes
 
 
 def _component(path: str) -> tuple[str, int | None]:
@@ -139,7 +141,7 @@ def _change(channel: XmlNode, find: Callable[[str | None], XmlNode | None], comp
     sampler = find(channel.attribute("source"))
     if sampler is None:
         return None
-    sources = {each.attribute("semantic"): find(each.attribute("source")) for each in sampler.all("input")}
+    sources = {input_.attribute("semantic"): find(input_.attribute("source")) for input_ in sampler.all("input")}
     times, values = (_floats(sources.get(semantic)) for semantic in ("INPUT", "OUTPUT"))
     if times is None or values is None or len(times) > _MAX_KEYS or len(values) % len(times):
         return None
@@ -150,13 +152,13 @@ def _change(channel: XmlNode, find: Callable[[str | None], XmlNode | None], comp
 def _floats(source: XmlNode | None) -> _Array | None:
     array = source.find("float_array") if source is not None else None
     numbers = parse_numbers(array.text) if array is not None else None
-    found = np.array(numbers or [], dtype=np.float64)
-    return found if len(found) and np.isfinite(found).all() else None
+    values = np.array(numbers or [], dtype=np.float64)
+    return values if len(values) and np.isfinite(values).all() else None
 
 
 def _at(steps: list[_Step], changes: dict[str, list[_Change]], time: float) -> list[tuple[str, _Array]]:
     """Return a node's transforms at a time."""
-    found: list[tuple[str, _Array]] = []
+    transforms: list[tuple[str, _Array]] = []
     for step in steps:
         values = step.values.copy()
         for times, keys, component in changes.get(step.sid, []):
@@ -165,8 +167,8 @@ def _at(steps: list[_Step], changes: dict[str, list[_Change]], time: float) -> l
                 values[component] = now[0]
             elif component is None and len(now) == len(values):
                 values = now
-        found.append((step.kind, values))
-    return found
+        transforms.append((step.kind, values))
+    return transforms
 
 
 def _product(steps: list[tuple[str, _Array]]) -> _Array:

@@ -16,9 +16,9 @@ from ..mesh import MeshError, Rgba
 from ..raw import MAX_TRIANGLES, RawPart, at_corners, triangle_fans, used_vertices
 from .skin import read_skin
 
-_DEEPEST = 64
+_MAX_DEPTH = 64
 _MAX_NODES = 100_000
-"""Most nodes visited; nodes can be instantiated repeatedly, so a small file can expand without bound."""
+"""Maximum nodes visited; a small file can instantiate nodes repeatedly and expand without bound."""
 _Material = tuple[Rgba | None, str | None]
 _Corners = NDArray[np.float32] | None
 _Triangles = list[tuple[str, NDArray[np.float64], NDArray[np.int64], _Corners, _Corners, NDArray[np.int64]]]
@@ -34,11 +34,11 @@ def read_collada(data: bytes, *, skins: bool = False) -> list[RawPart]:
     right in them.
 
     Args:
-        data: the file.
-        skins: read the vertices' bone weights, too, in the file's own unit.
+        data: contents of the file.
+        skins: also read the vertices' bone weights, in the file's own unit.
 
     Raises:
-        MeshError: it is not well-formed, or has no scene.
+        MeshError: the file is not well-formed, or has no scene.
         Exception: any other exception of pycollada.
     """
     import collada
@@ -62,7 +62,7 @@ def read_tree(data: bytes) -> XmlNode:
     """Parse a COLLADA file to XML elements.
 
     Raises:
-        MeshError: it is not well-formed.
+        MeshError: the file is not well-formed.
     """
     try:
         return parse_xml(data, name="")
@@ -81,7 +81,7 @@ class _SceneWalk(Struct):
 
     def parts(self, node: Any, world_from_parent: NDArray[np.float64], name: str, depth: int) -> Iterator[RawPart]:
         self.nodes += 1
-        if depth > _DEEPEST or self.nodes > _MAX_NODES:
+        if depth > _MAX_DEPTH or self.nodes > _MAX_NODES:
             raise MeshError("recursive nodes, or too many of them")
         if hasattr(node, "geometry"):
             yield from self._geometry(node.geometry, node.materials, world_from_parent, name)
@@ -94,14 +94,16 @@ class _SceneWalk(Struct):
             )
         elif hasattr(node, "children"):
             world_from_node = world_from_parent @ np.asarray(node.matrix, dtype=np.float64)
-            own = getattr(node, "node", node).xmlnode
+            element = getattr(node, "node", node).xmlnode
             for child in node.children:
-                yield from self.parts(child, world_from_node, own.get("name") or own.get("id") or name, depth + 1)
+                yield from self.parts(
+                    child, world_from_node, element.get("name") or element.get("id") or name, depth + 1
+                )
 
     def _geometry(
         self, geometry: Any, materials: Any, world_from_node: NDArray[np.float64], name: str, skin: Any = None
     ) -> Iterator[RawPart]:
-        targets = {str(each.symbol): each.target for each in materials or ()}
+        targets = {str(binding.symbol): binding.target for binding in materials or ()}
         if id(geometry) not in self.geometries:
             self.geometries[id(geometry)] = _triangles(geometry)
         normals_from_node = np.linalg.pinv(world_from_node[:3, :3]).astype(np.float32)  # transposed
@@ -112,7 +114,7 @@ class _SceneWalk(Struct):
             rgba, texture = _material(targets.get(symbol))
             outwards = -1 if np.linalg.det(world_from_node[:3, :3]) < 0 else 1
             yield RawPart(
-                names=tuple(str(each) for each in (name, geometry.name, geometry.id) if each),
+                names=tuple(str(binding) for binding in (name, geometry.name, geometry.id) if binding),
                 vertices=(vertices @ world_from_node[:3, :3].T + world_from_node[:3, 3]) * self.metres,
                 faces=faces[:, ::outwards],
                 rgba=rgba,
@@ -125,7 +127,7 @@ class _SceneWalk(Struct):
 
 
 def _triangles(geometry: Any) -> _Triangles:
-    found: _Triangles = []
+    result: _Triangles = []
     for primitive in geometry.primitives:
         if primitive.vertex is None or primitive.vertex_index is None or not len(primitive.vertex_index):
             continue
@@ -142,8 +144,8 @@ def _triangles(geometry: Any) -> _Triangles:
         if primitive.normal is not None and primitive.normal_index is not None:
             normals = _corners(primitive.normal, primitive.normal_index, corners, triangles, 3)
         points = np.asarray(primitive.vertex, dtype=np.float64)
-        found.append((str(primitive.material), *used_vertices(points, corners), uv, normals, np.unique(corners)))
-    return found
+        result.append((str(primitive.material), *used_vertices(points, corners), uv, normals, np.unique(corners)))
+    return result
 
 
 def _corners(
@@ -159,21 +161,21 @@ def _material(material: Any) -> _Material:
     effect = getattr(material, "effect", None)
     if effect is None:
         return None, None
-    seen = effect.emission if effect.shadingtype == "constant" else effect.diffuse
-    sampler = getattr(seen, "sampler", None)
+    shade = effect.emission if effect.shadingtype == "constant" else effect.diffuse
+    sampler = getattr(shade, "sampler", None)
     if sampler is not None:
         image = getattr(getattr(sampler, "surface", None), "image", None)
         path = unquote(str(image.path)).removeprefix("file://") if image is not None else None
         return (0.8, 0.8, 0.8, _opacity(effect)), path
-    if seen is None:
+    if shade is None:
         return None, None
-    values = [min(max(float(value), 0.0), 1.0) for value in seen]
+    values = [min(max(float(value), 0.0), 1.0) for value in shade]
     r, g, b, a = (*values, 1.0)[:4] if len(values) >= 3 else (0.8, 0.8, 0.8, 1.0)
     return (r, g, b, a * _opacity(effect)), None
 
 
 def _opacity(effect: Any) -> float:
-    """Return the opacity by COLLADA's two rules; 0 is what some exporters write for opaque."""
+    """Return the opacity by COLLADA's two rules; some exporters write 0 for opaque."""
     transparent = effect.transparent
     if transparent is None or not hasattr(transparent, "__len__") or len(transparent) < 3:
         return 1.0

@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 from ..raw import RawSkin
 
 _MAX_INFLUENCES = 8
-"""Most influences of a vertex; the largest are kept."""
+"""Maximum influences of a vertex; the largest are kept."""
 
 
 def read_skin(skin: Any, vertices: NDArray[np.float64], used: NDArray[np.int64]) -> RawSkin | None:
-    """Read pycollada's `Skin` for some of its geometry's vertices; None if it lacks one of them.
+    """Read pycollada's `Skin` for some vertices of its geometry; None if a vertex is missing.
 
     Args:
-        skin: with its bind_shape_matrix.
+        skin: skin with a bind_shape_matrix.
         vertices: (N, 3) used vertices of the geometry.
         used: (N,) their indices in the geometry.
     """
@@ -26,10 +26,10 @@ def read_skin(skin: Any, vertices: NDArray[np.float64], used: NDArray[np.int64])
     influences = np.zeros((len(used), _MAX_INFLUENCES), dtype=np.intp)
     weights = np.zeros((len(used), _MAX_INFLUENCES))
     for row, vertex in enumerate(used.tolist()):
-        joints, own = skin.joint_index[vertex], amounts[skin.weight_index[vertex]]
-        kept = np.argsort(-own, kind="stable")[:_MAX_INFLUENCES]
-        kept = kept[(joints[kept] >= 0) & (joints[kept] < len(names)) & (own[kept] > 0.0)]
-        influences[row, : len(kept)], weights[row, : len(kept)] = joints[kept], own[kept]
+        joints, vertex_weights = skin.joint_index[vertex], amounts[skin.weight_index[vertex]]
+        order = np.argsort(-vertex_weights, kind="stable")[:_MAX_INFLUENCES]
+        order = order[(joints[order] >= 0) & (joints[order] < len(names)) & (vertex_weights[order] > 0.0)]
+        influences[row, : len(order)], weights[row, : len(order)] = joints[order], vertex_weights[order]
     weights[:, 0] = np.where(weights.sum(axis=1) > 0.0, weights[:, 0], 1.0)
     widest = max(int(np.count_nonzero(weights, axis=1).max(initial=1)), 1)
     weights /= weights.sum(axis=1, keepdims=True)
