@@ -1,6 +1,6 @@
 """Bags: files of messages."""
 
-from .bag import Bag, BagMessage, BagMessageWithConnectionHeader, Compression
+from .bag import Bag, Compression
 from .exceptions import (
     ROSBagEncryptException,
     ROSBagEncryptNotSupportedException,
@@ -8,6 +8,7 @@ from .exceptions import (
     ROSBagFormatException,
     ROSBagUnindexedException,
 )
+from .tuples import BagMessage, BagMessageWithConnectionHeader
 
 TYPE_CHECKING = False  # not from `typing`, whose import takes longer than this package's
 if TYPE_CHECKING:

@@ -4,11 +4,9 @@ import collections
 import io
 import time
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from itertools import pairwise
 from pathlib import Path
-from statistics import median
 from types import TracebackType
-from typing import Any, NamedTuple, Self
+from typing import Any, Self
 
 import genpy
 import roslib.names
@@ -19,48 +17,15 @@ from .exceptions import ROSBagEncryptNotSupportedException, ROSBagException
 from .message_class import message_class
 from .read_file import ReadFile
 from .streams import SpooledStream
+from .tuples import (
+    BagMessage,
+    BagMessageWithConnectionHeader,
+    CompressionTuple,
+    TopicTuple,
+    TypesAndTopicsTuple,
+    median_frequency,
+)
 from .write_file import WriteFile
-
-
-class BagMessage(NamedTuple):
-    """Message of a bag."""
-
-    topic: str
-    message: Any
-    timestamp: rospy.Time
-
-
-class BagMessageWithConnectionHeader(NamedTuple):
-    """Message of a bag, with the header of its connection."""
-
-    topic: str
-    message: Any
-    timestamp: rospy.Time
-    connection_header: dict[str, bytes]
-
-
-class TopicTuple(NamedTuple):
-    """Topic of a bag."""
-
-    msg_type: str
-    message_count: int
-    connections: int
-    frequency: float | None
-
-
-class TypesAndTopicsTuple(NamedTuple):
-    """Types (type → MD5) and topics (name → TopicTuple) of a bag."""
-
-    msg_types: dict[str, str]
-    topics: dict[str, TopicTuple]
-
-
-class CompressionTuple(NamedTuple):
-    """Compression of a bag, and sizes [bytes]."""
-
-    compression: str
-    uncompressed: int
-    compressed: int
 
 
 class Compression:
@@ -370,7 +335,7 @@ class Bag:
             if topic_filters is None or name in topic_filters:
                 connections = [connection for connection in counts if connection.topic == name]
                 total = sum(counts[connection] for connection in connections)
-                frequency = _frequency(sorted(stamps.get(name, [])))
+                frequency = median_frequency(sorted(stamps.get(name, [])))
                 topics[name] = TopicTuple(connections[0].type, total, len(connections), frequency)
         return TypesAndTopicsTuple(types, topics)
 
@@ -435,10 +400,3 @@ def _header(connection: BagConnection) -> dict[str, bytes]:
     if connection.latching:
         header["latching"] = "1"
     return {key: value.encode() for key, value in header.items()}
-
-
-def _frequency(stamps_ns: Sequence[int]) -> float | None:
-    """Median frequency [Hz]; None for fewer than two messages, or if most have the same stamp."""
-    periods = [(b - a) / 1e9 for a, b in pairwise(stamps_ns)]
-    period = median(periods) if periods else 0.0
-    return 1.0 / period if period > 0.0 else None
