@@ -240,7 +240,7 @@ def test_a_bookmark_keeps_its_note_and_seeks_back(user: WorldUser) -> None:
 def test_the_object_under_the_pointer_is_outlined(user: WorldUser) -> None:
     """The raft has an outline while the pointer is over it."""
     _reset(user, "raft")
-    _choose(user, "Select nothing")
+    _choose(user, "Clear the selection")
     user.page.mouse.move(*user.at((1.5, -1.2)))
     user.until_still(lambda: user.picture().tobytes())
     before = user.picture()

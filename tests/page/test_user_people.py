@@ -42,7 +42,7 @@ def viewer(chromium: Any, owner: WorldUser) -> Iterator[WorldUser]:
     owner.page.get_by_role("combobox", name="Search commands").fill("link to this view")
     owner.page.keyboard.press("Enter")
     owner.button("Look only").click()
-    owner.page.get_by_text("can drive and change nothing.").wait_for()
+    owner.page.get_by_text("cannot drive or change anything.").wait_for()
     link = owner.page.get_by_role("textbox", name="Link").input_value()
     owner.page.keyboard.press("Escape")
     viewer = WorldUser(chromium, link)

@@ -93,7 +93,7 @@ class Viewer(WorldUser):
         """Show or hide a part of one model in its inspector."""
         self.pick(model)
         self.page.locator(".inspector").get_by_role("button", name=part, exact=True).click()
-        self.run("Select nothing")
+        self.run("Clear the selection")
 
     def run(self, command: str) -> None:
         """Run a command by its name."""
@@ -132,7 +132,7 @@ def user(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Vi
         user = Viewer(chromium, url)
         user.run("Show or hide the cameras")
         user.look_down()
-        user.run("Select nothing")
+        user.run("Clear the selection")
         user.until_area(RED, 0.16)
         yield user
         user.close()
@@ -237,7 +237,7 @@ def test_wind_and_origin_are_marked_and_remembered(user: Viewer) -> None:
     assert user.is_shown("World origin")
     assert not user.is_shown("Grid")
     user.look_down()
-    user.run("Select nothing")
+    user.run("Clear the selection")
     user.until_changed(before, lambda mask: _within(mask, (-0.01, 0.01), (0.2, 0.8)).any(axis=1).all())
     user.show("Wind", "World origin")
     user.until_changed(before, lambda mask: not mask.any())

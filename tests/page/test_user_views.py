@@ -75,7 +75,7 @@ def user(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lo
     with running_page(*words, environment={"HOME": str(folder)}, folder=folder) as url:
         user = Looker(chromium, url)
         user.run("Show or hide the cameras")
-        user.run("Select nothing")
+        user.run("Clear the selection")
         user.side("Views")
         yield user
         user.close()
@@ -111,7 +111,7 @@ def test_first_person_looks_ahead_from_the_selection(user: Looker) -> None:
     """From the cart's roof, the red box is straight ahead below the horizon, and the cart's front is below it."""
     user.side("Inspector")
     user.pick("cart")
-    user.run("First person from what is selected")
+    user.run("First person from the selection")
 
     def is_ahead() -> bool:
         red, middle = user.extent(RED), user.at((0, 0))
@@ -123,9 +123,9 @@ def test_first_person_looks_ahead_from_the_selection(user: Looker) -> None:
         )
 
     user.until(is_ahead)
-    user.run("First person from what is selected")
+    user.run("First person from the selection")
     user.until(lambda: user.width(GREEN) > 0)
-    user.run("Select nothing")
+    user.run("Clear the selection")
 
 
 def test_the_view_through_a_camera_has_its_field_of_view(user: Looker) -> None:

@@ -28,7 +28,7 @@ function imported(file: string): string[] {
   return [...specifiers].map(([, path = ""]) => resolve(dirname(file), path));
 }
 
-it("imports from its own floor or from below", () => {
+it("imports only from its own floor or lower ones", () => {
   const files = globSync("*/**/*.{ts,tsx}", { cwd: SOURCE }).map((file) => resolve(SOURCE, file));
   expect(files.length).toBeGreaterThan(300);
   const upward = files.flatMap((file) =>

@@ -87,7 +87,7 @@ function Actions({ page }: PanelProps): JSX.Element {
   return (
     <>
       <Select
-        label="What is drawn"
+        label="Graph view"
         value={state.view.value}
         choices={GRAPH_VIEWS}
         onChange={(view) => {

@@ -14,7 +14,7 @@ describe("keys", () => {
     expect(keysOf(key({ key: "Z", ctrlKey: true, shiftKey: true }))).toBe("Ctrl Shift Z");
   });
 
-  it("belong to a field that has the focus", () => {
+  it("go to a focused field", () => {
     const field = document.createElement("input");
     const button = document.createElement("button");
     expect(takesKeys(field, "w")).toBe(true);
@@ -23,14 +23,14 @@ describe("keys", () => {
     expect(takesKeys(document.body, " ")).toBe(false);
   });
 
-  it("are a slider's only where they move it", () => {
+  it("go to a slider only if they move it", () => {
     const slider = Object.assign(document.createElement("input"), { type: "range" });
     expect(takesKeys(slider, "w")).toBe(false);
     expect(takesKeys(slider, "ArrowLeft")).toBe(true);
     expect(takesKeys(slider, "End")).toBe(true);
   });
 
-  it("run the command that can run, until it is removed", () => {
+  it("run an enabled command until it is removed", () => {
     const commands = new CommandList();
     let ran = 0;
     let enabled = false;
@@ -49,7 +49,7 @@ describe("keys", () => {
     expect([commands.press("F"), ran]).toEqual([false, 1]);
   });
 
-  it("are with Space the page's after the mouse pressed a button, and the button's after the keyboard went there", () => {
+  it("with Space run the page's command after a mouse click on a button, and press the button after keyboard focus", () => {
     const commands = new CommandList();
     let played = 0;
     commands.add({ id: "play", title: "Play", group: "Simulation", keys: "Space", run: () => (played += 1) });

@@ -4,7 +4,7 @@ import { expect, it } from "vitest";
 import { freezable } from "../../src/app/freeze";
 import { FakeConnection } from "../fake_connection";
 
-it("holds messages and time while it is frozen, and hands them over afterwards", () => {
+it("buffers messages and stops time while frozen, and delivers them afterwards", () => {
   const connection = new FakeConnection();
   const frozen = signal(false);
   const view = freezable(connection, frozen);

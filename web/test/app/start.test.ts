@@ -12,8 +12,8 @@ const shellOf = (page: FakePage): Shell => new Shell(page, page.commands, docume
 
 beforeEach(() => localStorage.clear());
 
-describe("what a page shows first", () => {
-  it("is the robot, once there is something of it to see, and once only", () => {
+describe("the first view of a page", () => {
+  it("frames the robot once, as soon as it is visible", () => {
     const page = fakePage();
     const { extent } = page.world;
     page.world.extent = new Box3();
@@ -27,20 +27,20 @@ describe("what a page shows first", () => {
     expect(page.views.framed).toEqual([extent]);
   });
 
-  it("is left alone when a person has begun to look around, or a file says where to look from", () => {
+  it("is unchanged if a person has moved the camera, or a file has a view", () => {
     const page = fakePage();
     startView(shellOf(page));
     page.scene.element.dispatchEvent(new Event("pointerdown"));
     const filed = fakePage({ rviz: { name: "a.rviz", text: "", writable: false, saved: false } });
     startView(shellOf(filed));
-    for (const each of [page, filed]) {
-      each.world.manifest.value = MANIFEST;
-      each.scene.tick();
-      expect(each.views.framed).toEqual([]);
+    for (const fake of [page, filed]) {
+      fake.world.manifest.value = MANIFEST;
+      fake.scene.tick();
+      expect(fake.views.framed).toEqual([]);
     }
   });
 
-  it("has no displays of what the simulated world draws itself", () => {
+  it("has no displays of objects that the simulated world draws", () => {
     const page = fakePage();
     const grid = page.displays.show("rviz/Grid", null, null);
     const tf = page.displays.show("rviz/TF", null, null);
@@ -48,7 +48,7 @@ describe("what a page shows first", () => {
     expect([grid.enabled.value.value, tf.enabled.value.value]).toEqual([false, true]);
   });
 
-  it("has a robot model once a graph describes a robot", () => {
+  it("has a robot model once a graph has a robot description", () => {
     const page = fakePage({ kind: "graph" });
     const robot = page.displays.show("rviz/RobotModel", null, null);
     startDisplays(shellOf(page));
@@ -65,7 +65,7 @@ describe("what a page shows first", () => {
     expect(page.selection.value).toEqual({ kind: "model", model: "rp2w" });
   });
 
-  it("has the theme's background until another is chosen", () => {
+  it("has the theme's background until another one is chosen", () => {
     const page = fakePage({ kind: "graph" });
     startDisplays(shellOf(page));
     const { backgroundColor } = page.displays;

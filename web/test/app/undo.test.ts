@@ -2,7 +2,7 @@ import { expect, it, vi } from "vitest";
 
 import { UndoHistory } from "../../src/app/undo";
 
-it("takes edits back and does them again, with their titles", () => {
+it("undoes and redoes edits, with their titles", () => {
   const undo = new UndoHistory();
   let value = 0;
   const set = (to: number) => () => {
@@ -21,7 +21,7 @@ it("takes edits back and does them again, with their titles", () => {
   expect(undo.redoTitle.value).toBeNull();
 });
 
-it("takes back nothing earlier than an edit that is on its way", async () => {
+it("undoes nothing earlier while an edit is in progress", async () => {
   const undo = new UndoHistory();
   const taken: string[] = [];
   const record = (title: string): void =>
@@ -42,7 +42,7 @@ it("takes back nothing earlier than an edit that is on its way", async () => {
   expect(taken).toEqual(["second", "first"]);
 });
 
-it("goes on after an edit that failed", async () => {
+it("continues after a failed edit", async () => {
   const undo = new UndoHistory();
   const taken: string[] = [];
   undo.record(

@@ -32,7 +32,7 @@ async function bundle(options: Parameters<typeof build>[0]): Promise<Rolldown.Ro
 }
 
 test(
-  "every package in the page's bundle has its licence beside it",
+  "every package in the page's bundle has its licence in licenses.txt",
   async () => {
     const modules = new Set<string>();
     const collect: Plugin = {
@@ -91,6 +91,6 @@ test(
   SLOW,
 );
 
-test("the lock names no registry, so that anybody's mirror serves", () => {
+test("the lock file names no registry, so that any mirror works", () => {
   expect(readFileSync(`${WEB}/package-lock.json`, "utf8")).not.toMatch(/https?:\/\/[^"]*\.tgz|"resolved"/);
 });

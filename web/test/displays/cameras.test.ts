@@ -57,7 +57,7 @@ describe("points of a depth image", () => {
     expect(read.words[3]).toBe(0xffffff);
   });
 
-  it("leave out what was not measured", () => {
+  it("leave out unmeasured pixels", () => {
     expect(cloud(depthPoints(depth("16UC1", [0, 1000]), info(), null)).count).toBe(1);
     expect(cloud(depthPoints(depth("32FC1", [NaN, Infinity]), info(), null)).count).toBe(0);
   });
@@ -127,14 +127,14 @@ describe("points of a depth image", () => {
     );
   });
 
-  it("are as large as a pixel sees", () => {
+  it("are as large as a pixel's view", () => {
     expect(autoSize(info(), 2)).toBeCloseTo(0.02);
     expect(autoSize(info({ binning_x: 2 }), 1)).toBeCloseTo(0.02);
     expect(autoSize(info({ K: new Float64Array(9) }), 1)).toBe(0);
   });
 });
 
-it("the projection's topic stands beside the image's", () => {
+it("the CameraInfo topic is a sibling of the image's", () => {
   expect(cameraInfoTopic("/head/camera/image_raw")).toBe("/head/camera/camera_info");
 });
 
@@ -145,8 +145,8 @@ describe("a camera's projection", () => {
     const matrix = projection(calibration, size, zoom);
     if (typeof matrix === "string") throw new Error(matrix);
     const pose = cameraPose(calibration, { position: new Vector3(), orientation: new Quaternion() });
-    const seen = point.clone().sub(pose.position).applyQuaternion(pose.orientation.clone().invert());
-    const clip = new Vector4(seen.x, seen.y, seen.z, 1).applyMatrix4(matrix);
+    const inCamera = point.clone().sub(pose.position).applyQuaternion(pose.orientation.clone().invert());
+    const clip = new Vector4(inCamera.x, inCamera.y, inCamera.z, 1).applyMatrix4(matrix);
     return [((clip.x / clip.w + 1) / 2) * size.width, ((1 - clip.y / clip.w) / 2) * size.height].map(
       (value) => Math.round(value * 1e6) / 1e6,
     );
@@ -162,7 +162,7 @@ describe("a camera's projection", () => {
     expect(pixel(calibration, new Vector3(0, 0, 5))).toEqual([310, 250]);
   });
 
-  it("stands beside its frame in a stereo pair", () => {
+  it("is offset from its frame in a stereo pair", () => {
     const right = info({ width: 640, height: 480, P: Float64Array.of(500, 0, 310, -50, 0, 500, 250, 0, 0, 0, 1, 0) });
     expect(pixel(right, new Vector3(0.1, 0, 2))).toEqual([310, 250]);
   });
@@ -183,11 +183,11 @@ describe("a camera's projection", () => {
     [info({ P: new Float64Array(12).fill(NaN) }), "Contains invalid floating point values (nans or infs)"],
     [info({ P: new Float64Array(2) }), "Contains invalid floating point values (nans or infs)"],
     [info({ P: new Float64Array(12) }), "CameraInfo/P resulted in an invalid position calculation (nans or infs)"],
-  ])("of no use is refused", (calibration, sentence) =>
+  ])("that is invalid is refused", (calibration, sentence) =>
     expect(projection(calibration, { width: 2, height: 1 }, 1)).toBe(sentence),
   );
 
-  it("of no size takes the picture's", () => {
+  it("without a size takes the picture's", () => {
     expect(calibratedSize(info({ width: 0, height: 0 }), { width: 7, height: 5 })).toEqual({ width: 7, height: 5 });
   });
 });
@@ -222,7 +222,7 @@ describe("DepthCloud", () => {
     expect(display.cloudProperties.size.value.value).toBeCloseTo(0.01);
   });
 
-  it("waits for the colors, and names what does not fit", () => {
+  it("waits for the color image, and names mismatches", () => {
     const { display, around } = start(true);
     around.frames.set("optical");
     around.connection.receive("/c/camera_info", info());
@@ -255,7 +255,7 @@ describe("DepthCloud", () => {
     ]);
   });
 
-  it("says what it does not support", () => {
+  it("reports unsupported options", () => {
     const { display } = start(false);
     display.occlusion.value.value = true;
     expect(status(display, "Unsupported")).toBe("warn: Occlusion Compensation: not supported here");

@@ -160,7 +160,7 @@ describe("a cloud", () => {
     );
   });
 
-  it("of no points is one", () => {
+  it("of no points is valid", () => {
     expect(cloud(readCloud(message([]))).count).toBe(0);
   });
 });
@@ -178,19 +178,19 @@ describe("color transformers", () => {
     expect(supported(floats)).toEqual(["AxisColor", "FlatColor", "Intensity", "RGBF32"]);
   });
 
-  it("prefer the wanted, then RGB8, then Intensity", () => {
+  it("prefer the saved one, then RGB8, then Intensity", () => {
     expect(choose("FlatColor", supported(colored))).toBe("FlatColor");
     expect(choose("", supported(colored))).toBe("RGB8");
     expect(choose("RGB8", supported(plain))).toBe("Intensity");
   });
 
-  it("take no packed color of another type", () => {
+  it("ignore packed colors of another type", () => {
     expect(
       packedColor(cloud(readCloud(message([[0, 0, 0, 0]], { fields: [...XYZ, field("rgb", 12, UINT16)] })))),
     ).toBeUndefined();
   });
 
-  it("find intensities where intensity is asked for", () => {
+  it("use the channel intensities for intensity", () => {
     const old = cloud(readCloud(message([[0, 0, 0, 7]], { fields: [...XYZ, field("intensities", 12)] })));
     expect(intensityChannel(old, "intensity")?.name).toBe("intensities");
     expect(intensityChannel(old, "other")).toBeUndefined();
@@ -211,7 +211,7 @@ describe("bounds", () => {
     expect(channelBounds(read, field("intensity", 12))).toEqual({ min: -2, max: 999999 });
   });
 
-  it("of an axis are those of the fixed frame and leave out what is not finite", () => {
+  it("of an axis are in the fixed frame and ignore non-finite points", () => {
     expect(axisBounds(read, 2, new Matrix4())).toEqual({ min: -3, max: 2 });
     expect(axisBounds(read, 2, new Matrix4().makeTranslation(0, 0, 10))).toEqual({ min: 7, max: 12 });
     expect(axisBounds(read, 0, new Matrix4().makeRotationZ(Math.PI / 2)).min).toBeCloseTo(-1);
@@ -248,24 +248,24 @@ describe("a pointer", () => {
   );
   const ray = (to: Vector3): Raycaster => new Raycaster(new Vector3(), to.normalize());
 
-  it("meets the nearest point that it hits", () => {
+  it("picks the nearest point that it hits", () => {
     expect(nearestPoint(read, 0.05, new Matrix4(), ray(new Vector3(1, 0, 0)))?.index).toBe(1);
   });
 
-  it("meets the point that it passes closest where it hits none", () => {
+  it("picks the point that it passes closest if it hits none", () => {
     expect(nearestPoint(read, 0.001, new Matrix4(), ray(new Vector3(1, 0.001, 0)))?.index).toBe(0);
   });
 
-  it("meets points where the cloud stands", () => {
-    const met = nearestPoint(read, 0.05, new Matrix4().makeTranslation(0, -1, 0), ray(new Vector3(1, 0, 0)));
-    expect([met?.index, met?.distance]).toEqual([3, 3]);
+  it("picks points of a moved cloud", () => {
+    const hit = nearestPoint(read, 0.05, new Matrix4().makeTranslation(0, -1, 0), ray(new Vector3(1, 0, 0)));
+    expect([hit?.index, hit?.distance]).toEqual([3, 3]);
   });
 
-  it("meets nothing beside the points", () => {
+  it("picks nothing beside the points", () => {
     expect(nearestPoint(read, 0.05, new Matrix4(), ray(new Vector3(0, 0, 1)))).toBeNull();
   });
 
-  it("a box holds points where their cloud stands", () => {
+  it("a box picks points of a moved cloud", () => {
     const right = (point: Vector3): boolean => point.x > 1.5;
     const here = pointsWithin(read, new Matrix4(), right);
     const shifted = pointsWithin(read, new Matrix4().makeTranslation(-100, 0, 0), right);

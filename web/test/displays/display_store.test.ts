@@ -49,11 +49,11 @@ interface StoreSetup extends Setup {
 }
 
 function makeStore(): StoreSetup {
-  const made = setup();
+  const base = setup();
   const undo = new FakeUndo();
   const views = { save: (): YamlMapping => ({}), load: () => [] };
   const tools = { save: () => [], load: () => [] };
-  return { ...made, undo, store: new DisplayStore({ ...made.context, undo, views, tools }) };
+  return { ...base, undo, store: new DisplayStore({ ...base.context, undo, views, tools }) };
 }
 
 function file(displays: string): string {
@@ -81,7 +81,7 @@ describe("the list", () => {
     expect(names()).toEqual(["Probe"]);
   });
 
-  it("starts what is enabled, within groups only while the group is", () => {
+  it("starts enabled displays, in groups only while the group is enabled", () => {
     const { store } = makeStore();
     store.load(
       file(`
@@ -109,7 +109,7 @@ describe("the list", () => {
     expect([first.running, second.running, first.starts]).toEqual([true, true, 2]);
   });
 
-  it("goes on where one display throws, in groups as well", () => {
+  it("continues when a display throws, also in groups", () => {
     const { store } = makeStore();
     store.load(
       file(`
@@ -127,7 +127,7 @@ describe("the list", () => {
     expect((sound as Probe).updates).toBe(1);
   });
 
-  it("takes rviz's word for whether a display is on: Enabled, else Value, else off", () => {
+  it("reads whether a display is on from Enabled, else Value, else off", () => {
     const { store } = makeStore();
     store.load(
       file(`
@@ -139,7 +139,7 @@ describe("the list", () => {
     expect(store.displays.value.map((display) => display.enabled.value.value)).toEqual([true, true, false]);
   });
 
-  it("lists what it cannot show, with the reason, and keeps it in the file", () => {
+  it("lists unsupported displays with the reason, and keeps them in the file", () => {
     const { store } = makeStore();
     store.load(
       file(`
@@ -167,7 +167,7 @@ describe("the list", () => {
     expect(store.offers.value).toEqual([]);
   });
 
-  it("counts the edits since it was saved, and nothing that came by itself", () => {
+  it("counts a person's edits since it was saved, and no automatic changes", () => {
     const { store, undo } = makeStore();
     const { value } = store.backgroundColor;
     const paint = (): void =>
@@ -193,7 +193,7 @@ describe("the list", () => {
     expect(store.changes.value).toBe(2);
   });
 
-  it("starts with grid, robot and tf, those that are known", () => {
+  it("starts with the registered ones of grid, robot and tf", () => {
     const { store } = makeStore();
     expect(store.displays.value.map((display) => display.className)).toContain("rviz/Grid");
   });
@@ -210,7 +210,7 @@ describe("the fixed frame", () => {
     });
   });
 
-  it("is worked out anew when frames appear", () => {
+  it("is computed again when frames appear", () => {
     const { store, frames } = makeStore();
     frames.forget("map");
     frames.set("base_link", "odom");
@@ -225,7 +225,7 @@ describe("the fixed frame", () => {
       pairs.map(([name, parent]) => ({ name, parent, isStatic: false, stamp: 0n, rate: null, publisher: null })),
     );
 
-  it("is map below utm, the root where no frame has a name that stands still, and map where there is nothing", () => {
+  it("is map below utm, the root if no frame has a fixed name, and map without frames", () => {
     expect(tree(["utm", null], ["map", "utm"], ["odom", "map"], ["base", "odom"])).toBe("map");
     expect(tree(["torso", null], ["head", "torso"])).toBe("torso");
     expect(tree()).toBe("map");

@@ -31,9 +31,9 @@ function started(effort: readonly number[], properties: object = {}): Effort {
 }
 
 function lines(display: Effort): BillboardLines[] {
-  const found: BillboardLines[] = [];
-  display.root.traverse((part) => part instanceof BillboardLines && found.push(part));
-  return found;
+  const lines: BillboardLines[] = [];
+  display.root.traverse((part) => part instanceof BillboardLines && lines.push(part));
+  return lines;
 }
 
 describe("Effort", () => {
@@ -61,7 +61,7 @@ describe("Effort", () => {
     expect(lines(started([20, 5], { Joints: { turn: false } }))).toEqual([]);
   });
 
-  it("says when there is no robot", () => {
+  it("reports a missing robot description", () => {
     const display = started([20, 5], { "Robot Description": "nothing" });
     expect(display.statuses.value.get("URDF")?.text).toBe(
       "Parameter [nothing] does not exist, and was not found by searchParam()",

@@ -72,6 +72,6 @@ export function header(
 
 /** A display's status by its name, as `warn: No messages received`. */
 export function status(display: Display, name: string): string | undefined {
-  const found = display.statuses.peek().get(name);
-  return found === undefined ? undefined : `${found.level}: ${found.text}`;
+  const status = display.statuses.peek().get(name);
+  return status === undefined ? undefined : `${status.level}: ${status.text}`;
 }

@@ -15,7 +15,7 @@ describe("lines of a grid", () => {
     for (let k = 2; k < points.length; k += 3) expect(points[k]).toBe(0);
   });
 
-  it("stand in the plane that is asked for", () => {
+  it("lie in the chosen plane", () => {
     const points = gridLines(2, 0, 0.5, "YZ");
     for (let k = 0; k < points.length; k += 3) expect(points[k]).toBe(0);
     expect(Math.max(...points)).toBe(0.5);
@@ -41,7 +41,7 @@ describe("Grid", () => {
     expect(scene.displays.children).toHaveLength(0);
   });
 
-  it("says which transform is missing, and hides", () => {
+  it("reports a missing transform, and hides", () => {
     const { context } = setup();
     const grid = new Grid(context);
     grid.load({ "Reference Frame": "nowhere" });
@@ -51,7 +51,7 @@ describe("Grid", () => {
     expect(grid.root.visible).toBe(false);
   });
 
-  it("draws broad lines when they are asked for", () => {
+  it("draws billboard lines if chosen", () => {
     const { context, scene } = setup();
     const grid = new Grid(context);
     grid.start();
@@ -82,7 +82,7 @@ describe("Axes", () => {
     expect(box.max.x).toBeCloseTo(3);
   });
 
-  it("are drawn anew when their frame moves, and only then", () => {
+  it("are redrawn only when their frame moves", () => {
     const { context, frames, invalidated } = fakes();
     frames.set("base", 1);
     const axes = new AxesDisplay(context);
@@ -97,7 +97,7 @@ describe("Axes", () => {
     expect(invalidated.count).toBe(before + 1);
   });
 
-  it("leave a trail where they are asked to", () => {
+  it("leave a trail if enabled", () => {
     const { context, frames, scene } = setup();
     const axes = new AxesDisplay(context);
     axes.load({ "Reference Frame": "base", Length: 0.1, "Show Trail": true });

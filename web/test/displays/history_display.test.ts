@@ -56,7 +56,7 @@ const ALL: readonly [className: string, type: string, message: string][] = [
 ];
 
 describe.each(ALL)("%s", (className, type, message) => {
-  it("draws a message, keeps one, and frees what it drew", () => {
+  it("draws a message, keeps one, and frees its objects", () => {
     const { display, send } = start(className, type);
     send(makeMessage(message));
     expect(display.root.children).toHaveLength(1);
@@ -89,13 +89,13 @@ describe.each(ALL)("%s", (className, type, message) => {
     expect(status(display, "Topic")).toBe("ok: 2 messages received");
   });
 
-  it("survives a message without fields", () => {
+  it("reports a message without fields", () => {
     const { display, send } = start(className, type);
     send({ header: header("map") });
     expect(status(display, "Topic")).toMatch(/^error: Message (is not a|contained invalid)/);
   });
 
-  it("saves what it loaded", () => {
+  it("saves the loaded properties", () => {
     const { display } = start(className, type);
     const saved = display.save();
     const copy = displayClass(className)?.create(fakes().context);
@@ -191,7 +191,7 @@ describe("a path", () => {
     expect(display.root.children).toHaveLength(1);
   });
 
-  it("of no or one pose is nothing to draw, and no fault", () => {
+  it("of no or one pose draws nothing, without a fault", () => {
     const { display, send } = start("rviz/Path", "nav_msgs/Path");
     send({ header: header("map"), poses: [] });
     expect(status(display, "Topic")).toBe("ok: 1 messages received");
@@ -216,7 +216,7 @@ it("grid cells of no size are named, as in rviz", () => {
   expect(status(display, "Topic")).toBe("error: Cell width is zero, cells will be invisible.");
 });
 
-it("a change of a property draws anew what is shown", () => {
+it("a change of a property redraws shown messages", () => {
   const { display, around, send } = start("rviz/PointStamped", "geometry_msgs/PointStamped");
   send(makeMessage("point"));
   const [before] = display.root.children;

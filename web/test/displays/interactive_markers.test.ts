@@ -56,26 +56,26 @@ interface Started extends Setup {
 }
 
 function started(): Started {
-  const made = setup();
-  made.frames.set("base", "map", [1, 0, 0]);
-  const display = new InteractiveMarkers(made.context);
+  const base = setup();
+  base.frames.set("base", "map", [1, 0, 0]);
+  const display = new InteractiveMarkers(base.context);
   display.name.value = "Markers";
   display.load({ "Update Topic": "/menu/update" });
   display.start();
   return {
-    ...made,
+    ...base,
     display,
     init: (...markers) => {
-      made.connection.receive("/menu/update_full", { server_id: "server", seq_num: 5n, markers });
+      base.connection.receive("/menu/update_full", { server_id: "server", seq_num: 5n, markers });
       display.update(0n, 0.01);
       display.root.updateMatrixWorld(true);
     },
-    feedback: () => made.connection.published.map(({ message }) => message as unknown as InteractiveMarkerFeedback),
+    feedback: () => base.connection.published.map(({ message }) => message as unknown as InteractiveMarkerFeedback),
     target: () => {
-      let found: PointerTarget | undefined;
-      display.root.traverse((part) => (found ??= part.userData["pointerTarget"] as PointerTarget | undefined));
-      if (found === undefined) throw new Error("no control");
-      return found;
+      let target: PointerTarget | undefined;
+      display.root.traverse((part) => (target ??= part.userData["pointerTarget"] as PointerTarget | undefined));
+      if (target === undefined) throw new Error("no control");
+      return target;
     },
   };
 }
@@ -106,7 +106,7 @@ describe("the servers' protocol", () => {
     ...fields,
   });
 
-  it("takes the full state, then updates by their numbers", () => {
+  it("reads the full state, then updates in sequence", () => {
     const { init, connection, display } = started();
     expect(display.statuses.value.get("General")?.text).toBe("Waiting for messages.");
     init(marker([]));
@@ -117,7 +117,7 @@ describe("the servers' protocol", () => {
     expect(display.statuses.value.get("server")?.text).toBe("OK");
   });
 
-  it("waits for the full state anew when an update is missing", () => {
+  it("waits for the full state again after a missing update", () => {
     const { init, connection, display } = started();
     init(marker([]));
     connection.receive("/menu/update", update(9n, { erases: ["box"] }));
@@ -128,7 +128,7 @@ describe("the servers' protocol", () => {
     expect(display.statuses.value.get("server")?.text).toBe("OK");
   });
 
-  it("says when a server is silent, and when it speaks again", () => {
+  it("reports a silent server, and its recovery", () => {
     const { init, connection, display } = started();
     init(marker([]));
     display.update(0n, 2.5);
@@ -137,7 +137,7 @@ describe("the servers' protocol", () => {
     expect(display.statuses.value.get("server")?.text).toBe("OK");
   });
 
-  it("refuses a topic that is none of theirs", () => {
+  it("refuses a topic whose name does not end with /update", () => {
     const display = new InteractiveMarkers(setup().context);
     display.load({ "Update Topic": "/menu" });
     display.start();
@@ -146,7 +146,7 @@ describe("the servers' protocol", () => {
 });
 
 describe("interactive markers", () => {
-  it("have handles where their controls bring none", () => {
+  it("have default handles for controls without shapes", () => {
     const { init, display } = started();
     init(marker([control(InteractionMode.moveAxis), control(InteractionMode.rotateAxis)]));
     const meshes: Mesh[] = [];
@@ -154,7 +154,7 @@ describe("interactive markers", () => {
     expect(meshes.length).toBeGreaterThanOrEqual(5); // two arrows of two parts and a ring
   });
 
-  it("move along their axis and tell their server: down, pose, up", () => {
+  it("move along their axis and send feedback: down, pose, up", () => {
     const { init, display, feedback, target, connection } = started();
     init(marker([control(InteractionMode.moveAxis)]));
     const handle = target();
@@ -183,7 +183,7 @@ describe("interactive markers", () => {
     expect(sent[0]?.mouse_point).toMatchObject({ x: 0, y: 0 });
   });
 
-  it("answer in the fixed frame when their stamp is not 0", () => {
+  it("send feedback in the fixed frame if their stamp is not 0", () => {
     const { init, display, feedback, target } = started();
     init(
       marker([control(InteractionMode.button)], { header: { seq: 0, stamp: { sec: 1, nsec: 0 }, frame_id: "base" } }),
@@ -193,7 +193,7 @@ describe("interactive markers", () => {
     expect(feedback()[0]?.pose.position.x).toBeCloseTo(1);
   });
 
-  it("say that a button was clicked when it is let go over the marker", () => {
+  it("send a button click when it is released over the marker", () => {
     const { init, display, feedback, target } = started();
     init(marker([control(InteractionMode.button)]));
     target().down(at(display.root, 1, 0));
@@ -205,7 +205,7 @@ describe("interactive markers", () => {
     ]);
   });
 
-  it("stay with the hand while they are held, and go where the server says then", () => {
+  it("follow the pointer while dragged, and then the server's pose", () => {
     const { init, connection, display, target } = started();
     init(marker([control(InteractionMode.moveAxis)]));
     target().down(at(display.root, 1, 0));
@@ -225,7 +225,7 @@ describe("interactive markers", () => {
     expect(place?.position.x).toBe(7);
   });
 
-  it("give signs of life while they are held still", () => {
+  it("send keep-alive feedback while held still", () => {
     const { init, display, feedback, target } = started();
     init(marker([control(InteractionMode.moveAxis)]));
     target().down(at(display.root, 1, 0));
@@ -288,9 +288,9 @@ describe("a drag", () => {
       shift: false,
       control: false,
     });
-  const to = (made: Drag, x: number, y: number, fields: object = {}): Drag => {
-    made.move({ ray: down(x, y), x: 0, y: 0, shift: false, control: false, ...fields }, VIEW);
-    return made;
+  const to = (dragged: Drag, x: number, y: number, fields: object = {}): Drag => {
+    dragged.move({ ray: down(x, y), x: 0, y: 0, shift: false, control: false, ...fields }, VIEW);
+    return dragged;
   };
   const Z = new Vector3(0, 0, 1);
 
@@ -310,8 +310,8 @@ describe("a drag", () => {
   });
 
   it("that moves and turns keeps the grasped point at the pointer", () => {
-    const made = to(drag(InteractionMode.moveRotate, Z), 0, 3);
-    const grasped = new Vector3(1, 0, 0).applyQuaternion(made.orientation).add(made.position);
+    const dragged = to(drag(InteractionMode.moveRotate, Z), 0, 3);
+    const grasped = new Vector3(1, 0, 0).applyQuaternion(dragged.orientation).add(dragged.position);
     expect(grasped.x).toBeCloseTo(0);
     expect(grasped.y).toBeCloseTo(3);
   });
@@ -324,8 +324,8 @@ describe("a drag", () => {
   });
 
   it("in space turns about the picture's axes", () => {
-    const made = drag(InteractionMode.rotate3D, Z);
-    made.move({ ray: down(1, 0), x: 75, y: 0, shift: false, control: false }, VIEW);
-    expect(2 * Math.atan2(made.orientation.y, made.orientation.w)).toBeCloseTo(Math.PI / 2);
+    const dragged = drag(InteractionMode.rotate3D, Z);
+    dragged.move({ ray: down(1, 0), x: 75, y: 0, shift: false, control: false }, VIEW);
+    expect(2 * Math.atan2(dragged.orientation.y, dragged.orientation.w)).toBeCloseTo(Math.PI / 2);
   });
 });

@@ -61,8 +61,8 @@ function handle(mode: number, alpha = 0.5): Marker | undefined {
   return withHandles(marker([control({ interaction_mode: mode })]), alpha).controls[0]?.markers[0];
 }
 
-describe("handles of controls that bring none", () => {
-  it("are a ring with teeth where the marker moves and turns, the bright ones seen through twice", () => {
+describe("default handles of controls", () => {
+  it("are a toothed ring for a control that moves and turns, its bright teeth drawn twice", () => {
     const ring = handle(InteractionMode.moveRotate);
     expect(ring?.points).toHaveLength(216);
     expect(ring?.color.a).toBe(0.5);
@@ -74,7 +74,7 @@ describe("handles of controls that bring none", () => {
     ]);
   });
 
-  it("are a striped ring where it turns, and a plain one where it moves", () => {
+  it("are a striped ring for turning, and a plain one for moving", () => {
     expect(
       handle(InteractionMode.rotateAxis)
         ?.colors.map(({ r, a }) => [r, a])
@@ -89,23 +89,23 @@ describe("handles of controls that bring none", () => {
     expect(handle(InteractionMode.movePlane, 1)?.color.a).toBe(1);
   });
 
-  it("are the words of a menu", () => {
+  it("are a menu's text", () => {
     expect(handle(InteractionMode.menu)).toMatchObject({ type: 9, text: "Menu", scale: { z: 0.5 } });
   });
 
-  it("leave a control's own shapes, with 1 m for sizes that are not given", () => {
-    const [own] = withHandles(marker([control({ markers: [shape("")] })]), 1).controls[0]?.markers ?? [];
-    expect(own?.scale).toEqual({ x: 1, y: 1, z: 1 });
+  it("keep a control's own shapes, with 1 m for missing sizes", () => {
+    const [completed] = withHandles(marker([control({ markers: [shape("")] })]), 1).controls[0]?.markers ?? [];
+    expect(completed?.scale).toEqual({ x: 1, y: 1, z: 1 });
   });
 });
 
 describe("shapes in frames of their own", () => {
   function placed(frame: string, frames: FakeFrames): Marker | NoTransform | undefined {
-    const found = withLocalShapes(marker([control({ markers: [shape(frame)] })]), frames);
-    return found instanceof NoTransform ? found : found.controls[0]?.markers[0];
+    const local = withLocalShapes(marker([control({ markers: [shape(frame)] })]), frames);
+    return local instanceof NoTransform ? local : local.controls[0]?.markers[0];
   }
 
-  it("stand there, not at the marker", () => {
+  it("are placed in their frame, not at the marker", () => {
     const frames = new FakeFrames();
     frames.set("map", null);
     frames.set("base", "map", [10, 0, 0]);

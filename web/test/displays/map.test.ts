@@ -82,7 +82,7 @@ describe("a map", () => {
     expect(readMap(message)).toEqual(typeof sentence === "string" ? sentence : expect.stringMatching(sentence));
   });
 
-  it("is drawn in tiles that cover it once", () => {
+  it("is drawn in tiles without overlap", () => {
     const wide = {
       width: 10,
       height: 5,
@@ -103,7 +103,7 @@ describe("a map", () => {
     expect(overlap({ x: 0, y: 0, width: 4, height: 4 }, { x: 4, y: 0, width: 9, height: 9 })).toBeNull();
   });
 
-  it("takes updates within it, and no others", () => {
+  it("applies updates within the map, and refuses others", () => {
     const read = map(readMap(grid(3, 3, [0, 0, 0, 0, 0, 0, 0, 0, 0])));
     const update = { header: header("odom"), x: 1, y: 1, width: 2, height: 2, data: Int8Array.of(1, 2, 3, -1) };
     expect(writeUpdate(read, update)).toEqual({ x: 1, y: 1, width: 2, height: 2 });
@@ -126,7 +126,7 @@ function start(): { display: MapDisplay; around: Fakes } {
 }
 
 describe("the display", () => {
-  it("says what it has in rviz's words, and stands at the map's origin in its frame", () => {
+  it("shows rviz's statuses, and is placed at the map's origin in its frame", () => {
     const { display, around } = start();
     expect(status(display, "Message")).toBe("warn: No map received");
     around.connection.receive("/map", grid(2, 1, [0, 100]));
@@ -175,7 +175,7 @@ describe("the display", () => {
     expect(status(display, "Update")).toBe("error: Update area outside of original map area.");
   });
 
-  it("names a message of another type, and saves nothing that a message said", () => {
+  it("names a message of another type, and saves no values of messages", () => {
     const { display, around } = start();
     around.connection.advertise("/map", "std_msgs/String");
     around.connection.receive("/map", { data: "x" });

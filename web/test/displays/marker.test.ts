@@ -48,17 +48,17 @@ interface Started extends Setup {
 }
 
 function started(properties: Record<string, unknown> = {}): Started {
-  const made = setup();
-  made.frames.set("base", "map", [1, 0, 0]);
-  const display = new MarkerDisplay(made.context);
+  const base = setup();
+  base.frames.set("base", "map", [1, 0, 0]);
+  const display = new MarkerDisplay(base.context);
   display.load({ "Marker Topic": "/markers", ...properties });
   display.start();
   return {
-    ...made,
+    ...base,
     display,
     send: (...markers) => {
-      for (const fields of markers) made.connection.receive("/markers", marker(fields));
-      display.update(made.connection.time, 0.01);
+      for (const fields of markers) base.connection.receive("/markers", marker(fields));
+      display.update(base.connection.time, 0.01);
     },
     boxes: () => {
       display.root.updateMatrixWorld(true);
@@ -69,11 +69,11 @@ function started(properties: Record<string, unknown> = {}): Started {
 }
 
 function parts(root: Object3D): Mesh[] {
-  const found: Mesh[] = [];
+  const meshes: Mesh[] = [];
   root.traverseVisible((part) => {
-    if (part instanceof Mesh) found.push(part as Mesh);
+    if (part instanceof Mesh) meshes.push(part as Mesh);
   });
-  return found;
+  return meshes;
 }
 
 function extent(box: Box3): number[] {
@@ -114,14 +114,14 @@ describe("solid markers", () => {
     expect(parts(display.root)).toHaveLength(1);
   });
 
-  it("that are seen through are blended apart from the others", () => {
+  it("that are transparent are blended apart from the others", () => {
     const { send, display } = started();
     send({ id: 1 }, { id: 2, color: { r: 1, g: 0, b: 0, a: 0.3 } });
     const blended = parts(display.root).map((mesh) => (mesh.material as { transparent: boolean }).transparent);
     expect(blended.sort()).toEqual([false, true]);
   });
 
-  it("tell which one was picked", () => {
+  it("describe the picked one", () => {
     const { send, display } = started();
     send({ id: 4 }, { id: 5, ns: "other" });
     const selectable = parts(display.root)[0]?.userData["selectable"] as {
@@ -155,7 +155,7 @@ describe("other markers", () => {
     expect(points?.geometry.instanceCount).toBe(2);
   });
 
-  it("draw a text as high as it says", () => {
+  it("draw a text at its height", () => {
     const { send, display } = started();
     send({ type: Type.text, text: "two\nlines", scale: { x: 0, y: 0, z: 0.4 } });
     const texts: TextBillboard[] = [];
@@ -179,7 +179,7 @@ describe("other markers", () => {
     expect([color?.getX(2), color?.getX(3), color?.getY(3)]).toEqual([1, 0, 1]);
   });
 
-  it("load meshes, and say which is missing", async () => {
+  it("load meshes, and report missing ones", async () => {
     const { send, display, connection } = started();
     const stl =
       "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid";
@@ -208,7 +208,7 @@ describe("markers", () => {
     expect(count()).toBe(0);
   });
 
-  it("go when their lifetime is over", () => {
+  it("are removed after their lifetime", () => {
     const { send, connection, display, count } = started();
     connection.time = 1_000_000_000n;
     send({ id: 1, lifetime: { sec: 2, nsec: 0 } }, { id: 2 });
@@ -218,7 +218,7 @@ describe("markers", () => {
     expect(count()).toBe(1);
   });
 
-  it("stay where they were, and only locked ones follow their frame", () => {
+  it("keep their pose, and only locked ones follow their frame", () => {
     const { send, frames, display } = started();
     send({ id: 1 }, { id: 2, frame_locked: true });
     frames.set("base", "map", [5, 0, 0]);
@@ -232,7 +232,7 @@ describe("markers", () => {
     expect([at(0), at(1)]).toEqual([1, 5]);
   });
 
-  it("list their namespaces, which can be switched off, also before they come", () => {
+  it("list their namespaces, which can be switched off, also before they appear", () => {
     const { send, display, count } = started({ Namespaces: { hidden: false } });
     send({ id: 1, ns: "hidden" }, { id: 2, ns: "shown" });
     expect(display.namespaces.children.map((row) => row.name)).toEqual(["hidden", "shown"]);
@@ -243,7 +243,7 @@ describe("markers", () => {
     expect(count()).toBe(2);
   });
 
-  it("wait for their transform, and say so after a second", () => {
+  it("wait for their transform, and report it after a second", () => {
     const { send, display, frames, count } = started();
     send({ header: { seq: 0, stamp: { sec: 0, nsec: 0 }, frame_id: "late" } });
     expect(display.statuses.value.has("ns/0")).toBe(false);
@@ -256,7 +256,7 @@ describe("markers", () => {
     expect(display.statuses.value.has("ns/0")).toBe(false);
   });
 
-  it("come on the array's topic of a Marker, too, and in arrays", () => {
+  it("are received on the array's topic of a Marker, too, and in arrays", () => {
     const { connection, display, count } = started();
     connection.receive("/markers_array", { markers: [marker({ id: 1 }), marker({ id: 2 })] });
     display.update(1n, 0.01);
@@ -274,7 +274,7 @@ describe("markers", () => {
   });
 });
 
-describe("what is wrong with a marker", () => {
+describe("faults of a marker", () => {
   it.each([
     [
       { pose: { ...ORIGIN, orientation: { x: 0, y: 0, z: 0, w: 0 } } },
@@ -320,7 +320,7 @@ describe("what is wrong with a marker", () => {
     expect(checkMarker(marker(fields))).toEqual({ level, text });
   });
 
-  it("is nothing, for one that is right", () => {
+  it("are none for a valid marker", () => {
     expect(checkMarker(marker())).toBeNull();
     expect(
       checkMarker(marker({ type: Type.arrow, points: [point(0, 0), point(1, 0)], scale: { x: 0.1, y: 0.2, z: 0 } })),

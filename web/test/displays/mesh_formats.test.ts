@@ -23,6 +23,6 @@ it("shows a mesh without the file that it names with a stray percent sign", asyn
   expect(await loadTriangle("50%.mtl")).toEqual({ triangles: 1, missing: ["package://robot/50%.mtl"] });
 });
 
-it("reads long stretches of blank lines in a time that grows with them", async () => {
+it("reads long runs of blank lines in linear time", async () => {
   expect(await loadTriangle("a.mtl", "\n".repeat(300_000))).toEqual({ triangles: 1, missing: [] });
 });

@@ -11,13 +11,13 @@ import { FakeConnection } from "../fake_connection";
 import { fakes, header, status } from "./fakes";
 
 class Slow {
-  readonly asked: Image[] = [];
+  readonly decoded: Image[] = [];
   readonly answers: ((decoded: Decoded) => void)[] = [];
   readonly faults: ((fault: Error) => void)[] = [];
   readonly closed: number[] = [];
 
   readonly decode = (message: unknown): Promise<Decoded> => {
-    this.asked.push(message as Image);
+    this.decoded.push(message as Image);
     return new Promise((resolve, reject) => {
       this.answers.push(resolve);
       this.faults.push(reject);
@@ -45,18 +45,18 @@ function open(): { connection: FakeConnection; slow: Slow; stream: PictureStream
   return { connection, slow, stream, send };
 }
 
-it("decodes the newest of what came meanwhile, and frees the old picture", async () => {
+it("decodes the newest waiting image, and frees the old picture", async () => {
   const { slow, stream, send } = open();
   [0, 1, 2, 3].forEach(send);
-  expect(slow.asked.map((message) => message.header.seq)).toEqual([0]);
+  expect(slow.decoded.map((message) => message.header.seq)).toEqual([0]);
   await slow.answer(0);
-  expect(slow.asked.map((message) => message.header.seq)).toEqual([0, 3]);
+  expect(slow.decoded.map((message) => message.header.seq)).toEqual([0, 3]);
   await slow.answer(1);
   expect([stream.picture.value?.header.seq, stream.count.value]).toEqual([3, 4]);
   expect(slow.closed).toEqual([0]);
 });
 
-it("says why an image is not shown, and goes on with the next", async () => {
+it("reports why an image is not shown, and continues with the next", async () => {
   const { connection, slow, stream, send } = open();
   send(0);
   slow.faults[0]?.(new Error("Unsupported image encoding [x]"));
@@ -72,7 +72,7 @@ it("says why an image is not shown, and goes on with the next", async () => {
   );
 });
 
-it("leaves nothing behind when it is closed", async () => {
+it("frees everything when it is closed", async () => {
   const { connection, slow, stream, send } = open();
   send(0);
   stream.close();
@@ -82,7 +82,7 @@ it("leaves nothing behind when it is closed", async () => {
   expect(connection.subscriptions("/image")).toBe(0);
 });
 
-it("the display subscribes by its transport and says what it lacks", () => {
+it("the display subscribes by its transport and reports missing topics", () => {
   const around = fakes();
   const display = displayClass("rviz/Image")?.create(around.context) as ImageDisplay;
   display.load({

@@ -38,24 +38,24 @@ function bytes(text: string): ArrayBuffer {
 }
 
 function started(urdf: string | undefined, properties: Record<string, unknown> = {}): Setup & { robot: RobotModel } {
-  const made = setup();
-  made.frames.set("base", "map", [1, 0, 0]);
-  made.frames.set("wheel", "map", [3, 0, 0]);
-  made.frames.set("mark", "map", [0, 5, 0]);
-  if (urdf !== undefined) made.connection.setParameter("/robot_description", urdf);
-  const robot = new RobotModel(made.context);
+  const base = setup();
+  base.frames.set("base", "map", [1, 0, 0]);
+  base.frames.set("wheel", "map", [3, 0, 0]);
+  base.frames.set("mark", "map", [0, 5, 0]);
+  if (urdf !== undefined) base.connection.setParameter("/robot_description", urdf);
+  const robot = new RobotModel(base.context);
   robot.load(properties as never);
   robot.start();
   robot.update(1n, 1);
-  return { ...made, robot };
+  return { ...base, robot };
 }
 
 function meshes(object: Object3D | undefined): Mesh[] {
-  const found: Mesh[] = [];
+  const meshes: Mesh[] = [];
   object?.traverseVisible((part) => {
-    if (part instanceof Mesh) found.push(part as Mesh);
+    if (part instanceof Mesh) meshes.push(part as Mesh);
   });
-  return found;
+  return meshes;
 }
 
 function rgba(mesh: Mesh | undefined): number[] {
@@ -63,7 +63,7 @@ function rgba(mesh: Mesh | undefined): number[] {
 }
 
 describe("RobotModel", () => {
-  it("stands each link at its frame, with the color of its material", () => {
+  it("places each link at its frame, with the color of its material", () => {
     const { robot } = started(URDF);
     const [box] = meshes(robot.root.getObjectByName("base"));
     robot.root.updateMatrixWorld(true);
@@ -75,11 +75,11 @@ describe("RobotModel", () => {
   });
 
   it("loads meshes by their address, scaled, and red where the URDF names no color", async () => {
-    const made = setup();
-    made.connection.assets.set("package://cart/wheel.stl", bytes(STL));
-    made.connection.setParameter("/robot_description", URDF);
-    made.frames.set("wheel", "map");
-    const robot = new RobotModel(made.context);
+    const base = setup();
+    base.connection.assets.set("package://cart/wheel.stl", bytes(STL));
+    base.connection.setParameter("/robot_description", URDF);
+    base.frames.set("wheel", "map");
+    const robot = new RobotModel(base.context);
     robot.start();
     await settle();
     robot.update(1n, 1);
@@ -99,7 +99,7 @@ describe("RobotModel", () => {
     });
   });
 
-  it("says which link has no transform, as rviz, and shows that link white", () => {
+  it("reports a link without a transform, as rviz, and shows it white", () => {
     const { robot, frames } = started(URDF);
     frames.forget("base");
     robot.update(2n, 1);
@@ -110,12 +110,12 @@ describe("RobotModel", () => {
     expect(robot.statuses.value.get("base")?.text).toBe("Transform OK");
   });
 
-  it("asks for frames with the prefix", () => {
+  it("looks up frames with the tf prefix", () => {
     const { robot } = started(URDF, { "TF Prefix": "robot1" });
     expect(robot.statuses.value.get("base")?.text).toBe("No transform from [robot1/base] to [map]");
   });
 
-  it("takes alphas and links that are off from the file, though the robot comes later", () => {
+  it("applies saved alphas and disabled links when the robot appears later", () => {
     const { robot, connection } = started(undefined, {
       Alpha: 0.5,
       Links: {
@@ -141,7 +141,7 @@ describe("RobotModel", () => {
     expect(rgba(sphere)).toEqual([1, 0.5, 0, 1]);
   });
 
-  it("is built anew when the description changes, and says what is wrong with a bad one", () => {
+  it("is rebuilt when the description changes, and reports an invalid one", () => {
     const { robot, connection } = started(URDF);
     connection.setParameter("/robot_description", "<robot><link name='base'></robot>");
     expect(robot.statuses.value.get("URDF")).toMatchObject({ level: "error", text: "URDF failed Model parse" });
@@ -156,7 +156,7 @@ describe("RobotModel", () => {
     expect(robot.statuses.value.get("URDF")?.level).toBe("ok");
   });
 
-  it("saves no rows for links that are as they came", () => {
+  it("saves no rows for unchanged links", () => {
     const { robot } = started(URDF);
     expect(robot.save()["Links"]).toEqual({});
   });
@@ -174,7 +174,7 @@ describe("a robot description", () => {
     });
   });
 
-  it("is refused with a sentence when it is none", () => {
+  it("is refused with a sentence if invalid", () => {
     expect(() => readUrdf("<sdf/>")).toThrow(UrdfError);
     expect(() => readUrdf("<sdf/>")).toThrow("The robot description begins with <sdf>, not <robot>.");
   });

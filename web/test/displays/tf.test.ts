@@ -6,12 +6,12 @@ import { fadeOf, TreeProperty } from "../../src/displays/tf/frame_row";
 import { setup, type Setup } from "./support";
 
 function started(properties: Record<string, unknown> = {}): Setup & { tf: Tf; parts: () => InstancedMesh[] } {
-  const made = setup();
-  const tf = new Tf(made.context);
+  const base = setup();
+  const tf = new Tf(base.context);
   tf.load(properties as never);
   tf.start();
   const parts = (): InstancedMesh[] => tf.root.children[0]?.children as InstancedMesh[];
-  return { ...made, tf, parts };
+  return { ...base, tf, parts };
 }
 
 function matrixAt(mesh: InstancedMesh | undefined, index: number): Matrix4 {
@@ -35,7 +35,7 @@ describe("TF", () => {
     expect(point.length()).toBeCloseTo(0);
   });
 
-  it("names frames by labels, which go with their frames", () => {
+  it("labels frames, and removes labels with their frames", () => {
     const { tf, frames, scene } = started();
     frames.set("base", "map", [1, 0, 0]);
     tf.update(1n, 1);
@@ -61,14 +61,14 @@ describe("TF", () => {
     expect(parts()[0]?.count).toBe(0);
   });
 
-  it("shows what the whitelist finds and the blacklist does not", () => {
+  it("shows frames that match the whitelist and not the blacklist", () => {
     const { tf, frames, parts } = started({ "Filter (whitelist)": "wheel|base", "Filter (blacklist)": "^left" });
     for (const name of ["base", "left_wheel", "right_wheel"]) frames.set(name, "map", [1, 0, 0]);
     tf.update(1n, 1);
     expect(parts()[0]?.count).toBe(2);
   });
 
-  it("says which frame has no transform, in rviz's words", () => {
+  it("reports frames without a transform, in rviz's words", () => {
     const { tf, frames } = started();
     frames.set("alone", null);
     frames.lookup = (() => {
@@ -82,7 +82,7 @@ describe("TF", () => {
     });
   });
 
-  it("forgets a frame that nobody publishes any more after the timeout", () => {
+  it("removes a frame that is no longer published after the timeout", () => {
     const { tf, frames, parts } = started({ "Frame Timeout": 3 });
     frames.set("base", "map", [1, 0, 0], { stamp: 5n });
     tf.update(1_000_000_000n, 1);
@@ -96,7 +96,7 @@ describe("TF", () => {
     expect(parts()[0]?.count).toBe(2);
   });
 
-  it("tells a picked axis' frame", () => {
+  it("describes the frame of a picked axis", () => {
     const { tf, frames } = started();
     frames.set("base", "map", [1, 0, 0]);
     tf.update(1n, 1);

@@ -42,7 +42,7 @@ function scan(changes: Partial<LaserScan> = {}): LaserScan {
   };
 }
 
-it("says that nothing came, and why", () => {
+it("reports missing messages, and why", () => {
   const around = fakes();
   const display = displayClass("rviz/LaserScan")?.create(around.context) as CloudDisplay<LaserScan>;
   display.start();
@@ -57,7 +57,7 @@ it("says that nothing came, and why", () => {
   expect(display.statuses.value.get("Topic")).toEqual({ level: "warn", text: "No messages received" });
 });
 
-it("keeps a message until its transform is there, and says what is missing after a second", () => {
+it("keeps a message until its transform arrives, and reports the missing one after a second", () => {
   const { display, around } = start("rviz/LaserScan", "/scan", SCAN);
   around.connection.receive("/scan", scan());
   expect(status(display, "Topic")).toBe("ok: 1 messages received");
@@ -73,7 +73,7 @@ it("keeps a message until its transform is there, and says what is missing after
   expect(status(display, "Points")).toBe("ok: Showing [3] points from [1] messages");
 });
 
-it("drops the oldest of a full queue", () => {
+it("drops the oldest message of a full queue", () => {
   const { display, around } = start("rviz/LaserScan", "/scan", SCAN);
   display.queueSize.value.value = 2;
   display.cloudProperties.decay.value.value = 100;
@@ -84,7 +84,7 @@ it("drops the oldest of a full queue", () => {
   expect(status(display, "Points")).toBe("ok: Showing [6] points from [2] messages");
 });
 
-it("takes a topic without a slash as one of the root", () => {
+it("resolves a topic without a slash in the root namespace", () => {
   const { display, around } = start("rviz/LaserScan", "scan", SCAN);
   expect([display.topic, around.connection.subscriptions("/scan")]).toEqual(["/scan", 1]);
 });
@@ -110,7 +110,7 @@ it("refuses angles that are not numbers", () => {
   }
 });
 
-it("starts anew with another fixed frame, and leaves nothing behind when it stops", () => {
+it("restarts with another fixed frame, and frees everything when it stops", () => {
   const { display, around } = start("rviz/LaserScan", "/scan", SCAN);
   around.frames.set("laser");
   around.connection.receive("/scan", scan());
@@ -161,8 +161,8 @@ it("a scan's points are those within its range, in the fixed frame", () => {
     at,
   );
   expect(cloud.count).toBe(2);
-  const found = [...cloud.floats].map((value) => Math.round(value * 1e4) / 1e4);
-  expect(found).toEqual([2, 0, 0.5, 7, 1, 2, 0.5, 3]);
+  const values = [...cloud.floats].map((value) => Math.round(value * 1e4) / 1e4);
+  expect(values).toEqual([2, 0, 0.5, 7, 1, 2, 0.5, 3]);
 });
 
 it("a scan's rays are placed where the sensor was when each was measured", () => {
@@ -178,13 +178,13 @@ it("a scan's rays are placed where the sensor was when each was measured", () =>
 
 it("a long scan waits for its last ray's transform, and is named", () => {
   const { display, around } = start("rviz/LaserScan", "/scan", SCAN);
-  const asked: bigint[] = [];
+  const times: bigint[] = [];
   around.frames.poses.set("laser", (time) => {
-    asked.push(time);
+    times.push(time);
     return time <= 2_000_000_000n ? { position: new Vector3(), orientation: new Quaternion() } : null;
   });
   around.connection.receive("/scan", scan({ time_increment: 0.75 }));
-  expect(asked).toEqual([1_000_000_000n, 2_500_000_000n]);
+  expect(times).toEqual([1_000_000_000n, 2_500_000_000n]);
   expect(status(display, "Scan Time")).toMatch(/^warn: Laser scan time.* is rather large: 2s/);
   expect(status(display, "Transform")).toBeUndefined();
 });

@@ -26,7 +26,7 @@ function list(): Group {
 }
 
 describe("visibility for a camera", () => {
-  it("is that of the file, before and after its displays come", () => {
+  it("is the file's, before and after its displays appear", () => {
     const { displays } = list();
     const [grid] = displays;
     const visibility = new VisibilityProperty();
@@ -37,7 +37,7 @@ describe("visibility for a camera", () => {
     expect(visibility.hidden(displays)).toEqual([]);
   });
 
-  it("hides all of a group, and everything", () => {
+  it("hides a whole group, or everything", () => {
     const { displays, all } = list();
     const visibility = new VisibilityProperty();
     visibility.follow(displays);
@@ -49,15 +49,15 @@ describe("visibility for a camera", () => {
     expect(all[0]?.root).toBeInstanceOf(ThreeGroup);
   });
 
-  it("keeps rows of displays that are not there, and saves what a person changes", () => {
+  it("keeps rows of missing displays, and saves a person's changes", () => {
     const { displays } = list();
     const visibility = new VisibilityProperty();
-    visibility.load({ Gone: false, Grid: true, Value: true });
+    visibility.load({ Missing: false, Grid: true, Value: true });
     visibility.follow(displays);
-    expect(visibility.save()).toEqual({ Gone: false, Grid: true, Value: true });
+    expect(visibility.save()).toEqual({ Missing: false, Grid: true, Value: true });
     const row = visibility.children.find(({ name }) => name === "Parts");
     row?.load({ Axes: false, Value: true });
-    expect(visibility.save()).toEqual({ Gone: false, Grid: true, Parts: { Axes: false, Value: true }, Value: true });
+    expect(visibility.save()).toEqual({ Missing: false, Grid: true, Parts: { Axes: false, Value: true }, Value: true });
     visibility.follow([]);
     expect(visibility.children).toEqual([]);
   });

@@ -21,14 +21,14 @@ function fed() {
   return { connection, tree, subscription };
 }
 
-test("transforms come from both topics, until it is closed", () => {
+test("transforms are read from both topics until the subscription is closed", () => {
   const { connection, tree, subscription } = fed();
   expect(tree.frames.value).toEqual(["base", "laser", "map"]);
   subscription.close();
   expect(connection.subscriptions("/tf") + connection.subscriptions("/tf_static")).toBe(0);
 });
 
-test("when the time goes back, what moved is forgotten", () => {
+test("moving transforms are forgotten when time goes back", () => {
   const { connection, tree } = fed();
   connection.time = 49_950_000_000n; // a clock that is corrected
   connection.receive("/tf", message("other", 49));
@@ -38,7 +38,7 @@ test("when the time goes back, what moved is forgotten", () => {
   expect(tree.frames.value).toEqual(["laser", "map", "other"]);
 });
 
-test("a transform from before a jump that is decoded after it does not stay", () => {
+test("a transform from before a jump back, decoded after it, is dropped", () => {
   const { connection, tree } = fed();
   connection.time = 1_000_000_000n; // the clock is back
   connection.receive("/tf", message("late", 51), { time: 51_000_000_000n });
@@ -49,7 +49,7 @@ test("a transform from before a jump that is decoded after it does not stay", ()
   expect(tree.lookup("map", "base", 1_500_000_000n)).toMatchObject({ position: { x: 0 } });
 });
 
-test("in a new connection everything is forgotten", () => {
+test("all transforms are forgotten in a new connection", () => {
   const { connection, tree } = fed();
   connection.state.value = { kind: "lost", retryInSeconds: 1 };
   expect(tree.frames.value).toHaveLength(3);

@@ -47,29 +47,29 @@ function moving(parent: string, child: string, ...seconds: readonly number[]): T
   return tree;
 }
 
-function x(found: Transform | NoTransform): number | string {
-  return found instanceof NoTransform ? `${found.text}: ${found.advice}` : found.position.x;
+function x(result: Transform | NoTransform): number | string {
+  return result instanceof NoTransform ? `${result.text}: ${result.advice}` : result.position.x;
 }
 
 describe("our buffer in Python answers the same", () => {
-  const kept = JSON.parse(readFileSync(new URL("tf_lookups.json", import.meta.url), "utf8")) as Lookups;
+  const recorded = JSON.parse(readFileSync(new URL("tf_lookups.json", import.meta.url), "utf8")) as Lookups;
   const tree = new TransformTree();
-  for (const { parent, child, stamp, translation, rotation, ...one } of kept.transforms) {
+  for (const { parent, child, stamp, translation, rotation, ...one } of recorded.transforms) {
     tree.add([stamped(parent, child, BigInt(stamp), translation, rotation)], one.static);
   }
 
-  test.each(kept.lookups)("$source in $target at $stamp", (asked) => {
-    const found = tree.lookup(asked.target, asked.source, BigInt(asked.stamp));
-    if (asked.error !== undefined) {
-      expect(found).toBeInstanceOf(NoTransform);
-      const words = asked.error === "does not exist" ? "nothing publishes nowhere" : asked.error;
-      expect((found as NoTransform).advice).toContain(words);
+  test.each(recorded.lookups)("$source in $target at $stamp", (lookup) => {
+    const result = tree.lookup(lookup.target, lookup.source, BigInt(lookup.stamp));
+    if (lookup.error !== undefined) {
+      expect(result).toBeInstanceOf(NoTransform);
+      const words = lookup.error === "does not exist" ? "nothing publishes nowhere" : lookup.error;
+      expect((result as NoTransform).advice).toContain(words);
       return;
     }
-    expect(found).not.toBeInstanceOf(NoTransform);
-    const { position, orientation: q } = found as Transform;
-    position.toArray().forEach((value, i) => expect(value).toBeCloseTo(asked.translation[i] ?? NaN, 6));
-    const [w, i, j, k] = asked.rotation;
+    expect(result).not.toBeInstanceOf(NoTransform);
+    const { position, orientation: q } = result as Transform;
+    position.toArray().forEach((value, i) => expect(value).toBeCloseTo(lookup.translation[i] ?? NaN, 6));
+    const [w, i, j, k] = lookup.rotation;
     const cosine = q.w * w + q.x * i + q.y * j + q.z * k;
     expect(Math.abs(cosine)).toBeCloseTo(1, 6); // q and −q are the same rotation
   });
@@ -106,27 +106,27 @@ describe("as tf2 does", () => {
     );
   });
 
-  test("ten seconds are kept", () => {
+  test("the cache keeps ten seconds", () => {
     const tree = moving("map", "base", 1, 2, 11.5);
     expect(x(tree.lookup("map", "base", 1_500_000_000n))).toContain("earliest data is at time 2.000000000");
     tree.add([stamped("map", "base", 1_400_000_000n)], false);
     expect(x(tree.lookup("map", "base", 1_500_000_000n))).toContain("earliest data is at time 2.000000000");
   });
 
-  test("transforms come in any order, and a later one takes the place of one of its stamp", () => {
+  test("transforms may come in any order, and replace one of the same stamp", () => {
     const tree = moving("map", "base", 3, 1, 2, 2);
     tree.add([stamped("map", "base", 2_000_000_000n, [7, 0, 0])], false);
     expect([1.5, 2, 2.5].map((s) => x(tree.lookup("map", "base", BigInt(s * 1e9))))).toEqual([4, 7, 5]);
   });
 
-  test("between two parents the earlier holds", () => {
+  test("between stamps of two parents, the earlier parent is used", () => {
     const tree = moving("map", "base", 1);
     tree.add([stamped("odom", "base", 3_000_000_000n, [5, 0, 0]), stamped("map", "odom", 0n)], false);
     expect(x(tree.lookup("odom", "base", 3_000_000_000n))).toBe(5);
     expect(x(tree.lookup("odom", "base", 2_000_000_000n))).toContain("At that time 'map' had no parent");
   });
 
-  test("static transforms hold at any time, and survive when the time goes back", () => {
+  test("static transforms are valid at any time, and survive a jump back in time", () => {
     const tree = moving("map", "base", 1);
     tree.add([stamped("base", "laser", 99n, [0.5, 0, 0])], true);
     expect(x(tree.lookup("base", "laser", 123n))).toBe(0.5);
@@ -137,8 +137,8 @@ describe("as tf2 does", () => {
   });
 });
 
-describe("what is wrong", () => {
-  test("a frame that nothing publishes is named, with those that are here", () => {
+describe("errors", () => {
+  test("the error of an unknown frame names it and the known frames", () => {
     expect(x(moving("map", "base", 1).lookup("map", "laser", 0n))).toBe(
       "No transform from [laser] to [map]: nothing publishes laser. Frames here: base, map",
     );
@@ -161,7 +161,7 @@ describe("what is wrong", () => {
     expect(x(tree.lookup("a", "d", 0n))).toContain("The tf tree is invalid because it contains a loop");
   });
 
-  test("what is no transform is left out", () => {
+  test("invalid transforms are dropped", () => {
     const tree = moving("map", "base", 1);
     tree.add(
       [
@@ -176,14 +176,14 @@ describe("what is wrong", () => {
     expect(tree.frames.value).toEqual(["base", "map"]);
   });
 
-  test("a rotation of zeros is the identity, and others are made unit ones", () => {
+  test("an all-zero rotation is the identity, and others are normalized", () => {
     const tree = new TransformTree();
     tree.add([stamped("map", "a", 1n, [1, 0, 0], [0, 0, 0, 0]), stamped("a", "b", 1n, [1, 0, 0], [2, 0, 0, 0])], true);
     expect(x(tree.lookup("map", "b", 0n))).toBe(2);
     expect((tree.lookup("map", "b", 0n) as Transform).orientation.toArray()).toEqual([0, 0, 0, 1]);
   });
 
-  test("memory is bounded, in frames and in transforms of one", () => {
+  test("the numbers of frames and of transforms per frame are bounded", () => {
     const tree = new TransformTree();
     tree.add(
       [...Array(10_050).keys()].map((i) => stamped("map", `a${String(i)}`, 1n)),
@@ -220,7 +220,7 @@ test("describes frames with parents, stamps and rates", () => {
   vi.useRealTimers();
 });
 
-test("a frame that was a root and gets a parent is news, although no name is", () => {
+test("the frames' list changes when a root gets a parent", () => {
   const tree = new TransformTree();
   tree.add([stamped("base", "laser", 0n), stamped("map", "odom", 0n)], true);
   let changes = -1; // the first is at once

@@ -49,7 +49,7 @@ describe("driving", () => {
     expect([connection.released, drive.command.value]).toEqual([["/cmd_vel"], null]);
   });
 
-  it("releases when a field takes the focus, and does not drive from there", () => {
+  it("releases when a field takes the focus, and ignores keys in the field", () => {
     const { connection } = setUp();
     const field = document.body.appendChild(document.createElement("input"));
     press("w");
@@ -61,7 +61,7 @@ describe("driving", () => {
     field.remove();
   });
 
-  it("releases when the connection is lost, and holds nothing until it is back", () => {
+  it("releases when the connection is lost, and ignores keys until it is back", () => {
     const { drive, connection } = setUp();
     drive.hold("disc", 0.5, 0);
     connection.state.value = { kind: "lost", retryInSeconds: 3 };
@@ -70,7 +70,7 @@ describe("driving", () => {
     expect(drive.command.value).toBeNull();
   });
 
-  it("goes on with its topic after a lost connection, though topics are told of before who listens", () => {
+  it("keeps its topic after a reconnection, while subscribers are still unknown", () => {
     const { connection } = setUp();
     const { graph, topics } = connection;
     press("w");
@@ -87,14 +87,14 @@ describe("driving", () => {
     expect(connection.driven).toEqual([]);
   });
 
-  it("stays within the limits when several are held", () => {
+  it("stays within the limits when several keys are held", () => {
     const { drive } = setUp();
     drive.hold("disc", 0.8, 0);
     drive.hold("pad 0", 0.9, -3);
     expect(drive.command.value).toEqual({ linear: 0.5, angular: -1 });
   });
 
-  it("offers nothing where nothing listens to velocities, and the session's topic first where it does", () => {
+  it("offers topics with subscribers, the session's first, and none without", () => {
     const { drive, connection } = fakePage({ drive_topic: "/robot/cmd_vel" });
     expect([drive.topics.value, drive.topic.value]).toEqual([[], null]);
     connection.advertise("/told", "geometry_msgs/TwistStamped");

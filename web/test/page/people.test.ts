@@ -15,7 +15,7 @@ function tell(connection: FakeConnection, you: number, ...numbers: number[]): vo
   );
 }
 
-test("the others are shown what is selected once they are there, and whenever it changes", () => {
+test("the selection is sent once people are known, and at each change", () => {
   const connection = new FakeConnection();
   const selection = signal<Selection | null>(LINK);
   followPeople(connection, selection);
@@ -27,7 +27,7 @@ test("the others are shown what is selected once they are there, and whenever it
   expect(connection.presented).toEqual([LINK, null]);
 });
 
-test("a new server is shown it again", () => {
+test("the selection is sent again to a new server", () => {
   const connection = new FakeConnection();
   const people = followPeople(connection, signal<Selection | null>(LINK));
   tell(connection, 2, 1, 2);
@@ -39,7 +39,7 @@ test("a new server is shown it again", () => {
   expect(connection.presented).toEqual([LINK, LINK]);
 });
 
-test("what is not of the simulated world is nobody else's", () => {
+test("selections outside the simulated world are not sent", () => {
   const connection = new FakeConnection();
   followPeople(connection, signal<Selection | null>({ kind: "picked", title: "Marker", fields: { id: 1 } }));
   tell(connection, 1, 1);
@@ -47,7 +47,7 @@ test("what is not of the simulated world is nobody else's", () => {
   expect(connection.presented).toEqual([null]);
 });
 
-test("each of the others has a color", () => {
+test("each other person has a color", () => {
   const connection = new FakeConnection();
   const people = followPeople(connection, signal<Selection | null>(null));
   tell(connection, 2, 1, 2, 3, 7);

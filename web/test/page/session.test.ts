@@ -23,7 +23,7 @@ describe("a session that changes", () => {
     expect([page.drive.topic.value, page.session.title]).toEqual(["/base/cmd_vel", "another"]);
   });
 
-  it("loads another file and frame, but not over what a person has changed, nor what was saved here", () => {
+  it("loads another file and frame, unless a person has changed or saved the displays", () => {
     const page = fakePage({ kind: "graph", ...file("one") });
     startDisplays(shellOf(page));
     const { displays } = page;
@@ -37,7 +37,7 @@ describe("a session that changes", () => {
     expect(load.mock.calls).toHaveLength(1);
   });
 
-  it("of another kind is another page", () => {
+  it("of another kind calls onOther", () => {
     const connection = new FakeConnection();
     const reload = vi.fn();
     const session = liveSession(SESSION, connection, reload);
@@ -46,7 +46,7 @@ describe("a session that changes", () => {
     expect([reload.mock.calls.length, session.value.kind]).toEqual([1, "simulation"]);
   });
 
-  it("of a server of another version is another page, whatever else it says", () => {
+  it("of another version calls onOther, even if the rest cannot be read", () => {
     const connection = new FakeConnection();
     const reload = vi.fn();
     liveSession(SESSION, connection, reload);

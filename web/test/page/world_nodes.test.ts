@@ -15,7 +15,7 @@ describe("the world's tree", () => {
     expect(labels("", false)).toEqual(["rp2w_at_home"]);
   });
 
-  it("keeps the parents of what is searched, and all that lies below it", () => {
+  it("keeps the ancestors and children of search matches", () => {
     expect(labels("webcam")).toEqual(["rp2w_at_home", "  rp2w", "    Links", "      body", "        netbook_webcam"]);
     expect(labels("ball")).toEqual(["rp2w_at_home", "  ball", "    Links", "      link"]);
     expect(labels("nothing")).toEqual([]);

@@ -14,7 +14,7 @@ beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
 describe("publishing", () => {
-  test("once, at a rate, and never a wrong field", async () => {
+  test("publishes once and at a rate, and refuses an invalid field", async () => {
     const { connection } = fakePage();
     connection.definitions.set("std_msgs/Int8", "int8 data\n");
     const publication = new Publication(connection, "/n", "std_msgs/Int8");
@@ -35,7 +35,7 @@ describe("publishing", () => {
     ]);
   });
 
-  test("a type that nobody knows is said", async () => {
+  test("an unknown type is reported", async () => {
     const publication = new Publication(fakePage().connection, "/n", "no/Such");
     await vi.advanceTimersByTimeAsync(0);
     expect(publication.fault.value).toBe("there is no type no/Such");
@@ -43,7 +43,7 @@ describe("publishing", () => {
 });
 
 describe("joints", () => {
-  test("sliders of the session and of the world ask for what was set", () => {
+  test("sliders of the session and of the world request the set position", () => {
     const page = fakePage({ sliders: [{ name: "arm", lower: -1, upper: 2, position: 0.5 }] });
     page.world.manifest.value = MANIFEST;
     const state = new JointsState(page);
@@ -83,7 +83,7 @@ describe("joints", () => {
 });
 
 describe("joystick", () => {
-  test("a standard pad has the order and signs of joy", () => {
+  test("a standard gamepad is mapped to joy's order and signs", () => {
     const buttons = Array.from({ length: 17 }, () => 0);
     expect(joyFromGamepad([0, 0, 0, 0], buttons)).toEqual(AT_REST);
     [buttons[0], buttons[6], buttons[8], buttons[12], buttons[15]] = [1, 0.5, 1, 1, 1];
@@ -92,7 +92,7 @@ describe("joystick", () => {
     expect(joy.buttons).toEqual([1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0]);
   });
 
-  test("what changed is sent, and let go at the end", () => {
+  test("changes are sent, and all is released at the end", () => {
     vi.stubGlobal("navigator", { getGamepads: () => [] });
     const { connection } = fakePage();
     const state = new JoystickState(connection);
@@ -128,7 +128,7 @@ describe("dynamic_reconfigure", () => {
     dflt: CONFIG,
   };
 
-  test("a change is set, shown as answered, and taken back", async () => {
+  test("a change is set, shown as answered, and undone", async () => {
     const page = fakePage();
     page.connection.advertise("/node/parameter_descriptions", "dynamic_reconfigure/ConfigDescription");
     expect(serverNames(page.connection.topics.value)).toEqual(["/node"]);
@@ -149,7 +149,7 @@ describe("dynamic_reconfigure", () => {
 });
 
 describe("the timeline", () => {
-  test("a recording can be sought, a running simulation not", () => {
+  test("a recording is seekable, a running simulation is not", () => {
     const page = fakePage();
     const state = new TimelineState(page);
     expect(state.span()).toMatchObject({ start: 0, known: 12.48, isSeekable: false });
@@ -165,7 +165,7 @@ describe("the timeline", () => {
     expect(page.connection.requests).toEqual([{ name: "seek", fields: { time_ns: 3.25e9 } }]);
   });
 
-  test("of many wishes while an answer is due, the newest is asked", async () => {
+  test("of several seeks during a request, only the newest is sent", async () => {
     const page = fakePage();
     const state = new TimelineState(page);
     for (const time of [1, 2, 3]) state.seek(time);
@@ -173,7 +173,7 @@ describe("the timeline", () => {
     expect(page.connection.requests.map(({ fields }) => fields["time_ns"])).toEqual([1e9, 3e9]);
   });
 
-  test("lanes hold when messages came, joined", () => {
+  test("lanes contain the joined intervals of messages", () => {
     const page = fakePage();
     page.connection.advertise("/scan", "sensor_msgs/LaserScan");
     const state = new TimelineState(page);
@@ -188,7 +188,7 @@ describe("the timeline", () => {
     ]);
   });
 
-  test("lanes have no holes where a recording is short and its parts are shorter than the looks", () => {
+  test("lanes of a short recording have no gaps although buckets are shorter than the sampling period", () => {
     const page = fakePage();
     page.connection.advertise("/scan", "sensor_msgs/LaserScan");
     const state = new TimelineState(page);

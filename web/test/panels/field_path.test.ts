@@ -19,7 +19,7 @@ describe("paths", () => {
     expect(path && pathText(path)).toBe(written);
   });
 
-  test.each(["odom", "/odom..x", "/odom.x[", ""])("%s is no path", (text) => {
+  test.each(["odom", "/odom..x", "/odom.x[", ""])("%s is not a path", (text) => {
     expect(parsePath(text, TOPICS)).toBeNull();
   });
 });

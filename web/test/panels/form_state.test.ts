@@ -34,7 +34,7 @@ test("a form has a row per field, with the value of an empty message", () => {
   ]);
 });
 
-test("what is typed becomes the message; now is the time of sending", () => {
+test("typed values become the message; now is the time of sending", () => {
   const form = new FormState(TYPE);
   form.set("header.frame_id", "map");
   form.set("header.stamp", "now");
@@ -50,7 +50,7 @@ test("what is typed becomes the message; now is the time of sending", () => {
   });
 });
 
-test("a wrong field is named", () => {
+test("an invalid field is named", () => {
   const form = new FormState(TYPE);
   form.set("point.x", "far");
   form.set("data", "[256]");
@@ -105,7 +105,7 @@ test("a type of more values than a form can hold is refused with a sentence", ()
   expect(new FormState(MessageType.parse("float64[36] covariance")).rows).toHaveLength(1);
 });
 
-test("numbers are looked for in a type without end", () => {
+test("numbers are found in a recursive type", () => {
   expect(numericPaths(MessageType.parse("a/A[] same\n===\nMSG: a/A\nstring name\na/A[] one\na/A[] other\n"))).toEqual(
     [],
   );

@@ -8,7 +8,7 @@ test("numbers have a true minus sign, and zero none", () => {
   expect(significant(6.02e23)).toBe("6.020e+23");
 });
 
-test("echo writes a float32 as short as it can, a float64 whole", () => {
+test("echo writes a float32 by its shortest text, a float64 exactly", () => {
   expect([exact(Math.fround(0.1)), exact(0.1), exact(1 / 3), exact(123456792), exact(-5n), exact(Infinity)]).toEqual([
     "0.1",
     "0.1",

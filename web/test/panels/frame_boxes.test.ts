@@ -19,7 +19,7 @@ const captions = (frames: readonly FrameInfo[], fixed = "map"): Record<string, s
     frameBoxes(frames, fixed, NOW)[0].map((box) => [box.name, `${box.kind.slice(6)}|${box.caption ?? ""}`]),
   );
 
-test("frames say their rate and age, and what is wrong", () => {
+test("frames show their rate, age and faults", () => {
   const frames = [
     frame("odom", "map"),
     frame("laser", "odom", { isStatic: true, stamp: 0n, rate: null }),
@@ -43,7 +43,7 @@ test("a loop of parents is an error", () => {
   });
 });
 
-test("names that are properties of every object are names", () => {
+test("names of Object.prototype are ordinary frame names", () => {
   const names = ["__proto__", "constructor", "toString", "odom"];
   const boxes = names.map((id) => ({ id, width: 80, height: 26 }));
   const { boxes: placed, paths } = layered(
@@ -56,7 +56,7 @@ test("names that are properties of every object are names", () => {
   expect(Object.keys(Object.prototype)).toEqual([]);
 });
 
-test("layers follow the arrows, without overlaps, loops too", () => {
+test("layers follow the arrows without overlaps, also for loops", () => {
   const boxes = ["a", "b", "c"].map((id) => ({ id, width: 80, height: 26 }));
   const { boxes: placed, paths } = layered(
     boxes,

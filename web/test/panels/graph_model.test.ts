@@ -44,13 +44,13 @@ test("active topics have both ends, all topics one", () => {
   );
 });
 
-test("debug nodes and topics come back when asked for", () => {
+test("debug nodes and topics are shown on request", () => {
   expect(names("Nodes/Topics (active)", false)).toEqual(
     expect.arrayContaining(["node /rqt_plot_1", "topic /rosout", "node /rosout"]),
   );
 });
 
-test("a filter keeps what matches and its neighbours", () => {
+test("a filter keeps matches and their neighbours", () => {
   expect(names("Nodes/Topics (all)", true, "LASER")).toEqual([
     "node /laser",
     "node /laser > topic /scan",
@@ -58,7 +58,7 @@ test("a filter keeps what matches and its neighbours", () => {
   ]);
 });
 
-test("hovering a topic lights up its nodes", () => {
+test("hovering a topic highlights its nodes", () => {
   const drawing = graphDrawing(graph, { view: "Nodes/Topics (all)", hideDebug: true, text: "" });
   expect([...neighbourhood(drawing, "topic /scan")].sort()).toEqual(["node /laser", "node /slam", "topic /scan"]);
   expect(nodeNames(graph)).toContain("/idle");

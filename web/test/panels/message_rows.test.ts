@@ -17,7 +17,7 @@ test("fields, their units and times", () => {
   ]);
 });
 
-test("a header says its stamp and frame without being opened", () => {
+test("a closed header shows its stamp and frame", () => {
   expect(valueText({ seq: 3, stamp: { sec: 12, nsec: 480_000_000 }, frame_id: "laser" })).toBe("0:12.48 in laser");
 });
 
@@ -41,7 +41,7 @@ test("long arrays are summarised, and open by the hundred", () => {
   expect(valueText(new Uint8Array(921_600))).toBe("921600 bytes");
 });
 
-test("elements that the message names go by their names", () => {
+test("elements with names in the message are shown by name", () => {
   const rows = messageRows("sensor_msgs/JointState", { name: ["left", "right"], position: [1, 2], effort: [] }, all);
   expect(rows.filter((row) => row.key.startsWith(".position[")).map((row) => [row.key, row.name])).toEqual([
     [".position[0]", "left"],

@@ -19,7 +19,7 @@ const PROFILE: Profile = {
   ],
 };
 
-test("rows say what a simulated second costs, waiting last", () => {
+test("rows show the wall time per simulated second, waiting last", () => {
   expect(rowsOf(PROFILE).map(({ name, perSecond, share }) => [name, perSecond, share])).toEqual([
     ["Dynamics", 800, 0.2],
     ["m::l::cam", 600, 0.15],
@@ -33,7 +33,7 @@ test("the bar goes group by group", () => {
   expect(barOf(rowsOf(PROFILE)).map(({ group }) => group)).toEqual(["physics", "cameras", "page", "waiting"]);
 });
 
-test("a line of factors has its top at 1 or at the greatest", () => {
+test("a line of factors has its top at 1 or at the maximum", () => {
   expect(sparkline([0, 0.5, 1])).toBe("0.0,19.0 50.0,10.0 100.0,1.0");
   expect(sparkline([0, 2])).toBe("0.0,19.0 100.0,1.0");
 });

@@ -15,7 +15,7 @@ function page(topics: Readonly<Record<string, string>>, driven: string | null, i
 }
 
 describe("curves for an empty plot", () => {
-  it("are the speed where a robot is driven and tells its odometry", () => {
+  it("are velocities of a driven robot with odometry", () => {
     const topics = { "/r1/odom": "nav_msgs/Odometry", "/r1/cmd_vel": "geometry_msgs/Twist" };
     expect(suggestions(page(topics, "/r1/cmd_vel", false)).map(({ paths }) => paths)).toEqual([
       ["/r1/odom/twist/twist/linear/x", "/r1/cmd_vel/linear/x"],

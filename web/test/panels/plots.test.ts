@@ -23,7 +23,7 @@ describe("the legend", () => {
 });
 
 describe("a curve", () => {
-  test("takes the stamp where there is one, else the time of receiving", () => {
+  test("uses the stamp if there is one, otherwise the time of receipt", () => {
     const page = fakePage();
     page.connection.advertise("/odom", "nav_msgs/Odometry");
     const [stamped, plain] = [new Curve(page, "/odom/twist/twist/linear/x"), new Curve(page, "/speed.data")];
@@ -34,7 +34,7 @@ describe("a curve", () => {
     expect([stamped.name, stamped.caption]).toEqual(["linear.x", "/odom twist.twist"]);
   });
 
-  test("says why nothing is drawn", () => {
+  test("reports why nothing is drawn", () => {
     const page = fakePage();
     const curve = new Curve(page, "/odom.twist.z");
     expect(curve.fault.value).toBe("No message yet");
@@ -46,7 +46,7 @@ describe("a curve", () => {
     expect(new Curve(fakePage({ kind: "log" }), "nonsense").fault.value).toBe("No joint nonsense is simulated");
   });
 
-  test("finds its topic once that is known, and lets go of the guess", () => {
+  test("uses its topic once it is known, and drops the guessed one", () => {
     const page = fakePage();
     const curve = new Curve(page, "/a/b/c");
     expect(page.connection.subscriptions("/a/b")).toBe(1);
@@ -85,7 +85,7 @@ describe("a curve of the simulation", () => {
     return view;
   };
 
-  test("is asked for while it is there, and takes each row once", () => {
+  test("is subscribed while shown, and receives each row once", () => {
     const page = fakePage();
     const curve = new Curve(page, PATH);
     expect(page.connection.requests.at(-1)).toEqual({ name: "plot", fields: { series: [PATH] } });
@@ -112,7 +112,7 @@ describe("a curve of the simulation", () => {
     expect(page.connection.requests.at(-1)).toEqual({ name: "plot", fields: { series: [] } });
   });
 
-  test("goes on from an earlier moment without what came after it", () => {
+  test("drops later points when time goes back", () => {
     const page = fakePage();
     const curve = new Curve(page, PATH);
     page.connection.receiveRaw(
@@ -130,7 +130,7 @@ describe("a curve of the simulation", () => {
     ]);
   });
 
-  test("says why there are no values", () => {
+  test("reports why there are no values", () => {
     const page = fakePage();
     const curve = new Curve(page, PATH);
     page.connection.receiveRaw("trundle/series", message(0, [], { [PATH]: "it is not there" }));
@@ -139,12 +139,12 @@ describe("a curve of the simulation", () => {
 });
 
 describe("plots", () => {
-  test("open what the session asks for; x:y are two curves", () => {
+  test("open the session's plots; x:y are two curves", () => {
     const state = new PlotsState(fakePage({ plots: ["/pose/x:y", "/speed/data"] }));
     expect(state.curves.map((curve) => curve.path)).toEqual(["/pose/x", "/pose/y", "/speed/data"]);
   });
 
-  test("a curve moves into a plot of its own, and back; an empty plot goes", () => {
+  test("a curve moves into a plot of its own, and back; empty plots are removed", () => {
     const state = new PlotsState(fakePage({ plots: ["/a.x", "/b.x"] }));
     const [, second] = state.curves;
     if (second === undefined) throw new Error("no curve");

@@ -4,7 +4,7 @@ import { csvText } from "../../src/panels/plots/csv";
 import { RingBuffer } from "../../src/panels/plots/ring_buffer";
 
 describe("a ring buffer", () => {
-  test("keeps the newest points, as one view, however many came", () => {
+  test("keeps the newest points as one contiguous view", () => {
     const buffer = new RingBuffer(100);
     for (let index = 0; index < 12_345; index += 1) buffer.push(index, -index);
     const [xs, ys] = buffer.between(-Infinity, Infinity);
@@ -12,21 +12,21 @@ describe("a ring buffer", () => {
     expect([...xs]).toEqual(Array.from({ length: 100 }, (_, index) => 12_245 + index));
   });
 
-  test("gives one point beyond either edge", () => {
+  test("returns one point beyond either edge", () => {
     const buffer = new RingBuffer(10);
     for (const x of [1, 2, 3, 4, 5]) buffer.push(x, 10 * x);
     expect([...buffer.between(2.5, 3.5)[0]]).toEqual([2, 3, 4]);
     expect([...buffer.between(9, 10)[0]]).toEqual([5]);
   });
 
-  test("knows the value at a time", () => {
+  test("returns the value at a time", () => {
     const buffer = new RingBuffer(10);
     buffer.push(1, 10);
     buffer.push(2, 20);
     expect([buffer.at(0.9), buffer.at(1), buffer.at(1.9), buffer.at(2), buffer.at(99)]).toEqual([null, 10, 10, 20, 20]);
   });
 
-  test("starts again when time was reset", () => {
+  test("is cleared when time is reset", () => {
     const buffer = new RingBuffer(10);
     buffer.push(5, 1);
     buffer.push(4.9, 7);

@@ -32,7 +32,7 @@ beforeEach(() => {
   feed = new OutputFeed(screen);
 });
 
-test("output that comes twice is shown once", () => {
+test("repeated output is shown once", () => {
   feed.receive(0, bytes("abc"));
   feed.receive(0, bytes("abcdef"));
   feed.receive(6, bytes("ghi"));
@@ -40,14 +40,14 @@ test("output that comes twice is shown once", () => {
   expect(screen.shown).toBe("abcdefghi");
 });
 
-test("after a gap the screen begins anew", () => {
+test("the screen is reset after a gap", () => {
   feed.receive(0, bytes("abc"));
   screen.draw();
   feed.receive(100, bytes("xyz"));
   expect(screen.shown).toBe("xyz");
 });
 
-test("the output of another server begins anew, whatever its length", () => {
+test("the screen is reset for another server's output", () => {
   feed.receive(0, bytes("abc"));
   screen.draw();
   feed.restart();
@@ -55,7 +55,7 @@ test("the output of another server begins anew, whatever its length", () => {
   expect(screen.shown).toBe("another");
 });
 
-test("a screen that is slow is given the end", () => {
+test("a slow screen gets only the end of the output", () => {
   feed.receive(0, bytes("start"));
   const line = "0123456789abcdef".repeat(4096);
   for (let i = 0; i < 40; i += 1) feed.receive(5 + i * line.length, bytes(line));
@@ -81,7 +81,7 @@ test.each([
   expect(answers).toEqual([]);
 });
 
-test("titles and links of a program stay out of the page", async () => {
+test("titles and links of a program do not change the page", async () => {
   const terminal = new Terminal();
   silence(terminal);
   const titles: string[] = [];

@@ -39,7 +39,7 @@ describe("lanes of a bag", () => {
     ]);
   });
 
-  it("take the place of what was seen to come", () => {
+  it("replace observed messages", () => {
     const connection = new FakeConnection();
     const lanes = new TopicTimes(connection);
     connection.advertise("/tf", "tf2_msgs/TFMessage");
@@ -53,7 +53,7 @@ describe("lanes of a bag", () => {
 });
 
 describe("topics of a run", () => {
-  it("keep what came while the span grows, in ever longer buckets", () => {
+  it("keep received messages in ever longer buckets while the span grows", () => {
     const connection = new FakeConnection();
     const topics = new TopicTimes(connection);
     connection.advertise("/tf", "tf2_msgs/TFMessage");
@@ -73,7 +73,7 @@ describe("topics of a run", () => {
 });
 
 describe("intervals", () => {
-  it("go on while they are noted", () => {
+  it("are extended while the activity is on", () => {
     const intervals = new Intervals();
     for (const [isOn, time] of [
       [false, 1],
@@ -90,7 +90,7 @@ describe("intervals", () => {
     ]);
   });
 
-  it("after a time are forgotten when it begins again there", () => {
+  it("after a time are dropped when time goes back to it", () => {
     const intervals = new Intervals();
     for (const [isOn, time] of [
       [true, 1],
@@ -130,7 +130,7 @@ describe("contacts", () => {
     expect(touchingPairs(new DataView(contacts([1, 0], [3, 2]).buffer, 0, 100), 3, models).size).toBe(1);
   });
 
-  it("are kept with when they were, once for each moment", () => {
+  it("are recorded with their times, once for each time", () => {
     const lanes = new ContactTimes();
     const floor = new Set(["cart · floor"]);
     for (const [touching, time, known] of [
@@ -146,14 +146,14 @@ describe("contacts", () => {
     ]);
   });
 
-  it("of many pairs are kept of those that touched last", () => {
+  it("of many pairs are kept for the latest contacts", () => {
     const lanes = new ContactTimes();
     for (let i = 0; i < 1000; i += 1) lanes.note(new Set([`a · ${i}`, "b · floor"]), i, 0);
     expect(lanes.all.length).toBe(40);
     expect(lanes.all.map(({ pair }) => pair)).toContain("b · floor");
   });
 
-  it("of more pairs than are kept that touch at once, are those that began first", () => {
+  it("of too many simultaneous pairs are kept for those that began first", () => {
     const lanes = new ContactTimes();
     const pairs = Array.from({ length: 60 }, (_, i) => `crate ${i} · floor`);
     for (let time = 0; time < 10; time += 1) lanes.note(new Set(pairs), time, 0);
@@ -164,7 +164,7 @@ describe("contacts", () => {
 describe("a time to go to", () => {
   const state = { time_ns: 2e9, paused: true, real_time_factor: null, speed: 1 };
 
-  it("is sought where it is kept, and else simulated", () => {
+  it("is sought if recorded, and otherwise simulated", () => {
     const timeline = { start_ns: 1e9, end_ns: 5e9 };
     expect(requestTo(3.5, { ...state, timeline })).toEqual(["seek", { time_ns: 3.5e9 }]);
     expect(requestTo(6, { ...state, timeline })).toEqual(["run_to", { time_ns: 6e9 }]);

@@ -11,7 +11,7 @@ function Watched(): JSX.Element {
   return <div ref={root}>{useShown(root) ? "shown" : "hidden"}</div>;
 }
 
-test("of what a busy browser tells at once, the newest counts", async () => {
+test("of several observer entries at once, the newest is used", async () => {
   let tell: (entries: readonly { readonly isIntersecting: boolean }[]) => void = () => undefined;
   vi.stubGlobal(
     "IntersectionObserver",

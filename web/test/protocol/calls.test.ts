@@ -44,7 +44,7 @@ test("calls a service", async () => {
 });
 
 test("fetches assets", async () => {
-  const found = greeted().connection.fetchAsset("package://a/b.stl");
+  const asset = greeted().connection.fetchAsset("package://a/b.stl");
   const missing = server.connection.fetchAsset("package://a/c.stl");
   expect(server.socket.ops("fetchAsset")).toEqual([
     { op: "fetchAsset", uri: "package://a/b.stl", requestId: 0 },
@@ -53,7 +53,7 @@ test("fetches assets", async () => {
   server.socket.binary([4], u32(1), [1], u32(4), new TextEncoder().encode("gone"));
   server.socket.binary([4], u32(0), [0], u32(0), [1, 2, 3]);
 
-  await expect(found).resolves.toEqual(new Uint8Array([1, 2, 3]).buffer);
+  await expect(asset).resolves.toEqual(new Uint8Array([1, 2, 3]).buffer);
   await expect(missing).rejects.toThrow("gone");
 });
 
@@ -68,22 +68,22 @@ test("makes requests", async () => {
   await expect(refused).rejects.toThrow("this run is not recorded");
 });
 
-test("what is unanswered at a loss is refused, and what is asked without a connection", async () => {
+test("pending requests are rejected at a lost connection, and new ones without a connection", async () => {
   vi.useFakeTimers();
-  const asked = greeted().connection.request("play", {});
+  const result = greeted().connection.request("play", {});
   server.socket.close();
-  await expect(asked).rejects.toThrow("the connection was lost before the answer came");
+  await expect(result).rejects.toThrow("the connection was lost before the answer came");
   await expect(server.connection.fetchAsset("file:///a")).rejects.toThrow("the page is not connected");
 });
 
-test("publishes with the definition of a topic, else with that of the server", async () => {
+test("publishes with the topic's definition, otherwise the server's", async () => {
   greeted().socket.advertise(1, "/other", "a/B", "int8 x");
   server.connection.publish("/goal", "a/B", { x: 7 });
   server.connection.publish("/cmd", "a/C", { y: 1 });
   server.connection.publish("/goal", "a/B", { x: 8 });
   server.connection.publish("/cmd", "a/C", { y: 2 });
-  const asked = server.socket.ops("trundle/request");
-  expect(asked).toEqual([{ op: "trundle/request", id: 0, request: "definition", type: "a/C" }]);
+  const requests = server.socket.ops("trundle/request");
+  expect(requests).toEqual([{ op: "trundle/request", id: 0, request: "definition", type: "a/C" }]);
   server.socket.answer(0, { definition: "int16 y" });
 
   const frames = () => server.socket.sent.filter((frame) => frame instanceof ArrayBuffer);
@@ -100,7 +100,7 @@ test("publishes with the definition of a topic, else with that of the server", a
   ]);
 });
 
-test("what cannot be published is a notice", async () => {
+test("a failed publication becomes a notice", async () => {
   greeted().socket.advertise(1, "/other", "std_msgs/Bool", "bool data");
   server.connection.publish("/a", "std_msgs/Bool", { data: 1 });
   server.connection.publish("/b", "b/Unknown", {});
@@ -113,7 +113,7 @@ test("what cannot be published is a notice", async () => {
   ]);
 });
 
-test("drives and lets go", () => {
+test("drives and releases", () => {
   greeted().connection.drive("/cmd_vel", 0.5, -1);
   server.connection.release("/cmd_vel");
 

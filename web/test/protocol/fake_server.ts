@@ -56,8 +56,8 @@ export class FakeSocket implements Socket {
     for (const frame of this.sent.toReversed()) {
       if (frame instanceof ArrayBuffer || frame["op"] !== "subscribe") continue;
       const all = frame["subscriptions"] as { id: number; channelId: number }[];
-      const found = all.find((one) => one.channelId === channelId);
-      if (found !== undefined) return found.id;
+      const subscription = all.find((one) => one.channelId === channelId);
+      if (subscription !== undefined) return subscription.id;
     }
     throw new Error(`channel ${String(channelId)} has no subscription`);
   }

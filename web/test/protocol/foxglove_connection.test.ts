@@ -32,7 +32,7 @@ function collect(topic: string, options: { every?: boolean } = {}) {
 }
 
 describe("connecting", () => {
-  test("is connected once the server has greeted, and opened again when lost, later each time", () => {
+  test("is connected once the server has greeted, and reconnects with growing delays", () => {
     vi.useFakeTimers();
     const { connection, sockets } = server;
     expect(connection.state.value).toEqual({ kind: "connecting" });
@@ -60,16 +60,16 @@ describe("connecting", () => {
       server.socket.close();
       vi.advanceTimersByTime(i < 2 ? 1000 : 0);
     }
-    const seen: unknown[] = [];
+    const states: unknown[] = [];
     effect(() => {
-      seen.push(server.connection.state.value);
+      states.push(server.connection.state.value);
     });
     vi.advanceTimersByTime(2000);
 
-    expect(seen).toEqual([2, 1, 0].map((retryInSeconds) => ({ kind: "lost", retryInSeconds })));
+    expect(states).toEqual([2, 1, 0].map((retryInSeconds) => ({ kind: "lost", retryInSeconds })));
   });
 
-  test("subscribes again to what is wanted after a loss", async () => {
+  test("subscribes again to subscribed topics after a lost connection", async () => {
     vi.useFakeTimers({ toFake: ["setTimeout"] });
     greeted().socket.advertise(3, "/a", "std_msgs/Int8", "int8 data");
     const { received, until } = collect("/a");
@@ -87,7 +87,7 @@ describe("connecting", () => {
     expect(received.at(-1)?.type).toBe("std_msgs/Int16");
   });
 
-  test("who subscribes as soon as it is connected again does not ask for a channel of the server before", () => {
+  test("a subscription made at reconnection uses no channel of the previous server", () => {
     vi.useFakeTimers({ toFake: ["setTimeout"] });
     greeted().socket.advertise(3, "/a", "std_msgs/Int8", "int8 data");
     server.socket.close();
@@ -114,7 +114,7 @@ describe("topics", () => {
     ]);
   });
 
-  test("the server's own channels are no topics, and come as they are", () => {
+  test("the server's own channels are not listed as topics, and are not decoded", () => {
     const payloads: number[] = [];
     server.connection.subscribeRaw("trundle/poses", (payload) => payloads.push(payload.getUint8(0)));
     greeted().socket.advertise(1, "trundle/poses", "", "", "trundle.poses");
@@ -134,7 +134,7 @@ describe("topics", () => {
     expect(server.connection.statistics("/a")).toMatchObject({ count: 10, dropped: 8 });
   });
 
-  test("a subscriber of every message gets every one, in order", async () => {
+  test("a subscriber of every message receives all of them, in order", async () => {
     greeted().socket.advertise(1, "/a", "std_msgs/Int8", "int8 data");
     const { received, until } = collect("/a", { every: true });
     for (let i = 0; i < 100; i++) server.socket.message(server.socket.subscription(1), [i]);
@@ -143,7 +143,7 @@ describe("topics", () => {
     expect(received.map((one) => one.message["data"])).toEqual([...Array(100).keys()]);
   });
 
-  test("what cannot be decoded is told with a sentence", async () => {
+  test("a message that cannot be decoded is reported with a sentence", async () => {
     greeted().socket.advertise(1, "/a", "a/B", "int32 data");
     const { errors, until } = collect("/a");
     server.socket.message(server.socket.subscription(1), [1]);
@@ -152,12 +152,12 @@ describe("topics", () => {
     expect(errors).toEqual(["a/B: the field 'data' takes 4 bytes, and the message has 1 more"]);
   });
 
-  test("an encoding that the page does not read is told", () => {
+  test("an unknown encoding is reported", () => {
     greeted().socket.advertise(1, "/a", "a/B", "", "protobuf");
     expect(collect("/a").errors).toEqual(["messages of /a have the encoding protobuf, which the page does not read"]);
   });
 
-  test("one subscription of the socket serves all; it ends with the last", () => {
+  test("one subscription of the socket serves all subscribers, and ends with the last", () => {
     greeted().socket.advertise(1, "/a", "std_msgs/Int8", "int8 data");
     const first = server.connection.subscribe("/a", () => undefined);
     const second = server.connection.subscribe("/a", () => undefined);
@@ -176,7 +176,7 @@ describe("topics", () => {
     });
   });
 
-  test("what only measures does not have latched messages sent again", () => {
+  test("measuring a topic does not resend latched messages", () => {
     greeted().socket.advertise(1, "/a", "std_msgs/Int8", "int8 data");
     server.socket.advertise(2, "trundle/world", "", "", "json");
     for (const topic of ["/a", "trundle/world"]) {
@@ -187,7 +187,7 @@ describe("topics", () => {
     expect(subscribed).toMatchObject([[{ channelId: 1 }], [{ channelId: 2 }], [{ channelId: 2 }]]);
   });
 
-  test("a subscriber that fails does not keep the message from others", async () => {
+  test("an error of one subscriber does not affect the others", async () => {
     const error = vi.spyOn(console, "error").mockImplementation(() => undefined);
     greeted().socket.advertise(1, "/a", "std_msgs/Int8", "int8 data");
     server.connection.subscribe("/a", () => {
@@ -202,7 +202,7 @@ describe("topics", () => {
     error.mockRestore();
   });
 
-  test("the server's drops are counted, over connections", () => {
+  test("the server's drops are counted across connections", () => {
     vi.useFakeTimers();
     const drop = (count: number) => {
       server.socket.advertise(9, "trundle/drops", "", "", "json");

@@ -56,7 +56,7 @@ describe("reading", () => {
     expect(readMessage(schema, bytes("02000000 01 02 03"))).toEqual({ points: [{ x: 1 }, { x: 2 }], one: [{ x: 3 }] });
   });
 
-  test("a Header is that of std_msgs, and a bare name that of the own package", () => {
+  test("a Header is std_msgs/Header, and a bare name is in the same package", () => {
     const schema = parseSchema("a/B", `${HEADER}===\nMSG: b/C\nint8 x\n`);
 
     expect(readMessage(schema, bytes("05000000 0100000002000000 01000000 61 07"))).toEqual({
@@ -85,7 +85,7 @@ describe("reading", () => {
     expect(buffers.size).toBe(3);
   });
 
-  test("identifiers that objects have anyway are fields as others", () => {
+  test("names of Object.prototype are ordinary fields", () => {
     const schema = parseSchema("a/B", "int8 constructor\nint8 hasOwnProperty\nint8 toString\nint8 valueOf\n");
     const message = readMessage(schema, bytes("01020304"));
 
@@ -135,14 +135,14 @@ describe("hostile messages", () => {
     expect(readMessage(parseSchema("a/B", empty), bytes("02000000"))).toEqual({ x: [{}, {}] });
   });
 
-  test("a definition that doubles forty times ends", () => {
+  test("a definition that doubles forty times is read in bounded time", () => {
     const types = Array.from({ length: 40 }, (_, i) => `===\nMSG: a/T${String(i)}\nT${String(i + 1)}[2] x\n`);
     const schema = parseSchema("a/B", `T0 x\n${types.join("")}===\nMSG: a/T40\n`);
 
     expect(() => readMessage(schema, bytes("00"))).toThrow("more values than a message of this size has");
   });
 
-  test("a type that contains itself is refused, as is one that is not there", () => {
+  test("recursive and missing types are refused", () => {
     expect(() => parseSchema("a/B", "C c\n===\nMSG: a/C\nB[] b\n===\nMSG: a/B\nC c\n")).toThrow("a/B contains itself");
     expect(() => parseSchema("a/B", "c/D d\n")).toThrow("the definition of a/B lacks that of c/D");
   });

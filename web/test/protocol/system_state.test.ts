@@ -16,7 +16,7 @@ function greeted(): FakeServer {
   return server;
 }
 
-test("parameters come while they are watched", () => {
+test("parameters are received while subscribed", () => {
   greeted();
   expect(server.socket.sent).toEqual([]);
   const stop = server.connection.parameters.subscribe(() => undefined);
@@ -44,7 +44,7 @@ test("parameters come while they are watched", () => {
   });
 });
 
-test("floats stay floats, also where they are whole", () => {
+test("whole floats stay floats", () => {
   greeted();
   server.socket.text({
     op: "parameterValues",
@@ -67,7 +67,7 @@ test("floats stay floats, also where they are whole", () => {
   expect(server.connection.floatParameters.value.size).toBe(0);
 });
 
-test("a server without a graph is not asked for one", () => {
+test("a server without the graph capability gets no graph subscription", () => {
   server.connection.parameters.subscribe(() => undefined);
   server.connection.graph.subscribe(() => undefined)();
   server.socket.greet(["assets", "time"]);
@@ -75,7 +75,7 @@ test("a server without a graph is not asked for one", () => {
   expect(server.socket.sent).toEqual([]);
 });
 
-test("the graph comes while it is watched, again after a loss", () => {
+test("the graph is received while subscribed, and again after a lost connection", () => {
   vi.useFakeTimers();
   server.connection.graph.subscribe(() => undefined);
   greeted();
@@ -124,7 +124,7 @@ test("notices are replaced and removed by their id", () => {
   expect(texts()).toEqual(["info: one"]);
 });
 
-test("the time is the server's where it tells one, else the wall's", () => {
+test("time is the server's if sent, otherwise the wall clock's", () => {
   vi.useFakeTimers({ now: 5000 });
   expect(greeted().connection.now()).toBe(5_000_000_000n);
   server.socket.binary([2], u64(12_500n));

@@ -36,6 +36,6 @@ test("only the last seconds count", () => {
   expect(statistics.at(24_500).rate).toBeCloseTo(2);
 });
 
-test("a topic that fell silent has rate 0", () => {
+test("a silent topic has rate 0", () => {
   expect(arrivals(100, 10).at(990 + 5001)).toMatchObject({ rate: 0, bandwidth: 0 });
 });

@@ -53,31 +53,31 @@ test.each([
   expect(notices()[0]).toMatch(/^The page cannot read a binary message: /);
 });
 
-test("a fault that comes again and again is one notice", () => {
+test("a repeated fault is one notice", () => {
   for (let i = 0; i < 3; i++) server.socket.raw("{");
 
   expect(notices()).toHaveLength(1);
 });
 
-test("a channel's message without a field is a notice, and does not reach who listens", () => {
-  const seen: PageSession[] = [];
-  server.connection.subscribeJson("trundle/session", (session) => seen.push(session));
+test("a channel's message without a field becomes a notice, and is not delivered", () => {
+  const sessions: PageSession[] = [];
+  server.connection.subscribeJson("trundle/session", (session) => sessions.push(session));
   send("trundle/session", { ...SESSION, rviz: { name: "a.rviz", text: "", writable: true } });
 
-  expect(seen).toEqual([]);
+  expect(sessions).toEqual([]);
   expect(notices()).toEqual([`The page cannot read trundle/session: 'rviz.saved' is missing. ${VERSION}`]);
 });
 
-test("fields that the page does not know are no fault", () => {
-  const seen: PageSession[] = [];
-  server.connection.subscribeJson("trundle/session", (session) => seen.push(session));
+test("unknown fields are accepted", () => {
+  const sessions: PageSession[] = [];
+  server.connection.subscribeJson("trundle/session", (session) => sessions.push(session));
   send("trundle/session", { ...SESSION, mood: "sunny" });
 
-  expect(seen).toHaveLength(1);
+  expect(sessions).toHaveLength(1);
   expect(notices()).toEqual([]);
 });
 
-test("an answer without its fields is a sentence for who asked", async () => {
+test("an answer without its fields rejects the request with a sentence", async () => {
   const models = server.connection.request("models", {});
   const saved = server.connection.request("save_world", { file: "a.sdf" });
   server.socket.answer(0, { models: [{ name: "cart", title: "Cart", description: "" }] });
@@ -89,7 +89,7 @@ test("an answer without its fields is a sentence for who asked", async () => {
   await expect(saved).rejects.toThrow(/^The page cannot read the answer to 'save_world': /);
 });
 
-test("one of several answers is read", async () => {
+test("a union of answers is read", async () => {
   const saved = server.connection.request("save_world", { file: "a.sdf" });
   server.socket.answer(0, { exists: "a.sdf" });
 

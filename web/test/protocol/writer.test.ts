@@ -32,7 +32,7 @@ function trip(message: RosMessage): RosMessage {
   return readMessage(schema, new DataView(written.buffer));
 }
 
-test("what is written is read again", () => {
+test("written messages are read back", () => {
   const message = {
     a: true,
     b: -128,
@@ -84,6 +84,6 @@ test.each<[RosMessage, string]>([
   [{ m: ["a"] }, "a/B.m has 2 elements, not 1"],
   [{ n: [{ x: "1" }] }, 'a/B.n[0].x is a number, not "1"'],
   [{ l: "1" }, 'a/B.l is an array, not "1"'],
-])("what does not fit is refused: %o", (message, sentence) => {
+])("an invalid message is refused: %o", (message, sentence) => {
   expect(() => writeMessage(schema, message)).toThrow(sentence);
 });

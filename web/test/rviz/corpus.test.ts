@@ -29,9 +29,9 @@ const loaded = new Map<string, ReturnType<typeof load>>();
 
 /** A file, loaded once. */
 function loadFile(name: string): ReturnType<typeof load> {
-  const found = loaded.get(name) ?? load(readFileSync(join(CORPUS, name), "utf8"));
-  loaded.set(name, found);
-  return found;
+  const file = loaded.get(name) ?? load(readFileSync(join(CORPUS, name), "utf8"));
+  loaded.set(name, file);
+  return file;
 }
 
 function load(text: string): { store: DisplayStore; faults: readonly string[] } {
@@ -61,11 +61,11 @@ function lost(before: Yaml, after: Yaml | undefined, path = ""): string[] {
 }
 
 describe.skipIf(FILES.length === 0)("the corpus' .rviz files (skipped where ../shared/corpus is absent)", () => {
-  it("are all there", () => {
+  it("are complete", () => {
     expect(FILES).toHaveLength(46);
   });
 
-  it.each(FILES)("%s loads and is saved with all it had", (name) => {
+  it.each(FILES)("%s loads and is saved without loss", (name) => {
     const text = readFileSync(join(CORPUS, name), "utf8");
     const { store, faults } = loadFile(name);
     expect(faults).toEqual([]);
@@ -75,13 +75,13 @@ describe.skipIf(FILES.length === 0)("the corpus' .rviz files (skipped where ../s
     expect(load(saved).store.save()).toBe(saved);
   });
 
-  it("are shown whole: every display of rviz' own, with every property that the file sets", () => {
-    const found = FILES.map((name) => {
+  it("are shown completely: rviz's displays with all their saved properties", () => {
+    const files = FILES.map((name) => {
       const { store } = loadFile(name);
       return { shown: allOf(store.displays.value), refused: store.unsupported.value.map(({ className }) => className) };
     });
-    const shown = found.flatMap((file) => file.shown);
-    const refused = found.flatMap((file) => file.refused);
+    const shown = files.flatMap((file) => file.shown);
+    const refused = files.flatMap((file) => file.refused);
     expect(refused.filter((name) => name.startsWith("rviz/"))).toEqual([]);
     const unknown = new Set(
       shown.flatMap((display) => Object.keys(display.unknown).map((key) => `${display.className}: ${key}`)),
@@ -90,7 +90,7 @@ describe.skipIf(FILES.length === 0)("the corpus' .rviz files (skipped where ../s
     expect([shown.length, refused.length]).toEqual([SHOWN, OTHERS]);
   });
 
-  it("name displays of rviz' own, all of which are shown", () => {
+  it("contain rviz's displays, which are all supported", () => {
     const names = new Set(
       FILES.flatMap((name) => readFileSync(join(CORPUS, name), "utf8").match(/(?<=Class: )rviz\/\w+/g) ?? []),
     );

@@ -39,14 +39,14 @@ function grid(alpha: number, topic: string): YamlMapping {
 }
 
 describe("an .rviz file", () => {
-  it("is written as it was when nothing has changed", () => {
+  it("is written unchanged without edits", () => {
     const file = RvizFile.parse(FILE);
     const content = file.content();
     const written = file.write({ ...content, displays: [grid(0.03, "/map"), { Class: "rviz/Axes", Name: "Axes" }] });
     expect(written).toBe(FILE.replace("  # thin", " # thin").replace("{a: [1, 2]}", "{ a: [ 1, 2 ] }"));
   });
 
-  it("keeps comments, order and what is not understood around a change", () => {
+  it("keeps comments, order and unknown entries around a change", () => {
     const file = RvizFile.parse(FILE);
     const displays = [{ Class: "rviz/Axes", Name: "Axes", Length: 2 }, grid(0.5, "/other")];
     const written = file.write({ ...file.content(), displays });
@@ -66,13 +66,13 @@ describe("an .rviz file", () => {
     expect(tools).toEqual([{ Class: "rviz/MoveCamera" }]);
   });
 
-  it("reads words as words: Y is an axis", () => {
+  it("reads the word Y as text, not as a boolean", () => {
     const file = RvizFile.parse("Visualization Manager:\n  Displays:\n    - {Axis: Y, Offset: {X: 1, Y: 2, Z: 3}}\n");
     const display: Yaml | undefined = file.content().displays[0];
     expect(isMapping(display) && display["Axis"]).toBe("Y");
   });
 
-  it("is refused with a sentence when it is a .vcg, no YAML or of something else", () => {
+  it("is refused with a sentence if it is a .vcg, not YAML, or another file", () => {
     const refusal = (text: string): string => {
       try {
         RvizFile.parse(text);
@@ -91,7 +91,7 @@ describe("an .rviz file", () => {
     expect(refusal("Panels: []\n")).toBe('The file has no "Visualization Manager", which every .rviz file has.');
   });
 
-  it("has a default that is one", () => {
+  it("has a valid default file", () => {
     expect(RvizFile.parse(DEFAULT_FILE).content().displays).toHaveLength(3);
   });
 });

@@ -26,7 +26,7 @@ function cameraAtX(): PerspectiveCamera {
   return camera;
 }
 
-test("a box picks meshes, instances and points whose middle it holds", () => {
+test("a box picks meshes, instances and points whose middle it contains", () => {
   const inside = new Mesh(new BoxGeometry(0.2, 0.2, 0.2), new MeshBasicMaterial());
   const outside = new Mesh(new BoxGeometry(0.2, 0.2, 0.2), new MeshBasicMaterial());
   outside.position.set(0, 2, 0);

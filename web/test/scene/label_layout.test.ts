@@ -13,7 +13,7 @@ function placed(requests: readonly LabelRequest[]): LabelRequest[] {
   return sorted.filter(({ corner }) => corner >= 0);
 }
 
-test("labels never overlap, and the nearer ones come first", () => {
+test("labels never overlap, and nearer ones have priority", () => {
   const requests = Array.from({ length: 40 }, (_, i) => request(300 + 3 * i, 200 + 2 * i, { distance: 40 - i }));
 
   const shown = placed(requests);
@@ -34,7 +34,7 @@ test("a label covers no other's anchor", () => {
 
   for (const shown of placed(requests)) {
     const { box } = shown;
-    const other = requests.find((each) => each !== shown);
+    const other = requests.find((request) => request !== shown);
     const isInside =
       other !== undefined &&
       other.x >= box.x &&
@@ -45,7 +45,7 @@ test("a label covers no other's anchor", () => {
   }
 });
 
-test("the hovered label is shown where there is no room, within the picture", () => {
+test("the hovered label is shown within the picture even without free space", () => {
   const crowd = Array.from({ length: 30 }, (_, i) => request(780 + (i % 5), 10 + i, { distance: 0.1 }));
 
   const [hovered] = placed([...crowd, request(795, 20, { hovered: true, width: 150 })]);

@@ -20,7 +20,7 @@ class FakeContext {
   readonly sizes: unknown[] = [];
   chosen: readonly number[] = [];
   status = UNSIGNALED;
-  private made = 0;
+  private created = 0;
 
   bindFramebuffer(target: number, framebuffer: unknown): void {
     for (const part of target === BOTH ? [READ, DRAW] : [target]) this.bound[part] = framebuffer;
@@ -29,8 +29,8 @@ class FakeContext {
     this.chosen = buffers;
   }
   createFramebuffer(): unknown {
-    this.made += 1;
-    return `framebuffer ${this.made}`;
+    this.created += 1;
+    return `framebuffer ${this.created}`;
   }
   createRenderbuffer(): unknown {
     return {};
@@ -60,8 +60,8 @@ function begun(): { context: FakeContext; picture: OffscreenPicture } {
   return { context, picture };
 }
 
-describe("a picture beside the canvas", () => {
-  it("receives what is drawn to the canvas, and nothing else", () => {
+describe("an offscreen picture", () => {
+  it("receives drawing to the canvas, and no other framebuffer's", () => {
     const { context } = begun();
 
     context.bindFramebuffer(BOTH, null);
@@ -71,7 +71,7 @@ describe("a picture beside the canvas", () => {
     expect(context.bound[DRAW]).toBe("another");
   });
 
-  it("is copied to the canvas once it is done, and drawn to again", () => {
+  it("is copied to the canvas once it is done, and can be drawn to again", () => {
     const { context, picture } = begun();
 
     picture.begin();
@@ -84,7 +84,7 @@ describe("a picture beside the canvas", () => {
     expect(context.bound[DRAW]).toBe("framebuffer 1");
   });
 
-  it("takes another size only where it is another one", () => {
+  it("is resized only by a different size", () => {
     const { context, picture } = begun();
     const before = context.sizes.length;
 

@@ -17,7 +17,7 @@ test("one pane is the whole scene", () => {
   expect(paneAreas("one", SIZE, INSETS, 40)).toEqual([{ area: { left: 0, top: 0, ...SIZE }, insets: INSETS }]);
 });
 
-test("the free part is halved, and each panel covers the panes beside it", () => {
+test("the free part is halved, and panels cover the panes next to them", () => {
   const [right, left, bottom, corner] = paneAreas("four", SIZE, INSETS, 40);
   expect(left).toEqual({
     area: { left: 0, top: 0, width: 600, height: 210 },
@@ -37,7 +37,7 @@ test("the free part is halved, and each panel covers the panes beside it", () =>
   });
 });
 
-test("a pane that is pressed is the active one, and has the pointer until the button goes up", () => {
+test("a pressed pane becomes active, and has the pointer until the button goes up", () => {
   const panes = setUp();
   panes.layout.value = "beside";
   const [left, right] = panes.shown.value;

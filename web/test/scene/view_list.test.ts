@@ -45,7 +45,7 @@ function at(x: number, y: number): Transform {
   return { position: new Vector3(x, y, 0), orientation: new Quaternion() };
 }
 
-test("the camera follows a body, stops where it is, and costs no picture while nothing moves", () => {
+test("the camera follows a body, stops there, and draws nothing while nothing moves", () => {
   const { pane, views, targets, wait, drawn } = setUp();
   targets.set("robot::base", at(5, 0));
   wait(0.1);
@@ -66,7 +66,7 @@ test("the camera follows a body, stops where it is, and costs no picture while n
   expect(pane.camera.value.position.distanceTo(place)).toBeLessThan(1e-6);
 });
 
-test("framing takes some time, and none where reduced motion is asked for", () => {
+test("framing is animated, except with reduced motion", () => {
   const box = new Box3(new Vector3(9, 9, 0), new Vector3(11, 11, 2));
   const looksAt = ({ views }: ReturnType<typeof setUp>): Vector3 =>
     views.current.value.focus(views.active.value.target);
@@ -83,7 +83,7 @@ test("framing takes some time, and none where reduced motion is asked for", () =
   expect(looksAt(reduced).distanceTo(new Vector3(10, 10, 1))).toBeLessThan(1e-6);
 });
 
-test("another class shows the same place; a side that it cannot show brings Orbit back", () => {
+test("another class shows the same point; an unsupported side switches to Orbit", () => {
   const { pane, views, wait } = setUp(true);
   views.load({
     Current: { Class: "rviz/Orbit", Distance: 4, "Focal Point": { X: 3, Y: 2, Z: 0 }, Yaw: 1, Pitch: 0.6 },
@@ -103,7 +103,7 @@ test("another class shows the same place; a side that it cannot show brings Orbi
   expect(pane.camera.value).toBeInstanceOf(PerspectiveCamera);
 });
 
-test("views of a file: saved ones, those of old files and of ROS 2; unknown ones are named", () => {
+test("views of a file are loaded, also of old files and of ROS 2; unknown ones are named", () => {
   const { views } = setUp();
   const faults = views.load({
     Current: { Value: "XYOrbit (rviz)", Distance: 7, "Focal Shape Size": 0.05 },
@@ -129,7 +129,7 @@ test("views of a file: saved ones, those of old files and of ROS 2; unknown ones
   });
 });
 
-test("further panes look at the same place from top, front and right; what is asked is done by the active one", () => {
+test("further panes look at the same point from top, front and right; calls act on the active one", () => {
   const { panes, pane, views, wait } = setUp(true);
   views.load({
     Current: {
@@ -219,7 +219,7 @@ test.each([
   { Layout: "six", Panes: [] },
   { Layout: "four", Panes: 1 },
   { Layout: "beside", Active: 1e9, Panes: [1, { Class: "x" }] },
-])("panes that are none do no harm: %j", (panes) => {
+])("invalid panes are ignored: %j", (panes) => {
   const { views } = setUp();
   views.load({ Current: { Class: "rviz/Orbit", Distance: 4 }, "Trundle Panes": panes });
   expect(views.panes.value.length).toBeGreaterThan(0);

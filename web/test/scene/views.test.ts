@@ -33,25 +33,25 @@ function placed(view: View, target = ORIGIN): PerspectiveCamera | OrthographicCa
   return camera;
 }
 
-function seen(view: View, point: Vector3, target = ORIGIN): Vector3 {
+function pixel(view: View, point: Vector3, target = ORIGIN): Vector3 {
   return toPicture(point.clone(), placed(view, target), SIZE) ?? new Vector3(NaN, NaN, NaN);
 }
 
-test("Orbit stands where rviz's formula says, and looks at the focal point", () => {
+test("Orbit's eye follows rviz's formula, and looks at the focal point", () => {
   const view = new Orbit();
   view.load({ Distance: 2, Yaw: 0.5, Pitch: 0.3, "Focal Point": { X: 1, Y: 2, Z: 3 } });
   const { position } = placed(view);
   expect(position.x).toBeCloseTo(1 + 2 * Math.cos(0.5) * Math.cos(0.3));
   expect(position.y).toBeCloseTo(2 + 2 * Math.sin(0.5) * Math.cos(0.3));
   expect(position.z).toBeCloseTo(3 + 2 * Math.sin(0.3));
-  expect(seen(view, new Vector3(1, 2, 3)).x).toBeCloseTo(400);
+  expect(pixel(view, new Vector3(1, 2, 3)).x).toBeCloseTo(400);
 });
 
 test.each([new Orbit(), new XYOrbit(), new TopDownOrtho()])(
   "panning carries what lies at the focal point along with the pointer",
   (view) => {
     view.pan(30, -20, PICTURE);
-    const after = seen(view, new Vector3());
+    const after = pixel(view, new Vector3());
     expect(after.x - 400).toBeCloseTo(30, -1);
     expect(after.y - 300).toBeCloseTo(-20, -1);
   },
@@ -71,11 +71,11 @@ test.each([new Orbit(), new Fps(), new TopDownOrtho()])(
     const centre = new Vector3(3, -2, 1);
     const motion = new CameraMotion(view.frame(centre, 2, ORIGIN, PICTURE));
     while (!motion.advance(0.05));
-    const middle = seen(view, centre);
+    const middle = pixel(view, centre);
     expect(middle.x).toBeCloseTo(400);
     expect(middle.y).toBeCloseTo(300);
     const up = new Vector3(0, 1, 0).applyQuaternion(placed(view).quaternion);
-    const top = seen(view, centre.clone().addScaledVector(up, 2));
+    const top = pixel(view, centre.clone().addScaledVector(up, 2));
     expect(300 - top.y).toBeGreaterThan(220);
     expect(300 - top.y).toBeLessThanOrEqual(300);
   },
@@ -84,14 +84,14 @@ test.each([new Orbit(), new Fps(), new TopDownOrtho()])(
 test("in the top view x is to the right and y is up", () => {
   const view = new Orbit();
   new CameraMotion(view.lookFrom("top")).advance(10);
-  expect(seen(view, new Vector3(1, 0, 0)).x).toBeGreaterThan(410);
-  expect(seen(view, new Vector3(0, 1, 0)).y).toBeLessThan(290);
+  expect(pixel(view, new Vector3(1, 0, 0)).x).toBeGreaterThan(410);
+  expect(pixel(view, new Vector3(0, 1, 0)).y).toBeLessThan(290);
 });
 
 test("TopDownOrtho shows Scale pixels per metre, x to the right", () => {
   const view = new TopDownOrtho();
   view.load({ Scale: 50, X: 1, Y: 2 });
-  const point = seen(view, new Vector3(3, 2, 0));
+  const point = pixel(view, new Vector3(3, 2, 0));
   expect(point.x).toBeCloseTo(500);
   expect(point.y).toBeCloseTo(300);
 });
@@ -99,14 +99,14 @@ test("TopDownOrtho shows Scale pixels per metre, x to the right", () => {
 test("FPS at yaw 0 looks along x, and a positive pitch looks down", () => {
   const view = new Fps();
   view.load({ Position: { X: 0, Y: 0, Z: 0 }, Yaw: 0, Pitch: 0 });
-  expect(seen(view, new Vector3(5, 0, 0)).x).toBeCloseTo(400);
-  expect(seen(view, new Vector3(5, 1, 0)).x).toBeLessThan(400);
-  expect(seen(view, new Vector3(5, 0, 1)).y).toBeLessThan(300);
+  expect(pixel(view, new Vector3(5, 0, 0)).x).toBeCloseTo(400);
+  expect(pixel(view, new Vector3(5, 1, 0)).x).toBeLessThan(400);
+  expect(pixel(view, new Vector3(5, 0, 1)).y).toBeLessThan(300);
   view.load({ Pitch: 0.3 });
-  expect(seen(view, new Vector3(5, 0, -5 * Math.tan(0.3))).y).toBeCloseTo(300);
+  expect(pixel(view, new Vector3(5, 0, -5 * Math.tan(0.3))).y).toBeCloseTo(300);
 });
 
-test("Orbit follows its target's place only; ThirdPersonFollower its yaw, too", () => {
+test("Orbit follows only its target's position; ThirdPersonFollower also its yaw", () => {
   const target = at(10, 5, 1, Math.PI / 2);
   const [orbit, follower] = [new Orbit(), new ThirdPersonFollower()];
   for (const view of [orbit, follower]) view.load({ Yaw: Math.PI, Distance: 4, Pitch: 0 });
@@ -114,7 +114,7 @@ test("Orbit follows its target's place only; ThirdPersonFollower its yaw, too", 
   expect(placed(follower, target).position.distanceTo(new Vector3(10, 1, 0))).toBeLessThan(1e-6);
 });
 
-test.each([new Orbit(), new Fps(), new TopDownOrtho()])("another target frame leaves the picture as it was", (view) => {
+test.each([new Orbit(), new Fps(), new TopDownOrtho()])("another target frame does not change the picture", (view) => {
   const before = placed(view).position.clone();
   const target = at(2, 3, 0);
   view.shift(ORIGIN, target);
@@ -122,14 +122,14 @@ test.each([new Orbit(), new Fps(), new TopDownOrtho()])("another target frame le
   expect(after.distanceTo(before)).toBeLessThan(1e-6);
 });
 
-test("a view keeps keys that it does not know, and names values that it does not understand", () => {
+test("a view keeps unknown keys, and names invalid values", () => {
   const view = new Orbit();
   const faults = view.load({ Class: "rviz/Orbit", Name: "A", Distance: "far", "Focal Shape Size": 0.05, Yaw: 1 });
   expect(faults).toEqual(['Distance: "far" is no number']);
   expect(view.save()).toMatchObject({ Class: "rviz/Orbit", Name: "A", "Focal Shape Size": 0.05, Yaw: 1, Distance: 10 });
 });
 
-test("a followed pose arrives, and a jump is taken at once", () => {
+test("a followed pose converges, and jumps are applied at once", () => {
   const pose = new SmoothPose();
   const target = at(1, 0, 0, 1);
   pose.follow(target, 1 / 60);
@@ -141,7 +141,7 @@ test("a followed pose arrives, and a jump is taken at once", () => {
   expect(pose.position.x).toBe(50);
 });
 
-test("a simulated camera's view is one again when it is loaded, and when it is copied", () => {
+test("a simulated camera's view stays one when it is saved and loaded, and when it is copied", () => {
   const camera = {
     name: "eye",
     topic: "/eye",

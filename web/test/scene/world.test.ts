@@ -28,7 +28,7 @@ function poseMessage(time: bigint, generation: number, poses: readonly (readonly
   return view;
 }
 
-test("poses move the objects of their bodies; the others stay", () => {
+test("poses move only the objects of their bodies", () => {
   const poses = new BodyPoses();
   const [a, b] = [new Group(), new Group()];
   poses.attach(3, a);
@@ -44,7 +44,7 @@ test("poses move the objects of their bodies; the others stay", () => {
   expect(poses.pose(200)?.position.z).toBe(3);
 });
 
-test("a body whose model comes after its pose stands at once where it is", () => {
+test("a body whose model is loaded after its pose is placed at once", () => {
   const poses = new BodyPoses();
   poses.apply(poseMessage(5n, 1, [[0, 7, 0, 0, 0, 0, 0, 1]]), 1);
   const late = new Group();
@@ -52,7 +52,7 @@ test("a body whose model comes after its pose stands at once where it is", () =>
   expect(late.position.x).toBe(7);
 });
 
-test("poses of another generation and messages that are cut short change nothing", () => {
+test("poses of another generation and truncated messages change nothing", () => {
   const poses = new BodyPoses();
   const whole = poseMessage(5n, 1, [[0, 7, 0, 0, 0, 0, 0, 1]]);
   expect(poses.apply(whole, 2)).toBe(false);
@@ -135,19 +135,19 @@ const MANIFEST = {
 /** The robot drives at 1 m/s from x = 10; odom began there, and tf is 0.1 s late. */
 function drivingRobot(poses: BodyPoses, time: bigint): FrameTree {
   poses.apply(poseMessage(time, 1, [[0, 10 + Number(time) * 1e-9, 0, 0, 0, 0, 0, 1]]), 1);
-  const lookup = (target: string, source: string, asked: bigint): Transform | NoTransform =>
-    target === "odom" && source === "base_link" && asked <= time - 100_000_000n
-      ? at(Number(asked) * 1e-9)
+  const lookup = (target: string, source: string, query: bigint): Transform | NoTransform =>
+    target === "odom" && source === "base_link" && query <= time - 100_000_000n
+      ? at(Number(query) * 1e-9)
       : new NoTransform("", "");
   return { lookup } as unknown as FrameTree;
 }
 
-test("the world stands still in odom while the robot drives and tf is late", () => {
+test("the world stays fixed in odom while the robot drives and tf is late", () => {
   const poses = new BodyPoses();
   const world = new Group();
   let now = 0n;
   const frames: FrameTree = {
-    lookup: (...asked: [string, string, bigint]) => drivingRobot(poses, now).lookup(...asked),
+    lookup: (...query: [string, string, bigint]) => drivingRobot(poses, now).lookup(...query),
   } as unknown as FrameTree;
   const placement = new WorldPlacement(world, poses, frames);
   const moved: boolean[] = [];

@@ -51,7 +51,7 @@ describe("axes", () => {
 });
 
 describe("instances", () => {
-  it("get a program anew when their colors begin to be seen through", () => {
+  it("recompile their program when a color becomes transparent", () => {
     const boxes = new Instances(BOX);
     const color = (alpha: number): number => {
       boxes.begin(1);
@@ -66,18 +66,18 @@ describe("instances", () => {
     expect(color(1)).toBe(opaque + 2);
   });
 
-  it("grow and keep what they had", () => {
+  it("grow and keep their matrices and colors", () => {
     const instances = new Instances(BOX, {}, 1);
     instances.begin(1);
     instances.setMatrixAt(0, new Matrix4().makeTranslation(1, 2, 3));
     instances.resize(40);
     instances.setMatrixAt(39, new Matrix4());
-    const kept = new Matrix4();
-    instances.getMatrixAt(0, kept);
-    expect(new Vector3().setFromMatrixPosition(kept).toArray()).toEqual([1, 2, 3]);
+    const matrix = new Matrix4();
+    instances.getMatrixAt(0, matrix);
+    expect(new Vector3().setFromMatrixPosition(matrix).toArray()).toEqual([1, 2, 3]);
   });
 
-  it("are blended when one of them is seen through", () => {
+  it("are blended when one of them is transparent", () => {
     const instances = new Instances(BOX);
     instances.begin(2);
     instances.setRgbaAt(0, 1, 0, 0, 1);
@@ -92,7 +92,7 @@ describe("instances", () => {
 });
 
 describe("billboard lines", () => {
-  it("join a closed line's last point to its first, and are met within their width", () => {
+  it("join a closed line's last point to its first, and are picked within their width", () => {
     const lines = new BillboardLines(0.2);
     lines.begin();
     lines.addPolyline([0, 0, 0, 1, 0, 0, 1, 1, 0], [1, 0, 0, 1], true);

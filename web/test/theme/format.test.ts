@@ -32,7 +32,7 @@ describe("numbers", () => {
 });
 
 describe("times", () => {
-  it("are minutes and seconds, with hours where there are some", () => {
+  it("are minutes and seconds, with hours if nonzero", () => {
     expect([clock(12.48), clock(221.06), clock(12, 0), clock(3723.5), clock(-1.5, 1)]).toEqual([
       "0:12.48",
       "3:41.06",

@@ -63,7 +63,7 @@ it("shows its value as it changes", () => {
   expect(show("2").value).toBe("2");
 });
 
-it("keeps what it showed, selected, from its focus on, so that typing replaces it", () => {
+it("keeps its value, selected, while focused, so that typing replaces it", () => {
   focus(show("1.25"));
   const input = show("1.5");
   expect([input.value, selected(input)]).toEqual(["1.25", "1.25"]);
@@ -82,7 +82,7 @@ it("shows its value again after Enter, selected", () => {
   expect([input.value, selected(input)]).toEqual(["2.5", "2.5"]);
 });
 
-it("applies what was typed when it is left, and nothing that was not typed", () => {
+it("commits typed text on blur, and nothing else", () => {
   const input = show("1");
   focus(input);
   show("2");
@@ -98,7 +98,7 @@ it("applies what was typed when it is left, and nothing that was not typed", () 
   expect(commit.mock.calls).toEqual([["3"]]);
 });
 
-it("is left as it was by Escape", () => {
+it("is unchanged after Escape", () => {
   const input = show("1");
   focus(input);
   type(input, "3");

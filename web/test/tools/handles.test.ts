@@ -21,30 +21,30 @@ it.each([
   [0.3, 0.25],
   [-0.3, -0.25],
   [0.1, 0],
-])("turns by steps from where it began: %f", (by, snapped) => {
+])("turns by steps from the start: %f", (by, snapped) => {
   const to = at(0, 0, 0, 1 + by);
   snapToAngle(to, at(0, 0, 0, 1), 0.25);
   expect(to.orientation.angleTo(at(0, 0, 0, 1 + snapped).orientation)).toBeLessThan(1e-6);
 });
 
-it("asks for the newest once what came before is answered, and for no more after a refusal", async () => {
-  const asked: number[] = [];
+it("sends the newest waiting request after an answer, and none after a refusal", async () => {
+  const sent: number[] = [];
   const answers: ((isDone: boolean) => void)[] = [];
   let refusals = 0;
   const requests = new LatestRequest(() => (refusals += 1));
   const send = (number: number): void =>
     requests.send(() => {
-      asked.push(number);
+      sent.push(number);
       return new Promise((resolve) => answers.push(resolve));
     });
   [1, 2, 3].forEach(send);
-  expect(asked).toEqual([1]);
+  expect(sent).toEqual([1]);
   answers[0]?.(true);
   await Promise.resolve();
-  expect(asked).toEqual([1, 3]);
+  expect(sent).toEqual([1, 3]);
   send(4);
   answers[1]?.(false);
   await Promise.resolve();
-  expect(asked).toEqual([1, 3]);
+  expect(sent).toEqual([1, 3]);
   expect(refusals).toBe(1);
 });

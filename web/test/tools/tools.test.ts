@@ -57,9 +57,9 @@ function setUp(looksOnly = false) {
   });
   const point = (kind: PointerInput["kind"], x: number, y: number, button = 0): boolean =>
     tools.pointer({ x, y, button, shift: false, control: false, kind });
-  const drag = (...places: readonly (readonly [number, number])[]): void => {
-    places.forEach(([x, y], i) => void point(i === 0 ? "down" : "move", x, y));
-    const [x, y] = places[places.length - 1] ?? [0, 0];
+  const drag = (...points: readonly (readonly [number, number])[]): void => {
+    points.forEach(([x, y], i) => void point(i === 0 ? "down" : "move", x, y));
+    const [x, y] = points[points.length - 1] ?? [0, 0];
     point("up", x, y);
   };
   return { tools, point, drag, picks, boxes, labels, ticks, focused, connection, selection, hovered, scene };
@@ -117,7 +117,7 @@ test("2D Nav Goal goes to the topic of the file, and a cancelled drag publishes 
   expect(Math.abs(orientation.z)).toBeCloseTo(1);
 });
 
-test("Publish Point publishes what is under the pointer, and goes back to the tool before", () => {
+test("Publish Point publishes the point under the pointer, and returns to the previous tool", () => {
   const { tools, point, connection, picks } = setUp();
   tools.use("rviz/MoveCamera");
   tools.use("rviz/PublishPoint");
@@ -129,7 +129,7 @@ test("Publish Point publishes what is under the pointer, and goes back to the to
   expect(tools.current.value.className).toBe("rviz/MoveCamera");
 });
 
-test("Measure says the distance between two points, and the right button starts again", () => {
+test("Measure shows the distance between two points, and the right button restarts", () => {
   const { tools, point, labels } = setUp();
   tools.use("rviz/Measure");
   point("down", 0, 0);
@@ -142,7 +142,7 @@ test("Measure says the distance between two points, and the right button starts 
   expect(labels).toEqual([]);
 });
 
-test("Select selects what a display drew, with its fields; a box, everything in it", () => {
+test("Select selects a display's object with its fields, and by a box all objects in it", () => {
   const { tools, drag, picks, selection, boxes } = setUp();
   tools.use("rviz/Select");
   picks.set("10 10", pickOf(selectable("LaserScan", { Intensity: 7 }), 3));
@@ -180,15 +180,15 @@ test("Interact selects a link by a click and leaves drags to the camera", () => 
 
 test("Interact hands the pointer to objects that have handlers", () => {
   const { tools, point, picks, ticks } = setUp();
-  const heard: string[] = [];
+  const events: string[] = [];
   const target: PointerTarget = {
-    hover: (isOver) => void heard.push(isOver ? "over" : "out"),
+    hover: (isOver) => void events.push(isOver ? "over" : "out"),
     down: ({ pick }) => {
-      heard.push(`down ${pick?.index ?? ""}`);
+      events.push(`down ${pick?.index ?? ""}`);
       return true;
     },
-    move: ({ x, ray }) => void heard.push(`move ${x} ${ray.origin.x}`),
-    up: (_event, isCancelled) => void heard.push(isCancelled ? "cancel" : "up"),
+    move: ({ x, ray }) => void events.push(`move ${x} ${ray.origin.x}`),
+    up: (_event, isCancelled) => void events.push(isCancelled ? "cancel" : "up"),
   };
   const marker = new Group();
   marker.userData["pointerTarget"] = target;
@@ -203,16 +203,16 @@ test("Interact hands the pointer to objects that have handlers", () => {
   point("up", 200, 1);
   tools.use("rviz/MoveCamera");
 
-  expect(heard).toEqual(["over", "down 2", "move 200 2", "up", "out"]);
+  expect(events).toEqual(["over", "down 2", "move 200 2", "up", "out"]);
 });
 
-test("Interact leaves objects that have handlers alone for a person who only looks", () => {
+test("Interact ignores handlers on a view-only page", () => {
   const { point, picks, ticks } = setUp(true);
-  const heard: string[] = [];
-  const note = (what: string) => () => void heard.push(what);
+  const events: string[] = [];
+  const note = (name: string) => () => void events.push(name);
   const target: PointerTarget = {
     hover: note("hover"),
-    down: () => heard.push("down") > 0,
+    down: () => events.push("down") > 0,
     move: note("move"),
     up: note("up"),
   };
@@ -225,10 +225,10 @@ test("Interact leaves objects that have handlers alone for a person who only loo
   expect(point("down", 1, 1)).toBe(false);
   point("up", 200, 1);
 
-  expect(heard).toEqual([]);
+  expect(events).toEqual([]);
 });
 
-test("Focus Camera looks at the point that is clicked", () => {
+test("Focus Camera looks at the clicked point", () => {
   const { tools, point, focused } = setUp();
   tools.use("rviz/FocusCamera");
   point("down", 200, 100);

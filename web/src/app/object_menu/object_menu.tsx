@@ -22,7 +22,7 @@ export function ObjectMenu({ shell }: { readonly shell: Shell }): JSX.Element | 
     <Menu
       key={`${open.x} ${open.y}`}
       items={items}
-      label="What is selected"
+      label="Selection"
       place={(list) => placeAt(list, open.x, open.y)}
       onClose={close}
     />

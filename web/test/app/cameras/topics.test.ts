@@ -8,7 +8,7 @@ import { displayClass } from "../../../src/displays/registry";
 import { fakes } from "../../displays/fakes";
 import { MANIFEST } from "../../harness/manifest";
 
-it("lists each camera once, asked topics first", () => {
+it("lists each camera once, requested topics first", () => {
   const topics = cameraTopics({ images: ["/usb_cam/image_raw", "/my_sensor/image_raw"] }, MANIFEST);
   expect(topics.map(({ name }) => name)).toEqual(["usb_cam/image_raw", "netbook_webcam", "my_sensor"]);
   expect(cameraTopics({ images: [] }, null)).toEqual([]);
@@ -38,7 +38,7 @@ it("lists enabled displays of pictures, those in groups too, instead of their to
   expect(new Set(topics.map(tileKey)).size).toBe(2);
 });
 
-it("takes compressed pictures over a network only", () => {
+it("uses compressed pictures only over a network", () => {
   const topics = new Map([
     ["/c/compressed", { name: "/c/compressed", type: "sensor_msgs/CompressedImage", encoding: "ros1" }],
   ]);

@@ -11,14 +11,14 @@ import { fakePage } from "../../fake_page";
 
 const BOX: Insertable = { kind: "shape", name: "box", title: "Box" };
 
-it("is what undo takes back, though the server has not answered yet", async () => {
+it("is undone even before the server has answered", async () => {
   const page = fakePage();
   const tool = { chosen: signal(null), onPlace: (_thing: Insertable, _point: Vector3): void => undefined };
   Object.assign(page, { tools: { insert: tool, current: signal(null) } });
-  const asked: string[] = [];
+  const requests: string[] = [];
   let answer = (_: { readonly name: string }): void => undefined;
   vi.spyOn(page.connection, "request").mockImplementation((name) => {
-    asked.push(name);
+    requests.push(name);
     return new Promise((resolve) => (answer = resolve));
   });
   const insertion = new Insertion({ page, layout: {} } as unknown as InsertionContext);
@@ -26,13 +26,13 @@ it("is what undo takes back, though the server has not answered yet", async () =
   page.undo.record(
     "Earlier",
     () => undefined,
-    () => asked.push("earlier"),
+    () => requests.push("earlier"),
   );
 
   tool.onPlace(BOX, new Vector3());
   page.undo.undo();
-  expect(asked).toEqual(["insert"]);
+  expect(requests).toEqual(["insert"]);
   answer({ name: "box_0" });
-  await vi.waitFor(() => expect(asked).toEqual(["insert", "delete"]));
+  await vi.waitFor(() => expect(requests).toEqual(["insert", "delete"]));
   expect(page.undo.undoTitle.value).toBe("Earlier");
 });

@@ -15,13 +15,13 @@ describe("the twist between two poses", () => {
     [0, 0.6, 0.8].forEach((part, index) => expect(twist?.angular[index]).toBeCloseTo(part, 9));
   });
 
-  it("is none without time between", () => {
+  it("is null without time between", () => {
     const pose = { time: 1, position: new Vector3(), orientation: new Quaternion() };
     expect(twistOf(pose, pose)).toBeNull();
   });
 });
 
-describe("poses as they come", () => {
+describe("samples of motion", () => {
   const at = (time: number, x: number): Parameters<MotionSamples["add"]>[0] => ({
     time,
     position: new Vector3(x, 0, 0),
@@ -33,24 +33,24 @@ describe("poses as they come", () => {
     return samples.twist()?.linear[0];
   };
 
-  it("have a speed over the last 0.2 s", () => {
+  it("have the mean speed over the last 0.2 s", () => {
     expect(speedOf([0, 0])).toBeUndefined();
     expect(speedOf([0, 0], [0.1, 0.2], [0.25, 0.5], [0.3, 0.6])).toBeCloseTo(2, 9);
     expect(speedOf([0, 0], [0.1, 0.2], [0.2, 0.2], [0.3, 0.2])).toBeCloseTo(0, 9);
   });
 
-  it("have one over a longer time where they are rarer", () => {
+  it("have the mean speed over a longer time at a lower rate", () => {
     expect(speedOf([0, 0], [1, 2], [2, 6])).toBeCloseTo(4, 9);
     expect(speedOf([0, 0], [5, 20], [5.05, 20.1])).toBeCloseTo(2, 9);
   });
 
-  it("have none from before time went back", () => {
+  it("drop samples from before time went back", () => {
     expect(speedOf([5, 0], [5.1, 1], [0, 7])).toBeUndefined();
     expect(speedOf([5, 0], [5.1, 1], [0, 7], [0.1, 7.3])).toBeCloseTo(3, 9);
   });
 });
 
-it("takes roll, pitch and yaw as URDF has them", () => {
+it("computes roll, pitch and yaw as URDF defines them", () => {
   const angles = rollPitchYaw(new Quaternion().setFromEuler(new Euler(0.1, -0.4, 2, "ZYX")));
   [0.1, -0.4, 2].forEach((angle, index) => expect(angles[index]).toBeCloseTo(angle, 9));
 });

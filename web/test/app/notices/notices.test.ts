@@ -34,7 +34,7 @@ it("is one line with counts, and a list with the most severe first", () => {
   });
 });
 
-it("counts missing meshes, not the displays that want them", () => {
+it("counts missing meshes, not the displays that use them", () => {
   const page = fakePage();
   const notices = new Notices(page);
   for (const name of ["rviz/RobotModel", "rviz/Marker"])

@@ -5,7 +5,7 @@ import { isFollowing, toggleFollowing } from "../../../src/app/views/following";
 import { fakePage } from "../../fake_page";
 import { MANIFEST } from "../../harness/manifest";
 
-it("follows what is selected, else the robot", () => {
+it("follows the selection, otherwise the robot", () => {
   const page = fakePage();
   const followed: (string | null)[] = [];
   page.views.follow = (target: string | null): void => void followed.push(target);
@@ -19,7 +19,7 @@ it("follows what is selected, else the robot", () => {
   expect(followed).toEqual(["rp2w::chassis", "rp2w::camera_base", "odom"]);
 });
 
-it("follows the base of a graph's robot, and nothing where there is none", () => {
+it("follows the base of a graph's robot, and nothing without one", () => {
   const page = fakePage({ kind: "graph", robot: null });
   const followed: (string | null)[] = [];
   page.views.follow = (target: string | null): void => void followed.push(target);

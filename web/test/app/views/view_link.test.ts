@@ -6,7 +6,7 @@ import type { PaneLayout } from "../../../src/scene/panes/pane_layout";
 import { Orbit } from "../../../src/scene/views/orbit";
 import { fakePane, FakeViews } from "../../fake_page";
 
-test("a link shows the view from which it was made", () => {
+test("a link restores its view", () => {
   const view = new Orbit();
   view.load({
     Distance: 3.25,
@@ -20,11 +20,11 @@ test("a link shows the view from which it was made", () => {
     "http://127.0.0.1:8080/?view_only#view=old",
     "abc",
   );
-  const found = linkedView(new URL(link).hash);
+  const linked = linkedView(new URL(link).hash);
 
   expect(link).toMatch(/^http:\/\/127\.0\.0\.1:8080\/\?token=abc#view=[^#]*$/);
   const shown = new Orbit();
-  expect(shown.load(found ?? {})).toEqual([]);
+  expect(shown.load(linked ?? {})).toEqual([]);
   expect(shown.save()).toMatchObject({
     Distance: 3.25,
     "Focal Point": { X: 1, Y: -2, Z: 0.5 },
@@ -33,7 +33,7 @@ test("a link shows the view from which it was made", () => {
   });
 });
 
-test.each(["", "#elsewhere", "#view=", "#view=%7B", "#view=%", "#view=3", "#view=null"])("%s is no view", (hash) => {
+test.each(["", "#elsewhere", "#view=", "#view=%7B", "#view=%", "#view=3", "#view=null"])("%s is not a view", (hash) => {
   expect(linkedView(hash)).toBeNull();
 });
 
@@ -41,7 +41,7 @@ test("a link that is too long is not read", () => {
   expect(linkedView(`#view={"Yaw":1${" ".repeat(9000)}}`)).toBeNull();
 });
 
-test("a link of several panes shows each one's view again", () => {
+test("a link of several panes restores each one's view", () => {
   const [first, second] = [new Orbit(), new Orbit()];
   second.distance.value.value = 7;
   const from = new FakeViews();

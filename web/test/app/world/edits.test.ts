@@ -41,14 +41,14 @@ it("can be undone only after the server has done it", async () => {
   expect(sent).toEqual([4, 2, 4].map((mass) => ({ name: "mass", ...BASE, mass })));
 });
 
-it("leaves nothing to undo of what was refused, and says why", async () => {
+it("a refused edit cannot be undone, and is reported with its reason", async () => {
   const { shell } = fakeShell(() => Promise.reject(new Error("link 'arm' has no collision, and so no friction")));
   await editWorld(shell, "Friction of arm", "friction", { ...BASE, mu: 4, mu2: 1 }, { ...BASE, mu: 2, mu2: 1 });
   expect(shell.page.undo.undoTitle.value).toBeNull();
   expect(shell.notices.line.value.text).toContain("no collision");
 });
 
-it("has poses as the server takes them", () => {
+it("sends poses in the server's format", () => {
   expect(poseFields(new Vector3(1, 2, 3), new Quaternion(0, 0, 1, 0))).toEqual({
     position: [1, 2, 3],
     orientation: [0, 0, 0, 1],
