@@ -1,1 +1,1 @@
-"""Figures, each a ratio against a peer measured in the same run."""
+"""Benchmarks: each result is a ratio against a peer measured in the same run."""

@@ -1,4 +1,4 @@
-"""Debian's Chromium, headless, which chooses how it draws: without a graphics card it composes pages on the CPU."""
+"""Debian's Chromium, headless, with its default renderer: the CPU on machines without a graphics card."""
 
 import importlib.util
 from collections.abc import Generator
@@ -8,10 +8,10 @@ from typing import Any
 
 _PROGRAM = Path("/usr/bin/chromium")
 _FLAGS = ("--no-sandbox", "--enable-unsafe-swiftshader")
-"""The latter allows WebGL there. `--use-gl` and `--use-angle` would have an emulated graphics card compose the page."""
+"""SwiftShader provides WebGL. `--use-gl` and `--use-angle` would compose the page on an emulated graphics card."""
 
 
-def is_there() -> bool:
+def is_installed() -> bool:
     """Return whether the browser and Playwright are installed."""
     return _PROGRAM.exists() and importlib.util.find_spec("playwright") is not None
 

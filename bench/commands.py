@@ -1,8 +1,8 @@
 """CPU time of `trundle check` and `trundle xacro`, whole processes, against ROS' tools.
 
-The only peer that expands the smartcar is the xacro of ROS 1, 1.13.3: it allows macro calls without prefix, as the
-file has them. It needs Debian's python3-roslaunch and is installed for the run. Today's xacro, of Trundle's own
-environment, leaves those calls as they are, and check_urdf then finds no robot: it does less, and is shown as such.
+The only peer that expands the smartcar is xacro 1.13.3 of ROS 1: it allows macro calls without a prefix, as in the
+file. It needs Debian's python3-roslaunch and is installed for the run. The current xacro, in Trundle's
+environment, does not expand those calls, so that check_urdf finds no robot: it does less work, and the row says so.
 """
 
 import os
@@ -30,7 +30,7 @@ _NOT_IN_THE_COLLECTION = (
     "lms1xx/urdf/sick_lms1xx.urdf.xacro",
     "velodyne_description/urdf/VLP-16.urdf.xacro",
 )
-"""Includes of the Husky for parts that it does not carry by default."""
+"""Includes of the Husky for optional parts."""
 _AMENT = """class PackageNotFoundError(KeyError): pass
 def get_package_share_directory(name):
     return {0!r}[name]
@@ -38,34 +38,34 @@ def get_package_share_directory(name):
 
 
 def run() -> list[Row]:
-    """Measure CPU time of whole processes, alternating, in one run; a peer that cannot be installed is left out."""
+    """Measure the CPU time of alternating processes; skip a peer that cannot be installed."""
     if not HUSKY.is_dir():
         return []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         smartcar, husky = _workspace(folder / "ws")
         env = {**os.environ, "ROS_PACKAGE_PATH": str(folder / "ws"), "PYTHONPATH": str(_ament(folder))}
-        if env.pop("PYTHONDONTWRITEBYTECODE", None):  # Python keeps its byte code where it is installed for use
+        if env.pop("PYTHONDONTWRITEBYTECODE", None):  # an installed program has its byte code cached
             env["PYTHONPYCACHEPREFIX"] = str(folder / "bytecode")
-        ours, expanded = [str(Path(sys.executable).with_name("trundle"))], str(folder / "expanded.urdf")
+        trundle, expanded = [str(Path(sys.executable).with_name("trundle"))], str(folder / "expanded.urdf")
         rows: list[Row] = []
-        for xacro, who in _xacros(folder):
+        for xacro, peer in _xacros(folder):
             if check_urdf := shutil.which("check_urdf"):
-                theirs = [[xacro, str(smartcar), "-o", expanded], [check_urdf, expanded]]
-                what = "check smartcar, start to exit"
-                rows.append(_compared(what, [[*ours, "check", str(smartcar)]], theirs, f"{who} + check_urdf", env))
-            theirs = [[xacro, str(husky), "-o", expanded]]
-            rows.append(_compared("xacro husky, start to exit", [[*ours, "xacro", str(husky)]], theirs, who, env))
+                commands = [[xacro, str(smartcar), "-o", expanded], [check_urdf, expanded]]
+                name = "check smartcar, start to exit"
+                rows.append(_compare(name, [[*trundle, "check", str(smartcar)]], commands, f"{peer} + check_urdf", env))
+            commands = [[xacro, str(husky), "-o", expanded]]
+            rows.append(_compare("xacro husky, start to exit", [[*trundle, "xacro", str(husky)]], commands, peer, env))
         return rows
 
 
 def _workspace(folder: Path) -> tuple[Path, Path]:
-    """The smartcar, with the package.xml that rospack asks for, and the Husky with the packages it names."""
+    """Write the smartcar with a package.xml for rospack, and the Husky with its packages; return their files."""
     shutil.copytree(SHARED / "seeds/smartcar_description", folder / "smartcar_description")
     shutil.copytree(HUSKY / "husky_description", folder / "husky_description")
-    for each in _NOT_IN_THE_COLLECTION:
-        (folder / each).parent.mkdir(parents=True)
-        (folder / each).write_text(_EMPTY)
+    for path in _NOT_IN_THE_COLLECTION:
+        (folder / path).parent.mkdir(parents=True)
+        (folder / path).write_text(_EMPTY)
     for package in folder.iterdir():
         if not (package / "package.xml").exists():
             (package / "package.xml").write_text(_MANIFEST.format(package.name))
@@ -74,41 +74,41 @@ def _workspace(folder: Path) -> tuple[Path, Path]:
 
 
 def _ament(folder: Path) -> Path:
-    """Environment in which today's xacro finds the packages."""
+    """Write a module with which the current xacro finds the packages; return its folder."""
     package = folder / "ament/ament_index_python"
     package.mkdir(parents=True)
     (package / "__init__.py").touch()
-    places = {each.name: str(each) for each in (folder / "ws").iterdir()}
-    (package / "packages.py").write_text(_AMENT.format(places))
+    paths = {path.name: str(path) for path in (folder / "ws").iterdir()}
+    (package / "packages.py").write_text(_AMENT.format(paths))
     return package.parent
 
 
 def _xacros(folder: Path) -> list[tuple[str, str]]:
-    """Yield command and name of every xacro that is installed or can be."""
-    found: list[tuple[str, str]] = []
-    if today := shutil.which("xacro", path=str(Path(sys.executable).parent)):
-        found.append((today, "xacro of today"))
+    """Return program and name of every xacro that is installed or can be installed."""
+    programs: list[tuple[str, str]] = []
+    if current := shutil.which("xacro", path=str(Path(sys.executable).parent)):
+        programs.append((current, "current xacro"))
     has_roslaunch = [_PYTHON, "-c", "import roslaunch, rospkg"]
-    own = folder / "ros1"
-    install = [str(own / "bin/pip"), "install", "--quiet", "--disable-pip-version-check", "xacro==1.13.3"]
-    steps = (has_roslaunch, [_PYTHON, "-m", "venv", "--system-site-packages", str(own)], install)
+    environment = folder / "ros1"
+    install = [str(environment / "bin/pip"), "install", "--quiet", "--disable-pip-version-check", "xacro==1.13.3"]
+    steps = (has_roslaunch, [_PYTHON, "-m", "venv", "--system-site-packages", str(environment)], install)
     if Path(_PYTHON).exists() and all(
         subprocess.run(s, capture_output=True, check=False).returncode == 0 for s in steps
     ):
-        found.insert(0, (str(own / "bin/xacro"), "xacro 1.13.3"))
-    return found
+        programs.insert(0, (str(environment / "bin/xacro"), "xacro 1.13.3"))
+    return programs
 
 
-def _compared(
-    name: str, ours: Sequence[Sequence[str]], theirs: Sequence[Sequence[str]], peer: str, env: dict[str, str]
+def _compare(
+    name: str, trundle: Sequence[Sequence[str]], other: Sequence[Sequence[str]], peer: str, env: dict[str, str]
 ) -> Row:
-    pairs = [(_seconds(ours, env), _seconds(theirs, env)) for _ in range(_RUNS + 1)][1:]  # the first warms up
-    ratio = statistics.median(own / other for own, other in pairs)
-    return Row(name, statistics.median(own for own, _ in pairs), "s of CPU", peer, ratio)
+    pairs = [(_seconds(trundle, env), _seconds(other, env)) for _ in range(_RUNS + 1)][1:]  # the first warms up
+    ratio = statistics.median(trundle_s / other_s for trundle_s, other_s in pairs)
+    return Row(name, statistics.median(trundle_s for trundle_s, _ in pairs), "s of CPU", peer, ratio)
 
 
 def _seconds(commands: Sequence[Sequence[str]], env: dict[str, str]) -> float:
-    """CPU time [s], which other processes disturb less than wall time."""
+    """Return the CPU time of commands [s], which depends less on other processes than wall time."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     for command in commands:
         subprocess.run(command, env=env, capture_output=True, check=False)

@@ -1,7 +1,7 @@
-"""Worlds with many contacts, or with contact laws that MuJoCo lacks: the simulation beside a loop of `mj_step`.
+"""Worlds with many contacts, or with contact laws that MuJoCo lacks: the simulation against a loop of `mj_step`.
 
-The loop steps the same bodies with the same options, without those laws, from where the simulation is. Times are of
-this process' CPU. Figures of Gazebo 11, for reading, are of another run.
+The loop steps the same bodies with the same options and without those laws, from the simulation's state. Times are of
+this process' CPU. Gazebo 11's rates were measured in another run.
 """
 
 import statistics
@@ -37,7 +37,7 @@ class _Scene:
 
 
 def run() -> list[Row]:
-    """Alternate the two, so that both see the machine at its fast and slow moments."""
+    """Alternate simulation and loop, so that a varying machine speed affects both equally."""
     rows: list[Row] = []
     for scene in (_skid(), _balls(), _wall()):
         sim = _load(scene)
@@ -53,7 +53,14 @@ def run() -> list[Row]:
 
 def _skid() -> _Scene:
     links = _LINK.format(
-        name="base", pose="0 0 0.15 0 0 0", mass=20, ixx=0.3, iyy=0.5, izz=0.7, shape=_box(0.5, 0.3, 0.1), surface=""
+        name="base",
+        pose="0 0 0.15 0 0 0",
+        mass=20,
+        ixx=0.3,
+        iyy=0.5,
+        izz=0.7,
+        shape=_box_shape(0.5, 0.3, 0.1),
+        surface="",
     )
     for i, (x, y) in enumerate((x, y) for x in (0.2, -0.2) for y in (0.25, -0.25)):
         cylinder = "<cylinder><radius>0.1</radius><length>0.08</length></cylinder>"
@@ -89,7 +96,7 @@ def _wall() -> _Scene:
             ixx=0.0033,
             iyy=0.0083,
             izz=0.0083,
-            shape=_box(0.2, 0.1, 0.1),
+            shape=_box_shape(0.2, 0.1, 0.1),
             surface="",
         )
         pose = f"{(column + 0.5 * (row % 2)) * 0.201} 0 {0.05 + 0.1 * row}"
@@ -99,7 +106,7 @@ def _wall() -> _Scene:
     return _Scene("brick wall of 100, awake", models, 200, 256)
 
 
-def _box(x: float, y: float, z: float) -> str:
+def _box_shape(x: float, y: float, z: float) -> str:
     return f"<box><size>{x} {y} {z}</size></box>"
 
 

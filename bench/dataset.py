@@ -1,7 +1,7 @@
-"""Pictures a second of `trundle dataset`, against its renderer alone on the same views, in CPU seconds.
+"""Pictures per CPU second of `trundle dataset`, against its renderer alone on the same views.
 
-The renderer alone draws colours (four samples per pixel), depths and segmentation; a dataset's picture has its places,
-looks, boxes, masks, occlusion and key points drawn and computed besides. Files are not written.
+The renderer alone draws colors (four samples per pixel), depths and segmentation; `trundle dataset` also computes
+arrangements, appearances, boxes, masks, occlusion and key points. Files are not written.
 """
 
 import tempfile
@@ -37,14 +37,14 @@ materials: {table: {textures: any}, ground_plane: {textures: any}}
 
 
 def run() -> list[Row]:
-    """Measure in turns, and take the best round of each: others use the machine too."""
+    """Measure in alternation; the best round of each is the least disturbed by other programs."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "table.world").write_text(_TABLE, encoding="utf-8")
         Path(folder, "cup.sdf").write_text(_CUP, encoding="utf-8")
         plan = read_dataset_plan(_PLAN, file="plan.yaml", folder=Path(folder))
         maker = picture_maker(plan)
         arrangements = [maker.placer.arrange(number) for number in range(_PICTURES)]
-        views = [draw_view(plan, number, each) for number, each in enumerate(arrangements)]
+        views = [draw_view(plan, number, arrangement) for number, arrangement in enumerate(arrangements)]
 
         def alone_s() -> float:
             total_s = 0.0
@@ -56,11 +56,11 @@ def run() -> list[Row]:
                 total_s += time.process_time() - start
             return total_s
 
-        made = alone = 0.0
+        complete = alone = 0.0
         for _ in range(_ROUNDS):
             alone = max(alone, _PICTURES / alone_s())
-            made = max(made, _rate(maker))
-    return [Row("dataset, 640x480, up to 6 cups", made, "pictures/s", "the renderer alone", made / alone)]
+            complete = max(complete, _rate(maker))
+    return [Row("dataset, 640x480, up to 6 cups", complete, "pictures/s", "the renderer alone", complete / alone)]
 
 
 def _rate(maker: PictureMaker) -> float:

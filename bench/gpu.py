@@ -1,6 +1,6 @@
-"""4,096 RP2Ws and 4,096 differential robots on a GPU, beside the processors of the same machine.
+"""4,096 RP2Ws and 4,096 differential robots on a GPU, against the CPU cores of the same machine.
 
-Times are of the clock; steps of all worlds count. Where there is no GPU the rows say so.
+Times are wall times; steps of all worlds count. Without a GPU the rows say so.
 """
 
 import os
@@ -26,27 +26,27 @@ _ROBOTS = {
     ),
 }
 _SPEED = 2.0
-"""[rad/s] Of driven wheels."""
+"""Speed of driven wheels [rad/s]."""
 
 
 def run() -> list[Row]:
-    """Alternate GPU and processors."""
+    """Alternate GPU and CPU."""
     try:
         gpu = find_gpu()
     except NoGpuError as error:
         return [Row(f"{_WORLDS:,} {name} on a GPU", None, f"no GPU here: {error}", "", None) for name in _ROBOTS]
     rows: list[Row] = []
     for name, (file, wheels) in _ROBOTS.items():
-        batches = [_driven(file, wheels, device) for device in (gpu, None)]
+        batches = [_rolling_batch(file, wheels, device) for device in (gpu, None)]
         pairs = [[_rate(batch) for batch in batches] for _ in range(_PAIRS)]
-        value = statistics.median(ours for ours, _ in pairs)
-        ratio = statistics.median(ours / theirs for ours, theirs in pairs)
-        peer = f"{os.cpu_count()} processors"
+        value = statistics.median(gpu_rate for gpu_rate, _ in pairs)
+        ratio = statistics.median(gpu_rate / cpu_rate for gpu_rate, cpu_rate in pairs)
+        peer = f"{os.cpu_count()} CPU cores"
         rows.append(Row(f"{_WORLDS:,} {name} on a GPU", value, "worlds × steps/s", peer, ratio))
     return rows
 
 
-def _driven(file: Path, wheels: tuple[str, str], device: str | None) -> Batch:
+def _rolling_batch(file: Path, wheels: tuple[str, str], device: str | None) -> Batch:
     sim = trundle.load(str(file))
     batch = sim.engine.batch(_WORLDS, threads=os.cpu_count() or 1, gpu=device)
     start = sim.engine.world_row()
@@ -62,6 +62,6 @@ def _driven(file: Path, wheels: tuple[str, str], device: str | None) -> Batch:
 
 
 def _rate(batch: Batch) -> float:
-    began = time.perf_counter()
+    start = time.perf_counter()
     batch.step(_STEPS)
-    return _WORLDS * _STEPS / (time.perf_counter() - began)
+    return _WORLDS * _STEPS / (time.perf_counter() - start)

@@ -1,4 +1,4 @@
-"""The graph against rospy, in turns on one master: messages a second, latency, and the wait for `topic list`."""
+"""The graph against rospy, in alternation on one master: message rates, latency, and the time of `topic list`."""
 
 import json
 import os
@@ -22,50 +22,61 @@ _END = Path(__file__).parent / "ros_end.py"
 _TWIST, _IMAGE = "geometry_msgs/Twist", "sensor_msgs/Image"
 _RUNS = 5
 _ROSTOPIC = "/usr/bin/rostopic"
-_DEBIANS = "/usr/bin/python3"
+_DEBIAN_PYTHON = "/usr/bin/python3"
 _VERSION = [sys.version_info.major, sys.version_info.minor]
-_THEIRS = [_DEBIANS, "-W", "ignore", str(_END), "rospy"]
+_ROSPY = [_DEBIAN_PYTHON, "-W", "ignore", str(_END), "rospy"]
 _BYTECODE = tempfile.TemporaryDirectory()
-"""Folder of compiled modules for both sides: an installed program is compiled, a checkout need not be."""
+"""Folder of compiled modules for both sides: an installed program has byte code, a checkout may have none."""
 
 
 def run() -> list[Row]:
-    """Run pairs of processes, of one interpreter if possible; without Debian's rospy there are no ratios.
+    """Run pairs of processes, with the same interpreter if possible; without Debian's rospy there are no ratios.
 
-    Both publish with the same queue_size. None is synchronous in rospy; of a queue of a size the messages that arrive
-    count, while the publisher goes on.
+    Both publish with the same queue_size. None is synchronous in rospy; with a queue size, only messages that arrive
+    count, while the publisher continues.
     """
     return [
-        *_flat_out("", _ours),
-        _row("Twist in one process", "messages/s", lambda end, own: _flow(end, _TWIST, 30_000, one=own).rate),
+        *_throughput("", _trundle_command),
+        _row(
+            "Twist in one process",
+            "messages/s",
+            lambda end, is_trundle: _flow(end, _TWIST, 30_000, one=is_trundle).rate,
+        ),
         _row("Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: _age(end)),
-        *_flat_out("rospy, ", _modules),
-        _row("rospy, Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: _age(end), own=_modules),
-        _row("rospy, start of a node to its first message", "s", lambda end, _: _first_message(end), own=_modules),
-        _row("topic list, start to exit", "s", lambda _, own: _topic_list(own), against="rostopic list"),
+        *_throughput("rospy, ", _modules_command),
+        _row(
+            "rospy, Twist at 1 kHz, 99th percentile of ages", "ms", lambda end, _: _age(end), trundle=_modules_command
+        ),
+        _row(
+            "rospy, start of a node to its first message",
+            "s",
+            lambda end, _: _first_message(end),
+            trundle=_modules_command,
+        ),
+        _row("topic list, start to exit", "s", lambda _, is_trundle: _topic_list(is_trundle), against="rostopic list"),
     ]
 
 
-def _flat_out(title: str, own: Callable[[], list[str]]) -> list[Row]:
-    """Messages a second by queue_size, and the processor time of both ends in the same runs."""
+def _throughput(title: str, trundle: Callable[[], list[str]]) -> list[Row]:
+    """Messages per second by queue_size, and the CPU time of both ends in the same runs."""
     rows: list[Row] = []
     for kind, name, count, queues in (
         (_TWIST, "Twist", 30_000, (None, 1, 10)),
         (_IMAGE, "Image 320x240", 3000, (None, 10)),
     ):
         for queue in queues:
-            pairs = _pairs(lambda end, _, kind=kind, count=count, queue=queue: _flow(end, kind, count, queue), own)
-            for what, unit, figures in (
+            pairs = _pairs(lambda end, _, kind=kind, count=count, queue=queue: _flow(end, kind, count, queue), trundle)
+            for suffix, unit, values in (
                 ("", "messages/s", [[flow.rate for flow in pair] for pair in pairs]),
                 (", CPU of both ends", "µs", [[flow.cpu_us for flow in pair] for pair in pairs]),
             ):
-                rows.append(_as_row(f"{title}{name}, queue_size {queue}{what}", unit, figures, "rospy, the same"))
+                rows.append(_as_row(f"{title}{name}, queue_size {queue}{suffix}", unit, values, "rospy, the same"))
     return rows
 
 
 @contextmanager
 def _fresh_master() -> Generator[dict[str, str]]:
-    """Start a fresh master; yield the environment of its nodes."""
+    """Start a master; yield the environment of its nodes."""
     with GraphLoop() as loop:
         core = Core(loop, port=0)
         loop.run(core.start())
@@ -81,18 +92,18 @@ def _fresh_master() -> Generator[dict[str, str]]:
 
 
 @cache
-def _ours() -> list[str]:
-    """Trundle's end, on rospy's interpreter if of the same version: libraries are compared, not builds of Python."""
-    if Path(_DEBIANS).exists():
-        asked = [_DEBIANS, "-c", "import sys; print(list(sys.version_info[:2]))"]
-        if json.loads(subprocess.run(asked, check=True, capture_output=True).stdout) == _VERSION:
-            return [_DEBIANS, "-S", str(_END), "trundle"]
+def _trundle_command() -> list[str]:
+    """Command of Trundle's end, with rospy's interpreter if its version is the same, to compare only the libraries."""
+    if Path(_DEBIAN_PYTHON).exists():
+        version = [_DEBIAN_PYTHON, "-c", "import sys; print(list(sys.version_info[:2]))"]
+        if json.loads(subprocess.run(version, check=True, capture_output=True).stdout) == _VERSION:
+            return [_DEBIAN_PYTHON, "-S", str(_END), "trundle"]
     return [sys.executable, str(_END), "trundle"]
 
 
-def _modules() -> list[str]:
-    """End over Trundle's rospy."""
-    return [*_ours()[:-1], "modules"]
+def _modules_command() -> list[str]:
+    """Command of an end with Trundle's rospy."""
+    return [*_trundle_command()[:-1], "modules"]
 
 
 def _row(
@@ -101,25 +112,25 @@ def _row(
     measure: Callable[[Sequence[str], bool], float],
     *,
     against: str = "rospy",
-    own: Callable[[], list[str]] = _ours,
+    trundle: Callable[[], list[str]] = _trundle_command,
 ) -> Row:
-    return _as_row(name, unit, _pairs(measure, own), against)
+    return _as_row(name, unit, _pairs(measure, trundle), against)
 
 
 _T = TypeVar("_T")
 
 
-def _pairs(measure: Callable[[Sequence[str], bool], _T], own: Callable[[], list[str]]) -> list[list[_T]]:
-    """Measure ours and rospy's in alternation; ours alone where rospy is not installed."""
-    ends = [(own(), True), (_THEIRS, False)] if Path(_ROSTOPIC).exists() else [(own(), True)]
-    return [[measure(end, is_own) for end, is_own in ends] for _ in range(_RUNS)]
+def _pairs(measure: Callable[[Sequence[str], bool], _T], trundle: Callable[[], list[str]]) -> list[list[_T]]:
+    """Measure Trundle and rospy in alternation; only Trundle if rospy is not installed."""
+    ends = [(trundle(), True), (_ROSPY, False)] if Path(_ROSTOPIC).exists() else [(trundle(), True)]
+    return [[measure(end, is_trundle) for end, is_trundle in ends] for _ in range(_RUNS)]
 
 
 def _as_row(name: str, unit: str, pairs: Sequence[Sequence[float]], against: str) -> Row:
     value = statistics.median(pair[0] for pair in pairs)
     if len(pairs[0]) == 1:
         return Row(name, value, unit, "", None)
-    return Row(name, value, unit, against, statistics.median(own / other for own, other in pairs))
+    return Row(name, value, unit, against, statistics.median(trundle / peer for trundle, peer in pairs))
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,32 +138,32 @@ class _Flow:
     """Messages from a publisher to a subscriber, as fast as possible."""
 
     rate: float
-    """[messages/s] That arrive."""
+    """Messages that arrive [1/s]."""
     cpu_us: float
-    """[µs] Of both processes for each message that arrives."""
+    """CPU time of both processes per message that arrives [µs]."""
 
 
 def _flow(end: Sequence[str], kind: str, count: int, queue: int | None = None, *, one: bool = False) -> _Flow:
-    """Measure a flow from its first message to its last."""
+    """Measure a flow from its first message to the last."""
     ends = _ends(end, ["both"] if one else ["sub", "pub"], kind, count, 0, queue)
-    heard, sent = ends[0], ends[-1]
-    spent = heard["sub_cpu"] + (0.0 if one else sent["pub_cpu"])
-    return _Flow(count / (heard["end"] - sent["start"]), 1e6 * spent / count)
+    subscriber, publisher = ends[0], ends[-1]
+    cpu_s = subscriber["sub_cpu"] + (0.0 if one else publisher["pub_cpu"])
+    return _Flow(count / (subscriber["end"] - publisher["start"]), 1e6 * cpu_s / count)
 
 
 def _age(end: Sequence[str]) -> float:
-    """99th percentile of message ages at 1 kHz [ms]."""
+    """Return the 99th percentile of message ages at 1 kHz [ms]."""
     ages = sorted(_ends(end, ["sub", "pub"], _TWIST, 3000, 1000, None)[0]["ages"])
     return ages[len(ages) * 99 // 100] * 1e3
 
 
 def _first_message(end: Sequence[str]) -> float:
-    """Time from starting a node to its first message at a subscriber that waits [s]."""
+    """Return the time from a node's start to its first message at a waiting subscriber [s]."""
     with _fresh_master() as env, GraphLoop() as loop:
         arrived: list[float] = []
-        waiting = Node("bench_waiting", loop=loop, master_uri=env["ROS_MASTER_URI"])
-        waiting.subscribe("/bench", "*", lambda _: arrived.append(time.perf_counter()))
-        loop.run(waiting.wait_registered())
+        subscriber = Node("bench_waiting", loop=loop, master_uri=env["ROS_MASTER_URI"])
+        subscriber.subscribe("/bench", "*", lambda _: arrived.append(time.perf_counter()))
+        loop.run(subscriber.wait_registered())
         command = [*end, "first", _TWIST, "1", "0", "None"]
         start = time.perf_counter()
         with subprocess.Popen(command, env=env, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
@@ -163,7 +174,7 @@ def _first_message(end: Sequence[str]) -> float:
 
 
 def _ends(end: Sequence[str], roles: Sequence[str], *words: object) -> list[dict[str, Any]]:
-    """Run one process for each role, subscribers first; return their outputs."""
+    """Run one process for each role, subscribers first; return their results."""
     with _fresh_master() as env, ExitStack() as processes:
         started = [
             processes.enter_context(
@@ -174,21 +185,21 @@ def _ends(end: Sequence[str], roles: Sequence[str], *words: object) -> list[dict
             for role in roles
         ]
         try:
-            said: list[dict[str, Any]] = []
-            for process in started:  # a publisher after its subscriber, which has all it waits for
+            results: list[dict[str, Any]] = []
+            for process in started:  # the subscriber's result comes before the publisher's end
                 assert process.stdin is not None
                 assert process.stdout is not None
-                if said:
+                if results:
                     process.stdin.close()
-                said.append(json.loads(process.stdout.readline()))
-            return said
+                results.append(json.loads(process.stdout.readline()))
+            return results
         finally:
             for process in started:
                 process.kill()
 
 
-def _topic_list(own: bool) -> float:
-    command = [sys.executable, "-m", "trundle", "topic", "list"] if own else [_ROSTOPIC, "list"]
+def _topic_list(is_trundle: bool) -> float:
+    command = [sys.executable, "-m", "trundle", "topic", "list"] if is_trundle else [_ROSTOPIC, "list"]
     with _fresh_master() as env:
         start = time.perf_counter()
         subprocess.run(command, env=env, check=True, capture_output=True)

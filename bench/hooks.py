@@ -1,7 +1,7 @@
-"""Controllers beside the engine: an arm under ros_control at every step, one whose efforts come from Python, a lidar at
+"""Controllers with the engine: an arm under ros_control at every step, an arm with efforts from Python, and a lidar at
 100 Hz on a robot at rest.
 
-The peer is a plain loop of `mj_step` on the same compiled model. Times are of this process' CPU, all its threads.
+The peer is a plain loop of `mj_step` on the same compiled model. Times are of all threads of this process.
 """
 
 import copy
@@ -53,7 +53,7 @@ _BOX = """<collision name="c"><geometry><box><size>{}</size></box></geometry></c
 
 
 def run() -> list[Row]:
-    """Alternate simulation and loop, so that both see the machine at its fast and slow moments."""
+    """Alternate simulation and loop, so that a varying machine speed affects both equally."""
     rows = _rows("robot at rest with a 360-ray lidar at 100 Hz (Gazebo 11: 13.6)", _robot_with_lidar(), 10.0)
     with tempfile.TemporaryDirectory() as folder, GraphLoop() as loop:
         sim, client = _controlled_arm(Path(folder), loop)
@@ -61,7 +61,7 @@ def run() -> list[Row]:
         for topic, kind in _STATES.items():
             client.subscribe(topic, kind, lambda _: None)
         time.sleep(0.5)
-        rows += _rows("the same, its states heard at 50 Hz", sim, 4.0)
+        rows += _rows("the same with a subscriber to its states at 50 Hz", sim, 4.0)
     sim = _commanded_arm()
     rows += _rows("arm of 7 joints with efforts of a hook at every step", sim, 1.0)
     return [*rows, _command_cost(sim)]
@@ -77,12 +77,12 @@ def _rows(name: str, sim: Simulation, duration_s: float) -> list[Row]:
         )
         for _ in range(_PAIRS)
     ]
-    ratio = statistics.median(ours / theirs for ours, theirs in pairs)
-    return [Row(name, statistics.median(ours for ours, _ in pairs), "× real", "mj_step on the same", ratio)]
+    ratio = statistics.median(simulation / loop for simulation, loop in pairs)
+    return [Row(name, statistics.median(simulation for simulation, _ in pairs), "× real", "mj_step on the same", ratio)]
 
 
 def _rate(work: Callable[[], None], duration_s: float) -> float:
-    """[simulated s per CPU s]"""
+    """Return simulated seconds per CPU second."""
     start = time.process_time()
     work()
     return duration_s / (time.process_time() - start)
@@ -103,7 +103,7 @@ def _robot_with_lidar() -> Simulation:
 
 
 class _Efforts:
-    """Hook that commands another effort of each joint at every step."""
+    """Hook that commands a different effort of each joint at every step."""
 
     def __init__(self, sim: Simulation) -> None:
         self._joints = [sim["r"].joint(name) for name in _JOINTS]
@@ -142,7 +142,7 @@ def _arm(extra: str) -> str:
 
 
 def _controlled_arm(folder: Path, loop: GraphLoop) -> tuple[Simulation, Node]:
-    """Arm that follows a trajectory, set up as by a launch file, and a node beside it."""
+    """Return an arm that follows a trajectory, set up like by a launch file, and a client node."""
     plugin = '<plugin name="c" filename="libgazebo_ros_control.so"><robotNamespace>/</robotNamespace></plugin>'
     urdf = _arm(f"<gazebo>{plugin}</gazebo>")
     core = Core(loop, port=0)
@@ -155,15 +155,15 @@ def _controlled_arm(folder: Path, loop: GraphLoop) -> tuple[Simulation, Node]:
     load_plugins(sim, lambda _: node, {}, log=lambda _: None)
     client = Node("/client", loop=loop, master_uri=core.uri, rosout=False)
 
-    def ask(service: str, **fields: Any) -> None:
+    def call(service: str, **fields: Any) -> None:
         name = f"/controller_manager/{service}_controller"
         kind = f"controller_manager_msgs/{service.title()}Controller"
-        _stepped(sim, loop.spawn(client.wait_for_service(name, _PATIENCE_S)))
-        assert _stepped(sim, loop.spawn(client.call_service(name, kind, fields))).ok, f"{name} failed"
+        _step_until_done(sim, loop.spawn(client.wait_for_service(name, _PATIENCE_S)))
+        assert _step_until_done(sim, loop.spawn(client.call_service(name, kind, fields))).ok, f"{name} failed"
 
     for name in _CONTROLLERS:
-        ask("load", name=name)
-    ask("switch", start_controllers=list(_CONTROLLERS), stop_controllers=[], strictness=2)
+        call("load", name=name)
+    call("switch", start_controllers=list(_CONTROLLERS), stop_controllers=[], strictness=2)
     commands = client.advertise("/arm/command", "trajectory_msgs/JointTrajectory")
     while not commands.has_subscribers:
         time.sleep(0.01)
@@ -174,8 +174,8 @@ def _controlled_arm(folder: Path, loop: GraphLoop) -> tuple[Simulation, Node]:
     return sim, client
 
 
-def _stepped(sim: Simulation, future: Future[Any]) -> Any:
-    """Step until a condition on the graph holds."""
+def _step_until_done(sim: Simulation, future: Future[Any]) -> Any:
+    """Step until a call has its result."""
     while not future.done():
         sim.step(1)
         time.sleep(0.001)
@@ -183,7 +183,7 @@ def _stepped(sim: Simulation, future: Future[Any]) -> Any:
 
 
 def _load(name: str, text: str, folder: Path | None = None) -> Simulation:
-    with tempfile.TemporaryDirectory() as own:
-        file = (folder or Path(own)) / name
+    with tempfile.TemporaryDirectory() as temporary:
+        file = (folder or Path(temporary)) / name
         file.write_text(text)
         return trundle.load(str(file))

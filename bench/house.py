@@ -1,7 +1,7 @@
-"""A furnished house of 38 mesh models, nine of which can move and never sleep: chairs, balls and a door.
+"""A furnished house of 38 mesh models; nine of them move and never sleep: chairs, balls and a door.
 
-The peer is a plain loop of `mj_step` on the same compiled model. Times are of this process' CPU. Gazebo's figure, for
-reading, is of another house and another run.
+The peer is a plain loop of `mj_step` on the same compiled model. Times are of this process' CPU. Gazebo's rate was
+measured with another house in another run.
 """
 
 import statistics
@@ -24,13 +24,13 @@ _GAZEBO = 31.8
 _Part = tuple[tuple[float, float, float], tuple[float, float, float]]
 _FLOOR = """<model name="floor"><static>1</static><link name="l"><collision name="c"><geometry><plane>
 <normal>0 0 1</normal></plane></geometry></collision></link></model>"""
-_MODEL = """<model name="{name}">{how}<pose>{pose} 0 0 0</pose><link name="l">{inertial}<collision name="c"><geometry>
-<mesh><uri>{mesh}</uri></mesh></geometry></collision></link>{joint}</model>"""
+_MODEL = """<model name="{name}">{options}<pose>{pose} 0 0 0</pose><link name="l">{inertial}<collision name="c">
+<geometry><mesh><uri>{mesh}</uri></mesh></geometry></collision></link>{joint}</model>"""
 _INERTIAL = """<inertial><pose>0 0 {height} 0 0 0</pose><mass>5</mass><inertia><ixx>0.3</ixx><iyy>0.3</iyy>
 <izz>0.2</izz></inertia></inertial>"""
 _HINGE = """<joint name="hinge" type="revolute"><parent>world</parent><child>l</child><axis><xyz>0 0 1</xyz><limit>
 <lower>-1.5</lower><upper>1.5</upper></limit></axis></joint>"""
-_STANDING = {
+_STATIC = {
     "room": ["0 0 0"],
     "table": ["-2 1.2 0", "2.5 -2.2 0", "-3.1 -2.2 0", "2 1.2 0", "3.1 2.3 0"],
     "sofa": ["2 2.4 0", "2 -0.6 0"],
@@ -45,13 +45,13 @@ _MOVING = {
 
 
 def run() -> list[Row]:
-    """Alternate the two, so that both see the machine at its fast and slow moments."""
+    """Alternate simulation and loop, so that a varying machine speed affects both equally."""
     sim = _house()
     sim.step(_STEPS)
     loop = bare_loop(sim)
     pairs = [(cpu_rate(sim.step, _STEPS), cpu_rate(loop, _STEPS)) for _ in range(_PAIRS)]
-    value = statistics.median(ours for ours, _ in pairs) / _STEPS_PER_S
-    ratio = statistics.median(ours / theirs for ours, theirs in pairs)
+    value = statistics.median(simulation for simulation, _ in pairs) / _STEPS_PER_S
+    ratio = statistics.median(simulation / loop_rate for simulation, loop_rate in pairs)
     return [Row(f"furnished house, awake (Gazebo 11: {_GAZEBO})", value, "× real", "mj_step on the same", ratio)]
 
 
@@ -60,26 +60,26 @@ def _house() -> Simulation:
         for name, mesh in _meshes().items():
             mesh.export(Path(folder) / f"{name}.stl")
         models = _FLOOR
-        for kind, name, pose in _named(_STANDING):
-            models += _model(folder, kind, name, pose, how="<static>1</static>")
+        for kind, name, pose in _named(_STATIC):
+            models += _model(folder, kind, name, pose, options="<static>1</static>")
         awake = "<allow_auto_disable>0</allow_auto_disable>"
         for kind, name, pose in _named(_MOVING):
             inertial = _INERTIAL.format(height=0.4 if kind == "chair" else 0)
-            models += _model(folder, kind, name, pose, how=awake, inertial=inertial)
+            models += _model(folder, kind, name, pose, options=awake, inertial=inertial)
         door = _INERTIAL.format(height=1)
-        models += _model(folder, "door", "door", "0 0.05 0.01", how=awake, inertial=door, joint=_HINGE)
+        models += _model(folder, "door", "door", "0 0.05 0.01", options=awake, inertial=door, joint=_HINGE)
         file = Path(folder) / "house.world"
         file.write_text(f'<sdf version="1.6"><world name="w">{models}</world></sdf>')
         return trundle.load(str(file))
 
 
-def _named(placed: dict[str, list[str]]) -> list[tuple[str, str, str]]:
-    return [(kind, f"{kind}{i}", pose) for kind, poses in placed.items() for i, pose in enumerate(poses)]
+def _named(poses_by_kind: dict[str, list[str]]) -> list[tuple[str, str, str]]:
+    return [(kind, f"{kind}{i}", pose) for kind, poses in poses_by_kind.items() for i, pose in enumerate(poses)]
 
 
-def _model(folder: str, kind: str, name: str, pose: str, *, how: str, inertial: str = "", joint: str = "") -> str:
+def _model(folder: str, kind: str, name: str, pose: str, *, options: str, inertial: str = "", joint: str = "") -> str:
     mesh = f"{folder}/{kind}.stl"
-    return _MODEL.format(name=name, how=how, pose=pose, inertial=inertial, mesh=mesh, joint=joint)
+    return _MODEL.format(name=name, options=options, pose=pose, inertial=inertial, mesh=mesh, joint=joint)
 
 
 def _meshes() -> dict[str, trimesh.Trimesh]:
@@ -101,7 +101,7 @@ def _meshes() -> dict[str, trimesh.Trimesh]:
             *(((0.02, 0.3, 1.8), (x, 0, 0.9)) for x in (-0.45, 0.45)),
             *(((0.9, 0.3, 0.02), (0, 0, 0.01 + 0.35 * i)) for i in range(6)),
         ),
-        "lamp": _joined([_round(0.15, 0.03, 0.015), _round(0.02, 1.5, 0.78), _round(0.2, 0.3, 1.6)]),
+        "lamp": _joined([_cylinder(0.15, 0.03, 0.015), _cylinder(0.02, 1.5, 0.78), _cylinder(0.2, 0.3, 1.6)]),
         "vase": _boxes(
             ((0.16, 0.16, 0.02), (0, 0, 0.01)),
             *(((0.02, 0.16, 0.28), (x, 0, 0.16)) for x in (-0.07, 0.07)),
@@ -118,8 +118,8 @@ def _legs(x: float, y: float, width: float, height: float) -> Sequence[_Part]:
 
 def _boxes(*parts: _Part) -> trimesh.Trimesh:
     boxes = [trimesh.creation.box(extents=size) for size, _ in parts]
-    for box, (_, place) in zip(boxes, parts, strict=True):
-        box.apply_translation(place)
+    for box, (_, position) in zip(boxes, parts, strict=True):
+        box.apply_translation(position)
     return _joined(boxes)
 
 
@@ -129,7 +129,7 @@ def _joined(meshes: list[trimesh.Trimesh]) -> trimesh.Trimesh:
     return joined
 
 
-def _round(radius: float, height: float, z: float) -> trimesh.Trimesh:
+def _cylinder(radius: float, height: float, z: float) -> trimesh.Trimesh:
     mesh = trimesh.creation.cylinder(radius, height, sections=12)
     mesh.apply_translation((0, 0, z))
     return mesh

@@ -1,6 +1,6 @@
-"""Camera pictures a second: both cameras of the RP2W, and a ring of RGB-D cameras as quadrupeds carry it.
+"""Camera pictures per second: both cameras of the RP2W, and a ring of RGB-D cameras as on quadrupeds.
 
-The peer is MuJoCo's renderer over EGL behind the same sensors, by turns with ours.
+The peer is MuJoCo's EGL renderer with the same sensors, in alternation with Trundle's renderer.
 """
 
 import math
@@ -22,7 +22,7 @@ _RING = 5
 
 
 def run() -> list[Row]:
-    """Measure the sensors by themselves, with new poses every picture: no stepping, no topics."""
+    """Measure only the sensors, with new poses for every picture: no stepping, no topics."""
     with tempfile.TemporaryDirectory() as folder:
         ring = Path(folder) / "ring.world"
         ring.write_text(_ring(), encoding="utf-8")
@@ -33,14 +33,14 @@ def run() -> list[Row]:
 
 
 def _row(name: str, file: str) -> Row:
-    own: list[float] = []
+    rates: list[float] = []
     ratios: list[float] = []
     for _ in range(_TURNS):
-        own.append(_rate(file, "cpu"))
-        with suppress(UsageError):  # no EGL here
-            ratios.append(own[-1] / _rate(file, "egl"))
+        rates.append(_rate(file, "cpu"))
+        with suppress(UsageError):  # no EGL
+            ratios.append(rates[-1] / _rate(file, "egl"))
     ratio = statistics.median(ratios) if ratios else None
-    return Row(name, statistics.median(own), "images/s", "MuJoCo EGL", ratio)
+    return Row(name, statistics.median(rates), "images/s", "MuJoCo EGL", ratio)
 
 
 def _rate(file: str, renderer: RendererName) -> float:
@@ -60,9 +60,9 @@ def _rate(file: str, renderer: RendererName) -> float:
 
 
 def _ring() -> str:
-    """Twenty boxes on the ground around a box with cameras to all sides."""
+    """Return a world of twenty boxes around a box with cameras on all sides."""
     cameras = "".join(_camera(number, math.tau * number / _RING) for number in range(_RING))
-    boxes = "".join(_box(number, math.tau * number / 20) for number in range(20))
+    boxes = "".join(_box_model(number, math.tau * number / 20) for number in range(20))
     return f"""<sdf version="1.6"><world name="ring">
       <include><uri>model://sun</uri></include><include><uri>model://ground_plane</uri></include>
       <model name="robot"><static>true</static><pose>0 0 0.6 0 0 0</pose><link name="body">
@@ -77,7 +77,7 @@ def _camera(number: int, yaw: float) -> str:
       <noise><type>gaussian</type><mean>0</mean><stddev>0.007</stddev></noise></camera></sensor>"""
 
 
-def _box(number: int, angle: float) -> str:
+def _box_model(number: int, angle: float) -> str:
     geometry = "<geometry><box><size>0.5 0.5 1</size></box></geometry>"
     return f"""<model name="box_{number}"><static>true</static>
       <pose>{3 * math.cos(angle)} {3 * math.sin(angle)} 0.5 0 0 {angle}</pose>

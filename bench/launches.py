@@ -21,31 +21,31 @@ _ROSLAUNCH = "/usr/bin/roslaunch"
 
 
 def run() -> list[Row]:
-    """Whole processes, in turns, on the published launch file of most nodes that both read."""
+    """Alternate processes on the published launch file with the most nodes that both can read."""
     if not (CORPUS / "manifest.json").is_file():
         return []
     for row in _largest():
         file, repository = CORPUS / row["file"], CORPUS / "repos" / row["repo"]
         env = {**os.environ, **row["env"], "ROS_PACKAGE_PATH": f"{repository}:{CORPUS / 'repos'}"}
         words = [word for word in row["argv"] if ":=" in word]
-        ours = [sys.executable, "-m", "trundle", "launch", "--nodes", str(file), *words]
-        theirs = [_ROSLAUNCH, "--nodes", str(file), *words]
-        names = _timed(ours, env)[1]
+        trundle = [sys.executable, "-m", "trundle", "launch", "--nodes", str(file), *words]
+        roslaunch = [_ROSLAUNCH, "--nodes", str(file), *words]
+        names = _timed(trundle, env)[1]
         if names is None:
             continue
         name = f"{file.name} ({len(names.split())} nodes), launch --nodes"
         if not shutil.which(_ROSLAUNCH):
-            return [Row(name, statistics.median(_timed(ours, env)[0] for _ in range(_RUNS)), "s", "", None)]
-        if _timed(theirs, env)[1] is None:
+            return [Row(name, statistics.median(_timed(trundle, env)[0] for _ in range(_RUNS)), "s", "", None)]
+        if _timed(roslaunch, env)[1] is None:
             continue
-        pairs = [(_timed(ours, env)[0], _timed(theirs, env)[0]) for _ in range(_RUNS)]
-        ratio = statistics.median(own / other for own, other in pairs)
-        return [Row(name, statistics.median(own for own, _ in pairs), "s", "roslaunch --nodes", ratio)]
+        pairs = [(_timed(trundle, env)[0], _timed(roslaunch, env)[0]) for _ in range(_RUNS)]
+        ratio = statistics.median(trundle_s / roslaunch_s for trundle_s, roslaunch_s in pairs)
+        return [Row(name, statistics.median(trundle_s for trundle_s, _ in pairs), "s", "roslaunch --nodes", ratio)]
     return []
 
 
 def _largest() -> list[dict[str, Any]]:
-    """The launch files of most nodes, as roslaunch counted them."""
+    """Return the launch files with the most nodes, as counted by roslaunch."""
     rows = [row for row in json.loads((CORPUS / "manifest.json").read_text())["launch"] if row.get("ref")]
 
     def nodes(row: dict[str, Any]) -> int:
@@ -55,7 +55,7 @@ def _largest() -> list[dict[str, Any]]:
 
 
 def _timed(command: Sequence[str], env: dict[str, str]) -> tuple[float, str | None]:
-    """Wall time from start to exit [s], and the output; None: it failed."""
+    """Return the wall time from start to exit [s], and the output; None: it failed."""
     start = time.perf_counter()
-    done = subprocess.run(command, env=env, capture_output=True, text=True, check=False)
-    return time.perf_counter() - start, done.stdout if done.returncode == 0 else None
+    process = subprocess.run(command, env=env, capture_output=True, text=True, check=False)
+    return time.perf_counter() - start, process.stdout if process.returncode == 0 else None

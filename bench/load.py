@@ -1,9 +1,9 @@
-"""The graph under load: 200 topics at 100 Hz, 50 listening nodes, newcomers to a latched topic all the while.
+"""The graph under load: 200 topics at 100 Hz, 50 subscribing nodes, and new subscribers to a latched topic.
 
-usage: python -m bench.load [SECONDS]   (600; the tests take a few)
+usage: python -m bench.load [SECONDS]   (default: 600; tests run a few seconds)
 
-Prints progress twenty times, then how many messages came, how old /clock was, whether a newcomer missed the latched
-message, how memory grew, and whether that is well: 1 is the exit code where it is not.
+Prints progress twenty times, then the number of messages, the age of /clock, new subscribers that missed the latched
+message, and the growth of memory; the exit code is 1 if there are faults.
 """
 
 import asyncio
@@ -21,11 +21,11 @@ from trundle.ros import Core, GraphLoop, Node
 _TOPICS, _LISTENERS, _RATE_HZ = 200, 50, 100.0
 _NEWCOMERS_HZ = 5.0
 _PATIENCE_S = 60.0
-_LOOKS = 20
+_READINGS = 20
 """Number of progress lines and memory readings."""
 _SETTLED = 4
-"""Readings until all that is allocated once is; growth counts from there."""
-MAX_GROWN_MB = 10.0
+"""Readings until all one-time allocations are done; growth counts from there."""
+MAX_GROWTH_MB = 10.0
 _LATE_MS = 100
 """Ten ticks of /clock."""
 _TWIST, _STRING = "geometry_msgs/Twist", "std_msgs/String"
@@ -40,9 +40,9 @@ class Report:
     newcomers: int
     missed_latched: int
     clock_backwards: int
-    """Clock messages that came after a later one."""
+    """Clock messages with an earlier time than the one before."""
     clock_p99_ms: float
-    clock_most_ms: float
+    clock_max_ms: float
     clock_late: int
     """Clock messages older than ten ticks."""
     publishing_mb: list[float]
@@ -51,21 +51,21 @@ class Report:
 
     @property
     def grown_mb(self) -> dict[str, float]:
-        """Growth of either process since `_SETTLED` [MB]."""
-        looks = {"publishing": self.publishing_mb, "listening": self.listening_mb}
-        return {name: mb[-1] - mb[min(_SETTLED, len(mb)) - 1] for name, mb in looks.items()}
+        """Growth of both processes since `_SETTLED` [MB]."""
+        readings = {"publishing": self.publishing_mb, "listening": self.listening_mb}
+        return {name: mb[-1] - mb[min(_SETTLED, len(mb)) - 1] for name, mb in readings.items()}
 
     @property
     def faults(self) -> list[str]:
-        """Faults, except a late /clock, which a busy machine causes."""
-        grown = [f"the {name} process grew by {mb:.0f} MB" for name, mb in self.grown_mb.items() if mb > MAX_GROWN_MB]
+        """Faults, except late clock messages, which a busy machine causes."""
+        grown = [f"the {name} process grew by {mb:.0f} MB" for name, mb in self.grown_mb.items() if mb > MAX_GROWTH_MB]
         missed = [f"{self.missed_latched} newcomers missed the latched message"] if self.missed_latched else []
         back = [f"/clock went back {self.clock_backwards} times"] if self.clock_backwards else []
         return [*grown, *missed, *back]
 
 
 def run_load(seconds: float) -> Report:
-    """Publish here, listen in a process of its own."""
+    """Publish in this process, subscribe in another process."""
     with GraphLoop() as loop:
         core = Core(loop, port=0)
         loop.run(core.start())
@@ -82,28 +82,28 @@ def run_load(seconds: float) -> Report:
                     time.sleep(0.05)
                 message = talker.new(_TWIST)
                 start = due = time.monotonic()
-                looks, rounds, resident, heard = 0, 0, list[float](), dict[str, Any]()
-                while looks < _LOOKS:
+                readings, rounds, resident, counts = 0, 0, list[float](), dict[str, Any]()
+                while readings < _READINGS:
                     clock.publish({"clock": time.monotonic_ns()})
                     for publisher in publishers:
                         publisher.publish(message)
                     rounds += 1
                     now = time.monotonic()
-                    if now > start + seconds * (looks + 1) / _LOOKS:
-                        looks += 1
+                    if now > start + seconds * (readings + 1) / _READINGS:
+                        readings += 1
                         resident.append(_resident_mb())
-                        heard = _ask(listener)
-                        print(_progress(now - start, rounds, resident, heard), file=sys.stderr, flush=True)
-                    due = max(due + 1 / _RATE_HZ, now)  # a machine too slow for it does what it can
+                        counts = _request_counts(listener)
+                        print(_progress(now - start, rounds, resident, counts), file=sys.stderr, flush=True)
+                    due = max(due + 1 / _RATE_HZ, now)  # a slow machine publishes at a lower rate
                     time.sleep(max(0.0, due - time.monotonic()))
             finally:
                 listener.kill()
         loop.run(core.stop())
-    return Report(published=rounds * _TOPICS, publishing_mb=resident, **heard)
+    return Report(published=rounds * _TOPICS, publishing_mb=resident, **counts)
 
 
-def _ask(process: "subprocess.Popen[str]") -> dict[str, Any]:
-    """Counts of the listening process so far."""
+def _request_counts(process: "subprocess.Popen[str]") -> dict[str, Any]:
+    """Return the counts of the subscribing process so far."""
     assert process.stdin is not None
     assert process.stdout is not None
     process.stdin.write("\n")
@@ -111,15 +111,15 @@ def _ask(process: "subprocess.Popen[str]") -> dict[str, Any]:
     return json.loads(process.stdout.readline())
 
 
-def _progress(elapsed_s: float, rounds: int, resident: list[float], heard: dict[str, Any]) -> str:
+def _progress(elapsed_s: float, rounds: int, resident: list[float], counts: dict[str, Any]) -> str:
     return (
-        f"{elapsed_s:6.0f} s  {rounds / elapsed_s:5.1f} Hz  {heard['received']:,} of {rounds * _TOPICS:,} messages  "
-        f"{resident[-1]:.0f} + {heard['listening_mb'][-1]:.0f} MB  /clock {heard['clock_most_ms']} ms at most"
+        f"{elapsed_s:6.0f} s  {rounds / elapsed_s:5.1f} Hz  {counts['received']:,} of {rounds * _TOPICS:,} messages  "
+        f"{resident[-1]:.0f} + {counts['listening_mb'][-1]:.0f} MB  /clock {counts['clock_max_ms']} ms at most"
     )
 
 
-class _Ears:
-    """Fifty subscribing nodes, and newcomers."""
+class _Subscribers:
+    """Fifty subscribing nodes, and new subscribers."""
 
     def __init__(self, loop: GraphLoop, uri: str) -> None:
         self._loop, self._uri = loop, uri
@@ -129,16 +129,16 @@ class _Ears:
         self._latest = 0
         self._resident: list[float] = []
         for i in range(_LISTENERS):
-            node = Node(f"ear{i}", loop=loop, master_uri=uri, rosout=False)
+            node = Node(f"subscriber{i}", loop=loop, master_uri=uri, rosout=False)
             for topic in range(i, _TOPICS, _LISTENERS):
                 node.subscribe(f"/t{topic}", _TWIST, self._count, queue_size=100)
             if i == 0:
-                node.subscribe("/clock", "rosgraph_msgs/Clock", self._look, queue_size=100)
+                node.subscribe("/clock", "rosgraph_msgs/Clock", self._on_clock, queue_size=100)
 
     def _count(self, _: Any) -> None:
         self._counts["received"] += 1
 
-    def _look(self, message: Any) -> None:
+    def _on_clock(self, message: Any) -> None:
         stamp = message.clock.sec * 10**9 + message.clock.nanosec
         self._counts["clock_backwards"] += stamp < self._latest
         self._latest = stamp
@@ -147,38 +147,38 @@ class _Ears:
     async def newcomers(self) -> None:
         """Join, wait for the latched message, leave."""
         while True:
-            got = asyncio.Event()
+            received = asyncio.Event()
             self._counts["newcomers"] += 1
             node = Node(f"newcomer{self._counts['newcomers']}", loop=self._loop, master_uri=self._uri, rosout=False)
-            node.subscribe("/latched", _STRING, lambda _, got=got: got.set())
+            node.subscribe("/latched", _STRING, lambda _, received=received: received.set())
             try:
-                await asyncio.wait_for(got.wait(), _PATIENCE_S)
+                await asyncio.wait_for(received.wait(), _PATIENCE_S)
             except TimeoutError:
                 self._counts["missed_latched"] += 1
             await node.shutdown()
             await asyncio.sleep(1 / _NEWCOMERS_HZ)
 
-    def heard(self) -> dict[str, Any]:
-        """All counts, and the memory."""
+    def counts(self) -> dict[str, Any]:
+        """Return all counts and the memory."""
         self._resident.append(_resident_mb())
         ages = sorted(self._ages.elements()) or [0]
         counts = {name: self._counts[name] for name in ("received", "newcomers", "missed_latched", "clock_backwards")}
         return {
             **counts,
             "clock_p99_ms": ages[len(ages) * 99 // 100],
-            "clock_most_ms": ages[-1],
-            "clock_late": sum(often for age, often in self._ages.items() if age > _LATE_MS),
+            "clock_max_ms": ages[-1],
+            "clock_late": sum(count for age, count in self._ages.items() if age > _LATE_MS),
             "listening_mb": self._resident,
         }
 
 
 def _listen(uri: str) -> None:
     with GraphLoop() as loop:
-        ears = _Ears(loop, uri)
-        coming = loop.spawn(ears.newcomers())
+        subscribers = _Subscribers(loop, uri)
+        newcomers = loop.spawn(subscribers.newcomers())
         for _ in sys.stdin:
-            print(json.dumps(ears.heard()), flush=True)
-        coming.cancel()
+            print(json.dumps(subscribers.counts()), flush=True)
+        newcomers.cancel()
 
 
 def _resident_mb() -> float:
@@ -187,7 +187,7 @@ def _resident_mb() -> float:
 
 
 def main() -> None:
-    """Run it, or be its listening half."""
+    """Run the load, or its subscribing process."""
     if sys.argv[1:2] == ["--listen"]:
         _listen(sys.argv[2])
         return

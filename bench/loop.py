@@ -1,4 +1,4 @@
-"""The peer of most rows: a plain loop of `mj_step` on the same compiled model, as a MuJoCo user would have it."""
+"""Peer of most rows: a plain loop of `mj_step` on the same compiled model, without contact laws."""
 
 import copy
 import time
@@ -9,17 +9,17 @@ import mujoco
 from trundle.sim.physics.compile.law_tables import disable_laws
 from trundle.sim.simulation import Simulation
 
-_TRIED_STEPS = 20
+_TRIAL_STEPS = 20
 
 
 def bare_loop(sim: Simulation) -> Callable[[int], None]:
-    """Steps of the same bodies from where the simulation is, by the faster of two integrators.
+    """Return a function that steps the same bodies from the simulation's state, with the faster of two integrators.
 
-    One is the model's own, the discrete one, the other implicitfast, MuJoCo's own advice. Contact laws are off, and so
-    are contacts that are looked ahead at, which our laws leave out, too, while everything is slow.
+    One is the model's own, the discrete integrator, the other implicitfast, which MuJoCo recommends. Speculative
+    contacts are disabled, as in Trundle while all bodies are slow; otherwise the loop would take up to twice as long.
     """
     integrators = mujoco.mjtIntegrator.mjINT_DISCRETE, mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-    rates = {integrator: cpu_rate(_loop(sim, integrator), _TRIED_STEPS) for integrator in integrators}
+    rates = {integrator: cpu_rate(_loop(sim, integrator), _TRIAL_STEPS) for integrator in integrators}
     return _loop(sim, max(rates, key=rates.__getitem__))
 
 
@@ -32,7 +32,7 @@ def _loop(sim: Simulation, integrator: mujoco.mjtIntegrator) -> Callable[[int], 
 
 
 def cpu_rate(work: Callable[[int], None], steps: int) -> float:
-    """[steps/s] Of this process' CPU."""
+    """Return steps per second of this process' CPU time."""
     start = time.process_time()
     work(steps)
     return steps / (time.process_time() - start)

@@ -1,6 +1,6 @@
-"""The page's server: CPU of relaying clouds of a million points to a client, and of moving robots.
+"""The page's server: CPU time of relaying clouds of a million points to a client, and poses of moving robots.
 
-The peer is a process that copies the same bytes from one socket to another. Times are of the servers' CPU.
+The peer is a process that copies the same bytes from one socket to another. Times are of the server processes' CPU.
 """
 
 import io
@@ -31,22 +31,22 @@ _KEY = "AAAAAAAAAAAAAAAAAAAAAA=="
 
 
 def run() -> list[Row]:
-    """Alternate server and relay, so that both see the machine at its fast and slow moments."""
+    """Alternate server and relay, so that a varying machine speed affects both equally."""
     if not os.path.exists("/proc/self/stat"):
-        return []  # the CPU of other processes is not known here
+        return []  # the CPU time of other processes is unknown
     rows = [_relay_row(size * _POINTS) for size in _POINT_BYTES]
     return [*rows, _poses_row()]
 
 
 def _relay_row(size: int) -> Row:
     pairs = [(_page_cpu(size), _relay_cpu(size)) for _ in range(_PAIRS)]
-    ratio = statistics.median(own / peer for own, peer in pairs)
-    own = 1e3 * statistics.median(own for own, _ in pairs)
-    return Row(f"cloud of {size // 10**6} MB, page's server", own, "ms CPU", "a socket relay", ratio)
+    ratio = statistics.median(page_s / relay_s for page_s, relay_s in pairs)
+    page_ms = 1e3 * statistics.median(page_s for page_s, _ in pairs)
+    return Row(f"cloud of {size // 10**6} MB, page's server", page_ms, "ms CPU", "a socket relay", ratio)
 
 
 def _page_cpu(size: int) -> float:
-    """CPU of the page's server for one cloud [s]."""
+    """Return the CPU time of the page's server for one cloud [s]."""
     with GraphLoop() as loop:
         core = Core(loop, port=0)
         loop.run(core.start())
@@ -61,14 +61,14 @@ def _page_cpu(size: int) -> float:
 
 
 def _relay_cpu(size: int) -> float:
-    """CPU of a plain relay for one cloud [s]."""
+    """Return the CPU time of a plain relay for one cloud [s]."""
     with _running_relay() as (process_id, source, sink):
         threading.Thread(target=_feed, args=(source, size, _RATE_HZ, _MESSAGES + 3), daemon=True).start()
         return _cpu_per_message(process_id, lambda count: _discard(sink, count * size))
 
 
 def _cpu_per_message(process_id: int, receive: Callable[[int], None]) -> float:
-    """CPU of a process while messages arrive, the first few not counted."""
+    """Return the CPU time of a process per message [s], without the first few."""
     receive(3)
     before = cpu_s(process_id)
     receive(_MESSAGES)
@@ -77,7 +77,8 @@ def _cpu_per_message(process_id: int, receive: Callable[[int], None]) -> float:
 
 def _poses_row() -> Row:
     pairs = [(_poses_share(), _poses_relay_share()) for _ in range(_PAIRS)]
-    share, ratio = statistics.median(own for own, _ in pairs), statistics.median(own / peer for own, peer in pairs)
+    share = statistics.median(page for page, _ in pairs)
+    ratio = statistics.median(page / relay for page, relay in pairs)
     return Row("50 robots at 30 Hz, page's server", share, "% of core", "a socket relay", ratio)
 
 
@@ -89,7 +90,7 @@ def _empty_world() -> Manifest:
 
 
 def _poses_share() -> float:
-    """CPU of the page's server while bodies move, in percent of a core."""
+    """Return the CPU time of the page's server while bodies move, in percent of a core."""
     rows = np.random.default_rng(0).normal(size=(_ROBOTS * _LINKS, 7))
     with PageServer.start(Session(title="b", kind="simulation"), at=PageAddress(port=0)) as page:
         page.set_world(_empty_world(), {})
@@ -106,7 +107,7 @@ def _poses_share() -> float:
 
 
 def _poses_relay_share() -> float:
-    """CPU of a plain relay of as many bytes, in percent of a core."""
+    """Return the CPU time of a plain relay of the same number of bytes, in percent of a core."""
     size = _ROBOTS * _LINKS * _POSE_BYTES
     with _running_relay() as (process_id, source, sink):
         started, before = time.monotonic(), cpu_s(process_id)
@@ -117,7 +118,7 @@ def _poses_relay_share() -> float:
 
 @contextmanager
 def _running_relay() -> Generator[tuple[int, socket.socket, socket.socket]]:
-    """Run a relay; yield the number of its process, and the sockets that it reads from and writes to."""
+    """Run a relay; yield its process id, its source and its sink."""
     with (
         socket.create_server(("127.0.0.1", 0)) as inward,
         socket.create_server(("127.0.0.1", 0)) as outward,
@@ -128,8 +129,8 @@ def _running_relay() -> Generator[tuple[int, socket.socket, socket.socket]]:
             yield relay.recv(), source, sink
 
 
-def subscribe(url: str, topic: str, least: int) -> Callable[[int], None]:
-    """Subscribe to a topic; return a function that reads a number of longer messages than `least`."""
+def subscribe(url: str, topic: str, min_size: int) -> Callable[[int], None]:
+    """Subscribe to a topic; return a function that reads a number of messages longer than `min_size`."""
     host, port = str(urlsplit(url).hostname), int(urlsplit(url).port or 0)
     sock = socket.create_connection((host, port))
     sock.sendall(
@@ -139,16 +140,16 @@ def subscribe(url: str, topic: str, least: int) -> Callable[[int], None]:
     stream = sock.makefile("rb")
     while stream.readline().strip():
         pass
-    wanted = f'"topic":"{topic}"'.encode()
-    while wanted not in (text := _read_message(stream)):
+    topic_field = f'"topic":"{topic}"'.encode()
+    while topic_field not in (text := _read_message(stream)):
         pass
-    number = int(text[: text.index(wanted)].rpartition(b'"id":')[2].partition(b",")[0])
+    number = int(text[: text.index(topic_field)].rpartition(b'"id":')[2].partition(b",")[0])
     body = b'{"op":"subscribe","subscriptions":[{"id":1,"channelId":%d}]}' % number
     sock.sendall(struct.pack("!BBI", 0x81, 0x80 | len(body), 0) + body)  # masked with zeros
 
     def receive(count: int) -> None:
         while count and (size := _skip_message(stream)):
-            count -= size > least
+            count -= size > min_size
 
     return receive
 
@@ -158,7 +159,7 @@ def _read_message(stream: io.BufferedReader) -> bytes:
 
 
 def _skip_message(stream: io.BufferedReader) -> int:
-    """Read a message and return its length; 0 at the stream's end."""
+    """Read a message; return its length, or 0 at the stream's end."""
     size = left = _read_size(stream)
     while left and (part := stream.read1(min(left, 1 << 20))):
         left -= len(part)
@@ -197,7 +198,7 @@ def _relay(pipe: Connection, inward: int, outward: int) -> None:
 
 
 def _publish_clouds(pipe: Connection, master_uri: str, size: int) -> None:
-    """Publish clouds at their rate, from "go" on."""
+    """Publish clouds at a fixed rate after "go"."""
     from trundle.ros import Node
 
     with GraphLoop() as loop:
@@ -215,20 +216,20 @@ def _publish_clouds(pipe: Connection, master_uri: str, size: int) -> None:
 
 @contextmanager
 def process(target: Callable[..., None], *arguments: object) -> Generator[Connection]:
-    """Run a function in a process of its own, and yield the pipe to it."""
+    """Run a function in a new process, and yield the pipe to it."""
     context = multiprocessing.get_context("spawn")
-    ours, theirs = context.Pipe()
-    running = context.Process(target=target, args=(theirs, *arguments), daemon=True)
+    pipe, child_pipe = context.Pipe()
+    running = context.Process(target=target, args=(child_pipe, *arguments), daemon=True)
     running.start()
     try:
-        yield ours
+        yield pipe
     finally:
         running.kill()
         running.join()
 
 
 def cpu_s(process_id: int) -> float:
-    """CPU of all threads of a process [s]."""
+    """Return the CPU time of all threads of a process [s]."""
     with open(f"/proc/{process_id}/stat", encoding="ascii") as file:
         fields = file.read().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")

@@ -1,4 +1,4 @@
-"""The pointer in a world of 200 models: script time of hovering, selecting and dragging, by Chromium's own trace."""
+"""The pointer in a world of 200 models: script time of hovering, selecting and dragging, from Chromium's trace."""
 
 import json
 import re
@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from bench.chromium import chromium, is_there
+from bench.chromium import chromium, is_installed
 from bench.table import Row
 
 _PATIENCE_MS = 120_000
@@ -23,17 +23,18 @@ _POINTER = re.compile(r"pointer|mouse|click")
 
 def run() -> list[Row]:
     """Measure in one browser."""
-    if not is_there():
+    if not is_installed():
         return []
     with chromium() as browser:
         shares = measure(browser)
     return [
-        Row(f"200 models, {what}: script per event", share, "% of frame", "", None) for what, share in shares.items()
+        Row(f"200 models, {gesture}: script per event", share, "% of frame", "", None)
+        for gesture, share in shares.items()
     ]
 
 
 def measure(browser: Any) -> dict[str, float]:
-    """Return the script time of an event in percent of a frame of 1/60 s, by what a person does."""
+    """Return gesture → script time per event in percent of a frame of 1/60 s."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "many.sdf")
         file.write_text(_world())
@@ -42,7 +43,7 @@ def measure(browser: Any) -> dict[str, float]:
             [sys.executable, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
         ) as running:
             assert running.stderr is not None
-            url = next(found[1] for line in running.stderr if (found := re.search(r"see it at (\S+)", line)))
+            url = next(match[1] for line in running.stderr if (match := re.search(r"see it at (\S+)", line)))
             page = browser.new_page(viewport={"width": 1440, "height": 900})
             page.set_default_timeout(_PATIENCE_MS)
             page.goto(url)
@@ -61,7 +62,7 @@ def measure(browser: Any) -> dict[str, float]:
 def _by_gesture(browser: Any, page: Any) -> dict[str, float]:
     left, right, y = 320, 1100, 300
 
-    def over() -> None:
+    def hover() -> None:
         for i in range(_EVENTS):
             page.mouse.move(left + (right - left) * i / _EVENTS, y + 40 * (i % 3))
 
@@ -71,15 +72,15 @@ def _by_gesture(browser: Any, page: Any) -> dict[str, float]:
 
     def drag() -> None:
         page.mouse.down()
-        over()
+        hover()
         page.mouse.up()
 
-    def over_one() -> None:  # the hovered model stays, so that no picture is drawn
+    def hover_one() -> None:  # the hovered model stays the same, so that no picture is drawn
         for i in range(_EVENTS):
             page.mouse.move(left + i % 2, y)
 
     idle_us = _idle_frame_us(browser, page)
-    shares = {"hover": _share(browser, page, over_one, idle_us=idle_us), "select": _share(browser, page, select)}
+    shares = {"hover": _share(browser, page, hover_one, idle_us=idle_us), "select": _share(browser, page, select)}
     page.get_by_role("toolbar", name="Tools").get_by_role("button", name="Move", exact=True).click()
     page.mouse.move(left, y)
     shares["drag"] = _share(browser, page, drag)
@@ -87,19 +88,19 @@ def _by_gesture(browser: Any, page: Any) -> dict[str, float]:
 
 
 def _share(browser: Any, page: Any, act: Callable[[], None], *, idle_us: float | None = None) -> float:
-    """Script time of the thread per pointer event, in percent of a frame.
+    """Return the script time per pointer event, in percent of a frame.
 
     Args:
-        browser: Chromium.
-        page: with the world.
-        act: moves or presses the pointer.
-        idle_us: script time of a frame in which nothing happens [µs]; where frames draw no picture but search for what
-            is under the pointer, what they take longer counts. None: frames draw pictures, which do not count.
+        browser: Chromium instance.
+        page: page of the world.
+        act: function that moves or presses the pointer.
+        idle_us: script time of an idle frame [µs], for gestures that draw no pictures: longer frames, which search for
+            the model under the pointer, count. None: frames draw pictures and do not count.
     """
     events = _trace(browser, page, act)
-    dispatched = [each for each in events if each.get("name") == "EventDispatch" and _POINTER.search(_type(each))]
-    count = sum(_type(each) in ("pointermove", "pointerdown", "pointerup") for each in dispatched)
-    assert count >= _EVENTS // 4, "the page heard of no pointer"
+    dispatched = [event for event in events if event.get("name") == "EventDispatch" and _POINTER.search(_type(event))]
+    count = sum(_type(event) in ("pointermove", "pointerdown", "pointerup") for event in dispatched)
+    assert count >= _EVENTS // 4, "the page got no pointer events"
     spent_us = sum(map(_duration_us, dispatched))
     if idle_us is not None:
         frames = list(map(_duration_us, _frames(events)))
@@ -119,11 +120,11 @@ def _trace(browser: Any, page: Any, act: Callable[[], None]) -> list[Any]:
 
 
 def _frames(events: list[Any]) -> list[Any]:
-    return [each for each in events if each.get("name") == "FireAnimationFrame"]
+    return [event for event in events if event.get("name") == "FireAnimationFrame"]
 
 
 def _duration_us(event: Any) -> float:
-    """Time of the thread in an event [µs]; of the wall where the browser has no other."""
+    """Return the thread time of an event [µs], or its wall time if there is no thread time."""
     return float(event.get("tdur", event.get("dur", 0)))
 
 

@@ -1,6 +1,6 @@
-"""Figures of the real tools, measured in November 2026 on two noisy x86-64 cores without a GPU.
+"""Results of other tools, measured in November 2026 on two noisy x86-64 cores without a GPU.
 
-They were not measured in this run: read them as ratios to one another.
+They were not measured in this run; compare only their ratios.
 """
 
 TABLE = """

@@ -1,4 +1,4 @@
-"""Pictures and scans a second of our renderer, against OpenGL in software and MuJoCo's rays, in CPU seconds."""
+"""Pictures and scans per CPU second of Trundle's renderer, against software OpenGL and MuJoCo's rays."""
 
 import tempfile
 import time
@@ -37,7 +37,7 @@ def run() -> list[Row]:
             rows.append(_pictures(name, scene, eyes, lens))
             rows.append(_pictures(f"{name}, shadows", scenes.with_shadows(scene), eyes, lens))
         for name, scene, lens in (("A, 320x240", few, scenes.MIDDLE), ("B, 640x480", many, scenes.LARGE)):
-            rows += _against_tiny(name, scene, lens)
+            rows += _tiny_renderer_rows(name, scene, lens)
         for name, scene in (("A", few), ("B", many)):
             for beams, height in ((720, 1), (1800, 16)):
                 rows.append(_scans(f"lidar on {name}, {height} x {beams}", scene, beams, height))
@@ -45,15 +45,15 @@ def run() -> list[Row]:
 
 
 def _rate(work: Callable[[], object]) -> float:
-    """Calls a CPU second, in the best of some rounds: others use the machine too."""
+    """Return calls per CPU second, in the best of some rounds, which is the least disturbed by other programs."""
     work()
     best = 0.0
     for _ in range(_ROUNDS):
         count, start = 0, time.process_time()
-        while (passed := time.process_time() - start) < _ROUND_S:
+        while (elapsed := time.process_time() - start) < _ROUND_S:
             work()
             count += 1
-        best = max(best, count / passed)
+        best = max(best, count / elapsed)
     return best
 
 
@@ -72,56 +72,60 @@ def _drawing(
     return draw
 
 
-def _against_tiny(name: str, scene: Scene, lens: Intrinsics) -> list[Row]:
-    """Without and with shadows; none where PyBullet is not installed."""
+def _tiny_renderer_rows(name: str, scene: Scene, lens: Intrinsics) -> list[Row]:
+    """Return rows without and with shadows; none if PyBullet is not installed."""
     rows: list[Row] = []
     for title, lit in ((name, scene), (f"{name}, shadows", scenes.with_shadows(scene))):
         try:
             tiny = TinyRenderer(lit)
         except ImportError:
             return []
-        ours = _rate(_drawing(NativeRenderer(lit), lit, (scenes.EYE,), lens))
-        theirs = _rate(_drawing(tiny, lit, (scenes.EYE,), lens))
+        rate = _rate(_drawing(NativeRenderer(lit), lit, (scenes.EYE,), lens))
+        peer_rate = _rate(_drawing(tiny, lit, (scenes.EYE,), lens))
         tiny.close()
-        rows.append(Row(f"render {title}", ours, "frames/s", "PyBullet TinyRenderer", ours / theirs))
+        rows.append(Row(f"render {title}", rate, "frames/s", "PyBullet TinyRenderer", rate / peer_rate))
     return rows
 
 
 def _pictures(name: str, scene: Scene, eyes: Sequence[Pose], lens: Intrinsics) -> Row:
-    ours = _rate(_drawing(NativeRenderer(scene), scene, eyes, lens))
+    rate = _rate(_drawing(NativeRenderer(scene), scene, eyes, lens))
     try:
-        # Our shadow maps are fitted to what casts shadows: this scene's has 512 pixels over 4 m.
+        # Trundle's shadow maps are fitted to the shadow casters: this scene's has 512 pixels over 4 m.
         peer = EglRenderer(scene, shadow_radius_m=2.0, shadow_px=512)
-        theirs: float | None = _rate(_drawing(peer, scene, eyes, lens))
+        peer_rate: float | None = _rate(_drawing(peer, scene, eyes, lens))
     except UsageError:
-        theirs = None
-    ratio = None if theirs is None else ours / theirs
+        peer_rate = None
+    ratio = None if peer_rate is None else rate / peer_rate
     has_shadows = any(light.casts_shadows for light in scene.lights)
-    against = "MuJoCo EGL, shadow map of 512 px as ours" if has_shadows else "MuJoCo EGL"
-    return Row(f"render {name}", ours, "frames/s", against, ratio)
+    against = "MuJoCo EGL, shadow map of 512 px as in Trundle" if has_shadows else "MuJoCo EGL"
+    return Row(f"render {name}", rate, "frames/s", against, ratio)
 
 
 def _scans(name: str, scene: Scene, beams: int, height: int) -> Row:
     rows = np.linspace(-0.3, 0.3, height) if height > 1 else np.zeros(1)
     yaw, pitch = np.meshgrid(np.linspace(-np.pi, np.pi, beams), rows)
-    ways = np.stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)], axis=-1).reshape(-1, 3)
-    ours, eye = NativeRenderer(scene), Pose((0.0, 0.0, 0.5))
+    directions = np.stack([np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)], axis=-1).reshape(
+        -1, 3
+    )
+    renderer, eye = NativeRenderer(scene), Pose((0.0, 0.0, 0.5))
     poses = scenes.poses_at(scene, 0)
-    ours.update(poses)
+    renderer.update(poses)
     model = model_from_scene(scene)
     data = mujoco.MjData(model)
     for i, pose in enumerate(poses):
         data.mocap_pos[i], data.mocap_quat[i] = pose[:3], pose[3:]
     mujoco.mj_forward(model, data)
-    geoms, far = np.empty(len(ways), dtype=np.int32), np.empty(len(ways))
-    flat, origin = ways.reshape(-1), np.array(eye.position)
-    rate = _rate(lambda: ours.cast(eye, ways, max_range_m=30.0))
-    peer = _rate(lambda: mujoco.mj_multiRay(model, data, origin, flat, None, 1, -1, geoms, far, None, len(ways), 30.0))
-    return Row(name, rate, "scans/s", "mj_multiRay", rate / peer)
+    geoms, ranges = np.empty(len(directions), dtype=np.int32), np.empty(len(directions))
+    flat, origin = directions.reshape(-1), np.array(eye.position)
+    rate = _rate(lambda: renderer.cast(eye, directions, max_range_m=30.0))
+    peer_rate = _rate(
+        lambda: mujoco.mj_multiRay(model, data, origin, flat, None, 1, -1, geoms, ranges, None, len(directions), 30.0)
+    )
+    return Row(name, rate, "scans/s", "mj_multiRay", rate / peer_rate)
 
 
 def _many_cameras() -> list[Row]:
-    """Rate of frames of 12, then of 24 cameras of 160x120 [1/s]; twice as many should cost twice as much."""
+    """Compare the frame rates of 12 and 24 cameras of 160x120 [1/s]; the cost should double."""
     scene = scenes.with_shadows(scenes.primitives())
     renderer = NativeRenderer(scene)
 
@@ -134,7 +138,7 @@ def _many_cameras() -> list[Row]:
 
 
 def _rp2w() -> Row:
-    """Simulated seconds per CPU second, both cameras at 30 Hz."""
+    """Return simulated seconds per CPU second with both cameras at 30 Hz."""
     sim = trundle.load(str(ROBOT))
     cameras = mount_cameras(sim, NativeRenderer)
     for camera in cameras:

@@ -1,7 +1,7 @@
-"""One, ten and fifty RP2Ws: our simulation of the SDF beside what a MuJoCo user would write by hand, with its defaults.
+"""One, ten and fifty RP2Ws: simulation of the SDF against a hand-written MuJoCo model with MuJoCo's defaults.
 
-Times are of this process' CPU, which others on the machine change least. The cost of a robot must not grow with the
-number of robots: rows for one of several divide steps by robots.
+Times are of this process' CPU, which depends least on other programs. The cost of a robot must not grow with the
+number of robots: rows for one of several robots divide the cost by their number.
 """
 
 import resource
@@ -27,10 +27,10 @@ from trundle.spatial import Pose
 ROBOT = Path(__file__).parents[1] / "examples/rp2w"
 _COUNTS = (1, 10, 50)
 _GAZEBO = {1: 10_208, 10: 1_168, 50: 188}
-"""[steps/s] Of Gazebo 11.1 on two cores of another machine, as many robots rolling."""
+"""Steps per second of Gazebo 11.1 on two cores of another machine, with the same number of rolling robots."""
 _PAIRS = 15
 _SPEED = 2.0
-"""[rad/s] Of driven wheels."""
+"""Speed of driven wheels [rad/s]."""
 _BOXES = (
     ("body", "chassis", "0.2032 0.19685 0.0635", "0 0.1651 -0.6858", "1 0 0 0"),
     ("body", "board", "0.1397 0.098425 0.00005", "0 0.11427 0.2253", "0.98481 -0.17365 0 0"),
@@ -40,53 +40,53 @@ _BOXES = (
 
 
 def run() -> list[Row]:
-    """Alternate the two, so that both see the machine at its fast and slow moments."""
+    """Alternate simulation and peer, so that a varying machine speed affects both equally."""
     rows: list[Row] = []
     costs: dict[tuple[str, int], float] = {}
-    for what, least in (("at rest", 0), ("of which one rolls", 1), ("rolling", _COUNTS[-1])):
+    for motion, max_rolling in (("at rest", 0), ("of which one rolls", 1), ("rolling", _COUNTS[-1])):
         for count in _COUNTS:
-            steps, rolling = 8_000 // count, min(least, count)
-            if what == "of which one rolls" and count == 1:
+            steps, rolling = 8_000 // count, min(max_rolling, count)
+            if motion == "of which one rolls" and count == 1:
                 continue
-            sim, theirs = rolling_robots(count, rolling=rolling), _by_hand(count, rolling=rolling)
+            sim, peer = rolling_robots(count, rolling=rolling), _by_hand(count, rolling=rolling)
             sim.step(1024)
-            theirs(1024)
-            pairs = [(cpu_rate(sim.step, steps), cpu_rate(theirs, steps)) for _ in range(_PAIRS)]
+            peer(1024)
+            pairs = [(cpu_rate(sim.step, steps), cpu_rate(peer, steps)) for _ in range(_PAIRS)]
             value = statistics.median(a for a, _ in pairs)
             ratio = statistics.median(a / b for a, b in pairs)
-            rows.append(Row(f"{count} RP2W {what}", value, "steps/s", "MuJoCo by hand", ratio))
-            costs[what, count] = 1e6 / (value * count)
+            rows.append(Row(f"{count} RP2W {motion}", value, "steps/s", "MuJoCo by hand", ratio))
+            costs[motion, count] = 1e6 / (value * count)
             if rolling == count:
-                rows.append(_beside_loop(sim, count, steps))
-    for (what, count), cost in costs.items():
-        if (what, 1) not in costs:
+                rows.append(_bare_loop_row(sim, count, steps))
+    for (motion, count), cost in costs.items():
+        if (motion, 1) not in costs:
             continue
-        ratio = cost / costs[what, 1]
-        rows.append(Row(f"one of {count} RP2W {what}", cost, "µs a step", "one alone", ratio))
-    most = _COUNTS[-1]
-    rows.append(_with_cameras(most))
+        ratio = cost / costs[motion, 1]
+        rows.append(Row(f"one of {count} RP2W {motion}", cost, "µs a step", "one alone", ratio))
+    max_count = _COUNTS[-1]
+    rows.append(_with_cameras(max_count))
     start = time.process_time()
-    rolling_robots(most, rolling=0).step(1)
-    took = time.process_time() - start
-    _by_hand(most, rolling=0)(1)
-    ratio = took / (time.process_time() - start - took)
-    rows.append(Row(f"{most} RP2W, from the SDF to the first step", took, "CPU s", "MuJoCo by hand", ratio))
-    code = f"from bench.robots import print_peak; print_peak({most})"
-    done = subprocess.run(
+    rolling_robots(max_count, rolling=0).step(1)
+    elapsed_s = time.process_time() - start
+    _by_hand(max_count, rolling=0)(1)
+    ratio = elapsed_s / (time.process_time() - start - elapsed_s)
+    rows.append(Row(f"{max_count} RP2W, from the SDF to the first step", elapsed_s, "CPU s", "MuJoCo by hand", ratio))
+    code = f"from bench.robots import print_peak; print_peak({max_count})"
+    process = subprocess.run(
         [sys.executable, "-c", code], cwd=ROBOT.parents[1], capture_output=True, text=True, check=True
     )
-    peak = float(done.stdout)
-    rows.append(Row(f"{most} RP2W, peak memory", peak, "MB", "Gazebo 11's 612 MB", peak / 612))
+    peak = float(process.stdout)
+    rows.append(Row(f"{max_count} RP2W, peak memory", peak, "MB", "Gazebo 11's 612 MB", peak / 612))
     return rows
 
 
 def print_peak(count: int) -> None:
-    """Simulate some robots for two seconds, and print the largest resident memory of this process [MB]."""
+    """Simulate robots for two seconds, and print the peak resident memory of this process [MB]."""
     rolling_robots(count, rolling=count).step(2000)
     print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
 
 
-def _beside_loop(sim: Simulation, count: int, steps: int) -> Row:
+def _bare_loop_row(sim: Simulation, count: int, steps: int) -> Row:
     loop = bare_loop(sim)
     pairs = [(cpu_rate(sim.step, steps), cpu_rate(loop, steps)) for _ in range(_PAIRS)]
     value, ratio = statistics.median(a for a, _ in pairs), statistics.median(a / b for a, b in pairs)
@@ -94,7 +94,7 @@ def _beside_loop(sim: Simulation, count: int, steps: int) -> Row:
 
 
 def _with_cameras(count: int) -> Row:
-    """Robots with always-on cameras that have no reader."""
+    """Compare robots with always-on cameras without a reader to robots without cameras."""
     plain, equipped = rolling_robots(count, rolling=count), rolling_robots(count, rolling=count)
     MountedSensors(equipped, RENDERERS["cpu"]).start()
     for sim in (plain, equipped):
@@ -106,7 +106,7 @@ def _with_cameras(count: int) -> Row:
 
 
 def rolling_robots(count: int, *, rolling: int) -> Simulation:
-    """Some RP2Ws on a plane, of which `rolling` drive ahead."""
+    """Return a simulation of RP2Ws on a plane, of which `rolling` drive forward."""
     alone = trundle.load(str(ROBOT)).world
     robot = replace(next(m for m in alone.models if not m.static), plugins=())
     robots = [
@@ -147,7 +147,7 @@ def _by_hand(count: int, *, rolling: int) -> Callable[[int], None]:
 
 
 def _mjcf(i: int, x: float, y: float) -> str:
-    """One robot; as in the file, every link has a moment of inertia of 1 on each axis."""
+    """Return the MJCF of one robot; as in its SDF, every link has a moment of inertia of 1 on each axis."""
 
     def mass(kilograms: float, moment: float = 1.0) -> str:
         return f'<inertial pos="0 0 0" mass="{kilograms}" diaginertia="{moment} {moment} {moment}"/>'

@@ -1,10 +1,10 @@
-"""One end of a topic, over Trundle's graph or over rospy; `bench.graph` runs it as a program.
+"""One end of a topic, with Trundle's client library or rospy; `bench.graph` runs it as a program.
 
 usage: ros_end.py trundle|rospy|modules  pub|sub|both|first  TYPE  COUNT  RATE_HZ (0: flat out)  QUEUE_SIZE (None, 1 …)
 
-A subscriber prints one JSON object when it has COUNT messages. A publisher prints one when it has sent them; with a
-queue of a size, which drops what is not sent in time, when its standard input is closed. Stamps are `time.monotonic()`,
-which all processes of a machine share.
+A subscriber prints one JSON object after COUNT messages, a publisher after sending them; with a queue size, which
+drops messages, a publisher prints it when its standard input is closed. Stamps are `time.monotonic()`, which all
+processes of a machine share.
 """
 
 import json
@@ -22,7 +22,7 @@ _PIXELS = bytes(320 * 240 * 3)
 
 
 class OverTrundle:
-    """Trundle's own client library."""
+    """Trundle's client library."""
 
     def __init__(self, role: str, queue_size: int | None) -> None:
         _add_site()
@@ -34,7 +34,7 @@ class OverTrundle:
         self._node = Node(f"bench_{role}", loop=self._loop, rosout=False)
 
     def publisher(self, kind: str) -> tuple[Callable[[float], None], Callable[[], bool]]:
-        """Return functions that publish a message with a number, and check for a subscriber."""
+        """Return a function that publishes a message with a number, and one that checks for a subscriber."""
         publisher = self._node.advertise("/bench", kind, queue_size=self._queue_size)
         new = self._node.new
         if kind == "sensor_msgs/Image":
@@ -70,7 +70,7 @@ class OverRospy:
         self._rospy.init_node(f"bench_{role}", disable_signals=True, disable_rosout=True)
 
     def publisher(self, kind: str) -> tuple[Callable[[float], None], Callable[[], bool]]:
-        """Return functions that publish a message with a number, and check for a subscriber."""
+        """Return a function that publishes a message with a number, and one that checks for a subscriber."""
         cls = _rospy_type(kind)
         publisher = self._rospy.Publisher("/bench", cls, queue_size=self._queue_size)
 
@@ -82,10 +82,10 @@ class OverRospy:
                 message.linear.x = number
                 publisher.publish(message)
 
-        def is_heard() -> bool:
+        def has_subscriber() -> bool:
             return bool(publisher.get_num_connections())
 
-        return publish, is_heard
+        return publish, has_subscriber
 
     def subscribe(self, kind: str, callback: Callable[[Any], None]) -> None:
         """Call back with each message."""
@@ -93,7 +93,7 @@ class OverRospy:
 
 
 class OverModules(OverRospy):
-    """Trundle's rospy."""
+    """Trundle's rospy modules."""
 
     def __init__(self, role: str, queue_size: int | None) -> None:
         _add_site()
@@ -104,7 +104,7 @@ class OverModules(OverRospy):
 
 
 def _add_site() -> None:
-    if sys.flags.no_site:  # an interpreter that has Trundle elsewhere
+    if sys.flags.no_site:  # another interpreter, without Trundle in its site-packages
         site.addsitedir(os.environ["BENCH_SITE"])
 
 
@@ -113,67 +113,67 @@ def _rospy_type(kind: str) -> Any:
     return getattr(import_module(f"{package}.msg"), name)
 
 
-class Taker:
-    """Callback of a subscriber that counts messages after a first one, which warms up."""
+class Receiver:
+    """Callback of a subscriber that counts messages after the first one, which warms up."""
 
     def __init__(self, count: int, *, are_stamped: bool) -> None:
         self._count, self._are_stamped = count, are_stamped
         self._ages: list[float] = []
-        self._taken = -1
+        self._received = -1
         self._start = self._start_cpu = 0.0
         self._done = threading.Event()
 
     def __call__(self, message: Any) -> None:
-        """Take a message."""
-        self._taken += 1
-        if self._taken == 1:
+        """Count a message."""
+        self._received += 1
+        if self._received == 1:
             self._start, self._start_cpu = time.monotonic(), time.process_time()
-        if self._are_stamped and self._taken:
+        if self._are_stamped and self._received:
             self._ages.append(time.monotonic() - message.linear.x)
-        if self._taken == self._count:
+        if self._received == self._count:
             self._done.set()
 
     def result(self) -> dict[str, Any]:
-        """Return the ages, and the times from the first message to the last, once all are there."""
+        """Wait for all messages; return their ages, and the times from the first message to the last."""
         self._done.wait()
         times = {"end": time.monotonic(), "first": self._start, "sub_cpu": time.process_time() - self._start_cpu}
         return {**times, "ages": self._ages}
 
 
 def main() -> None:
-    """Run the ends that the command line names."""
+    """Run the ends named on the command line."""
     library, role, kind, count, rate_hz, queue = sys.argv[1:]
     queue_size = None if queue == "None" else int(queue)
     end = {"trundle": OverTrundle, "rospy": OverRospy, "modules": OverModules}[library](role, queue_size)
     total, period_s = int(count), 1 / float(rate_hz) if float(rate_hz) else 0.0
-    take = Taker(total, are_stamped=bool(period_s))
+    receiver = Receiver(total, are_stamped=bool(period_s))
     closed = threading.Event()
     threading.Thread(target=lambda: (sys.stdin.read(), closed.set()), daemon=True).start()
-    said: dict[str, Any] = {}
+    result: dict[str, Any] = {}
     if role == "first":
-        publish, is_heard = end.publisher(kind)
-        while not is_heard():
+        publish, has_subscriber = end.publisher(kind)
+        while not has_subscriber():
             time.sleep(0.001)
         publish(0.0)
     if role in ("sub", "both"):
-        end.subscribe(kind, take)
+        end.subscribe(kind, receiver)
     if role not in ("sub", "first"):
-        publish, is_heard = end.publisher(kind)
-        while not is_heard():
+        publish, has_subscriber = end.publisher(kind)
+        while not has_subscriber():
             time.sleep(0.01)
-        publish(time.monotonic())  # the first one warms up
+        publish(time.monotonic())  # the first message warms up
         time.sleep(_WARM_S)
-        said |= _publish(publish, None if queue_size else total, period_s, closed)
+        result |= _publish(publish, None if queue_size else total, period_s, closed)
     if role in ("sub", "both"):
-        said |= take.result()
-    print(json.dumps(said), flush=True)
-    closed.wait()  # stay until the parent process has its result
+        result |= receiver.result()
+    print(json.dumps(result), flush=True)
+    closed.wait()  # run until the parent process has the result
 
 
 def _publish(
     publish: Callable[[float], None], total: int | None, period_s: float, closed: threading.Event
 ) -> dict[str, float]:
-    """Publish as many messages, or until the standard input is closed; return start and CPU time [s]."""
+    """Publish `total` messages, or until standard input is closed; return start and CPU time [s]."""
     start, cpu = time.monotonic(), time.process_time()
     due, sent = start, 0
     while sent != total and not closed.is_set():

@@ -1,4 +1,4 @@
-"""The scenes that renderers are compared on: ten primitives (A, C), twenty meshes of 5,000 triangles (B)."""
+"""Scenes of the renderer benchmarks: ten primitives (A, C), twenty meshes of 5,000 triangles (B)."""
 
 import math
 from pathlib import Path
@@ -33,7 +33,7 @@ _SOLIDS: tuple[ShapeGeometry, ...] = (
 
 
 def primitives() -> Scene:
-    """A plane, a sun and ten primitives, each on a body of its own."""
+    """Return a plane, a sun and ten primitives, each on its own body."""
     shapes = tuple(
         Shape(name=str(i), body=i + 1, geometry=_SOLIDS[i % 5], rgba=(0.2 + 0.07 * i, 0.9 - 0.08 * i, 0.5, 1.0))
         for i in range(10)
@@ -42,13 +42,13 @@ def primitives() -> Scene:
 
 
 def meshes(folder: Path) -> Scene:
-    """Twenty balls of 5,120 triangles, painted with an image of 512 by 512 pixels."""
+    """Return twenty balls of 5,120 triangles with a texture of 512 by 512 pixels."""
     board = (np.indices((512, 512)) // 32).sum(axis=0) % 2 * 120 + 100
     texture = folder / "board.png"
     Image.fromarray(board.astype(np.uint8)).save(texture)
     ball = trimesh.creation.icosphere(subdivisions=4, radius=0.45)
-    places = np.stack([np.arctan2(ball.vertices[:, 1], ball.vertices[:, 0]) / math.tau, ball.vertices[:, 2]], axis=-1)
-    mesh = Mesh(ball.vertices.astype(np.float32), ball.faces.astype(np.int32), uv=places.astype(np.float32)[ball.faces])
+    uv = np.stack([np.arctan2(ball.vertices[:, 1], ball.vertices[:, 0]) / math.tau, ball.vertices[:, 2]], axis=-1)
+    mesh = Mesh(ball.vertices.astype(np.float32), ball.faces.astype(np.int32), uv=uv.astype(np.float32)[ball.faces])
     shapes = (
         Shape(name=str(i), body=i + 1, geometry=mesh, rgba=(0.8, 0.7, 0.6, 1.0), texture=texture) for i in range(20)
     )
@@ -60,12 +60,12 @@ def _scene(shapes: tuple[Shape, ...]) -> Scene:
 
 
 def with_shadows(scene: Scene) -> Scene:
-    """The same, its lights casting shadows."""
+    """Return the scene with lights that cast shadows."""
     return replace(scene, lights=tuple(replace(light, casts_shadows=True) for light in scene.lights))
 
 
 def poses_at(scene: Scene, frame: int) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
-    """(bodies, 7) everything in a ring, a little farther round in each frame; body 0 stands still."""
+    """Return (bodies, 7) poses on a ring that rotates with each frame; body 0 does not move."""
     count = len(scene.bodies)
     poses = np.zeros((count, 7))
     poses[:, 3] = 1.0

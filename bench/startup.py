@@ -19,11 +19,11 @@ _PATIENCE_S = 30.0
 
 
 def run() -> list[Row]:
-    """Whole processes, timed from outside; the peers' figures are in bench/peers.py."""
+    """Time whole processes; results of other tools are in bench/peers.py."""
     first_step = ("run", "model://rp2w", "--headless", "--no-ros", "--duration", "0.001")
     versions = [_wait("-m", "trundle", "--version") for _ in range(_RUNS)]
     pairs = [(_wait("-m", "trundle", *first_step), _wait("-c", "import numpy, mujoco")) for _ in range(_RUNS)]
-    waits, ratios = [ours for ours, _ in pairs], [ours / imports for ours, imports in pairs]
+    waits, ratios = [start for start, _ in pairs], [start / imports for start, imports in pairs]
     peer = "a Python that imports numpy and mujoco"
     rows = [
         Row("trundle --version, start to exit", statistics.median(versions), "s", "", None),
@@ -37,7 +37,7 @@ def run() -> list[Row]:
 
 
 def _wait(*arguments: str) -> float:
-    """Wall time of a Python with its bytecode kept, as an installed program has it [s]."""
+    """Return the wall time of a Python process with cached bytecode, as of an installed program [s]."""
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     start = time.perf_counter()
     subprocess.run([sys.executable, *arguments], check=True, capture_output=True, env=environment)
@@ -45,19 +45,19 @@ def _wait(*arguments: str) -> float:
 
 
 def _first_odometry() -> tuple[float, float]:
-    """Listen before the launch: the wait for the first message [s], and what all nodes then hold [MB]."""
-    came = threading.Event()
+    """Return the time from a launch to its first odometry [s], and the memory of all nodes [MB]."""
+    received = threading.Event()
     port = 11400 + os.getpid() % 500
     uri = f"http://127.0.0.1:{port}"
     env = {**os.environ, "ROS_MASTER_URI": uri, "ROS_PACKAGE_PATH": str(SEEDS)}
     words = ("launch", "smartcar_description", "smartcar_display.rviz.launch", "--headless")
     with GraphLoop() as loop, tempfile.TemporaryFile() as output:
         listener = Node("/bench", loop=loop, master_uri=uri, rosout=False)
-        listener.subscribe("/odom", "nav_msgs/Odometry", lambda _: came.set())
+        listener.subscribe("/odom", "nav_msgs/Odometry", lambda _: received.set())
         start = time.perf_counter()
         process = subprocess.Popen([sys.executable, "-m", "trundle", *words], env=env, stdout=output, stderr=output)
         try:
-            if not came.wait(_PATIENCE_S):
+            if not received.wait(_PATIENCE_S):
                 raise RuntimeError(f"no /odom within {_PATIENCE_S:g} s")
             return time.perf_counter() - start, _resident_mb(process.pid)
         finally:

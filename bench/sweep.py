@@ -1,8 +1,8 @@
 """A sweep of the RP2W with varied mass, friction and push, against the engine's bare loop on the same models.
 
-Two processes work at once, each of which runs a row and then its peer, so that both see the machine at its fast and
-slow moments. Trees sleep alike on both sides: never, or by the same decisions. Times are of CPU, which others on the
-machine change least.
+Two processes run in parallel; each alternates a row and its peer, so that a varying machine speed affects both
+equally. Kinematic trees sleep in both at the same times, or never. Times are of CPU, which depends least on other
+programs.
 """
 
 import statistics
@@ -28,7 +28,7 @@ _RUNS = 1000
 _SIMULATED = 64
 """Rows that are simulated in full."""
 _PROCESSES = 2
-_PEER = f"mj_step(nstep=…) in {_PROCESSES} processes, sleeping alike"
+_PEER = f"mj_step(nstep=…) in {_PROCESSES} processes, with the same sleep"
 _DURATION_S = 10.0
 _PUSH_S = (1.0, 1.3)
 _PLAN = """\
@@ -47,15 +47,15 @@ measure: {{moved: models.rp2w.x}}
 
 
 def run() -> list[Row]:
-    """Run the simulated rows without sleep and with it, and the whole table."""
+    """Run the simulated rows without and with sleep, and the whole table."""
     rows: list[Row] = []
-    for sleeps, what in ((False, "nothing sleeps"), (True, "sleeping at rest")):
+    for sleeps, mode in ((False, "no sleep"), (True, "sleeping at rest")):
         parts = [range(i, _SIMULATED, _PROCESSES) for i in range(_PROCESSES)]
         with ProcessPoolExecutor(_PROCESSES, mp_context=get_context("spawn")) as pool:
             pairs = [pair for part in pool.map(_pairs, parts, [sleeps] * _PROCESSES) for pair in part]
-        rate = statistics.median(ours for ours, _ in pairs)
-        ratio = statistics.median(ours / bare for ours, bare in pairs)
-        rows.append(Row(f"sweep of RP2W, 10 s runs with a push, {what}", rate, "steps/s", _PEER, ratio))
+        rate = statistics.median(sweep for sweep, _ in pairs)
+        ratio = statistics.median(sweep / bare for sweep, bare in pairs)
+        rows.append(Row(f"sweep of RP2W, 10 s runs with a push, {mode}", rate, "steps/s", _PEER, ratio))
     owner_ms, size = _table()
     return [
         *rows,
@@ -76,45 +76,45 @@ def _runner(*, sleeps: bool) -> tuple[Rows, RowRunner]:
 
 
 def _pairs(numbers: range, sleeps: bool) -> list[tuple[float, float]]:
-    """Return the steps per CPU second of some rows as a worker runs them, and of MuJoCo alone."""
+    """Return the steps per CPU second of rows in a worker, and of MuJoCo alone."""
     rows, runner = _runner(sleeps=sleeps)
     runner.run(rows.row(numbers[0]))
     pairs: list[tuple[float, float]] = []
     for number in numbers:
         row = rows.row(number)
-        began = time.process_time()
+        start = time.process_time()
         runner.run(row)
-        ours_s = time.process_time() - began
+        row_s = time.process_time() - start
         with runner.start(row) as run:
             steps, bare_s = _bare_run(run.simulation, float(str(row.values["push"])))
-        pairs.append((steps / ours_s, steps / bare_s))
+        pairs.append((steps / row_s, steps / bare_s))
     return pairs
 
 
 def _bare_run(simulation: Simulation, push: float) -> tuple[int, float]:
-    """Step a row's model to its end, deciding on sleep when the engine does; return steps and CPU time [s]."""
+    """Step a row's model to its end with the engine's sleep policy; return steps and CPU time [s]."""
     compiled = simulation.engine.compiled
     model, data = compiled.model, mujoco.MjData(compiled.model)
     policy, chassis = SleepPolicy(compiled, data), model.body("rp2w::chassis").id
     pushed, freed, steps = (round(seconds / model.opt.timestep) for seconds in (*_PUSH_S, _DURATION_S))
     ends = sorted({*range(0, steps, DECISION_PERIOD), pushed, freed, steps})
-    began = time.process_time()
-    for at, end in pairwise(ends):
-        data.xfrc_applied[chassis, 0] = push if pushed <= at < freed else 0.0
-        mujoco.mj_step(model, data, nstep=end - at)
+    start = time.process_time()
+    for first, end in pairwise(ends):
+        data.xfrc_applied[chassis, 0] = push if pushed <= first < freed else 0.0
+        mujoco.mj_step(model, data, nstep=end - first)
         if end % DECISION_PERIOD == 0:
             policy.update()
-    return steps, time.process_time() - began
+    return steps, time.process_time() - start
 
 
 def _start_ms() -> float:
-    """Return the CPU time of making a row's simulation [ms], without that of reading the world."""
+    """Return the CPU time of creating a row's simulation [ms], without reading the world."""
     rows, runner = _runner(sleeps=True)
     starts: list[float] = []
     for row in rows:
-        began = time.process_time()
+        start = time.process_time()
         runner.start(row).close()
-        starts.append(time.process_time() - began)
+        starts.append(time.process_time() - start)
     return statistics.median(starts) * 1000
 
 
@@ -123,7 +123,7 @@ def _table() -> tuple[float, float]:
     with tempfile.TemporaryDirectory() as folder:
         plan = Path(folder) / "plan.yaml"
         plan.write_text(_plan(_RUNS, sleeps=True, duration_s=0.01))
-        began = time.process_time()
+        start = time.process_time()
         trundle.sweep(plan)
-        owner_s = time.process_time() - began
+        owner_s = time.process_time() - start
         return 1000 * owner_s / _RUNS, (Path(folder) / "plan.sweep/results.parquet").stat().st_size / _RUNS

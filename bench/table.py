@@ -1,4 +1,4 @@
-"""Rows of figures, printed as one table."""
+"""Rows of results, printed as one table."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,20 +6,20 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One figure."""
+    """One result."""
 
     name: str
     value: float | None
-    """None: not measured; the unit says why."""
+    """None: not measured; the unit has the reason."""
     unit: str
     against: str
     """Peer and its options, measured in the same run; empty: none."""
     ratio: float | None
-    """Median of value over the peer's, pair by pair."""
+    """Median over pairs of the value over the peer's value."""
 
 
 def print_table(rows: Sequence[Row]) -> None:
-    """Print one line a row."""
+    """Print one line per row."""
     width = max((len(row.name) for row in rows), default=0)
     for row in rows:
         peer = "" if row.ratio is None else f"   {row.ratio:.3g} of {row.against}"

@@ -1,4 +1,4 @@
-"""PyBullet's TinyRenderer behind the interface of ours, where PyBullet is installed."""
+"""PyBullet's TinyRenderer with the interface of Trundle's renderers, if PyBullet is installed."""
 
 import math
 from collections.abc import Sequence
@@ -19,10 +19,10 @@ _GROUND_M = 20.0
 
 
 class TinyRenderer:
-    """Draws a bench scene in its colours, without textures."""
+    """Draws a bench scene in its colors, without textures."""
 
     def __init__(self, scene: Scene) -> None:
-        """Build it.
+        """Create the scene in PyBullet.
 
         Raises:
             ImportError: PyBullet is not installed.
@@ -46,7 +46,7 @@ class TinyRenderer:
         bullet = self._bullet
         for eye, lens in views:
             ahead, up = eye.transform_vector((1.0, 0.0, 0.0)), eye.transform_vector((0.0, 0.0, 1.0))
-            target = [at + way for at, way in zip(eye.position, ahead, strict=True)]
+            target = [a + b for a, b in zip(eye.position, ahead, strict=True)]
             height_rad = 2 * math.atan(lens.height_px / 2 / lens.focal_px)
             bullet.getCameraImage(
                 lens.width_px,
@@ -60,15 +60,17 @@ class TinyRenderer:
             )
 
     def close(self) -> None:
-        """Free the renderer."""
+        """Disconnect from PyBullet."""
         self._bullet.disconnect(self._client)
 
     def _body(self, shape: Shape) -> int:
         bullet = self._bullet
-        visual = bullet.createVisualShape(**self._form(shape), rgbaColor=shape.rgba, physicsClientId=self._client)
+        visual = bullet.createVisualShape(
+            **self._visual_shape(shape), rgbaColor=shape.rgba, physicsClientId=self._client
+        )
         return bullet.createMultiBody(baseVisualShapeIndex=visual, physicsClientId=self._client)
 
-    def _form(self, shape: Shape) -> dict[str, object]:
+    def _visual_shape(self, shape: Shape) -> dict[str, object]:
         bullet = self._bullet
         match shape.geometry:
             case Box((x, y, z)):

@@ -1,4 +1,4 @@
-"""Reads every file named on standard input with yourdfpy and prints the seconds of CPU it took."""
+"""Reads every file named on standard input with yourdfpy and prints the CPU time in seconds."""
 
 import sys
 import time
