@@ -26,7 +26,7 @@ def message_class(type_name: str) -> type[Any]:
         MessageError: the type is unknown, or its definition invalid.
     """
     with _lock:
-        return _classes.get(type_name) or _make(message_spec(type_name), message_spec, "msg")
+        return _classes.get(type_name) or _generate(message_spec(type_name), message_spec, "msg")
 
 
 def service_class(type_name: str) -> type[Any]:
@@ -36,7 +36,7 @@ def service_class(type_name: str) -> type[Any]:
         MessageError: the type is unknown, or its definition invalid.
     """
     with _lock:
-        return _services.get(type_name) or _make_service(type_name)
+        return _services.get(type_name) or _generate_service(type_name)
 
 
 @cache
@@ -83,11 +83,11 @@ def classes_from_text(type_name: str, definition: str) -> dict[str, type[Any]]:
 
     classes: dict[str, type[Any]] = {}
     for spec in specs.values():
-        _make(spec, find, "msg", classes)
+        _generate(spec, find, "msg", classes)
     return classes
 
 
-def _make_service(type_name: str) -> type[Any]:
+def _generate_service(type_name: str) -> type[Any]:
     package, _, name = type_name.partition("/")
     text = find_definitions(package).service(name)
     if text is None:
@@ -96,7 +96,7 @@ def _make_service(type_name: str) -> type[Any]:
         parse_definition(f"{type_name}{half}", part)
         for half, part in zip(("Request", "Response"), service_halves(text), strict=True)
     ]
-    request, response = (_make(half, message_spec, "srv", module=f"{package}.srv._{name}") for half in halves)
+    request, response = (_generate(half, message_spec, "srv", module=f"{package}.srv._{name}") for half in halves)
     content = canonical_text(halves[0], message_spec) + canonical_text(halves[1], message_spec)
     from hashlib import md5
 
@@ -111,7 +111,7 @@ def _make_service(type_name: str) -> type[Any]:
     return _services[type_name]
 
 
-def _make(
+def _generate(
     spec: MessageSpec,
     find: Callable[[str], MessageSpec],
     kind: str,
@@ -119,13 +119,13 @@ def _make(
     *,
     module: str | None = None,
 ) -> type[Any]:
-    """Make the class of a definition, after those of its fields."""
+    """Generate the class of a definition, after its fields' classes."""
     classes = _classes if classes is None else classes
     if spec.type in classes:
         return classes[spec.type]
     md5 = md5sum(spec, find)  # also refuses a type that contains itself
     inner = {
-        field.base: _make(find(field.base), find, "msg", classes) if field.is_message else _TIMES[field.base]
+        field.base: _generate(find(field.base), find, "msg", classes) if field.is_message else _TIMES[field.base]
         for field in spec.fields
         if field.is_message or field.base in _TIMES
     }

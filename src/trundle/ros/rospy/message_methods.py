@@ -138,7 +138,7 @@ def _compile(cls: Any, *, plain_arrays: bool) -> _message_codec.MessageCodec:
 
 
 def _add_layout(cls: Any, layouts: dict[str, Any]) -> int:
-    """Append the layout of a class after those of its fields; returns its index."""
+    """Append the layout of a class after its fields' layouts; returns its index."""
     if cls._type in layouts:
         return list(layouts).index(cls._type)
     fields: list[tuple[str, str, int, int]] = []

@@ -85,7 +85,7 @@ class PublishedDefinitions:
 
 
 class PackageDefinitions:
-    """Definitions of one package: shipped ones, and those in the package's folder."""
+    """Definitions of one package: shipped, and in the package's folder."""
 
     def __init__(self, package: str) -> None:
         self._package = package

@@ -23,7 +23,7 @@ def _install():
 
 
 def _install_from_libraries():
-    """In another Python, without Trundle: one of the same version can use its libraries after its own."""
+    """Install the finder in another Python of the same version, which can use this one's libraries after its own."""
     tag, _, libraries = os.environ.get("TRUNDLE_LIBRARIES", "").partition(":")
     if tag == sys.implementation.cache_tag:
         from site import addsitedir

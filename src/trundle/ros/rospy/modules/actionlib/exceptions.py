@@ -2,4 +2,4 @@
 
 
 class ActionException(Exception):
-    """A type that is not an action, or a wrong use of one."""
+    """A type that is not an action, or an invalid use of an action."""

@@ -23,7 +23,7 @@ def compute_md5(msg_context: MsgContext, spec: MsgSpec | SrvSpec) -> str:
 
 
 def compute_full_text(msg_context: MsgContext, spec: MsgSpec | SrvSpec) -> str:
-    """Definition of a message with those of the types it contains; the text of a service."""
+    """Definition of a message with the definitions of its fields' types; the text of a service."""
     if isinstance(spec, SrvSpec):
         return spec.text
     return full_text(_parsed_spec(spec), lambda name: _find(msg_context, name))

@@ -33,7 +33,7 @@ def fill_message_args(msg: Any, msg_args: Any, keys: dict[str, Any] | None = Non
 
 
 def get_printable_message_args(msg: Any, buff: Any = None, prefix: str = "") -> str:
-    """Names of the fields, those of nested messages with their path, separated by spaces."""
+    """Names of the fields, in nested messages with their paths, separated by spaces."""
     names: list[str] = []
     _collect(msg, prefix, names)
     text = " ".join(names)

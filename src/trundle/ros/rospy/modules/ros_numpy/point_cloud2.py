@@ -114,7 +114,7 @@ def pointcloud2_to_xyz_array(cloud_msg: Any, remove_nans: bool = True) -> "NDArr
 
 
 def _replaced(cloud_arr: "NDArray[Any]", old: Sequence[str], new: "Mapping[str, NDArray[Any]]") -> "NDArray[Any]":
-    """Copy an array without some fields, and with others at the end."""
+    """Copy an array, replacing fields by new ones at the end."""
     dtype: Any = cloud_arr.dtype
     kept = [(name, dtype.fields[name][0]) for name in dtype.names if name not in old]
     result = np.zeros(cloud_arr.shape, [*kept, *((name, values.dtype) for name, values in new.items())])

@@ -30,7 +30,7 @@ __all__ = [
 
 
 def rosbagmain(argv: "Sequence[str] | None" = None) -> "NoReturn":
-    """Run the command rosbag with its arguments; default: those of this process."""
+    """Run the command rosbag with its arguments; default: this process's arguments."""
     import sys
 
     from trundle.app.cli.main import main

@@ -44,7 +44,7 @@ class Master:
     """
 
     def __init__(self, caller_id: str, master_uri: str | None = None) -> None:
-        """Create a client for the master of the environment, or another.
+        """Create a client; default: for the environment's master.
 
         Raises:
             ValueError: the URI is invalid.

@@ -46,12 +46,12 @@ def make_global_ns(name: str) -> str:
 
 
 def is_global(name: str) -> bool:
-    """True for `/name`; '' and None stay as they are."""
+    """True for `/name`; '' and None are returned unchanged."""
     return name and name[0] == SEP  # pyright: ignore[reportReturnType]
 
 
 def is_private(name: str) -> bool:
-    """True for `~name`; '' and None stay as they are."""
+    """True for `~name`; '' and None are returned unchanged."""
     return name and name[0] == PRIV_NAME  # pyright: ignore[reportReturnType]
 
 

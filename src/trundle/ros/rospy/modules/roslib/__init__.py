@@ -10,7 +10,7 @@ _SUBMODULES = frozenset({"exceptions", "message", "msgs", "names", "network", "p
 
 
 def __getattr__(name: str) -> ModuleType:
-    """Import a submodule; programs use those that rospy and rostopic import in ROS without importing them."""
+    """Import a submodule; in ROS rospy and rostopic import them, so programs use them without an import."""
     if name in _SUBMODULES:
         return import_module(f"roslib.{name}")
     raise AttributeError(f"module 'roslib' has no attribute '{name}'")

@@ -65,7 +65,7 @@ def is_valid_constant_type(x: str) -> bool:
 
 
 def list_msg_types(package: str, include_depends: bool) -> list[str]:
-    """Names of a package's messages; those of packages it depends on with their package."""
+    """Names of a package's messages; messages of its dependencies with their package."""
     names = find_definitions(package).names("msg")
     if include_depends:
         from rospkg import RosPack

@@ -122,7 +122,7 @@ def rosnode_listnodes(namespace: str | None = None, list_uri: bool = False, list
 
 
 def rosnodemain(argv: list[str] | None = None) -> None:
-    """Run the command rosnode with its arguments; default: those of this process.
+    """Run the command rosnode with its arguments; default: this process's arguments.
 
     Raises:
         SystemExit: always, with the exit code.

@@ -197,7 +197,7 @@ _Loader.add_constructor("!radians", _construct_radians)
 
 
 def yamlmain(argv: list[str] | None = None) -> None:
-    """Run the command rosparam with its arguments; default: those of this process.
+    """Run the command rosparam with its arguments; default: this process's arguments.
 
     Raises:
         SystemExit: it failed.

@@ -252,7 +252,7 @@ def is_topic(param_name: str) -> Check:
 
 
 def xmlrpcapi(uri: str | None, cache: bool = True) -> Any:
-    """Client of a node's or the master's API; None for what is not a URI."""
+    """Client of a node's or the master's API; None for an invalid URI."""
     del cache
     from rosgraph.server_proxy import ServerProxy
 

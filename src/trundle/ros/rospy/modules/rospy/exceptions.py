@@ -39,4 +39,4 @@ class TransportTerminated(TransportException):
 
 
 class TransportInitError(TransportException):
-    """The connection could not be made."""
+    """The connection failed."""

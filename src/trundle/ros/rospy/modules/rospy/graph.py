@@ -147,7 +147,7 @@ def forget_starter(starter: Callable[[Node], object]) -> None:
 
 
 def wait_registered() -> None:
-    """Wait until the master knows all endpoints of the node, or shutdown."""
+    """Wait until all endpoints of the node are registered, or shutdown."""
     assert node is not None
     run(node.wait_registered)
 

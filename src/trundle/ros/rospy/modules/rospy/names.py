@@ -101,7 +101,7 @@ def resolve_name(name: str, caller_id: str | None = None) -> str:
 
 
 def remap_name(name: str, caller_id: str | None = None, resolved: bool = True) -> str:
-    """Remap a name; one that is not remapped stays as written."""
+    """Remap a name; a name without remapping stays unchanged."""
     del resolved
     node = caller_id or get_caller_id()
     return rosgraph.names.resolve_name(_mappings[name], node) if name in _mappings else name

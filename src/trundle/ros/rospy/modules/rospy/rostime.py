@@ -48,7 +48,7 @@ _rostime_cond = threading.Condition()
 
 
 def _set_rostime(t: genpy.Time) -> None:  # pyright: ignore[reportUnusedFunction]
-    """Set simulated time and wake those who wait for it."""
+    """Set simulated time and wake waiting threads."""
     if not isinstance(t, genpy.Time):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise ValueError(f"must be Time instance: {type(t)}")
     global _rostime_current

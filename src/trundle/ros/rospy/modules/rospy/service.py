@@ -104,7 +104,7 @@ class ServiceImpl(_Service):
         node.endpoints.add_service(self._provider)
 
     def register(self) -> None:
-        """Advertise; returns once the master knows it.
+        """Advertise; returns once the service is registered.
 
         Raises:
             ServiceException: this node provides a service of this name already.

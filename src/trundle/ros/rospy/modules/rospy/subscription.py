@@ -86,7 +86,7 @@ class Subscription:
         """True while the topic's thread waits for `_wake`."""
         self._wake: SimpleQueue[None] = SimpleQueue()
         self._received_bytes = self._read_bytes = 0
-        """Sizes of messages, without those that were dropped; written by the loop, and by the topic's thread."""
+        """Total sizes of messages without dropped ones; written by the loop, and by the topic's thread."""
         self._is_held = False
         """True if publishers wait."""
         self._latched: dict[str, Any] = {}
@@ -176,7 +176,7 @@ class Subscription:
             self._release()  # all may have been read meanwhile
 
     def _put(self, *entries: tuple[_Data, Mapping[str, str]] | None) -> None:
-        """Queue entries, and wake the topic's thread; on the loop, or to end it."""
+        """Queue entries, and wake the topic's thread; on the loop, except for None, which ends the thread."""
         self._waiting.extend(entries)
         if self._is_idle:
             self._is_idle = False

@@ -125,7 +125,7 @@ class Publisher(Topic):
         headers: dict[str, str] | None = None,
         queue_size: int | None = None,
     ) -> None:
-        """Advertise a topic; returns once the master knows it.
+        """Advertise a topic; returns once it is registered.
 
         Args:
             name: resolved and remapped.
@@ -155,7 +155,7 @@ class Publisher(Topic):
             graph.when_started(shared.start)
 
     def publish(self, *args: Any, **kwds: Any) -> None:
-        """Publish a message, or the message of the given fields.
+        """Publish a message, or a message with these field values.
 
         Raises:
             ROSException: before `init_node`, or after `unregister`.
@@ -203,7 +203,7 @@ class Subscriber(Topic):
         buff_size: int = DEFAULT_BUFF_SIZE,
         tcp_nodelay: bool = False,
     ) -> None:
-        """Subscribe; returns once the master knows it.
+        """Subscribe; returns once the subscription is registered.
 
         Args:
             name: resolved and remapped.

@@ -139,7 +139,7 @@ def call_service(service_name: str, service_args: list[Any], service_class: Any 
 
 
 def rosservicemain(argv: list[str] | None = None) -> None:
-    """Run the command rosservice with its arguments; default: those of this process.
+    """Run the command rosservice with its arguments; default: this process's arguments.
 
     Raises:
         SystemExit: it failed.

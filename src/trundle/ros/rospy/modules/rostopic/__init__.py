@@ -191,7 +191,7 @@ def _is_shutdown() -> bool:
 
 
 def rostopicmain(argv: list[str] | None = None) -> None:
-    """Run the command rostopic with its arguments; default: those of this process.
+    """Run the command rostopic with its arguments; default: this process's arguments.
 
     Raises:
         SystemExit: it failed.

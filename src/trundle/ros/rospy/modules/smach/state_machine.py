@@ -1,4 +1,4 @@
-"""Container whose states run one after the other."""
+"""Container that runs one state at a time."""
 
 import threading
 import traceback

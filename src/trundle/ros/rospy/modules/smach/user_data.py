@@ -18,7 +18,7 @@ class UserData:
         self._data: dict[str, Any] = {}
 
     def update(self, other_userdata: "UserData") -> None:
-        """Copy all values of another."""
+        """Copy all values of another UserData."""
         self._data.update(other_userdata._data)
 
     def extract(self, keys: "Iterable[str]", remapping: "Mapping[str, str]") -> "UserData":
@@ -32,7 +32,7 @@ class UserData:
         return extracted
 
     def merge(self, ud: "Any", keys: "Iterable[str]", remapping: "Mapping[str, str]") -> None:
-        """Copy some values of another; the remapping maps its keys to the keys of this one."""
+        """Copy some values of another UserData; the remapping maps its keys to the keys of this one."""
         for key in keys:
             self[remapping.get(key, key)] = copy.copy(ud[key])
 

@@ -72,7 +72,7 @@ class BufferCore:
         return _message(target_frame, source_frame, stamp, Pose(pose.position, _with_matrix_sign(pose.quaternion)))
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: genpy.Time) -> tuple[int, str]:
-        """(1, '') if the lookup would succeed, else (0, why)."""
+        """(1, '') if the lookup would succeed, else (0, reason)."""
         _check_types(target_frame, source_frame)
         return self._try(
             (("target_frame", target_frame), ("source_frame", source_frame)),
@@ -82,7 +82,7 @@ class BufferCore:
     def can_transform_full_core(
         self, target_frame: str, target_time: genpy.Time, source_frame: str, source_time: genpy.Time, fixed_frame: str
     ) -> tuple[int, str]:
-        """(1, '') if the full lookup would succeed, else (0, why)."""
+        """(1, '') if the full lookup would succeed, else (0, reason)."""
         _check_types(target_frame, source_frame, fixed_frame)
 
         def lookup() -> None:
@@ -195,7 +195,7 @@ class BufferCore:
             self._tree.check_frame(frame, "lookupTransform", argument)
 
     def _try(self, arguments: _Arguments, lookup: Callable[[], object]) -> tuple[int, str]:
-        """(1, '') if the names are good and `lookup` succeeds, else (0, why)."""
+        """(1, '') if the names are valid and `lookup` succeeds, else (0, reason)."""
         with self._lock:
             for argument, frame in arguments:
                 try:

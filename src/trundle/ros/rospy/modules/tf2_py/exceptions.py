@@ -39,7 +39,7 @@ for _class in (
     TransformException, ConnectivityException, LookupException, ExtrapolationException, InvalidArgumentException,
     TimeoutException,
 ):  # fmt: skip
-    _class.__module__ = "tf2"  # tracebacks name it, as those of the original's compiled module
+    _class.__module__ = "tf2"  # tracebacks name this module, as with the original's compiled module
 
 _CLASSES: dict[type[errors.TransformError], type[TransformException]] = {
     errors.ConnectivityError: ConnectivityException,

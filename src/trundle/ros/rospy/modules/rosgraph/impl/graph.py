@@ -27,7 +27,7 @@ def topic_node(topic: str) -> str:
 
 
 def node_topic(node: str) -> str:
-    """Topic of a name that `topic_node` made."""
+    """Topic of a name from `topic_node`."""
     return node[1:]
 
 
@@ -243,6 +243,6 @@ class Graph:
             return False
         self.nt_nodes.add(topic_node(topic))
         updated = self.nt_edges.add_edges(node, topic_node(topic), direction)
-        if str(other).startswith("http://"):  # a subscriber names the other end by its URI, a publisher by its name
+        if str(other).startswith("http://"):  # subscribers list their peers by URI, publishers by name
             updated = self.nn_edges.add_edges(node, self.uri_node_map.get(other), direction, topic) or updated
         return updated

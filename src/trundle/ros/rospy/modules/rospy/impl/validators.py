@@ -1,4 +1,4 @@
-"""Checks of parameters of remote calls: a check takes the value and the caller's name, and returns the value to use."""
+"""Checks of remote calls' parameters: functions of the value and the caller's name that return the value to use."""
 
 from collections.abc import Callable
 from typing import Any, TypeAlias
