@@ -1,4 +1,4 @@
-"""This process's node: a node of `trundle.ros` that carries bytes; message classes serialize them."""
+"""Node of this process: a node of `trundle.ros` that carries bytes; message classes serialize them."""
 
 import logging
 import os
