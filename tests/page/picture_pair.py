@@ -73,12 +73,12 @@ def coarse(picture: Picture, grain: int) -> Picture:
     return squares.mean(axis=(1, 3)).astype(np.int16)
 
 
-def agreement(ours: Picture, ours_empty: Picture, real: Picture, real_empty: Picture) -> Agreement:
-    mine, its = drawn(ours, ours_empty), drawn(real, real_empty)
-    both, either = mine & its, mine | its
+def agreement(actual: Picture, actual_empty: Picture, real: Picture, real_empty: Picture) -> Agreement:
+    actual_mask, real_mask = drawn(actual, actual_empty), drawn(real, real_empty)
+    both, either = actual_mask & real_mask, actual_mask | real_mask
     if not both.any():
         return Agreement(0.0, 255.0)
-    return Agreement(float(both.sum() / either.sum()), float(np.abs(ours - real)[both].mean(axis=0).max()))
+    return Agreement(float(both.sum() / either.sum()), float(np.abs(actual - real)[both].mean(axis=0).max()))
 
 
 class ClientPage:
@@ -159,23 +159,23 @@ class Pair:
         """Draw a case on both and compare, repeatedly while something may still be loading."""
         real = rviz_file([case.real or case.display], VIEW)
         with repeating(self.graph, case.repeated):
-            its = self.rviz.picture(real, self.view, lambda now: _is_something(now, self.real_empty))
-            mine = self.page.picture([case.display], lambda now: _is_something(now, self.empty))
+            expected = self.rviz.picture(real, self.view, lambda now: _is_something(now, self.real_empty))
+            actual = self.page.picture([case.display], lambda now: _is_something(now, self.empty))
             end = time.monotonic() + patience_s
-            while not (result := self._compare(mine, its, case.grain)) and time.monotonic() < end:
+            while not (result := self._compare(actual, expected, case.grain)) and time.monotonic() < end:
                 time.sleep(_PERIOD_S)
-                its, mine = self.rviz.shot()[self.view], self.page.shot()
-        save_pair(case.name, its, mine)
+                expected, actual = self.rviz.shot()[self.view], self.page.shot()
+        save_pair(case.name, expected, actual)
         return result
 
-    def _compare(self, mine: Picture, its: Picture, grain: int) -> Agreement:
-        return agreement(*(coarse(picture, grain) for picture in (mine, self.empty, its, self.real_empty)))
+    def _compare(self, actual: Picture, expected: Picture, grain: int) -> Agreement:
+        return agreement(*(coarse(picture, grain) for picture in (actual, self.empty, expected, self.real_empty)))
 
 
-def save_pair(name: str, real: Picture, ours: Picture) -> None:
+def save_pair(name: str, real: Picture, actual: Picture) -> None:
     """Write rviz's picture and the page's side by side."""
     OUT.mkdir(parents=True, exist_ok=True)
-    Image.fromarray(np.concatenate([real, ours], axis=1).astype(np.uint8)).save(OUT / f"{name}.png")
+    Image.fromarray(np.concatenate([real, actual], axis=1).astype(np.uint8)).save(OUT / f"{name}.png")
 
 
 def _bounds(mask: np.ndarray[Any, np.dtype[np.bool_]]) -> tuple[slice, slice]:

@@ -70,11 +70,11 @@ def test_the_held_disc_of_a_phone_matches_the_drawing(chromium: Any, shared: Pat
     touch.send("Input.dispatchTouchEvent", moved)
     tab.locator(".disc .ring:not(.rest)").wait_for()
     tab.wait_for_timeout(500)  # its colors fade in
-    ours = _around(tab, (x, y))
+    actual = _around(tab, (x, y))
     context.close()
 
     OUT.mkdir(parents=True, exist_ok=True)
-    Image.fromarray(np.hstack([drawn, ours]).astype(np.uint8)).save(OUT / f"disc {theme}.png")
+    Image.fromarray(np.hstack([drawn, actual]).astype(np.uint8)).save(OUT / f"disc {theme}.png")
     mask = np.hypot(*np.mgrid[-74:74, -74:74]) < FACE_PX
-    alike = (np.abs(drawn - ours).max(axis=-1) < _LIKE)[mask]
+    alike = (np.abs(drawn - actual).max(axis=-1) < _LIKE)[mask]
     assert alike.mean() > 0.97, f"see {OUT}/disc {theme}.png"

@@ -104,9 +104,9 @@ class Panes:
     image_area: Area
     camera_area: Area
 
-    def image(self, real: Display, ours: Display) -> tuple[Picture, Picture]:
+    def image(self, real: Display, actual: Display) -> tuple[Picture, Picture]:
         """Show an image on both; return rviz's pane, shrunk to the image's size, and the page's tile."""
-        return self._real([real], self.image_area), self._page([ours], "Image")
+        return self._real([real], self.image_area), self._page([actual], "Image")
 
     def camera(self, displays: Sequence[Display]) -> tuple[Picture, Picture]:
         return self._real(displays, self.camera_area), self._page(displays, "Camera")
@@ -184,19 +184,19 @@ def panes(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[P
 def test_images_have_rvizs_pixels(panes: Panes, name: str) -> None:
     topic, properties = CASES[name]
     shown = _shown("Image", topic, **properties)
-    real, ours = panes.image(shown, shown)
-    save_pair(f"Image {name}", real, ours)
+    real, actual = panes.image(shown, shown)
+    save_pair(f"Image {name}", real, actual)
 
-    assert np.abs(real - ours).mean(axis=(0, 1)).max() <= 25.5
-    assert np.abs(real - ours).max() <= 60, "edges of the shrunk picture differ more than its pixels may"
+    assert np.abs(real - actual).mean(axis=(0, 1)).max() <= 25.5
+    assert np.abs(real - actual).max() <= 60, "edges of the shrunk picture differ more than its pixels may"
 
 
 def test_a_compressed_image_looks_like_the_raw_one(panes: Panes) -> None:
     """Debian's rviz has no plugin for compressed images."""
     compressed = _shown("Image", "/images/png", **{"Transport Hint": "compressed"})
-    real, ours = panes.image(_shown("Image", "/images/rgb8"), compressed)
+    real, actual = panes.image(_shown("Image", "/images/rgb8"), compressed)
 
-    assert np.abs(real - ours).mean(axis=(0, 1)).max() <= 25.5
+    assert np.abs(real - actual).mean(axis=(0, 1)).max() <= 25.5
 
 
 _MARKERS = [
@@ -221,11 +221,11 @@ def test_the_scene_is_drawn_over_a_cameras_picture(panes: Panes, properties: Map
     without = panes.camera([camera])
     end = time.monotonic() + PATIENCE_S
     while True:
-        real, ours = panes.camera([*_MARKERS, camera])
-        result = agreement(ours, without[1], real, without[0])
+        real, actual = panes.camera([*_MARKERS, camera])
+        result = agreement(actual, without[1], real, without[0])
         if result or time.monotonic() > end:
             break
-    save_pair("Camera " + "".join(map(str, properties.values())).replace("/", ""), real, ours)
+    save_pair("Camera " + "".join(map(str, properties.values())).replace("/", ""), real, actual)
 
     assert result, result
 
@@ -235,6 +235,6 @@ def test_a_camera_that_shows_more_than_rviz_is_detected(panes: Panes) -> None:
     all_of_it = _shown("Camera", "/camera/image")
     part = {**all_of_it, "Visibility": {"cube": False, "sphere": True, "Value": True}}
     empty = panes.camera([all_of_it])
-    real, ours = panes.camera([*_MARKERS, part])[0], panes.camera([*_MARKERS, all_of_it])[1]
+    real, actual = panes.camera([*_MARKERS, part])[0], panes.camera([*_MARKERS, all_of_it])[1]
 
-    assert not agreement(ours, empty[1], real, empty[0])
+    assert not agreement(actual, empty[1], real, empty[0])

@@ -75,18 +75,18 @@ def _saved_by_page(chromium: Any, server: PageServer) -> str:
     pytest.fail("the page saved nothing")
 
 
-def _differences(real: Mapping[str, Any], ours: Mapping[str, Any], path: str) -> Iterator[str]:
+def _differences(real: Mapping[str, Any], page_file: Mapping[str, Any], path: str) -> Iterator[str]:
     for key, value in real.items():
         if key in _OTHERS:
             continue
-        at, mine = f"{path}: {key}", ours.get(key, "nothing")
+        at, actual = f"{path}: {key}", page_file.get(key, "nothing")
         if isinstance(value, Mapping):
-            yield from _differences(value, mine if isinstance(mine, Mapping) else {"Value": mine}, at)
-        elif isinstance(value, float) and isinstance(mine, (int, float)):
-            if not math.isclose(value, mine, rel_tol=1e-5):
-                yield f"{at} is {mine}, not {value}"
-        elif value != mine and not (value in ("", None) and mine in ("", None)):
-            yield f"{at} is {mine!r}, not {value!r}"
+            yield from _differences(value, actual if isinstance(actual, Mapping) else {"Value": actual}, at)
+        elif isinstance(value, float) and isinstance(actual, (int, float)):
+            if not math.isclose(value, actual, rel_tol=1e-5):
+                yield f"{at} is {actual}, not {value}"
+        elif value != actual and not (value in ("", None) and actual in ("", None)):
+            yield f"{at} is {actual!r}, not {value!r}"
 
 
 def test_displays_have_rvizs_properties_and_defaults(chromium: Any, tmp_path: Path) -> None:
@@ -98,10 +98,10 @@ def test_displays_have_rvizs_properties_and_defaults(chromium: Any, tmp_path: Pa
         try:
             real = rviz.saved(text)
             with PageServer.start(session, at=PageAddress(port=0), graph=address) as server:
-                ours = _saved_by_page(chromium, server)
+                page_file = _saved_by_page(chromium, server)
         finally:
             rviz.close()
-    files = (yaml.safe_load(saved)["Visualization Manager"]["Displays"] for saved in (real, ours))
+    files = (yaml.safe_load(saved)["Visualization Manager"]["Displays"] for saved in (real, page_file))
     by_class = [{it["Class"]: {key: it[key] for key in it if key != "Value"} for it in displays} for displays in files]
 
     assert set(by_class[0]) == set(by_class[1]) == {f"rviz/{kind}" for kind in KINDS}

@@ -14,7 +14,7 @@ from trundle.page import GraphAddress, PageServer, Session
 
 pytestmark = [pytest.mark.slow, needs_client]
 
-MINE = "mine, and not to be lost"
+EXISTING = "mine, and not to be lost"
 
 
 @pytest.fixture(scope="module")
@@ -108,7 +108,7 @@ def test_a_page_opened_later_shows_and_saves_the_newest_file(user: SceneUser, tm
 
 def test_an_existing_file_is_replaced_only_after_confirmation(user: SceneUser, tmp_path: Path) -> None:
     file = tmp_path / "mine.rviz"
-    file.write_text(MINE)
+    file.write_text(EXISTING)
     _switch(user, "Grid")
     user.button("Save as").click()
     name = user.field("File")
@@ -120,10 +120,10 @@ def test_an_existing_file_is_replaced_only_after_confirmation(user: SceneUser, t
     user.page.get_by_text("mine.rviz exists already. Replace it?").wait_for()
     name.press("Enter")
     user.page.wait_for_timeout(300)
-    assert file.read_text() == MINE
+    assert file.read_text() == EXISTING
     user.button("Close").click()
     user.page.get_by_text("1 change, not saved").wait_for()
-    assert file.read_text() == MINE
+    assert file.read_text() == EXISTING
 
     user.button("Save as").click()
     name.fill("mine.rviz")

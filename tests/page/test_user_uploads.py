@@ -195,18 +195,18 @@ def _save_dialog(user: WorldUser) -> Any:
 
 
 def test_the_world_is_saved_with_uploads_and_confirms_replacements(user: WorldUser, folder: Path) -> None:
-    theirs = folder / "worlds" / "wagon" / "model.sdf"
-    theirs.parent.mkdir(parents=True)
-    theirs.write_text("precious")
+    existing = folder / "worlds" / "wagon" / "model.sdf"
+    existing.parent.mkdir(parents=True)
+    existing.write_text("precious")
     dialog = _save_dialog(user)
     dialog.get_by_label("File").fill("worlds/mine.sdf")
     dialog.get_by_role("button", name="Save", exact=True).click()
     dialog.get_by_text("worlds/wagon/model.sdf exists already. Replace it?").wait_for()
-    assert theirs.read_text() == "precious"
+    assert existing.read_text() == "precious"
     assert not (folder / "worlds" / "mine.sdf").exists()
     dialog.get_by_role("button", name="Replace").click()
     user.page.get_by_role("status").get_by_text("saved as worlds/mine.sdf").wait_for()
-    assert theirs.read_text() == MODEL.format("wagon", "")
+    assert existing.read_text() == MODEL.format("wagon", "")
 
 
 def test_a_saved_world_is_complete_without_the_uploads(user: WorldUser, folder: Path) -> None:

@@ -16,12 +16,12 @@ class Peer:
     """Other end of an outbox's socket."""
 
     def __init__(self) -> None:
-        ours, self.socket = socket.socketpair()
-        ours.setblocking(False)
+        server, self.socket = socket.socketpair()
+        server.setblocking(False)
         self.socket.setblocking(False)
         self.dropped: list[Hashable] = []
         self.broken: list[str] = []
-        self.outbox = Outbox(ours, broken=self.broken.append, dropped=self.dropped.append)
+        self.outbox = Outbox(server, broken=self.broken.append, dropped=self.dropped.append)
 
     async def read(self, count: int) -> list[bytes]:
         """Read frames; return their payloads."""
