@@ -1,6 +1,6 @@
 /** The first picture that a person waits for; everything else loads after it. */
 
-import { whenSeen } from "../scene/world/first_sight";
+import { whenLoaded } from "../scene/world/first_sight";
 import type { Page } from "../page/page";
 
 /** Longest wait for it [ms]: a large world takes longer to load. */
@@ -18,7 +18,7 @@ export function firstPicture({ session, scene, world }: Page): Promise<void> {
       });
     };
     if (scene.status.peek().kind === "unsupported") resolve();
-    else if (session.kind === "simulation" || session.kind === "log") whenSeen(world, onDrawn);
+    else if (session.kind === "simulation" || session.kind === "log") whenLoaded(world, onDrawn);
     else onDrawn();
     setTimeout(resolve, PATIENCE);
   });

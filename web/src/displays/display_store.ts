@@ -110,14 +110,14 @@ export class DisplayStore implements DisplayList {
 
   move(display: Display, to: number): void {
     const [group, from] = this.find(display);
-    const place = (index: number): void => {
+    const moveTo = (index: number): void => {
       group.remove(display);
       group.insert(display, index);
     };
     this.edit(
       `Move ${display.name.peek()}`,
-      () => place(to),
-      () => place(from),
+      () => moveTo(to),
+      () => moveTo(from),
     );
   }
 

@@ -28,10 +28,10 @@ export function liveSession(
 
 /** Call a function for each item of a list, now and for later items; returns a function that stops. */
 export function forEachNew(items: () => readonly string[], act: (item: string) => void): () => void {
-  const seen = new Set<string>();
+  const known = new Set<string>();
   return effect(() => {
-    const fresh = items().filter((item) => !seen.has(item));
-    for (const item of fresh) seen.add(item);
+    const fresh = items().filter((item) => !known.has(item));
+    for (const item of fresh) known.add(item);
     untracked(() => fresh.forEach(act));
   });
 }

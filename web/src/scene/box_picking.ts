@@ -17,10 +17,10 @@ export function pickBox(
   limit: number,
 ): Pick[] {
   const picked: Pick[] = [];
-  const seen = new Vector3();
+  const projected = new Vector3();
   camera.updateMatrixWorld();
   const contains = (point: Vector3): boolean => {
-    const at = toPicture(seen.copy(point), camera, size);
+    const at = toPicture(projected.copy(point), camera, size);
     return at !== null && at.x >= box.left && at.x <= box.right && at.y >= box.top && at.y <= box.bottom;
   };
   for (const root of roots) {

@@ -123,9 +123,9 @@ function isLine(object: Object3D): object is Line {
 
 /** Position of a point [px] with its depth as z; null: behind the camera or beyond the far plane. */
 export function toPicture(point: Vector3, camera: Camera, size: PictureSize): Vector3 | null {
-  const seen = point.project(camera);
-  if (seen.z < -1 || seen.z > 1) return null;
-  return seen.set(((seen.x + 1) / 2) * size.width, ((1 - seen.y) / 2) * size.height, seen.z);
+  const projected = point.project(camera);
+  if (projected.z < -1 || projected.z > 1) return null;
+  return projected.set(((projected.x + 1) / 2) * size.width, ((1 - projected.y) / 2) * size.height, projected.z);
 }
 
 function pickPoints(points: Points, camera: Camera, size: PictureSize, at: Vector2, candidates: Candidate[]): void {
@@ -134,13 +134,13 @@ function pickPoints(points: Points, camera: Camera, size: PictureSize, at: Vecto
   const end = Math.min(position.count, start + count);
   let index = -1;
   let depth = Infinity;
-  const seen = new Vector3();
+  const projected = new Vector3();
   for (let i = start; i < end; i += 1) {
-    seen.fromBufferAttribute(position, i).applyMatrix4(points.matrixWorld);
-    if (toPicture(seen, camera, size) === null) continue;
-    if (Math.hypot(seen.x - at.x, seen.y - at.y) > TOLERANCE || seen.z >= depth) continue;
+    projected.fromBufferAttribute(position, i).applyMatrix4(points.matrixWorld);
+    if (toPicture(projected, camera, size) === null) continue;
+    if (Math.hypot(projected.x - at.x, projected.y - at.y) > TOLERANCE || projected.z >= depth) continue;
     index = i;
-    depth = seen.z;
+    depth = projected.z;
   }
   if (index < 0) return;
   const point = new Vector3().fromBufferAttribute(position, index).applyMatrix4(points.matrixWorld);

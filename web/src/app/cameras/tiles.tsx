@@ -60,7 +60,7 @@ interface TileProps {
 function Tile({ shell, camera, isLarge, onPress }: TileProps): JSX.Element {
   const { connection, drive, scene } = shell.page;
   const tile = useRef<HTMLElement>(null);
-  const isSeen = useSeen(tile);
+  const isVisible = useVisible(tile);
   const isPointedAt = useSignal(false);
   const wasDrawn = useSignal(false);
   const { display } = camera;
@@ -68,7 +68,7 @@ function Tile({ shell, camera, isLarge, onPress }: TileProps): JSX.Element {
     display === undefined ? streamedTopic(camera.topic, connection.topics.value, location.hostname) : camera.topic;
   const isLive = camera.rate === null || isLarge || isPointedAt.value || drive.command.value !== null;
   const rest = !isLive ? REST : scene.isSlow ? SLOW_REST : 0;
-  const stream = useStream(shell, isSeen && display === undefined ? topic : null, rest);
+  const stream = useStream(shell, isVisible && display === undefined ? topic : null, rest);
   const source = display ?? stream;
   const fault = display === undefined ? (stream?.fault.value ?? null) : displayFault(display);
   const hertz = !wasDrawn.value
@@ -148,7 +148,7 @@ function useStream(shell: Shell, topic: string | null, rest: number): PictureStr
 }
 
 /** True while any part of an element is visible in a visible page, so that tiles out of sight cost nothing. */
-function useSeen(element: { readonly current: HTMLElement | null }): boolean {
+function useVisible(element: { readonly current: HTMLElement | null }): boolean {
   const [isInSight, setInSight] = useState(false);
   const [isHidden, setHidden] = useState(document.hidden);
   useEffect(() => {

@@ -96,15 +96,15 @@ function listenToGamepads(drive: Drive): () => void {
   const connected = (): void => {
     if (frame === 0) frame = requestAnimationFrame(poll);
   };
-  const gone = (event: GamepadEvent): void => {
+  const onDisconnected = (event: GamepadEvent): void => {
     rested.delete(event.gamepad.index);
     drive.release(`pad ${event.gamepad.index}`);
   };
   addEventListener("gamepadconnected", connected);
-  addEventListener("gamepaddisconnected", gone);
+  addEventListener("gamepaddisconnected", onDisconnected);
   return () => {
     cancelAnimationFrame(frame);
     removeEventListener("gamepadconnected", connected);
-    removeEventListener("gamepaddisconnected", gone);
+    removeEventListener("gamepaddisconnected", onDisconnected);
   };
 }

@@ -52,21 +52,21 @@ interface CellProps {
   /** Null: the default is used. */
   readonly value: number | null;
   readonly placeholder: string;
-  readonly minimum?: number | undefined;
-  readonly maximum?: number | undefined;
+  readonly min?: number | undefined;
+  readonly max?: number | undefined;
   readonly before?: string;
   readonly onSet: (value: number | null) => void;
 }
 
 /** A number that may be left to its default. */
-function NumberCell({ label, unit, value, placeholder, minimum, maximum, before, onSet }: CellProps): JSX.Element {
+function NumberCell({ label, unit, value, placeholder, min, max, before, onSet }: CellProps): JSX.Element {
   return (
     <span class="cell">
       <TextField
         label={unit === undefined ? label : `${label} [${unit}]`}
         value={value === null ? "" : plain(value)}
         placeholder={placeholder}
-        check={(text) => (text.trim() === "" ? null : numberFault(text, { min: minimum, max: maximum }))}
+        check={(text) => (text.trim() === "" ? null : numberFault(text, { min, max }))}
         class="small num"
         before={before === undefined ? null : <span class="axis" style={{ "--ax": `var(--${before})` }} />}
         onCommit={(text) => {
@@ -79,7 +79,7 @@ function NumberCell({ label, unit, value, placeholder, minimum, maximum, before,
 }
 
 function NumberRow({ field, onSet }: RowProps): JSX.Element {
-  const { label, unit, labels, minimum, maximum } = field;
+  const { label, unit, labels, minimum: min, maximum: max } = field;
   const values = numbersOf(field.value);
   const defaults = numbersOf(field.default);
   const names = labels ?? [""];
@@ -100,8 +100,8 @@ function NumberRow({ field, onSet }: RowProps): JSX.Element {
             unit={unit}
             value={values?.[index] ?? null}
             placeholder={defaults?.[index] === undefined ? "none" : plain(defaults[index])}
-            minimum={minimum}
-            maximum={maximum}
+            min={min}
+            max={max}
             {...(names.length === 3 ? { before: XYZ[index] ?? "x" } : {})}
             onSet={(value) => set(index, value)}
           />
@@ -128,8 +128,8 @@ function PoseRows({ field, onSet }: RowProps): JSX.Element {
             unit={unit}
             value={(pose[first + index] ?? 0) / scale}
             placeholder="0"
-            minimum={field.minimum}
-            maximum={field.maximum}
+            min={field.minimum}
+            max={field.maximum}
             before={XYZ[index] ?? "x"}
             onSet={(value) => set(first + index, value === null ? null : value * scale)}
           />
@@ -162,8 +162,8 @@ function ColorRow({ field, onSet }: RowProps): JSX.Element {
           label={`${field.label} alpha`}
           value={alpha}
           placeholder="1"
-          minimum={0}
-          maximum={1}
+          min={0}
+          max={1}
           onSet={(value) => onSet([red, green, blue, value ?? 1])}
         />
       </span>

@@ -54,24 +54,24 @@ function Sections({ shell, selection }: SelectionProps): JSX.Element | null {
   if (selection.kind === "world") return manifest === null ? null : <WorldSections shell={shell} manifest={manifest} />;
   if (selection.kind === "light") {
     const light = manifest?.lights.find(({ name }) => name === selection.light);
-    return light === undefined ? <Gone /> : <LightSections shell={shell} light={light} />;
+    return light === undefined ? <Removed /> : <LightSections shell={shell} light={light} />;
   }
   if (selection.kind === "plugin") {
     const plugin = findPlugin(page, selection.of, selection.plugin);
-    return plugin === null ? <Gone /> : <PluginSections plugin={plugin} />;
+    return plugin === null ? <Removed /> : <PluginSections plugin={plugin} />;
   }
   if (selection.kind === "sensor") {
     const sensor = findSensor(page, selection.model, selection.link, selection.sensor);
-    return sensor === null ? <Gone /> : <SensorSections shell={shell} selection={selection} sensor={sensor} />;
+    return sensor === null ? <Removed /> : <SensorSections shell={shell} selection={selection} sensor={sensor} />;
   }
   const model = manifest !== null ? findModel(page, selection.model) : null;
-  if (model === null) return <Gone />;
+  if (model === null) return <Removed />;
   if (selection.kind === "joint") {
     const joint = findJoint(page, selection.model, selection.joint);
-    return joint === null ? <Gone /> : <JointSection shell={shell} model={selection.model} joint={joint} />;
+    return joint === null ? <Removed /> : <JointSection shell={shell} model={selection.model} joint={joint} />;
   }
   const link = selection.kind === "link" ? findLink(page, selection.model, selection.link) : null;
-  if (selection.kind === "link" && link === null) return <Gone />;
+  if (selection.kind === "link" && link === null) return <Removed />;
   return (
     <>
       {link === null ? (
@@ -85,7 +85,7 @@ function Sections({ shell, selection }: SelectionProps): JSX.Element | null {
   );
 }
 
-function Gone(): JSX.Element {
+function Removed(): JSX.Element {
   return <p class="empty">It is no longer in the world.</p>;
 }
 

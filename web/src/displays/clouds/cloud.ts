@@ -58,9 +58,9 @@ export function readCloud(message: PointCloud2): Cloud | string {
   }
   const channels = fields.filter(({ datatype }) => (SIZES[datatype] ?? 0) > 0);
   if (!hasPosition(channels)) return "No position transformer available for cloud";
-  const misfit = channels.find((field) => field.offset + size(field) > step);
-  if (misfit !== undefined) {
-    return `Field ${misfit.name} at offset ${misfit.offset} reaches beyond point_step (${step}).  Dropping message.`;
+  const overrun = channels.find((field) => field.offset + size(field) > step);
+  if (overrun !== undefined) {
+    return `Field ${overrun.name} at offset ${overrun.offset} reaches beyond point_step (${step}).  Dropping message.`;
   }
   const isWordwise = !message.is_bigendian && step % 4 === 0 && step <= MAX_STRIDE && channels.every(isInWords);
   if (!isWordwise) return repack(count, step, data, channels, !message.is_bigendian);

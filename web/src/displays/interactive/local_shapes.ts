@@ -10,7 +10,7 @@ import { nanoseconds } from "../../protocol/ros_types";
 /** Marker with all shapes relative to its pose; or the missing transform. */
 export function withLocalShapes(marker: InteractiveMarker, frames: FrameTree): InteractiveMarker | NoTransform {
   const missing: NoTransform[] = [];
-  const place = (shape: Marker): Marker => {
+  const localShape = (shape: Marker): Marker => {
     const { frame_id: frame, stamp } = shape.header;
     if (frame === "") return shape;
     const transform = frames.lookup(marker.header.frame_id, frame, nanoseconds(stamp));
@@ -24,7 +24,7 @@ export function withLocalShapes(marker: InteractiveMarker, frames: FrameTree): I
     const turn = back.multiply(transform.orientation).multiply(orientationOf(shape.pose));
     return { ...shape, pose: { position: xyz(local), orientation: { ...xyz(turn), w: turn.w } } };
   };
-  const controls = marker.controls.map((control) => ({ ...control, markers: control.markers.map(place) }));
+  const controls = marker.controls.map((control) => ({ ...control, markers: control.markers.map(localShape) }));
   return missing[0] ?? { ...marker, controls };
 }
 

@@ -25,8 +25,8 @@ export interface MarkerLooks {
 export type SendFeedback = (feedback: InteractiveMarkerFeedback) => void;
 
 export class InteractiveMarkerView extends Group implements ControlEvents {
-  /** Stands at the marker's pose in its frame; this group is the frame itself. */
-  private readonly place = new Group();
+  /** Group at the marker's pose; this object itself is at its frame. */
+  private readonly poseGroup = new Group();
   private readonly controls: readonly ControlView[];
   private axes: Axes | null = null;
   private label: Label | null = null;
@@ -46,8 +46,8 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     super();
     this.name = marker.name;
     this.controls = marker.controls.map((control) => new ControlView(control, parts, this));
-    for (const control of this.controls) this.place.add(control);
-    super.add(this.place);
+    for (const control of this.controls) this.poseGroup.add(control);
+    super.add(this.poseGroup);
     this.setPose(marker.pose);
     const selectable: Selectable = {
       describe: () => ({ Marker: marker.name, Description: marker.description, Frame: marker.header.frame_id }),
@@ -62,10 +62,10 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
       return;
     }
     const { position: p, orientation: q } = pose;
-    this.place.position.set(p.x, p.y, p.z);
-    this.place.quaternion.set(q.x, q.y, q.z, q.w);
-    if (this.place.quaternion.lengthSq() === 0) this.place.quaternion.identity();
-    this.place.quaternion.normalize();
+    this.poseGroup.position.set(p.x, p.y, p.z);
+    this.poseGroup.quaternion.set(q.x, q.y, q.z, q.w);
+    if (this.poseGroup.quaternion.lengthSq() === 0) this.poseGroup.quaternion.identity();
+    this.poseGroup.quaternion.normalize();
   }
 
   /** Follow the frame and the camera; the reason where there is no transform. */
@@ -89,12 +89,12 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
       this.axes?.removeFromParent();
       this.axes?.dispose();
       this.axes = looks.axes ? new Axes(size, size * 0.05) : null;
-      if (this.axes !== null) this.place.add(this.axes);
+      if (this.axes !== null) this.poseGroup.add(this.axes);
     }
     const named = looks.descriptions && this.marker.description !== "";
     if (named === (this.label !== null)) return;
     this.label?.remove();
-    this.label = named ? this.context.scene.addLabel(this.place, this.marker.description) : null;
+    this.label = named ? this.context.scene.addLabel(this.poseGroup, this.marker.description) : null;
   }
 
   override dispose(): void {
@@ -109,10 +109,10 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     this.pressed = control;
     this.feedback(FeedbackEvent.mouseDown, event.pick.point);
     if (!control.isMovable) return true;
-    const axis = control.axis(this.place.quaternion, this.quaternion, this.cameraTurn(), new Vector3()).normalize();
+    const axis = control.axis(this.poseGroup.quaternion, this.quaternion, this.cameraTurn(), new Vector3()).normalize();
     const [position, orientation] = [
-      this.place.getWorldPosition(new Vector3()),
-      this.place.getWorldQuaternion(new Quaternion()),
+      this.poseGroup.getWorldPosition(new Vector3()),
+      this.poseGroup.getWorldQuaternion(new Quaternion()),
     ];
     this.drag = new Drag(mode, axis, event.pick.point.clone(), position, orientation, event);
     return true;
@@ -124,8 +124,8 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     const along = (x: number, y: number, z: number): Vector3 => new Vector3(x, y, z).applyQuaternion(turn);
     this.drag.move(event, { right: along(1, 0, 0), up: along(0, 1, 0), back: along(0, 0, 1) });
     const back = this.quaternion.clone().invert();
-    this.place.position.copy(this.drag.position).sub(this.position).applyQuaternion(back);
-    this.place.quaternion.copy(back).multiply(this.drag.orientation);
+    this.poseGroup.position.copy(this.drag.position).sub(this.position).applyQuaternion(back);
+    this.poseGroup.quaternion.copy(back).multiply(this.drag.orientation);
     this.isMoved = true;
     this.context.scene.invalidate();
   }
@@ -161,7 +161,7 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     if (!this.position.equals(position) || !this.quaternion.equals(orientation)) this.context.scene.invalidate();
     this.position.copy(position);
     this.quaternion.copy(orientation);
-    for (const control of this.controls) control.orient(this.place.quaternion, this.quaternion, this.cameraTurn());
+    for (const control of this.controls) control.orient(this.poseGroup.quaternion, this.quaternion, this.cameraTurn());
   }
 
   private cameraTurn(): Quaternion {
@@ -174,8 +174,8 @@ export class InteractiveMarkerView extends Group implements ControlEvents {
     const { header } = this.marker;
     const isLocked = nanoseconds(header.stamp) === 0n;
     const now = this.context.connection.now();
-    const position = isLocked ? this.place.position : this.place.getWorldPosition(new Vector3());
-    const orientation = isLocked ? this.place.quaternion : this.place.getWorldQuaternion(new Quaternion());
+    const position = isLocked ? this.poseGroup.position : this.poseGroup.getWorldPosition(new Vector3());
+    const orientation = isLocked ? this.poseGroup.quaternion : this.poseGroup.getWorldQuaternion(new Quaternion());
     const mouse = point === undefined ? new Vector3() : isLocked ? this.worldToLocal(point.clone()) : point;
     const stamp = { sec: Number(now / 1_000_000_000n), nsec: Number(now % 1_000_000_000n) };
     this.send({

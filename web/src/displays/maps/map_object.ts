@@ -25,9 +25,9 @@ const TILE = 4096;
 const VERTEX = /* glsl */ `
 #include <common>
 #include <logdepthbuf_pars_vertex>
-varying vec2 vPlace;
+varying vec2 vUv;
 void main() {
-  vPlace = uv;
+  vUv = uv;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
   #include <logdepthbuf_vertex>
 }`;
@@ -38,10 +38,10 @@ const FRAGMENT = /* glsl */ `
 uniform sampler2D cells;
 uniform sampler2D colors;
 uniform float alpha;
-varying vec2 vPlace;
+varying vec2 vUv;
 void main() {
   #include <logdepthbuf_fragment>
-  float value = texture2D(cells, vPlace).r;
+  float value = texture2D(cells, vUv).r;
   vec4 color = texelFetch(colors, ivec2(int(value * 255.0 + 0.5), 0), 0);
   gl_FragColor = vec4(color.rgb, color.a * alpha);
 }`;

@@ -79,11 +79,11 @@ export class MarkerScene extends Group {
   }
 
   /** Drop expired markers. */
-  expire(now: bigint, onGone: (name: string) => void): void {
+  expire(now: bigint, onExpired: (name: string) => void): void {
     for (const [name, { expires }] of this.shown) {
       if (expires === null || expires > now) continue;
       this.drop(name);
-      onGone(name);
+      onExpired(name);
     }
   }
 

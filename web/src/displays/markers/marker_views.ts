@@ -111,19 +111,19 @@ function triangles(marker: Marker): MarkerView {
 function mesh(marker: Marker, { connection, onFault, onChange }: ViewParts): MarkerView {
   const object = new Group();
   object.scale.set(marker.scale.x, marker.scale.y, marker.scale.z);
-  let isGone = false;
+  let isDisposed = false;
   let materials: readonly ShapeMaterial[] = [];
   meshLibrary(connection)
     .copy(marker.mesh_resource)
     .then(
       (copy) => {
-        if (isGone) return;
+        if (isDisposed) return;
         materials = paintMesh(marker, copy.object, copy.materials);
         object.add(copy.object);
         onChange();
       },
       (error: unknown) => {
-        if (isGone) return;
+        if (isDisposed) return;
         const reason = error instanceof Error ? error.message : String(error);
         onFault(marker, `Could not load mesh resource '${marker.mesh_resource}'`, reason);
       },
@@ -131,7 +131,7 @@ function mesh(marker: Marker, { connection, onFault, onChange }: ViewParts): Mar
   return {
     object: new Group().add(object),
     dispose: () => {
-      isGone = true;
+      isDisposed = true;
       for (const material of materials) material.dispose();
     },
   };

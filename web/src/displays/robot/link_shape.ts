@@ -29,8 +29,8 @@ export class LinkShapes extends Group {
   private readonly materials: ShapeMaterial[] = [];
   private readonly colors = new Map<ShapeMaterial, readonly [number, number, number, number]>();
   private alpha = 1;
-  private hasPlace = true;
-  private isGone = false;
+  private isPlaced = true;
+  private isDisposed = false;
 
   constructor(
     private readonly connection: Connection,
@@ -50,21 +50,21 @@ export class LinkShapes extends Group {
   }
 
   /** Show the link in white without a transform, as rviz does; true: changed. */
-  setPlaced(hasPlace: boolean): boolean {
-    if (hasPlace === this.hasPlace) return false;
-    this.hasPlace = hasPlace;
+  setPlaced(isPlaced: boolean): boolean {
+    if (isPlaced === this.isPlaced) return false;
+    this.isPlaced = isPlaced;
     for (const material of this.materials) this.paint(material);
     return true;
   }
 
   override dispose(): void {
-    this.isGone = true;
+    this.isDisposed = true;
     for (const material of this.materials) material.dispose();
     this.materials.length = 0;
   }
 
   private paint(material: ShapeMaterial): void {
-    const [red, green, blue, alpha] = this.hasPlace
+    const [red, green, blue, alpha] = this.isPlaced
       ? (this.colors.get(material) ?? SHADED_RED)
       : ([1, 1, 1, 1] as const);
     material.setRgba(red, green, blue, alpha * this.alpha);
@@ -78,30 +78,30 @@ export class LinkShapes extends Group {
   }
 
   private addShape(shape: RobotShape, material: RobotMaterial | null): void {
-    const place = new Group();
-    place.position.fromArray(shape.origin.xyz);
-    place.quaternion.copy(orientation(shape.origin.rpy));
-    super.add(place);
-    if (shape.geometry.kind === "mesh") void this.addMesh(place, shape.geometry, material);
-    else place.add(...solid(shape.geometry, this.linkMaterial(material, FrontSide)));
+    const group = new Group();
+    group.position.fromArray(shape.origin.xyz);
+    group.quaternion.copy(orientation(shape.origin.rpy));
+    super.add(group);
+    if (shape.geometry.kind === "mesh") void this.addMesh(group, shape.geometry, material);
+    else group.add(...solid(shape.geometry, this.linkMaterial(material, FrontSide)));
   }
 
   private async addMesh(
-    place: Group,
+    group: Group,
     geometry: Geometry & { kind: "mesh" },
     material: RobotMaterial | null,
   ): Promise<void> {
-    place.scale.fromArray(geometry.scale);
+    group.scale.fromArray(geometry.scale);
     try {
       const { object, materials, hasMaterials, missing } = await meshLibrary(this.connection).copy(geometry.uri);
-      if (this.isGone) return;
+      if (this.isDisposed) return;
       for (const uri of missing) this.onMissing(uri, "Could not load texture");
       if (hasMaterials) for (const material of materials) this.keep(material, material.color.toArray());
       else setMaterial(object, this.linkMaterial(material));
-      place.add(object);
+      group.add(object);
       this.onChange();
     } catch (error) {
-      if (!this.isGone) this.onMissing(geometry.uri, error instanceof Error ? error.message : String(error));
+      if (!this.isDisposed) this.onMissing(geometry.uri, error instanceof Error ? error.message : String(error));
     }
   }
 

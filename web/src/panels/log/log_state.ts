@@ -34,10 +34,10 @@ export class LogState {
 
   constructor({ connection }: Page) {
     connection.subscribe(TOPIC, ({ message }) => this.add(entryOf(this.nextId(), message)), { every: true });
-    let seen: readonly unknown[] = [];
+    let known: readonly unknown[] = [];
     connection.notices.subscribe((notices) => {
-      const fresh = notices.filter((notice) => !seen.includes(notice));
-      seen = notices;
+      const fresh = notices.filter((notice) => !known.includes(notice));
+      known = notices;
       const time = Number(connection.now()) / 1e9;
       for (const { level, text } of fresh) {
         this.add({

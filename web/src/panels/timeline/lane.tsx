@@ -19,10 +19,10 @@ interface BandsProps extends ShareProps {
 
 /** Intervals of a lane, clipped to the timeline's span. */
 export function Bands({ weak = false, bands, span, share }: BandsProps): JSX.Element {
-  const seen = bands.filter(([start, end]) => end >= span.start && start <= span.end);
+  const visible = bands.filter(([start, end]) => end >= span.start && start <= span.end);
   return (
     <>
-      {seen.map(([start, end]) => (
+      {visible.map(([start, end]) => (
         <i
           key={start}
           class={weak ? "band weak" : "band"}

@@ -19,14 +19,14 @@ void main() {
   #include <skinnormal_vertex>
   #include <skinning_vertex>
   vec4 world = modelMatrix * vec4(transformed, 1.0);
-  vec4 seen = viewMatrix * world;
+  vec4 inView = viewMatrix * world;
   point = world.xyz;
-  depth = -seen.z;
+  depth = -inView.z;
   outward = transpose(mat3(viewMatrix)) * (normalMatrix * objectNormal);
 #ifdef TEXTURED
   at = (uvTransform * vec3(uv, 1.0)).xy;
 #endif
-  gl_Position = projectionMatrix * seen;
+  gl_Position = projectionMatrix * inView;
 }`;
 
 export type LightKind = "directional" | "point" | "spot";

@@ -67,12 +67,12 @@ export class WorldLines extends Group {
 
   /** Replace the lines by those of a message. */
   show(lines: readonly ReadLine[]): void {
-    const gone = new Set(this.drawn.keys());
+    const removed = new Set(this.drawn.keys());
     for (const line of lines) {
-      gone.delete(line.id);
+      removed.delete(line.id);
       this.draw(line);
     }
-    for (const id of gone) this.drop(id);
+    for (const id of removed) this.drop(id);
   }
 
   private draw({ id, rgba: [red, green, blue, alpha], kind, points }: ReadLine): void {

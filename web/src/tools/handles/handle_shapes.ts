@@ -31,16 +31,16 @@ export class HandleShape extends Group {
     super();
     switch (kind) {
       case "axis":
-        this.seen(
+        this.addShape(
           new CylinderGeometry(LINE, LINE, 1 - HEAD.length).rotateX(Math.PI / 2).translate(0, 0, (1 - HEAD.length) / 2),
         );
-        this.seen(
+        this.addShape(
           new ConeGeometry(HEAD.radius, HEAD.length, 24).rotateX(Math.PI / 2).translate(0, 0, 1 - HEAD.length / 2),
         );
         this.addPickShape(new CylinderGeometry(GRASP, GRASP, 0.85).rotateX(Math.PI / 2).translate(0, 0, 0.6));
         break;
       case "plane":
-        this.seen(
+        this.addShape(
           new PlaneGeometry(SQUARE.size, SQUARE.size).translate(
             SQUARE.from + SQUARE.size / 2,
             SQUARE.from + SQUARE.size / 2,
@@ -57,11 +57,11 @@ export class HandleShape extends Group {
         this.unseen.side = this.material.side = 2;
         break;
       case "ring":
-        this.seen(new TorusGeometry(RING, LINE, 8, 96));
+        this.addShape(new TorusGeometry(RING, LINE, 8, 96));
         this.addPickShape(new TorusGeometry(RING, GRASP, 8, 48));
         break;
       case "free":
-        this.seen(new SphereGeometry(DOT, 16, 12));
+        this.addShape(new SphereGeometry(DOT, 16, 12));
         this.addPickShape(new SphereGeometry(2 * DOT, 12, 8));
     }
   }
@@ -71,7 +71,7 @@ export class HandleShape extends Group {
     this.material.opacity = opacity;
   }
 
-  private seen(geometry: BufferGeometry): void {
+  private addShape(geometry: BufferGeometry): void {
     const mesh = new Mesh(geometry, this.material);
     mesh.renderOrder = this.kind === "free" ? 1002 : 1001;
     mesh.frustumCulled = false;
