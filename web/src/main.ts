@@ -23,7 +23,7 @@ async function start(root: HTMLElement): Promise<void> {
 /** Fetch the page's session as JSON; throws a sentence. */
 async function fetchSession(): Promise<string> {
   const url = new URL("session.json", location.href);
-  url.search = location.search; // which may say that the page only looks
+  url.search = location.search; // which may mark the page as view-only
   const response = await fetch(url);
   if (!response.ok) throw new Error(`The page's server refuses: ${response.status} ${await response.text()}`);
   return response.text();

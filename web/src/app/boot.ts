@@ -47,7 +47,7 @@ export function boot(root: HTMLElement, json: string): void {
   const frozen = signal(false);
   const connection = connect(address);
   const session = liveSession(first, connection, () => location.reload());
-  const view = freezable(connection, frozen); // what the view shows can be held back; panels go on
+  const view = freezable(connection, frozen); // freezing holds back displays, not panels
   const names = new GraphNames(first.namespace, first.remappings);
   const undo = new UndoHistory();
   const commands = new CommandList();

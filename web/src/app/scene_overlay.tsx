@@ -13,7 +13,7 @@ import { VideoNotes } from "./video/video_note";
 import { ViewMenu } from "./views/view_menu";
 
 export function SceneOverlay({ shell }: { readonly shell: Shell }): JSX.Element {
-  const hasTools = !shell.layout.isPhone.value && shell.isDrawn.value; // which act on what is drawn
+  const hasTools = !shell.layout.isPhone.value && shell.isDrawn.value; // tools of the drawn scene
   return (
     <section class="scene-overlay" aria-label="On the scene">
       <div class="top">

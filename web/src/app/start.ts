@@ -86,7 +86,7 @@ function showRobotsFrames(shell: Shell): void {
   const stop = page.world.manifest.subscribe((manifest) => {
     const robot = simulatedRobot(page);
     if (manifest === null) return;
-    queueMicrotask(() => stop()); // also where it is there already
+    queueMicrotask(() => stop()); // also if it is defined already
     if (robot === undefined) return;
     const bodies = new Set(bodiesOf(robot.model));
     const others = manifest.frames.filter(({ body }) => !bodies.has(body));
@@ -103,7 +103,7 @@ function showRobot({ page }: Shell): void {
     if (!isDescribed) return;
     for (const display of displays.displays.peek())
       if (display.className === "rviz/RobotModel") display.enabled.decode(true);
-    queueMicrotask(() => stop()); // also where it is there already
+    queueMicrotask(() => stop()); // also if it is defined already
   });
 }
 

@@ -36,7 +36,7 @@ export class Drive {
     const hasListener = (name: string): boolean =>
       (subscribers.get(name) ?? []).some((node) => node !== session.node && !isWatcher(node));
     const isFirst = (name: string): number => Number(name !== session.drive_topic);
-    const isUntold = types.size + subscribers.size === 0; // as after a lost connection, when topics are told of before the graph
+    const isUntold = types.size + subscribers.size === 0; // as after a reconnection, when topics arrive before the graph
     if (isUntold || connection.state.value.kind !== "connected") return this.known;
     this.known = [...new Set([...typed, ...named].filter(hasListener))].sort(
       (a, b) => isFirst(a) - isFirst(b) || (a < b ? -1 : 1),

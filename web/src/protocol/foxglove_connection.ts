@@ -209,7 +209,7 @@ export class FoxgloveConnection implements Connection {
     this.#subscriptions.restart();
     this.#calls.restart();
     this.#publications.restart();
-    this.#socket.established(); // who waits for this subscribes at once, to channels of this server only
+    this.#socket.established(); // listeners subscribe at once, only to channels of this server
     this.#system.restart(capabilities);
   }
 }

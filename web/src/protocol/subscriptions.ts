@@ -81,7 +81,7 @@ export class Subscriptions {
   subscribeRaw(name: string, onPayload: (payload: DataView) => void): Subscription {
     const topic = this.#topic(name);
     topic.raw.add(onPayload);
-    // What is only measured has no use for latched messages.
+    // Measuring needs no latched messages.
     if (topic.ids.length === 0 || this.#channel(name)?.encoding !== "ros1") this.#attachAgain(topic);
     return {
       close: () => {
@@ -211,7 +211,7 @@ function deliver(topic: Topic, type: string, { time, bytes, result }: Decoded): 
       if (typeof result === "string") subscriber.onError?.(result);
       else subscriber.onMessage({ topic: topic.name, type, message: result, time, bytes });
     } catch (error) {
-      console.error(error); // one subscriber's fault is not the others'
+      console.error(error); // one subscriber's error does not affect the others
     }
   }
 }

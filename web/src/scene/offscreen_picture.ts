@@ -20,7 +20,7 @@ export class OffscreenPicture {
     context.bindFramebuffer = (target, framebuffer) => this.bind(target, framebuffer ?? this.framebuffer);
     context.drawBuffers = (buffers: Iterable<GLenum>) =>
       choose([...buffers].map((buffer) => (buffer === context.BACK ? context.COLOR_ATTACHMENT0 : buffer)));
-    context.canvas.addEventListener("webglcontextrestored", () => this.create()); // before who draws begins again
+    context.canvas.addEventListener("webglcontextrestored", () => this.create()); // before the renderer restarts
     this.create();
   }
 

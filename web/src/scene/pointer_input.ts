@@ -135,7 +135,7 @@ export class SceneInput {
 
   /** Handle the last finger's release. */
   private leave(event: PointerEvent, kind: "up" | "cancel"): void {
-    // the tool also hears of a click whose press it left to the camera
+    // the tool also gets clicks whose press it left to the camera
     const isClick = kind === "up" && this.distance < CLICK;
     if (this.toolHasDrag || isClick) this.offer(event, kind, this.button);
     if (isClick && this.button === 2 && !this.toolHasDrag) this.menu({ x: event.offsetX, y: event.offsetY });

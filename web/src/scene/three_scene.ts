@@ -187,7 +187,7 @@ export class ThreeScene implements SceneView {
       return null;
     }
     const renderer = new WebGLRenderer({ canvas: this.element, context });
-    renderer.debug.checkShaderErrors = import.meta.env.DEV; // asking for them waits until each program is linked
+    renderer.debug.checkShaderErrors = import.meta.env.DEV; // reading them waits until each program is linked
     return renderer;
   }
 
@@ -253,7 +253,7 @@ export class ThreeScene implements SceneView {
       if (offscreen.isDone()) this.show();
       return;
     }
-    const elapsed = Math.min(1, (now - this.last) / 1000); // a tab that was hidden does not leap
+    const elapsed = Math.min(1, (now - this.last) / 1000); // no jump after a hidden tab
     this.last = now;
     for (const callback of this.ticks) callback(elapsed);
     if (!this.isChanged || !this.isPlaced || this.status.peek().kind === "lost") return;

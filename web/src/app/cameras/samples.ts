@@ -37,7 +37,7 @@ export class CameraSamples implements PictureSource {
       drawPicture(image, picture);
       this.picture.value = { ...picture, image };
       this.timer = setTimeout(() => this.take(), this.pause);
-      queueMicrotask(() => this.rest()); // not while the stream tells of its picture
+      queueMicrotask(() => this.rest()); // not while the stream notifies of its picture
     });
   }
 

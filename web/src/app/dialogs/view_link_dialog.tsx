@@ -25,7 +25,7 @@ export function LinkDialog({ shell }: { readonly shell: Shell }): JSX.Element {
   );
   const copy = (): void => {
     field.current?.select();
-    if (!window.isSecureContext) return; // Ctrl C copies what is selected
+    if (!window.isSecureContext) return; // Ctrl C copies the selection
     void navigator.clipboard.writeText(link).then(
       () => (copied.value = true),
       () => undefined,

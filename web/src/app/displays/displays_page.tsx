@@ -21,7 +21,7 @@ const REFRESH = 1000; // ms; rates
 export function DisplaysPage({ shell }: { readonly shell: Shell }): JSX.Element {
   const { page } = shell;
   const { displays } = page;
-  const adding = useSignal<boolean | null>(null); // until a person says: where no file says what to show and there is room
+  const adding = useSignal<boolean | null>(null); // default: open if no file sets displays and there is room
   const isOffering = page.session.rviz === null && page.session.kind !== "simulation" && !shell.layout.isPhone.value;
   const isAdding = adding.value ?? (isOffering && displays.offers.value.length > 0);
   const renaming = useSignal<Display | null>(null);

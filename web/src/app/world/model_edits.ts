@@ -35,7 +35,7 @@ export function copyModel(shell: Shell, model: string, at: Vector3 | null = null
   const offset = copyOffset(page.world.bounds(bodiesOf(outer)).applyMatrix4(worldFromFixed), at).toArray();
   const copy: Request = { request: "copy", fields: { model: outer.name, name, offset } };
   const remove: Request = { request: "delete", fields: { model: name } };
-  const restore: Request = { request: "restore", fields: { model: name } }; // the copy, with what became of it
+  const restore: Request = { request: "restore", fields: { model: name } }; // the copy, with its later changes
   void change(shell, `Copy of ${outer.name}`, copy, remove, restore).then((isDone) => {
     if (isDone) selectOnceAdded(page, { kind: "model", model: name });
   });

@@ -81,7 +81,7 @@ vec4 pointColor(vec3 point) {
 void main() {
   vec3 point = vec3(uintBitsToFloat(px), uintBitsToFloat(py), uintBitsToFloat(pz));
   if (isBad(px) || isBad(py) || isBad(pz)) {
-    gl_Position = vec4(0.0, 0.0, 2.0, 1.0); // outside of what is seen
+    gl_Position = vec4(0.0, 0.0, 2.0, 1.0); // outside of the view
     #ifdef SPRITE
     gl_PointSize = 1.0;
     #endif

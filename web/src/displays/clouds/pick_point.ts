@@ -33,7 +33,7 @@ export function nearestPoint(
     if (!(along > 0)) continue;
     const aside = Math.sqrt(Math.max(0, dx * dx + dy * dy + dz * dz - along * along));
     if (aside > reach(along)) continue;
-    const rank = aside <= radius ? along * 1e-6 : 1 + aside / along; // what the ray hits comes before what it passes
+    const rank = aside <= radius ? along * 1e-6 : 1 + aside / along; // hit points come before passed ones
     if (rank < minRank) [minRank, best] = [rank, index];
   }
   if (best < 0) return null;

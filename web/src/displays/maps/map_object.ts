@@ -119,7 +119,7 @@ export class MapObject extends Group {
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
       side: DoubleSide,
-      polygonOffset: true, // what lies in the map's plane is drawn over it, by rviz's bias
+      polygonOffset: true, // objects in the map's plane are drawn over it, by rviz's bias
       polygonOffsetUnits: 16,
       blendSrc: SrcAlphaFactor,
       blendDst: OneMinusSrcAlphaFactor,

@@ -43,7 +43,7 @@ const LAYOUTS = new Map<string, Layout>([
   ["mono8", [1, 0, 0, 0, null]],
   ["8UC1", [1, 0, 0, 0, null]],
   ["8SC1", [1, 0, 0, 0, null]],
-  // the more significant byte of each, where it stands in a little-endian image
+  // offset of each component's more significant byte in a little-endian image
   ["rgb16", [6, 1, 3, 5, null]],
   ["rgba16", [8, 1, 3, 5, 7]],
   ["bgr16", [6, 5, 3, 1, null]],

@@ -113,7 +113,7 @@ export class Curve {
     this.subscription = seriesFeed(this.page).follow(this.path, {
       onValue: (time, value) => {
         this.fault.value = "";
-        if (time <= (this.points.lastX ?? -Infinity)) this.points.truncate(time); // it goes on from an earlier moment
+        if (time <= (this.points.lastX ?? -Infinity)) this.points.truncate(time); // the simulation went back in time
         this.add(time, value);
       },
       onUnit: (unit) => void (this.unit.value = unit),

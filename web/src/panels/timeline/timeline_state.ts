@@ -20,7 +20,7 @@ export interface Mark {
 }
 
 const FUTURE = 1.2;
-const PERIOD = 200; // ms between looks at what came
+const PERIOD = 200; // ms between updates
 const NS = 1e9;
 
 export class TimelineState {

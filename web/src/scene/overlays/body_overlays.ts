@@ -54,7 +54,7 @@ export class BodyOverlays {
       ...DRAWN.map((part) =>
         effect(() => {
           const manifest = world.manifest.value;
-          const isLoaded = world.progress.value === 1; // sizes are those of what came
+          const isLoaded = world.progress.value === 1; // sizes depend on the loaded models
           if (manifest === null || !isLoaded || !shown.any(part)) this.clear(part);
           else
             this.draw(

@@ -86,7 +86,7 @@ export class ContactMarks {
         payload.getFloat64(at + 48, true),
         payload.getFloat64(at + 56, true),
       );
-      if (still.has(second)) force.negate(); // drawn as it acts on what can move
+      if (still.has(second)) force.negate(); // drawn as it acts on the movable body
       this.place(count, scale);
       count += 1;
     }

@@ -67,7 +67,7 @@ export class WorldPlacement {
       if (past === undefined) break;
       const inFixed = this.frames.lookup(fixedFrame, this.anchor.frame, past.time);
       if (inFixed instanceof NoTransform) continue;
-      this.past.splice(0, i); // older ones are not asked for again
+      this.past.splice(0, i); // older ones are not looked up again
       return this.set(this.matrix, inFixed).multiply(this.set(this.other, past.pose).invert());
     }
     return null;

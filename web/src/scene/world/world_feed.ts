@@ -236,7 +236,7 @@ export class WorldFeed implements SimulatedWorld {
           if (abort.signal.aborted) return;
           this.collisions = { url, model };
           for (const shapes of model.bodies.values()) {
-            delete shapes.userData["body"]; // it belongs to the body that is there
+            delete shapes.userData["body"]; // it belongs to the loaded body
             shapes.position.set(0, 0, 0);
             shapes.quaternion.identity();
           }

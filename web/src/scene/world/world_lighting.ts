@@ -145,7 +145,7 @@ export class WorldLighting {
     for (const { shadow } of this.lights) shadow?.dispose();
     let maps = 0;
     const lights = objects.map((light): WorldLight => {
-      light.visible = false; // three.js' own shading has nothing to do with it
+      light.visible = false; // three.js' own shading ignores it
       const sdf = light.userData["sdf"] as SdfLight;
       const kind = kindOf(light);
       const isShadowed = hasShadows && sdf.cast_shadows && kind !== "point" && maps < MAX_SHADOWS;
