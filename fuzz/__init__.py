@@ -1,1 +1,1 @@
-"""`make fuzz`: every format that is read and every socket, fed with damaged inputs until something breaks."""
+"""`make fuzz`: mutated inputs for every file format that Trundle reads and every socket."""

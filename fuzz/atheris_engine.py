@@ -1,4 +1,4 @@
-"""Inputs guided by coverage: libFuzzer, by Atheris, where its wheel is installed."""
+"""Inputs guided by coverage: libFuzzer through Atheris, if its wheel is installed."""
 
 import importlib
 import importlib.util
@@ -16,18 +16,18 @@ from .target import Execute
 
 _MAX_BYTES = 200_000
 _BYTES_RATIO = 0.25
-"""Part of the mutations that libFuzzer makes, which knows compared values."""
+"""Ratio of mutations by libFuzzer, which knows compared values."""
 _SEEDS_RATIO = 0.1
-"""Part of the mutations that start from a seed."""
+"""Ratio of mutations that start from a seed."""
 
 
 def is_installed() -> bool:
-    """True if Atheris is there."""
+    """Return whether Atheris is installed."""
     return importlib.util.find_spec("atheris") is not None
 
 
 def instrument() -> bool:
-    """Count edges of every module of Trundle that is imported from now on; False without Atheris."""
+    """Count edges of all of Trundle's modules that are imported later; return False without Atheris."""
     if not is_installed():
         return False
     sys.meta_path.insert(0, _InstrumentingFinder())
@@ -35,7 +35,7 @@ def instrument() -> bool:
 
 
 class _InstrumentingFinder(MetaPathFinder):
-    """Finds Trundle's modules where others find them; Atheris' own finder does not reach those of editable installs."""
+    """Finds Trundle's modules through the other finders; Atheris' finder cannot find modules of editable installs."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None, /
@@ -43,7 +43,7 @@ class _InstrumentingFinder(MetaPathFinder):
         if fullname.partition(".")[0] != "trundle":
             return None
         others = (finder for finder in sys.meta_path if finder is not self)
-        spec = next((spec for each in others if (spec := each.find_spec(fullname, path, target)) is not None), None)
+        spec = next((spec for finder in others if (spec := finder.find_spec(fullname, path, target)) is not None), None)
         if spec is not None and spec.origin is not None and spec.origin.endswith(".py"):
             spec.loader = _InstrumentingLoader(fullname, spec.origin)
         return spec
@@ -60,20 +60,20 @@ def _atheris() -> Any:
 
 
 def run(execute: Execute, pool: Pool, *, corpus: Path, seeds: Path, seconds: float) -> None:
-    """Feed inputs for some seconds; ends the process.
+    """Feed inputs for some seconds, then end the process.
 
     Args:
-        execute: takes each input.
-        pool: what mutations put in.
-        corpus: folder of inputs that reached new edges; it grows.
-        seeds: folder of further ones.
+        execute: function that is called with each input.
+        pool: material of mutations.
+        corpus: folder of inputs that reached new edges, to which inputs are added.
+        seeds: folder of further inputs.
         seconds: duration [s].
     """
     engine = _atheris()
 
     def mutated(data: bytes, max_size: int, seed: int) -> bytes:
         source = random.Random(seed)
-        if len(data) <= 1 or source.random() < _SEEDS_RATIO:  # nothing is kept of targets that are not Python
+        if len(data) <= 1 or source.random() < _SEEDS_RATIO:  # targets without Python code have no corpus
             data = source.choice(pool.inputs)
         if source.random() < _BYTES_RATIO:
             return engine.Mutate(data, max_size)

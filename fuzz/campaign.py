@@ -1,4 +1,4 @@
-"""Targets in turn, each in a process of its own, watched and started again; the figures of all runs."""
+"""Targets in turn, in monitored processes that are restarted; statistics of all runs."""
 
 import json
 import os
@@ -22,20 +22,20 @@ from .findings import Findings
 from .target import ROOT
 
 _SLICE_S = 120.0
-"""Longest turn of a target: long runs go round all of them again and again."""
+"""Maximum duration of a target's turn: long runs repeat all targets."""
 _HANG_S, _BUSY_S = 120.0, 60.0
-"""Wall time after which an input hangs that waits, and processor time for one that computes: other programs may keep
-the processors busy, and the first inputs load and instrument modules.
+"""Wall time after which a waiting input hangs, and CPU time for a computing input: other programs may use the CPU,
+and the first inputs load and instrument modules.
 """
 _STARTING_S = 180.0
 _POLL_S = 0.5
 _EDGES = re.compile(rb"^#\d+\s.* cov: (\d+) .*?corp: (\d+)", re.MULTILINE)
-_LONGEST_REPORT = 20_000
+_MAX_REPORT_BYTES = 20_000
 
 
 @dataclass(slots=True)
 class Turn:
-    """Figures of one turn of one target."""
+    """Statistics of one turn of one target."""
 
     seconds: float = 0.0
     executions: int = 0
@@ -47,8 +47,8 @@ class Turn:
         """Return the progress line."""
         edges = f"{self.edges:6} edges {self.corpus:5} inputs" if self.edges else "      not guided by coverage"
         rate = self.executions / max(self.seconds, 1e-3)
-        found = f"  FOUND {' '.join(sorted(self.findings))}" if self.findings else ""
-        return f"fuzz: {name:16} {self.seconds:4.0f} s {self.executions:8,} executions {rate:7.1f}/s {edges}{found}"
+        findings = f"  FOUND {' '.join(sorted(self.findings))}" if self.findings else ""
+        return f"fuzz: {name:16} {self.seconds:4.0f} s {self.executions:8,} executions {rate:7.1f}/s {edges}{findings}"
 
 
 class Campaign:
@@ -58,13 +58,13 @@ class Campaign:
         """Create.
 
         Args:
-            out: folder of corpora, findings and the summary, which later runs go on with.
-            sanitized: folder of the C++ with sanitizers; None: there is none.
-            sanitizers: variables of processes that use it.
+            out: folder of corpora, findings and the summary, which later runs continue.
+            sanitized: folder of the C++ libraries with sanitizers; None: not built.
+            sanitizers: environment variables of processes that use them.
         """
         self._out = out
         self._run = tempfile.TemporaryDirectory(prefix="trundle-fuzz-")
-        """Folders of processes; outside of workspaces, which readers search for packages."""
+        """Folder of the processes' folders, outside of workspaces, in which readers search for packages."""
         self._sanitized, self._sanitizers = sanitized, sanitizers
         self._lock = threading.Lock()
         self.found: dict[str, int] = {}
@@ -77,16 +77,16 @@ class Campaign:
         self._run.cleanup()
 
     def run(self, names: Sequence[str], seconds: float, jobs: int) -> None:
-        """Give every target the same time, in turns."""
-        each = seconds * min(jobs, len(names)) / len(names)
-        rounds = max(1, round(each / _SLICE_S))
+        """Run all targets in turns for the same time."""
+        target_s = seconds * min(jobs, len(names)) / len(names)
+        rounds = max(1, round(target_s / _SLICE_S))
         with ThreadPoolExecutor(jobs) as pool:
             for _ in range(rounds):
-                for turn in [pool.submit(self._turn, name, each / rounds) for name in names]:
+                for turn in [pool.submit(self._turn, name, target_s / rounds) for name in names]:
                     turn.result()
 
     def repeat(self, name: str, file: Path) -> int:
-        """Feed one input, and print what it does; 1 if that is a finding."""
+        """Feed one input, and print the result; return 1 if it is a finding."""
         folder = self._folder(name)
         process = self._start(name, folder, "--input", str(file))
         code = process.wait()
@@ -94,11 +94,11 @@ class Campaign:
         findings = _statistics(folder)[2]
         for finding in findings:
             text += (self._out / "findings" / finding / "report.txt").read_text(errors="replace")
-        print(text or f"fuzz: {name} takes or refuses it")
+        print(text or f"fuzz: {name} accepts or refuses it without a finding")
         return 1 if code or findings else 0
 
     def _turn(self, name: str, seconds: float) -> None:
-        """Run a target for some time, again whenever an input has ended its process."""
+        """Run a target for some time, and restart it when an input has ended its process."""
         turn = Turn()
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 1.0 or not turn.seconds:
@@ -106,31 +106,31 @@ class Campaign:
             process = self._start(name, folder, "--seconds", str(left))
             reason = _watch(process, folder, left)
             printed = (folder / "printed").read_bytes()
-            took, executions, found = _statistics(folder)
+            elapsed_s, executions, findings = _statistics(folder)
             if reason is not None:
-                found |= self._report(name, folder, reason, printed)
-            turn.seconds += max(took, 1e-3)
+                findings |= self._report(name, folder, reason, printed)
+            turn.seconds += max(elapsed_s, 1e-3)
             turn.executions += executions
-            turn.findings |= found
-            if guided := _EDGES.findall(printed):
-                turn.edges, turn.corpus = int(guided[-1][0]), int(guided[-1][1])
+            turn.findings |= findings
+            if coverage := _EDGES.findall(printed):
+                turn.edges, turn.corpus = int(coverage[-1][0]), int(coverage[-1][1])
             if reason is not None and not executions:
-                break  # it does not even start
+                break  # the target cannot start
         with self._lock:
             print(turn.line(name), file=sys.stderr, flush=True)
             self.found |= turn.findings
             self._add_to_summary(name, turn)
 
-    def _start(self, name: str, folder: Path, *more: str) -> "subprocess.Popen[bytes]":
-        for each in ("home", "cache", "tmp"):
-            (folder / each).mkdir()
+    def _start(self, name: str, folder: Path, *arguments: str) -> "subprocess.Popen[bytes]":
+        for subfolder in ("home", "cache", "tmp"):
+            (folder / subfolder).mkdir()
         variables = {
             key: value for key, value in os.environ.items() if not key.startswith(("ROS", "GAZEBO", "TRUNDLE"))
         }
         variables |= {"HOME": f"{folder}/home", "XDG_CACHE_HOME": f"{folder}/cache", "TMPDIR": f"{folder}/tmp"}
         variables |= {"PYTHONPATH": str(ROOT), "MUJOCO_LOG": "0"}
         command = [sys.executable, "-m", "fuzz.worker", name, str(folder), "--findings", str(self._out / "findings")]
-        command += ["--corpus", str(self._out / "corpus" / name), *more]
+        command += ["--corpus", str(self._out / "corpus" / name), *arguments]
         if name in NATIVE and self._sanitized is not None:
             command += ["--sanitized", str(self._sanitized)]
             variables |= self._sanitizers
@@ -150,12 +150,12 @@ class Campaign:
     def _report(self, name: str, folder: Path, reason: str, printed: bytes) -> dict[str, int]:
         findings = Findings(self._out / "findings", name)
         current = folder / "current"
-        details = printed[-_LONGEST_REPORT:].decode(errors="replace")
+        details = printed[-_MAX_REPORT_BYTES:].decode(errors="replace")
         findings.add(reason, details, current.read_bytes() if current.exists() else b"")
         return findings.names
 
     def _add_to_summary(self, name: str, turn: Turn) -> None:
-        """Add to the figures of all runs."""
+        """Add a turn to the statistics of all runs."""
         file = self._out / "summary.json"
         summary = json.loads(file.read_text()) if file.exists() else {}
         row = summary.setdefault(name, {"hours": 0.0, "executions": 0, "findings": []})
@@ -169,21 +169,21 @@ class Campaign:
 
 
 def _watch(process: "subprocess.Popen[bytes]", folder: Path, seconds: float) -> str | None:
-    """Wait for a process; return why it ended as it should not have."""
+    """Wait for a process; return the reason of an abnormal end."""
     current = folder / "current"
     end = time.monotonic() + seconds + 10 * _STARTING_S
     fed, since, since_cpu = 0.0, time.monotonic() + _STARTING_S - _HANG_S, 0.0
     while process.poll() is None:
         time.sleep(_POLL_S)
-        now, cpu = time.monotonic(), _processor_s(process.pid)
+        now, cpu = time.monotonic(), _cpu_s(process.pid)
         if current.exists() and current.stat().st_mtime != fed:
             fed, since, since_cpu = current.stat().st_mtime, now, cpu
         waits, computes = now - since > _HANG_S and cpu - since_cpu < 1.0, cpu - since_cpu > _BUSY_S
         if waits or (computes and fed):
-            process.send_signal(signal.SIGABRT)  # faulthandler prints where it is
+            process.send_signal(signal.SIGABRT)  # faulthandler prints the stack
             time.sleep(_POLL_S)
             _end(process)
-            return f"hang: no end after {now - since:.0f} s, {cpu - since_cpu:.0f} of them of the processor"
+            return f"hang: no end after {now - since:.0f} s, with {cpu - since_cpu:.0f} s of CPU time"
         if now > end:
             _end(process)
             return "hang: it did not end in time"
@@ -192,8 +192,8 @@ def _watch(process: "subprocess.Popen[bytes]", folder: Path, seconds: float) -> 
     return None if code == 0 else f"crash: the process ended with {code}"
 
 
-def _processor_s(process: int) -> float:
-    """Return the processor time of a process [s]; 0 where it has ended."""
+def _cpu_s(process: int) -> float:
+    """Return the CPU time of a process [s]; 0 if it has ended."""
     try:
         fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
     except OSError:
@@ -202,7 +202,7 @@ def _processor_s(process: int) -> float:
 
 
 def _end(process: "subprocess.Popen[bytes]") -> None:
-    """End a process and all that it has started."""
+    """End a process and its child processes."""
     with suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
     process.wait()

@@ -1,4 +1,4 @@
-"""Names of all targets; the module of each is imported when it is its turn."""
+"""Names of all targets; their modules are imported on use."""
 
 import importlib
 
@@ -24,7 +24,7 @@ NATIVE = frozenset(
         "mcap", "tcpros", "tcpros-client", "service-client", "foxglove", "rosbridge", "rosbridge-tcp",
     }
 )  # fmt: skip
-"""Targets that reach the C++, and so run with sanitizers."""
+"""Targets that run C++ code, with sanitizers."""
 
 
 def load_target(name: str) -> Target:

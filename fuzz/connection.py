@@ -8,16 +8,16 @@ from contextlib import suppress
 
 _HOST = "127.0.0.1"
 _PATIENCE_S = 60.0
-"""Time in which a server that still works answers on a busy machine [s]."""
-_GLANCE_S = 0.05
+"""Time in which a working server answers on a busy machine [s]."""
+_SHORT_WAIT_S = 0.05
 """Wait for an answer to a request that may be incomplete [s]."""
 _CLOSE = 8
 SEPARATOR = b"\r\n--\r\n"
-"""Stands between the messages of one input."""
+"""Separator of the messages of one input."""
 
 
 def exchange(port: int, data: bytes) -> None:
-    """Send bytes, wait for an answer shortly, end the own half of the connection, and wait for the server's half.
+    """Send bytes, wait briefly for an answer, shut down the connection's sending half, and wait for the server's close.
 
     Raises:
         TimeoutError: the server does not close the connection.
@@ -27,7 +27,7 @@ def exchange(port: int, data: bytes) -> None:
         suppress(ConnectionError, BrokenPipeError),
     ):
         connection.sendall(data)
-        connection.settimeout(_GLANCE_S)
+        connection.settimeout(_SHORT_WAIT_S)
         with suppress(TimeoutError):
             connection.recv(65536)
         connection.settimeout(_PATIENCE_S)
@@ -37,31 +37,31 @@ def exchange(port: int, data: bytes) -> None:
 
 
 def send_only(port: int, data: bytes) -> None:
-    """Send bytes to a server that keeps the connection open, wait for an answer shortly, and close it."""
+    """Send bytes to a server that keeps the connection open, wait briefly for an answer, and close it."""
     with (
         socket.create_connection((_HOST, port), timeout=_PATIENCE_S) as connection,
         suppress(ConnectionError, BrokenPipeError),
     ):
         connection.sendall(data)
         connection.shutdown(socket.SHUT_WR)
-        connection.settimeout(_GLANCE_S)
+        connection.settimeout(_SHORT_WAIT_S)
         with suppress(TimeoutError):
             while connection.recv(65536):
                 pass
 
 
 def send_web_socket(port: int, target: str, protocol: str | None, data: bytes) -> None:
-    """Send each message of an input over a WebSocket, and wait until the server has closed it.
+    """Send the messages of an input over a WebSocket, and wait until the server has closed it.
 
     Args:
-        port: the server's.
+        port: server's port.
         target: path and query.
-        protocol: subprotocol to ask for.
-        data: messages with `SEPARATOR` between them; one that starts with a control character is binary.
+        protocol: requested subprotocol.
+        data: messages separated by `SEPARATOR`; messages that start with a control character are binary.
 
     Raises:
         TimeoutError: the server does not close the connection.
-        ConnectionError: it does not accept a WebSocket.
+        ConnectionError: the server does not accept the WebSocket.
     """
     with socket.create_connection((_HOST, port), timeout=_PATIENCE_S) as connection:
         key = base64.b64encode(os.urandom(16)).decode()
@@ -85,7 +85,7 @@ def send_web_socket(port: int, target: str, protocol: str | None, data: bytes) -
 
 
 def _frame(opcode: int, payload: bytes) -> bytes:
-    """Return a whole frame of a client; its mask is zero, so that the payload goes out as it is."""
+    """Return a frame of a client; its mask is zero, so that the payload is unchanged."""
     size = len(payload)
     length = bytes([0x80 | size]) if size < 126 else bytes([0xFE]) + struct.pack(">H", size)
     if size > 0xFFFF:

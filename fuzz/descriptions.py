@@ -1,4 +1,4 @@
-"""Descriptions: `trundle check`, and worlds that are drawn and stepped."""
+"""Descriptions: `trundle check`, and worlds that are rendered and stepped."""
 
 import json
 from collections.abc import Generator
@@ -30,7 +30,7 @@ _XACRO_WORDS = (
 
 
 def _checks(name: str) -> Open:
-    """Return an `open` that checks a file, as `trundle check` does with every option."""
+    """Return an `open` that checks a file like `trundle check` with every option."""
 
     @contextmanager
     def opened(folder: Path) -> Generator[Execute]:
@@ -43,11 +43,11 @@ def _checks(name: str) -> Open:
 
         def execute(data: bytes) -> None:
             write_file(file, data)
-            outcome = check(str(folder if name == "model.config" else file), {"HOME": str(folder)}, start=folder)
-            json.dumps(outcome.as_json(), allow_nan=False)
-            outcome.text()
-            outcome.trees()
-            assert all("\n" not in finding.what for finding in outcome.report.findings), "a finding is one line"
+            result = check(str(folder if name == "model.config" else file), {"HOME": str(folder)}, start=folder)
+            json.dumps(result.as_json(), allow_nan=False)
+            result.text()
+            result.trees()
+            assert all("\n" not in finding.what for finding in result.report.findings), "a finding is one line"
 
         yield execute
 
@@ -56,7 +56,7 @@ def _checks(name: str) -> Open:
 
 @contextmanager
 def _open_package(folder: Path) -> Generator[Execute]:
-    """Read a package's manifest for what others ask of it."""
+    """Read a package's manifest in all uses."""
 
     def execute(data: bytes) -> None:
         write_file(folder / "package.xml", data)
@@ -71,7 +71,7 @@ def _open_package(folder: Path) -> Generator[Execute]:
 
 @contextmanager
 def _open_material(folder: Path) -> Generator[Execute]:
-    """Read an Ogre script by a visual that names its material."""
+    """Read an Ogre script through a visual with its material."""
     script = "<script><uri>fuzz.material</uri><name>Fuzz/Paint</name></script>"
     shape = "<geometry><sphere><radius>1</radius></sphere></geometry>"
     visual = f"<visual name='v'>{shape}<material>{script}</material></visual>"
@@ -89,7 +89,7 @@ def _open_material(folder: Path) -> Generator[Execute]:
 
 @contextmanager
 def _open_scene(folder: Path) -> Generator[Execute]:
-    """Load a world, step it, and draw it from two sides."""
+    """Load a world, step it, and render it from two sides."""
     lens = Intrinsics(width_px=32, height_px=24, horizontal_fov_rad=1.2)
     views = [(Pose((-2.0, 0.0, 0.5)), lens), (Pose((0.0, 0.0, 0.01)), lens)]
 

@@ -1,4 +1,4 @@
-"""ROS' sockets: master, a node's slave API, its topics and services, and what lying peers send to it."""
+"""ROS' sockets: master, a node's slave API, its topics and services, and faulty peers."""
 
 import socket
 import struct
@@ -40,17 +40,17 @@ class _Graph:
         self.node.advertise("/a", _TYPE, latch=True).publish({"data": "latched"})
         self.node.advertise_service("/s", _SERVICE, lambda request: {"success": request.data})
         loop.run(self.node.wait_registered(), _PATIENCE_S)
-        asked = blocking_call(self.node.uri, "requestTopic", "/me", "/a", [["TCPROS"]], timeout_s=_PATIENCE_S)
-        self.tcpros_port = int(asked[2][2])
+        reply = blocking_call(self.node.uri, "requestTopic", "/me", "/a", [["TCPROS"]], timeout_s=_PATIENCE_S)
+        self.tcpros_port = int(reply[2][2])
 
     def check(self) -> None:
-        """See whether both servers still answer."""
+        """Check that both servers answer."""
         MasterProxy(self.core.uri).call("getPid")
         blocking_call(self.node.uri, "getPid", "/me", timeout_s=_PATIENCE_S)
 
 
 def _serves(feed: Callable[[_Graph], Execute]) -> Open:
-    """Return an `open` that feeds inputs to a graph, which must answer after each of them."""
+    """Return an `open` that feeds inputs to a graph, which must answer after every input."""
 
     @contextmanager
     def opened(_: Path) -> Generator[Execute]:
@@ -71,48 +71,50 @@ def _to_node(graph: _Graph) -> Execute:
     port = int(graph.node.uri.rstrip("/").rpartition(":")[2])
 
     def execute(data: bytes) -> None:
-        if b"shutdown" not in data:  # which does what it says
+        if b"shutdown" not in data:  # it would shut the node down
             exchange(port, data)
 
     return execute
 
 
 def _to_subscriber(graph: _Graph) -> Execute:
-    """Have the node connect to a publisher that sends the input."""
+    """Let the node connect to a publisher that sends the input."""
     server = socket.create_server(("127.0.0.1", 0))
     server.settimeout(_PATIENCE_S)
-    liar = RpcServer(lambda _method, _arguments: (1, "", ["TCPROS", "127.0.0.1", server.getsockname()[1]]))
-    graph.loop.run(liar.start("127.0.0.1", 0))
+    slave_api = RpcServer(lambda _method, _arguments: (1, "", ["TCPROS", "127.0.0.1", server.getsockname()[1]]))
+    graph.loop.run(slave_api.start("127.0.0.1", 0))
     graph.node.subscribe("/b", _TYPE, _ignore)
     graph.loop.run(graph.node.wait_registered(), _PATIENCE_S)
 
-    def tell(*publishers: str) -> None:
+    def update(*publishers: str) -> None:
         blocking_call(graph.node.uri, "publisherUpdate", "/master", "/b", list(publishers), timeout_s=_PATIENCE_S)
 
     def execute(data: bytes) -> None:
-        tell(f"http://127.0.0.1:{liar.port}/")
+        update(f"http://127.0.0.1:{slave_api.port}/")
         _answer(server, data)
-        tell()
+        update()
 
     return execute
 
 
 def _to_client(graph: _Graph) -> Execute:
-    """Have the node call a service that answers with the input."""
+    """Let the node call a service that responds with the input."""
     server = socket.create_server(("127.0.0.1", 0))
     server.settimeout(_PATIENCE_S)
     uri = f"rosrpc://127.0.0.1:{server.getsockname()[1]}"
-    MasterProxy(graph.core.uri, "/liar").call("registerService", "/lies", uri, "http://127.0.0.1:9/")
+    MasterProxy(graph.core.uri, "/faulty").call("registerService", "/faulty_service", uri, "http://127.0.0.1:9/")
 
     def execute(data: bytes) -> None:
-        called = graph.loop.spawn(_refused(graph.node.call_service("/lies", _SERVICE, timeout_s=_PATIENCE_S)))
+        call = graph.loop.spawn(
+            _ignore_errors(graph.node.call_service("/faulty_service", _SERVICE, timeout_s=_PATIENCE_S))
+        )
         _answer(server, data)
-        called.result(_PATIENCE_S)
+        call.result(_PATIENCE_S)
 
     return execute
 
 
-async def _refused(call: Awaitable[object]) -> None:
+async def _ignore_errors(call: Awaitable[object]) -> None:
     with suppress(RosError):
         await call
 
@@ -150,14 +152,14 @@ def _call(method: str, *arguments: Any) -> bytes:
 
 
 def _master_calls() -> list[bytes]:
-    here = "http://127.0.0.1:9/"
+    uri = "http://127.0.0.1:9/"
     return [
-        _call("registerPublisher", "/x", "/t", _TYPE, here), _call("registerSubscriber", "/x", "/t", "*", here),
-        _call("unregisterPublisher", "/x", "/t", here),
-        _call("registerService", "/x", "/s2", "rosrpc://127.0.0.1:9", here),
+        _call("registerPublisher", "/x", "/t", _TYPE, uri), _call("registerSubscriber", "/x", "/t", "*", uri),
+        _call("unregisterPublisher", "/x", "/t", uri),
+        _call("registerService", "/x", "/s2", "rosrpc://127.0.0.1:9", uri),
         _call("setParam", "/x", "/p/q", {"a": [1, 2.5, True, "b"], "c": {"d": "e"}}),
         _call("getParam", "/x", "/p"), _call("searchParam", "/x", "p"), _call("deleteParam", "/x", "/p/q"),
-        _call("subscribeParam", "/x", here, "/p"), _call("getSystemState", "/x"),
+        _call("subscribeParam", "/x", uri, "/p"), _call("getSystemState", "/x"),
         _call("lookupNode", "/x", "/n"), _call("getTopicTypes", "/x"),
         _call("system.multicall", [{"methodName": "getPid", "params": ["/x"]}]), b"GET / HTTP/1.1\r\n\r\n",
     ]  # fmt: skip
@@ -180,8 +182,8 @@ def _text(content: str) -> bytes:
 
 _SUBSCRIBE = _header(topic="/a", md5sum=_MD5, callerid="/x", type=_TYPE, tcp_nodelay="1")
 _CALL = _header(service="/s", md5sum=_SERVICE_MD5, callerid="/x", type=_SERVICE, persistent="1")
-_PUBLISHER = _header(callerid="/liar", md5sum=_MD5, type=_TYPE, latching="1", message_definition="string data\n")
-_SERVER = _header(callerid="/liar", md5sum=_SERVICE_MD5, type=_SERVICE)
+_PUBLISHER = _header(callerid="/faulty", md5sum=_MD5, type=_TYPE, latching="1", message_definition="string data\n")
+_SERVER = _header(callerid="/faulty", md5sum=_SERVICE_MD5, type=_SERVICE)
 _ANSWER = struct.pack("<I", 5) + b"\1" + struct.pack("<I", 0)
 
 TARGETS = {

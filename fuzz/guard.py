@@ -10,17 +10,17 @@ _CHANGES = frozenset({"os.mkdir", "os.remove", "os.rename", "os.link", "os.symli
 
 
 class ForbiddenError(BaseException):
-    """Act that an input brought about; no reader may catch it."""
+    """Forbidden side effect of an input; no reader may catch it."""
 
 
 def forbid(folders: Sequence[Path]) -> None:
-    """Refuse such acts from now on, in every thread; files may be written in some folders alone."""
-    inside = (*(os.path.realpath(folder) + os.sep for folder in folders), "/dev/shm/", "/dev/null")
+    """Forbid such side effects in every thread; files can be written only in some folders."""
+    prefixes = (*(os.path.realpath(folder) + os.sep for folder in folders), "/dev/shm/", "/dev/null")
 
     def is_inside(path: object) -> bool:
         if isinstance(path, bytes):
             path = os.fsdecode(path)
-        return not isinstance(path, str) or (os.path.realpath(path) + os.sep).startswith(inside)  # or a descriptor
+        return not isinstance(path, str) or (os.path.realpath(path) + os.sep).startswith(prefixes)  # or a descriptor
 
     def check(event: str, arguments: tuple[object, ...]) -> None:
         if event in _PROGRAMS:
@@ -28,10 +28,10 @@ def forbid(folders: Sequence[Path]) -> None:
         if event == "socket.connect":
             address = arguments[1]
             if isinstance(address, tuple) and str(address[0]) not in ("127.0.0.1", "localhost", "::1"):
-                raise ConnectionRefusedError("no other machine is reached while fuzzing")
+                raise ConnectionRefusedError("connections to other machines are forbidden while fuzzing")
         elif event == "socket.getaddrinfo":
             if str(arguments[0]) not in ("127.0.0.1", "localhost", "::1"):
-                raise OSError("no name is looked up while fuzzing")
+                raise OSError("name look-ups are forbidden while fuzzing")
         elif (event in _CHANGES or (event == "open" and _writes(arguments))) and not is_inside(arguments[0]):
             raise ForbiddenError(f"{event} {arguments[0]!r}")
 

@@ -7,7 +7,7 @@ from trundle.robots.meshes import mean_color, png_of, read_heights
 from trundle.sim.render import load_texture
 
 from .seeds import picture
-from .target import Open, Target, reads_file, try_each
+from .target import Open, Target, call_all, reads_file
 
 
 def _textures(name: str) -> Open:
@@ -21,8 +21,8 @@ def _textures(name: str) -> Open:
 
 
 def _read_terrain(file: Path) -> None:
-    """Read heights, and the cells of a map."""
-    try_each(lambda: read_heights(file), lambda: read_cells(file, negate=False, occupied=0.65, free=0.196))
+    """Read heights and the cells of a map."""
+    call_all(lambda: read_heights(file), lambda: read_cells(file, negate=False, occupied=0.65, free=0.196))
 
 
 TARGETS = {

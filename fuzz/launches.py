@@ -1,4 +1,4 @@
-"""Launch files and YAML: `trundle check`, parameters of files, maps."""
+"""Launch files and YAML: `trundle check`, parameter files, maps."""
 
 import json
 from collections.abc import Generator
@@ -24,16 +24,16 @@ _WORDS = (
 def _open_launch(folder: Path) -> Generator[Execute]:
     def execute(data: bytes) -> None:
         write_file(folder / "l.launch", data)
-        outcome = check(str(folder / "l.launch"), {"HOME": str(folder)}, start=folder)
-        json.dumps(outcome.as_json(), allow_nan=False)
-        outcome.text()
+        result = check(str(folder / "l.launch"), {"HOME": str(folder)}, start=folder)
+        json.dumps(result.as_json(), allow_nan=False)
+        result.text()
 
     yield execute
 
 
 @contextmanager
 def _open_parameters(folder: Path) -> Generator[Execute]:
-    """Read a file of parameters by the launch file beside it."""
+    """Read a parameter file through a launch file next to it."""
     (folder / "package.xml").write_text("<package><name>p</name></package>")
     (folder / "p.launch").write_text('<launch><rosparam file="$(dirname)/p.yaml" subst_value="true"/></launch>')
 

@@ -1,4 +1,4 @@
-"""Meshes: read, and where one is accepted, drawn, and checked as collision and visual of a model."""
+"""Meshes: accepted meshes are rendered, and checked as collision and visual of a model."""
 
 import json
 import zlib
@@ -20,8 +20,8 @@ from trundle.spatial import Pose
 from .seeds import picture, seed
 from .target import Execute, Open, Target, reads_file, write_file
 
-_CHECKED = 8
-"""Number of accepted meshes of which one is compiled, too; the input alone decides which."""
+_CHECK_PERIOD = 8
+"""One of this number of accepted meshes is also compiled, selected by the input's checksum."""
 _DAE_WORDS = (
     b"Y_UP", b"1e9", b"<scale>0 1 1</scale>", b"<skew>1 2 3 4 5 6 7</skew>", b"<lookat>0 0 0 0 0 0 0 0 0</lookat>",
     b"polygons", b"tristrips", b"trifans", b"lines", b"<instance_node url='#n1'/>", b"#quad-mesh", b"#p", b"NORMAL",
@@ -59,7 +59,7 @@ def _meshes(name: str) -> Open:
             write_file(file, data)
             mesh = load_mesh(file)
             _draw(mesh)
-            if zlib.crc32(data) % _CHECKED == 0:
+            if zlib.crc32(data) % _CHECK_PERIOD == 0:
                 json.dumps(check(str(folder / "model.sdf"), {}, start=folder).as_json(), allow_nan=False)
 
         yield execute
@@ -78,8 +78,8 @@ def _exported(kind: str, *, texture: bool = False) -> bytes:
     if texture:
         uv = np.zeros((len(shape.vertices), 2))
         shape.visual = TextureVisuals(uv=uv, image=Image.new("RGB", (2, 2)))
-    made = shape.export(file_type=kind)
-    return made if isinstance(made, bytes) else made.encode()
+    data = shape.export(file_type=kind)
+    return data if isinstance(data, bytes) else data.encode()
 
 
 TARGETS = {

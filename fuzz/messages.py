@@ -11,7 +11,7 @@ from trundle.ros import MessagePrinter, Messages
 from trundle.ros.rospy import finder
 
 from .seeds import seed
-from .target import Execute, Open, Target, try_each
+from .target import Execute, Open, Target, call_all
 
 _WORDS = (
     b"float64[]", b"uint8[99999999999]", b"string[3]", b"pkg/Kind[] kinds", b"Kind kind", b"Header header", b"int32 A=",
@@ -26,7 +26,7 @@ _TYPES = (
 
 
 def _defines(kind: str, use: Callable[[Messages], object]) -> Open:
-    """Return an `open` that reads a definition out of a package's folder."""
+    """Return an `open` that reads a definition in a package's folder."""
 
     @contextmanager
     def opened(folder: Path) -> Generator[Execute]:
@@ -45,7 +45,7 @@ def _defines(kind: str, use: Callable[[Messages], object]) -> Open:
 
 
 def _use(messages: Messages, name: str) -> None:
-    """Look a type up, and serialize an empty message, in every way that commands do."""
+    """Look a type up in all ways, and serialize and deserialize an empty message."""
     messages.md5(name)
     messages.definition(name)
     messages.text(name)
@@ -63,7 +63,7 @@ def _use_service(messages: Messages) -> None:
 
 @contextmanager
 def _open_configuration(folder: Path) -> Generator[Execute]:
-    """Read a .cfg, which is Python that is run: only the arguments of its calls come from the input, a list a line."""
+    """Run a .cfg file, which is Python: only the arguments of its calls are from the input, one list per line."""
     finder.install()
     reader: Any = importlib.import_module("dynamic_reconfigure.config_reader")
     file = folder / "Fuzz.cfg"
@@ -89,7 +89,7 @@ def _open_configuration(folder: Path) -> Generator[Execute]:
 
 @contextmanager
 def _open_definition(_: Path) -> Generator[Execute]:
-    """Read a full definition, as it is in a connection header or a bag."""
+    """Read a full definition, as in a connection header or a bag."""
 
     def execute(data: bytes) -> None:
         messages = Messages(bare=True)
@@ -101,7 +101,7 @@ def _open_definition(_: Path) -> Generator[Execute]:
 
 @contextmanager
 def _open_serialized(_: Path) -> Generator[Execute]:
-    """Deserialize an input as several types, print what comes out, and serialize it again."""
+    """Deserialize an input as several types, print the message, and serialize it."""
     messages = Messages()
     printer = MessagePrinter(messages=messages)
 
@@ -111,7 +111,7 @@ def _open_serialized(_: Path) -> Generator[Execute]:
         messages.serialize(message)
 
     def execute(data: bytes) -> None:
-        try_each(*(lambda name=name: read(data, name) for name in _TYPES))
+        call_all(*(lambda name=name: read(data, name) for name in _TYPES))
 
     yield execute
 
@@ -122,7 +122,7 @@ def _serialized() -> list[bytes]:
         "height": 1, "width": 2, "point_step": 12, "row_step": 24, "data": bytes(24),
         "fields": [{"name": "x", "offset": 0, "datatype": 7, "count": 1}],
     }  # fmt: skip
-    filled = {
+    values = {
         "std_msgs/String": {"data": "text"},
         "sensor_msgs/PointCloud2": cloud,
         "sensor_msgs/JointState": {"name": ["a", "b"], "position": [1.0, 2.0]},
@@ -133,7 +133,7 @@ def _serialized() -> list[bytes]:
         "std_msgs/Float64MultiArray": {"data": [1.0, 2.0]},
         "visualization_msgs/MarkerArray": {"markers": [{"points": [{}, {"x": 1.0}], "text": "t"}]},
     }
-    return [bytes(messages.serialize(messages.new(name, fields))) for name, fields in filled.items()]
+    return [bytes(messages.serialize(messages.new(name, fields))) for name, fields in values.items()]
 
 
 TARGETS = {

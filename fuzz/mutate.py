@@ -1,4 +1,4 @@
-"""Damages inputs: bytes, numbers, words, elements; the format's words and parts of other inputs are put in."""
+"""Mutations of inputs: bytes, numbers, words and elements, with the format's words and parts of other inputs."""
 
 import json
 import re
@@ -7,16 +7,18 @@ from collections.abc import Callable, Sequence
 from random import Random
 from typing import Any
 
-_ODD_WORDS = (
+_SPECIAL_WORDS = (
     b"", b"0", b"-1", b"1e400", b"nan", b"inf", b"-inf", b"3e38", b"1e308", b"1e-320", b"2147483648",
     b"-9223372036854775809", b"999999999999", b"true", b"/", b"//", b"~", b"..", b"../../x", b"\0", b"\xff\xfe",
     b"\xef\xbb\xbf", b"\xed\xa0\x80", b"\xc3\xa9", b"&#27;", b"&amp;", b"&x;", b"<", b"]]>", b"<!--", b'"', b"{",
     b"[", b"${", b"$(", b"$(find x)", b"${1/0}", b"model://m", b"package://p/x", b"file:///", b"!!python/name:os",
     b"*a", b"&a [*a, *a]", b"x" * 5000, b"[" * 500, b"\n", b"\r\n", b"1 2 3 4 5 6 7 8", b"::",
 )  # fmt: skip
-_ODD_INTEGERS = (0, 1, -1, 2, 3, 7, 127, 128, 255, 256, 32767, 65535, 65536, 2**24, 2**31 - 1, 2**31, 2**32 - 1, 2**63)
-_ODD_FLOATS = (0.0, -0.0, 1.0, -1.0, 1e-45, 1e38, 3.4e38, float("inf"), float("-inf"), float("nan"))
-_ODD_VALUES: tuple[Any, ...] = (
+_SPECIAL_INTEGERS = (
+    0, 1, -1, 2, 3, 7, 127, 128, 255, 256, 32767, 65535, 65536, 2**24, 2**31 - 1, 2**31, 2**32 - 1, 2**63,
+)  # fmt: skip
+_SPECIAL_FLOATS = (0.0, -0.0, 1.0, -1.0, 1e-45, 1e38, 3.4e38, float("inf"), float("-inf"), float("nan"))
+_SPECIAL_VALUES: tuple[Any, ...] = (
     None, True, -1, 0, 1, 2**31, 2**32, 2**64, 10**30, 1e308, -0.5, float("nan"), "", "/", "~", "//", "a b", "é\0",
     "\ud800", "x" * 2000, [], {}, [[[]]], {"a": {"b": 1}}, "NaN", "std_msgs/Header", "no_msgs/None", "../../etc/passwd",
 )  # fmt: skip
@@ -34,8 +36,8 @@ class Pool:
     """Material of mutations: words, and other inputs."""
 
     def __init__(self, words: Sequence[bytes], inputs: Sequence[bytes]) -> None:
-        """Keep words of the format, and inputs, which may not be none."""
-        self.words = (*words, *_ODD_WORDS)
+        """Store words of the format, and inputs, at least one."""
+        self.words = (*words, *_SPECIAL_WORDS)
         self.inputs = inputs
 
 
@@ -46,26 +48,26 @@ def mutate(data: bytes, pool: Pool, source: Random) -> bytes:
     return data
 
 
-def _span(data: bytes, source: Random, most: int = _MAX_SPAN) -> tuple[int, int]:
+def _span(data: bytes, source: Random, max_size: int = _MAX_SPAN) -> tuple[int, int]:
     start = source.randint(0, len(data))
-    return start, min(len(data), start + source.randint(0, source.choice((1, 4, 16, most))))
+    return start, min(len(data), start + source.randint(0, source.choice((1, 4, 16, max_size))))
 
 
 def _find(pattern: "re.Pattern[bytes]", data: bytes, source: Random) -> "re.Match[bytes] | None":
-    """Find a match after a random place, or else from the start."""
+    """Find a match after a random offset, or else from the start."""
     return pattern.search(data, source.randint(0, len(data))) or pattern.search(data)
 
 
 def _replace_word(data: bytes, pool: Pool, source: Random) -> bytes:
-    found = _find(_WORD, data, source)
-    return data if found is None else data[: found.start()] + source.choice(pool.words) + data[found.end() :]
+    match = _find(_WORD, data, source)
+    return data if match is None else data[: match.start()] + source.choice(pool.words) + data[match.end() :]
 
 
 def _swap_word(data: bytes, pool: Pool, source: Random) -> bytes:
-    """Put a word of this or another input in place of one."""
-    found = _find(_WORD, data, source)
+    """Replace a word by a word of this or another input."""
+    match = _find(_WORD, data, source)
     other = _find(_WORD, source.choice((data, source.choice(pool.inputs))), source)
-    return data if found is None or other is None else data[: found.start()] + other[0] + data[found.end() :]
+    return data if match is None or other is None else data[: match.start()] + other[0] + data[match.end() :]
 
 
 def _insert_word(data: bytes, pool: Pool, source: Random) -> bytes:
@@ -88,7 +90,7 @@ def _repeat(data: bytes, _: Pool, source: Random) -> bytes:
 
 
 def _splice(data: bytes, pool: Pool, source: Random) -> bytes:
-    """Put a part of another input in."""
+    """Insert a part of another input."""
     other = source.choice(pool.inputs)
     start, end = _span(data, source)
     from_, to = _span(other, source, max(1, len(other)))
@@ -97,8 +99,8 @@ def _splice(data: bytes, pool: Pool, source: Random) -> bytes:
 
 def _overwrite(data: bytes, _: Pool, source: Random) -> bytes:
     start = source.randint(0, len(data))
-    odd = source.randbytes(source.randint(1, 8))
-    return data[:start] + odd + data[start + len(odd) :]
+    replacement = source.randbytes(source.randint(1, 8))
+    return data[:start] + replacement + data[start + len(replacement) :]
 
 
 def _flip_bit(data: bytes, _: Pool, source: Random) -> bytes:
@@ -110,14 +112,14 @@ def _flip_bit(data: bytes, _: Pool, source: Random) -> bytes:
 
 def _write_integer(data: bytes, _: Pool, source: Random) -> bytes:
     size = source.choice((1, 2, 4, 8))
-    number = source.choice(_ODD_INTEGERS) % 256**size
-    odd = number.to_bytes(size, source.choice(("little", "big")))
+    number = source.choice(_SPECIAL_INTEGERS) % 256**size
+    replacement = number.to_bytes(size, source.choice(("little", "big")))
     start = source.randint(0, len(data))
-    return data[:start] + odd + data[start + size :]
+    return data[:start] + replacement + data[start + size :]
 
 
 def _add_integer(data: bytes, _: Pool, source: Random) -> bytes:
-    """Change a number a little: lengths and counts that are nearly right."""
+    """Change a number slightly, such as a length or count."""
     size = source.choice((1, 2, 4))
     if len(data) < size:
         return data
@@ -128,49 +130,47 @@ def _add_integer(data: bytes, _: Pool, source: Random) -> bytes:
 
 
 def _write_float(data: bytes, _: Pool, source: Random) -> bytes:
-    odd = struct.pack(source.choice(("<f", "<d", ">f", ">d")), source.choice(_ODD_FLOATS))
+    replacement = struct.pack(source.choice(("<f", "<d", ">f", ">d")), source.choice(_SPECIAL_FLOATS))
     start = source.randint(0, len(data)) & ~3
-    return data[:start] + odd + data[start + len(odd) :]
+    return data[:start] + replacement + data[start + len(replacement) :]
 
 
 def _rename_tag(data: bytes, pool: Pool, source: Random) -> bytes:
-    found = _find(_TAG, data, source)
+    match = _find(_TAG, data, source)
     other = _find(_TAG, source.choice((data, source.choice(pool.inputs))), source)
-    if found is None or other is None:
+    if match is None or other is None:
         return data
     return (
-        data[: found.start(1)]
+        data[: match.start(1)]
         + other[1]
-        + data[found.end(1) :].replace(b"</" + found[1] + b">", b"</" + other[1] + b">", 1)
+        + data[match.end(1) :].replace(b"</" + match[1] + b">", b"</" + other[1] + b">", 1)
     )
 
 
 def _repeat_element(data: bytes, pool: Pool, source: Random) -> bytes:
-    """Double an element, or put one of another input beside it."""
-    found = _find(_TAG, data, source)
-    giving = source.choice((data, source.choice(pool.inputs)))
-    other = _find(_TAG, giving, source)
-    if found is None or other is None:
+    """Repeat an element, or insert an element of another input before it."""
+    match = _find(_TAG, data, source)
+    donor = source.choice((data, source.choice(pool.inputs)))
+    other = _find(_TAG, donor, source)
+    if match is None or other is None:
         return data
     close = b"</" + other[1] + b">"
-    end = giving.find(close, other.end())
-    element = (
-        giving[other.start() : end + len(close)] if end >= 0 else giving[other.start() :].partition(b">")[0] + b">"
-    )
-    return data[: found.start()] + element + data[found.start() :]
+    end = donor.find(close, other.end())
+    element = donor[other.start() : end + len(close)] if end >= 0 else donor[other.start() :].partition(b">")[0] + b">"
+    return data[: match.start()] + element + data[match.start() :]
 
 
 def _remove_element(data: bytes, _: Pool, source: Random) -> bytes:
-    found = _find(_TAG, data, source)
-    if found is None:
+    match = _find(_TAG, data, source)
+    if match is None:
         return data
-    close = b"</" + found[1] + b">"
-    end = data.find(close, found.end())
-    return data if end < 0 else data[: found.start()] + data[end + len(close) :]
+    close = b"</" + match[1] + b">"
+    end = data.find(close, match.end())
+    return data if end < 0 else data[: match.start()] + data[end + len(close) :]
 
 
 def _edit_json(data: bytes, _: Pool, source: Random) -> bytes:
-    """Change a value of a JSON object inside."""
+    """Change a value of a JSON object in the input."""
     start = data.find(b"{", source.randint(0, len(data)))
     try:
         value, length = _DECODER.raw_decode(data[start:].decode("latin-1"))
@@ -182,7 +182,7 @@ def _edit_json(data: bytes, _: Pool, source: Random) -> bytes:
 def _changed(value: Any, source: Random) -> Any:
     """Return a JSON value with one part replaced, removed or repeated."""
     if not value or not isinstance(value, (dict, list)) or source.random() < 0.1:
-        return source.choice(_ODD_VALUES)
+        return source.choice(_SPECIAL_VALUES)
     if isinstance(value, dict):
         members: dict[str, Any] = dict(value)
         key = source.choice(sorted(members))
@@ -191,10 +191,10 @@ def _changed(value: Any, source: Random) -> Any:
             return members
         return members | {key: _changed(members[key], source)}
     items: list[Any] = list(value)
-    place = source.randrange(len(items))
+    index = source.randrange(len(items))
     if source.random() < 0.2:
-        return items[:place] + items[place : place + 1] * source.choice((0, 2, _MAX_COPIES)) + items[place + 1 :]
-    items[place] = _changed(items[place], source)
+        return items[:index] + items[index : index + 1] * source.choice((0, 2, _MAX_COPIES)) + items[index + 1 :]
+    items[index] = _changed(items[index], source)
     return items
 
 

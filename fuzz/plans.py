@@ -1,4 +1,4 @@
-"""Plans of many runs: read, with the values of their first rows."""
+"""Plans of sweeps and datasets, with the values of a sweep's first rows."""
 
 from collections.abc import Callable, Generator
 from contextlib import contextmanager

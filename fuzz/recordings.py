@@ -13,11 +13,11 @@ from trundle.live.state_logs import start_state_log
 from trundle.ros import BagConnection, BagMessage, BagSummary, Messages, create_bag, open_bag, recover_messages
 
 from .seeds import seed
-from .target import Execute, Open, Target, reads_file, try_each, write_file
+from .target import Execute, Open, Target, call_all, reads_file, write_file
 
 
 def _bags(name: str) -> Open:
-    """Return an `open` that lists a bag, reads its messages with the definitions in it, and recovers it."""
+    """Return an `open` that summarizes a bag, reads its messages by their definitions, and recovers it."""
 
     def list_and_read(file: Path) -> None:
         with open_bag(file) as bag:
@@ -38,7 +38,7 @@ def _bags(name: str) -> Open:
 
         def execute(data: bytes) -> None:
             write_file(file, data)
-            try_each(lambda: list_and_read(file), lambda: recover(file))
+            call_all(lambda: list_and_read(file), lambda: recover(file))
 
         yield execute
 
@@ -53,7 +53,7 @@ def _decode(message: BagMessage) -> None:
         types.add_definition(connection.type, connection.definition)
         types.deserialize(message.data, connection.type)
 
-    try_each(read)
+    call_all(read)
 
 
 def _recorded() -> list[BagMessage]:
@@ -78,7 +78,7 @@ def _written(name: str, compression: str) -> bytes:
 
 
 def _rosrecord() -> bytes:
-    """Return a bag of format 1.2 without an index, byte by byte as rosrecord wrote them."""
+    """Return a bag of format 1.2 without an index, as written by rosrecord."""
 
     def record(fields: dict[str, bytes], data: bytes = b"") -> bytes:
         header = b"".join(struct.pack("<I", len(f)) + f for f in (k.encode() + b"=" + v for k, v in fields.items()))

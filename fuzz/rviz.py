@@ -1,4 +1,4 @@
-"""The .rviz files that the page's client reads and writes, in Node."""
+""".rviz files, read and written by the page's client in Node."""
 
 import json
 import struct
@@ -22,7 +22,7 @@ _WORDS = (
 
 
 class ClientError(Exception):
-    """Error of the client that is not its own; its text is JavaScript's stack."""
+    """Unexpected error of the client; its text is the JavaScript stack."""
 
 
 @contextmanager

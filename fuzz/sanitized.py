@@ -1,4 +1,4 @@
-"""The C++, built once more with AddressSanitizer and UndefinedBehaviorSanitizer, into build/sanitized."""
+"""C++ libraries with AddressSanitizer and UndefinedBehaviorSanitizer, built into build/sanitized."""
 
 import hashlib
 import importlib.util
@@ -16,7 +16,7 @@ from .target import ROOT
 
 _FOLDER = ROOT / "build" / "sanitized"
 _FLAGS = "-fsanitize=address,undefined,fuzzer-no-link -fno-sanitize=vptr,function -fno-omit-frame-pointer"
-"""fuzzer-no-link counts edges; vptr and function need what runtimes of other versions of clang do not have."""
+"""fuzzer-no-link counts edges; vptr and function are not in runtimes of other versions of clang."""
 _MODULES = {
     "trundle.sim.render._native": "_native",
     "trundle.sim.physics._contact_laws": "_contact_laws",
@@ -25,7 +25,7 @@ _MODULES = {
 
 
 def build() -> Path | None:
-    """Build what is out of date; None, with a sentence, without clang."""
+    """Build outdated libraries; without clang print a message and return None."""
     if shutil.which("clang++") is None:
         print("fuzz: clang++ is not installed: the C++ runs without sanitizers", file=sys.stderr)
         return None
@@ -37,13 +37,13 @@ def build() -> Path | None:
         command += ["--constraint", "constraints.txt", "--wheel-dir", str(_FOLDER), "-C", f"build-dir={built}"]
         command += ["-C", "cmake.build-type=RelWithDebInfo", "-C", f"cmake.define.CMAKE_CXX_FLAGS={_FLAGS}", "."]
         subprocess.run(command, cwd=ROOT, env={**os.environ, "CXX": "clang++"}, check=True)
-        shutil.copy(built / "sources.sha256", _FOLDER)  # where trundle.base.built looks for it
+        shutil.copy(built / "sources.sha256", _FOLDER)  # read by trundle.base.built
         (built / "built").write_text(digest)
     return built
 
 
 def environment() -> dict[str, str]:
-    """Return the variables of a process that loads what was built."""
+    """Return the environment variables of a process that loads the libraries."""
     return {
         "LD_PRELOAD": str(_runtime()),
         "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1:handle_abort=0:abort_on_error=0",
@@ -53,7 +53,7 @@ def environment() -> dict[str, str]:
 
 
 def use_sanitized(built: Path) -> None:
-    """Have the compiled modules imported from what was built."""
+    """Import the compiled modules from the built libraries."""
     sys.meta_path.insert(0, _Finder(built))
 
 
@@ -72,12 +72,12 @@ class _Finder(MetaPathFinder):
 
 
 def _runtime() -> Path:
-    """Return the library that must be loaded first: Atheris' has libFuzzer inside, which counts the edges."""
-    found = importlib.util.find_spec("atheris")
-    if found is not None and found.origin is not None:
-        return Path(found.origin).parents[1] / "asan_with_fuzzer.so"
-    asked = ["clang++", "-print-file-name=libclang_rt.asan-x86_64.so"]
-    return Path(subprocess.run(asked, capture_output=True, text=True, check=True).stdout.strip())
+    """Return the library to preload: Atheris' library contains libFuzzer, which counts edges."""
+    spec = importlib.util.find_spec("atheris")
+    if spec is not None and spec.origin is not None:
+        return Path(spec.origin).parents[1] / "asan_with_fuzzer.so"
+    command = ["clang++", "-print-file-name=libclang_rt.asan-x86_64.so"]
+    return Path(subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip())
 
 
 def _sources_digest() -> str:

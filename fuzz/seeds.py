@@ -1,4 +1,4 @@
-"""Small inputs that are read without an error: files of `seeds/`, and pictures made here."""
+"""Small valid inputs: files of `seeds/` and generated pictures."""
 
 import io
 from pathlib import Path
@@ -15,7 +15,7 @@ def seed(name: str) -> bytes:
 
 
 def picture(kind: str, mode: str = "RGB", side: int = 9, **options: object) -> bytes:
-    """Return a small picture, encoded."""
+    """Return a small encoded picture."""
     channels = {"RGB": 3, "RGBA": 4}.get(mode)
     kinds = {"I;16": np.uint16, "F": np.float32}
     values = np.arange(side * side * (channels or 1)) % 251 * (257 if mode == "I;16" else 1)

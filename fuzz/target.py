@@ -1,4 +1,4 @@
-"""Targets: what takes an input, and inputs that it accepts."""
+"""Targets: readers and servers under test, with valid inputs."""
 
 import itertools
 import os
@@ -15,9 +15,9 @@ _MAX_SEED_BYTES = 20_000
 _MAX_SEEDS = 60
 
 Execute = Callable[[bytes], object]
-"""Function that takes one input; it may raise TrundleError, and nothing else."""
+"""Function of one input, which may only raise TrundleError."""
 Open = Callable[[Path], AbstractContextManager[Execute]]
-"""Function that prepares an `Execute` in an empty folder of its own."""
+"""Function that prepares an `Execute` in an empty folder."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,11 +26,11 @@ class Target:
 
     open: Open
     seeds: Callable[[], list[bytes]]
-    """Inputs that it accepts, made here."""
+    """Generates valid inputs."""
     words: tuple[bytes, ...] = ()
-    """Words of the format, which mutations put in."""
+    """Words of the format for mutations."""
     corpus: tuple[str, ...] = ()
-    """Patterns of further seeds in ../shared/corpus, used where that folder is."""
+    """Patterns of further seeds in ../shared/corpus, if that folder exists."""
 
     def corpus_seeds(self) -> list[bytes]:
         """Return small files of the corpus."""
@@ -43,18 +43,18 @@ _times = itertools.count(10**18)
 
 
 def write_file(file: Path, data: bytes) -> None:
-    """Write a file whose time is later than that of all before: readers cache by time and size."""
+    """Write a file with a later time than all files before: readers cache by time and size."""
     file.write_bytes(data)
     now = next(_times)
     os.utime(file, ns=(now, now))
 
 
 def reads_file(name: str, read: Callable[[Path], object]) -> Open:
-    """Return an `open` that writes each input to a file and has it read.
+    """Return an `open` that writes each input to a file and reads it.
 
     Args:
-        name: the file's name.
-        read: the reader.
+        name: file's name.
+        read: reader of the file.
     """
 
     @contextmanager
@@ -70,8 +70,8 @@ def reads_file(name: str, read: Callable[[Path], object]) -> Open:
     return opened
 
 
-def try_each(*steps: Callable[[], object]) -> None:
-    """Call functions that may each refuse the same input."""
+def call_all(*steps: Callable[[], object]) -> None:
+    """Call functions, each of which may refuse the input."""
     for step in steps:
         try:
             step()

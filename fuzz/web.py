@@ -1,4 +1,4 @@
-"""The page's server, and rosbridge: WebSockets, HTTP, uploads and archives."""
+"""The page's server and rosbridge: WebSockets, HTTP, uploads and archives."""
 
 import io
 import socket
@@ -29,20 +29,20 @@ _STRING = "std_msgs/String"
 
 
 class _Server:
-    """A server with its port and the query that lets clients in."""
+    """A server with its port and the query that authorizes clients."""
 
     def __init__(self, port: int, query: str = "") -> None:
         self.port = port
         self.target = f"/?{query}" if query else "/"
 
     def fill(self, data: bytes) -> bytes:
-        """Return an input with the server's own address and token put in."""
+        """Return an input with the server's address and token."""
         token = self.target.partition("token=")[2].encode()
         return data.replace(_HOST, b"127.0.0.1:%d" % self.port).replace(_TOKEN, token)
 
 
 class _Owner:
-    """Owner of the page, in place of the pipe to it: it does whatever is asked."""
+    """Owner of the page, in place of its pipe, which answers all requests."""
 
     def __init__(self, loop: GraphLoop) -> None:
         self._loop = loop
@@ -151,7 +151,7 @@ def _model() -> tuple[tuple[str, bytes], ...]:
 
 
 def _sessions(file: str) -> list[bytes]:
-    """Return the sessions in a file: a message a line, bytes in hexadecimal, and an empty line between sessions."""
+    """Return the sessions in a file: one message per line, bytes in hexadecimal, an empty line between sessions."""
     sessions = [session.splitlines() for session in seed(file).split(b"\n\n")]
     return [
         SEPARATOR.join(bytes.fromhex(line[4:].decode()) if line.startswith(b"hex ") else line for line in lines)

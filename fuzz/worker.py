@@ -1,7 +1,7 @@
-"""One target in a process of its own: `python -m fuzz.worker TARGET FOLDER --seconds N` or `… --input FILE`.
+"""One target in a process: `python -m fuzz.worker TARGET FOLDER --seconds N` or `… --input FILE`.
 
-Started by `fuzz.campaign` alone, in an environment that holds the sanitizers' settings. What an input printed is read
-from standard error, which is a file here; an input that ends the process is in `current` then.
+Started only by `fuzz.campaign`, in an environment with the sanitizers' settings. Printed text is read from standard
+error, which is a file; an input that ends the process is left in `current`.
 """
 
 import argparse
@@ -23,16 +23,16 @@ from .mutate import Pool, mutate
 from .sanitized import use_sanitized
 
 MAX_CPU_S = 10.0
-"""Processor time of one input; more is a finding."""
+"""Maximum CPU time of one input; more is a finding."""
 MAX_MEMORY = 1_000_000_000
-"""Growth by one input [bytes]; more is a finding."""
+"""Maximum growth of memory by one input [bytes]; more is a finding."""
 _MAX_ADDRESSES = 16_000_000_000
-"""Limit of the process without sanitizers [bytes]."""
+"""Address space of the process without sanitizers [bytes]."""
 _STATISTICS_S = 0.5
 
 
 class Worker:
-    """Feeds inputs to a target and judges what happens."""
+    """Feeds inputs to a target and records findings."""
 
     def __init__(self, name: str, folder: Path, findings: Path) -> None:
         from .catalog import load_target
@@ -56,8 +56,8 @@ class Worker:
         self._current.truncate()
         self._current.write(data)
         cpu_s = self._feed(data)
-        if cpu_s > MAX_CPU_S and (cpu_s := self._feed(data)) > MAX_CPU_S:  # the first time it may import modules
-            self.findings.add(f"slow: {cpu_s:.1f} s of processor time", "", data)
+        if cpu_s > MAX_CPU_S and (cpu_s := self._feed(data)) > MAX_CPU_S:  # the first run may import modules
+            self.findings.add(f"slow: {cpu_s:.1f} s of CPU time", "", data)
         self._check_memory(data)
         self._check_printed(data)
         self._executions += 1
@@ -65,7 +65,7 @@ class Worker:
             self.write_statistics()
 
     def _feed(self, data: bytes) -> float:
-        """Return the processor time [s]."""
+        """Feed an input; return the CPU time [s]."""
         from trundle.base.diagnostics import TrundleError
 
         start = time.process_time()
@@ -79,12 +79,12 @@ class Worker:
 
     def _check_memory(self, data: bytes) -> None:
         peak = _peak_bytes()
-        grown, self._peak = peak - self._peak, max(self._peak, peak)
-        if grown > MAX_MEMORY:
-            self.findings.add(f"memory: {grown / 1e6:.0f} MB more", "", data)
+        growth, self._peak = peak - self._peak, max(self._peak, peak)
+        if growth > MAX_MEMORY:
+            self.findings.add(f"memory: {growth / 1e6:.0f} MB more", "", data)
 
     def _check_printed(self, data: bytes) -> None:
-        """Look for signs of a fault in what this input printed."""
+        """Look for signs of a fault in the text printed by this input."""
         size = os.fstat(2).st_size
         if size == self._printed:
             return
@@ -96,7 +96,7 @@ class Worker:
             self.findings.add(*fault, data)
 
     def write_statistics(self) -> None:
-        """Write the counts, for the campaign."""
+        """Write the counts for the campaign."""
         self._written = time.monotonic()
         counts = {
             "executions": self._executions,
@@ -145,23 +145,23 @@ def main() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (_MAX_ADDRESSES, resource.RLIM_INFINITY))
     else:
         use_sanitized(args.sanitized)
-    guides = args.input is None and atheris_engine.instrument()
+    is_guided = args.input is None and atheris_engine.instrument()
     args.corpus.mkdir(parents=True, exist_ok=True)
     worker = Worker(args.target, args.folder, args.findings)
-    own = worker.target.seeds()
-    worker.execute(own[0])  # loads modules, whose bytecode may be written
+    seed_inputs = worker.target.seeds()
+    worker.execute(seed_inputs[0])  # loads modules and writes their bytecode
     forbid([args.folder, args.findings, args.corpus])
     if args.input is not None:
         worker.execute(args.input.read_bytes())
     else:
-        pool = Pool(worker.target.words, own + worker.target.corpus_seeds())
-        if guides:
+        pool = Pool(worker.target.words, seed_inputs + worker.target.corpus_seeds())
+        if is_guided:
             seeds = _write_seeds(pool.inputs, args.folder / "seeds")
             atheris_engine.run(worker.execute, pool, corpus=args.corpus, seeds=seeds, seconds=args.seconds)
         _run_without_coverage(worker, pool, args.seconds)
     worker.write_statistics()
     sys.stderr.flush()
-    os._exit(0)  # servers need no orderly end
+    os._exit(0)  # servers need no orderly shutdown
 
 
 if __name__ == "__main__":

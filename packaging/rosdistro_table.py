@@ -1,6 +1,6 @@
-"""Writes src/trundle/robots/repositories/rosdistro.tsv from a checkout of the published rosdistro index.
+"""Writes src/trundle/robots/repositories/rosdistro.tsv from a clone of the published rosdistro index.
 
-python packaging/rosdistro_table.py FOLDER: the folder has noetic/distribution.yaml and so on (REP 143).
+python packaging/rosdistro_table.py FOLDER: the folder has noetic/distribution.yaml, etc. (REP 143).
 """
 
 import sys

@@ -1,1 +1,1 @@
-"""Pages and pictures of the site that are made from the code; `hooks` adds them to the build."""
+"""Pages and pictures of the site generated from the code; `hooks` adds them to the build."""

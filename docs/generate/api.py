@@ -1,4 +1,4 @@
-"""The reference of the Python API: which names of which rooms are for users; mkdocstrings reads their docstrings."""
+"""Reference of the Python API: the public names by package; mkdocstrings reads their docstrings."""
 
 PUBLIC: dict[str, tuple[str, ...]] = {
     "trundle": ("load",),
@@ -29,7 +29,7 @@ PUBLIC: dict[str, tuple[str, ...]] = {
     "trundle.sim.physics": ("Contact", "SimulationUnstableError"),
     "trundle.ros": ("Node", "Publisher", "Subscription", "Transform", "TransformBroadcaster"),
 }
-"""Room → names."""
+"""Package → names."""
 
 _INTRO = """# Python API
 
@@ -40,9 +40,9 @@ Lengths are in metres, angles in radians, quaternions are w x y z;
 
 
 def page() -> str:
-    """A heading for each room, and the docstrings of its public names."""
+    """Return a heading for each package, and the docstrings of its public names."""
     parts = [_INTRO]
-    for room, names in PUBLIC.items():
-        parts.append(f"## {room} {{ #{room.replace('.', '-')} }}\n")
-        parts += [f"::: {room}.{name}\n    options:\n      heading_level: 3\n" for name in names]
+    for package, names in PUBLIC.items():
+        parts.append(f"## {package} {{ #{package.replace('.', '-')} }}\n")
+        parts += [f"::: {package}.{name}\n    options:\n      heading_level: 3\n" for name in names]
     return "\n".join(parts)

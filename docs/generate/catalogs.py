@@ -1,4 +1,4 @@
-"""The references of plugins and nodes, from the catalogs."""
+"""References of plugins and nodes, generated from the catalogs."""
 
 import importlib
 import inspect
@@ -13,28 +13,28 @@ from .markdown import cell
 
 _PLUGINS = """# Plugins
 
-A `<plugin filename="…">` is found by its file name, whatever folder stands before it.
-Parameters are Gazebo's, by Gazebo's names; one that is not read is named with file and line.
-A plugin that is not here can be [written in Python](../howto/plugin.md).
-Where a plugin on purpose does not do what the original does, [decision 14]({decision}) says why.
+A `<plugin filename="…">` is found by its file name, in any folder.
+Parameters have Gazebo's names; a parameter that is not read is a warning with file and line.
+A plugin that is not listed can be [written in Python](../howto/plugin.md).
+[Decision 14]({decision}) explains intended differences from the original plugins.
 """
 _NODES = """# Nodes that run without ROS
 
 A `<node pkg="…" type="…">` of a launch file is, in this order: an executable in the package's folder, one of the nodes
-below, or a warning that names what is missing.
-`trundle exec PACKAGE TYPE` runs one by itself.
+below, or a warning that names the missing node.
+`trundle exec PACKAGE TYPE` runs a single node.
 """
 
 
 def plugins_page() -> str:
-    """Model and world plugins, and sensor plugins."""
+    """Return the page of model, world and sensor plugins."""
     decision = "../decisions/0014-where-plugins-and-controllers-are-not-the-originals.md"
     return "\n".join(
         [
             _PLUGINS.format(decision=decision),
-            "## Of models and worlds\n",
+            "## Models and worlds\n",
             *_table("file name", BUILTIN),
-            "\n## Of sensors\n",
+            "\n## Sensors\n",
             *_table("file name", SENSOR_PLUGINS),
             "",
         ]
@@ -42,7 +42,7 @@ def plugins_page() -> str:
 
 
 def nodes_page() -> str:
-    """Executables and nodelets."""
+    """Return the page of executables and nodelets."""
     nodes = {f"{package}/{type_}": target for (package, type_), target in BUILTIN_NODES.items()}
     return "\n".join(
         [
@@ -57,17 +57,17 @@ def nodes_page() -> str:
 
 
 def _table(first: str, targets: Mapping[str, str]) -> Iterable[str]:
-    yield f"| {first} | what it does | file |"
+    yield f"| {first} | description | file |"
     yield "|---|---|---|"
     for name, target in targets.items():
         module_name, _, attribute = target.partition(":")
-        found = getattr(importlib.import_module(module_name), attribute)
-        yield f"| `{name}` | {_summary(found)} | `{_file(found)}` |"
+        implementation = getattr(importlib.import_module(module_name), attribute)
+        yield f"| `{name}` | {_summary(implementation)} | `{_file(implementation)}` |"
 
 
-def _summary(found: object) -> str:
-    return cell((inspect.getdoc(found) or "").split("\n\n")[0])
+def _summary(implementation: object) -> str:
+    return cell((inspect.getdoc(implementation) or "").split("\n\n")[0])
 
 
-def _file(found: type | FunctionType) -> str:
-    return f"{inspect.unwrap(found).__module__.replace('.', '/')}.py".removeprefix("trundle/")
+def _file(implementation: type | FunctionType) -> str:
+    return f"{inspect.unwrap(implementation).__module__.replace('.', '/')}.py".removeprefix("trundle/")

@@ -1,4 +1,4 @@
-"""The reference of the command line, from the parsers."""
+"""Reference of the command line, generated from the parsers."""
 
 import argparse
 import re
@@ -10,7 +10,7 @@ from .markdown import cell, code
 _INTRO = """# Command line
 
 Every command has `--help`, with examples first.
-With `--json`, a command prints one JSON object on standard output and nothing else there; what it has to say goes to
+With `--json`, a command prints only one JSON object on standard output; its messages go to
 standard error.
 
 | exit code | meaning |
@@ -25,7 +25,7 @@ Tab completion: `eval "$(register-python-argcomplete trundle)"`.
 
 
 def page() -> str:
-    """Every command with its examples, arguments and subcommands."""
+    """Return every command with its examples, arguments and subcommands."""
     return "\n".join([_INTRO, *(_command(make_parser(name), level=2) for name in COMMANDS)])
 
 
@@ -35,21 +35,21 @@ def _command(parser: argparse.ArgumentParser, *, level: int) -> str:
         examples, summary = "", examples
     parts = [f"{'#' * level} {parser.prog}", summary]
     subparsers = [a for a in parser._actions if isinstance(a, argparse._SubParsersAction)]
-    if examples and not subparsers:  # which have the examples
+    if examples and not subparsers:  # subparsers have the examples
         parts.append(f"```bash\n{_examples(examples)}\n```")
     if not subparsers:
         parts.append(_arguments(parser))
     for action in subparsers:
         seen: set[int] = set()
         for subparser in action.choices.values():
-            if id(subparser) not in seen:  # a second name of the same
+            if id(subparser) not in seen:  # an alias
                 seen.add(id(subparser))
                 parts.append(_command(subparser, level=level + 1))
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
 def _examples(text: str) -> str:
-    """Commands, each below what it does: in `--help` that stands beside it, or on the next line."""
+    """Return commands below their comments, which `--help` has next to them or on the next line."""
     commands: list[tuple[str, list[str]]] = []
     for line in text.removeprefix("examples:").strip("\n").splitlines():
         command, *comment = re.split(r"\s{2,}", line.removeprefix("  "))

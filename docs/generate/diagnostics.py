@@ -1,4 +1,4 @@
-"""Reference of diagnostics: every message about a file, from the calls that report it."""
+"""Reference of diagnostics: every message about a file, collected from the reporting calls."""
 
 import ast
 from collections.abc import Iterator, Mapping
@@ -16,26 +16,26 @@ _ROOMS = (
 )
 _INTRO = """# Diagnostics
 
-A diagnostic says where, what, and what is done instead:
+A diagnostic names the location, the problem, and its consequence:
 
 ```text
 cart.sdf:42: warning: <cast_shadow> in <light> is not supported; it is ignored
 ```
 
-- An **error** ends the reading: nothing sensible can be made of the file. The command exits with 1.
-- A **warning** names something wrong or not supported; the reading goes on as the sentence says. `--strict` makes every
+- An **error** means that the file cannot be used. The command exits with 1.
+- A **warning** names something invalid or not supported; reading continues as stated. `--strict` makes every
   warning an error.
-- An **info** names a rule that a reader of the file may not expect. `trundle check` prints it; `trundle run` does not.
+- An **info** states a rule that may be unexpected. `trundle check` prints it; `trundle run` does not.
 
-`trundle check FILE` lists them all, worst first; `trundle check FILE --json` prints them as
+`trundle check FILE` lists all diagnostics, errors first; `trundle check FILE --json` prints them as
 `{"severity", "file", "line", "message"}`. From Python they are in `sim.report.findings`.
 
-Below is every sentence there is, by the file that says it; `…` stands for what differs.
+Below are all messages by source file; `…` replaces the variable parts.
 """
 
 
 def page() -> str:
-    """Every sentence, by room and file."""
+    """Return every message, by folder and file."""
     parts = [_INTRO]
     for room in _ROOMS:
         tables = [table for path in sorted((_SOURCE / room).rglob("*.py")) if (table := _table(path))]
@@ -59,22 +59,22 @@ def _sentences(tree: ast.AST) -> Iterator[tuple[int, str, str]]:
             for call in ast.walk(function):
                 if isinstance(call, ast.Call) and len(call.args) >= 2:
                     name = getattr(call.func, "attr", getattr(call.func, "id", ""))
-                    what = call.args[1]
-                    values = assigned.get(what.id, []) if isinstance(what, ast.Name) else [what]
+                    message = call.args[1]
+                    values = assigned.get(message.id, []) if isinstance(message, ast.Name) else [message]
                     texts = [_text(value, assigned) for value in values if name in _SEVERITY]
-                    yield from ((call.lineno, _SEVERITY[name], text) for text in texts if _says_something(text))
+                    yield from ((call.lineno, _SEVERITY[name], text) for text in texts if _is_specific(text))
 
 
 def _assigned(function: ast.AST) -> dict[str, list[ast.expr]]:
-    """Values assigned to each name of a function."""
-    found: dict[str, list[ast.expr]] = {}
+    """Return the values assigned to each name of a function."""
+    values: dict[str, list[ast.expr]] = {}
     for node in ast.walk(function):
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
-            found.setdefault(node.targets[0].id, []).append(node.value)
-    return found
+            values.setdefault(node.targets[0].id, []).append(node.value)
+    return values
 
 
-def _says_something(text: str) -> bool:
+def _is_specific(text: str) -> bool:
     return len(text.strip("…")) > 1 and not text.startswith("…;")
 
 

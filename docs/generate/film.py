@@ -1,4 +1,4 @@
-"""Film and picture of the page, for the README and the site: the RP2W is driven through its room; `make film`."""
+"""Video and picture of the page for the README and the site, with the RP2W driving through its room; `make film`."""
 
 import os
 import signal
@@ -26,8 +26,8 @@ FILM_SIZE = (960, 600)
 FRAME_NS = 100_000_000
 QUALITY = 62
 PICTURE_FRAME = 30
-UNSEEN = 3
-"""First frames, which are left out: the robot starts to move."""
+SKIPPED_FRAMES = 3
+"""Number of first frames to skip, in which the robot starts to move."""
 VIEW = {
     "Class": "rviz/Orbit",
     "Target Frame": "rp2w::chassis",
@@ -39,11 +39,11 @@ VIEW = {
 }
 CURVES = ("rp2w::chassis_left_wheel.velocity", "rp2w::chassis_right_wheel.velocity")
 ROUTE = ((0.5, 1.0, 0.0), (0.8, 1.0, 0.7), (0.8, 1.0, 0.0), (2.8, 0.85, -0.8), (1.5, 1.0, 0.0))
-"""Seconds, and shares of the greatest velocities: forwards, to the left."""
+"""Duration [s], and ratios of the maximum velocities forwards and to the left."""
 
 
 def main() -> None:
-    """Simulate in this thread, film in another."""
+    """Simulate in this thread and record in another."""
     clock = FilmClock()
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
@@ -52,7 +52,7 @@ def main() -> None:
 
     def film() -> None:
         try:
-            save(list(frames(clock, f"http://127.0.0.1:{port}/"))[UNSEEN:])
+            save(list(frames(clock, f"http://127.0.0.1:{port}/"))[SKIPPED_FRAMES:])
         except Exception as fault:
             faults.append(fault)
         clock.release()
@@ -63,7 +63,7 @@ def main() -> None:
     with ExitStack() as stack:
         os.chdir(stack.enter_context(tempfile.TemporaryDirectory()))
         stack.enter_context(patch.object(run_module, "RealtimePacer", paced))
-        stack.enter_context(patch.object(realtime_pacer, "_STRIDE_WALL_NS", FRAME_NS))  # one for each frame
+        stack.enter_context(patch.object(realtime_pacer, "_STRIDE_WALL_NS", FRAME_NS))  # one stride per frame
         threading.Thread(target=film).start()
         run_module.run("rp2w_at_home.world", RunOptions(port=port, opens_browser=False, paused=True))
     if faults:
@@ -87,7 +87,7 @@ def frames(clock: FilmClock, url: str) -> Iterator[Image.Image]:
 
 
 def save(pictures: list[Image.Image]) -> None:
-    """Write the film and one picture of it."""
+    """Write the video and one of its pictures."""
     picture = pictures[PICTURE_FRAME].quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
     picture.save(DOCS / "page.png", optimize=True)
     first, *rest = (picture.resize(FILM_SIZE, Image.Resampling.LANCZOS) for picture in pictures)

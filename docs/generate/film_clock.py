@@ -1,4 +1,4 @@
-"""A clock for films: it stands still while a picture is taken, so that the film is smooth on any machine."""
+"""Clock for videos: it is held while a picture is taken, so that the video is smooth on any machine."""
 
 import threading
 import time
@@ -7,20 +7,20 @@ from trundle.spatial import NS_PER_S
 
 
 class FilmClock:
-    """Goes with the wall clock until it is held; from then on by steps."""
+    """Follows the wall clock until it is held, then advances by steps."""
 
     def __init__(self) -> None:
         self._changed = threading.Condition()
         self._held_ns: int | None = None
         self._due_ns: int | None = None
-        """Time that the simulation sleeps until [ns]; None: it is awake."""
+        """End of the simulation's sleep [ns]; None: it is awake."""
 
     def time_ns(self) -> int:
         """Return the time of the clock [ns]."""
         return time.monotonic_ns() if self._held_ns is None else self._held_ns
 
     def sleep(self, seconds: float) -> None:
-        """Sleep for so long by this clock; called by the simulation's thread."""
+        """Sleep for a duration of this clock; called by the simulation's thread."""
         with self._changed:
             self._due_ns = self.time_ns() + round(seconds * NS_PER_S)
             self._changed.notify_all()
@@ -34,7 +34,7 @@ class FilmClock:
             self._held_ns = time.monotonic_ns()
 
     def advance(self, step_ns: int) -> None:
-        """Go on by a step; returns when the simulation has caught up."""
+        """Advance by a step, and wait until the simulation has caught up."""
         with self._changed:
             assert self._held_ns is not None, "the clock is not held"
             self._held_ns += step_ns
@@ -43,7 +43,7 @@ class FilmClock:
                 self._changed.wait()
 
     def release(self) -> None:
-        """Go with the wall clock again."""
+        """Follow the wall clock again."""
         with self._changed:
             self._held_ns = None
             self._changed.notify_all()

@@ -1,4 +1,4 @@
-"""The page in Chromium, as films show it."""
+"""The page in Chromium, for videos."""
 
 import io
 from types import TracebackType
@@ -19,10 +19,10 @@ _TIME = "header .read:not(.rtf) b"
 
 
 class FilmPage:
-    """A page whose robot is driven by the disc."""
+    """A page whose robot is driven by the joystick disc."""
 
     def __init__(self, url: str, view: dict[str, object]) -> None:
-        """Open the page with a view of the world, once it is served."""
+        """Wait for the server, and open the page with a view of the world."""
         self._playwright = sync_playwright().start()
         self._browser = self._playwright.chromium.launch(executable_path=CHROMIUM, args=list(SOFTWARE_GL))
         width, height = SIZE
@@ -51,13 +51,13 @@ class FilmPage:
         return True
 
     def hide_display(self, name: str) -> None:
-        """Switch a display off."""
+        """Hide a display."""
         self._page.get_by_role("tab", name="Displays").click()
         self._page.get_by_role("checkbox", name=f"Show {name}", exact=True).uncheck()
         self._page.get_by_role("tab", name="World").click()
 
     def plot(self, search: str, curves: tuple[str, ...], *, window: str) -> None:
-        """Plot values that a search finds, in a window of time."""
+        """Plot values found by a search, in a time window."""
         self._page.get_by_role("button", name="Add curve").first.click()
         self._page.get_by_label("Search values").fill(search)
         for curve in curves:
@@ -70,7 +70,7 @@ class FilmPage:
         self._page.get_by_role("button", name="Play").click()
 
     def drive(self, forwards: float, left: float) -> None:
-        """Hold the disc at these shares of the greatest velocities."""
+        """Hold the disc at ratios of the maximum velocities."""
         box = self._page.locator(".disc").bounding_box()
         assert box is not None
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
@@ -82,14 +82,14 @@ class FilmPage:
 
     @property
     def time(self) -> str:
-        """Simulation time, as the page shows it."""
+        """Simulation time shown on the page."""
         return self._page.locator(_TIME).inner_text()
 
     def wait_for_time_after(self, time: str) -> None:
-        """Wait until the page shows another time."""
+        """Wait until the page shows a different time."""
         changed = "([where, before]) => document.querySelector(where).textContent !== before"
         self._page.wait_for_function(changed, arg=[_TIME, time], polling=50)
 
     def picture(self) -> Image.Image:
-        """Return what the page shows."""
+        """Return a screenshot of the page."""
         return Image.open(io.BytesIO(self._page.screenshot())).convert("RGB")

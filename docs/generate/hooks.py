@@ -23,13 +23,13 @@ PAGES: dict[str, Callable[[], str]] = {
     "reference/sdf.md": lambda: elements.page("sdf"),
     "reference/urdf.md": lambda: elements.page("urdf"),
 }
-"""Pages that are in no file below docs/."""
+"""Generated pages, without a file below docs/."""
 ROOT_PAGES = ("ARCHITECTURE.md", "CONTRIBUTING.md", "RELEASING.md", "SECURITY.md")
-"""Files beside docs/ that are pages, too."""
+"""Files next to docs/ that are also pages."""
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
-    """Add the pages, the pictures and the examples that pages link to."""
+    """Add the generated pages, the pictures, and the examples that pages link to."""
     for path, text in PAGES.items():
         files.append(File.generated(config, path, content=text()))
     for name in ROOT_PAGES:
@@ -43,7 +43,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, **_: object) -> str:
-    """Let links to the examples, which lie beside docs/, lead to their copies in the site."""
+    """Change links to the examples, which are next to docs/, to their copies in the site."""
     return re.sub(r"\]\(\.\./((?:\.\./)*examples/)", r"](\1", markdown)
 
 
@@ -56,4 +56,4 @@ def _decisions() -> str:
     pages = sorted((ROOT / "docs/decisions").glob("*.md"))
     titles = [page.read_text().partition("\n")[0].removeprefix("# ") for page in pages]
     links = [f"- [{title}]({page.name})" for title, page in zip(titles, pages, strict=True)]
-    return "\n".join(["# Decisions", "", "What was decided that is hard to undo, and why.", "", *links, ""])
+    return "\n".join(["# Decisions", "", "Decisions that are hard to reverse, and their reasons.", "", *links, ""])

@@ -1,4 +1,4 @@
-"""Text of the code as Markdown."""
+"""Conversion of text in the code to Markdown."""
 
 import re
 
@@ -6,14 +6,14 @@ _CODE = re.compile(r"(`[^`]*`)")
 
 
 def cell(text: str) -> str:
-    """A sentence as a cell of a table: what stands in backticks stays, the rest is escaped."""
+    """Return a sentence as a table cell: text in backticks is kept, the rest is escaped."""
     parts = _CODE.split(" ".join(text.split()))
     escaped = [part if part.startswith("`") else _escape(part) for part in parts]
     return "".join(escaped).replace("|", "&#124;")
 
 
 def code(text: str) -> str:
-    """A word as code in a cell of a table."""
+    """Return a word as code in a table cell."""
     return f"<code>{_escape(text).replace('|', '&#124;')}</code>"
 
 

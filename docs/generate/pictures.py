@@ -1,4 +1,4 @@
-"""Pictures and films of the site, drawn by Trundle."""
+"""Pictures and videos of the site, rendered by Trundle."""
 
 import subprocess
 import sys
@@ -14,11 +14,11 @@ PICTURES: dict[str, tuple[str, ...]] = {
     "stack.png": ("physics/stack.world", "--size", "480x360"),
     "pendulum.mp4": ("physics/double_pendulum.world", "--size", "320x320", "--duration", "5"),
 }
-"""File → what `trundle render` draws."""
+"""File → arguments of `trundle render`."""
 
 
 def draw_all(folder: Path) -> dict[str, Path]:
-    """Draw what is not there yet; `make clean` forgets the rest."""
+    """Render missing pictures; `make clean` removes existing ones."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, words in PICTURES.items():
         if not (folder / name).exists():
@@ -27,7 +27,7 @@ def draw_all(folder: Path) -> dict[str, Path]:
 
 
 def draw(words: tuple[str, ...], to: Path) -> None:
-    """Draw one, all of it or nothing."""
+    """Render one picture; leave no partial file."""
     part = to.with_name(f"part_{to.name}")
     subprocess.run([sys.executable, "-m", "trundle", "render", *words, "-o", str(part)], check=True)
     part.rename(to)

@@ -1,6 +1,6 @@
-"""Pictures of rviz and the page beside each other, for docs/rviz: python docs/generate/rviz_pairs.py.
+"""Pictures of rviz and the page side by side, for docs/rviz: python docs/generate/rviz_pairs.py.
 
-Debian's rviz draws them, so they are kept, and made again when the displays change: first
+They need Debian's rviz, so they are committed, and regenerated when the displays change: first
 `pytest tests/page/test_rviz_pictures.py`, which writes out/rviz_pictures.
 """
 
@@ -17,7 +17,7 @@ PAIRS = {
 }
 """File of the test → file of the docs."""
 _WIDTH_PX = 1200
-_MOST_BYTES = 60_000
+_MAX_BYTES = 60_000
 
 
 def main() -> int:
@@ -27,13 +27,13 @@ def main() -> int:
         path = ROOT / "out/rviz_pictures" / source
         if not path.exists():
             print(
-                f"{path.relative_to(ROOT)} is not there; run pytest tests/page/test_rviz_pictures.py", file=sys.stderr
+                f"{path.relative_to(ROOT)} does not exist; run pytest tests/page/test_rviz_pictures.py", file=sys.stderr
             )
             return 1
         with Image.open(path) as pair:
             small = pair.resize((_WIDTH_PX, pair.height * _WIDTH_PX // pair.width), Image.Resampling.LANCZOS)
         small.save(target / name, quality=80, method=6)
-        assert (target / name).stat().st_size <= _MOST_BYTES, f"{name} is too large"
+        assert (target / name).stat().st_size <= _MAX_BYTES, f"{name} is too large"
     return 0
 
 

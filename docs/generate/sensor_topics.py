@@ -1,4 +1,4 @@
-"""The table of docs/sensors.md, from the table of the code; run as a program it rewrites the page."""
+"""Table of docs/sensors.md, generated from the code; as a program it rewrites the page."""
 
 from collections.abc import Iterator
 from itertools import groupby
@@ -11,7 +11,7 @@ _HEAD = '| `<sensor type="…">` | topic | message |'
 
 
 def table() -> str:
-    """One row per topic; types with the same topics share theirs."""
+    """Return one row per topic; types with the same topics share rows."""
     return "\n".join([_HEAD, "|---|---|---|", *_rows()])
 
 

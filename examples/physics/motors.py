@@ -1,8 +1,8 @@
-"""Drives the joints of the worlds in this folder, as a controller or a ROS node would.
+"""Drives the joints of the worlds in this folder, like a controller or a ROS node.
 
 Each <motor> of <plugin filename="libmotors.so"> has the name of a <joint>, and any of <speed> [rad/s or m/s], which a
 motor keeps, <effort> [N·m or N], its limit, and <start> [rad/s or m/s], the joint's initial speed. The physics engine
-does the rest: nothing here runs at a step.
+does the rest: no code runs at a step.
 """
 
 import math
@@ -15,7 +15,7 @@ from trundle.sim.simulation import ModelHandle, Simulation
 
 
 class Motors(Plugin):
-    """Joints with an initial speed, or kept at one."""
+    """Joints with an initial or a constant speed."""
 
     period_ns = 1 << 62  # never again
 
@@ -28,7 +28,7 @@ class Motors(Plugin):
 
     @classmethod
     def load(cls, sim: Simulation, model: ModelHandle, node: "ros.Node | None", tag: PluginTag) -> "Motors":
-        del node  # they take no commands
+        del node  # motors have no commands
         return cls(sim, model, tag)
 
     def reset(self) -> None:

@@ -1,14 +1,14 @@
-"""The RP2W with its Python plugin: from the files to where the robot stands."""
+"""The RP2W with its Python plugin: motion and poses."""
 
 import shutil
-from pathlib import Path
+from pathlib import Path@@from typing import Any
 
 import pytest
 from tests.graphs import running_graph
 
 from trundle.base.diagnostics import Diagnostics
 from trundle.gazebo.model_plugins import load_plugins
-from trundle.gazebo.plugins import Plugin
+
 from trundle.live.world_setup import load_world
 from trundle.robots.packages import Packages
 from trundle.sim.simulation import Simulation
@@ -17,28 +17,28 @@ EXAMPLE = Path(__file__).parents[2] / "examples/rp2w"
 
 
 class Run:
-    """A simulation and the plugin that its model loaded."""
+    """A simulation and its model's plugin."""
 
     def __init__(self, folder: Path) -> None:
         report = Diagnostics()
         loaded = load_world(str(folder), Packages({}, start=folder), report)
         self.sim = Simulation(loaded.flat, report)
         self.robot = self.sim.models[0]
-        self.plugin: Plugin = load_plugins(self.sim, None, {}, say=lambda _: None)[0]
+        self.plugin: Any = load_plugins(self.sim, None, {}, say=lambda _: None)[0]
 
 
 def with_the_published_model(folder: Path, shared: Path) -> Path:
-    """The tutorial's own files, and the plugin put beside them."""
+    """Copy the tutorial's files and the plugin to a folder."""
     for name in ("model.sdf", "model.config"):
         shutil.copy(shared / "seeds/rp2w" / name, folder)
     shutil.copy(EXAMPLE / "rp2w.py", folder)
     return folder
 
 
-def test_the_published_robot_drives_the_way_its_cameras_look(tmp_path: Path, shared: Path) -> None:
-    """Seven unit inertias make the robot heavy: 2 N·m on each wheel bring it to 0.2 m/s in about three seconds."""
+def test_the_published_robot_drives_in_the_direction_of_its_cameras(tmp_path: Path, shared: Path) -> None:
+    """With seven unit inertias, 2 N·m on each wheel accelerate it to 0.2 m/s in about three seconds."""
     run = Run(with_the_published_model(tmp_path, shared))
-    run.plugin.wanted = (0.2, 0.0)
+    run.plugin.command = (0.2, 0.0)
 
     run.sim.run(5.0)
 
@@ -48,9 +48,9 @@ def test_the_published_robot_drives_the_way_its_cameras_look(tmp_path: Path, sha
     assert abs(run.robot.pose.rpy[0]) < 0.01
 
 
-def test_our_robot_follows_a_velocity_command() -> None:
+def test_the_example_follows_a_velocity_command() -> None:
     run = Run(EXAMPLE)
-    run.plugin.wanted = (0.4, 0.0)
+    run.plugin.command = (0.4, 0.0)
 
     run.sim.run(5.0)
 
@@ -61,9 +61,9 @@ def test_our_robot_follows_a_velocity_command() -> None:
     assert run.plugin.odometry.x == pytest.approx(y, rel=0.02)
 
 
-def test_our_robot_turns_left_for_a_positive_turn() -> None:
+def test_the_example_turns_left_for_a_positive_yaw_rate() -> None:
     run = Run(EXAMPLE)
-    run.plugin.wanted = (0.0, 0.5)
+    run.plugin.command = (0.0, 0.5)
 
     run.sim.run(5.0)
 
@@ -83,19 +83,19 @@ def test_the_camera_turns_on_both_axes(joint: str, angle: float) -> None:
     assert handle.position == pytest.approx(angle, abs=0.02)
 
 
-def test_tilting_up_lifts_the_view() -> None:
+def test_a_positive_tilt_looks_up() -> None:
     run = Run(EXAMPLE)
     run.plugin.look(run.robot.joint("camera_base_camera"), 0.5)
 
     run.sim.run(4.0)
 
-    looks_along = run.robot.link("camera").pose.transform_vector((1.0, 0.0, 0.0))
-    assert looks_along[2] > 0.4
+    view_direction = run.robot.link("camera").pose.transform_vector((1.0, 0.0, 0.0))
+    assert view_direction[2] > 0.4
 
 
-def test_a_reset_takes_the_command_back() -> None:
+def test_a_reset_clears_the_command() -> None:
     run = Run(EXAMPLE)
-    run.plugin.wanted = (0.4, 0.0)
+    run.plugin.command = (0.4, 0.0)
     run.sim.run(1.0)
 
     run.sim.reset()
@@ -104,10 +104,10 @@ def test_a_reset_takes_the_command_back() -> None:
     assert run.robot.pose.position == pytest.approx((0.0, 0.0, 0.0), abs=1e-3)
 
 
-def test_the_world_of_the_demo_loads_its_plugin_without_a_finding(
+def test_the_demo_world_loads_its_plugin_without_warnings(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A plugin that fails is a warning, and the run goes on without it."""
+    """A failing plugin would be a warning."""
     monkeypatch.chdir(tmp_path)
     with running_graph() as graph:
         report = Diagnostics()
