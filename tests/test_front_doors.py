@@ -22,7 +22,7 @@ def test_every_exported_name_is_there(name) -> None:
     room = importlib.import_module(name)
 
     assert all(hasattr(room, name) for name in room.__all__)
-    assert len(set(room.__all__)) == len(room.__all__)
+    assert list(room.__all__) == sorted(set(room.__all__))
 
 
 @pytest.mark.parametrize("name", _rooms())

@@ -21,7 +21,7 @@ class Wall:
 
 
 @pytest.mark.parametrize("speed", [0.5, 1.0, 4.0])
-def test_simulation_time_follows_the_wall_at_the_speed_asked_for(speed: float) -> None:
+def test_simulation_time_follows_the_wall_clock_at_the_requested_speed(speed: float) -> None:
     wall = Wall()
     pacer = RealtimePacer(speed, wall_ns=wall.now, sleep=wall.sleep)
     time_ns = 0
@@ -33,7 +33,7 @@ def test_simulation_time_follows_the_wall_at_the_speed_asked_for(speed: float) -
     assert pacer.real_time_factor == pytest.approx(speed, rel=0.05)
 
 
-def test_flat_out_never_waits() -> None:
+def test_a_flat_out_run_never_sleeps() -> None:
     wall = Wall()
     pacer = RealtimePacer(None, wall_ns=wall.now, sleep=wall.sleep)
 
@@ -57,7 +57,7 @@ def test_a_long_stall_is_not_caught_up() -> None:
 
 
 @pytest.mark.parametrize("speed", [1e308, 1e6, 1e-6, 1e-308])
-def test_at_no_speed_does_it_stay_away_for_long(speed: float) -> None:
+def test_sleeps_are_short_at_any_speed(speed: float) -> None:
     """A person may ask for any; the next request is to be heard soon."""
     wall = Wall()
     pacer = RealtimePacer(speed, wall_ns=wall.now, sleep=wall.sleep)

@@ -17,7 +17,7 @@ STRIDE_FLAT_OUT_NS = 50_000_000
 _LONGEST_STRIDE_NS = 1_000_000_000
 """Longest stride at a speed that the simulation may not reach, in simulation time [ns]."""
 _LONGEST_SLEEP_NS = 100_000_000
-"""Longest sleep, in wall time [ns]: requests and the end of the run are looked at in between."""
+"""Longest sleep, in wall time [ns]: requests and the end of the run are checked in between."""
 _LAG_FORGIVEN_NS = 200_000_000
 """Largest lag that is caught up [ns]; a slower run is slow, not jerky."""
 _GIL_INTERVAL_S = 0.0005
@@ -25,10 +25,10 @@ _GIL_INTERVAL_S = 0.0005
 
 
 def shorten_gil_interval() -> None:
-    """Shorten the interpreter's switch interval, so that stepping keeps its pace beside a busy thread.
+    """Shorten the interpreter's switch interval, so that stepping keeps its pace next to a busy thread.
 
-    A thread that comes back from MuJoCo or a socket waits for the GIL: 5 ms each time by default, while the graph's
-    thread reads, say, megabytes of a hostile call.
+    A thread that returns from MuJoCo or a socket waits for the GIL: 5 ms each time by default, while the graph's
+    thread reads, for example, megabytes of a hostile call.
     """
     sys.setswitchinterval(_GIL_INTERVAL_S)
 
@@ -47,7 +47,7 @@ class RealtimePacer:
 
         Args:
             speed: simulated seconds per second of wall time; None: flat out.
-            wall_ns: the wall clock [ns].
+            wall_ns: wall clock [ns].
             sleep: sleeps for seconds.
         """
         self._speed = speed
@@ -67,7 +67,7 @@ class RealtimePacer:
         self.restart()
 
     def restart(self) -> None:
-        """Pace from now on; after a pause, a reset or a single step."""
+        """Restart pacing, after a pause, a reset or a single step."""
         self._anchor = None
         self._recent.clear()
 

@@ -1,4 +1,4 @@
-"""Three-quarter view of a scene: a camera that holds all of it, on the side that Gazebo's sun shines on."""
+"""Three-quarter view of a scene: a camera that sees all of it, from the side lit by Gazebo's sun."""
 
 import math
 
@@ -28,7 +28,7 @@ def scene_corners(scene: Scene, poses: NDArray[np.float64]) -> NDArray[np.float6
 
 
 def three_quarter_pose(cloud: NDArray[np.float64], lens: Intrinsics, turned_rad: float = 0.0) -> Pose:
-    """Return the pose in the world of a camera whose view holds all points; `turned_rad` turns it about z."""
+    """Return the pose in the world of a camera whose view contains all points; `turned_rad` turns it about z."""
     middle = (cloud.min(axis=0) + cloud.max(axis=0)) / 2
     azimuth, elevation = _FROM[0] + turned_rad, _FROM[1]
     away = np.array(

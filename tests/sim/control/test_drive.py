@@ -4,13 +4,12 @@ import math
 
 import pytest
 
-import trundle.sim.control
 from trundle.sim.control import DifferentialDrive, WheelOdometry, step_towards
 
 DRIVE = DifferentialDrive(wheel_radius=0.0635, separation=0.3048)
 
 
-def test_driving_straight_turns_both_wheels_alike() -> None:
+def test_driving_straight_turns_both_wheels_equally() -> None:
     assert DRIVE.wheel_speeds(0.635, 0.0) == pytest.approx((10.0, 10.0))
 
 
@@ -42,10 +41,5 @@ def test_a_quarter_circle_to_the_left_has_its_radius() -> None:
 
 
 @pytest.mark.parametrize(("value", "target", "expected"), [(0.0, 1.0, 0.1), (0.0, -1.0, -0.1), (0.0, 0.05, 0.05)])
-def test_an_approach_is_no_faster_than_allowed(value: float, target: float, expected: float) -> None:
+def test_step_towards_is_limited_by_the_largest_step(value: float, target: float, expected: float) -> None:
     assert step_towards(value, target, 0.1) == pytest.approx(expected)
-
-
-def test_the_front_door_is_what_it_says() -> None:
-    assert trundle.sim.control.__all__ == sorted(trundle.sim.control.__all__)
-    assert all(hasattr(trundle.sim.control, name) for name in trundle.sim.control.__all__)

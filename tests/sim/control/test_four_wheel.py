@@ -11,21 +11,21 @@ LAW = FourWheelSteering(track=0.4, offset=0.05, radius=0.1, base=0.6)
 
 
 @given(st.floats(0.1, 2.0), st.floats(-0.4, 0.4), st.sampled_from([1.0, -1.0]))
-def test_wheels_tell_the_twist_that_drives_them(speed: float, turning: float, way: float) -> None:
-    speeds, (fl, fr, rl, rr) = LAW.command_for_twist(way * speed, turning)
+def test_wheel_speeds_determine_the_twist(speed: float, turning: float, sign: float) -> None:
+    speeds, (fl, fr, rl, rr) = LAW.command_for_twist(sign * speed, turning)
     forward, sideways, turned = LAW.forward_kinematics(speeds, axle_angle(fl, fr), axle_angle(rl, rr))
-    assert (forward, sideways) == (pytest.approx(way * speed, rel=1e-2), pytest.approx(0.0, abs=1e-2))
+    assert (forward, sideways) == (pytest.approx(sign * speed, rel=1e-2), pytest.approx(0.0, abs=1e-2))
     assert turned == pytest.approx(turning, rel=1e-2, abs=1e-2)
 
 
 @given(st.floats(0.1, 2.0), st.floats(-0.5, 0.5), st.floats(-0.5, 0.5))
-def test_axles_have_the_angles_that_were_asked_for(speed: float, front: float, rear: float) -> None:
+def test_axles_have_the_commanded_angles(speed: float, front: float, rear: float) -> None:
     _, (fl, fr, rl, rr) = LAW.command_for_angles(speed, front, rear)
     assert axle_angle(fl, fr) == pytest.approx(front, abs=2e-3)
     assert axle_angle(rl, rr) == pytest.approx(rear, abs=2e-3)
 
 
-def test_a_wheel_stands_across_the_way_to_the_point_they_turn_about() -> None:
+def test_wheels_are_perpendicular_to_the_direction_of_the_centre_of_rotation() -> None:
     """With both axles turned alike, 1 m/s and 0.5 rad/s turn about a point 2 m to the left, level with the middle."""
     speeds, angles = LAW.command_for_twist(1.0, 0.5)
     for y, angle, speed in zip((0.2, -0.2), angles, speeds, strict=False):
@@ -34,7 +34,7 @@ def test_a_wheel_stands_across_the_way_to_the_point_they_turn_about() -> None:
         assert speed == pytest.approx(0.5 * (math.hypot(0.3, 2.0 - y) + outward) / 0.1)
 
 
-def test_what_stands_keeps_its_wheels() -> None:
+def test_a_stationary_robot_keeps_its_steering_angles() -> None:
     assert LAW.command_for_twist(0.0, 1.0) == ((0.0,) * 4, (0.0, 0.0, 0.0, 0.0))
     speeds, (front, *_) = LAW.command_for_angles(0.0, 0.3, -0.3)
     assert speeds == (0.0,) * 4

@@ -14,13 +14,13 @@ _SPEED = st.floats(-2.0, 2.0)
 
 
 @given(_SPEED, _SPEED, _SPEED)
-def test_wheels_tell_the_twist_that_drives_them(forward: float, left: float, turning: float) -> None:
-    found = LAW.twist(LAW.wheel_speeds(forward, left, turning))
-    assert found == pytest.approx((forward, left, turning), abs=1e-9)
+def test_wheel_speeds_determine_the_twist(forward: float, left: float, turning: float) -> None:
+    twist = LAW.twist(LAW.wheel_speeds(forward, left, turning))
+    assert twist == pytest.approx((forward, left, turning), abs=1e-9)
 
 
 @given(_SPEED, _SPEED, _SPEED)
-def test_no_contact_point_slips_along_its_rollers_axis(forward: float, left: float, turning: float) -> None:
+def test_contact_points_do_not_slip_along_their_rollers_axes(forward: float, left: float, turning: float) -> None:
     """A roller rolls freely across its axis, which points 45 degrees inwards at the ground; along it nothing slips."""
     for (x, y), speed in zip(_CORNERS, LAW.wheel_speeds(forward, left, turning), strict=True):
         over_ground = (forward - turning * y - speed * LAW.radius, left + turning * x)

@@ -38,25 +38,25 @@ def data(motion: NDArray[np.float64]) -> bytes:
 def tracks(glb: Glb) -> dict[tuple[str, str], tuple[NDArray[Any], NDArray[Any]]]:
     """Return times and values of each track by the node's name and its path."""
     (animation,) = glb.tree["animations"]
-    found: dict[tuple[str, str], tuple[NDArray[Any], NDArray[Any]]] = {}
+    by_name: dict[tuple[str, str], tuple[NDArray[Any], NDArray[Any]]] = {}
     for channel in animation["channels"]:
         target, sampler = channel["target"], animation["samplers"][channel["sampler"]]
         key = glb.tree["nodes"][target["node"]]["name"], target["path"]
-        found[key] = glb.array(sampler["input"])[:, 0], glb.array(sampler["output"])
-    return found
+        by_name[key] = glb.array(sampler["input"])[:, 0], glb.array(sampler["output"])
+    return by_name
 
 
-def test_what_moves_has_tracks_from_time_zero_without_keys_at_rest(data: bytes) -> None:
-    found = tracks(Glb(data))
+def test_moving_bodies_have_tracks_from_time_zero_without_keys_at_rest(data: bytes) -> None:
+    by_name = tracks(Glb(data))
 
-    assert sorted(found) == [("slides", "translation"), ("turns", "rotation")]
-    times, places = found["slides", "translation"]
+    assert sorted(by_name) == [("slides", "translation"), ("turns", "rotation")]
+    times, positions = by_name["slides", "translation"]
     assert times.tolist() == [0.0, 0.5, 1.5]
-    assert places.tolist() == [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+    assert positions.tolist() == [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
     assert Glb(data).nodes()["rests"]["translation"] == [7.0, 8.0, 9.0]
 
 
-def test_quaternions_go_on_without_a_change_of_sign(data: bytes, motion: NDArray[np.float64]) -> None:
+def test_quaternions_are_continuous_in_sign(data: bytes, motion: NDArray[np.float64]) -> None:
     times, turns = tracks(Glb(data))["turns", "rotation"]
 
     assert times.tolist() == [0.0, 0.5, 1.0, 1.5]
@@ -66,7 +66,7 @@ def test_quaternions_go_on_without_a_change_of_sign(data: bytes, motion: NDArray
 
 
 @pytest.mark.slow
-def test_khronos_validator_finds_no_fault(data: bytes, tmp_path: Path) -> None:
+def test_khronos_validator_reports_no_errors(data: bytes, tmp_path: Path) -> None:
     """The Khronos glTF validator (`make system`)."""
     tools = Path(__file__).parents[3] / ".npm/node_modules"
     if not (tools / "gltf-validator").is_dir():
@@ -78,7 +78,7 @@ def test_khronos_validator_finds_no_fault(data: bytes, tmp_path: Path) -> None:
         "JSON.stringify(r.issues.messages)))"
     )
 
-    found = subprocess.run(
+    result = subprocess.run(
         ["node", "-e", code, str(tmp_path / "a.glb")],
         env={"NODE_PATH": str(tools), "PATH": "/usr/bin:/usr/local/bin"},
         capture_output=True,
@@ -86,4 +86,4 @@ def test_khronos_validator_finds_no_fault(data: bytes, tmp_path: Path) -> None:
         check=True,
     )
 
-    assert found.stdout.split()[:3] == ["0", "0", "1"], found.stdout
+    assert result.stdout.split()[:3] == ["0", "0", "1"], result.stdout

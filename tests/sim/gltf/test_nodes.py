@@ -1,4 +1,4 @@
-"""Scenes as GLB: what another program's reader finds in them."""
+"""Scenes as GLB, read by another program."""
 
 import io
 import math
@@ -46,27 +46,28 @@ def written(*shapes: Shape) -> Glb:
     return Glb(glb_from_scene(scene_of(*shapes), still(1)))
 
 
-def test_trimesh_finds_shapes_where_they_are() -> None:
+def test_trimesh_reads_shapes_at_their_poses() -> None:
     body = Pose((1.0, 2.0, 3.0), quaternion_from_rpy(0.3, -0.4, 1.2))
     local = Pose((0.1, 0.2, 0.3), quaternion_from_rpy(0.7, 0.1, -0.5))
     shape = Shape(name="v", body=1, geometry=square(), body_from_shape=local)
     data = glb_from_scene(scene_of(shape, bodies=2), rows_from_poses([Pose(), body]))
 
-    found = trimesh.load_scene(io.BytesIO(data), file_type="glb", process=False)
+    loaded = trimesh.load_scene(io.BytesIO(data), file_type="glb", process=False)
 
-    (node,) = found.graph.nodes_geometry
-    transform, name = found.graph[node]
-    vertices = np.asarray(found.geometry[name].vertices) @ transform[:3, :3].T + transform[:3, 3]
+    (node,) = loaded.graph.nodes_geometry
+    transform, name = loaded.graph[node]
+    vertices = np.asarray(loaded.geometry[name].vertices) @ transform[:3, :3].T + transform[:3, 3]
     z_up = vertices[:, [0, 2, 1]] * (1.0, -1.0, 1.0)
-    there = [(body @ local).transform_point(tuple(map(float, point))) for point in square().vertices]
-    assert z_up == pytest.approx(np.array(there), abs=1e-6)
+    expected = [(body @ local).transform_point((x, y, z)) for x, y, z in square().vertices.tolist()]
+    assert z_up == pytest.approx(np.array(expected), abs=1e-6)
 
 
 @pytest.mark.parametrize("name", SOLIDS)
-def test_a_solid_is_closed_and_of_its_size(name: str) -> None:
+def test_a_solid_is_closed_and_has_its_volume(name: str) -> None:
     data = glb_from_scene(scene_of(Shape(name="v", body=0, geometry=SOLIDS[name])), still(1))
     (mesh,) = trimesh.load_scene(io.BytesIO(data), file_type="glb").dump()
     glb = Glb(data)
+    assert isinstance(mesh, trimesh.Trimesh)
 
     mesh.merge_vertices(merge_tex=True, merge_norm=True)
     volumes = {
@@ -93,7 +94,7 @@ def test_solids_of_one_kind_share_their_triangles() -> None:
     assert glb.nodes()["v3"]["scale"] == [4.0, 1.0, 1.0]
 
 
-def test_equal_meshes_are_written_once_and_materials_are_their_own() -> None:
+def test_equal_meshes_are_written_once_with_separate_materials() -> None:
     red, blue = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 1.0)
     glb = written(
         Shape(name="a", body=0, geometry=square(), rgba=red),
@@ -107,7 +108,7 @@ def test_equal_meshes_are_written_once_and_materials_are_their_own() -> None:
     assert len(glb.tree["materials"]) == 2
 
 
-def test_corners_with_other_values_are_vertices_of_their_own() -> None:
+def test_corners_with_different_values_are_separate_vertices() -> None:
     mesh = square(uv=True, normals=True)
     assert mesh.uv is not None
     mesh.uv[1] += 5.0  # a seam along the diagonal
@@ -122,7 +123,7 @@ def test_corners_with_other_values_are_vertices_of_their_own() -> None:
     assert glb.attribute("v", "NORMAL") == pytest.approx(np.tile([0.0, 0.0, 1.0], (6, 1)))
 
 
-def test_a_smooth_mesh_keeps_its_vertices_together() -> None:
+def test_a_smooth_mesh_shares_its_vertices() -> None:
     glb = written(Shape(name="v", body=0, geometry=square(uv=True, normals=True)))
 
     assert len(glb.attribute("v", "POSITION")) == 4
@@ -149,7 +150,7 @@ def test_names_and_numbers_of_links_and_visuals_are_kept() -> None:
     assert glb.nodes()["v"]["extras"] == {"visual": "v", "casts_shadow": False}
 
 
-def test_a_material_has_the_files_numbers_and_linear_ones() -> None:
+def test_a_material_has_the_files_values_and_linear_ones() -> None:
     shape = Shape(
         name="v",
         body=0,
@@ -179,7 +180,7 @@ def test_a_material_has_the_files_numbers_and_linear_ones() -> None:
 
 
 @pytest.mark.parametrize("format", ["PNG", "JPEG"])
-def test_an_image_is_embedded_as_it_is(format: str, tmp_path: Path) -> None:
+def test_an_image_is_embedded_unchanged(format: str, tmp_path: Path) -> None:
     file = tmp_path / "image"
     Image.new("RGB", (4, 2), (10, 200, 30)).save(file, format)
     shapes = [Shape(name=name, body=0, geometry=square(uv=True), texture=file) for name in "ab"]
@@ -201,7 +202,7 @@ def test_an_image_of_another_format_becomes_png(tmp_path: Path) -> None:
         assert (image.format, image.size, image.getpixel((0, 0))) == ("PNG", (3, 2), (10, 200, 30))
 
 
-def test_an_image_that_cannot_be_read_leaves_the_colour(tmp_path: Path) -> None:
+def test_an_unreadable_image_leaves_the_color(tmp_path: Path) -> None:
     (tmp_path / "broken.png").write_bytes(b"\x89PNG")
     shape = Shape(name="v", body=0, geometry=square(uv=True), texture=tmp_path / "broken.png")
 
@@ -252,7 +253,7 @@ def test_lights_shine_along_their_direction() -> None:
     }
 
 
-def test_documents_name_the_same_meshes_and_images_by_the_same_files(tmp_path: Path) -> None:
+def test_documents_share_files_of_equal_meshes_and_images(tmp_path: Path) -> None:
     Image.new("RGB", (1, 1)).save(tmp_path / "i.png")
     documents: list[Document] = []
     for name in "ab":
@@ -269,7 +270,7 @@ def test_documents_name_the_same_meshes_and_images_by_the_same_files(tmp_path: P
 
 
 @pytest.mark.slow
-def test_khronos_validator_finds_no_fault(tmp_path: Path) -> None:
+def test_khronos_validator_reports_no_errors(tmp_path: Path) -> None:
     """Every kind of shape, light and material through the Khronos glTF validator (`make system`)."""
     tools = Path(__file__).parents[3] / ".npm/node_modules"
     if not (tools / "gltf-validator").is_dir():
@@ -292,7 +293,7 @@ def test_khronos_validator_finds_no_fault(tmp_path: Path) -> None:
         ".then(r => console.log(r.issues.numErrors, r.issues.numWarnings, JSON.stringify(r.issues.messages)))"
     )
 
-    found = subprocess.run(
+    result = subprocess.run(
         ["node", "-e", code, str(tmp_path / "all.glb")],
         env={"NODE_PATH": str(tools), "PATH": "/usr/bin:/usr/local/bin"},
         capture_output=True,
@@ -300,4 +301,4 @@ def test_khronos_validator_finds_no_fault(tmp_path: Path) -> None:
         check=True,
     )
 
-    assert found.stdout.split()[:2] == ["0", "0"], found.stdout
+    assert result.stdout.split()[:2] == ["0", "0"], result.stdout

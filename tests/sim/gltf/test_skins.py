@@ -1,4 +1,4 @@
-"""Actors as glTF skins: where the bones' nodes and weights put the vertices."""
+"""Actors as glTF skins: vertices deformed by the bones' nodes and weights."""
 
 from pathlib import Path
 from typing import Any
@@ -40,14 +40,14 @@ def deformed(glb: Glb, poses: dict[int, Any]) -> NDArray[np.float64]:
     for number, (node, matrix) in enumerate(zip(skin["joints"], inverse, strict=True)):
         pose = pose_from_row(poses[nodes[node]["extras"]["body"]])
         bound = points @ matrix[:3, :3].T + matrix[:3, 3]
-        moved = np.array([pose.transform_point(tuple(map(float, point))) for point in bound])
+        moved = np.array([pose.transform_point((x, y, z)) for x, y, z in bound.tolist()])
         total += np.where(joints == number, weights, 0.0).sum(axis=1)[:, None] * moved
     return total
 
 
 @pytest.mark.parametrize("scale", [1.0, 0.5])
 @pytest.mark.parametrize("time_s", [0.0, 0.6])
-def test_bones_put_the_vertices_where_the_renderer_has_them(tmp_path: Path, scale: float, time_s: float) -> None:
+def test_bones_deform_vertices_as_the_renderer(tmp_path: Path, scale: float, time_s: float) -> None:
     scene, poses = scene_in(tmp_path, scale=scale)
     document = Document(embed=True)
     bodies = range(7, 7 + len(scene.bodies) + len(scene.bones))
@@ -57,15 +57,15 @@ def test_bones_put_the_vertices_where_the_renderer_has_them(tmp_path: Path, scal
 
     bones = skin.animated.bone_poses(state)
     in_world = compose_rows(np.broadcast_to(poses[skin.body], bones.shape), bones)
-    found = deformed(glb, dict(zip(bodies[len(scene.bodies) :], in_world, strict=True)))
+    points = deformed(glb, dict(zip(bodies[len(scene.bodies) :], in_world, strict=True)))
 
     world_from_body = pose_from_row(poses[skin.body])
     vertices = skin.animated.vertices(state)[skin.rows[0]]
-    expected = {tuple(np.round(world_from_body.transform_point(tuple(map(float, v))), 5)) for v in vertices}
-    assert {tuple(np.round(point, 5)) for point in found} == expected
+    expected = {tuple(np.round(world_from_body.transform_point((x, y, z)), 5)) for x, y, z in vertices.tolist()}
+    assert {tuple(np.round(point, 5)) for point in points} == expected
 
 
-def test_bones_are_nodes_of_the_world_with_bodies_of_their_own(tmp_path: Path) -> None:
+def test_bones_are_nodes_of_the_world_with_their_own_bodies(tmp_path: Path) -> None:
     scene, poses = scene_in(tmp_path)
     document = Document(embed=True)
     glb = Glb(document.glb(add_scene(document, scene, poses, range(3))))

@@ -99,7 +99,7 @@ def test_a_ball_falls_half_g_t_squared() -> None:
 
 
 @pytest.mark.parametrize("amplitude_deg", [5.0, 30.0, 90.0])
-def test_a_pendulum_swings_with_its_own_period(amplitude_deg: float) -> None:
+def test_a_pendulum_has_its_analytic_period(amplitude_deg: float) -> None:
     amplitude = math.radians(amplitude_deg)
     hanging = Inertial(mass=1.0, link_from_com=Pose((0.0, 0.0, -1.0)), moments=(0.01, 0.01, 0.01))
     sim = simulate(hinged(JointAxis(direction=(0.0, 1.0, 0.0)), hanging))
@@ -118,7 +118,7 @@ def test_a_pendulum_swings_with_its_own_period(amplitude_deg: float) -> None:
     assert measured == pytest.approx(exact, rel=1e-4)
 
 
-def test_joint_friction_stops_a_wheel_when_it_should() -> None:
+def test_joint_friction_stops_a_wheel_at_the_analytic_time() -> None:
     # Coulomb friction 0.3 N·m on 0.01 kg·m² slows by 30 rad/s²: from 20 rad/s, 0.6667 s and 6.667 rad.
     spinning = Inertial(mass=1.0, moments=(0.01, 0.01, 0.01))
     sim = simulate(hinged(JointAxis(direction=(0.0, 0.0, 1.0), friction=0.3), spinning))

@@ -72,7 +72,7 @@ def test_each_row_equals_the_simulation(robot, kind, threads) -> None:
     assert not batch.unstable.any()
 
 
-def test_an_unstable_row_keeps_its_state_and_harms_no_other(robot) -> None:
+def test_an_unstable_row_keeps_its_state_and_does_not_affect_others(robot) -> None:
     sim = trundle.load(robot)
     batch = sim.engine.batch(2, threads=1)
     for row in range(2):
@@ -87,7 +87,7 @@ def test_an_unstable_row_keeps_its_state_and_harms_no_other(robot) -> None:
     assert batch.time_s[1] == pytest.approx(0.01)
 
 
-def test_rows_that_are_not_chosen_stay(robot) -> None:
+def test_rows_that_are_not_chosen_keep_their_state(robot) -> None:
     sim = trundle.load(robot)
     batch = sim.engine.batch(2, threads=2)
     for row in range(2):

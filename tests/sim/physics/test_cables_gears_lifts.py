@@ -61,7 +61,7 @@ class _Cable:
         return text
 
     def end(self, seconds: float) -> tuple[float, float, float]:
-        """Where its end is: M_ij cos(θ_i − θ_j) θ''_j = −M_ij sin(θ_i − θ_j) θ'_j² − g w_i sin θ_i − D θ'."""
+        """Position of the end: M_ij cos(θ_i − θ_j) θ''_j = −M_ij sin(θ_i − θ_j) θ'_j² − g w_i sin θ_i − D θ'."""
         count = len(self.lengths)
         reach = np.tril(np.tile(self.lengths, (count, 1)), -1) + np.diag(self.lengths / 2)
         coupling, weights = reach.T @ np.diag(self.masses) @ reach, reach.T @ self.masses
@@ -72,7 +72,8 @@ class _Cable:
             angle, rate = state[:count], state[count:]
             between = angle[:, None] - angle[None, :]
             torque = -(coupling * np.sin(between)) @ rate**2 - G * weights * np.sin(angle) - damping @ rate
-            return np.concatenate([rate, np.linalg.solve(coupling * np.cos(between) + np.diag(self.moments), torque)])
+            inertia = coupling * np.cos(between) + np.diag(self.moments)
+            return np.concatenate([rate, np.linalg.solve(inertia, torque)], dtype=np.float64)
 
         angles = _integrated(motion, np.concatenate([self.angles, np.zeros(count)]), seconds)[:count]
         return float(self.lengths @ np.sin(angles)), 0.0, float(-self.lengths @ np.cos(angles))
@@ -80,7 +81,7 @@ class _Cable:
 
 @pytest.mark.parametrize("kind", _HINGES)
 @pytest.mark.parametrize(("count", "load"), [(20, 1.0), (10, 20.0)])
-def test_a_cable_swings_as_its_rods_do(tmp_path: Path, kind: str, count: int, load: float) -> None:
+def test_a_cable_swings_as_a_chain_of_rods(tmp_path: Path, kind: str, count: int, load: float) -> None:
     """Rods of 2 to 20 cm, up to 3 m in all, with a load of up to 10 kg; no rod turns the others on a ball joint."""
     cable = _Cable(np.random.default_rng(count), count, load, damped=kind != "ball")
     sim = _load(tmp_path, cable.sdf(kind))

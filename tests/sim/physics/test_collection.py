@@ -55,13 +55,13 @@ def load(path: Path) -> Simulation | None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("repository", repositories())
-def test_what_is_published_stays_sound(repository: str) -> None:
+def test_published_models_stay_finite(repository: str) -> None:
     folder = REPOSITORIES / repository
     for path in sorted(file for kind in KINDS for file in folder.rglob(kind)):
         sim = load(path)
         if sim is None:
             continue
-        sim.run(2.0)  # raises where it runs away
+        sim.run(2.0)  # raises if it diverges
         assert np.isfinite(sim.snapshot().poses).all(), path
         assert np.isfinite(sim.snapshot().twists).all(), path
 
@@ -70,13 +70,18 @@ def robots() -> dict[str, list[str]]:
     """Repository → names of the robots that xacro and Gazebo 11 read from it, each text once."""
     manifest = COLLECTION / "manifest.json"
     rows = json.loads(manifest.read_text())["urdf"] if manifest.is_file() else []
-    known: dict[str, str] = {row["sha"]: row["repo"] for row in rows if row["accept_gz11"] and row["how"] != "raw urdf"}
-    return {repo: [sha for sha in known if known[sha] == repo] for repo in sorted(set(known.values()))}
+    repositories_by_sha: dict[str, str] = {
+        row["sha"]: row["repo"] for row in rows if row["accept_gz11"] and row["how"] != "raw urdf"
+    }
+    return {
+        repo: [sha for sha in repositories_by_sha if repositories_by_sha[sha] == repo]
+        for repo in sorted(set(repositories_by_sha.values()))
+    }
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("repository", robots())
-def test_robots_made_with_xacro_stay_sound(repository: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_published_xacro_robots_stay_finite(repository: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(REPOSITORIES))
     for sha in robots()[repository]:
         file = tmp_path / f"{sha}.urdf"

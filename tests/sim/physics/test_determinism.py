@@ -46,7 +46,7 @@ def test_two_runs_agree_to_the_bit(load: Callable[[], Simulation]) -> None:
     assert ends[0] == ends[1]
 
 
-def test_it_does_not_matter_how_time_is_cut_up_nor_who_looks(load: Callable[[], Simulation]) -> None:
+def test_the_result_depends_neither_on_stride_lengths_nor_on_reads(load: Callable[[], Simulation]) -> None:
     whole, cut = load(), load()
     whole.run(4.0)
     for count in [1, 7, 300, 512, 13, 1000] * 2:
@@ -58,7 +58,7 @@ def test_it_does_not_matter_how_time_is_cut_up_nor_who_looks(load: Callable[[], 
     assert bits(whole.snapshot()) == bits(cut.snapshot())
 
 
-def test_a_second_beginning_is_the_first_again(load: Callable[[], Simulation]) -> None:
+def test_a_second_simulation_repeats_the_first(load: Callable[[], Simulation]) -> None:
     sim = load()
     sim.run(2.5)
     first = bits(sim.snapshot())
@@ -67,16 +67,16 @@ def test_a_second_beginning_is_the_first_again(load: Callable[[], Simulation]) -
     assert bits(sim.snapshot()) == first
 
 
-def test_a_state_can_be_gone_back_to_at_any_step(load: Callable[[], Simulation]) -> None:
+def test_a_state_can_be_restored_at_any_step(load: Callable[[], Simulation]) -> None:
     sim = load()
     for steps in (100, 400, 1500):
         sim.step(steps)
         saved = sim.save()
         sim.run(0.7)
-        there = bits(sim.snapshot())
+        expected = bits(sim.snapshot())
         sim.restore(saved)
         sim.run(0.7)
-        assert bits(sim.snapshot()) == there
+        assert bits(sim.snapshot()) == expected
         sim.restore(saved)
 
 
@@ -112,7 +112,7 @@ filename="libRandomVelocityPlugin.so"><link>l</link><update_period>1</update_per
 
 
 @pytest.mark.slow
-def test_a_minute_ends_in_the_same_bytes_in_two_processes(tmp_path: Path) -> None:
+def test_a_minute_of_simulation_is_equal_to_the_bit_in_two_processes(tmp_path: Path) -> None:
     """With wind, drawn velocities, spawns, deletions and resets in between."""
     windy = PILE.replace('<link name="l">', '<link name="l"><enable_wind>true</enable_wind>')
     file = tmp_path / "pile.world"

@@ -30,11 +30,11 @@ def shape(geometry: ShapeGeometry, x: float, y: float, z: float, rgba: Rgba, tur
 
 
 def ball() -> Mesh:
-    made = trimesh.creation.icosphere(subdivisions=5, radius=0.45)
-    return Mesh(made.vertices.astype(np.float32), made.faces.astype(np.int32))
+    sphere = trimesh.creation.icosphere(subdivisions=5, radius=0.45)
+    return Mesh(sphere.vertices.astype(np.float32), sphere.faces.astype(np.int32))
 
 
-THINGS = (
+SHAPES = (
     shape(Plane((0.0, 0.0, 1.0), (0.0, 0.0)), 0.0, 0.0, 0.0, (0.6, 0.6, 0.5, 1.0)),
     shape(Box((0.5, 0.6, 0.7)), 0.0, 1.2, 0.35, (0.9, 0.2, 0.2, 1.0), 0.3),
     shape(Sphere(0.4), 0.8, 0.4, 0.4, (0.2, 0.8, 0.3, 1.0)),
@@ -47,7 +47,7 @@ THINGS = (
 
 def scene(light: SceneLight = SUN) -> Scene:
     return Scene(
-        bodies=("b",), shapes=THINGS, lights=(light,), ambient=(0.3, 0.3, 0.3, 1.0), background=(0.4, 0.5, 0.6, 1.0)
+        bodies=("b",), shapes=SHAPES, lights=(light,), ambient=(0.3, 0.3, 0.3, 1.0), background=(0.4, 0.5, 0.6, 1.0)
     )
 
 
@@ -59,12 +59,12 @@ def opengl() -> EglRenderer:
         pytest.skip(str(error))
 
 
-def test_colours_distances_and_shapes_are_those_of_opengl(opengl: EglRenderer) -> None:
-    ours = NativeRenderer(scene())
+def test_colors_depths_and_segmentation_agree_with_opengl(opengl: EglRenderer) -> None:
+    native = NativeRenderer(scene())
     pictures = []
-    for each in (ours, opengl):
-        each.update(np.array([[0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-        pictures.append(drawn(each, EYE, LENS, depth=True, segmentation=True))
+    for renderer in (native, opengl):
+        renderer.update(np.array([[0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+        pictures.append(drawn(renderer, EYE, LENS, depth=True, segmentation=True))
     a, b = pictures
     assert a.depth is not None
     assert b.depth is not None
@@ -77,50 +77,50 @@ def test_colours_distances_and_shapes_are_those_of_opengl(opengl: EglRenderer) -
     flat = both & np.isin(a.segmentation, (0, 1))
     assert both.mean() > 0.5
     assert np.median(np.abs(a.depth[flat] - b.depth[flat])) <= 1e-5
-    assert set(np.unique(b.segmentation)) == {*range(len(THINGS)), -1}
+    assert set(np.unique(b.segmentation)) == {*range(len(SHAPES)), -1}
 
 
-def test_the_sun_s_shadows_fall_where_ours_do() -> None:
+def test_shadows_of_the_sun_agree_with_the_native_renderer() -> None:
     """Shadow of a box three metres from the origin: OpenGL's floor is dark where Trundle's is."""
     floor = shape(Plane((0.0, 0.0, 1.0), (20.0, 20.0)), 0.0, 0.0, 0.0, (1.0, 1.0, 1.0, 1.0))
     box = shape(Box((1.0, 1.0, 1.0)), 3.0, 1.0, 0.5, (1.0, 0.0, 0.0, 1.0))
     sun = replace(SUN, casts_shadows=True, position=(0.0, 0.0, 10.0))
-    made = Scene(bodies=("b",), shapes=(floor, box), lights=(sun,))
+    lit_scene = Scene(bodies=("b",), shapes=(floor, box), lights=(sun,))
     try:
-        renderers = (NativeRenderer(made), EglRenderer(made))
+        renderers = (NativeRenderer(lit_scene), EglRenderer(lit_scene))
     except UsageError as error:
         pytest.skip(str(error))
     above = Pose.from_rpy(3.0, 0.0, 9.0, 0.0, math.pi / 2, 0.0)
     dark: list[np.ndarray] = []
-    for each in renderers:
-        each.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-        picture = drawn(each, above, LENS, segmentation=True)
+    for renderer in renderers:
+        renderer.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+        picture = drawn(renderer, above, LENS, segmentation=True)
         green = picture.rgb[..., 1].astype(int)
         dark.append((picture.segmentation == 0) & (green < green.max() - 30))
-    ours, theirs = dark
-    assert ours.sum() > 100
-    assert (ours != theirs).sum() <= 0.15 * ours.sum()
+    native, egl = dark
+    assert native.sum() > 100
+    assert (native != egl).sum() <= 0.15 * native.sum()
 
 
-def test_a_mesh_that_is_reshaped_stands_where_ours_does(opengl: EglRenderer) -> None:
-    mesh = THINGS[-1].geometry
+def test_a_deformed_mesh_is_drawn_as_by_the_native_renderer(opengl: EglRenderer) -> None:
+    mesh = SHAPES[-1].geometry
     assert isinstance(mesh, Mesh)
-    ours = NativeRenderer(scene())
+    native = NativeRenderer(scene())
     depths = []
-    for each in (ours, opengl):
-        each.update(np.array([[0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-        each.set_vertices(len(THINGS) - 1, mesh.vertices * np.float32([1.5, 0.3, 0.7]))
-        picture = drawn(each, EYE, LENS, depth=True, segmentation=True)
+    for renderer in (native, opengl):
+        renderer.update(np.array([[0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+        renderer.set_vertices(len(SHAPES) - 1, mesh.vertices * np.array([1.5, 0.3, 0.7], dtype=np.float32))
+        picture = drawn(renderer, EYE, LENS, depth=True, segmentation=True)
         assert picture.depth is not None
         assert picture.segmentation is not None
-        depths.append(np.where(picture.segmentation == len(THINGS) - 1, picture.depth, np.nan))
-    opengl.set_vertices(len(THINGS) - 1, mesh.vertices)
+        depths.append(np.where(picture.segmentation == len(SHAPES) - 1, picture.depth, np.nan))
+    opengl.set_vertices(len(SHAPES) - 1, mesh.vertices)
 
     assert (np.isnan(depths[0]) != np.isnan(depths[1])).mean() <= 0.001
     assert np.nanmedian(np.abs(depths[0] - depths[1])) <= 1e-4
 
 
-def test_a_body_that_is_nowhere_is_not_seen(opengl: EglRenderer) -> None:
+def test_a_body_without_a_pose_is_not_drawn(opengl: EglRenderer) -> None:
     opengl.update(np.full((1, 7), math.nan))
     picture = drawn(opengl, EYE, LENS, segmentation=True)
     assert picture.segmentation is not None
@@ -128,7 +128,7 @@ def test_a_body_that_is_nowhere_is_not_seen(opengl: EglRenderer) -> None:
     assert (picture.rgb == [102, 128, 153]).all()
 
 
-def test_without_opengl_one_sentence_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_opengl_the_error_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mujoco.egl", None)
     with pytest.raises(UsageError, match=r"no OpenGL over EGL here .*--renderer cpu works without"):
         EglRenderer(scene())
@@ -146,8 +146,8 @@ ctypes.util.find_library = lambda name: None if "EGL" in name else find(name)
 """
 
 
-def test_without_the_library_a_picture_ends_with_one_sentence(tmp_path: Path) -> None:
-    """A process of its own, which finds no libEGL."""
+def test_without_the_library_rendering_ends_with_one_message(tmp_path: Path) -> None:
+    """A separate process, in which libEGL is missing."""
     (tmp_path / "sitecustomize.py").write_text(HIDDEN)
     ball = '<visual name="v"><geometry><sphere><radius>1</radius></sphere></geometry></visual>'
     (tmp_path / "m.sdf").write_text(f'<sdf version="1.6"><model name="m"><link name="l">{ball}</link></model></sdf>')

@@ -38,22 +38,26 @@ def test_a_block_slides_along_its_grain_and_sticks_across_it(load: Load, directi
     assert (speed > 0.3) is slides
 
 
-@pytest.mark.parametrize(("way", "speed"), [((1.0, 0.0), 0.0), ((0.0, 1.0), 0.2 * G * 0.5)])
-def test_the_direction_of_what_stands_does_not_count(load: Load, way: tuple[float, float], speed: float) -> None:
+@pytest.mark.parametrize(("direction", "speed"), [((1.0, 0.0), 0.0), ((0.0, 1.0), 0.2 * G * 0.5)])
+def test_the_friction_direction_of_a_static_surface_is_ignored(
+    load: Load, direction: tuple[float, float], speed: float
+) -> None:
     """Gazebo computes the second collision's fdir1 and leaves it unused; ODE's second is the larger of the two."""
     ground = floor(friction(0.1, 0.5, "<fdir1>1 0 0</fdir1>"))
     sim = load(ground, body("b", BLOCK, friction(10.0), pose="0 0 0.05 0 0 0"))
     sim.run(0.05)
     block = sim["b"].link("l")
-    block.apply_wrench(Wrench(force=(0.3 * G * way[0], 0.3 * G * way[1], 0.0)))
+    block.apply_wrench(Wrench(force=(0.3 * G * direction[0], 0.3 * G * direction[1], 0.0)))
     sim.run(0.5)
     assert math.hypot(*block.twist.linear) == pytest.approx(speed, rel=0.01, abs=1e-3)
-    said = "collision 'c': its <fdir1> does not count: as in Gazebo, that of what moves on it does"
-    assert said in [each.what for each in sim.report.findings]
+    message = "collision 'c': its <fdir1> does not count: as in Gazebo, the moving collision's does"
+    assert message in [finding.what for finding in sim.report.findings]
 
 
 @pytest.mark.parametrize(("fdir1", "grip"), [("1 0 0", 0.5), ("0 0 1", 0.2)])
-def test_a_spinning_wheel_pulls_by_the_direction_that_turns_with_it(load: Load, fdir1: str, grip: float) -> None:
+def test_a_spinning_wheel_pulls_by_the_friction_direction_that_turns_with_it(
+    load: Load, fdir1: str, grip: float
+) -> None:
     """The direction turns with the wheel; its component within the floor acts, at any angle of the wheel."""
     surface = friction(0.5, 0.2, f"<fdir1>{fdir1}</fdir1>")
     wheels = "".join(
@@ -85,7 +89,7 @@ def test_a_spinning_wheel_pulls_by_the_direction_that_turns_with_it(load: Load, 
 
 @pytest.mark.parametrize("fdir1", ["", "<fdir1>1 0 0</fdir1>", "<fdir1>0 1 0</fdir1>", "<fdir1>1 1 0</fdir1>"])
 @pytest.mark.parametrize(("mu", "mu2"), [(0.5, 0.0), (0.0, 0.5)])
-def test_friction_in_one_direction_acts_where_there_is_none_in_the_other(
+def test_friction_in_one_direction_acts_without_friction_in_the_other(
     load: Load, mu: float, mu2: float, fdir1: str
 ) -> None:
     """ODE's first direction on a level floor is y where the file names none."""
@@ -95,19 +99,21 @@ def test_friction_in_one_direction_acts_where_there_is_none_in_the_other(
     sim = load(floor(friction(10.0)), body("b", BLOCK, friction(mu, mu2, fdir1), pose="0 0 0.05 0 0 0"))
     sim.run(0.05)
     block = sim["b"].link("l")
-    for way, grip in ((first, mu), (second, mu2)):
+    for direction, grip in ((first, mu), (second, mu2)):
         before = block.twist.linear
         push = 0.8 * G  # more than friction holds
-        block.apply_wrench(Wrench(force=(push * way[0], push * way[1], 0.0)), duration_s=0.2)
+        block.apply_wrench(Wrench(force=(push * direction[0], push * direction[1], 0.0)), duration_s=0.2)
         sim.run(0.2)
         gained = [after - old for after, old in zip(block.twist.linear, before, strict=True)]
-        along = gained[0] * way[0] + gained[1] * way[1]
+        along = gained[0] * direction[0] + gained[1] * direction[1]
         assert along == pytest.approx(0.2 * (push - grip * G), rel=0.01)
 
 
 @pytest.mark.parametrize(("normal", "across"), [("1 0 0", (0.0, 1.0, 0.0)), ("0 1 0", (1.0, 0.0, 0.0))])
-def test_on_a_wall_the_first_direction_is_level(load: Load, normal: str, across: tuple[float, ...]) -> None:
-    """ODE's own (dPlaneSpace), whichever way the wall looks, where the file names none: so a gripper holds by mu2."""
+def test_the_first_friction_direction_on_a_wall_is_horizontal(
+    load: Load, normal: str, across: tuple[float, ...]
+) -> None:
+    """Without fdir1 ODE chooses it (dPlaneSpace), for any normal of the wall: so a gripper holds by mu2."""
     plane = f"<plane><normal>{normal}</normal><size>100 100</size></plane>"
     out = [float(number) for number in normal.split()]
     cube = "<box><size>0.2 0.2 0.2</size></box>"
@@ -115,8 +121,8 @@ def test_on_a_wall_the_first_direction_is_level(load: Load, normal: str, across:
     wall = body("wall", plane, friction(10.0), static=True)
     sim = load(wall, body("b", cube, friction(0.2, 0.5), pose=f"{pose} 0 0 0"), gravity=0.0)
     block = sim["b"].link("l")
-    for way, speed in (((0.0, 0.0, 1.0), 0.0), (across, 10.0 * 0.3)):
-        pushed = (30.0 * along - 100.0 * away for along, away in zip(way, out, strict=True))
+    for direction, speed in (((0.0, 0.0, 1.0), 0.0), (across, 10.0 * 0.3)):
+        pushed = (30.0 * along - 100.0 * away for along, away in zip(direction, out, strict=True))
         block.apply_wrench(Wrench(force=(next(pushed), next(pushed), next(pushed))))
         sim.run(0.3)
         assert math.hypot(*block.twist.linear) == pytest.approx(speed, rel=0.02, abs=1e-3)
@@ -183,19 +189,19 @@ def test_a_torque_makes_a_patch_slip_up_to_its_friction(load: Load, torque: floa
     sim = load(floor(), body("b", BALL, friction(1.0, torsional=torsional), pose="0 0 0.1 0 0 0"))
     sim.run(0.1)
     ball = sim["b"].link("l")
-    most = min(torque, 3 * math.pi / 16 * 0.05 * G)
+    max_torque = min(torque, 3 * math.pi / 16 * 0.05 * G)
     ball.apply_wrench(Wrench(torque=(0.0, 0.0, torque)))
     sim.run(1.0)
     before = ball.twist.angular[2]
     sim.run(0.5)
-    if torque > most:
-        assert ball.twist.angular[2] - before == pytest.approx((torque - most) / 0.01 * 0.5, rel=0.01)
+    if torque > max_torque:
+        assert ball.twist.angular[2] - before == pytest.approx((torque - max_torque) / 0.01 * 0.5, rel=0.01)
     else:
         assert ball.twist.angular[2] == pytest.approx(slip * torque, rel=2e-3)
 
 
 @pytest.mark.parametrize(("gain", "swings"), [(1.0, True), (0.5, False)])
-def test_a_wheels_loop_swings_where_its_gain_overshoots(load: Load, gain: float, swings: bool) -> None:
+def test_a_wheel_controller_oscillates_where_its_gain_overshoots(load: Load, gain: float, swings: bool) -> None:
     """Gain · step / inertia is 2.43 and 1.21; beyond 2 a step overshoots by more than was missing, up to the limit."""
     inertia, limit, target = 4.1226e-4, 10.0, 10.0
     moments = "".join(f"<{m}>{inertia}</{m}>" for m in ("ixx", "iyy", "izz"))

@@ -37,10 +37,10 @@ def world(
     )
 
 
-def joint(kind: str, axis: str = "0 0 1", inside: str = "", beside: str = "") -> str:
+def joint(kind: str, axis: str = "0 0 1", inside: str = "", more: str = "") -> str:
     return (
         f'<link name="k"/><joint name="j" type="{kind}"><parent>l</parent><child>k</child>'
-        f"<axis><xyz>{axis}</xyz>{inside}</axis>{beside}</joint>"
+        f"<axis><xyz>{axis}</xyz>{inside}</axis>{more}</joint>"
     )
 
 
@@ -78,16 +78,16 @@ WORLDS = {
     "a hair's breadth": world(joint=joint("prismatic", inside=LIMIT.format(0, "1e-12", 1, 1))),
     **{f"dynamics {v}": world(joint=joint("revolute", inside=dynamics(v))) for v in ("1e300", "-1e300", "inf")},
     **{
-        f"pitch {v}": world(joint=joint("screw", beside=f"<thread_pitch>{v}</thread_pitch>"))
+        f"pitch {v}": world(joint=joint("screw", more=f"<thread_pitch>{v}</thread_pitch>"))
         for v in ("0", "1e-300", "1e300")
     },
     "parallel axes": world(joint=joint("revolute2")),
-    "gears without a housing": world(joint=joint("gearbox", beside="<gearbox_ratio>1e300</gearbox_ratio>")),
+    "gears without a housing": world(joint=joint("gearbox", more="<gearbox_ratio>1e300</gearbox_ratio>")),
 }
 
 
 @pytest.mark.parametrize("name", WORLDS)
-def test_a_world_that_nobody_means(name: str, tmp_path: Path) -> None:
+def test_an_extreme_world(name: str, tmp_path: Path) -> None:
     file = tmp_path / "w.world"
     file.write_text(WORLDS[name])
     with contextlib.suppress(TrundleError):

@@ -32,10 +32,10 @@ def surface(**ode: float) -> str:
 
 def balls(count: int, contact: str) -> str:
     """Balls around a circle."""
-    places = [(0.2 * math.cos(i * math.tau / count), 0.2 * math.sin(i * math.tau / count)) for i in range(count)]
+    centers = [(0.2 * math.cos(i * math.tau / count), 0.2 * math.sin(i * math.tau / count)) for i in range(count)]
     return "".join(
         f'<collision name="c{i}"><pose>{x} {y} 0 0 0 0</pose><geometry>{BALL}</geometry>{contact}</collision>'
-        for i, (x, y) in enumerate(places)
+        for i, (x, y) in enumerate(centers)
     )
 
 
@@ -60,11 +60,11 @@ def load(tmp_path: Path) -> Load:
 
 def heights(sim: Simulation, seconds: float, h: float = 1e-3) -> list[float]:
     """Heights above the floor after each step [m]."""
-    found: list[float] = []
+    values: list[float] = []
     for _ in range(round(seconds / h)):
         sim.step()
-        found.append(sim["b"].pose.position[2] - 0.1)
-    return found
+        values.append(sim["b"].pose.position[2] - 0.1)
+    return values
 
 
 # Before, the first rose by 22 mm from the floor and rested 0.2 mm deep; Gazebo's rule has 3.0 mm.
@@ -87,7 +87,7 @@ def heights(sim: Simulation, seconds: float, h: float = 1e-3) -> list[float]:
         (6, 2.0, 1e7, 1e4, 0.0, 1e-3),
     ],
 )
-def test_what_falls_on_springs_comes_up_to_its_depth_and_no_further(
+def test_a_body_on_contact_springs_rises_to_its_depth_at_rest_and_no_further(
     load: Load, shape: str | int, mass: float, kp: float, kd: float, drop: float, h: float
 ) -> None:
     contact = surface(kp=kp, kd=kd)
@@ -97,20 +97,20 @@ def test_what_falls_on_springs_comes_up_to_its_depth_and_no_further(
         else f'<collision name="c"><geometry>{SHAPES[shape]}</geometry>{contact}</collision>'
     )
     sim = load(collisions, mass=mass, drop=drop, h=h)
-    found = heights(sim, 1.5, h)
+    measured = heights(sim, 1.5, h)
 
     # SDF's own kd, the floor's, is 1.
     points = len(sim.contacts())
     exact = ode_heights(mass, points, kp=kp, kd=kd + 1.0, drop=drop, h=h, seconds=1.5)
-    assert found[-1] == pytest.approx(exact[-1], rel=0.2, abs=1e-4)
-    assert max(found[found.index(min(found)) :]) < found[-1] + 1e-3
+    assert measured[-1] == pytest.approx(exact[-1], rel=0.2, abs=1e-4)
+    assert max(measured[measured.index(min(measured)) :]) < measured[-1] + 1e-3
     assert max(map(abs, sim["b"].pose.rpy)) < 1e-3
 
 
 @pytest.mark.parametrize(("kp", "kd", "mass"), [(5.9e4, 25.0, 6.2), (1e6, 1.0, 10.0), (2e5, 200.0, 30.0)])
 @pytest.mark.parametrize("max_vel", [0.01, 0.1, 100.0])
 @pytest.mark.parametrize("min_depth", [0.0, 0.003])
-def test_the_depth_at_rest_is_that_of_the_rule(
+def test_the_depth_at_rest_follows_odes_rule(
     load: Load, kp: float, kd: float, mass: float, max_vel: float, min_depth: float
 ) -> None:
     rule = {"kp": kp, "kd": kd + 1.0, "max_vel": max_vel}
@@ -124,12 +124,12 @@ def test_the_depth_at_rest_is_that_of_the_rule(
     assert math.hypot(*sim["b"].links[0].twist.linear) < 1e-4
 
 
-def test_the_faster_depth_may_be_corrected_the_higher_something_hops(load: Load) -> None:
+def test_a_higher_max_vel_makes_a_body_hop_higher(load: Load) -> None:
     """With 1 m/s 6.3 mm in Gazebo, by its rule."""
     tops: list[float] = []
     for max_vel in (0.01, 0.1, 1.0):
-        found = heights(load(balls(5, surface(kp=5.9e4, kd=25.0, max_vel=max_vel)), mass=6.2, drop=0.03), 0.5)
-        tops.append(max(found[found.index(min(found)) :]))
+        measured = heights(load(balls(5, surface(kp=5.9e4, kd=25.0, max_vel=max_vel)), mass=6.2, drop=0.03), 0.5)
+        tops.append(max(measured[measured.index(min(measured)) :]))
     assert tops == sorted(tops)
     assert tops[1] < 0.0
     assert tops[2] == pytest.approx(0.0063, rel=0.5)

@@ -44,13 +44,14 @@ def cube(x: float, half: float = 0.25) -> list[tuple[Corner, Corner, Corner, Cor
     for axis, sign in itertools.product(range(3), (-1.0, 1.0)):
         ring = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)][:: int(sign)]
         corners = [list(np.insert(np.array(two), axis, sign) * half + [x, 0.0, half]) for two in ring]
-        quads.append(tuple((float(p[0]), float(p[1]), float(p[2])) for p in corners))
+        a, b, c, d = ((float(p[0]), float(p[1]), float(p[2])) for p in corners)
+        quads.append((a, b, c, d))
     return quads
 
 
 @pytest.fixture
 def load(tmp_path: Path) -> Load:
-    """Load a mesh that stands, or moves, and a ball of 0.1 m somewhere."""
+    """Load a static or moving mesh, and a ball of 0.1 m."""
 
     def load(mesh: str, ball: str, *, static: bool = True, geometry: str = "", more: str = "") -> Simulation:
         (tmp_path / "m.obj").write_text(mesh)
@@ -99,7 +100,7 @@ def test_a_ball_rolls_over_the_seams_of_a_floor_without_a_bump(load: Load) -> No
     assert max(heights) - min(heights) < 1e-4
 
 
-def test_parts_of_a_mesh_are_shapes_of_their_own(load: Load) -> None:
+def test_disconnected_parts_of_a_mesh_are_separate_shapes(load: Load) -> None:
     sim = load(obj(*cube(-0.5), *cube(0.5)), "0 0 0.6")
     # The gap is 0.5 m wide: the ball falls through it.
     sim.run(1.0)
@@ -141,23 +142,23 @@ def hollow(sim: Simulation) -> str:
     return finding
 
 
-def test_what_moves_and_is_hollow_stays_hollow(load: Load, cache: Path) -> None:
+def test_a_moving_hollow_mesh_stays_hollow(load: Load, cache: Path) -> None:
     sim = load(tray(), "0 0 0.3", static=False)
-    how = r"physics uses 5 convex pieces: a surface up to (\S+) m away"
-    found = re.fullmatch(rf"collision 'c': a hollow mesh of 10 triangles; {how}", hollow(sim))
-    assert found
-    assert 0.0 < float(found[1]) < 0.011  # filled, it would be 0.5
+    method = r"physics uses 5 convex pieces: a surface up to (\S+) m away"
+    match = re.fullmatch(rf"collision 'c': a hollow mesh of 10 triangles; {method}", hollow(sim))
+    assert match
+    assert 0.0 < float(match[1]) < 0.011  # filled, it would be 0.5
     # The ball floats in the tray, below its rim, as they fall together.
     sim.run(0.3)
     assert sim["ball"].pose.position[2] - sim["m"].pose.position[2] == pytest.approx(0.3, abs=1e-4)
 
 
-def test_what_moves_and_is_hollow_stands_on_its_corners_and_lets_through(load: Load, cache: Path) -> None:
+def test_a_moving_hollow_mesh_stands_on_its_corners_and_can_be_driven_through(load: Load, cache: Path) -> None:
     sim = load(gate(), "0 -1 0.1", static=False, more=FLOOR)
-    found = re.search(r"uses \d+ convex pieces: (\S+) times its volume, a surface up to (\S+) m away", hollow(sim))
-    assert found
-    assert float(found[1]) == pytest.approx(1.0, abs=0.05)
-    assert float(found[2]) < 0.1
+    match = re.search(r"uses \d+ convex pieces: (\S+) times its volume, a surface up to (\S+) m away", hollow(sim))
+    assert match
+    assert float(match[1]) == pytest.approx(1.0, abs=0.05)
+    assert float(match[2]) < 0.1
     sim.run(0.5)
     assert sim["m"].pose.position == pytest.approx((0.0, 0.0, 0.0), abs=1e-5)
     assert sim["m"].pose.quaternion == pytest.approx((1.0, 0.0, 0.0, 0.0), abs=1e-5)
@@ -167,22 +168,20 @@ def test_what_moves_and_is_hollow_stands_on_its_corners_and_lets_through(load: L
     assert sim["ball"].pose.position == pytest.approx((0.0, 0.8, 0.1), abs=0.01)
 
 
-def test_pieces_are_the_same_every_time_and_kept(load: Load, cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pieces_are_deterministic_and_cached(load: Load, cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def corners() -> bytes:
         mesh_decomposition.clear_cache()
         return load(gate(), "0 0 5", static=False).engine.compiled.model.mesh_vert.tobytes()
 
     first = corners()
-    (kept,) = cache.glob("*.npz")
-    kept.unlink()
+    (file,) = cache.glob("*.npz")
+    file.unlink()
     assert corners() == first
     monkeypatch.setattr(pieces, "decompose", None)  # from now on, nothing is cut
     assert corners() == first
 
 
-def test_a_mesh_is_cut_up_once_however_often_the_world_is_compiled(
-    load: Load, cache: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_mesh_is_decomposed_once_for_many_compiles(load: Load, cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     sim = load(gate(), "0 0 5", static=False)
     monkeypatch.setattr(pieces, "decompose", None)  # from now on, nothing is cut
     sim.spawn(sim["m"].model, allow_renaming=True)
@@ -190,7 +189,7 @@ def test_a_mesh_is_cut_up_once_however_often_the_world_is_compiled(
     assert collisions.count("m_0::l::c") == collisions.count("m::l::c") > 1
 
 
-def test_what_is_hardly_hollow_is_filled_aloud(load: Load, cache: Path) -> None:
+def test_a_hardly_concave_mesh_becomes_its_hull_with_a_note(load: Load, cache: Path) -> None:
     # A cube of 1 m, the middle of its roof 3 cm lower than the roof's corners: a pyramid of 0.01 m³ is missing.
     ring = ((0, 0), (1, 0), (1, 1), (0, 1))
     corners = [*((x, y, 0.0) for x, y in ring), *((x, y, 1.0) for x, y in ring), (0.5, 0.5, 0.97)]
@@ -203,7 +202,7 @@ def test_what_is_hardly_hollow_is_filled_aloud(load: Load, cache: Path) -> None:
     assert sim.engine.compiled.geom_collisions.count("m::l::c") == 1
 
 
-def test_a_mesh_of_too_many_pieces_is_filled() -> None:
+def test_a_mesh_of_too_many_pieces_becomes_its_hull() -> None:
     # Twice as many bent strips as there may be pieces.
     count = 2 * MAX_PIECES
     bent = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0]])
@@ -211,17 +210,17 @@ def test_a_mesh_of_too_many_pieces_is_filled() -> None:
     faces = np.concatenate([np.array([[0, 1, 2], [0, 2, 3]]) + 4 * i for i in range(count)])
     pieces = convex_pieces(vertices, faces, fixed=False)
     assert len(pieces.corners) == 1
-    assert [misfit.is_filled for misfit in pieces.errors] == [True]
+    assert [error.is_filled for error in pieces.errors] == [True]
 
 
 @pytest.mark.parametrize("faces", [[], [[0, 0, 0]], [[0, 1, 1]]])
-def test_a_mesh_without_area_is_its_hull(faces: list[list[int]]) -> None:
+def test_a_mesh_without_area_becomes_its_hull(faces: list[list[int]]) -> None:
     corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
     pieces = convex_pieces(corners, np.array(faces, dtype=np.intp).reshape(-1, 3), fixed=True)
     assert len(pieces.corners) == 1
 
 
-def test_a_convex_mesh_stays_whole_whatever_its_faces() -> None:
+def test_a_convex_mesh_is_one_piece_for_any_triangulation() -> None:
     turns = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)
     ring = np.column_stack([np.cos(turns), np.sin(turns)])
     vertices = np.concatenate([np.column_stack([ring, np.full(24, z)]) for z in (0.0, 1.0)])
@@ -257,13 +256,13 @@ def test_a_ball_lies_on_terrain_as_high_as_its_image_is_bright(load: Load, tmp_p
         assert sim["ball"].pose.position[2] == pytest.approx(expected + 0.1, abs=2e-3)
 
 
-def test_a_heightmap_that_is_no_image_is_left_out_aloud(load: Load, tmp_path: Path) -> None:
+def test_a_heightmap_that_is_no_image_is_left_out_with_a_warning(load: Load, tmp_path: Path) -> None:
     (tmp_path / "hills.png").write_bytes(b"no picture")
     sim = load("", "0 0 1", geometry="<heightmap><uri>hills.png</uri><size>8 8 2</size></heightmap>")
     assert any("heightmap 'hills.png'" in w and "left out" in w for w in sim.report.warnings)
 
 
-def test_an_arm_on_a_wall_of_many_pieces_moves_and_others_meet_the_wall(tmp_path: Path) -> None:
+def test_an_arm_on_a_wall_of_many_pieces_moves_and_other_bodies_touch_the_wall(tmp_path: Path) -> None:
     # Forty walls and seventy balls are more pairs than are listed one by one; the arm is joined to the first wall.
     box = "<geometry><box><size>0.2 0.2 0.2</size></box></geometry>"
     ball = "<geometry><sphere><radius>0.1</radius></sphere></geometry>"
@@ -294,7 +293,7 @@ def test_an_arm_on_a_wall_of_many_pieces_moves_and_others_meet_the_wall(tmp_path
     assert sim["b6"].pose.position[2] == pytest.approx(0.5 - 9.8 * 0.25**2 / 2, rel=0.02)
 
 
-def test_a_polyline_is_as_high_as_it_says_and_hollow_where_it_says(load: Load) -> None:
+def test_a_polyline_has_its_height_and_its_hole(load: Load) -> None:
     # A square ring of 2 m, its hole 1 m wide; then an L.
     def points(*corners: tuple[float, float]) -> str:
         return "".join(f"<point>{x} {y}</point>" for x, y in corners)
@@ -339,7 +338,7 @@ def test_triangles_cover_a_star_with_two_holes_and_an_island() -> None:
 
 
 @pytest.mark.parametrize("outline", [[(0.0, 0.0)], [(0.0, 0.0), (1.0, 0.0)], [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)]])
-def test_an_outline_without_area_is_nothing(outline: list[tuple[float, float]]) -> None:
+def test_an_outline_without_area_has_no_triangles(outline: list[tuple[float, float]]) -> None:
     assert triangulate([outline]) == []
 
 

@@ -32,10 +32,10 @@ def _joint(name: str, kind: str, parent: str, child: str, inside: str = "<xyz>0 
     return f'<joint name="{name}" type="{kind}">{pose}<parent>{parent}</parent><child>{child}</child>{axis}</joint>'
 
 
-def _load(folder: Path, model: str, *, step_s: float = 0.001, beside: str = "") -> Simulation:
+def _load(folder: Path, model: str, *, step_s: float = 0.001, more: str = "") -> Simulation:
     file = folder / "w.sdf"
     physics = f'<gravity>0 0 {-G}</gravity><physics type="ode"><max_step_size>{step_s}</max_step_size></physics>'
-    world = f'<world name="w">{physics}<model name="m">{model}</model>{beside}</world>'
+    world = f'<world name="w">{physics}<model name="m">{model}</model>{more}</world>'
     file.write_text(f'<sdf version="1.7">{world}</sdf>')
     return trundle.load(str(file))
 
@@ -77,7 +77,7 @@ def _truth(engine: Engine, *, steps: int) -> mujoco.MjData:
 
 
 @pytest.mark.parametrize("stiffness", [0.5, 50.0, 500.0])
-def test_an_undamped_spring_swings_on(tmp_path: Path, stiffness: float) -> None:
+def test_an_undamped_spring_keeps_swinging(tmp_path: Path, stiffness: float) -> None:
     """ω h from 0.003 to 0.1, ten seconds; in phase as well."""
     sim = _spring(tmp_path, inertia=0.05, stiffness=stiffness)
     joint, rate = sim["m"].joint("j"), math.sqrt(stiffness / 0.05)
@@ -100,7 +100,7 @@ def test_a_spring_stiffer_than_a_step_can_follow_is_stable(tmp_path: Path) -> No
     assert abs(sim["m"].joint("j").position) < 1e-3
 
 
-def test_a_damped_spring_settles_as_its_damper_has_it(tmp_path: Path) -> None:
+def test_a_damped_spring_settles_at_the_rate_of_its_damper(tmp_path: Path) -> None:
     """A suspension: k 2e4, c 100, 10 kg·m²: e^(−5 t) cos(44.4 t), after half a second."""
     sim = _spring(tmp_path, inertia=10.0, stiffness=2e4, damping=100.0)
     sim["m"].joint("j").set_position(0.01)
@@ -135,7 +135,7 @@ def test_a_double_pendulum_on_a_box_that_stands_keeps_its_energy(tmp_path: Path)
     )
     plane = collision.format("<plane><normal>0 0 1</normal></plane>")
     floor = f'<model name="floor"><static>true</static><link name="l">{plane}</model>'
-    sim = _load(tmp_path, base + upper + lower + joints, beside=floor)
+    sim = _load(tmp_path, base + upper + lower + joints, more=floor)
     sim["m"].joint("j1").set_position(1.5)
     before = _energy(sim.engine)
     sim.run(20.0)
@@ -151,7 +151,7 @@ def _angle_between(a: np.ndarray, b: np.ndarray) -> float:
 
 @pytest.mark.parametrize("com", ["0.3 0 0", "0.1 -0.2 -0.3", "-0.05 0.38 -0.1", "0 0 -0.4"])
 @pytest.mark.parametrize("speeds", [(2.0, 3.0, 5.0), (-4.0, 1.0, -3.0), (0.0, 0.0, 0.0)])
-def test_a_pendulum_on_a_ball_joint_follows_the_truth(
+def test_a_pendulum_on_a_ball_joint_follows_the_exact_motion(
     tmp_path: Path, com: str, speeds: tuple[float, float, float]
 ) -> None:
     """For 3 s; 90 mrad off in the worst of 24 if velocities count as those of the start of a step (Gazebo: 2.8 in its
@@ -181,7 +181,7 @@ def test_a_pendulum_on_a_ball_joint_swings_on_when_a_model_is_spawned(tmp_path: 
     assert spawned["m"].link("a").pose.as_list() == pytest.approx(alone["m"].link("a").pose.as_list(), abs=1e-12)
 
 
-def test_a_chain_of_six_follows_the_truth(tmp_path: Path) -> None:
+def test_a_chain_of_six_links_follows_the_exact_motion(tmp_path: Path) -> None:
     model, parent = "", "world"
     for i in range(6):
         model += _link(f"l{i}", f"{0.2 * i} 0 2", 0.5, (0.001, 0.002, 0.002), "0.1 0 0")
@@ -209,7 +209,7 @@ def _four_bars() -> str:
     )
 
 
-def test_a_crank_of_four_bars_keeps_its_energy(tmp_path: Path) -> None:
+def test_a_four_bar_crank_keeps_its_energy(tmp_path: Path) -> None:
     """The crank goes round at 6 rad/s and on by itself."""
     sim = _load(tmp_path, _four_bars())
     crank = sim["m"].joint("j1")
@@ -223,7 +223,7 @@ def test_a_crank_of_four_bars_keeps_its_energy(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("speed", [3.0, 6.0, 10.0])
-def test_a_crank_of_four_bars_is_where_smaller_steps_have_it(tmp_path: Path, speed: float) -> None:
+def test_a_four_bar_crank_agrees_with_smaller_steps(tmp_path: Path, speed: float) -> None:
     """For 3 s and 4 to 7 turns (ODE's algorithm is 0.4 to 0.7 rad behind by then)."""
     courses: list[list[float]] = []
     for step_s in (0.001, 0.0001):

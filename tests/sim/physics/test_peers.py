@@ -34,12 +34,12 @@ def load(shared: Path, tmp_path: Path) -> Load:
     return load
 
 
-def beside(what: str, ours: float, exact: float, unit: str, *, rel: float = 0.0, abs_: float = 0.0) -> None:
-    """Print a figure beside the analytic one, and hold it to its bar."""
-    off, bar = abs(ours - exact), max(rel * abs(exact), abs_)
-    share = f"{100 * off / abs(exact):.2g} % off, bar {100 * rel:g} %" if rel else f"{off:.2g} off, bar {abs_:g}"
-    print(f"{what}: {ours:.6g} {unit}, exact {exact:.6g} ({share})")
-    assert off <= bar, what
+def compare(quantity: str, measured: float, exact: float, unit: str, *, rel: float = 0.0, abs_: float = 0.0) -> None:
+    """Print a figure with the analytic one, and assert its tolerance."""
+    off, bar = abs(measured - exact), max(rel * abs(exact), abs_)
+    error = f"{100 * off / abs(exact):.2g} % off, bar {100 * rel:g} %" if rel else f"{off:.2g} off, bar {abs_:g}"
+    print(f"{quantity}: {measured:.6g} {unit}, exact {exact:.6g} ({error})")
+    assert off <= bar, quantity
 
 
 def arithmetic_geometric_mean(a: float, b: float) -> float:
@@ -64,15 +64,15 @@ def period(sim: Simulation) -> float:
 
 # Gazebo: 2.01806, 2.05222, 2.38090 s.
 @pytest.mark.parametrize("amplitude_deg", [5.0, 30.0, 90.0])
-def test_a_pendulum_swings_in_its_own_time(load: Load, amplitude_deg: float) -> None:
+def test_a_pendulum_has_the_analytic_period(load: Load, amplitude_deg: float) -> None:
     sim = load("a_pendulum")
     sim.models[0].joints[0].set_position(math.radians(amplitude_deg))
     small = 2 * math.pi * math.sqrt(1.01 / G)
     exact = small / arithmetic_geometric_mean(1.0, math.cos(math.radians(amplitude_deg) / 2))
-    beside(f"pendulum from {amplitude_deg:g}°, period", period(sim), exact, "s", rel=1e-4)
+    compare(f"pendulum from {amplitude_deg:g}°, period", period(sim), exact, "s", rel=1e-4)
 
 
-def test_a_damped_pendulum_loses_what_it_should(load: Load) -> None:
+def test_a_damped_pendulum_loses_the_expected_energy(load: Load) -> None:
     sim = load("a_pendulum_damped")
     hinge = sim.models[0].joints[0]
     hinge.set_position(math.radians(5.0))
@@ -88,7 +88,7 @@ def test_a_damped_pendulum_loses_what_it_should(load: Load) -> None:
     (t0, high), (t1, low) = peaks[0], peaks[-1]
     # c / 2I; Gazebo 0.04952.
     rate = math.log(high / low) / (t1 - t0)
-    beside("damped pendulum, decay", rate, 0.1 / (2 * 1.01), "1/s", rel=5e-3)
+    compare("damped pendulum, decay", rate, 0.1 / (2 * 1.01), "1/s", rel=5e-3)
 
 
 def slid(block: ModelHandle) -> float:
@@ -116,27 +116,27 @@ def test_below_the_friction_angle_a_block_slides_and_never_freezes(load: Load, n
     sim.run(1.0)
     measured = slid(sim["box"]) - 2 * second + first
     exact = G * (math.sin(SLOPE) - mu * math.cos(SLOPE))
-    beside(f"{name}, acceleration", measured, exact, "m/s²", rel=5e-3)
+    compare(f"{name}, acceleration", measured, exact, "m/s²", rel=5e-3)
 
 
 # Gazebo creeps 5.3 and 4.9 mm/s.
 @pytest.mark.parametrize("name", ["b_incline_just_above", "b_incline_above"])
-def test_above_the_friction_angle_it_stays(load: Load, name: str) -> None:
+def test_above_the_friction_angle_a_block_stays(load: Load, name: str) -> None:
     sim = load(name)
     sim.run(1.0)
     before = slid(sim["box"])
     sim.run(3.0)
-    beside(f"{name}, creep", (slid(sim["box"]) - before) / 3.0, 0.0, "m/s", abs_=1e-4)
+    compare(f"{name}, creep", (slid(sim["box"]) - before) / 3.0, 0.0, "m/s", abs_=1e-4)
 
 
-def test_a_cart_comes_as_far_as_its_wheels_turn(load: Load) -> None:
+def test_a_cart_drives_as_far_as_its_wheels_turn(load: Load) -> None:
     sim = load("c_cart")
     cart = sim["cart"]
     for joint in cart.joints:
         joint.command_velocity(5.0)
     sim.run(10.0)
     # 5 rad/s · 0.1 m · 10 s, less the start with wheels that slip; Gazebo 4.988 m.
-    beside("cart, distance", cart.pose.position[0], 5.0, "m", rel=3e-3)
+    compare("cart, distance", cart.pose.position[0], 5.0, "m", rel=3e-3)
     assert abs(cart.pose.position[1]) < 1e-3
 
 
@@ -145,11 +145,11 @@ def test_a_cylinder_slips_and_then_rolls(load: Load) -> None:
     sim["cyl"].links[0].set_twist(Twist(angular=(0.0, 10.0, 0.0)))
     sim.run(3.0)
     # v = ω r / 3 for a solid cylinder; Gazebo 0.33335 m/s.
-    beside("cylinder that rolls, speed", sim["cyl"].links[0].twist.linear[0], 1 / 3, "m/s", rel=5e-3)
+    compare("cylinder that rolls, speed", sim["cyl"].links[0].twist.linear[0], 1 / 3, "m/s", rel=5e-3)
 
 
 @pytest.mark.parametrize("name", ["d_sphere", "d_box"])
-def test_what_is_dropped_comes_to_rest_on_the_floor(load: Load, name: str) -> None:
+def test_a_dropped_body_comes_to_rest_on_the_floor(load: Load, name: str) -> None:
     sim = load(name)
     sim.run(0.46)
     highest = 0.0
@@ -158,15 +158,15 @@ def test_what_is_dropped_comes_to_rest_on_the_floor(load: Load, name: str) -> No
         highest = max(highest, sim["s"].links[0].pose.position[2])
     assert highest < 0.1 + 1e-4  # no bounce
     sim.run(1.0)
-    beside(f"{name}, height at rest", sim["s"].links[0].pose.position[2], 0.1, "m", abs_=1e-4)
+    compare(f"{name}, height at rest", sim["s"].links[0].pose.position[2], 0.1, "m", abs_=1e-4)
 
 
-def test_a_joint_between_0_and_0_does_not_give(load: Load) -> None:
+def test_a_joint_with_limits_0_and_0_is_rigid(load: Load) -> None:
     sim = load("f_limit0")
     sim.run(2.0)
     arm = sim.models[0].links[0].pose
-    beside("0..0 joint under 9.8 N·m, height", arm.position[2], 2.0, "m", abs_=1e-9)
-    beside("0..0 joint under 9.8 N·m, angle", max(map(abs, arm.rpy)), 0.0, "rad", abs_=1e-9)
+    compare("0..0 joint under 9.8 N·m, height", arm.position[2], 2.0, "m", abs_=1e-9)
+    compare("0..0 joint under 9.8 N·m, angle", max(map(abs, arm.rpy)), 0.0, "rad", abs_=1e-9)
 
 
 def test_an_arm_falls_on_its_stop_and_rests_there(load: Load) -> None:
@@ -178,7 +178,7 @@ def test_an_arm_falls_on_its_stop_and_rests_there(load: Load) -> None:
         furthest = max(furthest, abs(joint.position))
     # Gazebo overshoots 0.0035 rad.
     assert furthest < 0.5 + 0.01
-    beside("arm on its stop, angle", abs(joint.position), 0.5, "rad", abs_=1e-3)
+    compare("arm on its stop, angle", abs(joint.position), 0.5, "rad", abs_=1e-3)
 
 
 @pytest.mark.parametrize(("name", "inertia"), [("g_friction", 0.01), ("g_friction_I1", 1.0)])
@@ -188,10 +188,10 @@ def test_joint_friction_stops_a_wheel(load: Load, name: str, inertia: float) -> 
     wheel.set_velocity(20.0)
     slowing = 0.3 / inertia
     sim.run(0.5 * 20.0 / slowing)
-    beside(f"{name}, speed half-way", wheel.velocity, 10.0, "rad/s", rel=5e-3)
+    compare(f"{name}, speed half-way", wheel.velocity, 10.0, "rad/s", rel=5e-3)
     sim.run(20.0 / slowing)
     # Gazebo 6.657 rad.
-    beside(f"{name}, way to rest", wheel.position, 20.0**2 / (2 * slowing), "rad", rel=5e-3)
+    compare(f"{name}, way to rest", wheel.position, 20.0**2 / (2 * slowing), "rad", rel=5e-3)
     assert wheel.velocity == pytest.approx(0.0, abs=1e-6)
 
 
@@ -201,7 +201,7 @@ def test_joint_damping_slows_a_wheel(load: Load) -> None:
     wheel.set_velocity(20.0)
     sim.run(0.2)
     # Gazebo 7.339 rad/s.
-    beside("joint damping, speed at 0.2 s", wheel.velocity, 20.0 * math.exp(-1.0), "rad/s", rel=5e-3)
+    compare("joint damping, speed at 0.2 s", wheel.velocity, 20.0 * math.exp(-1.0), "rad/s", rel=5e-3)
 
 
 @pytest.mark.parametrize("step", ["0.001", "0.002", "0.005", "0.01"])
@@ -218,13 +218,15 @@ def test_two_driven_wheels_turn_a_robot_as_a_unicycle_turns(load: Load, step: st
         yaw += math.remainder(now - before, 2 * math.pi)
         before = now
     # Gazebo 4.45.
-    beside(f"diff drive by wheel speeds at {step} s a step, yaw", yaw, 5.0, "rad", rel=0.03)
+    compare(f"diff drive by wheel speeds at {step} s a step, yaw", yaw, 5.0, "rad", rel=0.03)
 
 
 @pytest.mark.parametrize("mass", ["0.001", "1", "1000"])
 @pytest.mark.parametrize("restitution", [0.2, 0.5, 0.8])
 @pytest.mark.parametrize("name", ["d_rest_both", "d_rest_both_defvel"])
-def test_what_bounces_comes_back_to_e_squared(load: Load, name: str, restitution: float, mass: str) -> None:
+def test_a_bounce_returns_to_restitution_squared_of_the_height(
+    load: Load, name: str, restitution: float, mass: str
+) -> None:
     inertia = f"{0.004 * float(mass):g}"
     sim = load(
         name,
@@ -241,4 +243,4 @@ def test_what_bounces_comes_back_to_e_squared(load: Load, name: str, restitution
         sim.step()
         apex = max(apex, ball.pose.position[2] - 0.1)
     # Gazebo 0.555 m for 0.25, and no bounce at all with its own max_vel.
-    beside(f"{name}, restitution {restitution:g} at {mass} kg, apex", apex, restitution**2, "m", rel=0.03)
+    compare(f"{name}, restitution {restitution:g} at {mass} kg, apex", apex, restitution**2, "m", rel=0.03)

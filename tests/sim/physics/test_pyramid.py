@@ -27,22 +27,22 @@ def load(tmp_path: Path) -> Load:
 
 
 def slide(speed: float, push: float, grip: float, seconds: float) -> float:
-    """Way of 1 kg along one axis under a push, braked by a grip that is not more than needed to hold it [m]."""
-    way = 0.0
+    """Distance of 1 kg along one axis under a push, braked by a grip that is not more than needed to hold it [m]."""
+    distance = 0.0
     while seconds > 0.0:
         if speed == 0.0 and abs(push) <= grip:
-            return way
+            return distance
         acceleration = push - math.copysign(grip, speed or push)
         stop = -speed / acceleration if acceleration * speed < 0.0 else math.inf
         part = min(stop, seconds)
-        way += speed * part + acceleration * part**2 / 2
+        distance += speed * part + acceleration * part**2 / 2
         speed = 0.0 if stop <= seconds else speed + acceleration * part
         seconds -= part
-    return way
+    return distance
 
 
 def moved(sim: Simulation, first: Pair, *, push: Pair = (0.0, 0.0), speed: Pair = (0.0, 0.0), seconds: float) -> Pair:
-    """Way along the first friction direction and across it, under a push and from a speed along them [m]."""
+    """Distance along the first friction direction and across it, under a push and from a speed along them [m]."""
     second = (-first[1], first[0])
 
     def in_world(along: Pair) -> tuple[float, float, float]:
@@ -79,7 +79,7 @@ def moved(sim: Simulation, first: Pair, *, push: Pair = (0.0, 0.0), speed: Pair 
         (1.5, 0.3, (5.0, 4.0), (0.0, 0.0)),
     ],
 )
-def test_each_direction_slides_by_its_own_coefficient(
+def test_each_direction_has_its_own_friction_coefficient(
     load: Load, mu: float, mu2: float, push: Pair, speed: Pair, angle: float
 ) -> None:
     """Before, the first was moved by 0.174 and 0.677 m: sliding along y loosened x; Gazebo has 0 and 0.520."""
@@ -93,7 +93,7 @@ def test_each_direction_slides_by_its_own_coefficient(
 
 
 @pytest.mark.parametrize("crowd", [False, True])
-def test_of_two_surfaces_each_direction_has_the_smaller_coefficient(load: Load, crowd: bool) -> None:
+def test_each_direction_has_the_smaller_coefficient_of_two_surfaces(load: Load, crowd: bool) -> None:
     """Gazebo's ODEPhysics::Collide; ODE's first direction on a floor is y."""
     models = [floor(friction(0.9, 0.2)), body("b", FLAT, friction(0.5, 0.8), pose="0 0 0.01 0 0 0")]
     if crowd:  # so many pairs that shapes meet by MuJoCo's search
@@ -106,7 +106,7 @@ def test_of_two_surfaces_each_direction_has_the_smaller_coefficient(load: Load, 
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.5, 1.2])
-def test_down_a_slope_a_block_slides_along_the_axis_that_gives(load: Load, yaw: float) -> None:
+def test_a_block_on_a_slope_slides_along_the_axis_of_lower_friction(load: Load, yaw: float) -> None:
     """Each axis has its part of the weight."""
     tilt = math.radians(25.0)
     surface = friction(0.7, 0.15, f"<fdir1>{math.cos(yaw)} {math.sin(yaw)} 0</fdir1>")
@@ -124,7 +124,7 @@ def test_down_a_slope_a_block_slides_along_the_axis_that_gives(load: Load, yaw: 
 
 
 @pytest.mark.parametrize("slip2", [0.0, 0.002])
-def test_what_slips_under_a_force_does_so_in_each_direction_by_itself(load: Load, slip2: float) -> None:
+def test_slip_under_a_force_is_independent_in_each_direction(load: Load, slip2: float) -> None:
     """slip1 of 0.1 m/s/N up to 0.5 of the weight, whatever happens across."""
     slips = f"<slip1>0.1</slip1><slip2>{slip2}</slip2><fdir1>1 0 0</fdir1>"
     sim = load(floor(friction(10.0)), body("b", FLAT, friction(0.5, 0.2, slips), pose="0 0 0.01 0 0 0"))
@@ -135,7 +135,7 @@ def test_what_slips_under_a_force_does_so_in_each_direction_by_itself(load: Load
     assert across == pytest.approx((3.0 - 0.2 * G) / 2, rel=0.02)
 
 
-def test_a_bounce_takes_from_each_direction_what_its_coefficient_allows(load: Load) -> None:
+def test_a_bounce_changes_each_tangential_speed_by_its_own_coefficient(load: Load) -> None:
     """An impulse P of the floor takes up to mu P from one speed and up to mu2 P from the other."""
     bounce = "<bounce><restitution_coefficient>0.5</restitution_coefficient><threshold>0</threshold></bounce>"
     surface = bounce + friction(0.5, 0.1, "<fdir1>1 0 0</fdir1>")
@@ -155,13 +155,13 @@ def test_a_skid_steered_robot_turns_fully_or_not_at_all(
     """Friction's power is linear in the rate of turning: mu along the axles, 0.25 m ahead and behind, takes more or
     less than mu2 of the treads, 0.3 m aside. Between cones, wheels slide both ways, and it turns by some of both.
     """
-    ways = ((0.25, 0.3), (-0.25, 0.3), (0.25, -0.3), (-0.25, -0.3))
-    vehicle = Vehicle(wheels=ways, mass=40.0, wheel_mass=2.0)
+    wheels = ((0.25, 0.3), (-0.25, 0.3), (0.25, -0.3), (-0.25, -0.3))
+    vehicle = Vehicle(wheels=wheels, mass=40.0, wheel_mass=2.0)
     plain = friction(1.0).removeprefix("<friction>").removesuffix("</friction>")
     turning = friction(mu, mu2, "<fdir1>0 0 1</fdir1>").removeprefix("<friction>").removesuffix("</friction>")
     assert plain in vehicle.sdf()
     sim = load(floor(friction(10.0)), vehicle.sdf().replace(plain, turning))
-    for i, (_, y) in enumerate(ways):
+    for i, (_, y) in enumerate(wheels):
         sim["vehicle"].joint(f"axle{i}").command_velocity(left if y > 0 else right)
     sim.run(2.0)
 

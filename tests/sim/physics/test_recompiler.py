@@ -34,14 +34,14 @@ def world() -> World:
 
 
 def _differences(a: CompiledWorld, b: CompiledWorld) -> list[str]:
-    found: list[str] = []
+    names: list[str] = []
     for owner in ("", "opt", "stat"):
-        one, other = ((getattr(each.model, owner) if owner else each.model) for each in (a, b))
-        for name in dir(one):
-            x = None if name.startswith("_") else getattr(one, name)
-            if isinstance(x, np.ndarray | int | float) and not np.array_equal(x, getattr(other, name)):
-                found.append(f"{owner}.{name}")
-    return found
+        first, second = ((getattr(world.model, owner) if owner else world.model) for world in (a, b))
+        for name in dir(first):
+            x = None if name.startswith("_") else getattr(first, name)
+            if isinstance(x, np.ndarray | int | float) and not np.array_equal(x, getattr(second, name)):
+                names.append(f"{owner}.{name}")
+    return names
 
 
 @pytest.mark.parametrize("edit", NUMBERS.values(), ids=NUMBERS)

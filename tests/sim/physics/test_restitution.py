@@ -42,23 +42,25 @@ def load(tmp_path: Path) -> Load:
 
 def apexes(sim: Simulation, count: int, *, tilt: float = 0.0) -> list[float]:
     """Apex above the floor after each bounce [m]."""
-    found: list[float] = []
+    tops: list[float] = []
     heights = [math.inf, math.inf]
-    while len(found) < count:
+    while len(tops) < count:
         sim.step()
         x, _, z = sim["b"].pose.position
         height = x * math.sin(tilt) + z * math.cos(tilt) - 0.1
         if heights[-2] < heights[-1] >= height:
-            found.append(heights[-1])
+            tops.append(heights[-1])
         heights = [heights[-1], height]
-    return found
+    return tops
 
 
 # Before, it came 0.3 to 1.9 % less high.
 @pytest.mark.parametrize("height", [0.3, 0.5087, 1.0, 1.7321])
 @pytest.mark.parametrize("restitution", [0.3, 0.8, 1.0])
 @pytest.mark.parametrize("shape", [BALL, BOX])
-def test_what_falls_comes_back_to_e_squared(load: Load, shape: str, restitution: float, height: float) -> None:
+def test_a_falling_body_bounces_to_restitution_squared_of_the_height(
+    load: Load, shape: str, restitution: float, height: float
+) -> None:
     assert apexes(load(shape, restitution, height), 1) == pytest.approx([restitution**2 * height], rel=2e-4)
 
 
@@ -66,7 +68,7 @@ def test_what_falls_comes_back_to_e_squared(load: Load, shape: str, restitution:
 @pytest.mark.parametrize(
     ("step", "height", "tilt"), [(0.001, 1.0, 0.0), (0.005, 0.3, 0.0), (0.002, 0.2, 0.3), (0.001, 0.5, 1.2)]
 )
-def test_what_loses_nothing_keeps_its_height(load: Load, step: float, height: float, tilt: float) -> None:
+def test_a_body_without_losses_keeps_its_height(load: Load, step: float, height: float, tilt: float) -> None:
     sim = load(BALL, 1.0, height, tilt=tilt, step=step)
     # A peak lies between two steps, up to half a step from one of them.
     missed = GRAVITY * (step / 2) ** 2
@@ -78,9 +80,9 @@ def collide(folder: Path, restitution: float, gap: float, speed: float, *, movin
     surface = (
         f"<bounce><restitution_coefficient>{restitution}</restitution_coefficient><threshold>0</threshold></bounce>"
     )
-    places = [i * (0.2 + gap) - (0.05 if i < moving else 0.0) for i in range(5)]
+    positions = [i * (0.2 + gap) - (0.05 if i < moving else 0.0) for i in range(5)]
     sim = load_models(
-        folder, *(body(f"b{i}", BALL, surface, pose=f"{x} 0 0 0 0 0") for i, x in enumerate(places)), gravity=0
+        folder, *(body(f"b{i}", BALL, surface, pose=f"{x} 0 0 0 0 0") for i, x in enumerate(positions)), gravity=0
     )
     for i in range(moving):
         sim[f"b{i}"].set_twist(Twist(linear=(speed, 0.0, 0.0), angular=(0.0, 0.0, 0.0)))
@@ -92,17 +94,17 @@ def collide(folder: Path, restitution: float, gap: float, speed: float, *, movin
 # # at 3 m/s.
 @pytest.mark.parametrize("speed", [0.3, 1.0, 3.0])
 @pytest.mark.parametrize("gap", [0.0, 0.0001, 0.0003, 0.0015, 0.001, 0.002, 0.003, 0.0042, 0.005])
-def test_the_last_of_a_row_leaves_with_the_speed_of_the_first(tmp_path: Path, gap: float, speed: float) -> None:
+def test_the_last_ball_of_a_row_leaves_with_the_speed_of_the_first(tmp_path: Path, gap: float, speed: float) -> None:
     assert collide(tmp_path, 1.0, gap, speed) == pytest.approx([0, 0, 0, 0, 1], abs=1e-2)
 
 
-def test_of_two_that_hit_a_row_two_leave(tmp_path: Path) -> None:
+def test_two_balls_that_hit_a_row_drive_two_away(tmp_path: Path) -> None:
     """The balls between are hit twice in one step."""
     assert collide(tmp_path, 1.0, 0.0, 1.0, moving=2) == pytest.approx([0, 0, 0, 1, 1], abs=1e-2)
 
 
 @pytest.mark.parametrize("gap", [0.0, 0.0003, 0.001])
-def test_a_row_that_loses_speed_keeps_its_momentum(tmp_path: Path, gap: float) -> None:
+def test_a_row_of_balls_that_loses_speed_keeps_its_momentum(tmp_path: Path, gap: float) -> None:
     speeds = collide(tmp_path, 0.5, gap, 1.0)
     assert sum(speeds) == pytest.approx(1.0, abs=1e-6)
     assert speeds[4] == pytest.approx(0.75**4, abs=1e-4)

@@ -45,7 +45,7 @@ def angle_between_axles(a: Pose, b: Pose, axle: Vector3) -> float:
     return math.acos(min(1.0, sum(x * y for x, y in zip(p, q, strict=True))))
 
 
-def test_every_joint_moves_but_the_one_between_0_and_0(world: World) -> None:
+def test_every_joint_moves_except_one_with_limits_0_and_0(world: World) -> None:
     sim = on_the_ground(world)
     compiled = sim.engine.compiled
     stuck = [name for name, axes in zip(compiled.joint_names, compiled.joint_axes, strict=True) if not axes]
@@ -53,22 +53,22 @@ def test_every_joint_moves_but_the_one_between_0_and_0(world: World) -> None:
     assert compiled.model.nv == 6 + 5
 
 
-def test_it_stands_for_ten_seconds_where_gazebo_has_it(world: World, shared: Path) -> None:
+def test_the_robot_stands_for_ten_seconds_at_gazebos_pose(world: World, shared: Path) -> None:
     samples: list[dict[str, Any]] = json.loads((shared / "peers" / "gazebo_rp2w.json").read_text())["samples"]
     last = samples[-1]
     assert last["t"] == 10
     sim = on_the_ground(world)
     sim.run(10.0)
     for link in sim["my_robot"].links:
-        there = last["links"][f"my_robot::{link.name}"]
-        expected = Pose(tuple(there["pos"]), tuple(there["quat_wxyz"]))
+        gazebo = last["links"][f"my_robot::{link.name}"]
+        expected = Pose(tuple(gazebo["pos"]), tuple(gazebo["quat_wxyz"]))
         assert link.pose.position == pytest.approx(expected.position, abs=1e-3), link.name
         axle = AXLES.get(link.name)
         turned = angle_between_axles(link.pose, expected, axle) if axle else angle_between(link.pose, expected)
         assert turned < 1e-3, link.name
 
 
-def test_pushed_with_15_newton_it_rolls_as_a_rigid_body_would(world: World) -> None:
+def test_a_push_of_15_newton_rolls_the_robot_as_a_rigid_body(world: World) -> None:
     sim = on_the_ground(world)
     chassis = sim["my_robot"].link("chassis")
     y = chassis.pose.position[1]
@@ -78,7 +78,7 @@ def test_pushed_with_15_newton_it_rolls_as_a_rigid_body_would(world: World) -> N
     assert chassis.pose.position[1] - y == pytest.approx(0.412, rel=0.02)
 
 
-def test_pushed_with_5_newton_the_wheels_friction_holds_it(world: World) -> None:
+def test_wheel_friction_holds_the_robot_against_5_newton(world: World) -> None:
     sim = on_the_ground(world)
     chassis = sim["my_robot"].link("chassis")
     y = chassis.pose.position[1]
@@ -88,7 +88,7 @@ def test_pushed_with_5_newton_the_wheels_friction_holds_it(world: World) -> None
     assert abs(chassis.pose.position[1] - y) < 1e-3
 
 
-def test_pushed_sideways_at_the_camera_it_tips_over_when_it_does_in_gazebo(world: World) -> None:
+def test_a_sideways_push_at_the_camera_tips_the_robot_as_in_gazebo(world: World) -> None:
     sim = on_the_ground(world)
     robot = sim["my_robot"]
     robot.link("camera").apply_wrench(Wrench(force=(20.0, 0.0, 0.0)))

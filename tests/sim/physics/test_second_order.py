@@ -141,7 +141,7 @@ CASES: dict[str, tuple[Arm, ...]] = {
 
 
 @pytest.mark.parametrize("arms", CASES.values(), ids=CASES.keys())
-def test_half_the_step_is_a_quarter_of_the_error(arms: tuple[Arm, ...], tmp_path: Path) -> None:
+def test_half_the_step_gives_a_quarter_of_the_error(arms: tuple[Arm, ...], tmp_path: Path) -> None:
     truth = _truth(arms)
     errors = np.array([_errors(arms, tmp_path, step_s, truth) for step_s in STEPS_S])
 
@@ -184,8 +184,8 @@ def test_a_pendulum_neither_loses_nor_gains_energy(name: str, tmp_path: Path) ->
         mujoco.mj_forward(model, data)
         mujoco.mj_energyPos(model, data)
         mujoco.mj_energyVel(model, data)
-        own = sum(k * q * q / 2 for k, q in zip(springs, data.qpos, strict=False) if k)
-        return float(data.energy.sum()) + own
+        stored = sum(k * q * q / 2 for k, q in zip(springs, data.qpos, strict=False) if k)
+        return float(data.energy.sum()) + stored
 
     before = energy()
     largest = 0.0
@@ -196,7 +196,7 @@ def test_a_pendulum_neither_loses_nor_gains_energy(name: str, tmp_path: Path) ->
     assert largest < 1e-3
 
 
-def test_velocities_go_on_when_an_effort_begins(tmp_path: Path) -> None:
+def test_velocities_are_continuous_when_an_effort_begins(tmp_path: Path) -> None:
     """A tree that is driven has the positions half a step ahead, and not the velocities half a step behind."""
     sim = _run(CASES["revolute"], tmp_path, 0.001)
     joint = sim["m"].joint("j0")

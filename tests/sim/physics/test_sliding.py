@@ -66,12 +66,12 @@ def test_a_block_slides_down_a_slope_and_never_leaves_it(
     tilt = math.radians(degrees)
     sim = load(block(size, mass, mu, tilt), tilt=tilt)
 
-    def way() -> float:
+    def distance() -> float:
         x, _, z = sim["b"].pose.position
         return x * math.cos(tilt) - z * math.sin(tilt)
 
     sim.run(0.1)
-    start = way()
+    start = distance()
     x, _, z = sim["b"].link("l").twist.linear
     speed = x * math.cos(tilt) - z * math.sin(tilt)
     for _ in range(100):
@@ -79,7 +79,7 @@ def test_a_block_slides_down_a_slope_and_never_leaves_it(
         assert len(loads(sim)) == 4
     pull = GRAVITY * (math.sin(tilt) - mu * math.cos(tilt))
     assert speed == pytest.approx(0.1 * pull, rel=0.03, abs=2e-3)
-    assert way() - start == pytest.approx(speed * 0.9 + pull * 0.9**2 / 2, rel=2e-3)
+    assert distance() - start == pytest.approx(speed * 0.9 + pull * 0.9**2 / 2, rel=2e-3)
 
 
 # Boxes that parted by 29 mm when the push ended, in the first of our contacts.
@@ -106,10 +106,10 @@ def test_boxes_pushed_in_a_row_stay_together_when_the_push_ends(
     sim.run(4.0)
 
     drag, pull = mu * GRAVITY, push / sum(masses) - mu * GRAVITY
-    way = pull * 0.4**2 / 2 * (1 + pull / drag)
-    ways = [sim[f"b{i}"].pose.position[0] - i * size for i in range(len(masses))]
-    assert ways == pytest.approx([way] * len(masses), rel=2e-3)
-    assert max(ways) - min(ways) < 1e-3
+    distance = pull * 0.4**2 / 2 * (1 + pull / drag)
+    distances = [sim[f"b{i}"].pose.position[0] - i * size for i in range(len(masses))]
+    assert distances == pytest.approx([distance] * len(masses), rel=2e-3)
+    assert max(distances) - min(distances) < 1e-3
 
 
 TUTORIAL = Vehicle(wheels=((0, 0.15), (0, -0.15)), balls=((0.15, 0), (-0.15, 0)))
@@ -129,7 +129,7 @@ SKID = Vehicle(wheels=((0.25, 0.3), (-0.25, 0.3), (0.25, -0.3), (-0.25, -0.3)), 
         (Vehicle(wheels=((0.08, 0.2), (0.08, -0.2)), balls=((-0.2, 0.1), (-0.2, -0.1)), ball_mu=0.3), 1.5, -1.5),
     ],
 )
-def test_a_vehicle_goes_as_friction_lets_it_and_no_point_leaves_the_floor(
+def test_a_vehicle_drives_by_its_friction_and_keeps_all_contacts(
     load: Load, vehicle: Vehicle, left: float, right: float
 ) -> None:
     sim = load(vehicle.sdf())
@@ -147,12 +147,12 @@ def test_a_vehicle_goes_as_friction_lets_it_and_no_point_leaves_the_floor(
         motions.append((x * math.cos(yaw) + y * math.sin(yaw), y * math.cos(yaw) - x * math.sin(yaw), twist.angular[2]))
         pushes.append(loads(sim))
 
-    points = vehicle.points([sum(each) / 50 for each in zip(*treads, strict=True)])
+    points = vehicle.points([sum(values) / 50 for values in zip(*treads, strict=True)])
     forwards, sideways, turning = drift(points)
-    found = [sum(each) / 50 for each in zip(*motions, strict=True)]
-    assert found[0] == pytest.approx(forwards, rel=0.03, abs=0.003)
-    assert found[1] == pytest.approx(sideways, rel=0.03, abs=0.003)
-    assert found[2] == pytest.approx(turning, rel=0.03, abs=0.003)
+    measured = [sum(values) / 50 for values in zip(*motions, strict=True)]
+    assert measured[0] == pytest.approx(forwards, rel=0.03, abs=0.003)
+    assert measured[1] == pytest.approx(sideways, rel=0.03, abs=0.003)
+    assert measured[2] == pytest.approx(turning, rel=0.03, abs=0.003)
     for push in pushes:
         wheels = len(vehicle.wheels)
         assert push == pytest.approx([p.load for p in points[wheels:] + points[:wheels]], rel=0.05)
@@ -230,9 +230,7 @@ def test_a_vehicle_goes_as_friction_lets_it_and_no_point_leaves_the_floor(
         (Vehicle(wheels=((0.2, 0.2), (0.2, -0.2), (-0.2, 0.2), (-0.2, -0.2)), mass=500.0, mu=2.0), 2.0, 3.0),
     ],
 )
-def test_whatever_a_vehicle_weighs_its_points_stay_on_the_floor(
-    load: Load, vehicle: Vehicle, left: float, right: float
-) -> None:
+def test_vehicles_of_any_mass_keep_all_contacts(load: Load, vehicle: Vehicle, left: float, right: float) -> None:
     sim = load(vehicle.sdf())
     speeds = [(left if y > 0 else right if y < 0 else (left + right) / 2) for _, y in vehicle.wheels]
     for part in range(1, 51):
@@ -255,9 +253,9 @@ def test_whatever_a_vehicle_weighs_its_points_stay_on_the_floor(
 
 # Gazebo drives 1.03 m of 1.2 m, and turns by 3.5 of 5.3 rad.
 @pytest.mark.parametrize("wait", [0.0, 0.2])
-@pytest.mark.parametrize(("left", "way", "turn"), [(3.0, 1.09, 0.0), (-2.0, 0.0, 4.9)])
+@pytest.mark.parametrize(("left", "distance", "turn"), [(3.0, 1.09, 0.0), (-2.0, 0.0, 4.9)])
 def test_the_robot_of_the_tutorials_drives_and_turns_with_a_torque_of_5(
-    load: Load, wait: float, left: float, way: float, turn: float
+    load: Load, wait: float, left: float, distance: float, turn: float
 ) -> None:
     sim = load(TUTORIAL.sdf())
     sim.run(wait)
@@ -269,12 +267,12 @@ def test_the_robot_of_the_tutorials_drives_and_turns_with_a_torque_of_5(
         now = sim["vehicle"].pose.rpy[2]
         yaw, before = yaw + math.remainder(now - before, math.tau), now
 
-    assert way - 1e-6 <= sim["vehicle"].pose.position[0] <= 1.2
+    assert distance - 1e-6 <= sim["vehicle"].pose.position[0] <= 1.2
     assert turn - 1e-6 <= yaw <= 5.34
 
 
 @pytest.mark.parametrize("wait", [0.0, 0.2])
-def test_loads_are_shared_from_the_moment_that_a_robot_turns(load: Load, wait: float) -> None:
+def test_loads_are_shared_from_the_first_moment_of_a_turn(load: Load, wait: float) -> None:
     sim = load(TUTORIAL.sdf())
     sim.run(wait)
     sim["vehicle"].joint("axle0").command_velocity(-2.0, max_effort=5.0)

@@ -1,4 +1,4 @@
-"""Surfaces that stand: slabs behind their faces, few of them, and quickly compiled."""
+"""Static surfaces: slabs behind their faces, few of them, and quickly compiled."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -28,19 +28,19 @@ def strip(triangles: int, *, noise: float = 0.0005) -> Mesh:
     rows = triangles // (2 * (columns - 1)) + 1
     x, y = np.meshgrid(np.arange(rows) * 0.1, np.linspace(-1, 1, columns), indexing="ij")
     z = 0.2 * np.sin(0.7 * x) + 0.05 * np.sin(3 * y + x) + np.random.default_rng(3).normal(0, noise, x.shape)
-    corner = np.arange(rows * columns).reshape(rows, columns)
+    corner = np.arange(rows * columns, dtype=np.intp).reshape(rows, columns)
     a, b, c, d = corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]
     faces = np.concatenate([np.stack(three, axis=-1).reshape(-1, 3) for three in ((a, b, c), (a, c, d))])
-    return np.stack([x, y, z], axis=-1).reshape(-1, 3), faces
+    return np.stack([x, y, z], axis=-1, dtype=np.float64).reshape(-1, 3), faces
 
 
-def surface_height(mesh: Mesh, places: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(N,) height of the surface [m] at places (N, 2), each above one triangle of it."""
+def surface_height(mesh: Mesh, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(N,) height of the surface [m] at points (N, 2), each above one triangle of it."""
     a, b, c = (mesh[0][mesh[1][:, i]] for i in range(3))
-    heights = np.full(len(places), np.nan)
+    heights = np.full(len(points), np.nan)
     base = np.stack([(b - a)[:, :2], (c - a)[:, :2]], axis=-1)
-    for i, place in enumerate(places):
-        u, v = np.linalg.solve(base, (place - a[:, :2])[..., None])[..., 0].T
+    for i, point in enumerate(points):
+        u, v = np.linalg.solve(base, (point - a[:, :2])[..., None])[..., 0].T
         (inside,) = np.nonzero((u >= 0) & (v >= 0) & (u + v <= 1))
         t = inside[0]
         heights[i] = a[t, 2] + u[t] * (b - a)[t, 2] + v[t] * (c - a)[t, 2]
@@ -48,32 +48,32 @@ def surface_height(mesh: Mesh, places: NDArray[np.float64]) -> NDArray[np.float6
 
 
 @pytest.fixture(autouse=True)
-def _forget() -> Iterator[None]:
+def _empty_caches() -> Iterator[None]:
     mesh_decomposition.clear_cache()
     yield
     mesh_decomposition.clear_cache()
 
 
-def test_patches_are_the_surface_exactly() -> None:
+def test_patches_represent_the_surface_exactly() -> None:
     mesh = strip(480)
-    places = np.random.default_rng(1).uniform((0.05, -0.95), (0.95, 0.95), (200, 2))
-    expected = surface_height(mesh, places)
+    points = np.random.default_rng(1).uniform((0.05, -0.95), (0.95, 0.95), (200, 2))
+    expected = surface_height(mesh, points)
     solids = [hull for piece in convex_pieces(*mesh, fixed=True).corners if (hull := hull_of(piece)) is not None]
-    found = np.full(len(places), -np.inf)
+    heights = np.full(len(points), -np.inf)
     for solid in solids:
         # Where a line down at each place enters the solid.
         slopes = solid.normals[:, 2]
-        distances = solid.offsets[:, None] - solid.normals[:, :2] @ places.T
+        distances = solid.offsets[:, None] - solid.normals[:, :2] @ points.T
         with np.errstate(divide="ignore", invalid="ignore"):
             entries = distances / slopes[:, None]
         top = np.where(slopes[:, None] > 1e-9, entries, np.inf).min(axis=0)
         bottom = np.where(slopes[:, None] < -1e-9, entries, -np.inf).max(axis=0)
-        beside = (np.where(np.abs(slopes[:, None]) <= 1e-9, distances, 0.0) < 0).any(axis=0)
-        found = np.where((top >= bottom) & ~beside, np.maximum(found, top), found)
-    assert found == pytest.approx(expected, abs=2e-4)
+        is_outside = (np.where(np.abs(slopes[:, None]) <= 1e-9, distances, 0.0) < 0).any(axis=0)
+        heights = np.where((top >= bottom) & ~is_outside, np.maximum(heights, top), heights)
+    assert heights == pytest.approx(expected, abs=2e-4)
 
 
-def test_faces_of_a_bulge_are_one_patch_and_of_a_hollow_many() -> None:
+def test_a_bulge_is_one_patch_and_a_hollow_many() -> None:
     points, faces = strip(480, noise=0.0)
     x, y = points[:, 0] - 0.5, points[:, 1]
     counts: list[int] = []
@@ -105,7 +105,7 @@ def load(folder: Path, mesh: Mesh, *, radius: float = 0.1) -> Simulation:
     return trundle.load(str(file))
 
 
-def test_a_track_is_compiled_as_its_surface_whatever_is_added_at_once(
+def test_a_track_compiles_to_its_surface_for_any_number_of_hulls_per_spec(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     mesh = strip(2400)
@@ -126,7 +126,7 @@ def test_a_track_is_compiled_as_its_surface_whatever_is_added_at_once(
 
 @pytest.mark.parametrize("speed", [3.0, 10.0, 14.0])
 @pytest.mark.parametrize("radius", [0.004, 0.02, 0.03])
-def test_what_is_fast_and_small_does_not_go_through_a_slab(tmp_path: Path, radius: float, speed: float) -> None:
+def test_a_fast_small_body_does_not_tunnel_through_a_slab(tmp_path: Path, radius: float, speed: float) -> None:
     mesh = strip(960, noise=0.0)
     sim = load(tmp_path, mesh, radius=radius)
     sim["ball"].set_twist(Twist((0.0, 0.0, -speed)))
@@ -151,7 +151,7 @@ def test_a_track_of_50_000_triangles_is_its_surface(tmp_path: Path) -> None:
     assert z - surface_height(mesh, np.array([[x, y]]))[0] == pytest.approx(0.1, abs=0.01)
 
 
-def test_what_stands_shares_the_slabs_of_a_world(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_static_meshes_share_the_limit_of_slabs(monkeypatch: pytest.MonkeyPatch) -> None:
     # Two tracks of some 1300 slabs, and slabs for one.
     monkeypatch.setattr(mesh_decomposition, "MAX_SLABS", 2000)
     first, second = strip(2400), strip(2448)
@@ -160,10 +160,10 @@ def test_what_stands_shares_the_slabs_of_a_world(monkeypatch: pytest.MonkeyPatch
     counts = [len(world.pieces_of(*mesh, fixed=True).pieces.corners) for mesh in (first, second)]
     assert counts[0] > 1000
     assert counts[1] == 1
-    assert [misfit.is_filled for misfit in world.pieces_of(*second, fixed=True).pieces.errors] == [True]
+    assert [error.is_filled for error in world.pieces_of(*second, fixed=True).pieces.errors] == [True]
 
 
-def test_a_fine_thing_that_stands_and_is_near_its_hull_is_its_hull(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_fine_static_mesh_close_to_its_hull_becomes_the_hull(monkeypatch: pytest.MonkeyPatch) -> None:
     points, faces = strip(480, noise=0.0)
     points[:, 2] /= 100
     monkeypatch.setattr(pieces, "MAX_PIECES", 50)

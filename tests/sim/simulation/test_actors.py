@@ -23,7 +23,7 @@ def actor(*trajectories: Trajectory, loop: bool = True, delay: float = 0.0) -> A
     return Actor(name="a", at=Source("t"), trajectories=trajectories, loop=loop, delay_start_s=delay)
 
 
-def test_a_way_goes_through_its_waypoints_smoothly() -> None:
+def test_a_path_passes_its_waypoints_smoothly() -> None:
     script = ActorScript(actor(Trajectory(id=0, type="w", waypoints=points(SQUARE))))
 
     for i, (x, y) in enumerate(SQUARE[:-1]):
@@ -35,29 +35,29 @@ def test_a_way_goes_through_its_waypoints_smoothly() -> None:
     assert before.linear == pytest.approx((1.0, 1.0, 0.0), abs=1e-4)
 
 
-def test_tension_draws_it_straight() -> None:
+def test_full_tension_makes_a_path_straight() -> None:
     script = ActorScript(actor(Trajectory(id=0, type="w", tension=1.0, waypoints=points(SQUARE))))
 
     assert script.pose_at(0.5).position == pytest.approx((1.0, 0.0, 0.0))
     assert script.pose_at(1.25).position[0] == pytest.approx(2.0)
 
 
-def test_rounds_begin_after_their_delay_and_a_single_one_ends_where_it_ends() -> None:
-    way = Trajectory(id=0, type="w", waypoints=points(((0, 0), (1, 0))))
+def test_loops_start_after_their_delay_and_a_single_round_stays_at_its_end() -> None:
+    out = Trajectory(id=0, type="w", waypoints=points(((0, 0), (1, 0))))
     back = Trajectory(id=1, type="w", waypoints=points(((1, 0), (1, 3)), every=2.0))
-    again, once = (ActorScript(actor(way, back, loop=loop, delay=1.0)) for loop in (True, False))
+    looped, single = (ActorScript(actor(out, back, loop=loop, delay=1.0)) for loop in (True, False))
 
-    assert again.length_s == 3.0
-    for script in (again, once):
+    assert looped.length_s == 3.0
+    for script in (looped, single):
         assert script.pose_at(0.9).position == (0, 0, 0)
         assert script.pose_at(1.5).position == pytest.approx((0.5, 0, 0))
         assert script.pose_at(3.0).position == pytest.approx((1, 1.5, 0))
-    assert again.pose_at(5.5).position == pytest.approx((0.5, 0, 0))
-    assert again.twist_at(3.99, 0.02).linear == (0, 0, 0), "no leap back at 150 m/s"
-    assert once.pose_at(9.0).position == pytest.approx((1, 3, 0))
+    assert looped.pose_at(5.5).position == pytest.approx((0.5, 0, 0))
+    assert looped.twist_at(3.99, 0.02).linear == (0, 0, 0), "no jump back at 150 m/s"
+    assert single.pose_at(9.0).position == pytest.approx((1, 3, 0))
 
 
-def test_it_turns_the_short_way_round() -> None:
+def test_orientations_turn_the_shorter_way() -> None:
     turns = (Pose.from_rpy(0, 0, 0, 0, 0, 3.0), Pose.from_rpy(0, 0, 0, 0, 0, -3.0))
     waypoints = tuple(Waypoint(time_s=float(i), pose=pose) for i, pose in enumerate(turns))
     script = ActorScript(actor(Trajectory(id=0, type="w", waypoints=waypoints), loop=False))
@@ -82,7 +82,7 @@ def sim(tmp_path: Path) -> Simulation:
     return trundle.load(str(file))
 
 
-def test_an_actor_is_a_model_that_moves_by_its_script_and_from_the_beginning_after_a_reset(sim: Simulation) -> None:
+def test_an_actor_is_a_model_that_follows_its_script_again_after_a_reset(sim: Simulation) -> None:
     assert [model.name for model in sim.models] == ["m", "box", "walker"]
     box = sim["box"]
     for _ in range(2):
@@ -90,7 +90,7 @@ def test_an_actor_is_a_model_that_moves_by_its_script_and_from_the_beginning_aft
         sim.run(1.0)
         assert box.pose.position == pytest.approx((1, 0, 1), abs=1e-3)
         assert box.pose.rpy[2] == pytest.approx(0.5, abs=1e-3)
-        # The straight way between two waypoints is gone at once and a half its mean speed in the middle.
+        # In the middle of a straight segment the speed is one and a half times the mean.
         assert box.base.twist.linear[0] == pytest.approx(1.25 * 2.0, rel=0.03)
         sim.reset()
     assert sim["walker"].pose.position == (0, 0, 1.2138)
@@ -98,7 +98,7 @@ def test_an_actor_is_a_model_that_moves_by_its_script_and_from_the_beginning_aft
     sim.run(0.1)
 
 
-def test_two_simulations_of_one_world_have_each_actor_once(sim: Simulation) -> None:
+def test_a_second_simulation_of_a_world_adds_no_actor_twice(sim: Simulation) -> None:
     again = Simulation(sim.world, sim.report)
 
     assert [model.name for model in again.models] == ["m", "box", "walker"]
@@ -115,7 +115,7 @@ def test_two_simulations_of_one_world_have_each_actor_once(sim: Simulation) -> N
         ("<auto_start>false</auto_start>", {1.5: 7.0}),
     ],
 )
-def test_a_file_says_when_an_actor_goes_and_how_often(tmp_path: Path, script: str, at: dict[float, float]) -> None:
+def test_auto_start_loop_and_delay_are_read_from_the_file(tmp_path: Path, script: str, at: dict[float, float]) -> None:
     """From −1 to 1 m in two seconds."""
     points = "".join(f"<waypoint><time>{t}</time><pose>{t - 1} 0 0 0 0 0</pose></waypoint>" for t in (0, 1, 2))
     file = tmp_path / "w.sdf"

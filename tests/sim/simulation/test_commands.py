@@ -60,7 +60,7 @@ def _slower(sim: Simulation) -> None:
         (_slower, 600),
     ],
 )
-def test_what_is_left_of_an_advance_is_left_where_a_command_changes_the_time(
+def test_a_time_reset_by_a_command_keeps_the_remaining_advance(
     sim: Simulation, command: Callable[[Simulation], None], time_ms: int
 ) -> None:
     """Half a second has gone by, of which a burst would make up for."""
@@ -72,7 +72,7 @@ def test_what_is_left_of_an_advance_is_left_where_a_command_changes_the_time(
     assert sim.simulated_ns - before_ns == 100_000_000
 
 
-def test_a_restored_state_takes_back_nothing_of_what_was_simulated(sim: Simulation) -> None:
+def test_a_restore_does_not_reduce_the_total_simulated_time(sim: Simulation) -> None:
     saved = sim.save()
     sim.run(0.3)
     sim.post(lambda sim: sim.restore(saved))
@@ -82,14 +82,14 @@ def test_a_restored_state_takes_back_nothing_of_what_was_simulated(sim: Simulati
     assert sim.simulated_steps == 900
 
 
-def test_a_stride_is_no_longer_where_a_command_takes_time_back(sim: Simulation) -> None:
+def test_a_stride_is_not_longer_after_a_command_resets_the_time(sim: Simulation) -> None:
     sim.post(Simulation.reset)
     sim.stride(sim.time_ns + 20_000_000)
 
     assert sim.time_ns == 20_000_000
 
 
-def test_a_hook_may_take_time_back_amid_an_advance(sim: Simulation) -> None:
+def test_a_hook_may_reset_the_time_during_an_advance(sim: Simulation) -> None:
     class Back:
         def before_step(self, sim: Simulation) -> None:
             if sim.time_ns == 600_000_000:
@@ -101,7 +101,7 @@ def test_a_hook_may_take_time_back_amid_an_advance(sim: Simulation) -> None:
     assert sim.time_ns == 100_000_000
 
 
-def test_time_alone_goes_back(sim: Simulation) -> None:
+def test_a_reset_of_time_keeps_the_poses(sim: Simulation) -> None:
     clock, called = Clock(), []
     sim.on_reset(lambda: called.append(1))
     sim.add_hook(clock, period_ns=100_000_000)
@@ -118,7 +118,7 @@ def test_time_alone_goes_back(sim: Simulation) -> None:
     assert called == []
 
 
-def test_poses_alone_go_back(sim: Simulation) -> None:
+def test_a_reset_of_poses_keeps_the_time(sim: Simulation) -> None:
     clock, called = Clock(), []
     sim.on_reset(lambda: called.append(1))
     sim.add_hook(clock, period_ns=100_000_000)
@@ -133,7 +133,7 @@ def test_poses_alone_go_back(sim: Simulation) -> None:
     assert called == [1]
 
 
-def test_what_waits_for_a_models_resets_goes_with_the_model(sim: Simulation) -> None:
+def test_reset_callbacks_of_a_model_are_removed_with_it(sim: Simulation) -> None:
     called: list[str] = []
     sim.on_reset(lambda: called.append("cart"), model=sim["cart"])
     sim["cart"].reset()
@@ -146,7 +146,7 @@ def test_what_waits_for_a_models_resets_goes_with_the_model(sim: Simulation) -> 
     assert called == ["cart", "cart"]
 
 
-def test_an_effort_lasts_as_long_as_it_is_told_to(tmp_path: Path) -> None:
+def test_an_effort_lasts_for_its_duration(tmp_path: Path) -> None:
     sim = load(tmp_path)
     hinge = sim["cart"].joint("hinge")
     hinge.command_effort(0.1, duration_s=0.2)
@@ -166,7 +166,7 @@ def test_an_effort_lasts_as_long_as_it_is_told_to(tmp_path: Path) -> None:
     assert hinge.velocity == pytest.approx(2 * 0.1 * 0.2 / 0.05, rel=1e-6)
 
 
-def test_an_effort_of_what_is_deleted_ends_with_it(tmp_path: Path) -> None:
+def test_an_effort_of_a_deleted_model_ends_with_it(tmp_path: Path) -> None:
     sim = load(tmp_path)
     sim["cart"].joint("hinge").command_effort(0.1, duration_s=0.2)
     sim.delete("cart")
@@ -175,7 +175,7 @@ def test_an_effort_of_what_is_deleted_ends_with_it(tmp_path: Path) -> None:
     assert [model.name for model in sim.models] == ["post"]
 
 
-def test_a_joint_is_put_where_and_as_fast_as_one_likes(sim: Simulation) -> None:
+def test_joint_positions_and_velocities_can_be_set(sim: Simulation) -> None:
     hinge = sim["cart"].joint("hinge")
     hinge.set_position(0.7)
     hinge.set_velocity(-1.0)
@@ -183,8 +183,8 @@ def test_a_joint_is_put_where_and_as_fast_as_one_likes(sim: Simulation) -> None:
     assert (hinge.position, hinge.velocity) == (0.7, -1.0)
 
 
-def test_a_model_tells_how_its_frame_moves(tmp_path: Path) -> None:
-    """A link 2 m from the model's frame that spins about itself takes the frame round."""
+def test_a_model_reports_the_twist_of_its_frame(tmp_path: Path) -> None:
+    """A link that spins 2 m from the model's frame moves the frame in a circle."""
     file = tmp_path / "w.sdf"
     link = f'<link name="l"><pose>2 0 0 0 0 0</pose>{INERTIA}</link>'
     model = f'<model name="m">{link}</model>'
@@ -199,7 +199,7 @@ def test_a_model_tells_how_its_frame_moves(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("number", [math.nan, math.inf])
-def test_nothing_is_put_nowhere(sim: Simulation, number: float) -> None:
+def test_poses_that_are_not_finite_are_refused(sim: Simulation, number: float) -> None:
     cart, nowhere, no_speed = sim["cart"], Pose((number, 0.0, 0.0)), Twist((0.0, number, 0.0))
     for call in (cart.set_pose, cart.link("base").set_pose):
         with pytest.raises(UsageError, match=f"finite numbers are needed, got {number}, 0, 0, 1"):
@@ -212,13 +212,13 @@ def test_nothing_is_put_nowhere(sim: Simulation, number: float) -> None:
 
 
 @pytest.mark.parametrize("name", ["", "\0", "cart\0", "a\nb"])
-def test_a_name_that_no_file_holds_is_refused(sim: Simulation, name: str) -> None:
+def test_a_name_with_control_characters_is_refused(sim: Simulation, name: str) -> None:
     cart = sim.models[0].model
     with pytest.raises(UsageError, match="name"):
         sim.spawn(replace(cart, name=name))
 
 
-def test_spawned_models_are_numbered_where_that_is_allowed(sim: Simulation) -> None:
+def test_spawned_models_are_numbered_if_renaming_is_allowed(sim: Simulation) -> None:
     cart = sim["cart"].model
     with pytest.raises(UsageError, match="there is a model 'cart' already"):
         sim.spawn(cart)
@@ -229,7 +229,7 @@ def test_spawned_models_are_numbered_where_that_is_allowed(sim: Simulation) -> N
 
 
 @pytest.mark.parametrize("tied", [False, True])
-def test_a_renamed_model_goes_on_to_the_bit(tmp_path: Path, tied: bool) -> None:
+def test_a_renamed_model_continues_to_the_bit(tmp_path: Path, tied: bool) -> None:
     ends: list[tuple[object, ...]] = []
     for rename in (False, True):
         sim = load(tmp_path, tied=tied)
@@ -258,7 +258,7 @@ def test_a_name_that_is_taken_is_refused(sim: Simulation) -> None:
     assert sim["cart"].name == "cart"
 
 
-def test_what_joined_a_deleted_model_goes_with_it(tmp_path: Path) -> None:
+def test_joints_with_a_deleted_model_are_deleted(tmp_path: Path) -> None:
     sim = load(tmp_path, tied=True)
     (tie,) = sim.joints
     sim.delete("post")

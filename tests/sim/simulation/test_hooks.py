@@ -8,7 +8,6 @@ import pytest
 from trundle.base.diagnostics import Diagnostics, Source
 from trundle.gazebo.plugins import Plugin
 from trundle.robots.model import PhysicsSettings, World
-from trundle.sim import simulation
 from trundle.sim.simulation import Simulation, Snapshot
 
 MS = 1_000_000
@@ -25,8 +24,8 @@ class Track:
 
     calls: list[tuple[int, str]] = field(default_factory=list)
 
-    def times_ns(self, what: str) -> list[int]:
-        return [time for time, called in self.calls if called == what]
+    def times_ns(self, name: str) -> list[int]:
+        return [time for time, called in self.calls if called == name]
 
 
 @dataclass
@@ -64,11 +63,6 @@ class Both:
         self.track.calls.append((snapshot.time_ns, "looks"))
 
 
-def test_the_front_door_exports_in_order() -> None:
-    assert simulation.__all__ == sorted(simulation.__all__)
-    assert all(hasattr(simulation, name) for name in simulation.__all__)
-
-
 def test_a_hook_acts_at_once_and_then_every_period() -> None:
     sim, track = empty_world(), Track()
     sim.add_hook(Acts(track), period_ns=20 * MS)
@@ -76,14 +70,14 @@ def test_a_hook_acts_at_once_and_then_every_period() -> None:
     assert track.times_ns("acts") == [0, 20 * MS, 40 * MS, 60 * MS, 80 * MS]
 
 
-def test_a_hook_looks_after_the_first_period_and_at_the_end() -> None:
+def test_an_after_step_hook_is_due_after_each_period_and_at_the_end() -> None:
     sim, track = empty_world(), Track()
     sim.add_hook(Looks(track), period_ns=20 * MS)
     sim.run(0.1)
     assert track.times_ns("looks") == [20 * MS, 40 * MS, 60 * MS, 80 * MS, 100 * MS]
 
 
-def test_thirty_a_second_are_three_hundred_in_ten_seconds_never_early_nor_late_by_a_step() -> None:
+def test_a_rate_of_thirty_hertz_is_exact_over_ten_seconds() -> None:
     sim, track = empty_world(), Track()
     period_ns = round(1e9 / 30)
     sim.add_hook(Looks(track), period_ns=period_ns)
@@ -93,7 +87,7 @@ def test_thirty_a_second_are_three_hundred_in_ten_seconds_never_early_nor_late_b
     assert all(0 <= time - (i + 1) * period_ns < MS for i, time in enumerate(times))
 
 
-def test_the_count_does_not_depend_on_how_time_is_cut() -> None:
+def test_the_number_of_calls_does_not_depend_on_stride_lengths() -> None:
     whole, cut = Track(), Track()
     for track, strides in ((whole, [1.0]), (cut, [0.007] * 100 + [0.1] * 3)):
         sim = empty_world()
@@ -118,16 +112,16 @@ def test_a_period_shorter_than_a_step_is_every_step() -> None:
     assert track.times_ns("looks") == [10 * MS * i for i in range(1, 6)]
 
 
-def test_at_one_instant_who_looks_comes_before_who_acts_each_in_the_order_added() -> None:
+def test_after_step_hooks_come_before_before_step_hooks_in_order_of_registration() -> None:
     sim, track = empty_world(), Track()
     for hook in (Acts(track, "act 1"), Looks(track, "look 1"), Acts(track, "act 2"), Looks(track, "look 2")):
         sim.add_hook(hook, period_ns=10 * MS)
     sim.run(0.015)
-    at_ten = [what for time, what in track.calls if time == 10 * MS]
+    at_ten = [name for time, name in track.calls if time == 10 * MS]
     assert at_ten == ["look 1", "look 2", "act 1", "act 2"]
 
 
-def test_who_shares_work_is_told_before_anybody_who_is_due_with_it_looks() -> None:
+def test_prepare_is_called_on_all_due_hooks_before_the_first_after_step() -> None:
     @dataclass
     class Shares(Looks):
         def prepare(self, snapshot: Snapshot) -> None:
@@ -139,26 +133,26 @@ def test_who_shares_work_is_told_before_anybody_who_is_due_with_it_looks() -> No
     sim.add_hook(Shares(track, "look 3"), period_ns=20 * MS)
     sim.run(0.02)
     sharing = ["before look 2", "before look 3", "look 1", "look 2", "look 3"]
-    assert [what for time, what in track.calls if time == 10 * MS] == ["before look 2", "look 1", "look 2"]
-    assert [what for time, what in track.calls if time == 20 * MS] == sharing
+    assert [name for time, name in track.calls if time == 10 * MS] == ["before look 2", "look 1", "look 2"]
+    assert [name for time, name in track.calls if time == 20 * MS] == sharing
 
 
-def test_hooks_that_are_due_together_look_at_the_same_snapshot() -> None:
-    seen: list[Snapshot] = []
+def test_hooks_due_together_receive_the_same_snapshot() -> None:
+    snapshots: list[Snapshot] = []
 
     class Keeps:
         def after_step(self, snapshot: Snapshot) -> None:
-            seen.append(snapshot)
+            snapshots.append(snapshot)
 
     sim = empty_world()
     sim.add_hook(Keeps(), period_ns=10 * MS)
     sim.add_hook(Keeps(), period_ns=20 * MS)
     sim.run(0.02)
-    assert len(seen) == 3
-    assert seen[1] is seen[2]
+    assert len(snapshots) == 3
+    assert snapshots[1] is snapshots[2]
 
 
-def test_a_hook_added_later_counts_from_then() -> None:
+def test_the_period_of_a_hook_starts_at_its_registration() -> None:
     sim, track = empty_world(), Track()
     sim.run(0.005)
     sim.add_hook(Both(track), period_ns=10 * MS)
@@ -167,7 +161,7 @@ def test_a_hook_added_later_counts_from_then() -> None:
     assert track.times_ns("looks") == [15 * MS, 25 * MS]
 
 
-def test_hooks_start_anew_after_a_reset() -> None:
+def test_hooks_restart_after_a_reset() -> None:
     sim, track = empty_world(), Track()
     sim.add_hook(Both(track), period_ns=10 * MS)
     sim.run(0.025)
@@ -178,7 +172,7 @@ def test_hooks_start_anew_after_a_reset() -> None:
     assert track.calls == first
 
 
-def test_hooks_are_due_after_a_restore_as_they_were_after_the_save() -> None:
+def test_hooks_are_due_equally_after_a_save_and_its_restore() -> None:
     sim, track = empty_world(), Track()
     sim.add_hook(Both(track), period_ns=round(1e9 / 30))
     sim.run(0.05)
@@ -192,31 +186,32 @@ def test_hooks_are_due_after_a_restore_as_they_were_after_the_save() -> None:
     assert track.calls == first
 
 
-def test_an_object_that_can_neither_act_nor_look_is_no_hook() -> None:
+def test_an_object_without_hook_methods_is_refused() -> None:
+    neither: Any = object()
     with pytest.raises(AssertionError, match="neither before_step nor after_step"):
-        empty_world().add_hook(object())
+        empty_world().add_hook(neither)
 
 
-def test_a_hook_nobody_wants_is_not_called_and_does_not_cut_the_stride() -> None:
+def test_a_disabled_hook_is_not_called_and_does_not_shorten_strides(monkeypatch: pytest.MonkeyPatch) -> None:
     sim, track, listening = empty_world(), Track(), [False]
     sim.add_hook(Both(track), period_ns=10 * MS, enabled=lambda: listening[0])
     strides: list[int] = []
     step = sim.engine.step
 
-    def counted(count: int, each: Any) -> int:
+    def counted(count: int, hooks: Any) -> int:
         strides.append(count)
-        return step(count, each)
+        return step(count, hooks)
 
-    sim.engine.step = counted
+    monkeypatch.setattr(sim.engine, "step", counted)
     sim.run(0.1)
     assert (track.calls, strides) == ([], [100])
     listening[0] = True
     sim.run(0.03)
-    # It does not make up for what it missed.
+    # Missed calls are not repeated.
     assert track.times_ns("looks") == [110 * MS, 120 * MS, 130 * MS]
 
 
-def test_a_hook_that_is_removed_is_called_no_more() -> None:
+def test_a_removed_hook_is_not_called() -> None:
     sim = empty_world()
     calls: list[int] = []
 
@@ -224,18 +219,18 @@ def test_a_hook_that_is_removed_is_called_no_more() -> None:
         def after_step(self, snapshot: Snapshot) -> None:
             calls.append(snapshot.time_ns)
 
-    one, other = Counter(), Counter()
-    for hook in (one, other):
+    first, second = Counter(), Counter()
+    for hook in (first, second):
         sim.add_hook(hook, period_ns=MS)
     sim.step()
-    sim.remove_hook(one)
+    sim.remove_hook(first)
     sim.step()
 
     assert calls == [MS, MS, 2 * MS]
 
 
-def test_a_method_that_does_nothing_is_not_called_and_does_not_cut_the_stride(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A plugin with `before_step` alone had a snapshot taken for its inherited `after_step`, at every step."""
+def test_an_empty_method_is_not_called_and_does_not_shorten_strides(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The inherited `after_step` of a plugin with `before_step` only must not take a snapshot at every step."""
 
     class Every5(Plugin):
         period_ns = 5 * MS
@@ -244,7 +239,7 @@ def test_a_method_that_does_nothing_is_not_called_and_does_not_cut_the_stride(mo
             strides.append(sim.steps)
 
     sim, strides = empty_world(), list[int]()
-    monkeypatch.setattr(sim, "snapshot", lambda: pytest.fail("nobody looks"))
+    monkeypatch.setattr(sim, "snapshot", lambda: pytest.fail("no hook reads a snapshot"))
     sim.add_hook(Every5(), period_ns=5 * MS)
     sim.add_hook(Plugin())
     sim.run(0.011)

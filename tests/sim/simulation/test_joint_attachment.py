@@ -40,36 +40,36 @@ def same(a: Pose, b: Pose) -> bool:
 
 
 @pytest.mark.parametrize("child", ["b::l", "b::arm"])
-def test_what_is_attached_to_the_world_stays_where_it_is_and_falls_when_let_go(sim: Simulation, child: str) -> None:
+def test_a_link_attached_to_the_world_stays_and_falls_when_detached(sim: Simulation, child: str) -> None:
     before = [link.pose for model in sim.models for link in model.links]
     sim.attach(joint(JointType.FIXED, "world", child))
     after = [link.pose for model in sim.models for link in model.links]
     assert all(same(a, b) for a, b in zip(before, after, strict=True))
 
-    there = sim["b"].link(child.split("::")[1])
+    attached = sim["b"].link(child.split("::")[1])
     sim.run(1.0)
-    assert there.pose.position == pytest.approx(before[1 if child == "b::l" else 2].position, abs=2e-3)
+    assert attached.pose.position == pytest.approx(before[1 if child == "b::l" else 2].position, abs=2e-3)
     sim.detach("tie")
-    height = there.pose.position[2]
+    height = attached.pose.position[2]
     sim.run(0.5)
-    assert there.pose.position[2] < height - 0.3
+    assert attached.pose.position[2] < height - 0.3
 
 
-def test_what_is_fixed_to_the_world_is_moved_with_its_joint(sim: Simulation) -> None:
-    """The arm that hangs on it keeps its angle."""
+def test_a_model_fixed_to_the_world_is_moved_with_its_joint(sim: Simulation) -> None:
+    """Its arm keeps its angle."""
     sim.attach(joint(JointType.FIXED, "world", "b::l"))
     angle = sim["b"].joint("hinge").position
-    there = Pose((4.0, 5.0, 6.0), Pose.from_rpy(0.0, 0.0, 0.0, 0.0, 0.0, 0.7).quaternion)
+    target = Pose((4.0, 5.0, 6.0), Pose.from_rpy(0.0, 0.0, 0.0, 0.0, 0.0, 0.7).quaternion)
 
-    sim["b"].set_pose(there)
+    sim["b"].set_pose(target)
 
-    assert same(sim["b"].pose, there)
+    assert same(sim["b"].pose, target)
     assert sim["b"].joint("hinge").position == pytest.approx(angle)
     sim.run(0.5)
-    assert same(sim["b"].pose, there)
+    assert same(sim["b"].pose, target)
 
 
-def test_two_models_go_on_as_one(sim: Simulation) -> None:
+def test_two_attached_models_move_as_one(sim: Simulation) -> None:
     one, other = sim["a"].link("l"), sim["b"].link("l")
     before = one.pose.inverse() @ other.pose
     sim.attach(joint(JointType.FIXED, "a::l", "b::l"))
@@ -83,7 +83,7 @@ def test_two_models_go_on_as_one(sim: Simulation) -> None:
     assert other.twist.angular == pytest.approx(twists.angular)
 
 
-def test_a_joint_moves_along_the_axis_as_it_lies_in_the_world(sim: Simulation) -> None:
+def test_an_attached_joint_moves_along_its_axis_in_the_world(sim: Simulation) -> None:
     slide = JointAxis(direction=(1.0, 0.0, 0.0))
     tie = sim.attach(joint(JointType.PRISMATIC, "world", "b::l", slide))
     x, y, z = sim["b"].link("l").pose.position
@@ -94,7 +94,7 @@ def test_a_joint_moves_along_the_axis_as_it_lies_in_the_world(sim: Simulation) -
     assert sim["b"].link("l").pose.position == pytest.approx((x + tie.position, y, z), abs=1e-6)
 
 
-def test_what_cannot_be_joined_or_let_go_is_said(sim: Simulation) -> None:
+def test_impossible_attachments_and_detachments_are_refused(sim: Simulation) -> None:
     sim.attach(joint(JointType.FIXED, "world", "b::l"))
 
     for wrong, words in (
@@ -110,7 +110,7 @@ def test_what_cannot_be_joined_or_let_go_is_said(sim: Simulation) -> None:
 
 @pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("box", ["free", "hung", "static"])
-def test_what_a_bent_arm_is_attached_to_stays_and_holds_it(tmp_path: Path, box: str, *, turned: bool) -> None:
+def test_a_body_attached_to_a_bent_arm_stays_and_holds_it(tmp_path: Path, box: str, *, turned: bool) -> None:
     """The arm hangs from the world and is bent, the box flies, hangs from the world too, or is part of it."""
     hung = '<joint name="w" type="fixed"><parent>world</parent><child>l</child></joint>'
     more = {"free": "", "hung": hung, "static": "<static>1</static>"}[box]
@@ -122,10 +122,10 @@ def test_what_a_bent_arm_is_attached_to_stays_and_holds_it(tmp_path: Path, box: 
     hinge, arm, link = sim["robot"].joint("hinge"), sim["robot"].link("arm"), sim["box"].link("l")
     hinge.set_position(1.2)
     sim.step()
-    before = [each.pose for model in sim.models for each in model.links]
+    before = [part.pose for model in sim.models for part in model.links]
     ends = ("box::l", "robot::arm") if turned else ("robot::arm", "box::l")
     sim.attach(joint(JointType.FIXED, *ends))
-    assert all(same(a, each.pose) for a, each in zip(before, [ln for m in sim.models for ln in m.links], strict=True))
+    assert all(same(a, part.pose) for a, part in zip(before, [ln for m in sim.models for ln in m.links], strict=True))
 
     arm_from_box = arm.pose.inverse() @ link.pose
     hinge.command_effort(0.5)
@@ -136,4 +136,4 @@ def test_what_a_bent_arm_is_attached_to_stays_and_holds_it(tmp_path: Path, box: 
 
     sim.detach("tie")
     sim.reset()
-    assert same(link.pose, before[-1]), "attached or not, a reset brings it home"
+    assert same(link.pose, before[-1]), "a reset restores the initial pose, attached or not"

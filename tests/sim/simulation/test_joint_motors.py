@@ -42,18 +42,18 @@ def test_a_strong_motor_of_a_light_wheel_does_not_chatter(tmp_path, speed: float
 
 
 @pytest.mark.parametrize("inertia", [1e-6, 1e-2, 1e3])
-@pytest.mark.parametrize("most", [1e-3, 1.0, 1e6])
-def test_a_motor_is_as_fast_as_its_force_allows_and_keeps_the_speed(tmp_path, inertia: float, most: float) -> None:
-    """v = min(wanted, F t / I) from the first step on, as ODE's bounded motor has it, and no ripple."""
+@pytest.mark.parametrize("max_effort", [1e-3, 1.0, 1e6])
+def test_a_motor_accelerates_by_its_force_and_keeps_the_speed(tmp_path, inertia: float, max_effort: float) -> None:
+    """v = min(target, F t / I) from the first step on, as with ODE's bounded motor, without ripple."""
     simulation = _load(tmp_path, _LIGHT.replace("0.001", f"{inertia}").replace("<effort>10</effort>", ""))
     axle = simulation["m"].joint("axle")
-    axle.command_velocity(1.0, max_effort=most)
+    axle.command_velocity(1.0, max_effort=max_effort)
     for step in range(1, 21):
         simulation.step()
-        assert axle.velocity == pytest.approx(min(1.0, most * 1e-3 * step / inertia), rel=0.01)
+        assert axle.velocity == pytest.approx(min(1.0, max_effort * 1e-3 * step / inertia), rel=0.01)
 
 
-def test_a_platform_carries_what_stands_on_it_up_without_a_hop(tmp_path) -> None:
+def test_a_platform_lifts_a_box_without_a_hop(tmp_path) -> None:
     box = """<inertial><mass>{}</mass><inertia><ixx>5</ixx><iyy>5</iyy><izz>5</izz></inertia></inertial>
     <collision name="c"><geometry><box><size>{}</size></box></geometry></collision>"""
     large, small = box.format(200, "2 2 0.1"), box.format(10, "0.2 0.2 0.2")
@@ -75,8 +75,8 @@ def test_a_platform_carries_what_stands_on_it_up_without_a_hop(tmp_path) -> None
     assert heights == pytest.approx([0.15] * 300, abs=5e-4)
 
 
-@pytest.mark.parametrize("most", [1e6, 2e4, 500.0])
-def test_a_belt_that_starts_at_once_carries_its_box_without_a_hop(tmp_path, most: float) -> None:
+@pytest.mark.parametrize("max_effort", [1e6, 2e4, 500.0])
+def test_a_belt_that_starts_suddenly_carries_its_box_without_a_hop(tmp_path, max_effort: float) -> None:
     """Coulomb: the box keeps up with 500 N (2.5 m/s²), else it slides for 0.03 s; it hopped by 1.1 mm for as long."""
     box = """<inertial><mass>{}</mass><inertia><ixx>{}</ixx><iyy>{}</iyy><izz>{}</izz></inertia></inertial>
     <collision name="c"><geometry><box><size>{}</size></box></geometry></collision>"""
@@ -88,21 +88,21 @@ def test_a_belt_that_starts_at_once_carries_its_box_without_a_hop(tmp_path, most
     belt, link = simulation["belt"].joint("j"), simulation["box"].base
     simulation.step(300)
     heights, speeds, rest = list[float](), list[float](), link.pose.position[2]
-    belt.command_velocity(0.3, max_effort=most)
+    belt.command_velocity(0.3, max_effort=max_effort)
     for step in range(1, 401):
         simulation.step()
         heights.append(link.pose.position[2] - rest)
         speeds.append(link.twist.linear[0])
         # The box takes its share of the force while it slides or is carried along.
-        assert belt.velocity == pytest.approx(min(0.3, most * 1e-3 * step / 200), rel=0.01)
+        assert belt.velocity == pytest.approx(min(0.3, max_effort * 1e-3 * step / 200), rel=0.01)
 
     assert heights == pytest.approx([0.0] * 400, abs=1e-4)
     fast = next(step for step, speed in enumerate(speeds, 1) if speed > 0.95 * 0.3)
-    assert fast == pytest.approx(max(0.3 / 9.8, 0.3 * 201 / most) * 1e3 * 0.95, rel=0.25)
+    assert fast == pytest.approx(max(0.3 / 9.8, 0.3 * 201 / max_effort) * 1e3 * 0.95, rel=0.25)
     assert speeds[-1] == pytest.approx(0.3, rel=1e-3)
 
 
-def test_an_effort_pushes_up_to_its_speed_limit_only(tmp_path) -> None:
+def test_an_effort_accelerates_up_to_the_velocity_limit_only(tmp_path) -> None:
     simulation = _load(tmp_path, _LIGHT.replace("<effort>10</effort>", "<velocity>2</velocity>"))
     axle = simulation["m"].joint("axle")
     axle.command_effort(0.01)
@@ -115,8 +115,8 @@ def test_an_effort_pushes_up_to_its_speed_limit_only(tmp_path) -> None:
     assert axle.velocity == pytest.approx(3.0, rel=1e-3), "nothing brakes what is faster"
 
 
-def test_state_and_command_are_apart(tmp_path) -> None:
-    """Setting state switches no motor; a command moves nothing until time passes."""
+def test_state_and_commands_are_independent(tmp_path) -> None:
+    """Setting state switches no motor; a command has no effect until time passes."""
     simulation = _load(tmp_path, _LIGHT)
     axle = simulation["m"].joint("axle")
 
@@ -131,7 +131,7 @@ def test_state_and_command_are_apart(tmp_path) -> None:
 
 
 @pytest.mark.parametrize("order", ["set_position", "set_velocity"])
-def test_a_state_that_is_no_number_is_refused(tmp_path, order: str) -> None:
+def test_a_state_that_is_not_finite_is_refused(tmp_path, order: str) -> None:
     axle = _load(tmp_path, _LIGHT)["m"].joint("axle")
 
     with pytest.raises(UsageError, match="finite numbers are needed, got nan"):

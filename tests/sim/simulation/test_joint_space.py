@@ -84,7 +84,7 @@ def test_positions_and_velocities_are_read_and_written_in_the_order_of_the_names
     assert arm.joint("shoulder").position == 0.3
 
 
-def test_a_ball_joint_takes_a_rotation_vector() -> None:
+def test_a_ball_joint_is_set_by_a_rotation_vector() -> None:
     _, drone = make(FLOATING, "drone")
 
     assert drone.joint_names == ("ball", "ball", "ball", "hinge")
@@ -96,7 +96,7 @@ def test_a_ball_joint_takes_a_rotation_vector() -> None:
 
 
 @pytest.mark.parametrize("values", [[0.1], [0.1, 0.2, 0.3], [[0.1, 0.2]]])
-def test_an_array_of_another_shape_is_refused_with_the_joints(values: list[float]) -> None:
+def test_an_array_of_wrong_shape_is_refused_with_the_joint_names(values: list[float]) -> None:
     _, arm = make(DOUBLE_PENDULUM, "arm")
 
     with pytest.raises(UsageError) as caught:
@@ -117,7 +117,7 @@ def test_velocities_of_a_floating_model_begin_with_its_base() -> None:
 
 
 @pytest.mark.parametrize("q", [(0.0, 0.0), (0.4, -1.1), (2.0, 2.5)])
-def test_the_jacobian_of_a_planar_arm(q: tuple[float, float]) -> None:
+def test_the_jacobian_of_a_planar_arm_is_analytic(q: tuple[float, float]) -> None:
     _, arm = make(DOUBLE_PENDULUM, "arm")
     arm.joint_positions = q
     (s1, c1), (s12, c12) = (np.sin(q[0]), np.cos(q[0])), (np.sin(sum(q)), np.cos(sum(q)))
@@ -133,7 +133,7 @@ def test_the_jacobian_of_a_planar_arm(q: tuple[float, float]) -> None:
 
 
 @pytest.mark.parametrize("q", [(0.0, 0.0), (0.4, -1.1), (2.0, 2.5)])
-def test_the_equations_of_motion_of_a_double_pendulum(q: tuple[float, float]) -> None:
+def test_the_equations_of_motion_of_a_double_pendulum_are_analytic(q: tuple[float, float]) -> None:
     simulation, arm = make(DOUBLE_PENDULUM, "arm")
     v, a = (1.5, -0.8), (-2.0, 3.0)
     arm.joint_positions, arm.joint_velocities = q, v
@@ -151,7 +151,7 @@ def test_the_equations_of_motion_of_a_double_pendulum(q: tuple[float, float]) ->
     assert (simulation.snapshot().poses == before).all()
 
 
-def test_a_body_that_floats_has_its_own_six_in_world_axes() -> None:
+def test_a_floating_body_has_six_velocities_in_world_axes() -> None:
     """Newton and Euler about the link's origin, which is not the centre of mass."""
     text = FLOATING[: FLOATING.index('<link name="gimbal">')] + "</model></world></sdf>"
     _, drone = make(text, "drone")
@@ -170,7 +170,7 @@ def test_a_body_that_floats_has_its_own_six_in_world_axes() -> None:
     assert drone.bias_forces() == pytest.approx(np.concatenate([force, torque]), abs=1e-9)
 
 
-def test_the_jacobian_takes_velocities_to_twists() -> None:
+def test_the_jacobian_maps_velocities_to_twists() -> None:
     """Also past a ball joint, whose velocities are along its child's axes."""
     _, drone = make(FLOATING, "drone")
     velocities = np.array([0.1, -0.2, 0.3, 0.4, 0.5, -0.6, 0.7, -0.8, 0.9, 1.0])
@@ -185,18 +185,18 @@ def test_the_jacobian_takes_velocities_to_twists() -> None:
 def test_efforts_of_inverse_dynamics_cause_the_accelerations() -> None:
     simulation, arm = make(DOUBLE_PENDULUM, "arm")
     arm.joint_positions, arm.joint_velocities = (0.4, -1.1), (1.5, -0.8)
-    wanted = np.array([-2.0, 3.0])
-    efforts = arm.inverse_dynamics(arm.joint_positions, arm.joint_velocities, wanted)
+    accelerations = np.array([-2.0, 3.0])
+    efforts = arm.inverse_dynamics(arm.joint_positions, arm.joint_velocities, accelerations)
     before = arm.joint_velocities
 
     for name, effort in zip(arm.joint_names, efforts, strict=True):
         arm.joint(name).command_effort(effort)
     simulation.step()
 
-    assert (arm.joint_velocities - before) / 1e-3 == pytest.approx(wanted, rel=0.02)
+    assert (arm.joint_velocities - before) / 1e-3 == pytest.approx(accelerations, rel=0.02)
 
 
-def test_a_link_that_is_not_there_is_answered_with_those_that_are() -> None:
+def test_an_unknown_link_is_refused_with_the_link_names() -> None:
     _, arm = make(DOUBLE_PENDULUM, "arm")
 
     with pytest.raises(UsageError, match="model 'arm' has no link 'hand'; there are: 'upper', 'lower', 'lamp'"):
@@ -212,7 +212,7 @@ def test_a_model_without_joints_has_empty_arrays() -> None:
     assert ball.jacobian("b").tolist() == np.eye(6).tolist()
 
 
-def test_each_says_what_it_is() -> None:
+def test_handles_have_informative_reprs() -> None:
     simulation, arm = make(DOUBLE_PENDULUM, "arm")
     arm.joint_positions, arm.joint_velocities = (0.3, -0.7), (1.0, 2.0)
 

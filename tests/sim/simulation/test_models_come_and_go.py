@@ -42,7 +42,7 @@ def sim(tmp_path: Path) -> Simulation:
 
 @pytest.fixture
 def third(tmp_path: Path) -> Model:
-    """A model from a file of its own."""
+    """A model from a separate file."""
     folder = tmp_path / "third"
     folder.mkdir()
     return world(folder, CART.format(name="three", x=4)).world.models[0]
@@ -55,7 +55,7 @@ def state(sim: Simulation, name: str) -> tuple[object, ...]:
     return (links, hinge.positions, hinge.velocities, hinge.efforts)
 
 
-def test_what_is_there_keeps_its_state_to_the_bit(sim: Simulation, third: Model) -> None:
+def test_existing_models_keep_their_state_to_the_bit(sim: Simulation, third: Model) -> None:
     before = (state(sim, "one"), state(sim, "two"), sim.time_ns)
     sim.spawn(third)
     assert (state(sim, "one"), state(sim, "two"), sim.time_ns) == before
@@ -63,7 +63,7 @@ def test_what_is_there_keeps_its_state_to_the_bit(sim: Simulation, third: Model)
     assert state(sim, "two") == before[1]
 
 
-def test_it_goes_on_as_if_nobody_had_come(sim: Simulation, third: Model) -> None:
+def test_a_spawned_and_deleted_model_leaves_no_trace(sim: Simulation, third: Model) -> None:
     saved = sim.save()
     two = sim["two"]
     sim.run(0.5)
@@ -86,7 +86,7 @@ def test_a_new_model_falls_and_can_be_driven(sim: Simulation, third: Model) -> N
     assert handle.link("base").pose.position[2] < 0.1
 
 
-def test_handles_stay_good_and_those_of_what_is_gone_say_so(sim: Simulation) -> None:
+def test_handles_stay_valid_and_those_of_deleted_models_raise(sim: Simulation) -> None:
     one, two = sim["one"], sim["two"]
     hinge, pose = two.joint("hinge"), two.pose
     sim.delete("one")
@@ -101,7 +101,7 @@ def test_handles_stay_good_and_those_of_what_is_gone_say_so(sim: Simulation) -> 
         sim.delete("one")
 
 
-def test_a_wrench_ends_when_it_should_whatever_goes_meanwhile(sim: Simulation) -> None:
+def test_a_wrench_ends_in_time_when_models_are_deleted_meanwhile(sim: Simulation) -> None:
     sim.delete("one")
     link = sim["two"].link("arm")
     sim.run(0.6)
@@ -110,13 +110,13 @@ def test_a_wrench_ends_when_it_should_whatever_goes_meanwhile(sim: Simulation) -
     assert sim.engine.wrench(link.index) == Wrench()
 
 
-def test_a_name_is_given_once(sim: Simulation, third: Model) -> None:
+def test_a_model_name_cannot_be_used_twice(sim: Simulation, third: Model) -> None:
     sim.spawn(third)
     with pytest.raises(UsageError, match="there is a model 'three' already"):
         sim.spawn(third)
 
 
-def test_what_hangs_from_the_world_can_be_put_elsewhere(sim: Simulation) -> None:
+def test_a_model_joined_to_the_world_can_be_moved(sim: Simulation) -> None:
     before = state(sim, "two")
     sim["post"].set_pose(Pose((1.0, 2.0, 0.5)))
     assert sim["post"].pose.position == pytest.approx((1.0, 2.0, 0.5))
@@ -125,12 +125,12 @@ def test_what_hangs_from_the_world_can_be_put_elsewhere(sim: Simulation) -> None
     assert sim["post"].pose.position == pytest.approx((1.0, 2.0, 0.5))
 
 
-def test_whoever_counts_on_the_order_is_told(sim: Simulation, third: Model) -> None:
-    seen: list[int] = []
-    sim.on_change(lambda: seen.append(len(sim.models)))
+def test_on_change_callbacks_follow_spawns_and_deletions(sim: Simulation, third: Model) -> None:
+    model_counts: list[int] = []
+    sim.on_change(lambda: model_counts.append(len(sim.models)))
     sim.spawn(third)
     sim.delete("one")
-    assert seen == [5, 4]
+    assert model_counts == [5, 4]
     assert len(sim.snapshot().poses) == len(sim.engine.compiled.link_names)
 
 
@@ -141,7 +141,7 @@ def test_a_state_of_other_models_is_refused(sim: Simulation, third: Model) -> No
         sim.restore(saved)
 
 
-def test_a_snapshot_outlives_what_it_shows(sim: Simulation) -> None:
+def test_a_snapshot_stays_readable_after_its_models_are_deleted(sim: Simulation) -> None:
     expected = sim["one"].links[0].pose.position
     snapshot, index = sim.snapshot(), sim["one"].links[0].index
     sim.delete("one")
@@ -149,7 +149,7 @@ def test_a_snapshot_outlives_what_it_shows(sim: Simulation) -> None:
     assert snapshot.poses[index, :3].tolist() == list(expected)
 
 
-def test_reset_puts_back_what_is_there(sim: Simulation, third: Model) -> None:
+def test_a_reset_restores_existing_models(sim: Simulation, third: Model) -> None:
     sim.spawn(third)
     sim.run(0.2)
     sim.reset()
@@ -157,7 +157,7 @@ def test_reset_puts_back_what_is_there(sim: Simulation, third: Model) -> None:
     assert sim["two"].pose.position == pytest.approx((2.0, 0.0, 0.2))
 
 
-def test_gravity_and_masses_can_be_edited_while_everything_goes_on(sim: Simulation) -> None:
+def test_gravity_and_masses_can_be_edited_while_the_state_continues(sim: Simulation) -> None:
     before = state(sim, "two")
     heavy = replace(sim["one"].links[0].link, inertial=Inertial(mass=20.0))
     one = replace(sim["one"].model, links=(heavy, *sim["one"].model.links[1:]))
@@ -174,6 +174,6 @@ def test_gravity_and_masses_can_be_edited_while_everything_goes_on(sim: Simulati
     assert sim["one"].pose.position[2] > height + 0.3
 
 
-def test_an_edited_world_has_the_same_things(sim: Simulation, third: Model) -> None:
+def test_an_edited_world_must_have_the_same_structure(sim: Simulation, third: Model) -> None:
     with pytest.raises(UsageError, match="spawn and delete change those"):
         sim.edit(replace(sim.world, models=(*sim.world.models, third)))

@@ -72,39 +72,39 @@ def test_two_runs_are_the_same_to_the_last_bit() -> None:
     assert np.linalg.norm(ends[0].poses[0, :2]) > 0.01
 
 
-class Reads:
+class ReadingHook:
     """Hook that reads everything."""
 
     def __init__(self) -> None:
-        self.seen = 0.0
+        self.total = 0.0
 
     def after_step(self, snapshot: Snapshot) -> None:
-        self.seen += float(snapshot.poses.sum() + snapshot.twists.sum() + snapshot.joint_efforts.sum())
+        self.total += float(snapshot.poses.sum() + snapshot.twists.sum() + snapshot.joint_efforts.sum())
 
 
-class Peeks:
+class PeekingHook:
     """Hook that reads all handles before steps."""
 
     def before_step(self, sim: Simulation) -> None:
         body = sim["cart"].link("body")
-        self.seen = (body.pose, body.twist, sim.engine.reader.center_of_mass(0), sim["cart"].joint("left_hub").effort)
+        self.values = (body.pose, body.twist, sim.engine.reader.center_of_mass(0), sim["cart"].joint("left_hub").effort)
         sim.save()
 
 
-def test_who_looks_and_how_often_changes_nothing() -> None:
+def test_reading_the_state_does_not_change_the_simulation() -> None:
     ends: list[Snapshot] = []
     for periods_ms in ((), (1,), (7, 20), (33,)):
         sim = cart()
         for period in periods_ms:
-            sim.add_hook(Reads(), period_ns=period * 1_000_000)
-            sim.add_hook(Peeks(), period_ns=period * 1_000_000)
+            sim.add_hook(ReadingHook(), period_ns=period * 1_000_000)
+            sim.add_hook(PeekingHook(), period_ns=period * 1_000_000)
         drive(sim)
         sim.run(1.0)
         ends.append(sim.snapshot())
     assert all(same(ends[0], end) for end in ends[1:])
 
 
-def test_how_a_run_is_cut_changes_nothing() -> None:
+def test_stride_lengths_do_not_change_the_simulation() -> None:
     whole, cut = cart(), cart()
     drive(whole)
     drive(cut)
@@ -114,7 +114,7 @@ def test_how_a_run_is_cut_changes_nothing() -> None:
     assert same(whole.snapshot(), cut.snapshot())
 
 
-def test_time_is_whole_steps_and_never_short() -> None:
+def test_a_run_is_rounded_up_to_whole_steps() -> None:
     sim = cart()
     sim.advance(1_500_001)
     assert (sim.steps, sim.time_ns) == (2, 2_000_000)
@@ -124,7 +124,7 @@ def test_time_is_whole_steps_and_never_short() -> None:
     assert sim.time_ns == 302_000_000
 
 
-def test_commands_from_another_thread_are_carried_out_between_steps_in_order() -> None:
+def test_commands_of_another_thread_run_between_steps_in_order() -> None:
     sim = cart()
     times: list[tuple[int, int]] = []
     started = threading.Event()
@@ -158,7 +158,7 @@ def test_a_command_acts_before_the_next_step() -> None:
     assert sim["cart"].joint("left_hub").velocity > 0.0
 
 
-def test_a_command_may_post_another_which_waits_its_turn() -> None:
+def test_a_command_may_post_another_for_the_next_step() -> None:
     sim = cart()
     done: list[int] = []
     sim.post(lambda s: s.post(lambda t: done.append(t.steps)))
@@ -166,14 +166,14 @@ def test_a_command_may_post_another_which_waits_its_turn() -> None:
     assert done == [1]
 
 
-def test_a_reset_world_is_a_new_one_and_who_asked_is_told() -> None:
-    sim, told = cart(), []
-    sim.on_reset(lambda: told.append(sim.time_ns))
+def test_a_reset_restores_the_initial_state_and_calls_callbacks() -> None:
+    sim, reset_times = cart(), []
+    sim.on_reset(lambda: reset_times.append(sim.time_ns))
     drive(sim)
     sim.run(0.5)
     sim.reset()
     assert same(sim.snapshot(), cart().snapshot())
-    assert told == [0]
+    assert reset_times == [0]
 
 
 def test_a_wrench_on_a_model_pushes_its_first_link() -> None:
@@ -200,20 +200,20 @@ def test_handles_agree_with_the_snapshot() -> None:
             assert joint.effort == snapshot.joint_efforts[joint.index]
 
 
-def test_a_snapshot_stays_what_it_was() -> None:
+def test_a_snapshot_is_immutable() -> None:
     sim = cart()
     drive(sim)
     sim.run(0.1)
-    snapshot, seen = sim.snapshot(), sim.snapshot()
-    at_once = [seen.poses, seen.twists, seen.joint_positions, seen.joint_velocities, seen.joint_efforts]
+    snapshot, copy = sim.snapshot(), sim.snapshot()
+    at_once = [copy.poses, copy.twists, copy.joint_positions, copy.joint_velocities, copy.joint_efforts]
     sim.run(0.5)
     assert not same(snapshot, sim.snapshot())
     later = [snapshot.poses, snapshot.twists]
     later += [snapshot.joint_positions, snapshot.joint_velocities, snapshot.joint_efforts]
-    assert [each.tolist() for each in later] == [each.tolist() for each in at_once]
+    assert [array.tolist() for array in later] == [array.tolist() for array in at_once]
 
 
-def test_unknown_names_are_answered_with_the_names_there_are() -> None:
+def test_unknown_names_are_refused_with_the_existing_names() -> None:
     sim = cart()
     with pytest.raises(UsageError) as no_model:
         sim["trolley"]
@@ -238,7 +238,7 @@ def rigid_arm(axis: JointAxis | None, kind: JointType) -> Simulation:
     ("axis", "kind"),
     [(JointAxis(direction=(1.0, 0.0, 0.0), lower=0.0, upper=0.0), JointType.REVOLUTE), (None, JointType.FIXED)],
 )
-def test_a_joint_without_freedom_cannot_be_driven_and_says_so(axis: JointAxis | None, kind: JointType) -> None:
+def test_a_rigid_joint_cannot_be_driven(axis: JointAxis | None, kind: JointType) -> None:
     joint = rigid_arm(axis, kind)["m"].joint("j")
     for order in (joint.command_effort, joint.command_velocity, joint.set_position, joint.command_position):
         with pytest.raises(UsageError) as caught:
@@ -247,7 +247,7 @@ def test_a_joint_without_freedom_cannot_be_driven_and_says_so(axis: JointAxis | 
     assert (joint.position, joint.velocity, joint.effort) == (0.0, 0.0, 0.0)
 
 
-def test_a_ball_joint_takes_an_effort_and_no_other_order() -> None:
+def test_a_ball_joint_accepts_only_effort_commands() -> None:
     sim = rigid_arm(None, JointType.BALL)
     joint = sim["m"].joint("j")
     joint.command_effort(0.1, axis=2)

@@ -27,7 +27,7 @@ def recorded(folder: Path) -> tuple[Path, Simulation]:
     return path, sim
 
 
-def test_a_log_holds_every_pose_at_its_time(tmp_path: Path) -> None:
+def test_a_log_contains_every_pose_with_its_time(tmp_path: Path) -> None:
     path, sim = recorded(tmp_path)
 
     log = read_state_log(str(path))
@@ -38,7 +38,7 @@ def test_a_log_holds_every_pose_at_its_time(tmp_path: Path) -> None:
     assert log.positions[-1, log.joints.index("m::j")] == sim["m"].joint("j").position != 0.0
 
 
-def test_a_log_that_was_cut_short_is_read_up_to_there(tmp_path: Path) -> None:
+def test_a_truncated_log_is_read_up_to_its_last_row(tmp_path: Path) -> None:
     path, _ = recorded(tmp_path)
     whole = path.read_bytes()
     path.write_bytes(whole[:-13])
@@ -48,7 +48,7 @@ def test_a_log_that_was_cut_short_is_read_up_to_there(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("number", [np.nan, np.inf, 1e200, -1e39, 0.0])
 @pytest.mark.parametrize("column", [0, 1, 4])
-def test_a_damaged_row_is_named(tmp_path: Path, column: int, number: float) -> None:
+def test_a_damaged_row_is_reported_by_number(tmp_path: Path, column: int, number: float) -> None:
     """Time, x and qw: zero is damage only in a quaternion."""
     path, _ = recorded(tmp_path)
     header, newline, data = path.read_bytes().partition(b"\n")
@@ -73,7 +73,7 @@ def test_two_runs_write_the_same_bytes(tmp_path: Path) -> None:
 
 
 @given(content=st.binary(max_size=200) | st.text(max_size=100).map(lambda t: b'{"format": ' + t.encode() + b"}\n"))
-def test_anything_else_is_no_log(tmp_path_factory: pytest.TempPathFactory, content: bytes) -> None:
+def test_other_files_are_not_state_logs(tmp_path_factory: pytest.TempPathFactory, content: bytes) -> None:
     path = tmp_path_factory.mktemp("log") / "x"
     path.write_bytes(content)
 

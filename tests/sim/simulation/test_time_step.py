@@ -31,7 +31,7 @@ def with_steps_of(sim: Simulation, step_s: float) -> None:
     sim.edit(replace(sim.world, physics=replace(sim.world.physics, max_step_size_s=step_s)))
 
 
-def test_a_timeline_knows_when_each_step_ends() -> None:
+def test_a_step_clock_converts_steps_and_times() -> None:
     line = StepClock(1 * MS).with_step(4 * MS, since=3)
 
     assert [line.time_ns(step) for step in (3, 4, 5)] == [3 * MS, 7 * MS, 11 * MS]
@@ -39,7 +39,7 @@ def test_a_timeline_knows_when_each_step_ends() -> None:
     assert line.with_step(4 * MS, since=9) is line
 
 
-def test_hooks_keep_their_rhythm_at_other_steps() -> None:
+def test_hooks_keep_their_periods_at_another_step_length() -> None:
     sim, track = empty_world(), Track()
     sim.add_hook(Acts(track), period_ns=10 * MS)
     sim.add_hook(Looks(track), period_ns=0)
@@ -59,7 +59,7 @@ def test_hooks_keep_their_rhythm_at_other_steps() -> None:
     assert (sim.time_ns, sim.step_ns) == (0, 4 * MS)
 
 
-def test_time_goes_on_and_everything_with_it(sim: Simulation) -> None:
+def test_time_and_loads_continue_at_another_step_length(sim: Simulation) -> None:
     """2 N on 2 kg: a metre a second in each second, however long its steps."""
     sim["ball"].links[0].apply_wrench(Wrench(force=(2.0, 0.0, 0.0)), duration_s=0.5)
     sim.run(0.1)
@@ -76,19 +76,19 @@ def test_time_goes_on_and_everything_with_it(sim: Simulation) -> None:
 
 
 @pytest.mark.parametrize("step_s", [0.0002, 0.01])
-def test_a_motor_is_as_stiff_as_one_that_was_started_at_these_steps(sim: Simulation, step_s: float) -> None:
+def test_a_motor_is_as_stiff_as_one_started_at_this_step_length(sim: Simulation, step_s: float) -> None:
     turn = sim["arm"].joint("turn")
     turn.command_velocity(1.0, max_effort=10.0)
     with_steps_of(sim, step_s)
-    anew = Simulation(sim.world, Diagnostics())
-    anew["arm"].joint("turn").command_velocity(1.0, max_effort=10.0)
-    for one in (sim, anew):
-        one.run(0.05)
+    fresh = Simulation(sim.world, Diagnostics())
+    fresh["arm"].joint("turn").command_velocity(1.0, max_effort=10.0)
+    for simulation in (sim, fresh):
+        simulation.run(0.05)
 
-    assert turn.velocity == pytest.approx(anew["arm"].joint("turn").velocity, rel=1e-9)
+    assert turn.velocity == pytest.approx(fresh["arm"].joint("turn").velocity, rel=1e-9)
 
 
-def test_a_saved_state_has_its_time(sim: Simulation) -> None:
+def test_a_saved_state_restores_its_time(sim: Simulation) -> None:
     with_steps_of(sim, 0.003)
     sim.run(0.003)
     with_steps_of(sim, 0.002)

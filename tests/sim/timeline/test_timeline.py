@@ -112,19 +112,19 @@ class Driver:
         self._simulation = simulation
         self._node = Node(f"driver_of_{robot}", loop=loop, master_uri=simulation.ros_master_uri)
         self._topic = self._node.advertise(f"/{robot}/cmd_vel", "geometry_msgs/Twist")
-        self._heard = 0
+        self._received = 0
         listener = simulation.make_node(f"/listener_of_{robot}")
-        listener.subscribe(f"/{robot}/cmd_vel", "geometry_msgs/Twist", self._hear)
+        listener.subscribe(f"/{robot}/cmd_vel", "geometry_msgs/Twist", self._receive)
         until(lambda: self._topic.subscribers == 2)
 
-    def _hear(self, _: object) -> None:
-        self._heard += 1
+    def _receive(self, _: object) -> None:
+        self._received += 1
 
     def drive(self, timeline: Timeline, linear: float, angular: float) -> None:
         """Publish, and simulate until the command has arrived."""
-        before = self._heard
+        before = self._received
         self._topic.publish({"linear": {"x": linear}, "angular": {"z": angular}})
-        while self._heard == before:
+        while self._received == before:
             timeline.advance(self._simulation.time_ns + self._simulation.step_ns)
 
 
@@ -152,7 +152,7 @@ def seconds(value: float) -> int:
     return round(value * NS_PER_S)
 
 
-def test_what_follows_a_moment_follows_again(simulation: LoadedSimulation) -> None:
+def test_a_run_after_a_seek_repeats_exactly(simulation: LoadedSimulation) -> None:
     timeline = Timeline(simulation, wall_ns=lambda: 0)
     with GraphLoop() as loop:
         driver = Driver(simulation, loop)
@@ -178,7 +178,7 @@ def test_what_follows_a_moment_follows_again(simulation: LoadedSimulation) -> No
 
 
 @pytest.mark.slow
-def test_ten_robots_go_back_ten_seconds_and_on_to_the_byte(tmp_path: Path) -> None:
+def test_ten_robots_seek_back_ten_seconds_and_continue_to_the_bit(tmp_path: Path) -> None:
     """Each drives and has a lidar; commands come by topic, as from the page's disc, and as the page's edits."""
     (tmp_path / "push.py").write_text(PUSH, encoding="utf-8")
     (tmp_path / "robots.world").write_text(world(10), encoding="utf-8")
@@ -207,7 +207,7 @@ def test_ten_robots_go_back_ten_seconds_and_on_to_the_byte(tmp_path: Path) -> No
         assert [index for index, pair in enumerate(zip(first, second, strict=True)) if pair[0] != pair[1]] == []
 
 
-def test_a_new_command_begins_another_future(simulation: LoadedSimulation) -> None:
+def test_a_new_command_discards_the_recorded_future(simulation: LoadedSimulation) -> None:
     timeline = Timeline(simulation, wall_ns=lambda: 0)
     timeline.advance(seconds(2.5))
     end = state(simulation)
@@ -222,7 +222,7 @@ def test_a_new_command_begins_another_future(simulation: LoadedSimulation) -> No
     assert simulation["robot0"].pose.position[0] < 3.0
 
 
-def test_models_that_came_and_went_go_and_come(simulation: LoadedSimulation) -> None:
+def test_a_seek_restores_spawned_and_deleted_models(simulation: LoadedSimulation) -> None:
     timeline = Timeline(simulation, wall_ns=lambda: 0)
     timeline.advance(seconds(1.1))
     timeline.do(lambda sim: sim.delete("robot1"))
@@ -235,7 +235,7 @@ def test_models_that_came_and_went_go_and_come(simulation: LoadedSimulation) -> 
     assert state(simulation) == end
 
 
-def test_the_oldest_states_make_room(simulation: LoadedSimulation) -> None:
+def test_the_oldest_states_are_dropped_at_the_memory_limit(simulation: LoadedSimulation) -> None:
     timeline = Timeline(simulation, limit_bytes=1, wall_ns=lambda: 0)
     timeline.advance(seconds(0.5))
     for second in range(1, 4):
@@ -246,7 +246,7 @@ def test_the_oldest_states_make_room(simulation: LoadedSimulation) -> None:
 
 
 @pytest.mark.skipif(not STATM.exists(), reason="this system does not say there how much memory a process has")
-def test_its_memory_is_bounded(tmp_path: Path) -> None:
+def test_the_timelines_memory_is_bounded(tmp_path: Path) -> None:
     world = tmp_path / "small.world"
     world.write_text("<sdf version='1.6'><world name='w'><model name='m'><link name='l'/></model></world></sdf>")
     simulation = trundle.load(world)
@@ -259,7 +259,7 @@ def test_its_memory_is_bounded(tmp_path: Path) -> None:
     assert timeline.end_ns - timeline.start_ns > seconds(20)
 
 
-def test_a_reset_of_time_begins_anew(simulation: LoadedSimulation) -> None:
+def test_a_reset_of_time_starts_a_new_timeline(simulation: LoadedSimulation) -> None:
     timeline = Timeline(simulation, wall_ns=lambda: 0)
     timeline.advance(seconds(2))
     simulation.reset()

@@ -48,6 +48,6 @@ class WheelOdometry(Struct):
         return distance, turn
 
 
-def step_towards(value: float, target: float, most: float) -> float:
-    """Move a value towards a target by at most `most`."""
-    return value + min(max(target - value, -most), most)
+def step_towards(value: float, target: float, max_step: float) -> float:
+    """Move a value towards a target by at most `max_step`."""
+    return value + min(max(target - value, -max_step), max_step)

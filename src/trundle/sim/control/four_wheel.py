@@ -8,7 +8,7 @@ from msgspec import Struct
 Wheels: TypeAlias = tuple[float, float, float, float]
 """Front left, front right, rear left, rear right."""
 _SLOWEST = 0.001
-"""Speed below which the robot stands [m/s]."""
+"""Speed below which the robot is at rest [m/s]."""
 _TURNED = 0.001
 """Steering angle below which a wheel points straight on [rad]."""
 _SAME = 0.01
@@ -50,17 +50,17 @@ class FourWheelSteering(Struct, frozen=True, kw_only=True):
         """Return wheel speeds [rad/s] and steering angles [rad] for given angles at the axles' centres.
 
         Args:
-            speed: of the centre along the base [m/s].
+            speed: speed of the centre along the base [m/s].
             front: front angle, positive to the left [rad].
             rear: rear angle, positive to the left [rad].
         """
         ahead, behind = (math.tan(min(max(angle, -math.pi / 2), math.pi / 2)) for angle in (front, rear))
-        apart = self.track * (ahead - behind) / 2
+        difference = self.track * (ahead - behind) / 2
         angles = (0.0, 0.0, 0.0, 0.0)
-        if abs(self.base - abs(apart)) > _SLOWEST:
-            near, far = self.base - apart, self.base + apart
+        if abs(self.base - abs(difference)) > _SLOWEST:
+            near, far = self.base - difference, self.base + difference
             fl, fr, rl, rr = (
-                math.atan(self.base * tangent / way) for tangent in (ahead, behind) for way in (near, far)
+                math.atan(self.base * tangent / distance) for tangent in (ahead, behind) for distance in (near, far)
             )
             angles = (fl, fr, rl, rr)
         if abs(speed) <= _SLOWEST:
@@ -74,7 +74,7 @@ class FourWheelSteering(Struct, frozen=True, kw_only=True):
         """Return the centre's velocity forwards and to the left [m/s], and the yaw rate, positive to the left [rad/s].
 
         Args:
-            speeds: of the wheels [rad/s].
+            speeds: wheel speeds [rad/s].
             front: angle at the front axle's centre [rad].
             rear: angle at the rear axle's centre [rad].
         """
@@ -90,7 +90,7 @@ class FourWheelSteering(Struct, frozen=True, kw_only=True):
         axes [m/s].
         """
         sign, out, half = math.copysign(1.0, forward), turning * self.offset / self.radius, turning * self.track / 2
-        left, right = (sign * math.hypot(forward + each, sideways) / self.radius for each in (-half, half))
+        left, right = (sign * math.hypot(forward + rotation, sideways) / self.radius for rotation in (-half, half))
         return left - out, right + out
 
     def _to_centre(self, left: float, right: float) -> float:
@@ -99,16 +99,16 @@ class FourWheelSteering(Struct, frozen=True, kw_only=True):
         return one * other * self.track / (one - other) if abs(one - other) > _SAME else 0.0
 
     def _axle_speed(self, speeds: tuple[float, float], angle: float, curvature: float) -> float:
-        """Return the speed of an axle's centre along its own angle [m/s], from its wheels [rad/s]."""
+        """Return the speed of an axle's centre along its angle [m/s], from its wheels [rad/s]."""
         wide = self.track * curvature
-        ways = (math.sqrt(1.0 + sign * wide * math.cos(angle) + wide**2 / 4) for sign in (-1.0, 1.0))
+        ratios = (math.sqrt(1.0 + sign * wide * math.cos(angle) + wide**2 / 4) for sign in (-1.0, 1.0))
         outward = (-self.offset * curvature, self.offset * curvature)
-        left, right = (speed / (1.0 + out / way) for speed, out, way in zip(speeds, outward, ways, strict=True))
+        left, right = (speed / (1.0 + out / ratio) for speed, out, ratio in zip(speeds, outward, ratios, strict=True))
         return math.copysign(self.radius * math.hypot(left, right) / math.sqrt(2.0 + wide**2 / 2), left + right)
 
 
 def axle_angle(left: float, right: float) -> float:
-    """Return the angle at an axle's centre [rad], from those of its wheels."""
+    """Return the angle at an axle's centre [rad], from its wheels' angles."""
     one, other = math.tan(left), math.tan(right)
     if (abs(left) <= _TURNED and abs(right) <= _TURNED) or one + other == 0.0:
         return 0.0

@@ -14,7 +14,7 @@ class MecanumDrive(Struct, frozen=True, kw_only=True):
     radius: float
     """Wheel radius [m]."""
     reach: float
-    """Half the distance between the axles plus half that between the wheels of an axle [m]."""
+    """Half the wheelbase plus half the track [m]."""
 
     def wheel_speeds(self, forward: float, left: float, turning: float) -> Wheels:
         """Return wheel speeds [rad/s] for a twist: speeds forward and to the left [m/s], yaw rate [rad/s]."""

@@ -18,11 +18,11 @@ class SpeedLimit(Struct, frozen=True, kw_only=True):
     max_jerk: float = math.inf
     """[m/s³ or rad/s³]"""
 
-    def limit(self, wanted: float, last: float, before_last: float, dt: float) -> float:
-        """Return the allowed velocity nearest to the wanted one, from the last two, each dt [s] apart."""
+    def limit(self, requested: float, last: float, before_last: float, dt: float) -> float:
+        """Return the allowed velocity nearest to the requested one, from the last two, each dt [s] apart."""
         if math.isfinite(self.max_jerk) or math.isfinite(self.min_jerk):
-            change, before = wanted - last, last - before_last
+            change, before = requested - last, last - before_last
             twice = 2.0 * dt * dt
-            wanted = last + before + min(max(change - before, self.min_jerk * twice), self.max_jerk * twice)
-        wanted = last + min(max(wanted - last, self.min_acceleration * dt), self.max_acceleration * dt)
-        return min(max(wanted, self.min_velocity), self.max_velocity)
+            requested = last + before + min(max(change - before, self.min_jerk * twice), self.max_jerk * twice)
+        requested = last + min(max(requested - last, self.min_acceleration * dt), self.max_acceleration * dt)
+        return min(max(requested, self.min_velocity), self.max_velocity)

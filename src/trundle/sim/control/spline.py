@@ -25,7 +25,7 @@ class JointSegment(Struct, frozen=True):
 
     @classmethod
     def between(cls, start_ns: int, start: JointState, end_ns: int, end: JointState) -> Self:
-        """Return the polynomial of lowest degree through the data that both ends have.
+        """Return the polynomial of lowest degree through the data given at both ends.
 
         Raises:
             ValueError: the end is before the start.
@@ -43,22 +43,22 @@ class JointSegment(Struct, frozen=True):
 
 
 def _coefficients(a: JointState, b: JointState, span: float) -> _Coefficients:
-    way = b.position - a.position
+    distance = b.position - a.position
     if a.velocity is None or b.velocity is None:
-        return (a.position, way / span if span else 0.0, 0.0, 0.0, 0.0, 0.0)
+        return (a.position, distance / span if span else 0.0, 0.0, 0.0, 0.0, 0.0)
     v0, v1 = a.velocity, b.velocity
     if a.acceleration is None or b.acceleration is None:
         if not span:
             return (a.position, v0, 0.0, 0.0, 0.0, 0.0)
-        c2 = (3.0 * way - (2.0 * v0 + v1) * span) / span**2
-        c3 = (-2.0 * way + (v0 + v1) * span) / span**3
+        c2 = (3.0 * distance - (2.0 * v0 + v1) * span) / span**2
+        c3 = (-2.0 * distance + (v0 + v1) * span) / span**3
         return (a.position, v0, c2, c3, 0.0, 0.0)
     a0, a1 = a.acceleration, b.acceleration
     if not span:
         return (a.position, v0, a0 / 2.0, 0.0, 0.0, 0.0)
-    c3 = (20.0 * way - (8.0 * v1 + 12.0 * v0) * span - (3.0 * a0 - a1) * span**2) / (2.0 * span**3)
-    c4 = (-30.0 * way + (14.0 * v1 + 16.0 * v0) * span + (3.0 * a0 - 2.0 * a1) * span**2) / (2.0 * span**4)
-    c5 = (12.0 * way - 6.0 * (v1 + v0) * span + (a1 - a0) * span**2) / (2.0 * span**5)
+    c3 = (20.0 * distance - (8.0 * v1 + 12.0 * v0) * span - (3.0 * a0 - a1) * span**2) / (2.0 * span**3)
+    c4 = (-30.0 * distance + (14.0 * v1 + 16.0 * v0) * span + (3.0 * a0 - 2.0 * a1) * span**2) / (2.0 * span**4)
+    c5 = (12.0 * distance - 6.0 * (v1 + v0) * span + (a1 - a0) * span**2) / (2.0 * span**5)
     return (a.position, v0, a0 / 2.0, c3, c4, c5)
 
 

@@ -13,11 +13,11 @@ _XYZW = [4, 5, 6, 3]
 
 
 def add_animation(document: Document, name: str, times: _Array, poses: _Array) -> None:
-    """Add an animation of all bodies that move; the scene has been added with their first poses.
+    """Add an animation of all moving bodies, after the scene with their first poses.
 
     Args:
-        document: with nodes of bodies, `extras.body` 0, 1, ….
-        name: of the animation.
+        document: document with nodes of bodies, `extras.body` 0, 1, ….
+        name: name of the animation.
         times: (N,) ascending [s]; the animation begins at the first.
         poses: (N, bodies, 7) x y z [m], qw qx qy qz of each body in the world.
     """
@@ -43,7 +43,7 @@ def add_animation(document: Document, name: str, times: _Array, poses: _Array) -
 
 
 def _continuous(quaternions: _Array) -> _Array:
-    """Return unit quaternions (N, 4) whose signs do not jump from one to the next."""
+    """Return unit quaternions (N, 4) with continuous signs."""
     unit = quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)
     turns = np.where((unit[1:] * unit[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)
     return unit * np.concatenate([[1.0], np.cumprod(turns)])[:, None]
@@ -54,5 +54,5 @@ def _keys(values: _Array) -> NDArray[np.intp]:
     changes = (values[1:] != values[:-1]).any(axis=1)
     if not changes.any():
         return np.zeros(0, dtype=np.intp)
-    kept = np.concatenate([[True], changes]) | np.concatenate([changes, [True]])
-    return np.flatnonzero(kept)
+    is_key = np.concatenate([[True], changes]) | np.concatenate([changes, [True]])
+    return np.flatnonzero(is_key)

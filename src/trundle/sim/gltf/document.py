@@ -1,6 +1,6 @@
-"""Document of glTF 2.0 (Khronos): its JSON, and the bytes of its meshes and images, each of which is there once.
+"""Document of glTF 2.0 (Khronos): its JSON, and the bytes of its meshes and images, each stored once.
 
-A GLB may embed the bytes; otherwise they are files of their own, named by their content, which documents share.
+A GLB may embed the bytes; otherwise they are separate files, named by their content, which documents share.
 """
 
 import json
@@ -18,7 +18,7 @@ _LINEAR, _MIPMAPPED = 9729, 9987
 
 
 class Document:
-    """Document in the making."""
+    """Document under construction."""
 
     def __init__(self, *, embed: bool) -> None:
         """Start an empty document.
@@ -33,7 +33,7 @@ class Document:
         self._binary = bytearray()
         self._extensions: set[str] = set()
         self.files: dict[str, bytes] = {}
-        """Name → content of each file beside the document."""
+        """Name → content of each file next to the document."""
 
     def add(self, kind: str, item: Mapping[str, object]) -> int:
         """Append to a list of the document, such as `nodes`; return the index."""
@@ -42,13 +42,13 @@ class Document:
         return len(items) - 1
 
     def shared(self, kind: str, key: Hashable, make: Callable[[], Mapping[str, object]]) -> int:
-        """Return the index of the item of a list that has this key; add it if there is none."""
+        """Return the index of the item of a list with this key; add it if there is none."""
         if (kind, key) not in self._indices:
             self._indices[kind, key] = self.add(kind, make())
         return self._indices[kind, key]
 
     def use(self, extension: str) -> None:
-        """Name an extension as used."""
+        """List an extension as used."""
         self._extensions.add(extension)
 
     def add_light(self, light: Mapping[str, object]) -> int:
@@ -71,7 +71,7 @@ class Document:
         return self.shared("meshes", (triangles.name, material), make)
 
     def _add_arrays(self, triangles: PackedTriangles) -> int:
-        """Add the accessors of triangles; return the first one's index, which is that of the indices."""
+        """Add the accessors of triangles, indices first; return the index of the first accessor."""
         buffer, start = self._add_bytes(triangles.name, triangles.data)
         first = len(self._lists.get("accessors", []))
         for array in triangles.arrays:
@@ -81,7 +81,7 @@ class Document:
         return first
 
     def _add_bytes(self, name: str, data: bytes) -> tuple[int, int]:
-        """Add bytes; return the index of their buffer, and where they begin in it."""
+        """Add bytes; return the index of their buffer, and their offset in it."""
         if self._embed:
             return 0, self._append(data)
         uri = f"{name}.bin"
@@ -93,11 +93,11 @@ class Document:
         return self._accessor(matrices.transpose(0, 2, 1), "MAT4")  # glTF's are column by column
 
     def numbers(self, rows: NDArray[np.float64], *, bounded: bool = False) -> int:
-        """Return the index of an accessor of numbers (N,), or of vectors (N, 3) or (N, 4); equal ones are there once.
+        """Return the index of an accessor of numbers (N,), or of vectors (N, 3) or (N, 4); equal ones are shared.
 
         Args:
-            rows: the values.
-            bounded: name the smallest and the largest, as the times of an animation need it.
+            rows: values.
+            bounded: write the smallest and the largest value, required for the times of an animation.
         """
         kind = "SCALAR" if rows.ndim == 1 else f"VEC{rows.shape[1]}"
         key = (rows.astype("<f4").tobytes(), kind, bounded)
@@ -118,12 +118,12 @@ class Document:
 
     def body_nodes(self) -> dict[int, int]:
         """Return the node of each body, by its `extras.body`."""
-        found: dict[int, int] = {}
+        nodes: dict[int, int] = {}
         for index, node in enumerate(self._lists.get("nodes", [])):
             extras = node.get("extras")
             if isinstance(extras, dict) and "body" in extras:
-                found[extras["body"]] = index
-        return found
+                nodes[extras["body"]] = index
+        return nodes
 
     def texture(self, texture: Texture) -> int | None:
         """Return the index of a texture; None if its image cannot be read."""

@@ -1,4 +1,4 @@
-"""Images of textures: PNG and JPEG as they are, others as PNG."""
+"""Images of textures: PNG and JPEG unchanged, others as PNG."""
 
 from functools import lru_cache
 from io import BytesIO

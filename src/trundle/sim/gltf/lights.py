@@ -13,21 +13,21 @@ _MATCHED_M = 2.0
 
 def punctual_light(light: SceneLight) -> dict[str, object]:
     """Return a light of KHR_lights_punctual; it shines along −z of its node."""
-    found: dict[str, object] = {
+    fields: dict[str, object] = {
         "type": light.kind,
         "color": [linear_from_srgb(min(max(value, 0.0), 1.0)) for value in light.diffuse[:3]],
         "intensity": math.pi * _attenuation(light),  # π lx on a white surface reflects 1
         "extras": {"sdf": _sdf(light)},
     }
     if light.name:
-        found["name"] = light.name
+        fields["name"] = light.name
     if light.kind != "directional" and 0.0 < light.range_m < 1e9:
-        found["range"] = light.range_m
+        fields["range"] = light.range_m
     if light.kind == "spot":
         outer = min(max(light.outer_angle_rad / 2, 1e-3), math.pi / 2)
         inner = min(max(light.inner_angle_rad / 2, 0.0), outer - 1e-4)
-        found["spot"] = {"innerConeAngle": inner, "outerConeAngle": outer}
-    return found
+        fields["spot"] = {"innerConeAngle": inner, "outerConeAngle": outer}
+    return fields
 
 
 def light_rotation(light: SceneLight) -> Quaternion:

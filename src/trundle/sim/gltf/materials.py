@@ -13,7 +13,7 @@ def material_from_shape(shape: Shape, texture: int | None) -> dict[str, object]:
     """Return the glTF material of a shape.
 
     Args:
-        shape: with its colours.
+        shape: shape with its colors.
         texture: index of its texture in the document.
     """
     *_, opacity = shape.rgba
@@ -46,14 +46,14 @@ def material_from_shape(shape: Shape, texture: int | None) -> dict[str, object]:
     return material
 
 
-def _linear(colour: Rgba) -> list[float]:
-    return [linear_from_srgb(min(max(value, 0.0), 1.0)) for value in colour[:3]]
+def _linear(color: Rgba) -> list[float]:
+    return [linear_from_srgb(min(max(value, 0.0), 1.0)) for value in color[:3]]
 
 
 def _transform(scale: tuple[float, float]) -> dict[str, object]:
     """Return the texture transform of a scale about the image's centre."""
     if scale == (1.0, 1.0):
         return {}
-    repeat = [1.0 / each if each else 1.0 for each in scale]
-    offset = [0.5 - 0.5 * each for each in repeat]
+    repeat = [1.0 / factor if factor else 1.0 for factor in scale]
+    offset = [0.5 - 0.5 * factor for factor in repeat]
     return {"extensions": {"KHR_texture_transform": {"offset": offset, "scale": repeat}}}

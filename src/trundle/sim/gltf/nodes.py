@@ -36,7 +36,7 @@ def glb_from_scene(scene: Scene, poses: NDArray[np.float64]) -> bytes:
 
 
 def animated_glb(scene: Scene, times: NDArray[np.float64], poses: NDArray[np.float64]) -> bytes:
-    """Return a scene whose bodies move as one self-contained GLB.
+    """Return a scene with moving bodies as one self-contained GLB.
 
     Args:
         scene: shapes and lights.
@@ -53,12 +53,12 @@ def add_scene(document: Document, scene: Scene, poses: NDArray[np.float64], bodi
     """Add a scene to a document; return its root node.
 
     Args:
-        document: takes the nodes.
+        document: document to extend.
         scene: shapes and lights.
         poses: (bodies, 7) x y z [m], qw qx qy qz of each body in the world.
         bodies: `extras.body` of each body, then of each bone.
     """
-    below: dict[int | None, list[int]] = {}
+    children_of_body: dict[int | None, list[int]] = {}
     skins, children = _add_skins(document, scene, poses, bodies[len(scene.bodies) :])
     for number, shape in enumerate(scene.shapes):
         if number in skins:
@@ -67,15 +67,15 @@ def add_scene(document: Document, scene: Scene, poses: NDArray[np.float64], bodi
             node = _visual_node(document, shape)
         else:
             continue
-        below.setdefault(shape.body, []).append(document.add("nodes", node))
+        children_of_body.setdefault(shape.body, []).append(document.add("nodes", node))
     for light in scene.lights:
-        below.setdefault(light.body, []).append(document.add("nodes", _light_node(document, light)))
-    children += below.get(None, [])
+        children_of_body.setdefault(light.body, []).append(document.add("nodes", _light_node(document, light)))
+    children += children_of_body.get(None, [])
     for body, name in enumerate(scene.bodies):
         pose = pose_from_row(poses[body])
         node: dict[str, object] = {"name": name, "extras": {"body": bodies[body]}} | transform_fields(pose)
-        if body in below:
-            node["children"] = below[body]
+        if body in children_of_body:
+            node["children"] = children_of_body[body]
         children.append(document.add("nodes", node))
     root: dict[str, object] = {"name": "world", "rotation": _Y_FROM_Z_UP}
     if children:
@@ -90,8 +90,8 @@ def _add_skins(
     shapes: dict[int, tuple[PackedTriangles, int]] = {}
     bones: list[int] = []
     for skin in scene.skins:
-        its = bodies[len(bones) : len(bones) + len(skin.animated.bones)]
-        nodes, index = add_bones(document, skin, pose_from_row(poses[skin.body]), its)
+        skin_bodies = bodies[len(bones) : len(bones) + len(skin.animated.bones)]
+        nodes, index = add_bones(document, skin, pose_from_row(poses[skin.body]), skin_bodies)
         bones += nodes
         for number in range(len(skin.rows)):
             mesh = scene.shapes[skin.first + number].geometry
@@ -101,7 +101,7 @@ def _add_skins(
 
 
 def _skin_node(document: Document, shape: Shape, triangles: PackedTriangles, skin: int) -> dict[str, object]:
-    """Return the node of a mesh that bones deform; its own transform does not count."""
+    """Return the node of a mesh that bones deform; its transform is ignored."""
     mesh = document.mesh(triangles, _material(document, shape, has_uv=triangles.has_uv))
     return {"name": shape.name, "mesh": mesh, "skin": skin, "extras": {"visual": shape.name}}
 
@@ -113,7 +113,7 @@ def _visual_node(document: Document, shape: Shape) -> dict[str, object]:
         triangles, pose, scale = scaled_solid(shape.geometry)
     mesh = document.mesh(triangles, _material(document, shape, has_uv=triangles.has_uv))
     extras: dict[str, object] = {"visual": shape.name}
-    if not shape.casts_shadow or isinstance(shape.geometry, Plane):  # floors, as in our renderer
+    if not shape.casts_shadow or isinstance(shape.geometry, Plane):  # floors, as in the native renderer
         extras["casts_shadow"] = False
     node: dict[str, object] = {"name": shape.name, "mesh": mesh, "extras": extras}
     return node | transform_fields(shape.body_from_shape @ pose, scale)
@@ -123,8 +123,8 @@ def _material(document: Document, shape: Shape, *, has_uv: bool) -> int:
     texture = None if shape.texture is None or not has_uv else document.texture(shape.texture)
     if texture is not None and shape.texture_scale != (1.0, 1.0):
         document.use("KHR_texture_transform")
-    colours = (shape.rgba, shape.ambient, shape.specular, shape.emissive, shape.shininess)
-    key = (colours, texture, shape.texture_scale)
+    colors = (shape.rgba, shape.ambient, shape.specular, shape.emissive, shape.shininess)
+    key = (colors, texture, shape.texture_scale)
     return document.shared("materials", key, lambda: material_from_shape(shape, texture))
 
 

@@ -1,4 +1,4 @@
-"""Bytes of triangles, as glTF's accessors describe them."""
+"""Bytes of triangles, described by glTF's accessors."""
 
 import hashlib
 from functools import lru_cache
@@ -20,7 +20,7 @@ _MAX_USHORT = 65535
 
 
 class PackedArray(Struct, frozen=True, kw_only=True):
-    """One array of the bytes."""
+    """Array within the bytes."""
 
     attribute: str
     """POSITION, NORMAL, TEXCOORD_0, JOINTS_0 or WEIGHTS_0; empty: the indices."""
@@ -85,7 +85,7 @@ def pack(triangles: Triangles) -> PackedTriangles:
 
 
 def content_name(data: bytes | bytearray) -> str:
-    """Return a name for bytes that no other bytes have."""
+    """Return a name for bytes, unique to their content."""
     return hashlib.blake2b(data, digest_size=16).hexdigest()
 
 

@@ -1,4 +1,4 @@
-"""Skins of actors: nodes of their bones, and the meshes that these deform."""
+"""Skins of actors: nodes of their bones, and the meshes deformed by them."""
 
 from collections.abc import Sequence
 
@@ -16,7 +16,7 @@ from .transform import transform_fields
 from .triangles import Binding, triangles_from_mesh
 
 _INFLUENCES = 4
-"""Bones of one vertex that every reader of glTF takes."""
+"""Bones per vertex that every reader of glTF supports."""
 
 
 def add_bones(
@@ -25,8 +25,8 @@ def add_bones(
     """Add the bones of a skin, each a body in the world.
 
     Args:
-        document: takes them.
-        skin: of an actor.
+        document: document to extend.
+        skin: actor's skin.
         world_from_body: pose of the actor.
         bodies: `extras.body` of each bone.
 
@@ -46,9 +46,9 @@ def packed_skin(skin: SceneSkin, number: int, shape: Mesh) -> PackedTriangles:
     """Return the bytes of one of a skin's shapes, in the bind pose.
 
     Args:
-        skin: of an actor.
-        number: of the shape in the skin.
-        shape: its mesh in any pose.
+        skin: actor's skin.
+        number: index of the shape in the skin.
+        shape: shape's mesh in any pose.
     """
     rows, bound = skin.rows[number], skin.animated.skin
     binding = _strongest(bound.influences[rows], bound.weights[rows])
@@ -57,7 +57,7 @@ def packed_skin(skin: SceneSkin, number: int, shape: Mesh) -> PackedTriangles:
 
 
 def _strongest(influences: NDArray[np.intp], weights: NDArray[np.float64]) -> Binding:
-    """Return the four bones of each vertex that have most weight."""
+    """Return the four bones of largest weight of each vertex."""
     order = np.argsort(-weights, axis=1, kind="stable")[:, :_INFLUENCES]
     chosen = np.take_along_axis(weights, order, axis=1)
     bones = np.where(chosen > 0.0, np.take_along_axis(influences, order, axis=1), 0)

@@ -27,7 +27,7 @@ def scaled_solid(solid: Solid) -> tuple[PackedTriangles, Pose, Vector3]:
     """Return the triangles of a solid, and their pose and scale in its frame."""
     match solid:
         case Box((x, y, z)):
-            return _box(), Pose(), (_thick(x), _thick(y), _thick(z))
+            return _cube(), Pose(), (_thick(x), _thick(y), _thick(z))
         case Sphere(radius):
             return _ball(0.0), Pose(), (_thick(radius), _thick(radius), _thick(radius))
         case Ellipsoid((x, y, z)):
@@ -38,10 +38,10 @@ def scaled_solid(solid: Solid) -> tuple[PackedTriangles, Pose, Vector3]:
             radius = _thick(radius)
             return _ball(_thick(length) / radius), Pose(), (radius, radius, radius)
         case Plane(normal, (width, height)):
-            there = Pose(quaternion=rotation_from_z(normal))
+            pose = Pose(quaternion=rotation_from_z(normal))
             if width > 0.0 and height > 0.0:
-                return _plane(1.0), there, (width, height, 1.0)
-            return _plane(_HORIZON), there, (_HORIZON, _HORIZON, 1.0)
+                return _plane(1.0), pose, (width, height, 1.0)
+            return _plane(_HORIZON), pose, (_HORIZON, _HORIZON, 1.0)
 
 
 def _thick(length: float) -> float:
@@ -49,12 +49,12 @@ def _thick(length: float) -> float:
 
 
 @lru_cache(maxsize=1)
-def _box() -> PackedTriangles:
+def _cube() -> PackedTriangles:
     """A cube of side 1; each face shows the whole image upright."""
     sides = [((1, 0, 0), (0, 1, 0)), ((-1, 0, 0), (0, -1, 0)), ((0, 1, 0), (-1, 0, 0)), ((0, -1, 0), (1, 0, 0))]
     quads = [_quad(*side, (0, 0, 1)) for side in sides]
     quads += [_quad((0, 0, 1), (1, 0, 0), (0, 1, 0)), _quad((0, 0, -1), (1, 0, 0), (0, -1, 0))]
-    positions, normals, uv = (np.concatenate(each) for each in zip(*quads, strict=True))
+    positions, normals, uv = (np.concatenate(arrays) for arrays in zip(*quads, strict=True))
     indices = np.array([[0, 1, 2], [0, 2, 3]]) + 4 * np.arange(6)[:, None, None]
     return _packed(positions / 2, indices.reshape(-1, 3), normals, uv)
 
@@ -74,7 +74,7 @@ def _plane(repeats: float) -> PackedTriangles:
 
 @lru_cache(maxsize=64)
 def _ball(middle: float) -> PackedTriangles:
-    """A unit sphere, or a capsule of radius 1 with a middle part of that length."""
+    """A unit sphere, or a capsule of radius 1 with a cylinder of the length `middle`."""
     latitudes = np.linspace(-np.pi / 2, np.pi / 2, _AROUND // 2 + 1)
     ends = np.where(latitudes < 0, -1.0, 1.0)
     if middle:  # the equator twice, once for each half
@@ -89,7 +89,7 @@ def _ball(middle: float) -> PackedTriangles:
     up = positions[..., 2] / (2.0 + middle) + 0.5
     uv = np.stack([np.broadcast_to(turns, up.shape), up], axis=-1)
     indices = _strips(len(latitudes), _AROUND + 1)
-    whole = indices[_area(positions.reshape(-1, 3)[indices])]
+    whole = indices[_has_area(positions.reshape(-1, 3)[indices])]
     return _packed(positions, whole, normals, uv)
 
 
@@ -103,8 +103,8 @@ def _cylinder() -> PackedTriangles:
     side_uv = np.concatenate([np.stack([turns, np.full_like(turns, v)], axis=-1) for v in (0.0, 1.0)])
     middle = np.zeros((1, 3))
     lid = np.concatenate([middle, rim])
-    here = np.arange(1, _AROUND + 1)
-    fan = np.stack([np.zeros_like(here), here, here + 1], axis=-1)
+    around = np.arange(1, _AROUND + 1)
+    fan = np.stack([np.zeros_like(around), around, around + 1], axis=-1)
     first = 2 * (_AROUND + 1)
     indices = [_strips(2, _AROUND + 1), fan[:, ::-1] + first, fan + first + len(lid)]
     positions = np.concatenate([side, lid + ends[0], lid + ends[1]])
@@ -117,13 +117,13 @@ def _cylinder() -> PackedTriangles:
 
 def _strips(rows: int, columns: int) -> NDArray[np.int64]:
     """Return the triangles of a grid of vertices, columns to the right, rows up."""
-    at = np.arange(rows * columns).reshape(rows, columns)
-    a, b, c, d = at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]
+    index = np.arange(rows * columns).reshape(rows, columns)
+    a, b, c, d = index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1]
     return np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=2).reshape(-1, 3)
 
 
-def _area(corners: _Points) -> NDArray[np.bool_]:
-    """Return (M,) whether each triangle (M, 3, 3) has an area; those at a pole have none."""
+def _has_area(corners: _Points) -> NDArray[np.bool_]:
+    """Return (M,) if each triangle (M, 3, 3) has an area; triangles at a pole have none."""
     return np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) > 1e-9
 
 

@@ -8,13 +8,13 @@ UNSCALED = (1.0, 1.0, 1.0)
 
 
 def transform_fields(pose: Pose, scale: Vector3 = UNSCALED) -> dict[str, object]:
-    """Return the transform of a node, without the parts that change nothing."""
-    found: dict[str, object] = {}
+    """Return the transform of a node, without identity parts."""
+    fields: dict[str, object] = {}
     if any(pose.position):
-        found["translation"] = list(pose.position)
+        fields["translation"] = list(pose.position)
     w, x, y, z = pose.quaternion
     if (length := math.hypot(w, x, y, z)) > 0.0 and (x, y, z) != (0.0, 0.0, 0.0):
-        found["rotation"] = [x / length, y / length, z / length, w / length]
+        fields["rotation"] = [x / length, y / length, z / length, w / length]
     if scale != UNSCALED:
-        found["scale"] = list(scale)
-    return found
+        fields["scale"] = list(scale)
+    return fields

@@ -21,7 +21,7 @@ class Binding(Struct, frozen=True, eq=False, kw_only=True):
 
 
 class Triangles(Struct, frozen=True, eq=False, kw_only=True):
-    """Indexed triangles in glTF's layout, still z up."""
+    """Indexed triangles in glTF's layout, with z up."""
 
     positions: NDArray[np.float32]
     """(N, 3) [m]"""
@@ -36,7 +36,7 @@ class Triangles(Struct, frozen=True, eq=False, kw_only=True):
 
 
 def triangles_from_mesh(mesh: Mesh, binding: Binding | None = None) -> Triangles:
-    """Return the triangles of a mesh, with a vertex for each distinct corner; `binding`: of the mesh's vertices."""
+    """Return the triangles of a mesh, with a vertex for each distinct corner; `binding` is of the mesh's vertices."""
     faces = mesh.faces.astype(np.uint32)
     normals, uv = _unit_normals(mesh), _v_down(mesh)
     corners = [array for array in (normals, uv) if array is not None]
@@ -58,7 +58,7 @@ def triangles_from_mesh(mesh: Mesh, binding: Binding | None = None) -> Triangles
 def _distinct_rows(rows: NDArray[np.uint32]) -> tuple[NDArray[np.intp], NDArray[np.uint32]]:
     """Return the index of each distinct row's first occurrence, in order, and each row's index among them.
 
-    Rows are sorted by a hash, which takes a tenth of the time of sorting rows; if two rows share one, none are joined.
+    Rows are sorted by a hash, which takes a tenth of the time of sorting rows; in a collision no rows are merged.
     """
     hashed = np.zeros(len(rows), dtype=np.uint64)
     for column in range(rows.shape[1]):
@@ -67,8 +67,8 @@ def _distinct_rows(rows: NDArray[np.uint32]) -> tuple[NDArray[np.intp], NDArray[
     _, first, inverse = np.unique(hashed, return_index=True, return_inverse=True)
     inverse = inverse.reshape(-1)
     if not np.array_equal(rows[first[inverse]], rows):
-        everything = np.arange(len(rows))
-        return everything, everything.astype(np.uint32)
+        identity = np.arange(len(rows))
+        return identity, identity.astype(np.uint32)
     order = np.argsort(first)
     rank = np.empty(len(first), dtype=np.uint32)
     rank[order] = np.arange(len(first), dtype=np.uint32)
@@ -76,7 +76,7 @@ def _distinct_rows(rows: NDArray[np.uint32]) -> tuple[NDArray[np.intp], NDArray[
 
 
 def _unit_normals(mesh: Mesh) -> NDArray[np.float32] | None:
-    """Return (3 M, 3) unit normals of the corners; a face without any has its own."""
+    """Return (3 M, 3) unit normals of the corners; a face without normals has its face normal."""
     if mesh.normals is None:
         return None
     normals = mesh.normals.astype(np.float32)

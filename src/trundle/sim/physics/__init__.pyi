@@ -18,7 +18,7 @@ from .step.engine_snapshot import EngineSnapshot as EngineSnapshot
 from .step.instability import Divergence as Divergence
 from .step.motors import MotorAxis as MotorAxis, MotorCommand as MotorCommand
 from .step.step_timer import StepTimer as StepTimer, StepTimes as StepTimes
-from .step.stepper import EachStep as EachStep, StepAction as StepAction
+from .step.stepper import StepAction as StepAction, StepHooks as StepHooks
 from .step.surface_motion import (
     LinkGrip as LinkGrip,
     SurfaceMotion as SurfaceMotion,
@@ -26,7 +26,7 @@ from .step.surface_motion import (
     WheelGrip as WheelGrip,
 )
 from .step.warp.device import NoGpuError as NoGpuError, find_gpu as find_gpu
-from .step.warp.gpu_states import StepOutcome as StepOutcome
+from .step.warp.gpu_states import StepResult as StepResult
 from .step.warp.gpu_worlds import GpuWorlds as GpuWorlds
 from .step.warp.limits import gpu_limits as gpu_limits
 from .step.warp.varied_numbers import gpu_differences as gpu_differences

@@ -5,20 +5,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 VERSION: int
-"""Of the MuJoCo whose headers this was compiled with, as `mujoco.mj_version()` has it."""
+"""Version of the MuJoCo headers that this was compiled with, as `mujoco.mj_version()` returns it."""
 
 def names() -> list[str]:
-    """What `bind` takes the addresses of."""
+    """Return the names of the functions whose addresses `bind` takes."""
 
 def bind(addresses: Sequence[int]) -> None: ...
 def install() -> None:
-    """Have MuJoCo call the laws in every step, behind whoever it calls now."""
+    """Install the laws as MuJoCo's callbacks of every step, after those installed now."""
 
 def set_timers(on: bool) -> None:
-    """Have MuJoCo time the parts of every step [s], in all threads, or end it."""
+    """Start or stop MuJoCo's timing of the parts of every step [s], in all threads."""
 
 def report_efforts(model: int, data: int) -> None:
-    """Write what motors exert to qfrc_actuator, after a step. Both by their addresses."""
+    """Write the motors' efforts to qfrc_actuator, after a step. Model and data by their addresses."""
 
 class RowStepper:
     """Steps many states of one world, with the GIL released."""
@@ -41,29 +41,29 @@ class RowStepper:
 def make_row_stepper(
     workers: Sequence[tuple[int, int]], links: Sequence[int], max_speed: float, always_actuated: bool
 ) -> RowStepper:
-    """Make a stepper with a thread for each worker, which is a model and its data by their addresses."""
+    """Make a stepper with a thread for each worker: a model and its data by their addresses."""
 
 def read_contacts(model: int, data: int, contacts: Sequence[int]) -> NDArray[np.float64]:
-    """Return (N, 15) rows of the contacts of these indices: see `step.contact.Contacts`."""
+    """Return (N, 15) rows of the contacts with these indices; see `step.contact.Contacts`."""
 
 class ContactRecorder:
     """Contacts of chosen geoms, recorded by `step`."""
 
-    def __init__(self, geoms: Sequence[int], geom_count: int, most_steps: int) -> None:
-        """Have the latest steps with contacts kept, at most `most_steps`."""
+    def __init__(self, geoms: Sequence[int], geom_count: int, max_steps: int) -> None:
+        """Keep the latest steps with contacts, at most `max_steps`."""
 
     @property
     def is_stale(self) -> bool:
-        """True if other bodies sleep than those whose contacts are known; `set_sleeping` must follow."""
+        """True if other bodies sleep than at the last `set_sleeping`, which must be called again."""
 
     def set_sleeping(self, rows: NDArray[np.float64]) -> None:
         """Set the contacts among sleeping bodies, from the last step on."""
 
     def replace_since(self, time_ns: int, rows: NDArray[np.float64]) -> None:
-        """Record rows in place of whatever was recorded at that time or later."""
+        """Replace the rows recorded at that time or later."""
 
     def take(self) -> tuple[list[int], NDArray[np.float64]]:
-        """Return the time of each row [ns] and the rows (N, 15), and forget them."""
+        """Return the time of each row [ns] and the rows (N, 15), and clear the record."""
 
     def copy(self) -> ContactRecorder: ...
 
@@ -71,7 +71,7 @@ class StepAction:
     """Action before each step."""
 
     def checkpoint(self) -> Callable[[], None]:
-        """Return a function that restores what the action has changed, but for the engine."""
+        """Return a function that restores the action's state, without the engine's."""
 
 def step(
     model: int,
@@ -87,18 +87,18 @@ def step(
     False if one does.
 
     Args:
-        model: address.
-        data: address.
-        count: of steps.
-        recorders: record at every step.
-        actions: act before every step, in this order.
-        acts_first: before the first step, too.
-        time_ns: before the first step [ns].
+        model: address of the model.
+        data: address of the data.
+        count: number of steps.
+        recorders: recorders called at every step.
+        actions: actions before every step, in this order.
+        acts_first: True: the actions act before the first step, too.
+        time_ns: time before the first step [ns].
         step_ns: length of a step [ns].
     """
 
 class MotorBank:
-    """Commands of the motors of an engine; `step.motors.Motors` says what they do."""
+    """Commands of the motors of an engine; see `step.motors.Motors`."""
 
     def __init__(
         self,
@@ -110,10 +110,10 @@ class MotorBank:
         """Bind the engine's arrays.
 
         Args:
-            model: of the engine.
-            data: of the engine.
+            model: engine's model.
+            data: engine's data.
             axes: (axes, 4) degree of freedom, actuator or -1, effort and velocity limits.
-            states: (actuators, 13) last commands, all zero so far; written from now on.
+            states: (actuators, 13) last commands, initially zero; written by the bank.
         """
 
     def command_effort(self, axis: int, effort: float, hardware: bool) -> None: ...
@@ -121,7 +121,7 @@ class MotorBank:
     def command_position(self, axis: int, position: float, max_effort: float, rate: float) -> None: ...
     def drive_kinematically(self, axis: int, velocity: float, hardware: bool) -> None: ...
     def repeat(self, axis: int, command: tuple[float, float, float, float]) -> None:
-        """Give an axis a command of `command_of`."""
+        """Set an axis' command, as returned by `command_of`."""
 
     def command_of(self, axis: int) -> tuple[float, float, float, float]:
         """Return target, largest effort, rate and constant effort of an axis' direct command."""

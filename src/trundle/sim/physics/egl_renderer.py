@@ -16,7 +16,7 @@ from trundle.spatial import Pose, rotation_from_z
 _NOWHERE = (0.0, 0.0, -1e6)
 """Position of a body without a pose [m]."""
 _SHININESS = 128.0
-"""OpenGL's largest exponent, of which MuJoCo's shininess is a share."""
+"""OpenGL's largest exponent; MuJoCo's shininess is relative to it."""
 _THINNEST = 1e-4
 _LIGHTS = {
     "directional": mujoco.mjtLightType.mjLIGHT_DIRECTIONAL,
@@ -29,13 +29,13 @@ _DEFAULT_LIGHTS = (SceneLight(direction=(-0.3, 0.5, -0.8)),)
 
 
 class EglRenderer:
-    """`Renderer` with OpenGL over EGL; without textures, fog and ambient colours of materials."""
+    """`Renderer` with OpenGL over EGL; without textures, fog and ambient colors of materials."""
 
     def __init__(self, scene: Scene, *, shadow_radius_m: float = _SHADED_M, shadow_px: int = _SHADOW_PX) -> None:
         """Load a scene into MuJoCo.
 
         Args:
-            scene: to draw.
+            scene: scene to draw.
             shadow_radius_m: radius of shadows around a directional light's position [m].
             shadow_px: width and height of the shadow map [pixels].
 
@@ -43,7 +43,7 @@ class EglRenderer:
             UsageError: no EGL on this machine, or its package is missing.
         """
         self._context = _make_context()
-        self._background = np.array([round(255 * share) for share in scene.background[:3]], dtype=np.uint8)
+        self._background = np.array([round(255 * value) for value in scene.background[:3]], dtype=np.uint8)
         self._model = model_from_scene(scene)
         self._model.vis.map.shadowclip = shadow_radius_m
         self._model.vis.quality.shadowsize = shadow_px
@@ -63,20 +63,20 @@ class EglRenderer:
     def update(self, poses: NDArray[np.float64]) -> None:
         """See `Renderer.update`."""
         for mocap, pose in zip(self._mocaps, poses, strict=True):
-            known = bool(np.isfinite(pose).all())
-            self._data.mocap_pos[mocap] = pose[:3] if known else _NOWHERE
-            self._data.mocap_quat[mocap] = pose[3:] if known else (1.0, 0.0, 0.0, 0.0)
+            has_pose = bool(np.isfinite(pose).all())
+            self._data.mocap_pos[mocap] = pose[:3] if has_pose else _NOWHERE
+            self._data.mocap_quat[mocap] = pose[3:] if has_pose else (1.0, 0.0, 0.0, 0.0)
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_camlight(self._model, self._data)
 
     def set_vertices(self, shape: int, vertices: NDArray[np.float32]) -> None:
-        """See `Renderer.set_vertices`; the normals stay as they were."""
+        """See `Renderer.set_vertices`; the normals stay unchanged."""
         mesh = int(self._model.geom(f"s{shape}").dataid[0])
         first, count = int(self._model.mesh_vertadr[mesh]), int(self._model.mesh_vertnum[mesh])
-        turn = np.empty(9)
-        mujoco.mju_quat2Mat(turn, self._model.mesh_quat[mesh])
+        rotation = np.empty(9)
+        mujoco.mju_quat2Mat(rotation, self._model.mesh_quat[mesh])
         # MuJoCo keeps vertices in the mesh's principal frame.
-        self._model.mesh_vert[first : first + count] = (vertices - self._model.mesh_pos[mesh]) @ turn.reshape(3, 3)
+        self._model.mesh_vert[first : first + count] = (vertices - self._model.mesh_pos[mesh]) @ rotation.reshape(3, 3)
         self._context.make_current()
         mujoco.mjr_uploadMesh(self._model, self._gl, mesh)
 
@@ -107,16 +107,16 @@ class EglRenderer:
             camera.frustum_near, camera.frustum_far = near, intrinsics.far_m
         viewport = mujoco.MjrRect(0, 0, width, height)
         rgb = np.empty((height, width, 3), dtype=np.uint8)
-        shares = np.empty((height, width), dtype=np.float32)
+        z_buffer = np.empty((height, width), dtype=np.float32)
         mujoco.mjr_render(viewport, self._drawn, self._gl)
-        mujoco.mjr_readPixels(rgb, shares, viewport, self._gl)
-        nothing = shares <= 0.0
-        rgb[nothing] = self._background
+        mujoco.mjr_readPixels(rgb, z_buffer, viewport, self._gl)
+        is_background = z_buffer <= 0.0
+        rgb[is_background] = self._background
         depths = segments = None
         if depth:
             closest, farthest = np.float32(1.0 / near), np.float32(1.0 / intrinsics.far_m)
-            depths = np.float32(1.0) / (shares * (closest - farthest) + farthest)
-            depths[nothing] = np.inf
+            depths = np.float32(1.0) / (z_buffer * (closest - farthest) + farthest)
+            depths[is_background] = np.inf
             depths = np.ascontiguousarray(depths[::-1])
         if segmentation:
             segments = self._segments(viewport)
@@ -124,19 +124,19 @@ class EglRenderer:
 
     def _segments(self, viewport: mujoco.MjrRect) -> NDArray[np.int32]:
         flags = self._drawn.flags
-        wanted = (mujoco.mjtRndFlag.mjRND_SEGMENT, mujoco.mjtRndFlag.mjRND_IDCOLOR)
-        for flag in wanted:
+        segment_flags = (mujoco.mjtRndFlag.mjRND_SEGMENT, mujoco.mjtRndFlag.mjRND_IDCOLOR)
+        for flag in segment_flags:
             flags[flag] = True
         ids = np.empty((viewport.height, viewport.width, 3), dtype=np.uint8)
         mujoco.mjr_render(viewport, self._drawn, self._gl)
         mujoco.mjr_readPixels(ids, None, viewport, self._gl)
-        for flag in wanted:
+        for flag in segment_flags:
             flags[flag] = False
         geoms = np.full(self._drawn.ngeom + 1, -1, dtype=np.int32)
         for geom in self._drawn.geoms[: self._drawn.ngeom]:
             geoms[geom.segid + 1] = self._shape_of_geom[geom.objid]
-        words = ids.astype(np.int32) @ np.array([1, 256, 65536], dtype=np.int32)
-        return np.ascontiguousarray(geoms[words][::-1])
+        numbers = ids.astype(np.int32) @ np.array([1, 256, 65536], dtype=np.int32)
+        return np.ascontiguousarray(geoms[numbers][::-1])
 
 
 def model_from_scene(scene: Scene) -> mujoco.MjModel:
@@ -166,11 +166,11 @@ def _make_context() -> _Context:
         context = GLContext(64, 64)
         context.make_current()
     except (ImportError, AttributeError, RuntimeError, OSError) as error:
-        why = " ".join(str(error).split()) or type(error).__name__
+        reason = " ".join(str(error).split()) or type(error).__name__
         if isinstance(error, AttributeError):  # PyOpenGL's error for a missing library
-            why = "libEGL cannot be loaded"
-        what = "pip install 'trundle[egl]' and a driver provide it; --renderer cpu works without"
-        raise UsageError(f"no OpenGL over EGL here ({why}); {what}") from None
+            reason = "libEGL cannot be loaded"
+        remedy = "pip install 'trundle[egl]' and a driver provide it; --renderer cpu works without"
+        raise UsageError(f"no OpenGL over EGL here ({reason}); {remedy}") from None
     return context
 
 

@@ -53,7 +53,7 @@ class ContactSensor(LiveSensor[ContactReading]):
         super().__init__(mount)
         names = mount.sensor.contact_collisions or tuple(collision.name for collision in mount.link.collisions)
         self._own = frozenset(f"{mount.model.name}::{mount.link.name}::{name}" for name in names)
-        self._recorder = ContactRecorder(self._own, most_steps=MAX_STEPS)
+        self._recorder = ContactRecorder(self._own, max_steps=MAX_STEPS)
 
     def start(self, simulation: Simulation) -> None:
         """Register the recorder, and a hook that reports at the sensor's rate."""

@@ -31,16 +31,16 @@ class ActorScript:
         return bool(self._paths)
 
     def pose_at(self, time_s: float) -> Pose:
-        """Return the world pose at a time since the actor's start, with the delay before each round."""
-        since, way = self._path_at(time_s)
-        return way.pose_at(since)
+        """Return the world pose at a time since the actor's start; the delay precedes each round."""
+        since, path = self._path_at(time_s)
+        return path.pose_at(since)
 
     def animation_state_at(self, time_s: float) -> AnimationState:
         """Return the animation state; without waypoints the first animation plays in a loop."""
         if not self._paths:
             return AnimationState(animation=self._first, time_s=max(time_s - self._delay, 0.0))
-        since, way = self._path_at(time_s)
-        return AnimationState(animation=way.type, time_s=since, distance_m=way.distance_at(since))
+        since, path = self._path_at(time_s)
+        return AnimationState(animation=path.type, time_s=since, distance_m=path.distance_at(since))
 
     def _path_at(self, time_s: float) -> "tuple[float, _WaypointPath]":
         """Return the time since the start of the current path [s], and the path."""
@@ -48,17 +48,17 @@ class ActorScript:
         if self._loop and round_s > 0.0:
             time_s = math.fmod(time_s, round_s)
         since = min(max(time_s - self._delay, 0.0), self.length_s)
-        begins, way = self._paths[max(bisect_right([start for start, _ in self._paths], since) - 1, 0)]
-        return since - begins, way
+        start_s, path = self._paths[max(bisect_right([start for start, _ in self._paths], since) - 1, 0)]
+        return since - start_s, path
 
     def twist_at(self, time_s: float, dt: float) -> Twist:
         """Return the twist that leads to the pose dt [s] later; zero at the jump back to the start."""
         round_s = self._delay + self.length_s
         if self._loop and round_s > 0.0 and math.fmod(time_s, round_s) + dt >= round_s:
             return Twist()
-        here, there = self.pose_at(time_s), self.pose_at(time_s + dt)
-        (x0, y0, z0), (x1, y1, z1) = here.position, there.position
-        w, x, y, z = quaternion_product(there.quaternion, conjugate(here.quaternion))
+        start, end = self.pose_at(time_s), self.pose_at(time_s + dt)
+        (x0, y0, z0), (x1, y1, z1) = start.position, end.position
+        w, x, y, z = quaternion_product(end.quaternion, conjugate(start.quaternion))
         if w < 0.0:
             w, x, y, z = -w, -x, -y, -z
         axis = normalized((x, y, z))
@@ -105,22 +105,22 @@ class _WaypointPath:
             return 0.0
         count = min(_PIECES * (len(self._times) - 1), _MAX_PIECES)
         if self._distances is None:
-            places = [self.pose_at(first + (last - first) * i / count).position for i in range(count + 1)]
-            self._distances = [0.0, *accumulate(math.dist(a, b) for a, b in pairwise(places))]
-        at = min((time_s - first) / (last - first), 1.0) * count
-        i = min(int(at), count - 1)
-        return self._distances[i] + (at - i) * (self._distances[i + 1] - self._distances[i])
+            positions = [self.pose_at(first + (last - first) * i / count).position for i in range(count + 1)]
+            self._distances = [0.0, *accumulate(math.dist(a, b) for a, b in pairwise(positions))]
+        offset = min((time_s - first) / (last - first), 1.0) * count
+        i = min(int(offset), count - 1)
+        return self._distances[i] + (offset - i) * (self._distances[i + 1] - self._distances[i])
 
 
-def _slopes(places: list[Vector3], share: float) -> list[Vector3]:
+def _slopes(positions: list[Vector3], scale: float) -> list[Vector3]:
     """Return the cardinal spline's tangents; a path that ends at its start is closed."""
-    last = len(places) - 1
-    closed = last > 1 and places[0] == places[last]
+    last = len(positions) - 1
+    closed = last > 1 and positions[0] == positions[last]
 
     def slope(i: int) -> Vector3:
-        before = places[i - 1] if i > 0 else places[last - 1] if closed else places[0]
-        after = places[i + 1] if i < last else places[1] if closed else places[last]
-        x, y, z = (share * (b - a) for a, b in zip(before, after, strict=True))
+        before = positions[i - 1] if i > 0 else positions[last - 1] if closed else positions[0]
+        after = positions[i + 1] if i < last else positions[1] if closed else positions[last]
+        x, y, z = (scale * (b - a) for a, b in zip(before, after, strict=True))
         return (x, y, z)
 
-    return [slope(i) for i in range(len(places))]
+    return [slope(i) for i in range(len(positions))]

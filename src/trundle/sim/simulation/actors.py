@@ -14,7 +14,7 @@ from trundle.spatial import Pose, Vector3
 
 from .handles import ModelHandle
 
-if TYPE_CHECKING:  # a world without actors starts without their modules
+if TYPE_CHECKING:  # worlds without actors do not import their modules
     from trundle.robots.model import Actor, AnimationState, Skin
 
     from .runtime import Runtime
@@ -22,16 +22,16 @@ if TYPE_CHECKING:  # a world without actors starts without their modules
 _PERSON: Vector3 = (0.3, 0.5, 1.8)
 """Size of a skin that cannot be read [m]."""
 _ACTOR_PLUGIN = "libActorPlugin.so"
-"""Plugin that lays skins on their backs, whose up axis is y, with the hips at 1.2138 m, and ignores scripts."""
+"""Plugin that ignores scripts, and lays skins, whose up axis is y, on their backs with the hips at 1.2138 m."""
 _HIPS = 1.2138
 _WALKING = "walking"
 """Animation that the plugin plays."""
 
 
 def with_actors(world: World, report: Diagnostics) -> World:
-    """Return the world with a model added for each visible actor that has none yet."""
-    there = {model.name for model in world.models}
-    added = [_model(actor, report) for actor in world.actors if actor.name not in there]
+    """Return the world with a model for each visible actor without one."""
+    names = {model.name for model in world.models}
+    added = [_model(actor, report) for actor in world.actors if actor.name not in names]
     return replace(world, models=(*world.models, *(model for model in added if model.links)))
 
 
@@ -81,11 +81,11 @@ def _model(actor: "Actor", report: Diagnostics) -> Model:
     if actor.skin is not None:
         links.insert(0, _body(actor, actor.skin, report))
     script = ActorScript(actor)
-    begins = bool(script) and actor.auto_start and not _has_actor_plugin(actor)
+    starts = bool(script) and actor.auto_start and not _has_actor_plugin(actor)
     return Model(
         name=actor.name,
         at=actor.at,
-        world_from_model=script.pose_at(0.0) if begins else actor.world_from_actor,
+        world_from_model=script.pose_at(0.0) if starts else actor.world_from_actor,
         links=tuple(links),
         joints=actor.joints,
         plugins=actor.plugins,
@@ -95,17 +95,17 @@ def _model(actor: "Actor", report: Diagnostics) -> Model:
 
 def _body(actor: "Actor", skin: "Skin", report: Diagnostics) -> Link:
     width, depth, height = _size(skin)
-    place = Pose((0.0, 0.0, height / 2))
+    link_from_visual = Pose((0.0, 0.0, height / 2))
     if _has_actor_plugin(actor):
-        place = Pose.from_rpy(0.0, height / 2 - _HIPS, 0.0, -1.5707963)
+        link_from_visual = Pose.from_rpy(0.0, height / 2 - _HIPS, 0.0, -1.5707963)
     name = f"{actor.name}_pose"
-    box = Visual(name=name, at=actor.at, geometry=Box((width, depth, height)), link_from_visual=place)
+    visual = Visual(name=name, at=actor.at, geometry=Box((width, depth, height)), link_from_visual=link_from_visual)
     from trundle.sim.render import unsupported_reason
 
-    why = unsupported_reason(actor)
-    if why is not None:
-        report.info(actor.at, f"actor {actor.name!r} is a box of its skin's size; its bones do not move: {why}")
-    return Link(name=name, at=actor.at, kinematic=True, gravity=False, visuals=(box,))
+    reason = unsupported_reason(actor)
+    if reason is not None:
+        report.info(actor.at, f"actor {actor.name!r} is a box of its skin's size; its bones do not move: {reason}")
+    return Link(name=name, at=actor.at, kinematic=True, gravity=False, visuals=(visual,))
 
 
 def _has_actor_plugin(actor: "Actor") -> bool:

@@ -10,12 +10,12 @@ from trundle.spatial import NS_PER_S, Wrench
 
 from .step_clock import StepClock
 
-if TYPE_CHECKING:  # a world without belts starts without them
+if TYPE_CHECKING:  # worlds without belts do not import them
     from trundle.sim.physics import LinkGrip
 
 
 class DrivenJoint(Protocol):
-    """Joint that an effort drives for a while."""
+    """Joint driven by a timed effort."""
 
     @property
     def is_valid(self) -> bool:
@@ -44,23 +44,23 @@ class AppliedLoads:
     """Wrenches, efforts and surface motions of one simulation."""
 
     def __init__(self, engine: Engine, clock: Callable[[], tuple[int, int]]) -> None:
-        """Begin with none; `clock` returns the current step, and its length [ns]."""
+        """Create without loads; `clock` returns the current step, and its length [ns]."""
         self._engine = engine
         self._clock = clock
         self.expiries = Expiries()
-        self._lasting: dict[int, Wrench] = {}
+        self._persistent: dict[int, Wrench] = {}
         """Link → its persistent wrench, without the part added for the coming step."""
         self._surface_motions: dict[int, LinkGrip] = {}
 
     def clear(self) -> None:
         """Clear all loads except surface motions."""
         self.expiries = Expiries()
-        self._lasting.clear()
+        self._persistent.clear()
 
-    def restore(self, ends: Expiries) -> None:
+    def restore(self, expiries: Expiries) -> None:
         """Restore saved expiries."""
-        self.expiries = ends.copy()
-        self._lasting.clear()
+        self.expiries = expiries.copy()
+        self._persistent.clear()
 
     def shift(self, steps: int) -> None:
         """Shift all expiries by a number of steps, after the time was set."""
@@ -82,21 +82,21 @@ class AppliedLoads:
         return step + max(1, round(duration_s * NS_PER_S / step_ns))
 
     def _left_s(self, end: int | None) -> float | None:
-        """Return how much longer a load lasts that ends at a step [s]; None: for ever."""
+        """Return the remaining duration of a load that ends at a step [s]; None: unlimited."""
         step, step_ns = self._clock()
         return None if end is None else (end - step) * step_ns / NS_PER_S
 
     def wrench_left_s(self, link: int) -> float | None:
-        """Return how much longer the wrench of a link lasts [s]; None: until the next one."""
+        """Return the remaining duration of a link's wrench [s]; None: until the next one."""
         return self._left_s(self.expiries.wrenches.get(link))
 
     def effort_left_s(self, joint: DrivenJoint, axis: int) -> float | None:
-        """Return how much longer the effort of an axis lasts [s]; None: until the next command."""
+        """Return the remaining duration of an axis' effort [s]; None: until the next command."""
         return self._left_s(self.expiries.efforts.get((joint, axis)))
 
     def set_wrench(self, link: int, wrench: Wrench, *, duration_s: float | None) -> None:
         """Apply a wrench for a duration [s], or until the next one (None)."""
-        self._lasting.pop(link, None)
+        self._persistent.pop(link, None)
         self._engine.set_wrench(link, wrench)
         self.expiries.wrenches.pop(link, None)
         if duration_s is not None:
@@ -105,11 +105,11 @@ class AppliedLoads:
     def add_wrench(self, link: int, wrench: Wrench) -> None:
         """Add a wrench for the coming step."""
         now = self._engine.wrench(link)
-        self._lasting.setdefault(link, now)
+        self._persistent.setdefault(link, now)
         self._engine.set_wrench(link, now + wrench)
 
     def limit_effort(self, joint: DrivenJoint, axis: int, duration_s: float | None) -> None:
-        """Let the effort of an axis end after a duration [s], or with the next command (None)."""
+        """End the effort of an axis after a duration [s], or with the next command (None)."""
         self.expiries.efforts.pop((joint, axis), None)
         if duration_s is not None:
             self.expiries.efforts[joint, axis] = self._end(duration_s)
@@ -130,10 +130,10 @@ class AppliedLoads:
         yield from self.expiries.efforts.values()
 
     def expire(self, step: int) -> None:
-        """Remove the loads that end at a step, and those added for it."""
-        for link, lasting in self._lasting.items():
-            self._engine.set_wrench(link, lasting)
-        self._lasting.clear()
+        """Remove the loads that end at a step, and the loads added for it."""
+        for link, wrench in self._persistent.items():
+            self._engine.set_wrench(link, wrench)
+        self._persistent.clear()
         for link in [link for link, end in self.expiries.wrenches.items() if end <= step]:
             del self.expiries.wrenches[link]
             self._engine.set_wrench(link, Wrench())
@@ -153,7 +153,7 @@ class AppliedLoads:
         self._engine = engine
         wrenches = {links[link]: end for link, end in self.expiries.wrenches.items() if link in links}
         self.expiries = Expiries(wrenches, self.expiries.efforts)
-        self._lasting = {links[link]: wrench for link, wrench in self._lasting.items() if link in links}
+        self._persistent = {links[link]: wrench for link, wrench in self._persistent.items() if link in links}
         self._surface_motions = {links[link]: motion for link, motion in self._surface_motions.items() if link in links}
         if self._surface_motions:
             self._engine.set_surface_motions(self._surface_motions)

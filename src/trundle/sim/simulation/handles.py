@@ -79,21 +79,21 @@ class LinkHandle(Handle):
         """Apply a wrench at the link's centre of mass, world axes.
 
         Args:
-            wrench: replaces the wrench applied before.
+            wrench: wrench in place of the previous one.
             duration_s: simulation time; None: until the next call.
         """
         self._simulation.loads.set_wrench(self.index, wrench, duration_s=duration_s)
 
     @property
     def applied_wrench(self) -> tuple[Wrench, float | None]:
-        """Wrench of `apply_wrench`, and for how much longer it lasts [s]; None: until the next call."""
+        """Wrench of `apply_wrench`, and its remaining duration [s]; None: until the next call."""
         return self._simulation.engine.wrench(self.index), self._simulation.loads.wrench_left_s(self.index)
 
     def add_wrench(self, wrench: Wrench, *, at: Vector3 | None = None) -> None:
         """Add a wrench until the next hook, for forces computed at every step, such as wind, buoyancy and drag.
 
         Args:
-            wrench: world axes.
+            wrench: wrench in world axes.
             at: point of application in the world [m]; None: the centre of mass.
         """
         if at is not None:
@@ -107,7 +107,7 @@ class LinkHandle(Handle):
         """Set the motion and slip of the link's surface at its contacts.
 
         Args:
-            motion: None: ordinary contacts.
+            motion: motion and slip; None: ordinary contacts.
         """
         self._simulation.loads.set_surface_motion(self.index, motion)
 
@@ -134,7 +134,7 @@ class ModelHandle:
     def __repr__(self) -> str:
         if not all(link.is_valid for link in self.links):
             return f"<ModelHandle {self.name!r}, deleted>"
-        links, joints = (", ".join(repr(each.name) for each in group) for group in (self.links, self.joints))
+        links, joints = (", ".join(repr(part.name) for part in parts) for parts in (self.links, self.joints))
         return (
             f"<ModelHandle {self.name!r}{_position(self.pose)}; links: {links or 'none'}; joints: {joints or 'none'}>"
         )
@@ -181,11 +181,11 @@ class ModelHandle:
         if not free:
             simulation = self._simulation
             simulation.edit(with_model_at(simulation.world, self.name, moved @ self.model.world_from_model))
-        for link, there in [(link, moved @ link.pose) for link in free]:
-            link.set_pose(there)
+        for link, target in [(link, moved @ link.pose) for link in free]:
+            link.set_pose(target)
 
     def reset(self) -> None:
-        """Put the model back as it was loaded or spawned, with its joints, at rest, with motors off and no loads.
+        """Reset the model and its joints to the state after loading or spawning: at rest, with motors off and no loads.
 
         Its plugins are reset afterwards, as in Gazebo's Model::Reset.
         """
@@ -204,11 +204,11 @@ class ModelHandle:
         for link in self.links:
             if self._simulation.engine.writer.is_free(link.index):
                 x, y, z = (p - p0 for p, p0 in zip(link.pose.position, (x0, y0, z0), strict=True))
-                there = (vx + wy * z - wz * y, vy + wz * x - wx * z, vz + wx * y - wy * x)
-                link.set_twist(Twist(there, twist.angular))
+                linear = (vx + wy * z - wz * y, vy + wz * x - wx * z, vz + wx * y - wy * x)
+                link.set_twist(Twist(linear, twist.angular))
 
     def set_link_twists(self, twist: Twist) -> None:
-        """Set the velocity of each free link's own origin and its angular velocity once, world axes.
+        """Set the velocity of each free link's origin and its angular velocity once, world axes.
 
         As Gazebo's SetLinearVel and SetAngularVel of a model: links away from the model's origin get no velocity from
         the rotation.
@@ -236,7 +236,7 @@ class ModelHandle:
         """Return a link by name.
 
         Raises:
-            UsageError: no such link; the message lists the links there are.
+            UsageError: no such link; the message lists the links.
         """
         return _find_by_name(name, self.links, f"model {self.name!r} has no link")
 
@@ -244,7 +244,7 @@ class ModelHandle:
         """Return a joint by name.
 
         Raises:
-            UsageError: no such joint; the message lists the joints there are.
+            UsageError: no such joint; the message lists the joints.
         """
         return _find_by_name(name, self.joints, f"model {self.name!r} has no joint")
 
@@ -296,15 +296,15 @@ class ModelHandle:
 
     # -- equations of motion: M(q) a + h(q, v) = τ + Jᵀ f
     #
-    # Generalized velocities have n entries: 6 for each link of the model that moves freely, most often its base: the
-    # velocity of that link's origin [m/s] and its angular velocity [rad/s], world axes; then `joint_names`' axes.
+    # Generalized velocities have n entries: 6 for each free link of the model, usually its base: the velocity of the
+    # link's origin [m/s] and its angular velocity [rad/s], world axes; then `joint_names`' axes.
 
     def jacobian(self, link: str | LinkHandle, point: Vector3 = ZERO) -> NDArray[np.float64]:
         """Return the Jacobian of a point of a link in the model's current state.
 
         Args:
-            link: of this model.
-            point: in the link's frame [m].
+            link: link of this model.
+            point: point in the link's frame [m].
 
         Returns:
             (6, n): velocity of the point [m/s] in rows 0 to 2, angular velocity of the link [rad/s] in rows 3 to 5,
@@ -313,8 +313,8 @@ class ModelHandle:
         Raises:
             UsageError: there is no such link.
         """
-        of = self.link(link) if isinstance(link, str) else link
-        return self._joint_space.jacobian(of.index, point)
+        handle = self.link(link) if isinstance(link, str) else link
+        return self._joint_space.jacobian(handle.index, point)
 
     def mass_matrix(self) -> NDArray[np.float64]:
         """Return the (n, n) mass matrix M(q) of the current state [kg, kg·m, kg·m²], ordered as
@@ -338,10 +338,10 @@ class ModelHandle:
         Args:
             q: (axes,) joint positions [rad or m], as `joint_positions`.
             v: (n,) velocities, in the order of `jacobian`'s columns.
-            a: (n,) their time derivatives.
+            a: (n,) time derivatives of `v`.
 
         Raises:
-            UsageError: one has another shape, or a number that is not finite.
+            UsageError: an array has another shape, or a number that is not finite.
         """
         return self._joint_space.inverse_dynamics(q, v, a)
 
@@ -355,19 +355,19 @@ def _position(pose: Pose) -> str:
     return f" at ({x:.3f}, {y:.3f}, {z:.3f}) m"
 
 
-def _find_by_name(name: str, there: Iterable[_Named], none: str) -> _Named:
-    for one in there:
-        if one.name == name:
-            return one
-    raise UsageError(f"{none} {name!r}; there are: {', '.join(repr(one.name) for one in there) or 'none'}")
+def _find_by_name(name: str, parts: Iterable[_Named], problem: str) -> _Named:
+    for part in parts:
+        if part.name == name:
+            return part
+    raise UsageError(f"{problem} {name!r}; there are: {', '.join(repr(part.name) for part in parts) or 'none'}")
 
 
-def handles_of(simulation: "Runtime", world: World, known: Mapping[str, ModelHandle]) -> list[ModelHandle]:
-    """Return a handle per model, in order; known ones are rebound to their new indices."""
+def handles_of(simulation: "Runtime", world: World, existing: Mapping[str, ModelHandle]) -> list[ModelHandle]:
+    """Return a handle per model, in order; existing ones are rebound to their new indices."""
     handles: list[ModelHandle] = []
     link, joint = 0, 0
     for model in world.models:
-        handle = known.get(model.name)
+        handle = existing.get(model.name)
         if handle is None:
             handle = ModelHandle(simulation, model, first_link=link, first_joint=joint)
         else:
@@ -379,16 +379,16 @@ def handles_of(simulation: "Runtime", world: World, known: Mapping[str, ModelHan
     return handles
 
 
-def world_joints_of(simulation: "Runtime", world: World, known: Mapping[str, JointHandle]) -> list[JointHandle]:
-    """Return a handle per joint between models, in order; known ones are rebound to their new indices."""
-    gone = dict(known)
+def world_joints_of(simulation: "Runtime", world: World, existing: Mapping[str, JointHandle]) -> list[JointHandle]:
+    """Return a handle per joint between models, in order; existing ones are rebound to their new indices."""
+    unused = dict(existing)
     first = sum(len(model.joints) for model in world.models)
     handles: list[JointHandle] = []
     for i, joint in enumerate(world.joints, first):
-        handle = gone.pop(joint.name, None) or JointHandle(simulation, joint, i)
+        handle = unused.pop(joint.name, None) or JointHandle(simulation, joint, i)
         handle.joint = joint
         handle.rebind(i)
         handles.append(handle)
-    for handle in gone.values():
+    for handle in unused.values():
         handle.rebind(None)
     return handles

@@ -3,8 +3,8 @@
 A hook is any object with `before_step(simulation)`, `after_step(snapshot)` or both. It is due at multiples of its
 period; between due times the engine runs in C. At one instant every due `after_step` reads the world, then every due
 `before_step` acts on it; each in the order of registration. Hooks that share work also have a `prepare(snapshot)`,
-which is called on all due hooks before the first `after_step`. A method with a true attribute `does_nothing`, as those
-of a base class that leaves them to override, is never due.
+which is called on all due hooks before the first `after_step`. A method with a true attribute `does_nothing`, such as
+an empty default of a base class, is never due.
 """
 
 from collections.abc import Callable
@@ -44,13 +44,13 @@ class InStep(Protocol):
     """Hook that acts in C++ within a stride, if it is due at every step."""
 
     def step_action(self) -> "tuple[StepAction, float] | None":
-        """Return what acts from the second step of a stride on, and the time at which `before_step` is due again [ns],
-        or infinity; None: at every step. It is asked after each `before_step`.
+        """Return the action from the second step of a stride on, and the time at which `before_step` is due again [ns],
+        or infinity; None: at every step. Called after each `before_step`.
         """
         ...
 
     def finish_stride(self) -> None:
-        """Continue after the steps of a stride, which the action may have ended."""
+        """Continue after the steps of a stride; the action may have ended it early."""
         ...
 
 
@@ -132,15 +132,15 @@ class ScheduledHook(Generic[WorldT]):
         assert has_method, f"{hook!r} has neither before_step nor after_step"
         self._in_step = hook if isinstance(hook, InStep) else None
         self.action: StepAction | None = None
-        """Action of the coming steps but the first; None: `before_step` does it all."""
+        """Action of the coming steps but the first; None: `before_step` only."""
         self._until_ns = 0
         self._clock = clock
         self.retime(period_ns, now_ns=now_ns)
 
     def retime(self, period_ns: Period, *, now_ns: int) -> None:
         """Start a new period now."""
-        # Whole nanoseconds, as most periods are, stay integers: fractions cost ten times as much.
-        self._asked_ns = period_ns = int(period_ns) if period_ns.denominator == 1 else period_ns
+        # Whole nanoseconds, the usual case, stay integers: fractions cost ten times as much.
+        self._requested_ns = period_ns = int(period_ns) if period_ns.denominator == 1 else period_ns
         self.before_timer = PeriodicTimer(period_ns, self._clock, start_ns=now_ns)
         self.after_timer = PeriodicTimer(period_ns, self._clock, start_ns=now_ns + self._period_ns)
         alarms = ((self.before, self.before_timer), (self.after, self.after_timer))
@@ -162,26 +162,26 @@ class ScheduledHook(Generic[WorldT]):
         """Return the value of `enabled`; a hook that becomes enabled restarts at this step."""
         if self.enabled is None:
             return True
-        was_awake, self.was_enabled = self.was_enabled, self.enabled()
-        if self.was_enabled and not was_awake:
+        before, self.was_enabled = self.was_enabled, self.enabled()
+        if self.was_enabled and not before:
             self.restart(step)
         return self.was_enabled
 
     @property
     def _period_ns(self) -> Period:
-        return max(self._asked_ns, self._clock.step_ns)
+        return max(self._requested_ns, self._clock.step_ns)
 
     def find_action(self) -> "StepAction | None":
-        """Return what acts in C++ in the stride that begins; `next_step` then is that of Python."""
+        """Return the action in C++ of the coming stride; `next_step` then concerns Python only."""
         self.action = None
         if self._in_step is not None and self.before_timer.at_every_step:
-            found = self._in_step.step_action()
-            if found is not None:
-                self.action, self._until_ns = found[0], int(min(max(found[1], 0), _NEVER_NS))
+            step_action = self._in_step.step_action()
+            if step_action is not None:
+                self.action, self._until_ns = step_action[0], int(min(max(step_action[1], 0), _NEVER_NS))
         return self.action
 
     def finish_stride(self) -> None:
-        """Let a hook that acted in C++ continue."""
+        """Finish the stride of a hook that acted in C++."""
         if self.action is not None and self._in_step is not None:
             self._in_step.finish_stride()
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Generic, TypeAlias, TypeVar
 
 Repeat: TypeAlias = Callable[[], object]
-"""Does once more what an input from outside, such as a message, did."""
+"""Repeats the effect of an input from outside, such as a message."""
 Owner = TypeVar("Owner")
 
 
@@ -13,11 +13,11 @@ class Inputs(Generic[Owner]):
     """Queue of one simulation; `post` and `post_callback` are thread-safe."""
 
     def __init__(self, owner: Owner) -> None:
-        """Begin with none; commands are called with the owner."""
+        """Create an empty queue; commands are called with the owner."""
         self._owner = owner
         self._waiting: deque[Callable[[Owner], object]] = deque()
         self.record: Callable[[Repeat], None] | None = None
-        """Takes what repeats each input from outside."""
+        """Receives a function that repeats each input from outside."""
 
     def post(self, command: Callable[[Owner], object]) -> None:
         """Queue a command."""
@@ -27,18 +27,18 @@ class Inputs(Generic[Owner]):
         """Queue a callback that may come from outside the simulation, such as a message's.
 
         Args:
-            callback: returns what repeats it; None: it comes again by itself if the simulation is repeated.
+            callback: returns a function that repeats it; None: a repeated simulation calls it again by itself.
         """
         self.post(lambda _: self.call(callback))
 
     def call(self, callback: Callable[[], Repeat | None]) -> None:
-        """Call a callback, as of `post_callback`, now."""
+        """Call a callback at once; see `post_callback`."""
         repeat = callback()
         if repeat is not None and self.record is not None:
             self.record(repeat)
 
     def run(self) -> bool:
-        """Call what was queued before this; return True if there was anything."""
+        """Call the commands queued before; return True if there were any."""
         count = len(self._waiting)
         for _ in range(count):
             self._waiting.popleft()(self._owner)

@@ -16,29 +16,33 @@ def with_joint(world: World, models: list[ModelHandle], joint: Joint) -> World:
     A fixed joint stores the pose of the child; for other types the child's model is moved so that the joint is at zero.
 
     Args:
-        world: as it runs.
+        world: current world.
         models: handles with the current poses.
-        joint: links by `model::link` or "world"; axes in the world frame in the current configuration.
+        joint: joint with links `model::link` or "world"; axes in the world frame in the current configuration.
 
     Raises:
         UsageError: a link does not exist, or the joint's name is taken.
     """
-    if any(there.name == joint.name for there in world.joints):
+    if any(other.name == joint.name for other in world.joints):
         raise UsageError(f"there is a joint {joint.name!r} already")
     parent, child = _find(models, joint.parent), _find(models, joint.child)
     if child is None:
         raise UsageError(f"joint {joint.name!r}: the child must be a link")
     if joint.type is JointType.FIXED:
         parent_from_world = Pose() if parent is None else parent[1].pose.inverse()
-        held = replace(joint, parent_from_child=parent_from_world @ child[1].pose)
-        return replace(world, joints=(*world.joints, held))
-    seen_from = Pose() if parent is None else _at_zero(*parent) @ parent[1].pose.inverse()
-    moved = (seen_from @ child[1].pose) @ child[1].link.model_from_link.inverse()
+        fixed = replace(joint, parent_from_child=parent_from_world @ child[1].pose)
+        return replace(world, joints=(*world.joints, fixed))
+    zero_from_current = Pose() if parent is None else _at_zero(*parent) @ parent[1].pose.inverse()
+    world_from_model = (zero_from_current @ child[1].pose) @ child[1].link.model_from_link.inverse()
 
-    joint = replace(joint, axis=_turned(joint.axis, seen_from), axis2=_turned(joint.axis2, seen_from))
+    joint = replace(
+        joint, axis=_rotated_axis(joint.axis, zero_from_current), axis2=_rotated_axis(joint.axis2, zero_from_current)
+    )
     # With parent and child in one model, moving the model would move both.
-    put = world if parent is not None and parent[0] is child[0] else with_model_at(world, child[0].name, moved)
-    return replace(put, joints=(*world.joints, joint))
+    edited = (
+        world if parent is not None and parent[0] is child[0] else with_model_at(world, child[0].name, world_from_model)
+    )
+    return replace(edited, joints=(*world.joints, joint))
 
 
 def _find(models: list[ModelHandle], name: str) -> tuple[ModelHandle, LinkHandle] | None:
@@ -55,5 +59,5 @@ def _at_zero(model: ModelHandle, link: LinkHandle) -> Pose:
     return model.model.world_from_model @ link.link.model_from_link
 
 
-def _turned(axis: JointAxis | None, by: Pose) -> JointAxis | None:
-    return None if axis is None else replace(axis, direction=by.transform_vector(axis.direction))
+def _rotated_axis(axis: JointAxis | None, rotation: Pose) -> JointAxis | None:
+    return None if axis is None else replace(axis, direction=rotation.transform_vector(axis.direction))

@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from .runtime import Runtime
 
 TimedCommand: TypeAlias = "tuple[MotorCommand, float | None]"
-"""Command of an axis, and for how much longer it lasts [s]; None: until the next one."""
+"""Command of an axis, and its remaining duration [s]; None: until the next one."""
 
 
 class JointHandle(Handle):
-    """Handle of a joint; axes are counted from 0 in file order. A ball joint has three, which are a rotation vector to
-    read and take an effort.
+    """Handle of a joint; axes are counted from 0 in file order. A ball joint has three: their positions are a rotation
+    vector, and their only commands are efforts.
     """
 
     KIND = "joint"
@@ -107,7 +107,7 @@ class JointHandle(Handle):
             raise UsageError(f"joint {name!r} closes a loop of links or carries no link; its reaction is not available")
         _, _, _, qw, qx, qy, qz = engine.reader.link_poses()[link].tolist()
         arm = Pose(quaternion=(qw, qx, qy, qz)).transform_vector(anchor)
-        fx, fy, fz, tx, ty, tz = (sign * each for each in engine.reactions()[link].tolist())
+        fx, fy, fz, tx, ty, tz = (sign * component for component in engine.reactions()[link].tolist())
         mx, my, mz = cross(arm, (fx, fy, fz))
         return Wrench((fx, fy, fz), (tx - mx, ty - my, tz - mz))
 
@@ -117,7 +117,7 @@ class JointHandle(Handle):
         """Set the position of an axis [rad or m] at once; its velocity stays, and no motor is switched.
 
         Raises:
-            UsageError: there is no such axis, or the joint is a ball, whose three `ModelHandle.joint_positions` sets.
+            UsageError: there is no such axis, or the joint is a ball, set by `ModelHandle.joint_positions`.
         """
         expect_finite(position)
         driven = self._driven(axis)
@@ -133,8 +133,8 @@ class JointHandle(Handle):
         index = self._axis(axis)
         self._simulation.engine.writer.set_axis_velocities(range(index, index + 1), (velocity,))
 
-    # -- motors: the last command holds until the next one; one of a hardware interface, as of ros_control, acts beside
-    # direct ones, as in Gazebo: efforts add up, the later speed counts, a kinematic drive overrides all
+    # -- motors: the last command holds until the next one; a command of a hardware interface (ros_control) is combined
+    # with direct ones, as in Gazebo: efforts add up, the later speed counts, a kinematic drive overrides all
 
     def command_position(self, position: float, *, max_effort: float = math.inf, axis: int = 0) -> None:
         """Drive an axis to a position [rad or m] within the joint's limits, and hold it.
@@ -143,7 +143,7 @@ class JointHandle(Handle):
 
         Args:
             position: target.
-            max_effort: of the motor [N·m or N]; the joint's own effort limit holds as well.
+            max_effort: motor's effort limit [N·m or N]; the joint's effort limit applies, too.
             axis: axis index.
         """
         driven = self._driven(axis)
@@ -166,10 +166,10 @@ class JointHandle(Handle):
         """Drive an axis with an effort [N·m or N], within the joint's effort and velocity limits.
 
         Args:
-            effort: replaces the previous command.
+            effort: effort in place of the previous command.
             axis: axis index.
             duration_s: simulation time; None: until the next command.
-            hardware: the command is a hardware interface's, and lasts until its next one.
+            hardware: True: command of a hardware interface, which lasts until its next one.
         """
         self._simulation.engine.motors.command_effort(self._axis(axis), effort, hardware=hardware)
         if not hardware:
@@ -177,20 +177,20 @@ class JointHandle(Handle):
 
     @property
     def commands(self) -> "tuple[TimedCommand, ...]":
-        """Last direct command of each axis, and for how much longer it lasts [s]; None: until the next one."""
+        """Last direct command of each axis, and its remaining duration [s]; None: until the next one."""
         simulation = self._simulation
-        left_s = [simulation.loads.effort_left_s(self, axis) for axis in range(len(self.axes))]
+        remaining_s = [simulation.loads.effort_remaining_s(self, axis) for axis in range(len(self.axes))]
         commands = map(simulation.engine.motors.command_of, self.axes)
-        return tuple(zip(commands, left_s, strict=True))
+        return tuple(zip(commands, remaining_s, strict=True))
 
     def repeat(self, commands: "Iterable[TimedCommand]") -> None:
-        """Give every axis the command that it had."""
-        for axis, (command, left_s) in enumerate(commands):
+        """Repeat an earlier command of every axis."""
+        for axis, (command, remaining_s) in enumerate(commands):
             self._simulation.engine.motors.repeat(self._axis(axis), command)
-            self._simulation.loads.limit_effort(self, axis, left_s)
+            self._simulation.loads.limit_effort(self, axis, remaining_s)
 
     def drive_kinematically(self, velocity: float, *, axis: int = 0, hardware: bool = False) -> None:
-        """Drive an axis at a velocity [rad/s or m/s] at once; the parent's side feels its weight only."""
+        """Drive an axis at a velocity [rad/s or m/s] at once; the reaction on the parent is the weight only."""
         if not hardware:
             self._simulation.loads.limit_effort(self, axis, None)
         engine = self._simulation.engine
@@ -200,8 +200,8 @@ class JointHandle(Handle):
     def _axis(self, axis: int) -> int:
         axes = self.axes
         if not 0 <= axis < len(axes):
-            has = f"it has {len(axes)}" if axes else "it cannot move"
-            raise UsageError(f"joint {self.name!r} has no axis {axis}: {has}")
+            axes_text = f"it has {len(axes)}" if axes else "it cannot move"
+            raise UsageError(f"joint {self.name!r} has no axis {axis}: {axes_text}")
         return axes[axis]
 
     def _driven(self, axis: int) -> int:

@@ -1,7 +1,7 @@
 """Joint space of a model: positions and velocities as arrays, and the equations of motion.
 
-`joint_names` has the order: the file's, one entry per axis. A fixed joint has none, a universal joint two, a ball joint
-three.
+The order is that of `joint_names`: the file's, one entry per axis. A fixed joint has none, a universal joint two, a
+ball joint three.
 """
 
 from collections.abc import Sequence
@@ -25,10 +25,10 @@ class JointSpace:
         """Find the axes.
 
         Args:
-            engine: of the simulation.
-            model: its name.
-            links: indices of its links.
-            joints: its joints, in file order.
+            engine: simulation's engine.
+            model: model's name.
+            links: indices of the model's links.
+            joints: joints of the model, in file order.
         """
         self._engine = engine
         self._model = model
@@ -51,7 +51,7 @@ class JointSpace:
         """Set every position at once; velocities stay.
 
         Raises:
-            UsageError: their number is wrong, or one is not finite.
+            UsageError: the array has another shape, or a number that is not finite.
         """
         self._engine.writer.set_axis_positions(self.axes, self._array("joint_positions", positions, len(self.axes)))
 
@@ -59,7 +59,7 @@ class JointSpace:
         """Set every velocity once.
 
         Raises:
-            UsageError: their number is wrong, or one is not finite.
+            UsageError: the array has another shape, or a number that is not finite.
         """
         self._engine.writer.set_axis_velocities(self.axes, self._array("joint_velocities", velocities, len(self.axes)))
 
@@ -74,9 +74,9 @@ class JointSpace:
 
     def bias_forces(self) -> _Array:
         """See `ModelHandle.bias_forces`."""
-        of = self._coordinates
+        coordinates = self._coordinates
         state = JointState(*self._engine.reader.state())
-        return self._engine.dynamics.inverse_dynamics(state, of, np.zeros(self._width))
+        return self._engine.dynamics.inverse_dynamics(state, coordinates, np.zeros(self._width))
 
     def inverse_dynamics(self, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> _Array:
         """See `ModelHandle.inverse_dynamics`."""
@@ -93,15 +93,15 @@ class JointSpace:
     def _width(self) -> int:
         return 6 * len(self._coordinates.free_links) + len(self.axes)
 
-    def _array(self, what: str, values: ArrayLike, count: int) -> _Array:
+    def _array(self, argument: str, values: ArrayLike, count: int) -> _Array:
         array = np.asarray(values, dtype=np.float64)
         if array.shape != (count,):
             bases = (count - len(self.axes)) // 6
-            there = ", ".join(map(repr, self.names)) or "none"
+            names = ", ".join(map(repr, self.names)) or "none"
             free = f", after 6 for each of {bases} free links" if bases else ""
             raise UsageError(
-                f"model {self._model!r}: {what} has shape {array.shape}, not ({count},): joints: {there}{free}"
+                f"model {self._model!r}: {argument} has shape {array.shape}, not ({count},): joints: {names}{free}"
             )
         if not np.isfinite(array).all():
-            raise UsageError(f"model {self._model!r}: {what} has numbers that are not finite: {array}")
+            raise UsageError(f"model {self._model!r}: {argument} has numbers that are not finite: {array}")
         return array

@@ -1,22 +1,22 @@
-"""Profiler of strides, which has the clock that the simulator itself never reads."""
+"""Profiler of strides; only it reads a wall clock."""
 
 from enum import Enum
 from typing import Protocol
 
 
 class StridePart(Enum):
-    """Parts of a stride beside its hooks."""
+    """Parts of a stride other than hooks."""
 
     BETWEEN = "between strides"
     COMMANDS = "commands"
     """Commands and callbacks of messages."""
     SCHEDULE = "schedule"
-    """Search for what is due, and the snapshot."""
+    """Search for due hooks, and the snapshot."""
     PHYSICS = "physics"
     LISTENERS = "listeners"
     """Listeners to the readings of sensors."""
     TIMELINE = "timeline"
-    """Saving states to go back to."""
+    """Saving of states for the timeline."""
 
 
 class Profiler(Protocol):

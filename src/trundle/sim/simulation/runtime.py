@@ -1,4 +1,4 @@
-"""Interface of a running world as its handles and actors see it."""
+"""Interface of a running world for its handles and actors."""
 
 from typing import Protocol
 
@@ -38,5 +38,5 @@ class Runtime(Protocol):
 
     @property
     def resets(self) -> Resets:
-        """Functions that are called after resets."""
+        """Functions called after resets."""
         ...

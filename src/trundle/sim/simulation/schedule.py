@@ -34,7 +34,7 @@ class Schedule(Generic[WorldT]):
             self._hooks.append(scheduled)
 
     def retime(self, hook: object, period_ns: Period, *, now_ns: int) -> None:
-        """Change a hook's period [ns] from now [ns] on; it keeps its place in the order."""
+        """Change a hook's period [ns] from now [ns] on; the order of hooks stays."""
         for scheduled in self._hooks:
             if scheduled.hook is hook:
                 scheduled.retime(period_ns, now_ns=now_ns)
@@ -46,7 +46,7 @@ class Schedule(Generic[WorldT]):
 
     def name_of(self, hook: object) -> str | None:
         """Return the name that a hook was registered with."""
-        return next((each.name for each in self._hooks if each.hook is hook), None)
+        return next((scheduled.name for scheduled in self._hooks if scheduled.hook is hook), None)
 
     def rename_model(self, name: str, new: str) -> None:
         """Rename the hooks that are named as parts of a model."""
@@ -84,12 +84,12 @@ def run_before(hooks: list[ScheduledHook[WorldT]], sim: WorldT, profiler: Profil
 
 
 def find_actions(hooks: list[ScheduledHook[WorldT]]) -> "list[StepAction]":
-    """Return what acts in C++ in the coming stride, in order."""
+    """Return the actions in C++ of the coming stride, in order."""
     return [action for hook in hooks if (action := hook.find_action()) is not None]
 
 
 def finish_stride(hooks: list[ScheduledHook[WorldT]]) -> None:
-    """Let the hooks that acted in C++ continue."""
+    """Finish the stride of the hooks that acted in C++."""
     for hook in hooks:
         hook.finish_stride()
 
@@ -101,14 +101,14 @@ def run_after(
     due = [hook for hook in hooks if hook.after is not None and hook.after_timer.due(step)]
     if not due:
         return
-    seen = snapshot()
+    current = snapshot()
     for hook in due:
         if hook.prepare is not None:
-            hook.prepare(seen)
+            hook.prepare(current)
     if profiler is not None:
         profiler.lap(StridePart.SCHEDULE)
     for hook in due:
         if hook.after is not None:
-            hook.after(seen)
+            hook.after(current)
             if profiler is not None:
                 profiler.lap(hook.hook)

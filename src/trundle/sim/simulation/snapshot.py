@@ -13,7 +13,7 @@ _Array = NDArray[np.float64]
 class Snapshot:
     """Immutable state of a world at one instant, for any thread; links and joints in file order, over all models.
 
-    Position, velocity and effort of a joint are those of its first axis; `axes_of` returns all.
+    `joint_positions`, `joint_velocities` and `joint_efforts` hold each joint's first axis; `axes_of` returns all.
     """
 
     def __init__(
@@ -60,14 +60,14 @@ class Snapshot:
     def axes_of(self, joint: int) -> tuple[list[float], list[float], list[float]]:
         """Return position, velocity and effort of each axis of a joint."""
         axes = slice(self._joint_axes[joint].start, self._joint_axes[joint].stop)
-        held = self.engine
+        engine = self.engine
         return (
-            held.axis_positions[axes].tolist(),
-            held.axis_velocities[axes].tolist(),
-            held.axis_efforts[axes].tolist(),
+            engine.axis_positions[axes].tolist(),
+            engine.axis_velocities[axes].tolist(),
+            engine.axis_efforts[axes].tolist(),
         )
 
     def _of_joints(self, values: _Array) -> _Array:
-        found, moves = np.zeros(len(self._axes)), self._axes >= 0
-        found[moves] = values[self._axes[moves]]
-        return found
+        result, moves = np.zeros(len(self._axes)), self._axes >= 0
+        result[moves] = values[self._axes[moves]]
+        return result

@@ -43,13 +43,13 @@ class StateRecorder:
         """Create the file; an existing one is overwritten.
 
         Args:
-            path: of the file.
+            path: path of the file.
             links: `model::link`, in the order of `Snapshot.poses`.
             joints: `model::joint`, in the order of `Snapshot.joint_positions`.
             sdf: the world, for playback.
 
         Raises:
-            OSError: it cannot be written, or another program writes it.
+            OSError: the file cannot be written, or another program writes it.
         """
         self._path = path
         self._lock = FileLock(path)
@@ -65,7 +65,7 @@ class StateRecorder:
         """Write a row.
 
         Raises:
-            OSError: it cannot be written; the file is closed.
+            OSError: the file cannot be written; it is closed.
         """
         time = np.array([snapshot.time_ns / 1e9])
         row = np.concatenate([time, snapshot.poses.reshape(-1), snapshot.joint_positions])
@@ -80,7 +80,7 @@ class StateRecorder:
         try:
             self._file.write(data)
             self._file.flush()
-            self._path.stat()  # a deleted file accepts data without keeping it
+            self._path.stat()  # a deleted file accepts data and loses it
         except OSError as error:
             with contextlib.suppress(OSError):  # the flush fails as the write did
                 self.close()
@@ -106,7 +106,7 @@ def read_state_log(file: Path | str) -> StateLog:
 
     Raises:
         DescriptionError: the file is not a state log, or a row is damaged.
-        OSError: it cannot be read.
+        OSError: the file cannot be read.
     """
     path = Path(file)
     with open_file(path) as stream:
@@ -115,10 +115,10 @@ def read_state_log(file: Path | str) -> StateLog:
     try:
         header = json.loads(line)
         links, joints, sdf = tuple(map(str, header["links"])), tuple(map(str, header["joints"])), str(header["sdf"])
-        known = header["format"] == FORMAT
+        is_state_log = header["format"] == FORMAT
     except (ValueError, TypeError, KeyError, RecursionError):
-        known, links, joints, sdf = False, (), (), ""
-    if not known:
+        is_state_log, links, joints, sdf = False, (), (), ""
+    if not is_state_log:
         raise DescriptionError(Source(str(path), 1), f"not a state log: the file does not begin with {FORMAT!r}")
     width = 1 + 7 * len(links) + len(joints)
     count = (path.stat().st_size - start) // (width * _ROW.itemsize)
@@ -126,8 +126,8 @@ def read_state_log(file: Path | str) -> StateLog:
     poses = rows[:, 1 : 1 + 7 * len(links)].reshape(count, len(links), 7)
     damaged = np.flatnonzero(~_are_states(rows, poses))
     if damaged.size:
-        what = f"row {damaged[0] + 1} of {count} is damaged: it holds no time with poses and positions"
-        raise DescriptionError(Source(str(path)), what)
+        problem = f"row {damaged[0] + 1} of {count} is damaged: it holds no time with poses and positions"
+        raise DescriptionError(Source(str(path)), problem)
     return StateLog(
         links=links,
         joints=joints,
@@ -139,7 +139,7 @@ def read_state_log(file: Path | str) -> StateLog:
 
 
 def _are_states(rows: _Array, poses: _Array) -> NDArray[np.bool_]:
-    """Return, per row, whether its numbers can be of a world: bounded, with unit quaternions."""
+    """Return per row if it can be the state of a world: bounded numbers, unit quaternions."""
     bounded = (np.abs(rows) <= _LARGEST).all(axis=1)  # and so no NaN
     with np.errstate(invalid="ignore"):
         squares = np.square(np.clip(poses[:, :, 3:], -2.0, 2.0)).sum(axis=2)

@@ -1,4 +1,4 @@
-"""First bytes of a state log, which tell it from other files."""
+"""First bytes of a state log, which identify it."""
 
 import json
 from pathlib import Path

@@ -24,18 +24,18 @@ def unique_name(world: World, name: str) -> str:
     """Return the name, with _0, _1, … appended if it is taken, as Gazebo does."""
     taken = {model.name for model in world.models}
     numbered = (f"{name}_{number}" for number in count())
-    return name if name not in taken else next(each for each in numbered if each not in taken)
+    return name if name not in taken else next(candidate for candidate in numbered if candidate not in taken)
 
 
 def check_name_is_free(world: World, name: str) -> None:
     """Check that a model name is free.
 
     Raises:
-        UsageError: the name is taken, empty, or holds what no file can.
+        UsageError: the name is taken, empty, or has a control character.
     """
     if _CONTROL.search(name):
         raise UsageError(f"a model cannot be named {name!r}: it holds a control character")
-    if not name or any(there.name == name for there in world.models):
+    if not name or any(model.name == name for model in world.models):
         raise UsageError(f"there is a model {name!r} already" if name else "a model needs a name")
 
 
@@ -43,7 +43,7 @@ def check_same_structure(world: World, edited: World) -> None:
     """Check that an edited world has the same models, links and joints.
 
     Raises:
-        UsageError: it has others.
+        UsageError: the edited world has others.
     """
     if _structure(edited) != _structure(world):
         raise UsageError("an edited world has other models, links or joints; spawn and delete change those")
@@ -70,35 +70,35 @@ def without_joint(world: World, name: str) -> World:
     """Return the world without a joint between models.
 
     Raises:
-        UsageError: no such joint; the message lists the joints there are.
+        UsageError: no such joint; the message lists the joints.
     """
     names = [joint.name for joint in world.joints]
     if name not in names:
-        there = ", ".join(map(repr, names)) or "none"
-        raise UsageError(f"no joint {name!r} between models; there are: {there}")
+        listing = ", ".join(map(repr, names)) or "none"
+        raise UsageError(f"no joint {name!r} between models; there are: {listing}")
     return replace(world, joints=tuple(joint for joint in world.joints if joint.name != name))
 
 
 def with_model_renamed(world: World, name: str, new: str) -> World:
     """Return the world with a model renamed, also in the joints between models."""
 
-    def linked(joint: Joint) -> Joint:
+    def renamed(joint: Joint) -> Joint:
         parent, child = current_names((joint.parent, joint.child), {name: new})
         return replace(joint, parent=parent, child=child)
 
     return replace(
         world,
         models=tuple(replace(model, name=new) if model.name == name else model for model in world.models),
-        joints=tuple(map(linked, world.joints)),
+        joints=tuple(map(renamed, world.joints)),
     )
 
 
 def with_model_at(world: World, name: str, world_from_model: Pose) -> World:
-    """Return the world with a model at another pose, and with it the joints that fix it to the world as it runs."""
+    """Return the world with a model at another pose, moved with the fixed joints that attach it to the world."""
     before = next(model.world_from_model for model in world.models if model.name == name)
     moved = world_from_model @ before.inverse()
 
-    def held(joint: Joint) -> Joint:
+    def moved_joint(joint: Joint) -> Joint:
         if joint.parent_from_child is None or joint.parent != WORLD or not joint.child.startswith(f"{name}::"):
             return joint
         return replace(joint, parent_from_child=moved @ joint.parent_from_child)
@@ -108,7 +108,7 @@ def with_model_at(world: World, name: str, world_from_model: Pose) -> World:
         models=tuple(
             replace(model, world_from_model=world_from_model) if model.name == name else model for model in world.models
         ),
-        joints=tuple(map(held, world.joints)),
+        joints=tuple(map(moved_joint, world.joints)),
     )
 
 
@@ -129,19 +129,19 @@ def transferred_engine(
 
     Args:
         old: previous engine.
-        world: the changed one.
-        report: takes the warnings of the compile.
+        world: changed world.
+        report: receives the warnings of the compile.
         models: renamed models, old name → new name.
-        cutting: as in `compile_world`.
+        cutting: see `compile_world`.
 
     Raises:
         DescriptionError: MuJoCo cannot simulate it.
     """
     engine = Engine(compile_world(world, report, cutting=cutting))
     engine.transfer_from(old, renamed=models)
-    there = {name: i for i, name in enumerate(engine.compiled.link_names)}
-    before = enumerate(current_names(old.compiled.link_names, models))
-    links = {i: there[name] for i, name in before if name in there}
+    index = {name: i for i, name in enumerate(engine.compiled.link_names)}
+    old_names = enumerate(current_names(old.compiled.link_names, models))
+    links = {i: index[name] for i, name in old_names if name in index}
     _keep_free_links(old, engine, links)
     return engine, links
 

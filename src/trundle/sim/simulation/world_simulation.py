@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.robots.model import Joint, Model, World
-from trundle.sim.physics import CompiledWorld, ContactRecorder, Contacts, EachStep, Engine, compile_world
+from trundle.sim.physics import CompiledWorld, ContactRecorder, Contacts, Engine, StepHooks, compile_world
 from trundle.spatial import NS_PER_S
 
 from .actors import ActorPlayer, with_actors
@@ -63,18 +63,18 @@ class Simulation:
         """Compile a world at time zero.
 
         Args:
-            world: as read.
-            report: takes the warnings of the compile.
-            seed: of all random numbers.
-            compiled: the world, with its actors, compiled already; no other simulation may use it.
-            cutting: cuts hollow meshes in the background; `recompile` then uses the pieces. None: they are waited for.
+            world: world, nested models allowed.
+            report: receives the warnings of the compile.
+            seed: seed of all random numbers.
+            compiled: compiled world with its actors; no other simulation may use it.
+            cutting: decomposes slow meshes in the background, for `recompile`; None: all are decomposed first.
         """
         self.report = report
         self.seed = seed
         self._cutting = cutting
         self.engine = Engine(compiled or compile_world(with_actors(world, report), report, cutting=cutting))
         self.world = self.engine.compiled.world
-        """World without nested models; their links and joints are the outer model's, named `inner::name`."""
+        """World without nested models: their links and joints belong to the outer model, named `inner::name`."""
         self._clock = StepClock(world_step_ns(world))
         self.steps = 0
         self.loads = AppliedLoads(self.engine, lambda: (self.steps, self.step_ns))
@@ -87,7 +87,7 @@ class Simulation:
         self.lines: dict[str, DebugLine] = {}
         """Lines drawn by plugins, by `model::name`."""
         self.lines_are_shown = False
-        """True if a page shows the lines; plugins with expensive lines draw none before."""
+        """True if a page shows the lines; until then plugins draw no expensive ones."""
         self.inputs = Inputs[Simulation](self)
         """Commands and callbacks that wait for the next step."""
         self.profiler: Profiler | None = None
@@ -100,12 +100,12 @@ class Simulation:
             for actor in world.actors
             if any(model.name == actor.name for model in self.models)
         }
-        """Players of actors, each of which is a model as well."""
-        for walk in self.actors.values():
-            wanted = partial(walk.enabled, self.models)
-            self.add_hook(walk, period_ns=walk.period_ns, enabled=wanted)
+        """Players of actors; each actor is a model as well."""
+        for player in self.actors.values():
+            enabled = partial(player.enabled, self.models)
+            self.add_hook(player, period_ns=player.period_ns, enabled=enabled)
         self.resets = Resets()
-        """Functions that are called after resets."""
+        """Functions called after resets."""
 
     @property
     def time_ns(self) -> int:
@@ -131,7 +131,7 @@ class Simulation:
         """Return a model by name.
 
         Raises:
-            UsageError: no such model; the message lists the models there are.
+            UsageError: no such model; the message lists the models.
         """
         for model in self.models:
             if model.name == name:
@@ -144,10 +144,10 @@ class Simulation:
 
     def animation_state(self, actor: str) -> "AnimationState":
         """Return an actor's animation state; default for a deleted actor."""
-        from trundle.robots.model import AnimationState  # a world without actors starts without theirs
+        from trundle.robots.model import AnimationState  # worlds without actors do not import it
 
-        walk = self.actors.get(actor)
-        return AnimationState() if walk is None else walk.animation_state(self.time_ns)
+        player = self.actors.get(actor)
+        return AnimationState() if player is None else player.animation_state(self.time_ns)
 
     # -- time
 
@@ -167,9 +167,9 @@ class Simulation:
         Raises:
             SimulationUnstableError: the physics became unstable; the world has its last good state.
         """
-        left_ns = until_ns - self.time_ns
-        while left_ns > 0:
-            left_ns -= self._stride(left_ns)
+        remaining_ns = until_ns - self.time_ns
+        while remaining_ns > 0:
+            remaining_ns -= self._stride(remaining_ns)
         self._drain()
 
     def stride(self, until_ns: int) -> None:
@@ -182,11 +182,11 @@ class Simulation:
         self._drain()
 
     def set_step(self, step: int) -> None:
-        """Set the step of the engine's state, which was computed elsewhere, as on a GPU."""
+        """Set the step of the engine's state, after it was computed elsewhere, such as on a GPU."""
         self.steps = step
         self.loads.expire(step)
 
-    def _stride(self, most_ns: int) -> int:
+    def _stride(self, max_ns: int) -> int:
         """Simulate at most a duration [ns]; return the simulated part."""
         profiler = self.profiler
         if profiler is not None:
@@ -196,16 +196,16 @@ class Simulation:
         if profiler is not None:
             profiler.lap(StridePart.SCHEDULE)
         run_before(hooks, self, profiler)
-        each = EachStep(self.time_ns, self.step_ns, self._enabled_recorders, find_actions(hooks))
-        target = self._clock.step_at(self.time_ns + most_ns)
+        step_hooks = StepHooks(self.time_ns, self.step_ns, self._enabled_recorders, find_actions(hooks))
+        target = self._clock.step_at(self.time_ns + max_ns)
         stop = min([target, self.steps + _MAX_STRIDE, *[hook.next_step for hook in hooks], *self.loads.expiry_steps()])
         if profiler is not None:
             profiler.lap(StridePart.SCHEDULE)
-        made = self.engine.step(stop - self.steps, None if each.is_empty else each)
+        stepped = self.engine.step(stop - self.steps, None if step_hooks.is_empty else step_hooks)
         if profiler is not None:
             profiler.lap(StridePart.PHYSICS)
-        simulated_ns = made * self.step_ns
-        self.steps += made
+        simulated_ns = stepped * self.step_ns
+        self.steps += stepped
         finish_stride(hooks)
         self.loads.expire(self.steps)
         run_after(hooks, self.steps, self.snapshot, profiler)
@@ -231,15 +231,15 @@ class Simulation:
         """Register a periodic hook.
 
         Args:
-            hook: an object with before_step(simulation), after_step(snapshot) or both; one without work is left out.
+            hook: object with before_step(simulation), after_step(snapshot) or both; without either, it is left out.
             period_ns: period [ns]; 0: every step, which costs Python at every step.
             enabled: checked before each stride; while False, the hook costs no stride.
-            name: what a profile calls it; None: by its class.
+            name: name in a profile; None: the hook's class.
         """
         self._schedule.add(hook, period_ns, now_ns=self.time_ns, enabled=enabled, name=name)
 
     def retime_hook(self, hook: object, period_ns: Period) -> None:
-        """Change a hook's period [ns] from now on; it keeps its place in the order."""
+        """Change a hook's period [ns] from now on; the order of hooks stays."""
         self._schedule.retime(hook, period_ns, now_ns=self.time_ns)
 
     @property
@@ -259,14 +259,14 @@ class Simulation:
         """Record contacts at every step from now on, in C++.
 
         Args:
-            recorder: records those of its collisions.
+            recorder: recorder of its collisions' contacts.
             enabled: checked before each stride; while False, recording costs nothing.
         """
         self._recorders.append((recorder, enabled))
 
     def remove_recorder(self, recorder: ContactRecorder) -> None:
         """Stop recording."""
-        self._recorders = [each for each in self._recorders if each[0] is not recorder]
+        self._recorders = [(other, enabled) for other, enabled in self._recorders if other is not recorder]
 
     # -- state
 
@@ -284,7 +284,7 @@ class Simulation:
         """Return the contacts of the last step, one by one or as arrays of positions, normals and forces.
 
         Args:
-            among: names of collisions, `model::link::collision`, that something touches; None: of all.
+            among: names `model::link::collision`, at least one of which is part of each contact; None: all contacts.
         """
         return self.engine.contacts(among)
 
@@ -324,7 +324,7 @@ class Simulation:
             self.resets.finish()
 
     def on_reset(self, call: Callable[[], None], *, model: ModelHandle | None = None) -> None:
-        """Call a function after each reset of poses, and after each reset of `model` alone, until that is deleted."""
+        """Call a function after each reset of poses, and after each reset of `model`, until it is deleted."""
         self.resets.add(call, model)
 
     # -- spawning and deleting
@@ -333,12 +333,12 @@ class Simulation:
         """Add a model; everything else keeps its exact state.
 
         Args:
-            model: placed at its pose.
+            model: model, added at its pose.
             allow_renaming: append _0, _1, … to a name that is taken, as Gazebo does.
 
         Raises:
             UsageError: the name is taken.
-            DescriptionError: MuJoCo cannot simulate it; nothing has changed.
+            DescriptionError: MuJoCo cannot simulate the result; nothing has changed.
         """
         if allow_renaming:
             model = replace(model, name=unique_name(self.world, model.name))
@@ -350,12 +350,12 @@ class Simulation:
         """Delete a model and its joints with others; everything else keeps its exact state.
 
         Raises:
-            UsageError: no such model; the message lists the models there are.
+            UsageError: no such model; the message lists the models.
         """
-        gone = self[name]
+        handle = self[name]
         self._replace_world(without_model(self.world, name))
-        gone.rebind(None, None)
-        self.resets.forget(gone)
+        handle.rebind(None, None)
+        self.resets.forget(handle)
         self.lines = {key: line for key, line in self.lines.items() if not key.startswith(f"{name}::")}
 
     def rename(self, name: str, new: str) -> None:
@@ -368,7 +368,7 @@ class Simulation:
         if new == name:
             return
         check_name_is_free(self.world, new)
-        self._replace_world(with_model_renamed(self.world, name, new), was={new: handle})
+        self._replace_world(with_model_renamed(self.world, name, new), renamed={new: handle})
         self.lines = {key.replace(f"{name}::", f"{new}::", 1): line for key, line in self.lines.items()}
         self._schedule.rename_model(name, new)
 
@@ -376,11 +376,11 @@ class Simulation:
         """Attach a link to another or to the world in the current configuration; all poses stay.
 
         Args:
-            joint: links by `model::link` or "world", the joint frame in the child's, axes in the world as posed now.
+            joint: joint with links `model::link` or "world", its frame in the child's, axes in the world as posed now.
 
         Raises:
             UsageError: a link does not exist, or the joint's name is taken.
-            DescriptionError: MuJoCo cannot simulate it; nothing has changed.
+            DescriptionError: MuJoCo cannot simulate the result; nothing has changed.
         """
         self._replace_world(with_joint(self.world, self.models, joint))
         return self.joints[-1]
@@ -389,7 +389,7 @@ class Simulation:
         """Remove a joint between models; poses and velocities stay, and the child is free.
 
         Raises:
-            UsageError: no such joint; the message lists the joints there are.
+            UsageError: no such joint; the message lists the joints.
         """
         self._replace_world(without_joint(self.world, name))
 
@@ -397,36 +397,36 @@ class Simulation:
         """Change time step, gravity, masses, surfaces or limits; everything keeps its exact state.
 
         Args:
-            world: this simulation's, edited; with the same models, links and joints.
+            world: this simulation's world, edited, with the same models, links and joints.
 
         Raises:
             UsageError: the world has other models, links or joints.
-            DescriptionError: MuJoCo cannot simulate it; nothing has changed.
+            DescriptionError: MuJoCo cannot simulate the result; nothing has changed.
         """
         check_same_structure(self.world, world)
         self._replace_world(world)
 
     def recompile(self) -> None:
-        """Compile the world again in the same state, with meshes that have been cut in the background."""
+        """Compile the world again in the same state, with the pieces of meshes decomposed in the background."""
         self._replace_world(self.world)
 
     def on_change(self, call: Callable[[], None]) -> None:
         """Call a function after models were spawned, deleted or edited, which may change indices."""
         self._on_change.append(call)
 
-    def _replace_world(self, world: World, *, was: Mapping[str, ModelHandle] | None = None) -> None:
+    def _replace_world(self, world: World, *, renamed: Mapping[str, ModelHandle] | None = None) -> None:
         """Compile a changed world and transfer the state.
 
         Args:
-            world: the changed one.
-            was: renamed models, new name → handle.
+            world: changed world.
+            renamed: renamed models, new name → handle.
         """
-        was = was or {}
+        renamed = renamed or {}
         self.engine, links = transferred_engine(
-            self.engine, world, self.report, {old.name: new for new, old in was.items()}, self._cutting
+            self.engine, world, self.report, {old.name: new for new, old in renamed.items()}, self._cutting
         )
         self.world = self.engine.compiled.world
-        self.models[:] = handles_of(self, self.world, {handle.name: handle for handle in self.models} | dict(was))
+        self.models[:] = handles_of(self, self.world, {handle.name: handle for handle in self.models} | dict(renamed))
         self.joints[:] = world_joints_of(self, self.world, {handle.name: handle for handle in self.joints})
         self.loads.transfer_to(links, self.engine)
         clock = self._clock.with_step(world_step_ns(world), since=self.steps)

@@ -1,4 +1,4 @@
-"""The last minutes of a simulation, to go back to and to resume from exactly."""
+"""Timeline of the last minutes of a simulation: any moment can be restored exactly, and resumed."""
 
 import lazy_loader
 

@@ -1,4 +1,4 @@
-"""Which objects belong to the state of a simulation."""
+"""Membership of objects in the state of a simulation."""
 
 import sys
 from types import BuiltinFunctionType, ModuleType, SimpleNamespace
@@ -16,28 +16,28 @@ _OUTSIDE = (
     *("ros.transport.", "ros.xmlrpc."),
     *("sim.gltf.", "sim.physics.", "sim.realtime_pacer.", "sim.render.", "sim.renderers.", "sim.timeline."),
 )
-"""Trundle's rooms whose objects are files as read, devices, or have checkpoints of their own."""
+"""Trundle's rooms whose objects are contents of files or devices, or have checkpoints."""
 _CONTAINERS = ("builtins", "collections", "functools", "random", "types")
 _LIBRARIES = ("mujoco", "lxml", "msgspec", "rosbags", "PIL", "aiohttp")
 
 
-def is_outside(each: object) -> bool:
-    """True of what no step of the simulation changes, or no restore could: modules, devices, threads, the standard
-    library's objects but its containers.
+def is_outside(obj: object) -> bool:
+    """True if no step of the simulation changes the object, or no restore could: modules, devices, threads, objects
+    of the standard library other than containers.
     """
-    kind = type(each)
-    if isinstance(each, Simulation):
+    kind = type(obj)
+    if isinstance(obj, Simulation):
         return False
-    if isinstance(each, ModuleType | BuiltinFunctionType):
+    if isinstance(obj, ModuleType | BuiltinFunctionType):
         return True
     room, _, rest = kind.__module__.partition(".")
     if room == "trundle":
         return f"{rest}.".startswith(_OUTSIDE)
-    if room in _CONTAINERS or kind is SimpleNamespace or _has_own_attributes(kind):
+    if room in _CONTAINERS or kind is SimpleNamespace or _is_container_subclass(kind):
         return False
     return room in _LIBRARIES or room in sys.stdlib_module_names
 
 
-def _has_own_attributes(kind: type) -> bool:
-    """True of a subclass of a container from elsewhere."""
+def _is_container_subclass(kind: type) -> bool:
+    """True for a subclass of a container, defined outside Trundle."""
     return issubclass(kind, dict | list | set)

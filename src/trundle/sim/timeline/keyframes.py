@@ -1,7 +1,7 @@
-"""Timeline: states of the last minutes at intervals, and the commands that came between.
+"""Timeline: states of the last minutes at intervals, and the commands between them.
 
-A moment is reached again by the last saved state before it, and by simulating on from there with the commands that
-came at the time. Simulations repeat exactly, so this is that moment and not one like it.
+A seek restores the last saved state before the moment, and simulates from there with the recorded commands.
+Simulations repeat exactly, so the state is equal to the bit.
 """
 
 import time
@@ -20,9 +20,9 @@ from .saved_objects import SavedObjects
 
 DEFAULT_LIMIT_BYTES = 256 * 1024 * 1024
 _PERIOD_NS = NS_PER_S
-"""Simulation time between two saved states; at most this is simulated to reach a moment."""
-_WALL_SHARE = 20
-"""A state is saved only when this many times its cost has passed since the last one."""
+"""Simulation time between two saved states [ns]; a seek simulates at most this."""
+_MIN_WALL_RATIO = 20
+"""Smallest wall time between two saved states, in multiples of the time that saving takes."""
 Command: TypeAlias = Callable[[Simulation], object]
 
 
@@ -42,8 +42,8 @@ class _Recorded(Struct, frozen=True, eq=False):
 class Timeline:
     """Saved states and commands of a simulation; used between its steps only, on its thread.
 
-    After a `seek` the simulation goes on as it did the first time, with its commands and messages from outside, until a
-    new one comes or the recorded end is reached. A reset of time begins a new timeline.
+    After a `seek` the simulation repeats the recorded run, with its commands and messages from outside, until a new one
+    arrives or the recorded end is reached. A reset of time begins a new timeline.
     """
 
     def __init__(
@@ -54,13 +54,13 @@ class Timeline:
         limit_bytes: int = DEFAULT_LIMIT_BYTES,
         wall_ns: Callable[[], int] = time.monotonic_ns,
     ) -> None:
-        """Begin at the present.
+        """Begin at the current time.
 
         Args:
-            simulation: the running one.
-            roots: objects with state that no hook of the simulation leads to, such as plugins that only subscribe.
-            limit_bytes: memory of the saved states, about; the oldest are dropped.
-            wall_ns: the wall clock [ns].
+            simulation: running simulation.
+            roots: objects with state that no hook of the simulation refers to, such as plugins that only subscribe.
+            limit_bytes: approximate memory of the saved states; the oldest are dropped.
+            wall_ns: wall clock [ns].
         """
         self._simulation = simulation
         self._roots = roots
@@ -71,7 +71,7 @@ class Timeline:
         self._dropped = 0
         """Number of commands before the first one."""
         self._next = 0
-        """Index of the first command that is still to come again."""
+        """Index of the next command to repeat."""
         self._end_ns = 0
         self._due_wall_ns = 0
         self._is_seeking = False
@@ -90,24 +90,24 @@ class Timeline:
 
     @property
     def is_repeating(self) -> bool:
-        """True while commands of the first time are still to come again."""
+        """True while recorded commands remain to be repeated."""
         return self._next < len(self._commands)
 
     @property
     def lost(self) -> set[type]:
-        """Types of objects whose progress cannot be saved; what follows a seek may then differ."""
+        """Types of objects whose progress cannot be saved; a repeated run may then differ."""
         return self._keyframes[-1].objects.lost
 
     def do(self, command: Command) -> None:
-        """Give the simulation a command now and whenever this moment is passed again; what was to come is forgotten."""
-        self._forget_future()
+        """Run a command now and whenever this moment is repeated; later recorded commands are discarded."""
+        self._discard_future()
         command(self._simulation)
         self._record(command)
 
     def _record_input(self, repeat: Callable[[], object]) -> None:
-        """Record an input from outside, which has just been taken."""
+        """Record an input from outside, after its effect."""
         if not self._is_seeking:
-            self._forget_future()
+            self._discard_future()
             self._record(lambda _: repeat())
 
     def _record(self, command: Command) -> None:
@@ -115,7 +115,7 @@ class Timeline:
         self._next = len(self._commands)
 
     def advance(self, until_ns: int, simulate: Callable[[int], None] | None = None) -> None:
-        """Simulate up to a time [ns], with the commands that came between.
+        """Simulate up to a time [ns], with the recorded commands on the way.
 
         Args:
             until_ns: time [ns].
@@ -142,12 +142,12 @@ class Timeline:
             UsageError: the moment is not part of the timeline.
         """
         if not self.start_ns <= time_ns <= self.end_ns:
-            start, end = (f"{each / NS_PER_S:.3f}" for each in (self.start_ns, self.end_ns))
+            start, end = (f"{bound_ns / NS_PER_S:.3f}" for bound_ns in (self.start_ns, self.end_ns))
             raise UsageError(
                 f"{time_ns / NS_PER_S:.3f} s is not part of the timeline, which is from {start} to {end} s"
             )
         self._end_ns = self.end_ns
-        keyframe = self._keyframes[bisect_right(self._keyframes, time_ns, key=lambda each: each.time_ns) - 1]
+        keyframe = self._keyframes[bisect_right(self._keyframes, time_ns, key=lambda frame: frame.time_ns) - 1]
         now_ns = self._simulation.time_ns
         if not keyframe.time_ns <= now_ns <= time_ns:
             keyframe.objects.restore()
@@ -159,7 +159,7 @@ class Timeline:
             self._is_seeking = False
 
     def restart(self, roots: Sequence[object]) -> None:
-        """Begin again at the present, after something came that has state of its own; `roots` as in the constructor."""
+        """Begin again at the current time, after an object with state was added; `roots` as in the constructor."""
         self._roots = roots
         self._begin()
 
@@ -170,7 +170,7 @@ class Timeline:
         self._zero_ns = _zero_ns(self._simulation)
         self._save()
 
-    def _forget_future(self) -> None:
+    def _discard_future(self) -> None:
         now_ns = self._simulation.time_ns
         self._end_ns = 0
         del self._commands[self._next :]
@@ -191,14 +191,14 @@ class Timeline:
         objects = SavedObjects([simulation, *self._roots], is_outside=is_outside)
         size = objects.size + simulation.engine.checkpoint_bytes
         self._keyframes.append(_Keyframe(simulation.time_ns, objects, self._dropped + self._next, size))
-        while len(self._keyframes) > 1 and sum(each.bytes for each in self._keyframes) > self._limit_bytes:
+        while len(self._keyframes) > 1 and sum(frame.bytes for frame in self._keyframes) > self._limit_bytes:
             del self._keyframes[0]
             before = self._keyframes[0].commands - self._dropped
             del self._commands[:before]
             self._dropped += before
             self._next -= before
         now = self._wall_ns()
-        self._due_wall_ns = now + _WALL_SHARE * (now - started)
+        self._due_wall_ns = now + _MIN_WALL_RATIO * (now - started)
         if simulation.profiler is not None:
             simulation.profiler.lap(StridePart.TIMELINE)
 

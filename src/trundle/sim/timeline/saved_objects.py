@@ -1,8 +1,8 @@
-"""Contents of Python objects, to be put back in place.
+"""Contents of Python objects, restored in place.
 
-What plugins, controllers and sensors remember lies in objects of their own, which know nothing of this. All that can be
-reached from some roots is saved: attributes, containers, arrays, random generators, variables of closures. Identities
-stay, so a reference to an object leads to its old contents after a restore.
+The state of plugins, controllers and sensors is in ordinary objects, which need no code for it. All objects reachable
+from some roots are saved: attributes, containers, arrays, random generators, variables of closures. Identities stay, so
+references lead to the old contents after a restore.
 """
 
 import random
@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 _Restore: TypeAlias = Callable[[], None]
 _ATOMS = (type(None), bool, int, float, complex, str, bytes, type)
 _MISSING = object()
-_BYTES_EACH = 200
-"""Estimate of what is kept of an object without its arrays."""
+_OBJECT_BYTES = 200
+"""Estimated memory of a saved object without arrays."""
 
 
 class SavedObjects:
-    """Contents of every mutable object that some roots lead to."""
+    """Contents of every mutable object reachable from some roots."""
 
     def __init__(
         self,
@@ -36,133 +36,133 @@ class SavedObjects:
         """Save.
 
         Args:
-            roots: where to begin.
-            is_outside: True of an object that is not looked into; one with a `checkpoint()` that returns a function
-                to restore it is saved by that.
-            is_shared: True of an object that is left as it is, whatever it has.
+            roots: objects to start from.
+            is_outside: True for an object whose contents are not saved, except by its `checkpoint()`, which returns
+                a function that restores it.
+            is_shared: True for an object that is neither saved nor restored.
         """
         self._restores: list[_Restore] = []
         self.size = 0
         """Bytes of arrays that were copied."""
         self.lost: set[type] = set()
         """Types of objects whose progress cannot be saved, such as generators."""
-        self._seen: dict[int, object] = {}  # keeps the objects, so that no id is used twice
+        self._seen: dict[int, object] = {}  # holds the objects, so that no id is used twice
         waiting = list(roots)
         while waiting:
-            each = waiting.pop()
-            if isinstance(each, _ATOMS) or id(each) in self._seen or is_shared(each):
+            obj = waiting.pop()
+            if isinstance(obj, _ATOMS) or id(obj) in self._seen or is_shared(obj):
                 continue
-            self._seen[id(each)] = each
-            if (checkpoint := getattr(type(each), "checkpoint", None)) is not None:
-                self._restores.append(checkpoint(each))
-            elif not is_outside(each):
-                waiting.extend(self._save(each))
-        self.size += _BYTES_EACH * len(self._seen)
+            self._seen[id(obj)] = obj
+            if (checkpoint := getattr(type(obj), "checkpoint", None)) is not None:
+                self._restores.append(checkpoint(obj))
+            elif not is_outside(obj):
+                waiting.extend(self._save(obj))
+        self.size += _OBJECT_BYTES * len(self._seen)
 
     def restore(self) -> None:
-        """Put all contents back."""
+        """Restore all contents."""
         for restore in self._restores:
             restore()
 
-    def _save(self, each: Any) -> Iterable[object]:
-        """Save one object; return what it refers to."""
-        match each:
+    def _save(self, obj: Any) -> Iterable[object]:
+        """Save one object; return the objects it refers to."""
+        match obj:
             case list() | deque():
-                return self._save_sequence(each)
+                return self._save_sequence(obj)
             case dict():
-                return self._save_dict(each)
+                return self._save_dict(obj)
             case set():
-                members = set(each)
-                self._restores.append(partial(_refill_set, each, members))
+                members = set(obj)
+                self._restores.append(partial(_refill_set, obj, members))
                 return members
             case tuple() | frozenset():
-                return each
+                return obj
             case bytearray():
-                data = bytes(each)
-                self._restores.append(partial(each.__setitem__, slice(None), data))
+                data = bytes(obj)
+                self._restores.append(partial(obj.__setitem__, slice(None), data))
                 return ()
             case np.ndarray():
-                return self._save_array(each)
+                return self._save_array(obj)
             case random.Random():
-                self._restores.append(partial(each.setstate, each.getstate()))
+                self._restores.append(partial(obj.setstate, obj.getstate()))
                 return ()
             case np.random.Generator():
-                bits = each.bit_generator
+                bits = obj.bit_generator
                 self._restores.append(partial(setattr, bits, "state", bits.state))
                 return ()
             case MethodType():
-                return (each.__self__,)
+                return (obj.__self__,)
             case partial():
-                return (each.func, *each.args, *each.keywords.values())
+                return (obj.func, *obj.args, *obj.keywords.values())
             case FunctionType():
-                return [*(each.__closure__ or ()), *(each.__defaults__ or ())]
+                return [*(obj.__closure__ or ()), *(obj.__defaults__ or ())]
             case CellType():
-                return self._save_cell(each)
+                return self._save_cell(obj)
             case GeneratorType():
-                self.lost.add(type(each))
+                self.lost.add(type(obj))
                 return ()
             case _:
-                return self._save_attributes(each)
+                return self._save_attributes(obj)
 
-    def _save_sequence(self, each: list[object] | deque[object]) -> Iterable[object]:
-        members = tuple(each)
+    def _save_sequence(self, obj: list[object] | deque[object]) -> Iterable[object]:
+        members = tuple(obj)
 
         def restore() -> None:
-            each.clear()
-            each.extend(members)
+            obj.clear()
+            obj.extend(members)
 
         self._restores.append(restore)
         return members
 
-    def _save_dict(self, each: dict[object, object]) -> Iterable[object]:
-        items = dict(each)
+    def _save_dict(self, obj: dict[object, object]) -> Iterable[object]:
+        items = dict(obj)
 
         def restore() -> None:
-            if each.keys() != items.keys() or list(each) != list(items):
-                each.clear()
-            each.update(items)
+            if obj.keys() != items.keys() or list(obj) != list(items):
+                obj.clear()
+            obj.update(items)
 
         self._restores.append(restore)
         return [*items, *items.values()]
 
-    def _save_array(self, each: NDArray[Any]) -> Iterable[object]:
-        if each.dtype.hasobject:
-            return list(each.flat)
-        if each.flags.writeable:
-            contents = each.copy()
+    def _save_array(self, obj: NDArray[Any]) -> Iterable[object]:
+        if obj.dtype.hasobject:
+            return list(obj.flat)
+        if obj.flags.writeable:
+            contents = obj.copy()
             self.size += contents.nbytes
-            self._restores.append(partial(np.copyto, each, contents))
+            self._restores.append(partial(np.copyto, obj, contents))
         return ()
 
-    def _save_cell(self, each: CellType) -> Iterable[object]:
+    def _save_cell(self, obj: CellType) -> Iterable[object]:
         try:
-            contents = each.cell_contents
+            contents = obj.cell_contents
         except ValueError:  # empty so far
             return ()
-        self._restores.append(partial(setattr, each, "cell_contents", contents))
+        self._restores.append(partial(setattr, obj, "cell_contents", contents))
         return (contents,)
 
-    def _save_attributes(self, each: object) -> Iterable[object]:
-        """Save the attributes of an ordinary object, of `__dict__` and slots; those of a frozen one cannot change."""
-        found: list[object] = []
-        attributes: dict[object, object] | None = getattr(each, "__dict__", None)
+    def _save_attributes(self, obj: object) -> Iterable[object]:
+        """Save the attributes of an ordinary object, in `__dict__` and slots; those of a frozen one cannot change."""
+        references: list[object] = []
+        attributes: dict[object, object] | None = getattr(obj, "__dict__", None)
         if isinstance(attributes, dict):
-            found.extend(self._save_dict(attributes))
-        slots = {name: value for name in _slots(type(each)) if (value := getattr(each, name, _MISSING)) is not _MISSING}
-        if slots and not _is_frozen(type(each)):
-            self._restores.append(partial(_set_all, each, slots))
-        found.extend(slots.values())
-        return found
+            references.extend(self._save_dict(attributes))
+        slots = {name: value for name in _slots(type(obj)) if (value := getattr(obj, name, _MISSING)) is not _MISSING}
+        if slots and not _is_frozen(type(obj)):
+            self._restores.append(partial(_set_all, obj, slots))
+        references.extend(slots.values())
+        return references
 
 
-def _refill_set(each: set[object], members: set[object]) -> None:
-    each.clear()
-    each.update(members)
+def _refill_set(obj: set[object], members: set[object]) -> None:
+    obj.clear()
+    obj.update(members)
 
 
-def _set_all(each: object, values: dict[str, object]) -> None:
+def _set_all(obj: object, values: dict[str, object]) -> None:
     for name, value in values.items():
-        setattr(each, name, value)
+        setattr(obj, name, value)
 
 
 def _slots(kind: type) -> Iterator[str]:

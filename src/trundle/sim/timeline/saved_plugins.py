@@ -1,4 +1,4 @@
-"""State of plugins and controllers, to be put back in place while all else goes on."""
+"""State of plugins and controllers, restored in place while the rest continues."""
 
 from collections.abc import Iterable
 
@@ -9,13 +9,13 @@ _ROOMS = ("gazebo.plugins.", "sim.control.")
 
 
 def save_plugins(plugins: Iterable[object]) -> SavedObjects:
-    """Save what plugins remember, by the objects or methods that lead to it.
+    """Save the state of plugins, reachable from objects or methods.
 
-    Handles, sensors, nodes and publishers, which they share with others, are left as they are.
+    Handles, sensors, nodes and publishers, which are shared, are not restored.
     """
     return SavedObjects(plugins, is_outside=is_outside, is_shared=_is_shared)
 
 
-def _is_shared(each: object) -> bool:
-    room, _, rest = type(each).__module__.partition(".")
+def _is_shared(obj: object) -> bool:
+    room, _, rest = type(obj).__module__.partition(".")
     return room == "trundle" and not f"{rest}.".startswith(_ROOMS)

@@ -27,7 +27,6 @@ from trundle.robots.model import (
     Surface,
     World,
 )
-from trundle.sim import physics
 from trundle.sim.physics import CompiledWorld, compile_world, report_wheels
 from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose, Wrench
@@ -67,12 +66,7 @@ def pairs(world: CompiledWorld) -> set[frozenset[str]]:
     return {frozenset((m.geom(m.pair_geom1[i]).name, m.geom(m.pair_geom2[i]).name)) for i in range(m.npair)}
 
 
-def test_the_front_door_exports_in_order() -> None:
-    assert physics.__all__ == sorted(physics.__all__)
-    assert all(hasattr(physics, name) for name in physics.__all__)
-
-
-def test_a_joint_between_0_and_0_leaves_no_freedom_and_is_said_once() -> None:
+def test_a_joint_with_limits_0_and_0_is_rigid_and_reported_once() -> None:
     report = Diagnostics(strict=True)
     stuck = hinge("a", "b", replace(X, lower=0.0, upper=0.0))
     world = compiled(model(link("a"), link("b"), joints=(stuck,)), report=report)
@@ -83,7 +77,7 @@ def test_a_joint_between_0_and_0_leaves_no_freedom_and_is_said_once() -> None:
     ]
 
 
-def test_names_and_numbers_are_in_file_order_whatever_the_tree_is() -> None:
+def test_names_and_indices_are_in_file_order_for_any_tree() -> None:
     # The root is last in the file; MuJoCo numbers bodies from the root.
     world = compiled(
         model(link("leaf"), link("middle"), link("root"), joints=(hinge("middle", "leaf"), hinge("root", "middle")))
@@ -108,7 +102,7 @@ def test_the_order_of_joints_in_the_file_changes_nothing() -> None:
     assert ends[0].tobytes() == ends[1].tobytes()
 
 
-def test_a_joint_to_the_world_holds_the_model_where_it_is() -> None:
+def test_a_joint_to_the_world_holds_the_model_at_its_pose() -> None:
     arm = model(link("arm", x=0.5), joints=(hinge("world", "arm"),))
     sim = Simulation(
         World(name="w", at=AT, models=(replace(arm, world_from_model=Pose((0.0, 3.0, 0.0))),)), Diagnostics()
@@ -127,7 +121,7 @@ def test_a_static_model_has_no_freedom_and_its_joints_do_not_move() -> None:
     assert sim.snapshot().poses[1, :3] == pytest.approx((0.3, 0.0, 1.0))
 
 
-def test_a_thickness_of_zero_is_mended_aloud_at_its_source() -> None:
+def test_zero_thickness_is_replaced_with_a_warning_at_its_line() -> None:
     report = Diagnostics()
     flat = Collision(name="plate", geometry=Box((0.2, 0.0, 0.3)), at=Source("robot.sdf", 42))
     world = compiled(model(Link(name="a", at=AT, inertial=LIGHT, collisions=(flat,))), report=report)
@@ -142,7 +136,7 @@ def test_a_thickness_of_zero_is_mended_aloud_at_its_source() -> None:
         ((1.0, 1.0, 34.0), "raises the two smaller by 2.09091", (3.0909091, 3.0909091, 34.0)),
     ],
 )
-def test_moments_that_belong_to_no_body_are_used_unless_they_are_far_off(
+def test_impossible_moments_are_used_unless_they_are_far_off(
     written: tuple[float, float, float], use: str, used: tuple[float, float, float]
 ) -> None:
     report = Diagnostics()
@@ -158,7 +152,7 @@ def test_moments_that_belong_to_no_body_are_used_unless_they_are_far_off(
     assert sorted(turning) == pytest.approx(used)
 
 
-def test_moments_of_flat_plates_add_up_however_they_are_rounded() -> None:
+def test_rounded_moments_of_flat_plates_are_accepted() -> None:
     """The sum of 3.5e-5 and 5e-6 is the largest double below 4e-5."""
     report = Diagnostics()
     plates = [(float(f"{a}e-6"), float(f"{b}e-6"), float(f"{a + b}e-6")) for a in range(1, 12) for b in range(30, 50)]
@@ -175,7 +169,7 @@ def test_moments_of_flat_plates_add_up_however_they_are_rounded() -> None:
     assert inertias == [pytest.approx(moments, rel=1e-12) for moments in plates]
 
 
-def test_a_plausible_inertia_is_taken_as_written_whatever_its_axes() -> None:
+def test_a_possible_inertia_is_used_as_written_for_any_axes() -> None:
     tilted = Inertial(mass=2.0, link_from_com=Pose((0.1, 0.2, 0.3)), moments=(2.0, 2.0, 3.0), products=(0.5, 0.0, 0.0))
     world = compiled(model(Link(name="a", at=AT, inertial=tilted)))
     body = world.model.body("m::a")
@@ -194,13 +188,13 @@ def test_a_plausible_inertia_is_taken_as_written_whatever_its_axes() -> None:
 
 
 @pytest.mark.parametrize("mass", [0.0, -1.0, float("nan")])
-def test_a_mass_that_cannot_move_is_mended_aloud(mass: float) -> None:
+def test_an_invalid_mass_is_replaced_with_a_warning(mass: float) -> None:
     report = Diagnostics()
     compiled(model(Link(name="a", at=AT, inertial=replace(LIGHT, mass=mass))), report=report)
     assert [w for w in report.warnings if f"mass {mass:g} kg cannot move" in w]
 
 
-def test_a_mesh_that_cannot_be_read_leaves_its_collision_out_aloud(tmp_path: Path) -> None:
+def test_an_unreadable_mesh_leaves_its_collision_out_with_a_warning(tmp_path: Path) -> None:
     report = Diagnostics()
     lost = MeshFile(path=tmp_path / "lost.stl", uri="model://m/lost.stl")
     world = compiled(model(link("a", geometry=lost)), report=report)
@@ -218,7 +212,7 @@ FLAT = "v 1 1 0\nv -1 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\nf 1 3 4\n"
     [FLAT, "v 1 1 0\nv -1 1 0\nv 0 -1 0\nf 1 2 3\n", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"],
     ids=["quad", "triangle", "line"],
 )
-def test_a_mesh_without_thickness_is_mended_aloud(tmp_path: Path, text: str) -> None:
+def test_a_mesh_without_thickness_is_thickened_with_a_warning(tmp_path: Path, text: str) -> None:
     (tmp_path / "flat.obj").write_text(text)
     report = Diagnostics()
     world = compiled(model(link("a", geometry=MeshFile(path=tmp_path / "flat.obj", uri="flat.obj"))), report=report)
@@ -249,36 +243,36 @@ def test_a_small_ball_does_not_fall_through_a_thin_floor(tmp_path: Path, plate: 
 
 
 @pytest.mark.parametrize(("radius", "is_watched"), [(0.005, True), (0.1, False)])
-def test_only_what_may_go_through_something_is_watched_ahead(radius: float, is_watched: bool) -> None:
+def test_only_bodies_that_may_tunnel_need_speculative_contacts(radius: float, is_watched: bool) -> None:
     ball = model(link("l", geometry=Sphere(radius)), name="ball")
     floors = [
         model(link("f", geometry=shape), name="floor", static=True)
         for shape in (Box((2.0, 2.0, 0.001)), Plane((0.0, 0.0, 1.0), (1.0, 1.0)))
     ]
     flags = [compiled(floor, ball).model.opt.enableflags for floor in floors]
-    assert [bool(each & mujoco.mjtEnableBit.mjENBL_SPECULATIVE) for each in flags] == [is_watched, False]
+    assert [bool(options & mujoco.mjtEnableBit.mjENBL_SPECULATIVE) for options in flags] == [is_watched, False]
 
 
-def test_shapes_of_what_only_stands_are_the_worlds_own() -> None:
+def test_shapes_of_static_links_without_joints_belong_to_the_world_body() -> None:
     """A link with children keeps its own body: MuJoCo excludes contacts by body, not by shape."""
     wall = model(link("l", x=1.0), name="wall", static=True)
     post = model(link("l", x=3.0), name="post", static=True)
     gate = model(link("l", x=4.0), name="gate")
-    held = replace(hinge("post::l", "gate::l"), name="h")
-    world = compile_world(World(name="w", at=AT, models=(wall, post, gate), joints=(held,)), Diagnostics()).model
+    post_joint = replace(hinge("post::l", "gate::l"), name="h")
+    world = compile_world(World(name="w", at=AT, models=(wall, post, gate), joints=(post_joint,)), Diagnostics()).model
     bodies = {world.geom(i).name: world.body(world.geom_bodyid[i]).name for i in range(world.ngeom)}
     assert bodies == {"wall::l::c": "world", "post::l::c": "post::l", "gate::l::c": "gate::l"}
     assert world.geom("wall::l::c").pos == pytest.approx((1.0, 0.0, 1.0))
 
 
-def test_links_of_one_model_touch_only_where_it_says_so_and_never_across_a_joint() -> None:
+def test_links_of_one_model_collide_only_with_self_collide_and_never_across_a_joint() -> None:
     parts = (link("a"), link("b", x=0.5), link("c", x=1.0))
     joints = (hinge("a", "b"), hinge("b", "c"))
     assert pairs(compiled(model(*parts, joints=joints))) == set()
     assert pairs(compiled(model(*parts, joints=joints, self_collide=True))) == {frozenset(("m::a::c", "m::c::c"))}
 
 
-def test_a_link_may_speak_for_itself_about_touching_its_own_model() -> None:
+def test_a_links_self_collide_overrides_its_models() -> None:
     a, b, c = link("a"), link("b", x=0.5), link("c", x=1.0)
     willing = model(replace(a, self_collide=True), replace(b, self_collide=True), c)
     assert pairs(compiled(willing)) == {frozenset(("m::a::c", "m::b::c"))}
@@ -286,12 +280,12 @@ def test_a_link_may_speak_for_itself_about_touching_its_own_model() -> None:
     assert pairs(compiled(shy)) == {frozenset(("m::b::c", "m::c::c"))}
 
 
-def test_two_static_models_never_meet() -> None:
+def test_two_static_models_never_collide() -> None:
     world = compiled(floor(), model(link("a"), static=True))
     assert pairs(world) == set()
 
 
-def test_the_smaller_friction_of_two_surfaces_wins_whichever_comes_first() -> None:
+def test_the_smaller_friction_of_two_surfaces_counts_in_any_order() -> None:
     rough, smooth = Surface(mu=0.9, mu2=0.8), Surface(mu=0.2, mu2=100.0)
     for first, second in ((rough, smooth), (smooth, rough)):
         world = compiled(floor(first), model(link("a", surface=second)))
@@ -306,14 +300,14 @@ def test_a_friction_of_zero_slides_and_a_negative_one_holds() -> None:
     assert glue.model.pair_friction[0, 0] >= 10.0
 
 
-def test_shapes_meet_only_where_their_bitmasks_share_a_bit() -> None:
+def test_shapes_collide_only_if_their_bitmasks_share_a_bit() -> None:
     a, b, c = (link("a", surface=Surface(collide_bitmask=bits)) for bits in (0b01, 0b10, 0b11))
     models = [model(part, name=name) for part, name in ((a, "one"), (b, "two"), (c, "both"))]
     met = pairs(compiled(*models))
     assert met == {frozenset(("one::a::c", "both::a::c")), frozenset(("two::a::c", "both::a::c"))}
 
 
-def test_a_crowd_meets_by_search_by_the_same_rules() -> None:
+def test_a_crowd_collides_by_search_by_the_same_rules() -> None:
     # 70 balls are 2415 pairs: more than are listed one by one.
     crowd = [model(link("l", x=3.0 * i), name=f"b{i}") for i in range(68)]
     low = model(link("l", x=-3.0, surface=Surface(mu=0.3, mu2=0.3)), name="low")
@@ -329,7 +323,7 @@ def test_a_crowd_meets_by_search_by_the_same_rules() -> None:
     assert engine.geom("low::l::c").priority[0] > engine.geom("high::l::c").priority[0]
 
 
-def test_soft_and_deep_shapes_keep_their_ways_in_a_crowd() -> None:
+def test_soft_and_deep_shapes_keep_their_parameters_in_a_crowd() -> None:
     """A ball of 1 kg on 2000 N/m sinks by g / 2000, one with min_depth 4 mm by that, beside any other shapes.
 
     Gazebo's default of max_vel would have them deeper: tests/sim/physics/test_max_vel.py.
@@ -380,7 +374,7 @@ def test_mu2_acts_in_a_crowd() -> None:
         assert math.dist(sim["b0"].links[0].pose.position, before) == pytest.approx(moved, abs=0.02)
 
 
-def test_too_many_soft_shapes_are_simulated_hard_aloud() -> None:
+def test_too_many_soft_shapes_are_simulated_as_hard_with_a_warning() -> None:
     soft = Surface(kp=200.0)
     report = Diagnostics()
     compiled(*(model(link("l", x=3.0 * i, surface=soft), name=f"b{i}") for i in range(150)), report=report)
@@ -392,7 +386,7 @@ def test_too_many_soft_shapes_are_simulated_hard_aloud() -> None:
     )
 
 
-def test_step_and_gravity_are_the_worlds() -> None:
+def test_step_and_gravity_come_from_the_world() -> None:
     settings = PhysicsSettings(max_step_size_s=0.002, gravity=(1.0, 2.0, -3.0))
     world = compile_world(World(name="w", at=AT, physics=settings), Diagnostics(strict=True))
     assert world.model.opt.timestep == 0.002
@@ -418,9 +412,7 @@ def test_a_block_fixed_to_the_world_may_stand_in_the_floor() -> None:
 
 
 @pytest.mark.parametrize(("turns_about", "is_wheel"), [((0.0, 0.0, 1.0), True), ((1.0, 0.0, 0.0), False)])
-def test_the_wheels_that_are_named_are_those_that_roll_on_a_tread(
-    turns_about: tuple[float, float, float], is_wheel: bool
-) -> None:
+def test_reported_wheels_are_those_with_a_tread(turns_about: tuple[float, float, float], is_wheel: bool) -> None:
     disc = link("disc", geometry=Cylinder(0.1, 0.05))
     car = model(link("base"), disc, joints=(hinge("base", "disc", JointAxis(direction=turns_about)),))
     world, report = World(name="w", at=AT, models=(car,)), Diagnostics()
@@ -436,11 +428,11 @@ def test_the_wheels_that_are_named_are_those_that_roll_on_a_tread(
         assert compiled.geom("m::disc::c").size[:2].tolist() == pytest.approx([0.1 - 1e-4, 0.025])
 
 
-def test_a_joint_held_at_an_angle_stands_there() -> None:
+def test_a_joint_with_equal_limits_is_fixed_at_their_angle() -> None:
     """lower = upper = a quarter turn: the child and its descendants are turned."""
     quarter = np.pi / 2
-    held = hinge("a", "b", replace(X, lower=quarter, upper=quarter))
-    arm = model(link("a"), link("b", x=1.0), link("c", x=2.0), joints=(held, hinge("b", "c")))
+    rigid = hinge("a", "b", replace(X, lower=quarter, upper=quarter))
+    arm = model(link("a"), link("b", x=1.0), link("c", x=2.0), joints=(rigid, hinge("b", "c")))
 
     poses = Simulation(World(name="w", at=AT, models=(arm,)), Diagnostics()).snapshot().poses
 
@@ -448,7 +440,7 @@ def test_a_joint_held_at_an_angle_stands_there() -> None:
     assert Pose(quaternion=tuple(poses[2, 3:])).rpy == pytest.approx((quarter, 0.0, 0.0))
 
 
-def test_thousands_of_static_bodies_leave_the_engine_room_to_find_contacts() -> None:
+def test_thousands_of_static_bodies_leave_memory_for_contacts() -> None:
     boxes = [model(link("l", x=2.0 * i, geometry=Box((1.0, 1.0, 1.0))), name=f"b{i}", static=True) for i in range(3000)]
     report = Diagnostics()
     sim = Simulation(World(name="w", at=AT, models=(*boxes, model(link("l", x=0.2)))), report)
@@ -457,7 +449,7 @@ def test_thousands_of_static_bodies_leave_the_engine_room_to_find_contacts() -> 
     assert report.warnings == []
 
 
-def test_a_world_of_thousands_of_moving_models_says_how_much_memory_it_may_use() -> None:
+def test_thousands_of_moving_models_report_the_memory_they_may_use() -> None:
     balls = [model(link("l", x=1.0 * i), name=f"b{i}") for i in range(2000)]
     report = Diagnostics()
     compiled(*balls, report=report)

@@ -31,12 +31,12 @@ def load(tmp_path: Path) -> Load:
 
 def loads(sim: Simulation) -> dict[str, float]:
     """Normal force of the floor on each collision of another model [N], by link and collision."""
-    found: dict[str, float] = {}
+    forces: dict[str, float] = {}
     for contact in sim.contacts():
-        (name,) = (each for each in contact.collisions if not each.startswith("floor"))
+        (name,) = (collision for collision in contact.collisions if not collision.startswith("floor"))
         part = name.split("::", 1)[1]
-        found[part] = found.get(part, 0.0) + abs(contact.force.force[2])
-    return found
+        forces[part] = forces.get(part, 0.0) + abs(contact.force.force[2])
+    return forces
 
 
 @pytest.mark.parametrize(
@@ -48,14 +48,14 @@ def loads(sim: Simulation) -> dict[str, float]:
         Vehicle(wheels=((0.2, 0.2), (-0.2, 0.2), (0.2, -0.2), (-0.2, -0.2), (0, 0.2), (0, -0.2)), x=0.05),
     ],
 )
-def test_every_point_is_equally_soft_and_a_wheel_counts_as_two(load: Load, vehicle: Vehicle) -> None:
+def test_every_contact_point_is_equally_soft_and_a_wheel_counts_as_two(load: Load, vehicle: Vehicle) -> None:
     sim = load(vehicle.sdf())
     sim.run(0.5)
 
-    found = loads(sim)
+    forces = loads(sim)
     names = [f"wheel{i}::tyre" for i in range(len(vehicle.wheels))]
     names += [f"chassis::ball{i}" for i in range(len(vehicle.balls))]
-    assert found == pytest.approx(
+    assert forces == pytest.approx(
         {name: point.load for name, point in zip(names, vehicle.points(), strict=True)}, rel=0.02
     )
 
@@ -100,7 +100,7 @@ def extremes(heights: list[float]) -> tuple[float, float]:
         (BALL, 1, 5.0, 3e4, 0.0, 0.2),
     ],
 )
-def test_contacts_that_give_are_springs_and_dampers_side_by_side(
+def test_soft_contacts_are_parallel_springs_and_dampers(
     load: Load, shape: str, points: int, mass: float, kp: float, kd: float, height: float
 ) -> None:
     sim = load(dropped(shape, mass, kp, kd, height))

@@ -20,7 +20,7 @@ def load(tmp_path: Path) -> Load:
     return partial(load_models, tmp_path)
 
 
-def test_a_soft_contact_gives_by_its_stiffness(load: Load) -> None:
+def test_a_soft_contact_yields_by_its_stiffness(load: Load) -> None:
     contact = "<contact><ode><kp>2000</kp><kd>40</kd><max_vel>100</max_vel></ode></contact>"
     sim = load(floor(), body("b", BALL, contact, pose="0 0 0.1 0 0 0", mass=2.0))
     sim.run(3.0)
@@ -29,7 +29,7 @@ def test_a_soft_contact_gives_by_its_stiffness(load: Load) -> None:
 
 # Gazebo: 3 mm if the moving body has it, 0 if the floor has it; a body put down on hard contacts stays in place.
 @pytest.mark.parametrize(
-    ("own", "floors", "kp", "start", "depth"),
+    ("body_depth", "floor_depth", "kp", "start", "depth"),
     [
         (0.003, 0.0, 1e5, 0.0, 0.003),
         (0.0, 0.003, 1e5, 0.0, 0.0),
@@ -38,19 +38,20 @@ def test_a_soft_contact_gives_by_its_stiffness(load: Load) -> None:
         (0.003, 0.0, 1e6, 0.0, 0.003),
     ],
 )
-def test_up_to_its_own_min_depth_a_body_is_stopped_and_not_pushed_out(
-    load: Load, own: float, floors: float, kp: float, start: float, depth: float
+def test_a_body_is_stopped_and_not_pushed_out_up_to_its_min_depth(
+    load: Load, body_depth: float, floor_depth: float, kp: float, start: float, depth: float
 ) -> None:
-    def held(min_depth: float, stiffness: float = 1e12) -> str:
+    def contact(min_depth: float, stiffness: float = 1e12) -> str:
         return f"<contact><ode><kp>{stiffness}</kp><min_depth>{min_depth}</min_depth></ode></contact>"
 
-    sim = load(floor(held(floors)), body("b", BLOCK, held(own, kp), pose=f"0 0 {0.05 - start} 0 0 0"))
+    surface = contact(body_depth, kp)
+    sim = load(floor(contact(floor_depth)), body("b", BLOCK, surface, pose=f"0 0 {0.05 - start} 0 0 0"))
     sim.run(3.0)
     sunk = ode_rest_depth(G / 4, kp=kp, kd=2.0)
     assert sim["b"].pose.position[2] == pytest.approx(0.05 - depth - sunk, abs=3e-5)
 
 
-def test_what_falls_is_stopped_at_once_where_it_may_be_deep(load: Load) -> None:
+def test_a_falling_body_with_a_min_depth_is_stopped_at_once(load: Load) -> None:
     contact = "<contact><ode><min_depth>0.01</min_depth></ode></contact>"
     sim = load(floor(), body("b", BLOCK, contact, pose="0 0 0.0502 0 0 0"))
     sim["b"].set_twist(Twist((0.0, 0.0, -1.0)))
@@ -59,7 +60,7 @@ def test_what_falls_is_stopped_at_once_where_it_may_be_deep(load: Load) -> None:
 
 
 @pytest.mark.parametrize("speed", [1.0, 4.4, 10.0])
-def test_what_hits_hard_stays_down_whatever_its_max_vel(load: Load, speed: float) -> None:
+def test_a_hard_impact_does_not_bounce_for_any_max_vel(load: Load, speed: float) -> None:
     sim = load(floor(""), body("b", BLOCK, "", pose="0 0 0.051 0 0 0"))
     sim["b"].set_twist(Twist((0.0, 0.0, -speed)))
     sim.run(0.005)
@@ -73,18 +74,18 @@ def test_what_hits_hard_stays_down_whatever_its_max_vel(load: Load, speed: float
     assert heights[-1] == pytest.approx(0.05, abs=1e-4)
 
 
-def test_a_contact_without_collision_is_met_and_not_felt(load: Load) -> None:
-    contact = "<contact><collide_without_contact>true</collide_without_contact></contact>"
-    sim = load(floor(), body("b", BALL, contact, pose="0 0 0.2 0 0 0"))
+def test_a_contact_without_collision_is_detected_without_a_force(load: Load) -> None:
+    surface = "<contact><collide_without_contact>true</collide_without_contact></contact>"
+    sim = load(floor(), body("b", BALL, surface, pose="0 0 0.2 0 0 0"))
     sim.run(0.2)
     fallen = 0.2 - sim["b"].pose.position[2]
     assert fallen == pytest.approx(G * 0.2**2 / 2, rel=0.01)
-    (contact_found,) = sim.contacts()
-    assert set(contact_found.collisions) == {"floor::l::c", "b::l::c"}
-    assert contact_found.force.force == pytest.approx((0.0, 0.0, 0.0))
+    (contact,) = sim.contacts()
+    assert set(contact.collisions) == {"floor::l::c", "b::l::c"}
+    assert contact.force.force == pytest.approx((0.0, 0.0, 0.0))
 
 
-def test_contacts_say_who_pushes_whom_where_and_how_hard(load: Load) -> None:
+def test_contacts_report_collisions_position_normal_and_force(load: Load) -> None:
     sim = load(floor(), body("b", BALL, pose="0.5 0 0.1 0 0 0", mass=3.0))
     sim.run(1.0)
     (contact,) = sim.contacts()
@@ -95,15 +96,15 @@ def test_contacts_say_who_pushes_whom_where_and_how_hard(load: Load) -> None:
 
 
 @pytest.mark.parametrize("crowd", [False, True])
-@pytest.mark.parametrize(("theirs", "meets"), [("0x02", False), ("0x06", False), ("0x03", True)])
-def test_shapes_meet_by_their_collide_bits_whatever_their_categories(
-    load: Load, theirs: str, meets: bool, crowd: bool
-) -> None:
+@pytest.mark.parametrize(("ground_bits", "meets"), [("0x02", False), ("0x06", False), ("0x03", True)])
+def test_shapes_collide_by_their_collide_bitmasks_only(load: Load, ground_bits: str, meets: bool, crowd: bool) -> None:
     def bits(collide: str, category: str) -> str:
         written = f"<collide_bitmask>{collide}</collide_bitmask><category_bitmask>{category}</category_bitmask>"
         return f"<contact>{written}</contact>"
 
-    ground = body("ground", "<box><size>2 2 0.2</size></box>", bits(theirs, "0x01"), pose="0 0 -0.1 0 0 0", static=True)
+    ground = body(
+        "ground", "<box><size>2 2 0.2</size></box>", bits(ground_bits, "0x01"), pose="0 0 -0.1 0 0 0", static=True
+    )
     models = [ground, body("b", BALL, bits("0x01", "0x02"), pose="0 0 0.1 0 0 0")]
     if crowd:  # so many pairs that shapes meet by MuJoCo's search
         models += [body(f"wall{i}", BLOCK, pose=f"{9 + i} 9 9 0 0 0", static=True) for i in range(45)]
@@ -113,7 +114,7 @@ def test_shapes_meet_by_their_collide_bits_whatever_their_categories(
     assert (sim["b"].pose.position[2] > 0.09) is meets
 
 
-def test_links_of_a_model_meet_only_where_they_say_so(load: Load) -> None:
+def test_links_of_a_model_collide_only_with_self_collide(load: Load) -> None:
     def pile(flag: str) -> str:
         low, high = (
             f'<link name="{n}"><pose>0 0 {z} 0 0 0</pose>{flag}<inertial><mass>1</mass></inertial>'
@@ -129,7 +130,7 @@ def test_links_of_a_model_meet_only_where_they_say_so(load: Load) -> None:
 
 
 @pytest.mark.parametrize(("threshold", "bounces"), [(1.0, True), (10.0, False)])
-def test_what_comes_slower_than_the_threshold_does_not_bounce(load: Load, threshold: float, bounces: bool) -> None:
+def test_an_impact_below_the_threshold_does_not_bounce(load: Load, threshold: float, bounces: bool) -> None:
     bounce = (
         f"<bounce><restitution_coefficient>0.5</restitution_coefficient><threshold>{threshold}</threshold></bounce>"
     )
@@ -142,7 +143,7 @@ def test_what_comes_slower_than_the_threshold_does_not_bounce(load: Load, thresh
     assert (highest > 0.3) is bounces
 
 
-def test_a_spinning_ball_takes_hold_as_it_bounces(load: Load) -> None:
+def test_a_spinning_ball_grips_as_it_bounces(load: Load) -> None:
     bounce = "<bounce><restitution_coefficient>0.5</restitution_coefficient><threshold>0</threshold></bounce>"
     sim = load(floor(bounce + friction(1.0)), body("b", BALL, bounce + friction(1.0), pose="0 0 1.1 0 0 0"))
     ball = sim["b"].link("l")
@@ -171,7 +172,7 @@ def test_a_link_without_gravity_floats(load: Load) -> None:
     assert sim["b"].pose.position == pytest.approx((0.0, 0.0, 1.0), abs=1e-9)
 
 
-def test_velocities_decay_by_their_part_at_every_step(load: Load) -> None:
+def test_velocities_decay_by_their_ratio_at_every_step(load: Load) -> None:
     decay = "<velocity_decay><linear>0.002</linear><angular>0.005</angular></velocity_decay>"
     sim = load(body("b", BALL, link=decay), gravity=0.0)
     sim["b"].set_twist(Twist((1.0, 0.0, 0.0), (0.0, 0.0, 2.0)))
@@ -181,7 +182,7 @@ def test_velocities_decay_by_their_part_at_every_step(load: Load) -> None:
     assert twist.angular[2] == pytest.approx(2.0 * 0.995**500, rel=1e-6)
 
 
-def test_stepping_through_python_changes_nothing(load: Load) -> None:
+def test_contact_laws_act_in_steps_from_python(load: Load) -> None:
     """A world in which something decays, but does not move, ends where the same world without it does."""
     still = "<velocity_decay><linear>0.5</linear></velocity_decay>"
     ends: list[list[float]] = []

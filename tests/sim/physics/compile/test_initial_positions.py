@@ -16,7 +16,7 @@ PARTS = """<link name="a"><pose>0 0 1 0 0 0</pose></link><link name="b"><pose>0.
 <limit><lower>0</lower><upper>6</upper></limit></axis></joint>"""
 AXIS = "<axis><xyz>0.6 0 0.8</xyz></axis>"
 AXES = "<axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 1 0</xyz></axis2>"
-PLACE = Pose.from_rpy(3.0, -1.0, 2.0, 0.4, -0.3, 2.0)
+SLOT = Pose.from_rpy(3.0, -1.0, 2.0, 0.4, -0.3, 2.0)
 
 
 def world(folder: Path, parts: str, state: str = "") -> Path:
@@ -47,11 +47,11 @@ def saved(sim: Simulation) -> str:
     ],
 )
 @pytest.mark.parametrize("turned", [False, True])
-def test_joints_are_where_the_saved_poses_of_links_have_them(tmp_path, outer, axes, positions, turned) -> None:
+def test_joint_positions_follow_the_saved_link_poses(tmp_path, outer, axes, positions, turned) -> None:
     ends = {"c_or_b": "c" if turned else "b", "b_or_c": "b" if turned else "c"}
     parts = PARTS.format(outer=outer, axes=axes, **ends)
     before = trundle.load(str(world(tmp_path, parts)))
-    before["m"].set_pose(PLACE)
+    before["m"].set_pose(SLOT)
     for i, position in enumerate(positions):
         before["m"].joint("outer").set_position(position, axis=i)
     before["m"].joint("inner").set_position(4.0)
@@ -68,7 +68,7 @@ def test_joints_are_where_the_saved_poses_of_links_have_them(tmp_path, outer, ax
     assert after["m"].joint("outer").positions == pytest.approx(positions, abs=1e-6)
 
 
-def test_a_ball_is_turned_as_it_was(tmp_path: Path) -> None:
+def test_a_ball_joint_starts_at_its_saved_orientation(tmp_path: Path) -> None:
     parts = PARTS.format(outer="ball", axes="", c_or_b="b", b_or_c="c")
     before = trundle.load(str(world(tmp_path, parts)))
     before["m"].joint("outer").command_effort(2.0, axis=1)
@@ -82,28 +82,28 @@ def test_a_ball_is_turned_as_it_was(tmp_path: Path) -> None:
     assert after["m"].joint("outer").positions == pytest.approx(turned, abs=1e-6)
 
 
-def test_a_link_saved_where_no_joint_takes_it_is_named(tmp_path: Path) -> None:
+def test_an_unreachable_saved_pose_is_reported(tmp_path: Path) -> None:
     parts = PARTS.format(outer="revolute", axes=AXIS, c_or_b="b", b_or_c="c")
     sim = trundle.load(str(world(tmp_path, parts)))
     state = saved(sim).replace('<link name="c"><pose>', '<link name="c"><pose>9')
 
     after = trundle.load(str(world(tmp_path, parts, state)))
 
-    said = [
+    messages = [
         str(finding) for finding in after.report.findings if "its joints cannot reach the saved pose" in finding.what
     ]
-    assert len(said) == 1
-    assert "link 'c'" in said[0]
+    assert len(messages) == 1
+    assert "link 'c'" in messages[0]
 
 
-def test_a_world_that_was_never_saved_has_no_start_of_its_own(tmp_path: Path) -> None:
+def test_a_world_without_a_saved_state_has_no_initial_qpos(tmp_path: Path) -> None:
     sim = trundle.load(str(world(tmp_path, PARTS.format(outer="revolute", axes=AXIS, c_or_b="b", b_or_c="c"))))
 
     assert compile_world(sim.world, sim.report).initial_qpos is None
 
 
 @pytest.mark.parametrize("turned", [False, True])
-def test_joints_start_at_their_initial_positions_and_go_back_there(tmp_path: Path, turned: bool) -> None:
+def test_joints_start_at_and_reset_to_their_initial_positions(tmp_path: Path, turned: bool) -> None:
     ends = {"c_or_b": "c" if turned else "b", "b_or_c": "b" if turned else "c"}
     started = "<initial_position>0.4</initial_position>"
     parts = PARTS.format(outer="prismatic", axes=AXIS.replace("</axis>", f"{started}</axis>"), **ends)
@@ -118,7 +118,7 @@ def test_joints_start_at_their_initial_positions_and_go_back_there(tmp_path: Pat
     assert sum("starts at its <initial_position>" in finding.what for finding in sim.report.findings) == 2
 
 
-def test_a_saved_world_starts_where_it_was_saved_whatever_its_joints_began_with(tmp_path: Path) -> None:
+def test_a_saved_state_overrides_initial_positions(tmp_path: Path) -> None:
     axis = AXIS.replace("</axis>", "<initial_position>0.4</initial_position></axis>")
     parts = PARTS.format(outer="revolute", axes=axis, c_or_b="b", b_or_c="c")
     before = trundle.load(str(world(tmp_path, parts)))

@@ -56,7 +56,7 @@ def write(folder: Path, *parts: str, version: str = "1.6", gravity: float = G, a
     return file
 
 
-def test_a_ball_joint_swings_and_turns_every_way(load: Load) -> None:
+def test_a_ball_joint_swings_and_turns_about_all_axes(load: Load) -> None:
     sim = load(link("bob", com="0 0 -1"), joint("j", "ball", "world", "bob"))
     j = sim["m"].joint("j")
     assert len(j.axes) == 3
@@ -96,7 +96,7 @@ def test_two_hinges_turn_one_after_the_other(load: Load, kind: str) -> None:
         ("1.10", "<screw_thread_pitch>0.5</screw_thread_pitch>", 0.5),
     ],
 )
-def test_a_screw_sinks_as_its_thread_lets_it(load: Load, version: str, tag: str, metres_a_turn: float) -> None:
+def test_a_screw_advances_by_its_thread_pitch(load: Load, version: str, tag: str, metres_a_turn: float) -> None:
     sim = load(link("nut"), joint("j", "screw", "world", "nut", axis("0 0 1") + tag), version=version)
     sim.run(0.5)
     nut, j = sim["m"].link("nut"), sim["m"].joint("j")
@@ -169,14 +169,16 @@ GRIPPER = """<robot name="r"><link name="world"/><link name="a">{0}</link><link 
 URDF_INERTIA = (
     '<inertial><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>'
 )
-HELD = "<gazebo><plugin name='p' filename='libx.so'><mimicJoint> {} </mimicJoint></plugin></gazebo>"
+MIMIC_PLUGIN = "<gazebo><plugin name='p' filename='libx.so'><mimicJoint> {} </mimicJoint></plugin></gazebo>"
 
 
-@pytest.mark.parametrize(("held", "follows"), [("", True), (HELD.format("lead"), True), (HELD.format("follow"), False)])
-def test_a_mimic_of_a_urdf_follows_unless_a_plugin_makes_it(tmp_path: Path, held: str, follows: bool) -> None:
+@pytest.mark.parametrize(
+    ("plugin", "follows"), [("", True), (MIMIC_PLUGIN.format("lead"), True), (MIMIC_PLUGIN.format("follow"), False)]
+)
+def test_a_urdf_mimic_follows_unless_a_plugin_drives_it(tmp_path: Path, plugin: str, follows: bool) -> None:
     """A joint that a plugin drives would be driven twice, with different parameters."""
     file = tmp_path / "x.urdf"
-    file.write_text(GRIPPER.format(URDF_INERTIA, held))
+    file.write_text(GRIPPER.format(URDF_INERTIA, plugin))
     sim = trundle.load(str(file))
     lead = sim["r"].joint("lead")
     lead.command_velocity(0.5)
@@ -193,7 +195,7 @@ SLED = """<robot name="r"><link name="world"/><link name="a">{0}</link>
 </robot>"""
 
 
-def test_a_planar_joint_slides_both_ways_and_turns_in_its_plane(tmp_path: Path) -> None:
+def test_a_planar_joint_slides_along_two_axes_and_turns_in_its_plane(tmp_path: Path) -> None:
     tilt = 0.3
     file = tmp_path / "x.urdf"
     file.write_text(SLED.format(URDF_INERTIA, tilt))
@@ -250,7 +252,7 @@ def test_a_loop_of_links_stays_closed_and_swings_as_one(load: Load, reverse: boo
     assert sim["m"].joint("rb").position == pytest.approx(-right.position, abs=1e-3)
 
 
-def test_a_link_that_is_welded_twice_holds(load: Load) -> None:
+def test_a_link_welded_twice_holds(load: Load) -> None:
     sim = load(
         link("a", com="0.5 0 0"),
         joint("one", "fixed", "world", "a"),
@@ -260,7 +262,7 @@ def test_a_link_that_is_welded_twice_holds(load: Load) -> None:
     assert sim["m"].link("a").pose.position == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
 
 
-def test_a_joint_may_name_its_links_the_other_way_round(load: Load) -> None:
+def test_a_joint_may_name_its_links_in_reverse(load: Load) -> None:
     # Both joints have the base as their child: one of them is turned.
     sim = load(
         link("one", pose="1 0 0 0 0 0"),
@@ -311,7 +313,7 @@ def test_a_spring_swings_about_its_reference(load: Load) -> None:
     assert j.position == pytest.approx(0.0, abs=5e-3)
 
 
-def test_an_effort_is_cut_to_its_limit_and_ends_at_the_limit_of_speed(load: Load) -> None:
+def test_an_effort_is_clamped_and_ends_at_the_velocity_limit(load: Load) -> None:
     limits = "<limit><effort>0.1</effort><velocity>3</velocity></limit>"
     sim = load(link("a"), joint("j", "revolute", "world", "a", axis("0 0 1", limits)), gravity=0.0)
     j = sim["m"].joint("j")
@@ -330,20 +332,20 @@ def test_an_effort_is_cut_to_its_limit_and_ends_at_the_limit_of_speed(load: Load
     assert j.velocity == pytest.approx(4.0, rel=1e-6)
 
 
-def test_a_stop_is_hard_whatever_its_stiffness_as_in_ode(load: Load) -> None:
+def test_a_stop_is_hard_for_any_stiffness_as_in_ode(load: Load) -> None:
     limit = "<limit><lower>-0.2</lower><upper>0.2</upper><stiffness>60</stiffness><dissipation>8</dissipation></limit>"
     sim = load(link("a"), joint("j", "revolute", "world", "a", axis("0 0 1", limit)), gravity=0.0)
     j = sim["m"].joint("j")
     j.command_effort(3.0)
     sim.run(3.0)
     assert j.position == pytest.approx(0.2, abs=1e-4)
-    said = "joint 'j': a limit's <stiffness> and <dissipation> are ignored, as in Gazebo's ODE; the stop is hard"
-    assert sum(said in finding.what for finding in sim.report.findings) == 1
+    message = "joint 'j': a limit's <stiffness> and <dissipation> are ignored, as in Gazebo's ODE; the stop is hard"
+    assert sum(message in finding.what for finding in sim.report.findings) == 1
 
 
 @pytest.mark.parametrize("kind", ["prismatic", "revolute"])
 @pytest.mark.parametrize("speed", [0.3, 1.7, 4.3])
-def test_what_runs_into_its_stop_does_not_pass_it(load: Load, kind: str, speed: float) -> None:
+def test_a_joint_does_not_pass_its_stop(load: Load, kind: str, speed: float) -> None:
     """Gazebo passes it by 0.01 mm; a MuJoCo limit by a step's motion, 1.7 mm at 1.7 m/s."""
     limit = "<limit><lower>-1</lower><upper>0.05</upper></limit>"
     sim = load(link("a"), joint("j", kind, "world", "a", axis("1 0 0", limit)), gravity=0.0)
@@ -357,7 +359,7 @@ def test_what_runs_into_its_stop_does_not_pass_it(load: Load, kind: str, speed: 
     assert fastest_back > -0.005 * speed
 
 
-def test_a_joint_says_what_it_carries(load: Load) -> None:
+def test_a_joint_reports_its_reaction(load: Load) -> None:
     sim = load(
         link("a", pose="0 0 1 0 0 0", mass=2.0),
         link("b", pose="0.5 0 1 0 0 0", com="0.3 0 0", mass=3.0),
@@ -372,10 +374,10 @@ def test_a_joint_says_what_it_carries(load: Load) -> None:
     assert wall.torque == pytest.approx((0.0, -(0.2 * 2.0 + 1.0 * 3.0) * G, 0.0), abs=1e-6)
 
 
-def test_a_joint_that_is_turned_round_carries_the_same(load: Load) -> None:
-    ways = (joint("j", "revolute", "world", "a", axis("0 1 0")), joint("j", "revolute", "a", "world", axis("0 1 0")))
-    for way, sign in zip(ways, (1.0, -1.0), strict=True):
-        sim = load(link("a", com="0 0 -1", mass=2.0), way)
+def test_a_reversed_joint_has_the_opposite_reaction(load: Load) -> None:
+    joints = (joint("j", "revolute", "world", "a", axis("0 1 0")), joint("j", "revolute", "a", "world", axis("0 1 0")))
+    for tag, sign in zip(joints, (1.0, -1.0), strict=True):
+        sim = load(link("a", com="0 0 -1", mass=2.0), tag)
         sim.run(0.1)
         assert sim["m"].joint("j").reaction.force == pytest.approx((0.0, 0.0, sign * 2.0 * G), abs=1e-6)
 
@@ -393,7 +395,7 @@ def test_a_child_may_come_before_its_parent(load: Load) -> None:
     assert sim["m"].link("tip").pose.position == pytest.approx((1.0, 1.0, 0.0), abs=1e-9)
 
 
-def test_two_parallel_axes_are_one_freedom_and_said_so(load: Load) -> None:
+def test_two_parallel_axes_are_one_degree_of_freedom_with_a_warning(load: Load) -> None:
     axes = axis("0 0 1") + axis("0 0 -1", tag="axis2")
     sim = load(link("a"), joint("j", "universal", "world", "a", axes), gravity=0.0)
     assert any("'j': its two axes are parallel" in warning for warning in sim.report.warnings)
@@ -402,14 +404,14 @@ def test_two_parallel_axes_are_one_freedom_and_said_so(load: Load) -> None:
     assert sim["m"].joint("j").velocity == pytest.approx(1.0, rel=0.01)
 
 
-@pytest.mark.parametrize("what", ["damping", "friction"])
-def test_a_loss_below_zero_is_mended_aloud(load: Load, what: str) -> None:
-    dynamics = f"<dynamics><{what}>-1</{what}></dynamics>"
+@pytest.mark.parametrize("parameter", ["damping", "friction"])
+def test_negative_damping_and_friction_become_zero_with_a_warning(load: Load, parameter: str) -> None:
+    dynamics = f"<dynamics><{parameter}>-1</{parameter}></dynamics>"
     sim = load(link("a"), joint("j", "revolute", "world", "a", axis("0 0 1", dynamics)))
-    assert any(f"'j': {what} -1 would add energy; physics uses 0" in w for w in sim.report.warnings)
+    assert any(f"'j': {parameter} -1 would add energy; physics uses 0" in w for w in sim.report.warnings)
 
 
-def test_names_that_are_there_twice_are_refused_with_their_line(load: Load) -> None:
+def test_duplicate_names_are_refused_with_their_line(load: Load) -> None:
     with pytest.raises(DescriptionError, match="a second joint 'j'; names must differ"):
         load(link("a"), link("b"), *[joint("j", "ball", "world", child) for child in "ab"])
 

@@ -72,7 +72,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_a_mesh_is_convex_where_no_corner_is_high_above_any_face(case: str) -> None:
+def test_a_mesh_is_convex_if_no_vertex_is_above_any_face(case: str) -> None:
     (points, faces), expected = CASES[case]
     assert is_convex(points, faces, points) is expected
     if case not in ("an open ball", "a room"):

@@ -41,7 +41,7 @@ def gate(high: float = 1.5, at: float = 0.0) -> Mesh:
 
 
 def open_box(*, double: bool) -> Mesh:
-    """Four walls and a floor without thickness; there twice, seen from outside and from inside, or once."""
+    """Four walls and a floor without thickness; once, or twice: facing outside and inside."""
     corners = np.array([(i & 1, i >> 1 & 1, (i >> 2) * 0.4) for i in range(8)], dtype=float)
     quads = [(0, 2, 3, 1), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
     faces = np.array([t for p, q, r, s in quads for t in ((p, q, r), (p, r, s))], dtype=np.intp)
@@ -78,21 +78,21 @@ def cache(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Path]:
 @pytest.fixture
 def cut(monkeypatch: pytest.MonkeyPatch) -> list[ConcavePart]:
     """Meshes cut in this process, in order."""
-    seen: list[ConcavePart] = []
+    parts: list[ConcavePart] = []
 
     def counted(part: ConcavePart) -> pieces.ConvexPieces:
-        seen.append(part)
+        parts.append(part)
         return decompose_part(part)
 
     monkeypatch.setattr(jobs, "decompose_part", counted)
-    return seen
+    return parts
 
 
 def corners_of(decomposed: pieces.ConvexPieces) -> list[list[list[float]]]:
     return [corners.tolist() for corners in decomposed.corners]
 
 
-def test_a_process_of_its_own_cuts_the_same_pieces(monkeypatch: pytest.MonkeyPatch, cut: list[ConcavePart]) -> None:
+def test_a_worker_process_computes_the_same_pieces(monkeypatch: pytest.MonkeyPatch, cut: list[ConcavePart]) -> None:
     meshes = [(*gate(high), False) for high in (1.5, 1.6)]
     here = [corners_of(convex_pieces(points, faces, fixed=fixed)) for points, faces, fixed in meshes]
     assert len(cut) == 2
@@ -105,35 +105,35 @@ def test_a_process_of_its_own_cuts_the_same_pieces(monkeypatch: pytest.MonkeyPat
     assert len(cut) == 2
 
 
-class _Deadly:
-    """Points that end the process which reads them."""
+class _Deadly(np.ndarray):
+    """Points that end the process that unpickles them."""
 
     def __reduce__(self) -> tuple[Callable[[int], None], tuple[int]]:
         return os._exit, (3,)
 
 
-def test_a_mesh_that_ends_its_process_stops_no_other(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_mesh_that_crashes_its_worker_does_not_stop_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(jobs, "SHORT_S", 0.0)
     monkeypatch.setattr(jobs, "_WORKER_S", 0.01)
     _, good = split_mesh(*gate(), fixed=False).concave[0]
-    bad = ConcavePart(_Deadly(), good.faces, Detail.HULL)
-    answers = {id(part): found for part, found in jobs.decompose_parts([bad, good, bad])}
-    assert answers[id(bad)] is None
-    assert answers[id(good)] is not None
+    bad = ConcavePart(np.zeros((0, 3)).view(_Deadly), good.faces, Detail.HULL)
+    results = {id(part): pieces_or_none for part, pieces_or_none in jobs.decompose_parts([bad, good, bad])}
+    assert results[id(bad)] is None
+    assert results[id(good)] is not None
 
 
-def test_a_mesh_that_cannot_be_cut_is_filled_aloud(
+def test_a_mesh_that_cannot_be_decomposed_becomes_its_hull_with_a_warning(
     tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(jobs, "decompose_part", None)
-    outcome = check(str(world(tmp_path, [obj(gate())])), {}, start=tmp_path, collisions=True)
-    (said,) = [warning for warning in outcome.report.warnings if "hollow" in warning]
-    assert "physics fills its cavities: 1.5 times its volume" in said
-    assert said.endswith("; it could not be cut into convex pieces")
+    result = check(str(world(tmp_path, [obj(gate())])), {}, start=tmp_path, collisions=True)
+    (message,) = [warning for warning in result.report.warnings if "hollow" in warning]
+    assert "physics fills its cavities: 1.5 times its volume" in message
+    assert message.endswith("; it could not be cut into convex pieces")
     assert not cache.exists()
 
 
-def test_the_worker_loads_little_of_trundle() -> None:
+def test_the_worker_imports_little_of_trundle() -> None:
     program = (
         "import sys, trundle.sim.physics.convex.pieces; print(*(name for name in sys.modules if 'trundle.' in name))"
     )
@@ -167,7 +167,7 @@ def _wait_until(what: Callable[[], object]) -> None:
 
 @LINUX
 @pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGKILL], ids=["Ctrl-C", "the parent dies"])
-def test_an_interruption_leaves_no_process_behind_and_keeps_what_is_done(
+def test_an_interruption_ends_all_processes_and_keeps_finished_pieces(
     end: signal.Signals, tmp_path: Path, cache: Path
 ) -> None:
     file = world(tmp_path, [obj(gate(1.5 + i / 100)) for i in range(40)])
@@ -191,37 +191,37 @@ def test_an_interruption_leaves_no_process_behind_and_keeps_what_is_done(
     assert all(load_pieces(path.stem.removeprefix("pieces-")) for path in kept)
 
 
-def test_equal_meshes_are_cut_once_wherever_they_are(cut: list[ConcavePart]) -> None:
+def test_equal_meshes_are_decomposed_once_at_any_position(cut: list[ConcavePart]) -> None:
     points, faces = gate()
     both = np.concatenate([points, gate(at=5.0)[0]]), np.concatenate([faces, faces + len(points)])
     world = WorldDecomposition()
     world.decompose_all([(points, faces, False), (*both, False), (points / 2 * 2, faces, False)])
     assert len(cut) == 1
-    one, two = (world.pieces_of(*mesh, fixed=False).pieces for mesh in (gate(), both))
-    assert len(two.corners) == 2 * len(one.corners)
-    assert np.concatenate(two.corners)[:, 0].max() == pytest.approx(6.0)
+    first, second = (world.pieces_of(*mesh, fixed=False).pieces for mesh in (gate(), both))
+    assert len(second.corners) == 2 * len(first.corners)
+    assert np.concatenate(second.corners)[:, 0].max() == pytest.approx(6.0)
 
 
 @pytest.mark.parametrize("double", [False, True])
-def test_a_thin_shell_of_few_faces_is_a_slab_for_each(double: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_thin_shell_of_few_faces_becomes_a_slab_per_face(double: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(decomposition, "_voxels", None)
-    found = convex_pieces(*open_box(double=double), fixed=False)
-    assert len(found.corners) == 5
-    (misfit,) = found.errors
-    assert misfit.distance <= 0.0051  # half a wall of 1 cm
-    assert not misfit.is_filled
+    cut = convex_pieces(*open_box(double=double), fixed=False)
+    assert len(cut.corners) == 5
+    (error,) = cut.errors
+    assert error.distance <= 0.0051  # half a wall of 1 cm
+    assert not error.is_filled
 
 
 @pytest.mark.parametrize("spoil", ["cut", "text", "other", "nan"])
-def test_a_kept_cut_that_makes_no_sense_is_made_again(spoil: str, cache: Path, cut: list[ConcavePart]) -> None:
+def test_an_invalid_cached_decomposition_is_computed_again(spoil: str, cache: Path, cut: list[ConcavePart]) -> None:
     first = corners_of(convex_pieces(*gate(), fixed=False))
-    (kept,) = cache.glob("*.npz")
+    (file,) = cache.glob("*.npz")
     if spoil == "other":
-        save_pieces(kept.stem.removeprefix("pieces-"), pieces.ConvexPieces([], []))
+        save_pieces(file.stem.removeprefix("pieces-"), pieces.ConvexPieces([], []))
     elif spoil == "nan":
-        save_pieces(kept.stem.removeprefix("pieces-"), pieces.ConvexPieces([np.full((4, 3), np.nan)], []))
+        save_pieces(file.stem.removeprefix("pieces-"), pieces.ConvexPieces([np.full((4, 3), np.nan)], []))
     else:
-        kept.write_bytes({"cut": kept.read_bytes()[:200], "text": b"hello"}[spoil])
+        file.write_bytes({"cut": file.read_bytes()[:200], "text": b"hello"}[spoil])
     mesh_decomposition.clear_cache()
     assert corners_of(convex_pieces(*gate(), fixed=False)) == first
     assert len(cut) == 2
@@ -230,40 +230,40 @@ def test_a_kept_cut_that_makes_no_sense_is_made_again(spoil: str, cache: Path, c
     assert len(cut) == 2
 
 
-def test_what_takes_too_long_is_cut_coarsely_aloud_and_the_same_whatever_is_kept(
+def test_slow_meshes_are_decomposed_coarsely_with_a_warning_regardless_of_the_cache(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # Two meshes of half a second each, and time for one.
     monkeypatch.setattr(mesh_decomposition, "MAX_SECONDS", 0.6)
     file = world(tmp_path, [obj(gate(1.5)), obj(gate(1.6))])
 
-    def said() -> list[str]:
+    def messages() -> list[str]:
         mesh_decomposition.clear_cache()
-        outcome = check(str(file), {}, start=tmp_path, collisions=True)
-        return [finding.what for finding in outcome.report.findings if "hollow mesh" in finding.what]
+        result = check(str(file), {}, start=tmp_path, collisions=True)
+        return [finding.what for finding in result.report.findings if "hollow mesh" in finding.what]
 
-    in_full, coarse = said()
+    in_full, coarse = messages()
     assert "fewer pieces" not in in_full
     assert re.search(r"uses [2-8] convex pieces: .*a surface up to \S+ m away; fewer pieces to save", coarse)
     assert coarse.endswith("to save time; TRUNDLE_FULL_DECOMPOSITION=1 computes all")
     monkeypatch.setenv("TRUNDLE_FULL_DECOMPOSITION", "1")
-    assert not any("fewer pieces" in what for what in said())  # and now both are kept in full
+    assert not any("fewer pieces" in message for message in messages())  # and now both are cached in full
     monkeypatch.delenv("TRUNDLE_FULL_DECOMPOSITION")
-    assert said() == [in_full, coarse]
+    assert messages() == [in_full, coarse]
 
 
-def test_the_estimate_of_time_goes_by_size_alone() -> None:
+def test_the_time_estimate_depends_on_the_size_only() -> None:
     points, faces = gate()
     part = ConcavePart(points, faces, Detail.FULL)
     coarse = ConcavePart(points, faces, Detail.COARSE)
     assert ConcavePart(points * 7, faces, Detail.FULL).seconds == part.seconds > coarse.seconds > 0
 
 
-def test_check_cuts_nothing_unless_asked(tmp_path: Path, cut: list[ConcavePart], cache: Path) -> None:
+def test_check_decomposes_only_with_its_option(tmp_path: Path, cut: list[ConcavePart], cache: Path) -> None:
     file = world(tmp_path, [obj(gate())])
-    outcome = check(str(file), {}, start=tmp_path)
-    (said,) = [finding.what for finding in outcome.report.findings if "triangles" in finding.what]
-    assert said == (
+    result = check(str(file), {}, start=tmp_path)
+    (message,) = [finding.what for finding in result.report.findings if "triangles" in finding.what]
+    assert message == (
         "collision 'c': a mesh of 44 triangles that is not convex; its pieces are not checked (check --collisions)"
     )
     assert not cut
@@ -276,7 +276,7 @@ class _Terminal(io.StringIO):
         return True
 
 
-def test_a_terminal_has_a_line_with_the_time_left_that_goes(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_terminal_shows_the_time_left_on_a_line_that_is_cleared(monkeypatch: pytest.MonkeyPatch) -> None:
     now = [100.0]
     terminal = _Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
@@ -292,7 +292,7 @@ def test_a_terminal_has_a_line_with_the_time_left_that_goes(monkeypatch: pytest.
     assert terminal.getvalue().split("\r")[-2:] == [" " * len(drawn[-1]), ""]
 
 
-def test_a_log_has_a_line_at_the_start_and_one_at_the_end_where_it_takes_long(
+def test_a_log_has_a_first_and_a_last_line_for_long_decompositions(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     now = [100.0]
@@ -343,7 +343,7 @@ DEGENERATE = {
 
 @pytest.mark.parametrize("static", [True, False])
 @pytest.mark.parametrize("case", DEGENERATE)
-def test_a_degenerate_mesh_has_a_sentence_of_ours(
+def test_a_degenerate_mesh_is_reported_without_output_of_qhull(
     case: str, static: bool, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     corners = DEGENERATE[case]
@@ -351,19 +351,19 @@ def test_a_degenerate_mesh_has_a_sentence_of_ours(
     faces = [(1, 2, 3), (1, 3, 4), (1, 2, last)]
     text = [f"v {x} {y} {z}" for x, y, z in corners] + [f"f {a} {b} {c}" for a, b, c in faces]
     file = world(tmp_path, ["\n".join(text)], static=static)
-    outcome = check(str(file), {}, start=tmp_path, collisions=True)
+    result = check(str(file), {}, start=tmp_path, collisions=True)
     captured = capfd.readouterr()
     assert captured.out + captured.err == ""
-    assert not outcome.report.errors
-    said = [warning for warning in outcome.report.warnings if "mesh" in warning or ".obj" in warning]
-    assert said or static  # static meshes have a slab behind each face, as thick as those of any mesh
-    for warning in said:
+    assert not result.report.errors
+    messages = [warning for warning in result.report.warnings if "mesh" in warning or ".obj" in warning]
+    assert messages or static  # static meshes have a slab behind each face, as thick as those of any mesh
+    for warning in messages:
         assert "w.world:1: warning: " in warning
         assert re.search(r"physics uses [0-9.]+ mm|the collision is left out", warning)
-    assert not re.search("qhull|engine", outcome.text(), re.IGNORECASE)
+    assert not re.search("qhull|engine", result.text(), re.IGNORECASE)
 
 
-def test_words_of_others_come_through_where_the_engines_do_not(capfd: pytest.CaptureFixture[str]) -> None:
+def test_output_of_others_is_printed_and_the_engines_hidden(capfd: pytest.CaptureFixture[str]) -> None:
     with native_output_hidden():
         os.write(2, b"QH7089 qhull precision warning: The initial hull is narrow.\n")
     with native_output_hidden():

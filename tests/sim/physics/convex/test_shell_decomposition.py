@@ -60,19 +60,19 @@ def bowl(radius: float = 0.5, sides: int = 24) -> Mesh:
 
 
 def solid(corners: NDArray[np.float64]) -> Hull:
-    found = hull_of(corners)
-    assert found is not None
-    return found
+    hull = hull_of(corners)
+    assert hull is not None
+    return hull
 
 
 @pytest.fixture(autouse=True)
-def _cut_anew(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def _empty_caches(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     mesh_decomposition.clear_cache()
 
 
 @pytest.mark.parametrize(
-    ("mesh", "most", "away"),
+    ("mesh", "max_walls", "max_error"),
     [
         (open_tray(2.0, 1.0, 0.2), 5, 0.011),  # voxels: 0.13 m
         (thick_tray(2.0, 1.0, 0.2), 18, 0.001),  # voxels: 0.06 m
@@ -80,20 +80,20 @@ def _cut_anew(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     ],
     ids=["open tray", "closed tray", "bowl"],
 )
-def test_what_is_thin_and_hollow_is_a_few_walls(mesh: Mesh, most: int, away: float) -> None:
-    found = convex_pieces(*mesh, fixed=False)
-    (misfit,) = found.errors
-    assert not misfit.is_filled
-    assert misfit.distance < away
-    assert misfit.volume_ratio is None or misfit.volume_ratio == pytest.approx(1.0, abs=0.05)
-    assert 1 < len(found.corners) <= most
-    # Nothing sticks out of it: it stands as the mesh would.
-    corners = np.concatenate(found.corners)
+def test_a_thin_hollow_mesh_becomes_a_few_walls(mesh: Mesh, max_walls: int, max_error: float) -> None:
+    cut = convex_pieces(*mesh, fixed=False)
+    (error,) = cut.errors
+    assert not error.is_filled
+    assert error.distance < max_error
+    assert error.volume_ratio is None or error.volume_ratio == pytest.approx(1.0, abs=0.05)
+    assert 1 < len(cut.corners) <= max_walls
+    # No piece sticks out of the mesh, so it stands as the mesh would.
+    corners = np.concatenate(cut.corners)
     assert np.min(corners, axis=0) == pytest.approx(mesh[0].min(axis=0), abs=1e-9)
     assert np.max(corners, axis=0) == pytest.approx(mesh[0].max(axis=0), abs=1e-9)
 
 
-def test_how_far_pieces_are_from_a_mesh_is_seen_from_outside_and_inside() -> None:
+def test_the_surface_error_counts_missing_and_protruding_parts() -> None:
     corners, faces = thick_tray(2.0, 1.0, 0.5)
     triangles = corners[faces]
     filled = [solid(corners)]
@@ -108,16 +108,16 @@ def test_how_far_pieces_are_from_a_mesh_is_seen_from_outside_and_inside() -> Non
 
 
 @pytest.mark.parametrize("double", [False, True])
-def test_a_flat_plate_with_a_notch_keeps_it(double: bool) -> None:
+def test_a_flat_plate_keeps_its_notch(double: bool) -> None:
     corners = np.array([(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0)], dtype=float)
     faces = np.array([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5)], dtype=np.intp)
     if double:
         faces = np.concatenate([faces, faces[:, ::-1]])
-    found = convex_pieces(corners, faces, fixed=False)
-    (misfit,) = found.errors
-    assert misfit.distance < 0.011
+    cut = convex_pieces(corners, faces, fixed=False)
+    (error,) = cut.errors
+    assert error.distance < 0.011
     notch = np.array([[1.5, 1.5, 0.0]])
-    assert all(solid(piece).signed_distances(notch)[0] > 0.3 for piece in found.corners)
+    assert all(solid(piece).signed_distances(notch)[0] > 0.3 for piece in cut.corners)
 
 
 @pytest.mark.parametrize(("mesh", "floor"), [(open_tray(2.0, 1.0, 0.2), 0.005), (thick_tray(2.0, 1.0, 0.2), 0.02)])

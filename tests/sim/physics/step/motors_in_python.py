@@ -28,19 +28,19 @@ class PythonMotors:
         self._send(axis, self._effort_command(axis, min(max(effort, -largest), largest)), hardware=hardware)
 
     def command_velocity(self, axis: int, velocity: float, max_effort: float, *, hardware: bool = False) -> None:
-        most = max(min(max_effort, self._max_efforts[axis], _HUGE), 0.0)
-        self._send(axis, MotorCommand(velocity, most, 0.0, 0.0), hardware=hardware)
+        largest = max(min(max_effort, self._max_efforts[axis], _HUGE), 0.0)
+        self._send(axis, MotorCommand(velocity, largest, 0.0, 0.0), hardware=hardware)
 
     def command_position(self, axis: int, position: float, max_effort: float) -> None:
-        most = max(min(max_effort, self._max_efforts[axis], _HUGE), 0.0)
-        self._send(axis, MotorCommand(position, most, 3.0, 0.0), hardware=False)
+        largest = max(min(max_effort, self._max_efforts[axis], _HUGE), 0.0)
+        self._send(axis, MotorCommand(position, largest, 3.0, 0.0), hardware=False)
 
     def drive_kinematically(self, axis: int, velocity: float, *, hardware: bool = False) -> None:
         dof, last = self._dofs[axis], self._last.get(self._actuators[axis])
         speed = float(self.data.qvel[dof])
         now = last[0] if last is not None and last[2] == _KINEMATIC else speed
-        most = min(self._max_efforts[axis] or _HUGE, _HUGE)
-        self._send(axis, MotorCommand(velocity, most, _KINEMATIC, 0.0), hardware=hardware)
+        largest = min(self._max_efforts[axis] or _HUGE, _HUGE)
+        self._send(axis, MotorCommand(velocity, largest, _KINEMATIC, 0.0), hardware=hardware)
         if velocity != now and abs(speed - now) <= 0.05 * abs(now) + 0.01:
             self.data.qvel[dof] = velocity
 
@@ -48,8 +48,8 @@ class PythonMotors:
         actuator = self._actuators[axis]
         if actuator in self._direct:
             return self._direct[actuator]
-        most, effort = self.model.tendon_frictionloss[actuator], self.data.qfrc_applied[self._dofs[axis]]
-        return MotorCommand(self.data.ctrl[actuator], most, float(self.rates[actuator]), effort)
+        max_effort, effort = self.model.tendon_frictionloss[actuator], self.data.qfrc_applied[self._dofs[axis]]
+        return MotorCommand(self.data.ctrl[actuator], max_effort, float(self.rates[actuator]), effort)
 
     def repeat(self, axis: int, command: MotorCommand) -> None:
         self._send(axis, command, hardware=False)
@@ -87,8 +87,8 @@ class PythonMotors:
         if _is_drive(interface) or _is_drive(direct):
             drive, effort = (interface, direct) if _is_drive(interface) else (direct, interface)
             forward = math.copysign(1.0, _whole(effort)) * float(self.data.qvel[self._dofs[axis]])
-            beside = 0.0 if forward > self._max_velocities[axis] else _whole(effort)
-            return MotorCommand(drive.target, drive.max_effort, drive.rate, beside)
+            added = 0.0 if forward > self._max_velocities[axis] else _whole(effort)
+            return MotorCommand(drive.target, drive.max_effort, drive.rate, added)
         return self._effort_command(axis, _whole(direct) + _whole(interface))
 
     def numbers(self) -> bytes:

@@ -35,7 +35,7 @@ def on(contacts: Contacts, body: str) -> np.ndarray:
     return np.array([(other == body) - float(one == body) for one, other in contacts.bodies])
 
 
-def test_forces_of_contacts_hold_what_lies_on_them(sim: Simulation) -> None:
+def test_contact_forces_carry_the_weight_above_them(sim: Simulation) -> None:
     sim.run(1.0)
     contacts = sim.contacts()
     crate = on(contacts, "crate::body")
@@ -48,7 +48,7 @@ def test_forces_of_contacts_hold_what_lies_on_them(sim: Simulation) -> None:
     assert on(contacts, "marble::b") @ contacts.forces == pytest.approx([0.0, 0.0, 9.8], abs=1e-3)
 
 
-def test_one_by_one_they_are_the_same(sim: Simulation) -> None:
+def test_contacts_by_index_equal_the_arrays(sim: Simulation) -> None:
     sim.run(0.1)
     contacts = sim.contacts()
 
@@ -60,14 +60,14 @@ def test_one_by_one_they_are_the_same(sim: Simulation) -> None:
         contacts[5]
 
 
-def test_those_of_some_collisions_alone(sim: Simulation) -> None:
-    """Also of what sleeps, whose contacts are found elsewhere."""
+def test_contacts_of_named_collisions_only(sim: Simulation) -> None:
+    """Also of sleeping bodies, whose contacts are computed separately."""
     for seconds in (0.1, 3.0):
         sim.run(seconds)
-        found = sim.contacts(frozenset({"marble::b::c"}))
-        assert [set(two) for two in found.collisions] == [{"floor::f::c", "marble::b::c"}]
+        contacts = sim.contacts(frozenset({"marble::b::c"}))
+        assert [set(pair) for pair in contacts.collisions] == [{"floor::f::c", "marble::b::c"}]
         assert len(sim.contacts()) == 5
-    assert repr(found).startswith("<1 contacts: ")
+    assert repr(contacts).startswith("<1 contacts: ")
 
 
 def test_where_nothing_touches_the_arrays_are_empty(sim: Simulation) -> None:

@@ -54,7 +54,7 @@ def _load(folder: Path, models: str) -> Simulation:
     return trundle.load(str(file))
 
 
-def test_laws_act_in_mujoco_s_own_batches_of_simulations(ball: Simulation) -> None:
+def test_contact_laws_act_in_mujocos_rollout(ball: Simulation) -> None:
     """To the same bits, on two threads, of a copy of the model."""
     simulations = Batch(ball.engine.compiled.model, nsim=4, nthread=2)
     heights = simulations.bind("qpos")
@@ -78,7 +78,7 @@ def test_worlds_in_two_threads_do_not_disturb_each_other(tmp_path: Path) -> None
     assert len({sim["ball"].pose.position[2] for sim in sims}) == 1
 
 
-def test_a_callback_of_somebody_else_is_called_as_well(ball: Simulation, foreign: list[float]) -> None:
+def test_a_control_callback_of_another_caller_is_called_as_well(ball: Simulation, foreign: list[float]) -> None:
     ball.step(APEX_STEP)
 
     assert len(foreign) == APEX_STEP
@@ -123,7 +123,7 @@ def _looks_ahead(model: mujoco.MjModel) -> bool:
     return bool(model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
 
 
-def test_a_world_with_something_thin_looks_ahead_only_while_something_is_fast(tmp_path: Path) -> None:
+def test_a_world_with_a_thin_shape_uses_speculative_contacts_only_at_high_speed(tmp_path: Path) -> None:
     """Half thicknesses of 5 mm and 1 mm are gone through from 3.3 m/s on; half of that is reached after 0.167 s."""
     sim = _load(tmp_path, SMALL_BALL + PLATE)
     model = sim.engine.compiled.model
@@ -145,7 +145,9 @@ CASED = """<model name="robot"><pose>0 0 1 0 0 0</pose><link name="l"><inertial>
 
 
 @pytest.mark.parametrize(("at_x", "looks"), [(0.05, False), (0.5, True)], ids=["in its casing", "on an arm"])
-def test_a_thin_part_within_a_thick_one_is_not_looked_ahead_for(tmp_path: Path, at_x: float, looks: bool) -> None:
+def test_a_thin_shape_within_a_thick_one_needs_no_speculative_contacts(
+    tmp_path: Path, at_x: float, looks: bool
+) -> None:
     """Worlds of thousands of thin shapes, as a building's walls, step many times faster without."""
     sim = _load(tmp_path, CASED.format(at_x) + PLATE)
     assert _looks_ahead(sim.engine.compiled.model) == looks
@@ -156,7 +158,7 @@ def test_a_thin_part_within_a_thick_one_is_not_looked_ahead_for(tmp_path: Path, 
     assert sim["robot"].pose.position[2] > 0.0, "nothing went through the plate"
 
 
-def test_a_world_with_something_thin_looks_ahead_after_its_state_was_written(tmp_path: Path) -> None:
+def test_a_world_with_a_thin_shape_uses_speculative_contacts_after_a_write(tmp_path: Path) -> None:
     sim = _load(tmp_path, SMALL_BALL + PLATE)
     with _noted_steps() as steps:
         for _ in range(20):
@@ -200,15 +202,15 @@ def test_a_step_is_solved_in_the_metric_that_it_needs(tmp_path: Path, what: str,
     assert sim.engine.save().data.efm_active == (0 if is_plain else 1)
 
 
-def test_a_plain_metric_takes_nothing_from_the_memory_where_the_other_would_be(tmp_path: Path) -> None:
+def test_a_plain_metric_ignores_stale_memory_of_the_other_metric(tmp_path: Path) -> None:
     """MuJoCo reserves what motors add to it before the laws act, and writes it after them, if it is on."""
-    turned: list[float] = []
-    for left_there in (0.0, 1e6):
+    positions: list[float] = []
+    for remains in (0.0, 1e6):
         sim = _load(tmp_path, BALL.format(0, "").replace("</model>", DAMPED.replace(">0.1<", ">0<")))
 
-        def leave(model: mujoco.MjModel, data: mujoco.MjData, left_there: float = left_there) -> None:
+        def leave(model: mujoco.MjModel, data: mujoco.MjData, remains: float = remains) -> None:
             del model
-            data.efm_sdiag[:] = left_there
+            data.efm_sdiag[:] = remains
 
         mujoco.set_mjcb_control(leave)
         try:
@@ -216,5 +218,5 @@ def test_a_plain_metric_takes_nothing_from_the_memory_where_the_other_would_be(t
             sim.step(50)
         finally:
             mujoco.set_mjcb_control(None)
-        turned.append(sim["ball"].joint("j").position)
-    assert turned[0] == turned[1]
+        positions.append(sim["ball"].joint("j").position)
+    assert positions[0] == positions[1]

@@ -63,7 +63,7 @@ def spin_up(sim: Simulation) -> None:
     sim["t"].joint("elbow").command_effort(0.02)
 
 
-def test_an_effort_accelerates_until_told_otherwise() -> None:
+def test_an_effort_accelerates_until_the_next_command() -> None:
     sim = wheel()
     hub = sim["wheel"].joint("hub")
     hub.command_effort(0.05)
@@ -76,7 +76,7 @@ def test_an_effort_accelerates_until_told_otherwise() -> None:
     assert hub.velocity == pytest.approx(speed, rel=1e-9)
 
 
-def test_a_motor_reaches_its_speed_and_no_sooner_than_its_effort_allows() -> None:
+def test_a_motor_reaches_its_speed_as_fast_as_its_effort_allows() -> None:
     sim = wheel()
     hub = sim["wheel"].joint("hub")
     hub.command_velocity(4.0, max_effort=0.1)
@@ -98,7 +98,7 @@ def test_a_motor_too_weak_for_the_load_stalls() -> None:
     assert hub.velocity == pytest.approx(2.0, rel=1e-3)
 
 
-def test_the_joints_own_effort_limit_holds_for_motors_and_hands() -> None:
+def test_the_joints_effort_limit_applies_to_motors_and_efforts() -> None:
     axis = JointAxis(direction=(0.0, 0.0, 1.0), effort=0.02)
     sim = wheel(axis)
     sim["wheel"].joint("hub").command_velocity(100.0)
@@ -106,7 +106,7 @@ def test_the_joints_own_effort_limit_holds_for_motors_and_hands() -> None:
     assert sim["wheel"].joint("hub").velocity == pytest.approx(0.02 / INERTIA * 0.5, rel=1e-3)
 
 
-def test_a_held_joint_goes_there_and_stays() -> None:
+def test_a_position_command_moves_a_joint_to_its_target_and_holds_it() -> None:
     sim = wheel()
     hub = sim["wheel"].joint("hub")
     hub.command_position(0.7)
@@ -125,7 +125,7 @@ def test_a_joint_is_held_within_its_limits() -> None:
     assert hub.position == pytest.approx(0.3, abs=1e-3)
 
 
-def test_one_drive_replaces_the_one_before() -> None:
+def test_a_new_motor_command_replaces_the_last_one() -> None:
     sim = wheel()
     hub = sim["wheel"].joint("hub")
     hub.command_effort(0.5)
@@ -139,7 +139,7 @@ def test_one_drive_replaces_the_one_before() -> None:
     assert (hub.position, hub.velocity) == (0.0, 0.0)
 
 
-def test_a_wrench_lasts_as_long_as_it_was_asked_to() -> None:
+def test_a_wrench_lasts_for_its_duration() -> None:
     sim = tumbler()
     body = sim["t"].link("body")
     body.apply_wrench(Wrench(force=(5.0, 0.0, 0.0)), duration_s=0.25)
@@ -148,7 +148,7 @@ def test_a_wrench_lasts_as_long_as_it_was_asked_to() -> None:
     assert _momentum(sim) == pytest.approx((5.0 * 0.25, 0.0, 0.0), abs=5e-3)
 
 
-def test_a_new_wrench_replaces_the_old_and_its_end() -> None:
+def test_a_new_wrench_replaces_the_old_one_and_its_duration() -> None:
     sim = tumbler()
     body = sim["t"].link("body")
     body.apply_wrench(Wrench(force=(5.0, 0.0, 0.0)), duration_s=0.25)
@@ -169,7 +169,7 @@ def _momentum(sim: Simulation) -> tuple[float, float, float]:
     return (x, y, z)
 
 
-def test_twists_are_the_rates_at_which_poses_change() -> None:
+def test_twists_are_the_derivatives_of_poses() -> None:
     sim = tumbler()
     spin_up(sim)
     sim.run(0.5)
@@ -191,7 +191,7 @@ def test_twists_are_the_rates_at_which_poses_change() -> None:
         assert np.linalg.norm(twist[3:]) > 0.5
 
 
-def test_a_restored_state_reads_and_goes_on_as_the_saved_one_did_to_the_last_bit() -> None:
+def test_a_restored_state_reads_and_continues_as_the_saved_one_to_the_bit() -> None:
     sim = tumbler()
     spin_up(sim)
     sim["t"].link("arm").apply_wrench(Wrench(force=(0.0, 1.0, 0.0)), duration_s=0.5)
@@ -207,7 +207,7 @@ def test_a_restored_state_reads_and_goes_on_as_the_saved_one_did_to_the_last_bit
     assert same(sim.snapshot(), later)
 
 
-def test_a_restored_motor_runs_on() -> None:
+def test_a_restored_motor_keeps_running() -> None:
     sim = wheel()
     hub = sim["wheel"].joint("hub")
     hub.command_velocity(4.0, max_effort=0.1)
@@ -222,7 +222,7 @@ def test_a_restored_motor_runs_on() -> None:
     assert same(sim.snapshot(), expected)
 
 
-def test_a_reset_world_is_a_new_world() -> None:
+def test_a_reset_restores_the_initial_state() -> None:
     sim, fresh = tumbler(), tumbler()
     spin_up(sim)
     sim.run(0.5)
@@ -249,7 +249,7 @@ def yard() -> Simulation:
 
 
 @pytest.mark.parametrize("force", [1e300, math.nan, math.inf])
-def test_physics_that_blows_up_names_the_body_and_keeps_the_last_good_state(force: float) -> None:
+def test_unstable_physics_names_the_body_and_keeps_the_last_good_state(force: float) -> None:
     sim = yard()
     sim.run(0.1)
     good = sim.snapshot()
@@ -260,7 +260,7 @@ def test_physics_that_blows_up_names_the_body_and_keeps_the_last_good_state(forc
     assert same(sim.snapshot(), good)
 
 
-def test_a_blow_up_in_the_middle_of_a_stride_is_dated_and_undone() -> None:
+def test_a_divergence_within_a_stride_is_dated_and_rolled_back() -> None:
     sim = yard()
     good = sim.snapshot()
     sim.add_hook(_Kick("wild", at_ns=250_000_000), period_ns=50_000_000)
@@ -282,7 +282,7 @@ class _Kick:
             sim[self.name].apply_wrench(Wrench(force=(0.0, 0.0, 1e300)))
 
 
-def test_a_blow_up_leaves_no_file_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_divergence_writes_no_log_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     sim = yard()
     sim["wild"].apply_wrench(Wrench(force=(1e300, 0.0, 0.0)))
@@ -291,7 +291,7 @@ def test_a_blow_up_leaves_no_file_behind(tmp_path: Path, monkeypatch: pytest.Mon
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_world_that_blew_up_goes_on_once_the_cause_is_gone() -> None:
+def test_a_diverged_world_continues_once_the_cause_is_removed() -> None:
     sim = yard()
     sim["wild"].apply_wrench(Wrench(force=(math.nan, 0.0, 0.0)))
     with pytest.raises(SimulationUnstableError):
@@ -302,7 +302,7 @@ def test_a_world_that_blew_up_goes_on_once_the_cause_is_gone() -> None:
     assert sim["calm"].pose.position == pytest.approx((0.0, 0.0, 0.1), abs=1e-3)
 
 
-def test_joints_speeding_off_slowly_are_caught_too() -> None:
+def test_slow_divergence_of_joints_is_detected() -> None:
     # A stride of one step looks at each state by itself: none may slip through as the last good one.
     sim = wheel()
     sim["wheel"].joint("hub").command_effort(1e10)
@@ -317,7 +317,7 @@ def test_joints_speeding_off_slowly_are_caught_too() -> None:
     assert np.isfinite(sim.snapshot().joint_velocities).all()
 
 
-def test_a_blow_up_names_the_joint_and_what_is_touched() -> None:
+def test_a_divergence_names_the_joint_and_the_contacts() -> None:
     sim = wheel()
     sim["wheel"].joint("hub").command_effort(1e10)
     with pytest.raises(SimulationUnstableError, match="'wheel::rim' diverged on joint 'wheel::hub'") as caught:
@@ -330,7 +330,7 @@ def test_a_blow_up_names_the_joint_and_what_is_touched() -> None:
         balls.run(0.1)
 
 
-def test_a_blow_up_after_a_long_while_costs_a_second_at_most() -> None:
+def test_a_late_divergence_is_found_within_a_second() -> None:
     sim = wheel(damping=0.0)
     sim.run(5.0)
     sim["wheel"].joint("hub").command_effort(1e5)

@@ -76,15 +76,15 @@ def box(tmp_path: Path) -> Callable[..., Simulation]:
         ),
     ],
 )
-def test_laws_that_a_gpu_lacks_are_named(box, surface, link, sentence) -> None:
-    (found,) = gpu_limits(box(surface, link).engine.compiled)
+def test_laws_missing_on_a_gpu_are_named(box, surface, link, sentence) -> None:
+    (limit,) = gpu_limits(box(surface, link).engine.compiled)
 
-    assert found.startswith(sentence)
-    assert "box::l" in found
+    assert limit.startswith(sentence)
+    assert "box::l" in limit
 
 
 @pytest.mark.parametrize("name", ["arm_reach", "cart_pole", "drive_to_goal"])
-def test_ready_worlds_have_no_such_law(name) -> None:
+def test_the_ready_made_worlds_have_no_gpu_limits(name) -> None:
     assert gpu_limits(trundle.load(str(WORLDS / f"{name}.world")).engine.compiled) == []
 
 
@@ -93,7 +93,7 @@ def test_one_package_owns_mujoco() -> None:
     assert set(packages_distributions()["mujoco"]) == {"mujoco-core"}
 
 
-def test_without_a_gpu_a_sentence_says_why() -> None:
+def test_without_a_gpu_the_error_says_why() -> None:
     if HAS_WARP and _has_cuda():
         assert find_gpu().startswith("cuda")
         return
@@ -170,14 +170,14 @@ def test_driven_joints_move_as_on_the_cpu(world, kind, largest, bound) -> None:
 @needs_warp
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("world", "wheels", "torque", "steps", "way", "bound"),
+    ("world", "wheels", "torque", "steps", "distance", "bound"),
     [
         # Wheels that spin up at once slide for a moment, in which the CPU keeps them down; steps of 10 ms, of 1 ms.
         (WORLDS / "drive_to_goal.world", ("left_joint", "right_joint"), 5.0, 200, 0.5, 0.02),
         ("model://rp2w", ("chassis_left_wheel", "chassis_right_wheel"), 2.0, 1200, 0.25, 0.003),
     ],
 )
-def test_wheeled_robots_drive_as_on_the_cpu(world, wheels, torque, steps, way, bound) -> None:
+def test_wheeled_robots_drive_as_on_the_cpu(world, wheels, torque, steps, distance, bound) -> None:
     sim = trundle.load(str(world))
     cpu, gpu = _on_both(sim, 2)
     start = cpu.poses.copy()
@@ -191,7 +191,7 @@ def test_wheeled_robots_drive_as_on_the_cpu(world, wheels, torque, steps, way, b
     for batch in (cpu, gpu):
         batch.step(steps)
 
-    assert np.abs(cpu.poses - start)[..., :3].max() > way
+    assert np.abs(cpu.poses - start)[..., :3].max() > distance
     assert _apart(cpu, gpu) < bound
 
 
@@ -242,7 +242,7 @@ def test_a_box_falls_onto_the_floor_and_rests_as_on_the_cpu(box) -> None:
 
 @needs_warp
 @pytest.mark.slow
-def test_rows_that_are_not_chosen_stay_and_an_unstable_one_keeps_its_state() -> None:
+def test_rows_not_chosen_and_unstable_rows_keep_their_state() -> None:
     sim = trundle.load(str(WORLDS / "cart_pole.world"))
     _, gpu = _on_both(sim, 3)
     gpu.command_effort(0, np.full(3, 5.0))

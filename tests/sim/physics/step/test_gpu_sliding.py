@@ -55,11 +55,11 @@ def _on_device(model: mujoco.MjModel, before: mujoco.MjData, at: mujoco.MjData, 
             nworld=1, njmax=rows, nefc=wp.array([rows], dtype=int), efc=efc, contact=contacts, ctrl=one(before.ctrl),
             qpos=one(before.qpos), qvel=one(before.qvel), qacc_warmstart=one(before.qacc_warmstart),
         )  # fmt: skip
-        held = SimpleNamespace(
+        device_model = SimpleNamespace(
             tendon_frictionloss=one(model.tendon_frictionloss), is_sparse=sparse,
             body_subtreemass=one(model.body_subtreemass), dof_invweight0=one(model.dof_invweight0),
         )  # fmt: skip
-        sliding = Sliding(model, held, data, one(find_table(model, "motors")[:, 1]))
+        sliding = Sliding(model, device_model, data, one(find_table(model, "motors")[:, 1]))
         sliding.last_targets.assign(before.userdata[None, : model.nu])
         sliding.launch()
         assert sliding.last_targets.numpy()[0] == pytest.approx(at.userdata[: model.nu], abs=1e-5)
@@ -68,7 +68,7 @@ def _on_device(model: mujoco.MjModel, before: mujoco.MjData, at: mujoco.MjData, 
 
 @needs_warp
 @pytest.mark.parametrize("sparse", [False, True])
-def test_contacts_that_slide_are_kept_down_as_on_the_cpu(sparse: bool) -> None:
+def test_sliding_contacts_are_held_down_as_on_the_cpu(sparse: bool) -> None:
     """The RP2W starts, brakes and turns by random speeds of its wheels."""
     sim = trundle.load("model://rp2w")
     model = sim.engine.compiled.model
@@ -80,12 +80,12 @@ def test_contacts_that_slide_are_kept_down_as_on_the_cpu(sparse: bool) -> None:
             sim["rp2w"].joint(f"chassis_{side}_wheel").command_velocity(random.uniform(-4.0, 4.0), max_effort=2.0)
         for _ in range(5):
             before = sim.engine.save().data
-            held, after = _references(model, before, laws=True)
+            with_laws, after = _references(model, before, laws=True)
             free, _ = _references(model, before, laws=False)
-            change = (held - free)[after.efc_type == CONTACT]
-            ours = _on_device(model, before, after, sparse=sparse)[after.efc_type == CONTACT]
+            change = (with_laws - free)[after.efc_type == CONTACT]
+            on_gpu = _on_device(model, before, after, sparse=sparse)[after.efc_type == CONTACT]
 
-            assert ours == pytest.approx(change, rel=2e-3, abs=1e-2)
+            assert on_gpu == pytest.approx(change, rel=2e-3, abs=1e-2)
             largest = max(largest, -change.min(initial=0.0))
             sim.step()
         sim.step(100)

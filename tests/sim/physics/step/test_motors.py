@@ -1,4 +1,4 @@
-"""Commands of motors, and those of hardware interfaces beside them."""
+"""Commands of motors, combined with commands of hardware interfaces."""
 
 import math
 import random
@@ -9,6 +9,7 @@ from tests.sim.physics.step.motors_in_python import PythonMotors
 
 import trundle
 from trundle.sim.physics import Engine
+from trundle.sim.physics.step.motors import Motors
 
 _LINK = """<link name="{0}"><inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia>
 </inertial></link>"""
@@ -36,8 +37,8 @@ def _rules(engine: Engine) -> PythonMotors:
     return PythonMotors(engine.compiled, engine._data)  # pyright: ignore[reportPrivateUsage]
 
 
-def _command(motors: object, random_: random.Random) -> None:
-    """Give a random command to a random axis, the same by the same numbers."""
+def _command(motors: Motors | PythonMotors, random_: random.Random) -> None:
+    """Send a random command to a random axis."""
     axis, hardware = random_.randrange(len(_LIMITS)), random_.random() < 0.5
     value = random_.choice((0.0, -0.3, 0.4, 0.40001, 1.7, -5.0, random_.gauss(0.0, 2.0)))
     effort = random_.choice((0.0, 0.7, 4.0, math.inf))
@@ -53,7 +54,7 @@ def _command(motors: object, random_: random.Random) -> None:
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_random_commands_write_the_same_bytes_as_the_rules_in_python(tmp_path: Path, seed: int) -> None:
+def test_random_commands_write_the_same_bytes_as_the_python_model(tmp_path: Path, seed: int) -> None:
     """Also when the numbers of a command move the world between them, and one is repeated."""
     engine, other = _chain(tmp_path), _chain(tmp_path)
     rules, written = _rules(other), _rules(engine)  # the latter only reads
@@ -84,5 +85,5 @@ def test_saved_commands_are_restored(tmp_path: Path) -> None:
     engine.restore(saved)
 
     assert written.numbers() == before
-    engine.motors.command_effort(3, 0.5, hardware=True)  # still beside the direct speed
+    engine.motors.command_effort(3, 0.5, hardware=True)  # still combined with the direct speed
     assert (written.data.ctrl[3], written.data.qfrc_applied[3]) == (0.5, 0.5)

@@ -46,7 +46,9 @@ def speed(sim: Simulation, name: str) -> float:
 # Gazebo is out within 10 ms.
 @pytest.mark.parametrize("depth", [0.002, 0.05, 0.15])
 @pytest.mark.parametrize("stiffness", [1e12, 1e5])
-def test_a_box_that_begins_in_the_floor_is_out_within_20_ms_at_rest(load: Load, depth: float, stiffness: float) -> None:
+def test_a_box_that_starts_in_the_floor_is_separated_within_20_ms_at_rest(
+    load: Load, depth: float, stiffness: float
+) -> None:
     surface = f"<contact><ode><kp>{stiffness}</kp><kd>100</kd></ode></contact>"
     sim = load(box("b", f"0 0 {0.2 - depth} 0 0 0.3", surface=surface))
     for _ in range(2):
@@ -57,7 +59,7 @@ def test_a_box_that_begins_in_the_floor_is_out_within_20_ms_at_rest(load: Load, 
         sim["b"].set_pose(Pose.from_rpy(0.0, 0.0, 0.2 - depth, 0.0, 0.0, 0.3))
 
 
-def test_two_boxes_part_by_their_masses_and_what_is_elsewhere_stays(load: Load) -> None:
+def test_two_boxes_separate_by_their_masses_and_others_stay(load: Load) -> None:
     sim = load(box("light", "0 0 0.2 0 0 0"), box("heavy", "0.35 0 0.2 0 0 0", mass=4.0), box("far", "3 0 2 0 0 0"))
     sim["far"].set_twist(Twist((1.0, 0.0, 0.0)))
     sim.run(0.02)
@@ -71,9 +73,7 @@ def test_two_boxes_part_by_their_masses_and_what_is_elsewhere_stays(load: Load) 
 
 
 @pytest.mark.parametrize("balls", [((0.15, 0), (-0.15, 0)), ((-0.15, 0),)])
-def test_a_robot_that_is_spawned_in_the_ground_stands_upright_on_it(
-    load: Load, balls: tuple[tuple[float, float], ...]
-) -> None:
+def test_a_robot_spawned_in_the_ground_stands_upright_on_it(load: Load, balls: tuple[tuple[float, float], ...]) -> None:
     vehicle = Vehicle(wheels=((0.05, 0.15), (0.05, -0.15)), balls=balls)
     sim = load(vehicle.sdf().replace('<link name="chassis">', '<pose>0 0 -0.06 0 0 0</pose><link name="chassis">', 1))
     sim.run(0.2)
@@ -104,7 +104,7 @@ SLAB = """<model name="floor"><static>true</static><pose>0 0 -1 0 0 0</pose><lin
         Vehicle(wheels=((0.25, 0.3), (-0.25, 0.3), (0.25, -0.3), (-0.25, -0.3)), mass=10.0, wheel_mass=2.0),
     ],
 )
-def test_a_robot_that_is_spawned_30_cm_in_the_ground_is_out_at_once_and_settles(
+def test_a_robot_spawned_30_cm_in_the_ground_is_separated_at_once_and_settles(
     tmp_path: Path, ground: str, contact: str, depth: float, speed: float, vehicle: Vehicle
 ) -> None:
     surface = f"<contact><ode>{contact}</ode></contact></surface>"

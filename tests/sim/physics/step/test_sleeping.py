@@ -58,7 +58,7 @@ def asleep(load: Load, *models: str) -> Simulation:
     return sim
 
 
-def test_sleep_changes_nothing_that_can_be_seen(load: Load) -> None:
+def test_sleeping_does_not_change_the_results(load: Load) -> None:
     ends: list[list[float]] = []
     for sleeps in (True, False):
         pile = [box(f"b{i}", f"0 0 {0.1 + 0.2 * i} 0 0 {0.1 * i}", sleeps=sleeps) for i in range(5)]
@@ -69,14 +69,14 @@ def test_sleep_changes_nothing_that_can_be_seen(load: Load) -> None:
     assert ends[0] == pytest.approx(ends[1], abs=1e-6)
 
 
-def test_a_push_wakes(load: Load) -> None:
+def test_a_push_wakes_a_sleeping_body(load: Load) -> None:
     sim = asleep(load, box("b", "0 0 0.1 0 0 0", mu=0.0))
     sim["b"].apply_wrench(Wrench(force=(1.0, 0.0, 0.0)))
     sim.run(0.5)
     assert sim["b"].pose.position[0] == pytest.approx(0.125, rel=0.01)
 
 
-def test_an_order_to_a_joint_wakes_and_the_same_again_does_not(load: Load) -> None:
+def test_a_new_joint_command_wakes_and_its_repetition_does_not(load: Load) -> None:
     sim = asleep(load, box("b", "0 0 0.1 0 0 0", extra=ARM))
     joint = sim["b"].joint("j")
     joint.command_position(0.5)
@@ -93,7 +93,7 @@ def test_an_order_to_a_joint_wakes_and_the_same_again_does_not(load: Load) -> No
     assert joint.velocity == pytest.approx(1.0, rel=0.01)
 
 
-def test_what_is_put_elsewhere_falls_from_there(load: Load) -> None:
+def test_a_teleported_body_falls_from_its_new_pose(load: Load) -> None:
     sim = asleep(load, box("b", "0 0 0.1 0 0 0"), box("c", "3 0 0.1 0 0 0"))
     sim["b"].set_pose(Pose((0.0, 0.0, 1.1)))
     sim["c"].set_twist(Twist(linear=(0.0, 0.0, 2.0)))
@@ -102,7 +102,7 @@ def test_what_is_put_elsewhere_falls_from_there(load: Load) -> None:
     assert sim["c"].pose.position[2] == pytest.approx(0.1 + 2.0 * 0.2 - 9.8 * 0.02, abs=0.01)
 
 
-def test_what_is_hit_wakes_and_what_it_leans_on_with_it(load: Load) -> None:
+def test_a_hit_wakes_a_body_and_the_body_it_leans_on(load: Load) -> None:
     sim = asleep(load, box("low", "0 0 0.1 0 0 0"), box("high", "0 0 0.3 0 0 0"), box("ram", "-1 0 0.1 0 0 0", mu=0.0))
     sim["ram"].set_twist(Twist(linear=(3.0, 0.0, 0.0)))
     sim.run(1.0)
@@ -110,21 +110,21 @@ def test_what_is_hit_wakes_and_what_it_leans_on_with_it(load: Load) -> None:
     assert math.dist(sim["high"].pose.position, (0.0, 0.0, 0.3)) > 0.01
 
 
-def test_what_is_about_to_slide_never_freezes(load: Load) -> None:
+def test_a_body_about_to_slide_never_sleeps(load: Load) -> None:
     tilt, mu = 0.35, 0.999 * math.tan(0.35)
     slope = FLOOR.replace("<static>", f"<pose>0 0 0 0 {tilt} 0</pose><static>")
     x, z = 0.1 * math.sin(tilt), 0.1 * math.cos(tilt)
     sim = load(box("b", f"{x} 0 {z} 0 {tilt} 0", mu=mu), floor=slope)
     sim.run(2.0)  # it settles with a jerk
-    places: list[float] = []
+    positions: list[float] = []
     for _ in range(3):
-        places.append(sim["b"].pose.position[0] / math.cos(tilt))
+        positions.append(sim["b"].pose.position[0] / math.cos(tilt))
         sim.run(1.0)
-    first, second, third = places
+    first, second, third = positions
     assert third - 2 * second + first == pytest.approx(9.8 * 0.001 * math.sin(tilt), rel=0.01)
 
 
-def test_a_state_saved_asleep_goes_on_to_the_bit(load: Load) -> None:
+def test_a_state_saved_asleep_continues_equally_to_the_bit(load: Load) -> None:
     sim = asleep(load, box("b", "0 0 0.1 0 0 0"), box("c", "0 0 0.3 0 0 0"))
     saved = sim.save()
     ends: list[bytes] = []
@@ -138,24 +138,26 @@ def test_a_state_saved_asleep_goes_on_to_the_bit(load: Load) -> None:
     assert ends[0] == ends[1]
 
 
-def test_a_world_that_sleeps_as_a_whole_is_not_stepped_and_goes_on_to_the_bit(
+def test_a_world_asleep_as_a_whole_is_not_stepped_and_continues_to_the_bit(
     load: Load, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     sim = asleep(load, box("b", "0 0 0.1 0 0 0"), box("c", "0 0 0.3 0 0 0", extra=ARM))
     saved, steps, whole = sim.save(), 3 * DECISION_PERIOD, mujoco.mj_step
     ends: list[bytes] = []
     for at_once in (steps, 1):
-        taken: list[int] = []
+        step_counts: list[int] = []
 
-        def counted(model: mujoco.MjModel, data: mujoco.MjData, nstep: int = 1, taken: list[int] = taken) -> None:
-            taken.append(nstep)
+        def counted(
+            model: mujoco.MjModel, data: mujoco.MjData, nstep: int = 1, step_counts: list[int] = step_counts
+        ) -> None:
+            step_counts.append(nstep)
             whole(model, data, nstep=nstep)
 
         monkeypatch.setattr(mujoco, "mj_step", counted)
         sim.restore(saved)
         for _ in range(steps // at_once):
             sim.step(at_once)
-        assert sum(taken) < 10 if at_once > 1 else sum(taken) == steps
+        assert sum(step_counts) < 10 if at_once > 1 else sum(step_counts) == steps
         sim["c"].joint("j").command_velocity(1.0)
         sim.step(300)
         data = sim.engine.save().data
@@ -165,7 +167,7 @@ def test_a_world_that_sleeps_as_a_whole_is_not_stepped_and_goes_on_to_the_bit(
     assert sim.time_ns == (2000 + steps + 300) * 1_000_000
 
 
-def test_what_sleeps_still_touches(load: Load) -> None:
+def test_sleeping_bodies_have_contacts(load: Load) -> None:
     sim = asleep(load, box("b", "0 0 0.1 0 0 0"))
     before = sim.snapshot().poses.tobytes()
     contacts = sim.contacts()
@@ -174,12 +176,12 @@ def test_what_sleeps_still_touches(load: Load) -> None:
     assert sim.snapshot().poses.tobytes() == before
 
 
-def test_islands_are_looked_for_only_where_half_of_the_world_is_at_rest(load: Load) -> None:
-    """A box that slides straight moves in one of six ways, and is not at rest in the other five."""
+def test_sleeping_is_enabled_only_if_half_of_the_world_is_at_rest(load: Load) -> None:
+    """A box that slides straight moves in one of six degrees of freedom, and is not at rest in the other five."""
     sliding = [box(f"s{i}", f"0 {i} 0.1 0 0 0", mu=0.0) for i in range(3)]
-    standing = [box(f"b{i}", f"5 {i} 0.1 0 0 0") for i in range(3)]
+    resting = [box(f"b{i}", f"5 {i} 0.1 0 0 0") for i in range(3)]
     rests: list[bool] = []
-    for models in (sliding, [*sliding, *standing]):
+    for models in (sliding, [*sliding, *resting]):
         sim = load(*models)
         for i in range(3):
             sim[f"s{i}"].set_twist(Twist((1.0, 0.0, 0.0)))
@@ -189,8 +191,8 @@ def test_islands_are_looked_for_only_where_half_of_the_world_is_at_rest(load: Lo
 
 
 @pytest.mark.parametrize("drive", ["velocity", "position"])
-def test_a_motor_that_presses_asleep_still_exerts_its_effort(load: Load, drive: str) -> None:
-    """A slider that a wall stops, alone and beside bodies that rest."""
+def test_a_sleeping_motor_that_presses_reports_its_effort(load: Load, drive: str) -> None:
+    """A slider stopped by a wall, alone and next to resting bodies."""
     slide = (
         '<joint name="j" type="prismatic"><parent>world</parent><child>l</child><axis><xyz>1 0 0</xyz></axis></joint>'
     )

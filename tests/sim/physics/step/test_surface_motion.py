@@ -30,7 +30,7 @@ def sim(tmp_path: Path) -> Simulation:
 
 
 def test_a_belt_carries_a_block_against_its_own_motion(sim: Simulation) -> None:
-    """Friction of 0.8 brings it to 0.5 m/s in 62.5 ms; the block beside stays."""
+    """Friction of 0.8 brings it to 0.5 m/s in 62.5 ms; the block next to it stays."""
     sim["block"].link("l").set_surface_motion(SurfaceMotion(direction=X, speed=-0.5))
     sim.run(1.0)
 
@@ -42,7 +42,7 @@ def test_a_belt_carries_a_block_against_its_own_motion(sim: Simulation) -> None:
     assert sim["block"].link("l").twist.linear == pytest.approx((0, 0, 0), abs=1e-5)
 
 
-def test_of_two_belts_that_stand_only_the_one_that_runs_carries(tmp_path: Path) -> None:
+def test_only_the_running_one_of_two_static_belts_carries(tmp_path: Path) -> None:
     belt = """<model name="{}"><static>true</static><pose>{} 0 0.05 0 0 0</pose><link name="l"><collision name="c">
     <geometry><box><size>2 2 0.1</size></box></geometry></collision></link></model>"""
     models = belt.format("runs", 0) + belt.format("rests", 5) + BLOCK.format("block", 0) + BLOCK.format("other", 5)
@@ -57,7 +57,7 @@ def test_of_two_belts_that_stand_only_the_one_that_runs_carries(tmp_path: Path) 
     assert sim["other"].link("l").twist.linear == pytest.approx((0, 0, 0), abs=1e-5)
 
 
-def test_a_track_runs_its_robot_forwards_and_skids_about_the_point_it_turns_about(tmp_path: Path) -> None:
+def test_a_track_drives_its_robot_and_skids_about_the_centre_of_rotation(tmp_path: Path) -> None:
     """Straight on it drives at the belt's speed; turning, friction acts across the way to that point alone."""
     file = tmp_path / "w.sdf"
     slippery = BLOCK.format("block", 0).replace(f"<mu2>{MU}</mu2>", "<mu2>0.001</mu2>")
@@ -77,7 +77,7 @@ def test_a_track_runs_its_robot_forwards_and_skids_about_the_point_it_turns_abou
 
 
 @pytest.mark.parametrize("along", [X, Y])
-def test_slip_grows_with_the_force_and_across_it_friction_holds(sim: Simulation, along: tuple[float, ...]) -> None:
+def test_slip_grows_with_the_force_and_friction_holds_across_it(sim: Simulation, along: tuple[float, ...]) -> None:
     """v = F · slip · (1 − e^(−t / (m · slip))), with a direction that slips along or across the one given."""
     slip = 0.1
     link = sim["block"].link("l")
@@ -108,7 +108,7 @@ def test_beyond_friction_a_slipping_surface_slides(sim: Simulation) -> None:
     assert link.twist.linear[0] - before == pytest.approx(4.0 / MASS * 0.5, rel=1e-2)
 
 
-def test_laws_outlive_what_comes_and_goes_and_saved_states_repeat(sim: Simulation) -> None:
+def test_contact_laws_survive_spawns_and_deletions_and_saved_states_repeat(sim: Simulation) -> None:
     link = sim["block"].link("l")
     link.set_surface_motion(SurfaceMotion(direction=X, speed=-0.5, slip=0.01))
     sim.delete("floor")

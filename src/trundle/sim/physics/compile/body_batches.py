@@ -9,7 +9,7 @@ from trundle.spatial import Pose
 from .solver_settings import apply_settings, silence_log
 
 _MANY = 250
-"""Bodies from which on a batch takes no more trees."""
+"""Number of bodies at which a batch is full."""
 
 
 class BodyBatches:
@@ -20,9 +20,9 @@ class BodyBatches:
         self._world = spec.worldbody
         self._frames: list[mujoco.MjsFrame] = []
         self._free = _MANY
-        """Number of bodies that the last batch still takes."""
+        """Number of bodies that still fit into the last batch."""
         self.bodies = [self._world]
-        """All, the world's first."""
+        """All bodies, the world's first."""
 
     def add_body(self, parent: mujoco.MjsBody | None, *, name: str, pose: Pose) -> mujoco.MjsBody:
         """Add a body below another, or below the world if there is no other."""
@@ -38,7 +38,9 @@ class BodyBatches:
     def _start_batch(self) -> None:
         batch = mujoco.MjSpec()
         apply_settings(batch)
-        batch.default.name = f"batch{len(self._frames)}"  # attached along; defaults of one name would make invalid MJCF
+        batch.default.name = (
+            f"batch{len(self._frames)}"  # attached too; equal names of defaults would make invalid MJCF
+        )
         self._world = batch.worldbody
         self._frames.append(self._world.add_frame())
         self._free = _MANY

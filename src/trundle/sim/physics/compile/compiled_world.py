@@ -36,7 +36,7 @@ class CompiledWorld(Struct, frozen=True, eq=False):
     first_axes: _Indices
     """First axis of each joint; −1 if it has none."""
     axis_qpos: _Indices
-    """Address of the axis in qpos; for the axes of a ball joint that of its quaternion."""
+    """Address of the axis in qpos; for the axes of a ball joint, the address of its quaternion."""
     axis_dof: _Indices
     axis_actuator: _Indices
     """Actuator of the axis; −1 for a ball joint."""
@@ -111,11 +111,11 @@ def index_world(
 
 
 def _joint_anchor(edge: JointEdge, tree: KinematicTree, numbers: Mapping[str, int]) -> tuple[int, Vector3, float]:
-    for below, sign in ((edge.child, 1.0), (edge.parent, -1.0)):
-        held = tree.parent_joint.get(below)
-        if held is not None and held.name == edge.name:
-            anchor = tree.links[below].world_from_link_at_zero.inverse().transform_point(edge.world_from_joint.position)
-            return numbers[below], anchor, sign
+    for link, sign in ((edge.child, 1.0), (edge.parent, -1.0)):
+        joint = tree.parent_joint.get(link)
+        if joint is not None and joint.name == edge.name:
+            anchor = tree.links[link].world_from_link_at_zero.inverse().transform_point(edge.world_from_joint.position)
+            return numbers[link], anchor, sign
     return -1, ZERO, 1.0
 
 

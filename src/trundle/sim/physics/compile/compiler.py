@@ -51,10 +51,10 @@ def compile_world(
     """Compile a world; values that MuJoCo cannot use are replaced with a warning.
 
     Args:
-        world: as read.
-        report: takes the warnings.
+        world: world, nested models allowed.
+        report: receives the warnings.
         cut_meshes: decompose concave meshes into convex pieces; else each mesh is its convex hull.
-        cutting: does so in the background where it takes long, while hulls stand in; None: it is waited for.
+        cutting: decomposes slow meshes in the background while their hulls stand in; None: all are decomposed first.
 
     Raises:
         DescriptionError: MuJoCo refuses the model.
@@ -92,8 +92,8 @@ class Compiler:
         body at every step.
         """
         parts = Counter(edge.child for edge in self.tree.loops)
-        self.mass_share = {name: 1 / (1 + parts[name]) for name in self.tree.links}
-        """Share of a link's mass in its body: a link that closes a loop is split into equal parts."""
+        self.mass_ratio = {name: 1 / (1 + parts[name]) for name in self.tree.links}
+        """Ratio of a body's mass to its link's: a link that closes a loop is split into equal parts."""
         self.bodies: dict[str, mujoco.MjsBody] = {}
         self.refused_moments: dict[str, list[float]] = {}
         """Body → moments of inertia that MuJoCo simulates, but does not compile."""
@@ -133,24 +133,24 @@ class Compiler:
         shapes: Sequence[ShapeEntry] | None = None,
         like: CompiledWorld | None = None,
     ) -> CompiledWorld:
-        """Write to MuJoCo's model what MuJoCo does not compute, and index it.
+        """Complete MuJoCo's model with compliance and the tables of contact laws, and index it.
 
         Args:
-            model: as compiled.
+            model: MuJoCo's compiled model.
             pair_params: contact parameters of its shape pairs.
-            world: with other numbers; None: the one of this compiler.
-            shapes: with other surfaces; None: those of this compiler.
-            like: has the same index.
+            world: world with the new numbers; None: the compiler's own.
+            shapes: shapes with the new surfaces; None: the compiler's own.
+            like: compiled world with the same index; None: the index is built.
         """
         world, shapes = world or self.world, self.shapes if shapes is None else shapes
         choose_jacobian(model)
-        yields = set_compliance(model, pair_params)
+        contact_springs = set_compliance(model, pair_params)
         if like is None:
             collisions = {shape.name: shape.collision for shape in self.shapes}
             like = index_world(world, self.tree, self.joints.axes, collisions, model)
             start = initial_positions(model, self.tree, self.joints.axes, self.report)
             like = replace(like, initial_qpos=start)
-        fill_tables(model, pair_params, shapes, like.link_bodies.tolist(), world, yields)
+        fill_tables(model, pair_params, shapes, like.link_bodies.tolist(), world, contact_springs)
         enable_ccd(model, shapes)
         return replace(like, world=world, model=model)
 
@@ -167,7 +167,7 @@ class Compiler:
             self._close_loop(edge)
         collisions = (collision for node in self.tree.links.values() for collision in node.link.collisions)
         if self.cuts_meshes and any(isinstance(collision.geometry, MeshFile) for collision in collisions):
-            from .mesh_shapes import cut_meshes  # a world without meshes starts without what cuts them
+            from .mesh_shapes import cut_meshes  # worlds without meshes do not import the decomposition
 
             self.decomposition = cut_meshes(self.tree, self._cutting)
         for node in self.tree.links.values():
@@ -183,7 +183,7 @@ class Compiler:
         return pair_params
 
     def compile_spec(self) -> mujoco.MjModel:
-        """Compile the specification; MuJoCo's errors and warnings are passed on."""
+        """Compile the specification; raise MuJoCo's errors and report its warnings."""
         self._set_memory()
         with native_output_hidden(), warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -191,16 +191,16 @@ class Compiler:
             try:
                 compiled = self.spec.compile()
             except ValueError as error:
-                what = " ".join(str(error).split())
-                raise DescriptionError(self.world.at, f"the engine cannot simulate this: {what}") from None
+                problem = " ".join(str(error).split())
+                raise DescriptionError(self.world.at, f"the engine cannot simulate this: {problem}") from None
         for warning in caught:
             self.report.warn(self.world.at, f"MuJoCo warns: {' '.join(str(warning.message).split())}")
         return compiled
 
     def _set_memory(self) -> None:
-        """Size the engine's working memory for many bodies, of which only what is used is real.
+        """Size MuJoCo's arena for many bodies; the operating system provides only the pages in use.
 
-        MuJoCo's own size leaves too little for static bodies, and asks for a terabyte for 13,000 bodies.
+        MuJoCo's default is too small for static bodies, and a terabyte for 13,000 bodies.
         """
         bodies = self.batches.bodies
         if len(bodies) < _MANY_BODIES:
@@ -214,19 +214,19 @@ class Compiler:
     def _add_link(self, node: LinkNode) -> None:
         """Add a link's body, after the bodies of its ancestors."""
         chain: list[LinkNode] = []
-        below: LinkNode | None = node
-        while below is not None and below.name not in self.bodies:
-            chain.append(below)
-            edge = self._parent_joint(below)
-            below = None if edge is None or edge.parent == WORLD else self.tree.links[edge.parent]
-        for each in reversed(chain):
-            edge = self._parent_joint(each)
-            body = self._add_body(each.name, each, edge)
+        current: LinkNode | None = node
+        while current is not None and current.name not in self.bodies:
+            chain.append(current)
+            edge = self._parent_joint(current)
+            current = None if edge is None or edge.parent == WORLD else self.tree.links[edge.parent]
+        for member in reversed(chain):
+            edge = self._parent_joint(member)
+            body = self._add_body(member.name, member, edge)
             if edge is not None:
-                self.joints.add(body, edge, each.world_from_link_at_zero)
-            elif not each.fixed:
-                body.add_freejoint(name=f"{each.name}::free")
-            self.bodies[each.name] = body
+                self.joints.add(body, edge, member.world_from_link_at_zero)
+            elif not member.fixed:
+                body.add_freejoint(name=f"{member.name}::free")
+            self.bodies[member.name] = body
 
     def _parent_joint(self, node: LinkNode) -> JointEdge | None:
         return None if node.fixed else self.tree.parent_joint.get(node.name)
@@ -240,20 +240,20 @@ class Compiler:
         self.report.info(edge.joint.at, f"joint {edge.joint.name!r} closes a loop of links; a constraint holds it")
 
     def _add_body(self, name: str, node: LinkNode, edge: JointEdge | None) -> mujoco.MjsBody:
-        """Add a body for a link, or for its share of a split one, below the parent of `edge`."""
-        link, share = node.link, self.mass_factor(node)
+        """Add a body for a link, or for a part of a split one, below the parent of `edge`."""
+        link, ratio = node.link, self.mass_factor(node)
         parent, world_from_parent = None, Pose()
         if edge is not None and edge.parent != WORLD:
             parent, world_from_parent = self.bodies[edge.parent], self.tree.links[edge.parent].world_from_link
-        held = None if edge is None else edge.parent_from_child
-        pose = world_from_parent.inverse() @ node.world_from_link if held is None else held
+        parent_from_child = None if edge is None else edge.parent_from_child
+        pose = world_from_parent.inverse() @ node.world_from_link if parent_from_child is None else parent_from_child
         body = self.batches.add_body(parent, name=name, pose=pose)
         if not node.fixed:
             mass, axes, moments = principal_inertia(link, self.report)
             possible = possible_moments(moments)
             if possible != moments:
-                self.refused_moments[name] = [moment * share for moment in moments]
-            body.mass, body.inertia, body.explicitinertial = mass * share, [m * share for m in possible], True
+                self.refused_moments[name] = [moment * ratio for moment in moments]
+            body.mass, body.inertia, body.explicitinertial = mass * ratio, [m * ratio for m in possible], True
             body.ipos, body.iquat = axes.position, axes.quaternion
         if not link.gravity or link.kinematic:
             body.gravcomp = 1.0
@@ -261,23 +261,23 @@ class Compiler:
 
     def mass_factor(self, node: LinkNode) -> float:
         """Return the factor from a link's mass to that of its body."""
-        return self.mass_share[node.name] * (_KINEMATIC_MASS if node.link.kinematic else 1.0)
+        return self.mass_ratio[node.name] * (_KINEMATIC_MASS if node.link.kinematic else 1.0)
 
     def _add_collision(self, node: LinkNode, collision: Collision) -> None:
         fixed = node.name in self.tree.immobile
         body = self.bodies[node.name]
         if isinstance(collision.geometry, Plane | Heightmap) and not fixed:
-            what = "plane" if isinstance(collision.geometry, Plane) else "heightmap"
-            self.report.warn(collision.at, f"collision {collision.name!r}: a {what} cannot move; it is left out")
+            kind = "plane" if isinstance(collision.geometry, Plane) else "heightmap"
+            self.report.warn(collision.at, f"collision {collision.name!r}: a {kind} cannot move; it is left out")
             return
         if fixed and collision.surface.fdir1 != ZERO:
-            what = "its <fdir1> does not count: as in Gazebo, that of what moves on it does"
-            self.report.info(collision.at, f"collision {collision.name!r}: {what}")
+            note = "its <fdir1> does not count: as in Gazebo, the moving collision's does"
+            self.report.info(collision.at, f"collision {collision.name!r}: {note}")
         name = self._shape_name(f"{node.name}::{collision.name}")
         parts = [(collision, name, CollidesWith.ALL, 1)]
         tread = tread_of(collision, node, self.tree)
         if tread is not None:
-            on = CollidesWith.PLANES | CollidesWith.STANDING
+            on = CollidesWith.PLANES | CollidesWith.FIXED
             rolling = replace(collision, geometry=tread)
             parts = [
                 (rolling, f"{name}::tread", on, TREAD_POINTS),
@@ -319,7 +319,7 @@ class Compiler:
         )
 
     def _shape_name(self, name: str) -> str:
-        """Return a unique name: collisions of one link may share theirs."""
+        """Return a unique name: collisions of one link may share a name."""
         unique, number = name, 2
         while unique in self.shape_names:
             unique, number = f"{name}#{number}", number + 1

@@ -34,10 +34,10 @@ _HOLD = 2000.0
 """Damping of friction in soft contacts [1/h]: resting bodies creep as little as on a hard floor."""
 _STIFFEST = 0.05
 """Stiffness over mass [1/h²] at which a step no longer resolves a spring, which is then a hard contact."""
-_LEAST_IMPLICIT = 0.01
+_MIN_IMPLICIT = 0.01
 """Smallest implicit part of a spring's stiffness."""
 _HARD = 1e11
-"""Stiffness [N/m] that no file means as soft; SDF's default is 1e12."""
+"""Stiffness [N/m] from which on a contact is hard; SDF's default is 1e12."""
 _UNCAPPED = 10.0
 """Speed [m/s] of depth correction from which on a spring's recoil counts as free."""
 _SHALLOW = 5e-5
@@ -61,13 +61,13 @@ def rest_depth(load: float, *, kp: float, kd: float, max_vel: float, h: float, g
     """Return the depth [m] at which one contact point carries a load [N], by the rule of Gazebo's ODE.
 
     With erp = h kp / (h kp + kd) and cfm = 1 / (h kp + kd), ODE solves each step twice: for positions with a correction
-    of erp · depth / h, and for velocities with at most max_vel; in both the points yield by cfm · force. At rest the
-    position stays, and the velocity is max_vel − cfm · load, if that is below 0, for ever: the next step's correction
-    makes up for it, too. It is erp · depth / h = cfm (load − m u / h) for the mass m = load / g on the point and the
+    of erp · depth / h, and for velocities with at most max_vel; in both the points yield by cfm · force. At rest
+    the position is constant; if max_vel − cfm · load is below 0, the velocity stays there, and the next step's
+    correction cancels it: erp · depth / h = cfm (load − m u / h) for the mass m = load / g on the point and the
     velocity u.
 
     Args:
-        load: on the point [N].
+        load: force on the point [N].
         kp: stiffness [N/m].
         kd: damping [N·s/m].
         max_vel: largest speed of correction [m/s].
@@ -85,14 +85,14 @@ def is_deep(weight: float, *, kp: float, kd: float, max_vel: float, h: float, gr
     return rest_depth(weight, kp=kp, kd=kd, max_vel=max_vel, h=h, gravity=gravity) > _SHALLOW
 
 
-def surface_gives(surface: Surface, mass: float, *, h: float, gravity: float) -> bool:
+def is_compliant(surface: Surface, mass: float, *, h: float, gravity: float) -> bool:
     """True if a surface yields under or on a body of a mass [kg], at a time step [s] and gravity [m/s²]."""
     limits = {"kp": surface.kp, "kd": max(surface.kd, 0.0), "max_vel": surface.max_vel}
     return is_soft(surface.kp, 1 / mass, h) or is_deep(mass * gravity, **limits, h=h, gravity=gravity)
 
 
 def has_compliance(params: ContactParams, h: float) -> bool:
-    """True if a pair has a min_depth, a spring stiffer than `_spring` can express, or a capped one."""
+    """True if a pair has a min_depth, a capped correction, or a spring stiffer than `_spring` can express."""
     if params.kp >= _HARD:
         return params.min_depth > 0.0
     return params.min_depth > 0.0 or params.kd < h * params.kp or is_capped(params.max_vel)
@@ -103,28 +103,28 @@ def pair_name(a: str, b: str) -> str:
     return f"{a} {b}"
 
 
-class Yield(Struct, frozen=True):
-    """Spring of a pair of geoms as far as the model does not have it; see `cpp/contact/contact_offset.h`."""
+class ContactSpring(Struct, frozen=True):
+    """Part of a pair's spring that a MuJoCo model cannot express; see `cpp/contact/contact_offset.h`."""
 
     factor: float = 1.0
-    """From its stiffness in the model to kp."""
+    """Ratio of kp to the stiffness in the model."""
     rate: float = 0.0
-    """erp / h [1/s] where the correction is capped, else 0."""
+    """erp / h [1/s] if the correction is capped, else 0."""
     max_vel: float = 0.0
     """[m/s]"""
 
 
 def set_compliance(
     model: mujoco.MjModel, pair_params: Mapping[tuple[str, str], ContactParams]
-) -> dict[tuple[int, int], Yield]:
+) -> dict[tuple[int, int], ContactSpring]:
     """Set each pair's compliance from its kp and kd, or, for hard surfaces, from the compliance of its tree's contact
     points.
 
     Returns:
-        Pair of geoms → what else the contact laws need, of soft pairs.
+        Springs of the soft pairs, by pair of geoms.
     """
     softness = _tree_softness(model)
-    yields: dict[tuple[int, int], Yield] = {}
+    springs: dict[tuple[int, int], ContactSpring] = {}
     h, gravity = model.opt.timestep, math.hypot(*model.opt.gravity)
     for (a, b), params in pair_params.items():
         geoms = int(model.geom(a).id), int(model.geom(b).id)
@@ -134,28 +134,28 @@ def set_compliance(
         if _is_spring(params, inverse_mass, _weight(model, bodies), h, gravity):
             implicit = _implicit_stiffness(params, inverse_mass, h)
             rate = params.kp / (h * params.kp + params.kd) if is_capped(params.max_vel) else 0.0
-            yields[geoms] = Yield(params.kp / implicit, rate, params.max_vel)
+            springs[geoms] = ContactSpring(params.kp / implicit, rate, params.max_vel)
             model.pair_solref[pair] = _spring(params, implicit, inverse_mass, h)
             model.pair_solimp[pair, :2] = _SOFT
             model.pair_solreffriction[pair] = (-1.0, -_SOFT * _HOLD / h)
         else:
             trees = [int(tree) for tree in model.body_treeid[bodies] if tree >= 0]
             if len(trees) == 1 and trees[0] in softness:
-                share = softness[trees[0]] / max(params.points, 1)
-                model.pair_solimp[pair, :2] = min(1 - share / inverse_mass, _HARDEST)
-    return yields
+                softness_per_point = softness[trees[0]] / max(params.points, 1)
+                model.pair_solimp[pair, :2] = min(1 - softness_per_point / inverse_mass, _HARDEST)
+    return springs
 
 
 def _is_spring(params: ContactParams, inverse_mass: float, weight: float, h: float, gravity: float) -> bool:
-    """True if a pair yields as a spring; one of capped correction, if it sinks to its min_depth or rests deep under a
+    """True if a pair is simulated as a spring; with a capped correction, if it has a min_depth or rests deep under a
     weight [N] on one point.
     """
-    points = params.points if params.points >= 1 else TREAD_POINTS  # as the tread beside it
+    points = params.points if params.points >= 1 else TREAD_POINTS  # as the tread's
     capped, limits = is_capped(params.max_vel), {"kp": params.kp, "kd": params.kd, "max_vel": params.max_vel}
     if capped and is_deep(weight, **limits, h=h, gravity=gravity):
         return True
-    swings_or_sinks = not capped or params.min_depth > 0.0
-    return swings_or_sinks and is_soft(params.kp * points, inverse_mass, h, min_depth=params.min_depth)
+    oscillates_or_sinks = not capped or params.min_depth > 0.0
+    return oscillates_or_sinks and is_soft(params.kp * points, inverse_mass, h, min_depth=params.min_depth)
 
 
 def _weight(model: mujoco.MjModel, bodies: Sequence[int]) -> float:
@@ -168,14 +168,14 @@ def _weight(model: mujoco.MjModel, bodies: Sequence[int]) -> float:
 def _implicit_stiffness(params: ContactParams, inverse_mass: float, h: float) -> float:
     """Return the part of kp [N/m] that acts on the depth at the end of a step, and so damps by h times itself.
 
-    More than kd / h would damp more than kd does. The rest acts on the depth at the start of the step, which alone is
-    stable up to `_STIFFEST`. A pair with a min_depth, which holds and does not swing, has no such rest, nor has one of
-    capped correction, which has the damping of ODE's step, too.
+    More than kd / h would damp more than kd does. The rest acts on the depth at the start of the step, stable up to
+    `_STIFFEST`. There is no rest for a pair with a min_depth, which does not oscillate, nor for a capped correction,
+    which is damped as in ODE's step.
     """
     explicit = _STIFFEST / (inverse_mass * params.points * h * h)
     if params.min_depth > 0.0 or is_capped(params.max_vel):
         return params.kp
-    return min(params.kp, max(params.kd / h, params.kp - explicit, _LEAST_IMPLICIT * params.kp))
+    return min(params.kp, max(params.kd / h, params.kp - explicit, _MIN_IMPLICIT * params.kp))
 
 
 def _spring(params: ContactParams, implicit: float, inverse_mass: float, h: float) -> tuple[float, float]:
@@ -184,15 +184,15 @@ def _spring(params: ContactParams, implicit: float, inverse_mass: float, h: floa
     Its force is (K d · depth + B · speed) / R with R = A (1 − d) / d, K = −solref₀ / d² and B = −solref₁ / d. MuJoCo
     uses the depth at the end of the step, so the spring itself damps by h times its stiffness.
     """
-    reach = inverse_mass * (1 - _SOFT) * params.points
+    scale = inverse_mass * (1 - _SOFT) * params.points
     damping = params.kd if is_capped(params.max_vel) else max(params.kd - h * implicit, 0.0)
-    return -implicit * reach, -damping * reach
+    return -implicit * scale, -damping * scale
 
 
 def _tree_softness(model: mujoco.MjModel) -> dict[int, float]:
     """Return A · (1 − d) of one contact point of each free tree, from the body with the smallest inverse weight.
 
-    A load presses a contact in by the same factor, because the stiffness of its spring has a 1 / d, too.
+    A load deepens a contact by the same factor, because its spring's stiffness contains 1 / d.
     """
     free = {int(model.body_treeid[model.jnt_bodyid[j]]) for j in np.flatnonzero(model.jnt_type == _FREE)}
     weights: NDArray[np.float64] = model.body_invweight0[:, 0]

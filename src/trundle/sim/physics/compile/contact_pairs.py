@@ -4,7 +4,7 @@ Gazebo uses the smaller friction of two surfaces, MuJoCo the larger, so each pai
 joint never collide, links of one model only with <self_collide>.
 
 ODE and MuJoCo differ: ODE's friction pyramid becomes a cone where mu = mu2, and max_vel, which limits ODE's depth
-correction, acts on what yields only (see `compliance`): elsewhere initial penetration is resolved at once (see
+correction, acts on soft contacts only (see `compliance`): at hard ones initial penetration is resolved at once (see
 `separation`), impacts are corrected slowly.
 """
 
@@ -17,12 +17,12 @@ import mujoco
 from trundle.base.diagnostics import Diagnostics
 from trundle.robots.model import Model
 
-from .compliance import pair_name, surface_gives
+from .compliance import is_compliant, pair_name
 from .contact_params import ContactParams, bitmasks_match, combine_surfaces, friction_of, frictions_of, is_plain
 from .kinematic_tree import KinematicTree
 from .shape_entry import CollidesWith, ShapeEntry
 from .solver_settings import SOLIMP, contact_solref, limit_solref, sliding_solref
-from .wheels import BESIDE_TREAD
+from .wheels import EDGE_POINTS
 
 MAX_PAIRS = 2000
 """Most pairs of a fixed and a moving shape. Beyond, MuJoCo's broad phase finds contacts: a pair costs about 10 ns per
@@ -54,15 +54,15 @@ def add_contacts(
     special = _needs_pairs(spec, shapes, models, tree, report)
     if len(fixed) * len(moving) > MAX_PAIRS:
         # Planes, under most bodies, keep their pairs: only a pair's solreffriction keeps sliding bodies from hopping.
-        found = [shape for shape in fixed if shape.name not in special and shape.kind is CollidesWith.STANDING]
-        finding = [
-            shape for shape in moving if shape.name not in special and shape.collides_with & CollidesWith.STANDING
+        searched = [shape for shape in fixed if shape.name not in special and shape.kind is CollidesWith.FIXED]
+        searching = [
+            shape for shape in moving if shape.name not in special and shape.collides_with & CollidesWith.FIXED
         ]
-        _enable_search_of_fixed(found, finding, h=spec.option.timestep, ranks=ranks)
-        _exclude_pairs(spec, rules.near_pairs(finding, found), rules)
-        names, others = {shape.name for shape in finding}, {shape.name for shape in found}
-        left = [shape for shape in fixed if shape.name not in others]
-        pairs = ((a, b) for a in moving for b in (left if a.name in names else fixed))
+        _enable_search_of_fixed(searched, searching, h=spec.option.timestep, ranks=ranks)
+        _exclude_pairs(spec, rules.near_pairs(searching, searched), rules)
+        searching_names, searched_names = {shape.name for shape in searching}, {shape.name for shape in searched}
+        paired = [shape for shape in fixed if shape.name not in searched_names]
+        pairs = ((a, b) for a in moving for b in (paired if a.name in searching_names else fixed))
         _add_pairs(spec, pairs, rules, pair_params)
     else:
         _add_pairs(spec, product(moving, fixed), rules, pair_params)
@@ -88,21 +88,21 @@ def _needs_pairs(
 ) -> frozenset[str]:
     """Return the names of shapes that need explicit pairs, because of their surface or compliance."""
     h, gravity = spec.option.timestep, math.hypot(*spec.option.gravity)
-    odd = {shape.name for shape in shapes if not is_plain(shape.surface)}
+    not_plain = {shape.name for shape in shapes if not is_plain(shape.surface)}
     heaviest = max((tree.links[shape.link].link.inertial.mass for shape in shapes if not shape.fixed), default=0.0)
 
-    def gives(shape: ShapeEntry) -> bool:
+    def has_soft_contacts(shape: ShapeEntry) -> bool:
         mass = heaviest if shape.fixed else tree.links[shape.link].link.inertial.mass
-        is_held = shape.surface.min_depth > 0 and not shape.fixed
-        return is_held or (mass > 0 and surface_gives(shape.surface, mass, h=h, gravity=gravity))
+        has_min_depth = shape.surface.min_depth > 0 and not shape.fixed
+        return has_min_depth or (mass > 0 and is_compliant(shape.surface, mass, h=h, gravity=gravity))
 
-    giving = [shape for shape in shapes if shape.name not in odd and gives(shape)]
-    if len(giving) * len(shapes) <= MAX_SOFT_PAIRS:
-        return frozenset(odd | {shape.name for shape in giving})
-    first = giving[0]
-    what = f"{len(giving)} of {len(shapes)} shapes are soft (kp, min_depth), the first {first.collision!r}"
-    report.warn(models[first.model].at, f"{what}; they are simulated as hard")
-    return frozenset(odd)
+    soft = [shape for shape in shapes if shape.name not in not_plain and has_soft_contacts(shape)]
+    if len(soft) * len(shapes) <= MAX_SOFT_PAIRS:
+        return frozenset(not_plain | {shape.name for shape in soft})
+    first = soft[0]
+    problem = f"{len(soft)} of {len(shapes)} shapes are soft (kp, min_depth), the first {first.collision!r}"
+    report.warn(models[first.model].at, f"{problem}; they are simulated as hard")
+    return frozenset(not_plain)
 
 
 class _CollisionRules:
@@ -122,12 +122,12 @@ class _CollisionRules:
         return can and bitmasks_match(a.surface, b.surface) and self.links_can_collide(a, b)
 
     def near_pairs(
-        self, some: Iterable[ShapeEntry], others: Iterable[ShapeEntry]
+        self, shapes: Iterable[ShapeEntry], others: Iterable[ShapeEntry]
     ) -> Iterator[tuple[ShapeEntry, ShapeEntry]]:
-        """Yield the pairs, one shape a link, of links that are of one model or joined; any others can collide."""
+        """Yield the pairs of links of one model or joined by a joint, one shape a link; all other pairs can collide."""
         models = _links_of_models(others)
         by_link = {link: shape for links in models.values() for link, shape in links.items()}
-        for links in _links_of_models(some).values():
+        for links in _links_of_models(shapes).values():
             for a in links.values():
                 yield from ((a, b) for b in models.get(a.model, {}).values())
                 yield from ((a, by_link[link]) for link in self._neighbours.get(a.link, ()) if link in by_link)
@@ -155,9 +155,9 @@ def _add_pairs(
 ) -> None:
     for a, b in pairs:
         if rules.can_collide(a, b):
-            points = BESIDE_TREAD if a.has_tread and b.fixed else max(a.points, b.points)
+            points = EDGE_POINTS if a.has_tread and b.fixed else max(a.points, b.points)
             params = pair_params[a.name, b.name] = combine_surfaces(
-                a.surface, b.surface, b_stands=b.fixed, points=points
+                a.surface, b.surface, b_fixed=b.fixed, points=points
             )
             _add_pair(spec, a, b, params)
 
@@ -203,7 +203,7 @@ def _enable_search(moving: Sequence[ShapeEntry], *, h: float, ranks: Mapping[flo
 
 
 def _set_geom_contact(shape: ShapeEntry, h: float, ranks: Mapping[float, int]) -> None:
-    """Set a geom's own contact parameters for collision search; the smaller friction has the higher priority."""
+    """Set a geom's contact parameters for collision search; the smaller friction has the higher priority."""
     mu, geom = friction_of(shape.surface), shape.geom
     geom.priority = ranks[mu]
     geom.friction = [mu, 0.005, 0.0001]
@@ -214,10 +214,10 @@ def _set_geom_contact(shape: ShapeEntry, h: float, ranks: Mapping[float, int]) -
 
 def _exclude_pairs(spec: mujoco.MjSpec, pairs: Iterable[tuple[ShapeEntry, ShapeEntry]], rules: _CollisionRules) -> None:
     """Exclude the body pairs that must not collide from the search."""
-    apart = {
+    excluded = {
         (min(a.link, b.link), max(a.link, b.link))
         for a, b in pairs
         if a.link != b.link and not rules.links_can_collide(a, b)
     }
-    for one, other in sorted(apart):
-        spec.add_exclude(bodyname1=one, bodyname2=other)
+    for first, second in sorted(excluded):
+        spec.add_exclude(bodyname1=first, bodyname2=second)

@@ -40,12 +40,12 @@ def add_hulls(
         return [add_hull(spec, body, pose, f"{name}#{i}", corners) for i, corners in enumerate(pieces)]
     geoms: list[mujoco.MjsGeom] = []
     for first in range(0, len(pieces), _MANY):
-        apart = mujoco.MjSpec()
-        apply_settings(apart)
-        frame = apart.worldbody.add_frame()
-        apart.default.name = f"{first}"  # attached along; a second default of one name would make invalid MJCF
+        part_spec = mujoco.MjSpec()
+        apply_settings(part_spec)
+        frame = part_spec.worldbody.add_frame()
+        part_spec.default.name = f"{first}"  # attached along; a second default of one name would make invalid MJCF
         for i, corners in enumerate(pieces[first : first + _MANY], start=first):
-            geoms.append(add_hull(apart, apart.worldbody, pose, f"{i}", corners))
+            geoms.append(add_hull(part_spec, part_spec.worldbody, pose, f"{i}", corners))
             geoms[-1].set_frame(frame)
         body.attach_frame(frame, f"{name}#", "")
     return geoms
@@ -66,11 +66,11 @@ def thicken(pieces: Sequence[_Points]) -> tuple[list[_Points], float]:
         centred = corners - corners.mean(axis=1, keepdims=True)
         axes = np.linalg.eigh(centred.transpose(0, 2, 1) @ centred)[1]
         is_thin = np.ptp(centred @ axes, axis=1) < thinnest[:, None]
-        for at in np.flatnonzero(is_thin.any(axis=1)).tolist():
-            for axis in axes[at].T[is_thin[at]]:
-                layer, half = thick[numbers[at]], axis * thinnest[at] / 2
-                thick[numbers[at]] = np.concatenate([layer - half, layer + half])
-            thickest = max(thickest, float(thinnest[at]))
+        for row in np.flatnonzero(is_thin.any(axis=1)).tolist():
+            for axis in axes[row].T[is_thin[row]]:
+                layer, half = thick[numbers[row]], axis * thinnest[row] / 2
+                thick[numbers[row]] = np.concatenate([layer - half, layer + half])
+            thickest = max(thickest, float(thinnest[row]))
     return thick, thickest
 
 
@@ -78,6 +78,6 @@ def thick_pieces(pieces: Sequence[_Points], collision: Collision, report: Diagno
     """Return pieces (N, 3) [m] thick enough for a hull, with a warning about flat ones."""
     thick, thickest = thicken(pieces)
     if thickest:
-        what = f"a mesh of zero thickness; physics uses {thickest * 1000:.2g} mm"
-        report.warn(collision.at, f"collision {collision.name!r}: {what}")
+        problem = f"a mesh of zero thickness; physics uses {thickest * 1000:.2g} mm"
+        report.warn(collision.at, f"collision {collision.name!r}: {problem}")
     return thick

@@ -1,4 +1,4 @@
-"""Mass properties, and those that MuJoCo's compiler accepts; changes are reported."""
+"""Mass properties as MuJoCo's compiler accepts them; changes are reported."""
 
 import mujoco
 import numpy as np
@@ -14,7 +14,7 @@ SMALLEST_MOMENT = 1e-9
 """Smallest principal moment [kg·m²]."""
 _ROUNDING = 1e-12
 _MARGIN = 1e-15
-"""Share of a moment by which sums are above it, however they are rounded."""
+"""Margin of a sum over a moment, relative to the moment, that survives rounding."""
 _MAX_RATIO = 10.0
 """Largest difference of two moments over the third one; 1 in rigid bodies, and the gyroscopic torque grows with it."""
 
@@ -22,8 +22,8 @@ _MAX_RATIO = 10.0
 def principal_inertia(link: Link, report: Diagnostics) -> tuple[float, Pose, tuple[float, float, float]]:
     """Return mass [kg], link_from_principal_axes and the three principal moments [kg·m²].
 
-    Moments that violate the triangle inequality are used as written, as in Gazebo: published robots have some. If they
-    do so by far, the two smaller are raised by the least equal amount.
+    Moments that violate the triangle inequality are used as written, as in Gazebo: published robots have some. If the
+    violation is large, the two smaller are raised equally, as little as possible.
     """
     inertial = link.inertial
     mass = inertial.mass
@@ -42,11 +42,11 @@ def principal_inertia(link: Link, report: Diagnostics) -> tuple[float, Pose, tup
     excess = moments[2] - (moments[0] + moments[1])
     if excess > _ROUNDING * moments[2]:
         rise = max(0.0, (moments[2] - moments[1] - _MAX_RATIO * moments[0]) / (1.0 + _MAX_RATIO))
-        use = f"raises the two smaller by {rise:g}" if rise > 0.0 else "uses them as written"
+        remedy = f"raises the two smaller by {rise:g}" if rise > 0.0 else "uses them as written"
         report.warn(
             link.at,
             f"link {link.name!r}: principal moments {moments[0]:g}, {moments[1]:g}, {moments[2]:g} kg·m² violate the "
-            f"triangle inequality: no body has them; physics {use}",
+            f"triangle inequality: no body has them; physics {remedy}",
         )
         moments = moments + np.array([rise, rise, 0.0])
     pose = inertial.link_from_com
@@ -63,7 +63,7 @@ def possible_moments(moments: tuple[float, float, float]) -> tuple[float, float,
 
 
 def set_constants(model: mujoco.MjModel) -> None:
-    """Compute what follows from masses and moments that were written to a model, as MuJoCo's compiler does."""
+    """Compute the constants that depend on a model's masses and moments, as MuJoCo's compiler does."""
     mujoco.mj_setConst(model, mujoco.MjData(model))
     if model.nv:  # the means scale the solver's tolerance; in MuJoCo's order of summation
         model.stat.meaninertia = sum(model.dof_M0.tolist()) / model.nv

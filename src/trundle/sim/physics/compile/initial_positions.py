@@ -39,7 +39,7 @@ def initial_positions(
         model: compiled with every joint at zero.
         tree: links of its bodies.
         axes: axes of its joints.
-        report: takes a note for each link whose saved pose its joints cannot reach.
+        report: receives a note for each link whose joints cannot reach its saved pose.
     """
     saved = {node.model for node in tree.links.values() if node.link.initial_pose is not None}
     moved = [
@@ -51,21 +51,23 @@ def initial_positions(
     ]
     if not saved and not moved:
         return None
-    wanted = {name: _saved_pose(node) for name, node in tree.links.items() if node.model in saved}
-    bodies = dict(wanted)
-    bodies |= {f"{edge.child} on {edge.name}": wanted[edge.child] for edge in tree.loops if edge.child in wanted}
+    saved_poses = {name: _saved_pose(node) for name, node in tree.links.items() if node.model in saved}
+    bodies = dict(saved_poses)
+    bodies |= {
+        f"{edge.child} on {edge.name}": saved_poses[edge.child] for edge in tree.loops if edge.child in saved_poses
+    }
     positions = np.array(model.qpos0)
     world_from_body = [Pose()] * model.nbody
     for i in range(1, model.nbody):
-        above = world_from_body[int(model.body_parentid[i])]
-        at_zero = above @ Pose(tuple(model.body_pos[i].tolist()), tuple(model.body_quat[i].tolist()))
+        world_from_parent = world_from_body[int(model.body_parentid[i])]
+        at_zero = world_from_parent @ Pose(tuple(model.body_pos[i].tolist()), tuple(model.body_quat[i].tolist()))
         world_from_body[i] = bodies.get(model.body(i).name, at_zero)
         if model.body_jntnum[i]:
             _set_joint_positions(model, i, positions, at_zero, world_from_body[i])
     for axis in moved:
         assert axis.axis is not None
         positions[model.joint(axis.engine_joint).qposadr[0]] = axis.sign * axis.axis.initial_position
-    _report_unreachable(model, positions, {name: tree.links[name] for name in wanted}, report)
+    _report_unreachable(model, positions, {name: tree.links[name] for name in saved_poses}, report)
     return positions
 
 
@@ -76,15 +78,15 @@ def _saved_pose(node: LinkNode) -> Pose:
 
 
 def _set_joint_positions(
-    model: mujoco.MjModel, body: int, positions: NDArray[np.float64], at_zero: Pose, wanted: Pose
+    model: mujoco.MjModel, body: int, positions: NDArray[np.float64], at_zero: Pose, target: Pose
 ) -> None:
-    """Set the joints of a body that move it from its zero pose to the wanted one."""
+    """Set the joints of a body that move it from its zero pose to the target pose."""
     first = int(model.body_jntadr[body])
     address = int(model.jnt_qposadr[first])
-    moved = at_zero.inverse() @ wanted
+    moved = at_zero.inverse() @ target
     kind = int(model.jnt_type[first])
     if kind == _FREE:
-        positions[address : address + 7] = (*wanted.position, *wanted.quaternion)
+        positions[address : address + 7] = (*target.position, *target.quaternion)
     elif kind == _BALL:
         positions[address : address + 4] = moved.quaternion
     else:
@@ -93,8 +95,10 @@ def _set_joint_positions(
         for j in joints:
             axis, anchor = _vector(model.jnt_axis[j]), _vector(model.jnt_pos[j])
             if j not in hinges:
-                there = moved.transform_point(anchor)
-                positions[model.jnt_qposadr[j]] = sum((t - a) * x for t, a, x in zip(there, anchor, axis, strict=True))
+                moved_anchor = moved.transform_point(anchor)
+                positions[model.jnt_qposadr[j]] = sum(
+                    (t - a) * x for t, a, x in zip(moved_anchor, anchor, axis, strict=True)
+                )
         turn = moved.quaternion
         for j, after in zip_longest(hinges, hinges[1:]):
             axis = _vector(model.jnt_axis[j])
@@ -115,9 +119,9 @@ def _angle_about(axis: Vector3, turn: Quaternion) -> float:
 
 def _first_axis_angle(axis: Vector3, inner: Vector3, turn: Quaternion) -> float:
     """Return the angle of a joint's first axis [rad] from the direction to which it rotated the second."""
-    there = rotate(turn, inner)
-    across = cross(inner, there)
-    along = dot(inner, there) - dot(axis, inner) * dot(axis, there)
+    rotated = rotate(turn, inner)
+    across = cross(inner, rotated)
+    along = dot(inner, rotated) - dot(axis, inner) * dot(axis, rotated)
     return math.atan2(dot(axis, across), along)
 
 
@@ -126,23 +130,23 @@ def _wrap_into_limits(model: mujoco.MjModel, joint: int, angle: float) -> float:
     lower, upper = (float(limit) for limit in model.jnt_range[joint])
     if not model.jnt_limited[joint] or lower <= angle <= upper:
         return angle
-    return next((each for each in (angle + math.tau, angle - math.tau) if lower <= each <= upper), angle)
+    return next((candidate for candidate in (angle + math.tau, angle - math.tau) if lower <= candidate <= upper), angle)
 
 
 def _report_unreachable(
-    model: mujoco.MjModel, positions: NDArray[np.float64], places: dict[str, LinkNode], report: Diagnostics
+    model: mujoco.MjModel, positions: NDArray[np.float64], nodes: dict[str, LinkNode], report: Diagnostics
 ) -> None:
     data = mujoco.MjData(model)
     data.qpos[:] = positions
     mujoco.mj_kinematics(model, data)
-    for name, node in places.items():
+    for name, node in nodes.items():
         body = model.body(name).id
-        there = Pose(_vector(data.xpos[body]), tuple(data.xquat[body].tolist()))
-        wanted = _saved_pose(node)
-        off = (there.inverse() @ wanted).quaternion
-        if math.dist(there.position, wanted.position) > _OFF_M or 2 * math.hypot(*off[1:]) > _OFF_RAD:
-            what = f"link {node.link.name!r}: its joints cannot reach the saved pose; it starts at the nearest"
-            report.info(node.link.at, what)
+        reached = Pose(_vector(data.xpos[body]), tuple(data.xquat[body].tolist()))
+        saved = _saved_pose(node)
+        rotation_error = (reached.inverse() @ saved).quaternion
+        if math.dist(reached.position, saved.position) > _OFF_M or 2 * math.hypot(*rotation_error[1:]) > _OFF_RAD:
+            note = f"link {node.link.name!r}: its joints cannot reach the saved pose; it starts at the nearest"
+            report.info(node.link.at, note)
 
 
 def _vector(numbers: NDArray[np.float64]) -> Vector3:

@@ -56,8 +56,8 @@ class JointBuilder:
         anchor = frame.transform_point(edge.world_from_joint.position)
         if is_rigid(joint):
             if joint.axis is not None and joint.type is not JointType.FIXED:
-                what = f"lower = upper = {joint.axis.lower:g} leaves no freedom; rigid"
-                self._report.info(joint.at, f"joint {joint.name!r}: {what}")
+                problem = f"lower = upper = {joint.axis.lower:g} leaves no freedom; rigid"
+                self._report.info(joint.at, f"joint {joint.name!r}: {problem}")
             return
         if joint.type is JointType.BALL:
             body.add_joint(name=edge.name, type=mujoco.mjtJoint.mjJNT_BALL, pos=anchor)
@@ -67,10 +67,10 @@ class JointBuilder:
         if joint.type in _TWO_HINGES:
             written = [(joint.axis, "::axis"), (joint.axis2, "::axis2")]
             if joint.axis is not None and joint.axis2 is not None and _are_parallel(joint.axis, joint.axis2):
-                what = "its two axes are parallel; the second is left out"
-                self._report.warn(joint.at, f"joint {joint.name!r}: {what}")
+                problem = "its two axes are parallel; the second is left out"
+                self._report.warn(joint.at, f"joint {joint.name!r}: {problem}")
                 written.pop()
-        made: list[Axis] = []
+        axes: list[Axis] = []
         # The first joint of a body is the outermost: in a reversed joint the last axis comes first.
         for axis, suffix in reversed(written) if edge.is_reversed else written:
             if axis is None or (axis.is_rigid and axis.mimic is None):
@@ -78,10 +78,10 @@ class JointBuilder:
             name = f"{edge.name}{suffix}"
             slides = joint.type is JointType.PRISMATIC or suffix in _PLANAR_SUFFIXES
             self._add_axis(body, name, anchor, frame.transform_vector(edge.direction(axis)), joint, axis, slides=slides)
-            made.append(Axis(edge.name, name, axis))
+            axes.append(Axis(edge.name, name, axis))
         if joint.type is JointType.SCREW and joint.axis is not None:
             self._add_screw(body, edge, anchor, frame.transform_vector(edge.direction(joint.axis)))
-        self.axes[edge.name] = made[::-1] if edge.is_reversed else made
+        self.axes[edge.name] = axes[::-1] if edge.is_reversed else axes
 
     def _add_axis(
         self,
@@ -112,29 +112,29 @@ class JointBuilder:
         if is_limited:
             lower, upper = sorted((axis.lower, axis.upper))
             if lower != axis.lower:
-                what = f"joint {joint.name!r}: lower {upper:g} is above upper {lower:g}; physics swaps them"
-                self._report.warn(joint.at, what)
+                problem = f"joint {joint.name!r}: lower {upper:g} is above upper {lower:g}; physics swaps them"
+                self._report.warn(joint.at, problem)
             hinge.range = [max(lower, -1e10), min(upper, 1e10)]
             if axis.stop_stiffness < _HARD_STOP:
-                what = "a limit's <stiffness> and <dissipation> are ignored, as in Gazebo's ODE; the stop is hard"
-                self._report.info(joint.at, f"joint {joint.name!r}: {what}")
+                problem = "a limit's <stiffness> and <dissipation> are ignored, as in Gazebo's ODE; the stop is hard"
+                self._report.info(joint.at, f"joint {joint.name!r}: {problem}")
         if math.isfinite(axis.effort) and axis.effort >= 0:
             hinge.actfrclimited = mujoco.mjtLimited.mjLIMITED_TRUE
             effort = max(axis.effort, _NO_EFFORT)
             hinge.actfrcrange = [-effort, effort]
 
-    def _non_negative(self, value: float, what: str, joint: Joint) -> float:
+    def _non_negative(self, value: float, parameter: str, joint: Joint) -> float:
         if value >= 0 and math.isfinite(value):
             return value
-        self._report.warn(joint.at, f"joint {joint.name!r}: {what} {value:g} would add energy; physics uses 0")
+        self._report.warn(joint.at, f"joint {joint.name!r}: {parameter} {value:g} would add energy; physics uses 0")
         return 0.0
 
     def _add_screw(self, body: mujoco.MjsBody, edge: JointEdge, anchor: Vector3, direction: Vector3) -> None:
         """Add a screw: translation −angle / thread_pitch along its axis."""
         pitch, advance = edge.joint.thread_pitch, f"{edge.name}::advance"
         if pitch == 0 or not math.isfinite(pitch):
-            what = f"thread_pitch {pitch:g} is not usable; the joint turns without advancing"
-            self._report.warn(edge.joint.at, f"joint {edge.joint.name!r}: {what}")
+            problem = f"thread_pitch {pitch:g} is not usable; the joint turns without advancing"
+            self._report.warn(edge.joint.at, f"joint {edge.joint.name!r}: {problem}")
             return
         body.add_joint(name=advance, type=mujoco.mjtJoint.mjJNT_SLIDE, pos=anchor, axis=direction)
         self._couple(advance, edge.name, ratio=-1.0 / pitch)
@@ -166,8 +166,8 @@ class JointBuilder:
     def _mimic(self, follower: Axis, mimic: Mimic, prefix: str, joint: Joint) -> None:
         leaders = self.axes.get(f"{prefix}{mimic.joint}", [])
         if len(leaders) <= mimic.axis or leaders[mimic.axis].axis is None or leaders[mimic.axis] == follower:
-            what = f"mimics {mimic.joint!r}, which has no such axis; it moves freely"
-            self._report.warn(joint.at, f"joint {joint.name!r} {what}")
+            problem = f"mimics {mimic.joint!r}, which has no such axis; it moves freely"
+            self._report.warn(joint.at, f"joint {joint.name!r} {problem}")
             return
         offset = mimic.offset - mimic.multiplier * mimic.reference
         self._couple(follower.engine_joint, leaders[mimic.axis].engine_joint, ratio=mimic.multiplier, offset=offset)
@@ -182,25 +182,30 @@ class JointBuilder:
         ]
         driver, driven = wheels
         if driver is None or driven is None:
-            what = "parent and child must each be connected to the reference body by a revolute joint; left out"
-            self._report.warn(joint.at, f"joint {joint.name!r}: {what}")
+            problem = "parent and child must each be connected to the reference body by a revolute joint; left out"
+            self._report.warn(joint.at, f"joint {joint.name!r}: {problem}")
             return
         ratio = -joint.gearbox_ratio * driver[1] * driven[1]
         self._couple(driven[0], driver[0], ratio=ratio)
 
     def _hinge_between(
-        self, link: str, reference: str, axis: JointAxis | None, gearbox: JointEdge, held: Mapping[str, JointEdge]
+        self,
+        link: str,
+        reference: str,
+        axis: JointAxis | None,
+        gearbox: JointEdge,
+        parent_joint: Mapping[str, JointEdge],
     ) -> tuple[str, float] | None:
         """Return the joint between a link and the reference body, and the sign of its rotation."""
         for low, high, sign in ((link, reference, 1.0), (reference, link, -1.0)):
-            edge = held.get(low)
+            edge = parent_joint.get(low)
             if edge is None or edge.parent != high or axis is None:
                 continue
             axes = self.axes.get(edge.name, [])
             if len(axes) == 1 and axes[0].axis is not None:
                 along = edge.direction(axes[0].axis)
-                wanted = gearbox.world_from_axes.transform_vector(axis.direction)
-                agree = sum(a * b for a, b in zip(along, wanted, strict=True)) >= 0
+                gearbox_axis = gearbox.world_from_axes.transform_vector(axis.direction)
+                agree = sum(a * b for a, b in zip(along, gearbox_axis, strict=True)) >= 0
                 return axes[0].engine_joint, sign if agree else -sign
         return None
 
@@ -210,9 +215,12 @@ def _planar(axis: JointAxis | None) -> list[tuple[JointAxis | None, str]]:
     if axis is None:
         return []
     plane = Pose(quaternion=rotation_from_z(axis.direction))
-    ways = (plane.transform_vector((1.0, 0.0, 0.0)), plane.transform_vector((0.0, 1.0, 0.0)))
+    directions = (plane.transform_vector((1.0, 0.0, 0.0)), plane.transform_vector((0.0, 1.0, 0.0)))
     return [
-        *((replace(axis, direction=way), name) for way, name in zip(ways, _PLANAR_SUFFIXES, strict=True)),
+        *(
+            (replace(axis, direction=direction), name)
+            for direction, name in zip(directions, _PLANAR_SUFFIXES, strict=True)
+        ),
         (axis, "::turn"),
     ]
 

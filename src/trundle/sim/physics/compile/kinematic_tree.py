@@ -43,15 +43,15 @@ class JointEdge(Struct, frozen=True, eq=False):
     world_from_joint: Pose
     """Joint frame with every joint at zero."""
     world_from_axes: Pose
-    """Frame that the joint's axes are given in."""
+    """Frame of the joint's axes."""
     is_reversed: bool = False
-    """True if parent and child are swapped against the file."""
+    """True if parent and child are swapped relative to the file."""
 
     @property
     def parent_from_child(self) -> Pose | None:
         """Pose of the child in the parent's frame held by a fixed joint; None: the poses with every joint at zero."""
-        held = self.joint.parent_from_child
-        return held.inverse() if held is not None and self.is_reversed else held
+        pose = self.joint.parent_from_child
+        return pose.inverse() if pose is not None and self.is_reversed else pose
 
     def direction(self, axis: JointAxis) -> Vector3:
         """Return the axis along which the child moves for a growing joint position, in the world with every joint at
@@ -84,14 +84,14 @@ class KinematicTree(Struct, frozen=True, eq=False):
         for model in world.models:
             _refuse_duplicates("link", model.links)
             _refuse_duplicates("joint", model.joints)
-        places = {node.name: node for i, model in enumerate(world.models) for node in _link_nodes(i, model)}
+        nodes = {node.name: node for i, model in enumerate(world.models) for node in _link_nodes(i, model)}
         joints = [edge for model in world.models for edge in _joint_edges(model)]
-        joints += [_joint_between_models(joint, places) for joint in world.joints if _has_known_links(joint, places)]
+        joints += [_joint_between_models(joint, nodes) for joint in world.joints if _has_known_links(joint, nodes)]
         for joint in world.joints:
-            if not _has_known_links(joint, places):
+            if not _has_known_links(joint, nodes):
                 report.warn(joint.at, f"joint {joint.name!r} connects links that do not exist; it is left out")
-        held, loops = _spanning_tree(joints, places)
-        return cls(places, tuple(joints), held, loops, _immobile_links(places, held))
+        parent_joint, loops = _spanning_tree(joints, nodes)
+        return cls(nodes, tuple(joints), parent_joint, loops, _immobile_links(nodes, parent_joint))
 
 
 def is_rigid(joint: Joint) -> bool:
@@ -102,16 +102,18 @@ def is_rigid(joint: Joint) -> bool:
 
 
 def _refuse_duplicates(kind: str, named: Sequence[Model] | Sequence[Link] | Sequence[Joint]) -> None:
-    seen: set[str] = set()
-    for one in named:
-        if one.name in seen:
-            raise DescriptionError(one.at, f"a second {kind} {one.name!r}; names must differ")
-        seen.add(one.name)
+    names: set[str] = set()
+    for item in named:
+        if item.name in names:
+            raise DescriptionError(item.at, f"a second {kind} {item.name!r}; names must differ")
+        names.add(item.name)
 
 
 def _link_nodes(index: int, model: Model) -> list[LinkNode]:
-    held_at = {j.name: j.axis.lower for j in model.joints if j.axis is not None and is_rigid(j) and j.axis.is_rigid}
-    start = model_from_links(model, held_at) if held_at else {}
+    rigid_positions = {
+        j.name: j.axis.lower for j in model.joints if j.axis is not None and is_rigid(j) and j.axis.is_rigid
+    }
+    start = model_from_links(model, rigid_positions) if rigid_positions else {}
     return [
         LinkNode(
             name=f"{model.name}::{link.name}",
@@ -142,53 +144,53 @@ def _joint_edges(model: Model) -> list[JointEdge]:
     ]
 
 
-def _has_known_links(joint: Joint, places: Mapping[str, LinkNode]) -> bool:
-    return all(link == WORLD or link in places for link in (joint.parent, joint.child))
+def _has_known_links(joint: Joint, nodes: Mapping[str, LinkNode]) -> bool:
+    return all(link == WORLD or link in nodes for link in (joint.parent, joint.child))
 
 
-def _joint_between_models(joint: Joint, places: Mapping[str, LinkNode]) -> JointEdge:
-    world_from_child = Pose() if joint.child == WORLD else places[joint.child].world_from_link_at_zero
+def _joint_between_models(joint: Joint, nodes: Mapping[str, LinkNode]) -> JointEdge:
+    world_from_child = Pose() if joint.child == WORLD else nodes[joint.child].world_from_link_at_zero
     joint_pose = world_from_child @ joint.child_from_joint
     return JointEdge(joint.name, joint, joint.parent, joint.child, joint_pose, world_from_axes=Pose())
 
 
 def _spanning_tree(
-    joints: list[JointEdge], places: Mapping[str, LinkNode]
+    joints: list[JointEdge], nodes: Mapping[str, LinkNode]
 ) -> tuple[dict[str, JointEdge], tuple[JointEdge, ...]]:
-    held: dict[str, JointEdge] = {}
+    parent_joint: dict[str, JointEdge] = {}
 
-    def can(edge: JointEdge) -> bool:
-        if edge.child == WORLD or edge.child in held or places[edge.child].fixed:
+    def can_add(edge: JointEdge) -> bool:
+        if edge.child == WORLD or edge.child in parent_joint or nodes[edge.child].fixed:
             return False
-        above = edge.parent
-        while above in held:
-            above = held[above].parent
-            if above == edge.child:
+        ancestor = edge.parent
+        while ancestor in parent_joint:
+            ancestor = parent_joint[ancestor].parent
+            if ancestor == edge.child:
                 return False
-        return above != edge.child
+        return ancestor != edge.child
 
     rest: list[JointEdge] = []
     for edge in joints:
         if edge.joint.type is JointType.GEARBOX:
             continue
-        if can(edge):
-            held[edge.child] = edge
+        if can_add(edge):
+            parent_joint[edge.child] = edge
         else:
             rest.append(edge)
     loops: list[JointEdge] = []
     for edge in rest:
-        turned = replace(edge, parent=edge.child, child=edge.parent, is_reversed=True)
-        if can(turned):
-            held[turned.child] = turned
-        elif not all(end == WORLD or places[end].fixed for end in (edge.parent, edge.child)):
-            loops.append(turned if edge.child == WORLD or places[edge.child].fixed else edge)
-    return held, tuple(loops)
+        swapped = replace(edge, parent=edge.child, child=edge.parent, is_reversed=True)
+        if can_add(swapped):
+            parent_joint[swapped.child] = swapped
+        elif not all(end == WORLD or nodes[end].fixed for end in (edge.parent, edge.child)):
+            loops.append(swapped if edge.child == WORLD or nodes[edge.child].fixed else edge)
+    return parent_joint, tuple(loops)
 
 
-def _immobile_links(places: Mapping[str, LinkNode], held: Mapping[str, JointEdge]) -> frozenset[str]:
+def _immobile_links(nodes: Mapping[str, LinkNode], parent_joint: Mapping[str, JointEdge]) -> frozenset[str]:
     def moves(name: str) -> bool:
-        while not places[name].fixed:
-            edge = held.get(name)
+        while not nodes[name].fixed:
+            edge = parent_joint.get(name)
             if edge is None or not is_rigid(edge.joint):
                 return True
             if edge.parent == WORLD:
@@ -196,4 +198,4 @@ def _immobile_links(places: Mapping[str, LinkNode], held: Mapping[str, JointEdge
             name = edge.parent
         return False
 
-    return frozenset(name for name in places if not moves(name))
+    return frozenset(name for name in nodes if not moves(name))

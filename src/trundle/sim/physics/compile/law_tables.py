@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from trundle.robots.model import Link, World
 from trundle.spatial import ZERO
 
-from .compliance import Yield, has_compliance
+from .compliance import ContactSpring, has_compliance
 from .contact_params import ContactParams, frictions_of
 from .shape_entry import ShapeEntry
 
@@ -43,9 +43,9 @@ _GROUP_WIDTH = 5
 _MAGIC = 7.2751
 _SLOWEST = 3.0
 """Speed in steps of free fall below which a contact rests and does not bounce."""
-_SLOW = 0.25
+_MAX_SPRING = 0.25
 """Largest (ω h)² of a spring that is integrated by the midpoint rule, unstable from 4 on; MuJoCo damps stiffer ones."""
-_GENTLE = 1.0
+_MAX_DAMPER = 1.0
 """Largest c h / I of a damper that is integrated by the midpoint rule, which overshoots from 2 on; MuJoCo's rule, of
 first order, never does.
 """
@@ -57,16 +57,16 @@ _EQUALITY = "trundle::motor"
 _MOTOR_SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 """Stiffest impedance that MuJoCo allows."""
 FREEDOMS = {mujoco.mjtJoint.mjJNT_FREE: 6, mujoco.mjtJoint.mjJNT_BALL: 3}
-"""Degrees of freedom of the joint types that have not one."""
+"""Degrees of freedom of the joint types with more than one."""
 _Table: TypeAlias = NDArray[np.float64]
 _Pair: TypeAlias = tuple[int, int, ContactParams]
-Touches: TypeAlias = Mapping[tuple[str, str], ContactParams]
+PairParams: TypeAlias = Mapping[tuple[str, str], ContactParams]
 
 
 def reserve_tables(
     spec: mujoco.MjSpec,
     bodies: Sequence[mujoco.MjsBody],
-    pair_params: Touches,
+    pair_params: PairParams,
     shapes: Sequence[ShapeEntry],
     world: World,
 ) -> None:
@@ -77,7 +77,7 @@ def reserve_tables(
         bodies: its bodies, with the world's.
         pair_params: contact parameters by shape names.
         shapes: its geoms.
-        world: as read.
+        world: world without nested models.
     """
     joints = [joint for body in bodies for joint in body.joints]
     motors = spec.actuators
@@ -94,7 +94,7 @@ def reserve_tables(
         "geoms": len(shapes),
     }
     for name, width in _WIDTHS.items():
-        # MuJoCo takes no empty numeric; less than a row counts as none.
+        # MuJoCo does not allow an empty numeric; less than a row counts as none.
         size = max(rows[name] * width, 1)
         spec.add_numeric(name=f"trundle::{name}", data=[0.0] * size, size=size)
     # userdata: the target speed of each motor, a flag of each degree of freedom, the sums of each contact group.
@@ -128,11 +128,11 @@ def find_table(model: mujoco.MjModel, name: str) -> _Table:
 
 def fill_tables(
     model: mujoco.MjModel,
-    pair_params: Touches,
+    pair_params: PairParams,
     shapes: Sequence[ShapeEntry],
     bodies: Sequence[int],
     world: World,
-    yields: Mapping[tuple[int, int], Yield],
+    contact_springs: Mapping[tuple[int, int], ContactSpring],
 ) -> None:
     """Write the tables of a compiled model.
 
@@ -142,7 +142,7 @@ def fill_tables(
         shapes: all shapes.
         bodies: body id of each link, in the order of the world's links.
         world: without nested models.
-        yields: of `set_compliance`.
+        contact_springs: springs of the soft pairs, from `set_compliance`.
     """
     equality = model.equality(_EQUALITY).id if model.nu else -1
     named = _groups(pair_params, shapes)
@@ -158,9 +158,9 @@ def fill_tables(
     for motor, row in enumerate(find_table(model, "motors")):
         joint = model.actuator_trnid[motor, 0]
         row[:] = motor, 0.0, model.jnt_qposadr[joint], model.jnt_dofadr[joint]
-    _center(model)
+    _fill_midpoint_tables(model)
     model.jnt_margin[model.jnt_limited > 0] = _STOP_MARGIN * model.opt.timestep
-    _write(model, "compliance", _compliance(model, pairs, yields))
+    _write(model, "compliance", _compliance(model, pairs, contact_springs))
     _write_geoms(model, shapes)
 
 
@@ -176,7 +176,7 @@ def _write_geoms(model: mujoco.MjModel, shapes: Sequence[ShapeEntry]) -> None:
 
 
 def velocity_times(model: mujoco.MjModel, data: mujoco.MjData) -> NDArray[np.float64]:
-    """Return (nv,) the times of the velocities of the degrees of freedom, as a writable view.
+    """Return the time of each degree of freedom's velocity, (nv,), as a writable view.
 
     See `cpp/contact/midpoint.h`.
     """
@@ -188,19 +188,19 @@ def set_needstage(model: mujoco.MjModel, *, solved: bool) -> None:
     model.sensor_needstage[0] = mujoco.mjtStage.mjSTAGE_ACC if solved else mujoco.mjtStage.mjSTAGE_POS
 
 
-def _center(model: mujoco.MjModel) -> None:
+def _fill_midpoint_tables(model: mujoco.MjModel) -> None:
     """List the jointed trees, and move soft springs and half of each soft damper from MuJoCo to the midpoint rule."""
     head, chains, springs = (find_table(model, name) for name in ("laws", "chains", "springs"))
     chained = [tree for tree in range(model.ntree) if not _is_lone(model, tree)]
     for row, tree in zip(chains, chained, strict=False):
         row[:] = tree, not _has_free_root(model, tree)
-    soft = [joint for joint in range(model.njnt) if _is_slow(model, joint) or _is_gentle(model, joint)]
+    soft = [joint for joint in range(model.njnt) if _has_soft_spring(model, joint) or _has_soft_damper(model, joint)]
     for row, joint in zip(springs, soft, strict=False):
         dof, qpos = int(model.jnt_dofadr[joint]), int(model.jnt_qposadr[joint])
         row[:] = dof, qpos, 0.0, model.qpos_spring[qpos], 0.0
-        if _is_slow(model, joint):
+        if _has_soft_spring(model, joint):
             row[2], model.jnt_stiffness[joint] = model.jnt_stiffness[joint], 0.0
-        if _is_gentle(model, joint):
+        if _has_soft_damper(model, joint):
             row[4] = model.dof_damping[dof] = model.dof_damping[dof] / 2
     head[0, 4:6] = len(chained), len(soft)
 
@@ -222,16 +222,16 @@ def _is_lone(model: mujoco.MjModel, tree: int) -> bool:
     return _has_free_root(model, tree) and bool(model.tree_dofnum[tree] == 6)
 
 
-def _is_slow(model: mujoco.MjModel, joint: int) -> bool:
+def _has_soft_spring(model: mujoco.MjModel, joint: int) -> bool:
     """True if a joint has a spring soft enough for the midpoint rule."""
     inverse_inertia = float(model.dof_invweight0[model.jnt_dofadr[joint]])
-    return 0.0 < model.jnt_stiffness[joint] * inverse_inertia * model.opt.timestep**2 < _SLOW
+    return 0.0 < model.jnt_stiffness[joint] * inverse_inertia * model.opt.timestep**2 < _MAX_SPRING
 
 
-def _is_gentle(model: mujoco.MjModel, joint: int) -> bool:
+def _has_soft_damper(model: mujoco.MjModel, joint: int) -> bool:
     """True if a joint has a damper soft enough for the midpoint rule."""
     dof = int(model.jnt_dofadr[joint])
-    return bool(0.0 < model.dof_damping[dof] * model.dof_invweight0[dof] * model.opt.timestep < _GENTLE)
+    return bool(0.0 < model.dof_damping[dof] * model.dof_invweight0[dof] * model.opt.timestep < _MAX_DAMPER)
 
 
 def disable_laws(model: mujoco.MjModel) -> None:
@@ -240,8 +240,8 @@ def disable_laws(model: mujoco.MjModel) -> None:
     model.jnt_margin[:] = 0.0
 
 
-def follow_friction(model: mujoco.MjModel, other: mujoco.MjModel) -> None:
-    """Give a copy that evaluates states the friction laws only, with another model's current tables."""
+def copy_friction_laws(model: mujoco.MjModel, other: mujoco.MjModel) -> None:
+    """Set a copy that evaluates states to friction laws only, with another model's current tables."""
     model.numeric_data[:] = other.numeric_data
     find_table(model, "laws")[0, 1] = -1.0
     model.flg_surfacevel = other.flg_surfacevel
@@ -249,8 +249,8 @@ def follow_friction(model: mujoco.MjModel, other: mujoco.MjModel) -> None:
 
 
 def _write(model: mujoco.MjModel, name: str, rows: Iterator[tuple[float, ...]]) -> None:
-    for node, row in zip(find_table(model, name), rows, strict=True):
-        node[:] = row
+    for target, row in zip(find_table(model, name), rows, strict=True):
+        target[:] = row
 
 
 def _key(model: mujoco.MjModel, a: int, b: int) -> int:
@@ -262,27 +262,27 @@ def _bounces(params: ContactParams) -> bool:
 
 
 def _has_friction(params: ContactParams) -> bool:
-    return _is_anisotropic(params) or _gives(params)
+    return _is_anisotropic(params) or _needs_group(params)
 
 
 def has_row(params: ContactParams, h: float) -> tuple[bool, bool, bool, bool]:
-    """Return which tables have a row for a pair: restitution, friction, compliance; and if it has a contact group."""
-    return _bounces(params), _has_friction(params), has_compliance(params, h), _gives(params)
+    """Return if a pair has a row in the tables restitution, friction and compliance, and if it has a contact group."""
+    return _bounces(params), _has_friction(params), has_compliance(params, h), _needs_group(params)
 
 
-def _gives(params: ContactParams) -> bool:
+def _needs_group(params: ContactParams) -> bool:
     """True if the pair slips or its friction depends on the load."""
     return params.mu + params.mu2 > 0 and (any(params.slip) or params.patch > 0)
 
 
-def _groups(pair_params: Touches, shapes: Sequence[ShapeEntry]) -> dict[tuple[str, str], int]:
+def _groups(pair_params: PairParams, shapes: Sequence[ShapeEntry]) -> dict[tuple[str, str], int]:
     """Return the contact group of each pair of shapes that slips or depends on the load; one group per pair of
     collisions.
     """
-    of = {shape.name: shape.collision for shape in shapes}
+    collision_of = {shape.name: shape.collision for shape in shapes}
     numbers: dict[tuple[str, str], int] = {}
-    giving = [pair for pair, params in pair_params.items() if _gives(params)]
-    return {(a, b): numbers.setdefault((of[a], of[b]), len(numbers)) for a, b in giving}
+    grouped = [pair for pair, params in pair_params.items() if _needs_group(params)]
+    return {(a, b): numbers.setdefault((collision_of[a], collision_of[b]), len(numbers)) for a, b in grouped}
 
 
 def _is_anisotropic(params: ContactParams) -> bool:
@@ -313,16 +313,16 @@ def _friction(model: mujoco.MjModel, pairs: Sequence[_Pair], groups: Mapping[int
 
 
 def _compliance(
-    model: mujoco.MjModel, pairs: Sequence[_Pair], yields: Mapping[tuple[int, int], Yield]
+    model: mujoco.MjModel, pairs: Sequence[_Pair], contact_springs: Mapping[tuple[int, int], ContactSpring]
 ) -> Iterator[tuple[float, ...]]:
     for a, b, params in pairs:
         if has_compliance(params, model.opt.timestep):
-            given = yields.get((a, b), Yield())
-            yield _key(model, a, b), params.min_depth, given.factor, given.rate, given.max_vel
+            spring = contact_springs.get((a, b), ContactSpring())
+            yield _key(model, a, b), params.min_depth, spring.factor, spring.rate, spring.max_vel
 
 
 def _damping(model: mujoco.MjModel, bodies: Sequence[int], world: World) -> Iterator[tuple[float, ...]]:
-    """Yield damping rows; a link without degrees of freedom refers to the world body, which never moves."""
+    """ContactSpring damping rows; a link without degrees of freedom refers to the world body, which never moves."""
     for body, link in zip(bodies, _links(world), strict=True):
         if _has_velocity_decay(link):
             parts = (min(max(part, 0.0), 1.0) for part in (link.linear_decay, link.angular_decay))

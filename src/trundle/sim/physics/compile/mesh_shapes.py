@@ -28,16 +28,16 @@ def cut_meshes(tree: KinematicTree, background: "BackgroundCutting | None") -> W
 
     Args:
         tree: links with their collisions.
-        background: cuts what takes long; None: it is waited for.
+        background: decomposes slow meshes meanwhile; None: all are decomposed before the return.
     """
 
     def requests() -> Iterator[MeshRequest]:
-        for place in tree.links.values():
-            for collision in place.link.collisions:
+        for node in tree.links.values():
+            for collision in node.link.collisions:
                 with suppress(MeshError):
                     mesh = _mesh_of(collision)
                     if mesh is not None:
-                        yield (*_arrays(mesh), place.name in tree.immobile)
+                        yield (*_arrays(mesh), node.name in tree.immobile)
 
     decomposition = WorldDecomposition(background)
     decomposition.decompose_all(requests())
@@ -64,8 +64,8 @@ def add_mesh(
         return []
     if decomposition is None:
         if not fixed and split_mesh(*_arrays(mesh), fixed=False).concave:
-            what = f"a mesh of {len(mesh.faces)} triangles that is not convex; its pieces are"
-            report.info(collision.at, f"collision {collision.name!r}: {what} not checked (check --collisions)")
+            mesh_text = f"a mesh of {len(mesh.faces)} triangles that is not convex; its pieces are"
+            report.info(collision.at, f"collision {collision.name!r}: {mesh_text} not checked (check --collisions)")
         (corners,) = thick_pieces([mesh.vertices.astype(float)], collision, report)
         return [(add_hull(spec, body, collision.link_from_collision, name, corners), CollidesWith.ALL)]
     cut = decomposition.pieces_of(*_arrays(mesh), fixed=fixed)
@@ -90,28 +90,28 @@ def _add_pieces(
     geoms = add_hulls(spec, body, pose, name, corners)
     if fixed or hull_of(np.concatenate(corners)) is None:
         return [(geom, CollidesWith.ALL) for geom in geoms]
-    # On a plane the pieces stand as their common hull, which has far fewer contact points.
+    # On a plane the pieces' common hull replaces them, with far fewer contact points.
     hull = add_hull(spec, body, pose, f"{name}#hull", np.concatenate(corners))
-    return [(hull, CollidesWith.PLANES), *((geom, CollidesWith.STANDING | CollidesWith.MOVING) for geom in geoms)]
+    return [(hull, CollidesWith.PLANES), *((geom, CollidesWith.FIXED | CollidesWith.MOVING) for geom in geoms)]
 
 
 def _report_cut(cut: DecomposedMesh, mesh: Mesh, collision: Collision, report: Diagnostics) -> None:
-    """Report what a concave mesh is simulated as, and its deviation."""
-    misfits = cut.pieces.errors
-    if not misfits or cut.is_stand_in:
+    """Report the shape that replaces a concave mesh, and its deviation."""
+    errors = cut.pieces.errors
+    if not errors or cut.is_stand_in:
         return
-    worst = max(misfits, key=lambda misfit: misfit.distance)
-    is_filled = any(misfit.is_filled for misfit in misfits)
-    how = "fills its cavities" if is_filled else f"uses {len(cut.pieces.corners)} convex pieces"
+    worst = max(errors, key=lambda error: error.distance)
+    is_filled = any(error.is_filled for error in errors)
+    method = "fills its cavities" if is_filled else f"uses {len(cut.pieces.corners)} convex pieces"
     times = "" if worst.volume_ratio is None else f"{round(worst.volume_ratio, 2):g} times its volume, "
-    what = f"a hollow mesh of {len(mesh.faces)} triangles; physics {how}"
-    said = f"collision {collision.name!r}: {what}: {times}a surface up to {worst.distance:.2g} m away"
+    mesh_text = f"a hollow mesh of {len(mesh.faces)} triangles; physics {method}"
+    text = f"collision {collision.name!r}: {mesh_text}: {times}a surface up to {worst.distance:.2g} m away"
     if cut.is_failed:
-        report.warn(collision.at, f"{said}; it could not be cut into convex pieces")
+        report.warn(collision.at, f"{text}; it could not be cut into convex pieces")
     elif cut.is_coarse:
-        report.warn(collision.at, f"{said}; fewer pieces to save time; {FULL}=1 computes all")
+        report.warn(collision.at, f"{text}; fewer pieces to save time; {FULL}=1 computes all")
     else:
-        report.info(collision.at, said)
+        report.info(collision.at, text)
 
 
 def _arrays(mesh: Mesh) -> tuple[NDArray[np.float64], NDArray[np.intp]]:

@@ -35,10 +35,10 @@ def compile_mjcf(world: World, scene: "Scene", report: Diagnostics, *, picture_o
     """Return a world as MJCF, with inline meshes and full precision.
 
     Args:
-        world: as read.
+        world: world, nested models allowed.
         scene: visuals of the flattened world.
-        report: takes the warnings of the compile.
-        picture_of: finds the textures of meshes.
+        report: receives the warnings of the compile.
+        picture_of: returns the texture files of meshes.
 
     Raises:
         DescriptionError: as `compile_world`.
@@ -46,18 +46,18 @@ def compile_mjcf(world: World, scene: "Scene", report: Diagnostics, *, picture_o
     world = flattened(world)
     compiler = Compiler(world, report)
     compiler.fill()
-    looks = _VisualWriter(compiler, scene, report, picture_of)
-    looks.add()
+    visuals = _VisualWriter(compiler, scene, report, picture_of)
+    visuals.add()
     compiler.compile_spec()
     for name in compiler.refused_moments:
         report.warn(
             world.at,
-            f"body {name!r}: MJCF takes no moments that violate the triangle inequality; there they are raised",
+            f"body {name!r}: MJCF allows no moments that violate the triangle inequality; they are raised in it",
         )
     with warnings.catch_warnings():
         ignore_attach_warning()
         xml = compiler.spec.to_xml()
-    return _with_pictures(with_full_precision(xml, compiler.spec), looks.pictures)
+    return _with_pictures(with_full_precision(xml, compiler.spec), visuals.pictures)
 
 
 def _with_pictures(xml: str, pictures: Mapping[str, str]) -> str:
@@ -101,7 +101,7 @@ class _VisualWriter:
         if any(shape.texture is not None and self._picture(shape) is None for shape in self._scene.shapes):
             self._report.warn(
                 self._at,
-                "textures are written to MJCF with -o only, and of meshes only; other shapes have mean colours",
+                "textures are written to MJCF with -o only, and of meshes only; other shapes have mean colors",
             )
         for shape in self._scene.shapes:
             self._add_shape(shape)
@@ -124,29 +124,29 @@ class _VisualWriter:
             case Box((x, y, z)):
                 geom.type, geom.size = (
                     mujoco.mjtGeom.mjGEOM_BOX,
-                    [_at_least_thin(x) / 2, _at_least_thin(y) / 2, _at_least_thin(z) / 2],
+                    [_thickness(x) / 2, _thickness(y) / 2, _thickness(z) / 2],
                 )
             case Cylinder(radius, length):
                 geom.type, geom.size = (
                     mujoco.mjtGeom.mjGEOM_CYLINDER,
-                    [_at_least_thin(radius), _at_least_thin(length) / 2, 0],
+                    [_thickness(radius), _thickness(length) / 2, 0],
                 )
             case Capsule(radius, length):
                 geom.type, geom.size = (
                     mujoco.mjtGeom.mjGEOM_CAPSULE,
-                    [_at_least_thin(radius), _at_least_thin(length) / 2, 0],
+                    [_thickness(radius), _thickness(length) / 2, 0],
                 )
             case Sphere(radius):
-                geom.type, geom.size = mujoco.mjtGeom.mjGEOM_SPHERE, [_at_least_thin(radius), 0, 0]
+                geom.type, geom.size = mujoco.mjtGeom.mjGEOM_SPHERE, [_thickness(radius), 0, 0]
             case Ellipsoid((x, y, z)):
                 geom.type, geom.size = (
                     mujoco.mjtGeom.mjGEOM_ELLIPSOID,
-                    [_at_least_thin(x), _at_least_thin(y), _at_least_thin(z)],
+                    [_thickness(x), _thickness(y), _thickness(z)],
                 )
             case Plane(_, (width, height)):
                 geom.type, geom.size = (
                     mujoco.mjtGeom.mjGEOM_PLANE,
-                    [_at_least_thin(width) / 2, _at_least_thin(height) / 2, 1],
+                    [_thickness(width) / 2, _thickness(height) / 2, 1],
                 )
             case Mesh():
                 geom.type, geom.meshname = (
@@ -184,19 +184,19 @@ class _VisualWriter:
         rgba, picture = shape.rgba, self._picture(shape)
         mean = None if shape.texture is None or picture is not None else mean_color(shape.texture)
         if mean is not None:
-            r, g, b, a = (value * by for value, by in zip(rgba, mean, strict=True))
+            r, g, b, a = (value * factor for value, factor in zip(rgba, mean, strict=True))
             rgba = (r, g, b, a)
         brightest = max(*rgba[:3], 1e-9)
         shininess, emission = min(shape.shininess / 128, 1.0), max(shape.emissive[:3]) / brightest
-        look = (rgba, max(shape.specular[:3]), shininess, emission, picture)
-        if look not in self._materials:
-            self._materials[look] = f"material{len(self._materials)}"
+        key = (rgba, max(shape.specular[:3]), shininess, emission, picture)
+        if key not in self._materials:
+            self._materials[key] = f"material{len(self._materials)}"
             self._spec.add_material(
-                name=self._materials[look], rgba=rgba, specular=look[1], shininess=shininess, emission=emission
+                name=self._materials[key], rgba=rgba, specular=key[1], shininess=shininess, emission=emission
             )
             if picture is not None:
-                self.pictures[self._materials[look]] = picture
-        return self._materials[look]
+                self.pictures[self._materials[key]] = picture
+        return self._materials[key]
 
     def _add_light(self, light: "SceneLight", number: int) -> None:
         body = self._spec.worldbody if light.body is None else self._bodies[light.body]
@@ -218,5 +218,5 @@ class _VisualWriter:
         )
 
 
-def _at_least_thin(length: float) -> float:
+def _thickness(length: float) -> float:
     return max(length, _THINNEST)

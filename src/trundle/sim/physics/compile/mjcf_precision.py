@@ -38,14 +38,14 @@ def with_full_precision(xml: str, spec: mujoco.MjSpec) -> str:
         ("light", spec.lights),
     ]
     for tag, objects in named:
-        by_name = {each.name: each for each in objects}
+        by_name = {item.name: item for item in objects}
         for element in root.iter(tag):
-            if (found := by_name.get(element.get("name", ""))) is not None:
-                _restore(element, found, _NAMES.get(tag, {}))
+            if (source := by_name.get(element.get("name", ""))) is not None:
+                _restore(element, source, _NAMES.get(tag, {}))
     for section, objects in (("equality", spec.equalities), ("actuator", spec.actuators)):
-        elements = [child for home in root.iter(section) for child in home]
-        for element, each in zip(elements, objects, strict=False):  # in order of addition; some have no name
-            _restore(element, each, _NAMES.get(section, {}))
+        elements = [child for parent in root.iter(section) for child in parent]
+        for element, item in zip(elements, objects, strict=False):  # in order of addition; some have no name
+            _restore(element, item, _NAMES.get(section, {}))
     bodies = {body.name: body for body in spec.bodies}
     for element in root.iter("body"):
         _restore_body(element, bodies[element.get("name", "")])
@@ -57,8 +57,8 @@ def _restore_body(element: Xml.Element, body: mujoco.MjsBody) -> None:
     for inertial in element.findall("inertial"):
         _restore(inertial, body, _NAMES["inertial"])
     for tag, objects in (("geom", body.geoms), ("joint", body.joints)):
-        for child, each in zip(element.findall(tag), objects, strict=False):
-            _restore(child, each, _NAMES.get(tag, {}))
+        for child, item in zip(element.findall(tag), objects, strict=False):
+            _restore(child, item, _NAMES.get(tag, {}))
 
 
 def _restore(element: Xml.Element, source: Any, names: Mapping[str, str]) -> None:

@@ -1,6 +1,6 @@
-"""Compiler for a series of similar worlds: where only numbers differ, the last model is copied and they are written.
+"""Compiler for a series of similar worlds: if only numbers differ, it writes them to a copy of the last model.
 
-Masses, inertias along the same axes, damping and friction of joints, surfaces and gravity are such numbers. The result
+These are masses, inertias along the same axes, damping and friction of joints, surfaces and gravity. The result
 equals that of a full compile bit for bit, in a tenth of the time; every other change is a full compile.
 """
 
@@ -36,16 +36,16 @@ class _Base(Struct, frozen=True, eq=False):
     compiler: Compiler
     compiled: CompiledWorld
     model: mujoco.MjModel
-    """As MuJoCo compiled it, without what Trundle wrote to it."""
+    """Model before `Compiler.finish`."""
     params: dict[tuple[str, str], ContactParams]
 
 
 class Recompiler:
-    """Compiler that remembers its last worlds."""
+    """Compiler with a cache of its last worlds."""
 
     def __init__(self) -> None:
         self._bases: deque[_Base] = deque(maxlen=_MAX_BASES)
-        """The last used first."""
+        """Most recently used first."""
         self.full_compiles = 0
         """Number of worlds that were compiled in full."""
 
@@ -75,7 +75,7 @@ def _renumbered(base: _Base, world: World, report: Diagnostics) -> CompiledWorld
     """Return the compiled world with the numbers of another one.
 
     Raises:
-        _NotNumbersError: they differ in more.
+        _NotNumbersError: the worlds differ in more than numbers.
     """
     model = copy.copy(base.model)
     changes = _Changes(base, model, report)
@@ -129,21 +129,21 @@ class _Changes:
             self._write_inertia(name, old, new)
         for a, b in zip(old.collisions, new.collisions, strict=True):
             if a != b:
-                self._note_surface(number, name, a, b)
+                self._add_surface(number, name, a, b)
 
     def _write_inertia(self, name: str, old: Link, new: Link) -> None:
         node = self._base.compiler.tree.links[name]
         _expect(not node.fixed and not self._base.compiler.tree.loops)
         _, axes, _ = principal_inertia(old, Diagnostics())
-        mass, same, moments = principal_inertia(new, self._report)
-        _expect(axes == same)
-        share, body = self._base.compiler.mass_factor(node), self._model.body(name).id
-        self._model.body_mass[body] = mass * share
-        self._model.body_inertia[body] = [moment * share for moment in moments]
+        mass, new_axes, moments = principal_inertia(new, self._report)
+        _expect(axes == new_axes)
+        ratio, body = self._base.compiler.mass_factor(node), self._model.body(name).id
+        self._model.body_mass[body] = mass * ratio
+        self._model.body_inertia[body] = [moment * ratio for moment in moments]
 
-    def _note_surface(self, number: int, name: str, old: Collision, new: Collision) -> None:
-        same = replace(new, surface=old.surface, laser_retro=old.laser_retro, max_contacts=old.max_contacts)
-        _expect(same == old)
+    def _add_surface(self, number: int, name: str, old: Collision, new: Collision) -> None:
+        restored = replace(new, surface=old.surface, laser_retro=old.laser_retro, max_contacts=old.max_contacts)
+        _expect(restored == old)
         a, b = old.surface, new.surface
         _expect(replace(b, mu=a.mu, mu2=a.mu2, kp=a.kp, kd=a.kd, restitution=a.restitution) == a)
         self._surfaces[number, name, f"{name}::{old.name}"] = new.surface
@@ -155,8 +155,8 @@ class _Changes:
         named = {shape.name: shape for shape in self.shapes}
         self.params = dict(self._base.params)
         for (a, b), old in self._base.params.items():
-            one, other = named[a], named[b]
-            new = combine_surfaces(one.surface, other.surface, b_stands=other.fixed, points=old.points)
+            first, second = named[a], named[b]
+            new = combine_surfaces(first.surface, second.surface, b_fixed=second.fixed, points=old.points)
             if new == old:
                 continue
             h = self._model.opt.timestep

@@ -1,4 +1,4 @@
-"""Geoms of collisions with what their contacts depend on."""
+"""Geoms of collisions, with the properties that determine their contacts."""
 
 from enum import Flag, auto
 
@@ -12,10 +12,10 @@ class CollidesWith(Flag):
     """Kinds of shapes that a shape can collide with."""
 
     PLANES = auto()
-    STANDING = auto()
+    FIXED = auto()
     """Fixed shapes other than planes."""
     MOVING = auto()
-    ALL = PLANES | STANDING | MOVING
+    ALL = PLANES | FIXED | MOVING
 
 
 class ShapeEntry(Struct, frozen=True):
@@ -33,13 +33,13 @@ class ShapeEntry(Struct, frozen=True):
     surface: Surface
     collides_with: CollidesWith = CollidesWith.ALL
     points: int = 1
-    """Number of ODE contact points that each of its contacts stands for."""
+    """Number of ODE contact points represented by each of its contacts."""
     has_tread: bool = False
-    """True for the cylinder of a wheel, whose tread carries it on what is fixed."""
+    """True for the cylinder of a wheel, whose tread carries it on fixed shapes."""
 
     @property
     def kind(self) -> CollidesWith:
         """Kind of the shape in the other's `collides_with`."""
         if not self.fixed:
             return CollidesWith.MOVING
-        return CollidesWith.PLANES if self.geom.type == mujoco.mjtGeom.mjGEOM_PLANE else CollidesWith.STANDING
+        return CollidesWith.PLANES if self.geom.type == mujoco.mjtGeom.mjGEOM_PLANE else CollidesWith.FIXED

@@ -50,9 +50,9 @@ def add_shape(
     Args:
         spec: the world's specification.
         body: owner of the geoms.
-        collision: as written.
-        name: of the geom, or prefix of the pieces.
-        report: takes deviations from the file.
+        collision: collision as in the file.
+        name: name of the geom, or prefix of the pieces' names.
+        report: receives deviations from the file.
         fixed: True if the body never moves.
         decomposition: convex pieces of meshes; None: each mesh is its convex hull.
     """
@@ -62,7 +62,7 @@ def add_shape(
         case MeshFile(path=None) | Empty():
             return []
         case MeshFile():
-            from .mesh_shapes import add_mesh  # a world without meshes starts without what cuts them
+            from .mesh_shapes import add_mesh  # worlds without meshes do not import the decomposition
 
             return add_mesh(spec, body, collision, name, report, fixed=fixed, decomposition=decomposition)
         case Cone(radius, length):
@@ -70,14 +70,14 @@ def add_shape(
             base = np.column_stack([radius * np.cos(turns), radius * np.sin(turns), np.full(_CONE_SIDES, -length / 2)])
             corners = np.vstack([base, [0.0, 0.0, length / 2]])
             away = radius * (1 - np.cos(np.pi / _CONE_SIDES))
-            what = f"a cone; physics has it with {_CONE_SIDES} sides, a surface up to {away:.2g} m away"
-            report.info(collision.at, f"collision {collision.name!r}: {what}")
+            note = f"a cone; physics uses a pyramid of {_CONE_SIDES} sides, a surface up to {away:.2g} m away"
+            report.info(collision.at, f"collision {collision.name!r}: {note}")
             return [(add_hull(spec, body, pose, name, corners), CollidesWith.ALL)]
         case Polyline(outlines, height):
             prisms = _add_prisms(spec, body, collision, name, report, outlines, height)
             return [(geom, CollidesWith.ALL) for geom in prisms]
         case Heightmap():
-            from .terrain import add_terrain  # nor one without ground what reads pictures of it
+            from .terrain import add_terrain  # worlds without heightmaps do not import the image reader
 
             return [(geom, CollidesWith.ALL) for geom in add_terrain(spec, body, collision, geometry, name, report)]
         case _:
@@ -111,8 +111,8 @@ def _add_prisms(
 ) -> list[mujoco.MjsGeom]:
     """Add a polyline as one prism per triangle of its outline."""
     if sum(map(len, outlines)) > _MAX_CORNERS or not height > 0:
-        what = f"a polyline of more than {_MAX_CORNERS} corners, or without height; it is left out"
-        report.warn(collision.at, f"collision {collision.name!r}: {what}")
+        problem = f"a polyline of more than {_MAX_CORNERS} corners, or without height; it is left out"
+        report.warn(collision.at, f"collision {collision.name!r}: {problem}")
         return []
     prisms = [np.array([(x, y, z) for z in (0.0, height) for x, y in triangle]) for triangle in triangulate(outlines)]
     return add_hulls(spec, body, collision.link_from_collision, name, thick_pieces(prisms, collision, report))

@@ -53,11 +53,11 @@ def apply_settings(spec: mujoco.MjSpec) -> None:
     option.solver = mujoco.mjtSolver.mjSOL_NEWTON
     option.tolerance = 1e-8
     option.iterations = 100
-    # [m] With MuJoCo's default 1e-6 a round wheel on a box carries half its load or none beside other contacts, and
+    # [m] With MuJoCo's default 1e-6 a round wheel on a box carries half its load or none next to other contacts, and
     # shallower contacts may be pushed the wrong way.
     option.ccd_tolerance = 1e-9
     option.ccd_iterations = 100
-    # Islands cost an awake robot a tenth of its speed and bring nothing while nothing sleeps.
+    # Islands cost an awake robot a tenth of its speed, for nothing while nothing sleeps.
     option.disableflags |= mujoco.mjtDisableBit.mjDSBL_ISLAND
     option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
     spec.compiler.degree = False

@@ -33,8 +33,8 @@ def add_terrain(
         return []
     x, y, z = terrain.size
     if not (x > 0 and y > 0 and z > 0):
-        what = f"heightmap of size {x:g} {y:g} {z:g}"
-        report.warn(collision.at, f"collision {collision.name!r}: {what} is empty; it is left out")
+        problem = f"heightmap of size {x:g} {y:g} {z:g}"
+        report.warn(collision.at, f"collision {collision.name!r}: {problem} is empty; it is left out")
         return []
     top = float(heights.max())
     field = spec.add_hfield(name=name, nrow=heights.shape[0], ncol=heights.shape[1])

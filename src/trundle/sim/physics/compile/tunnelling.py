@@ -6,8 +6,8 @@ ten of them 14 % and a furnished house 25 %: only worlds that need them pay, and
 critical speed (`cpp/contact/tunnelling.cc`), which leaves room for the acceleration of a step and for two moving
 bodies.
 
-A thin shape beside a thicker one of its body, as a piece of a robot's casing, goes nowhere without it: the thicker one
-is stopped.
+A thin shape next to a thicker one of the same body, such as a piece of a robot's casing, cannot tunnel alone: the
+thicker one is stopped.
 """
 
 from collections.abc import Iterable
@@ -31,11 +31,11 @@ def enable_ccd(model: mujoco.MjModel, shapes: Iterable[ShapeEntry]) -> None:
     """Enable speculative contacts in a world where a small body may tunnel through a thin fixed one."""
     halves = model.geom_aabb[:, 3:].min(axis=1)
     touching = [shape for shape in shapes if shape.kind is not CollidesWith.PLANES]
-    standing = np.array([model.geom(shape.name).id for shape in touching if shape.fixed], dtype=int)
+    fixed = np.array([model.geom(shape.name).id for shape in touching if shape.fixed], dtype=int)
     moving = np.array([model.geom(shape.name).id for shape in touching if not shape.fixed], dtype=int)
-    if not standing.size or not moving.size:
+    if not fixed.size or not moving.size:
         return
-    thickness = float(halves[standing].min()) + float(_thickest_around(model, moving, halves[moving]).min())
+    thickness = float(halves[fixed].min()) + float(_thickest_around(model, moving, halves[moving]).min())
     speed = thickness / (_DEEP * model.opt.timestep)
     if speed < _FASTEST:
         find_table(model, "laws")[0, 8] = max(speed / 2, _SLOWEST)
@@ -45,11 +45,12 @@ def enable_ccd(model: mujoco.MjModel, shapes: Iterable[ShapeEntry]) -> None:
 def _thickest_around(
     model: mujoco.MjModel, shapes: npt.NDArray[np.int_], halves: npt.NDArray[np.float64]
 ) -> npt.NDArray[np.float64]:
-    """Return the largest half thickness among each shape and those of its body in whose bounding sphere its middle is.
+    """Return for each shape the largest half thickness of the shapes of its body whose bounding sphere contains its
+    middle.
 
     Args:
-        model: as compiled.
-        shapes: numbers of geoms, (n,).
+        model: compiled model.
+        shapes: geom ids, (n,).
         halves: their half thicknesses [m], (n,).
     """
     largest = halves.copy()
@@ -57,8 +58,8 @@ def _thickest_around(
     order = np.argsort(bodies, kind="stable")
     for group in np.split(order, np.flatnonzero(np.diff(bodies[order])) + 1):
         middles = model.geom_pos[shapes[group]]
-        for each in group if len(group) > 1 else ():
-            distances = np.linalg.norm(middles - model.geom_pos[shapes[each]], axis=1)
-            around = group[distances <= model.geom_rbound[shapes[each]]]
-            largest[around] = np.maximum(largest[around], halves[each])
+        for shape in group if len(group) > 1 else ():
+            distances = np.linalg.norm(middles - model.geom_pos[shapes[shape]], axis=1)
+            around = group[distances <= model.geom_rbound[shapes[shape]]]
+            largest[around] = np.maximum(largest[around], halves[shape])
     return largest

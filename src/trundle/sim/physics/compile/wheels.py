@@ -16,23 +16,23 @@ TREAD = 1e-4
 """Difference of radius between tread and cylinder [m]."""
 TREAD_POINTS = 2
 """ODE contact points of a cylinder: its two edges."""
-BESIDE_TREAD = 0.01
-"""Part of an ODE contact point that each edge of the cylinder stands for, where the tread has sunk in."""
+EDGE_POINTS = 0.01
+"""Part of an ODE contact point represented by each edge of the cylinder, if the tread has sunk in."""
 _SMALLEST = 1e-3
 """Smallest radius of a wheel [m]."""
 
 
 def tread_of(collision: Collision, node: LinkNode, tree: KinematicTree) -> Ellipsoid | None:
-    """Return the tread of a cylinder that spins about its own axis; None for other shapes."""
+    """Return the tread of a cylinder that spins about its axis of symmetry; None for other shapes."""
     geometry, edge = collision.geometry, tree.parent_joint.get(node.name)
     if edge is None or not isinstance(geometry, Cylinder) or geometry.radius < _SMALLEST:
         return None
-    if not _spins_about_own_axis(edge, node, collision):
+    if not _spins_about_cylinder_axis(edge, node, collision):
         return None
     return Ellipsoid((geometry.radius, geometry.radius, max(geometry.length / 2, TREAD)))
 
 
-def _spins_about_own_axis(edge: JointEdge, node: LinkNode, collision: Collision) -> bool:
+def _spins_about_cylinder_axis(edge: JointEdge, node: LinkNode, collision: Collision) -> bool:
     joint = edge.joint
     axis = {JointType.REVOLUTE: joint.axis, JointType.REVOLUTE2: joint.axis2}.get(joint.type)
     if axis is None:
@@ -54,7 +54,7 @@ def report_wheels(world: World, report: Diagnostics) -> None:
 
     Args:
         world: without nested models.
-        report: takes a note per wheel.
+        report: receives a note per wheel.
 
     Raises:
         DescriptionError: two models, or two links or joints of one, share a name.
@@ -63,6 +63,6 @@ def report_wheels(world: World, report: Diagnostics) -> None:
     for node in tree.links.values():
         for collision in node.link.collisions:
             if tread_of(collision, node, tree) is not None:
-                what = "a wheel; in physics it rolls on the ellipsoid inscribed in it"
+                note = "a wheel; in physics it rolls on the ellipsoid inscribed in it"
                 away = f"a surface up to {TREAD * 1e3:g} mm away"
-                report.info(collision.at, f"collision {collision.name!r}: {what}, {away}")
+                report.info(collision.at, f"collision {collision.name!r}: {note}, {away}")

@@ -43,7 +43,7 @@ _SWEEPS = 4
 def decompose(
     points: _Points, faces: _Faces, hull: Hull, *, closed: bool, coarse: bool = False
 ) -> list[_Points] | None:
-    """Decompose a mesh into convex pieces; return the corners of each, or None if that is no better than the hull.
+    """Decompose a mesh into convex pieces; return the corners of each, or None if the hull is as good.
 
     The pieces together contain every corner of the mesh's hull and nothing outside it, so the mesh stands as before.
 
@@ -52,7 +52,7 @@ def decompose(
         faces: (M, 3) indices into points.
         hull: hull of the points.
         closed: True if the surface is closed; an open one becomes a wall of a few hundredths of its size.
-        coarse: fewer pieces, in a fraction of the time.
+        coarse: True: fewer pieces, in a fraction of the time.
     """
     if len(faces) > MAX_FACES:
         return None
@@ -60,8 +60,8 @@ def decompose(
 
 
 def _candidates(points: _Points, faces: _Faces, hull: Hull, closed: bool, coarse: bool) -> list[_Points]:
-    """Return the pieces with the smaller surface error; voxels, which leave no cavity in a wall, unless sheets are far
-    better.
+    """Return the pieces with the smaller surface error; V-HACD's, which leave no cavity in a wall, unless sheets are
+    far better.
     """
     size = float(np.ptp(points, axis=0).max())
     triangles = points[faces]
@@ -93,8 +93,8 @@ def _voxels(points: _Points, faces: _Faces, size: float, *, closed: bool, coarse
     settings = _COARSE if coarse else _FULL
     with native_output_hidden():
         # An open wall must not be shrink-wrapped onto its surface: nothing would remain.
-        found = compute_vhacd((points - middle) / size, numbered.ravel(), shrinkWrap=closed, **settings)
-    return [corners * size + middle for corners, _ in found]
+        hulls = compute_vhacd((points - middle) / size, numbered.ravel(), shrinkWrap=closed, **settings)
+    return [corners * size + middle for corners, _ in hulls]
 
 
 def _solids(pieces: list[_Points], hull: Hull) -> list[Hull]:

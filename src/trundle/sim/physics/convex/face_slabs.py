@@ -17,32 +17,32 @@ _FILLS = 1.001
 """Largest ratio of a convex polygon's area to that of the faces that fill it."""
 
 
-def is_layer(own: _Points) -> bool:
+def is_layer(points: _Points) -> bool:
     """True if points (N, 3) are flat."""
-    centred = own - own.mean(axis=0)
+    centred = points - points.mean(axis=0)
     return bool(np.ptp(centred @ np.linalg.eigh(centred.T @ centred)[1][:, 0]) < _THINNEST)
 
 
-def is_convex_layer(points: _Points, faces: _Faces, own: _Points) -> bool:
+def is_convex_layer(points: _Points, faces: _Faces, vertices: _Points) -> bool:
     """True if faces are flat and fill their convex polygon; faces present in both orientations count once."""
-    if not is_layer(own):
+    if not is_layer(vertices):
         return False
     a, b, c = (points[np.unique(np.sort(faces, axis=1), axis=0)[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)
     areas = np.linalg.norm(normals, axis=1)
     widest = int(areas.argmax())
-    return convex_hull_area(own, normals[widest] / areas[widest]) <= areas.sum() / 2 * _FILLS
+    return convex_hull_area(vertices, normals[widest] / areas[widest]) <= areas.sum() / 2 * _FILLS
 
 
-def slabs_of(points: _Points, faces: _Faces, own: _Points) -> list[_Points]:
+def slabs_of(points: _Points, faces: _Faces, vertices: _Points) -> list[_Points]:
     """Return corners (N, 3) of slabs behind all faces [m]; faces that form a convex polygon or bulge share one.
 
     Args:
         points: (N, 3) [m].
         faces: (M, 3) indices into points, none without area.
-        own: points used by the faces.
+        vertices: points used by the faces.
     """
-    sides = np.ptp(own, axis=0)
+    sides = np.ptp(vertices, axis=0)
     thickness = float(np.clip(sides[sides > WELD].min(initial=np.inf) / 4, 1e-3, _THICKEST))
     a, b, c = (points[faces[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)

@@ -40,7 +40,7 @@ class Hull(Struct, frozen=True):
     """[m³]"""
 
     def signed_distances(self, points: _Points) -> _Points:
-        """Return (N,) the largest signed distance of points (N, 3) to the face planes [m]; below zero: inside."""
+        """Return the largest signed distance of each point (N, 3) to the face planes, (N,) [m]; below zero: inside."""
         highest = np.full(len(points), -np.inf)
         for normal, offset in zip(self.normals, self.offsets, strict=True):
             np.maximum(highest, points @ normal - offset, out=highest)
@@ -159,15 +159,15 @@ def _is_inside(point: _Points, triangles: _Points) -> bool:
 
 
 def sample_surface(triangles: _Points, count: int) -> tuple[_Points, _Numbers]:
-    """Return about `count` points evenly on a surface (F, 3, 3), deterministically, and the triangle index of each."""
+    """Return about `count` evenly distributed points on a surface (F, 3, 3), deterministic, and each one's triangle."""
     edges = triangles[:, 1:] - triangles[:, :1]
     areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
-    wanted = np.cumsum(areas) * (count / max(float(areas.sum()), np.finfo(float).tiny))
-    numbers = np.diff(np.round(wanted).astype(np.intp), prepend=0)
+    cumulative_counts = np.cumsum(areas) * (count / max(float(areas.sum()), np.finfo(float).tiny))
+    numbers = np.diff(np.round(cumulative_counts).astype(np.intp), prepend=0)
     owners = np.repeat(np.arange(len(triangles)), numbers)
-    turn = np.arange(len(owners)) - np.repeat(np.cumsum(numbers) - numbers, numbers) + 0.5
+    index = np.arange(len(owners)) - np.repeat(np.cumsum(numbers) - numbers, numbers) + 0.5
     # Roberts' sequence, even over the unit square for any number of points, folded into the triangle.
-    u, v = (turn * 0.7548776662466927) % 1, (turn * 0.5698402909980532) % 1
+    u, v = (index * 0.7548776662466927) % 1, (index * 0.5698402909980532) % 1
     u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)
     return triangles[owners, 0] + u[:, None] * edges[owners, 0] + v[:, None] * edges[owners, 1], owners
 
@@ -195,15 +195,15 @@ def convex_hull_area(corners: _Points, normal: _Points) -> float:
     flat = flat[np.lexsort((flat[:, 1], flat[:, 0]))]
 
     def chain(points: list[list[float]]) -> list[list[float]]:
-        kept: list[list[float]] = []
+        chain_points: list[list[float]] = []
         for x, y in points:
-            while len(kept) > 1:
-                (x0, y0), (x1, y1) = kept[-2:]
+            while len(chain_points) > 1:
+                (x0, y0), (x1, y1) = chain_points[-2:]
                 if (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0) > 0:
                     break
-                kept.pop()
-            kept.append([x, y])
-        return kept[:-1]
+                chain_points.pop()
+            chain_points.append([x, y])
+        return chain_points[:-1]
 
     hull = np.array(chain(flat.tolist()) + chain(flat[::-1].tolist()))
     x, y = hull.T

@@ -14,11 +14,11 @@ from .process import DecompositionProcess
 from .progress import DecompositionProgress
 
 SHORT_S = 1.5
-"""Work that is done in this process [s]: V-HACD holds the GIL for a third of a second at a time."""
+"""Longest work for this process [s]: V-HACD holds the GIL for a third of a second at a time."""
 _WORKER_S = 0.5
 """Work that justifies one more process [s]."""
 _TICK_S = 0.2
-_Answer: TypeAlias = tuple[ConcavePart, ConvexPieces | None] | None
+_Result: TypeAlias = tuple[ConcavePart, ConvexPieces | None] | None
 """None: Ctrl-C ended a worker."""
 
 
@@ -28,8 +28,8 @@ def decompose_parts(
     """Decompose parts and yield each when done, with None for a failed one.
 
     Args:
-        parts: those to decompose.
-        redraws: redraw a line of progress on a terminal; False: other lines are printed meanwhile.
+        parts: parts to decompose.
+        redraws: True: redraw a line of progress on a terminal; False: print lines.
 
     Raises:
         KeyboardInterrupt: Ctrl-C in the main thread.
@@ -65,11 +65,11 @@ def _decompose_in_process(part: ConcavePart) -> ConvexPieces | None:
 def _decompose_in_workers(
     parts: Sequence[ConcavePart], count: int, progress: DecompositionProgress
 ) -> Generator[tuple[ConcavePart, ConvexPieces | None]]:
-    # Longest first, so that no processor waits for a late one.
+    # Longest first, so that no processor is left waiting for a long one.
     todo: SimpleQueue[ConcavePart] = SimpleQueue()
     for part in sorted(parts, key=lambda part: -part.seconds):
         todo.put(part)
-    done: SimpleQueue[_Answer] = SimpleQueue()
+    done: SimpleQueue[_Result] = SimpleQueue()
     workers: list[DecompositionProcess] = []
     try:
         workers.extend(DecompositionProcess() for _ in range(count))
@@ -82,7 +82,7 @@ def _decompose_in_workers(
             worker.close()
 
 
-def _work(worker: DecompositionProcess, todo: SimpleQueue[ConcavePart], done: SimpleQueue[_Answer]) -> None:
+def _work(worker: DecompositionProcess, todo: SimpleQueue[ConcavePart], done: SimpleQueue[_Result]) -> None:
     """Process queued parts until the queue is empty."""
     while True:
         try:
@@ -96,15 +96,15 @@ def _work(worker: DecompositionProcess, todo: SimpleQueue[ConcavePart], done: Si
             return
 
 
-def _next(done: SimpleQueue[_Answer], progress: DecompositionProgress) -> tuple[ConcavePart, ConvexPieces | None]:
+def _next(done: SimpleQueue[_Result], progress: DecompositionProgress) -> tuple[ConcavePart, ConvexPieces | None]:
     while True:
         try:
-            answer = done.get(timeout=_TICK_S)
+            result = done.get(timeout=_TICK_S)
         except Empty:
             progress.show()
             continue
-        if answer is not None:
-            return answer
+        if result is not None:
+            return result
         if threading.current_thread() is threading.main_thread():
             raise KeyboardInterrupt
         raise UsageError("stopped during convex decomposition")

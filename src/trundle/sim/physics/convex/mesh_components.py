@@ -11,7 +11,7 @@ WELD = 1e-6
 
 def welded(vertices: _Points, faces: _Faces) -> tuple[_Points, _Faces]:
     """Return points with duplicates merged, and faces without degenerate ones."""
-    from trundle.robots.meshes import unique_rows  # the worker, which never welds, starts without it
+    from trundle.robots.meshes import unique_rows  # the worker never welds and does not import it
 
     first, number = unique_rows(np.round(vertices / WELD))
     points, faces = vertices[first], number[faces]
@@ -37,8 +37,8 @@ def is_closed(faces: _Faces) -> bool:
     """True if every edge occurs once in each direction."""
     starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
     count = int(faces.max()) + 1
-    there, back = np.sort(starts * count + ends), np.sort(ends * count + starts)
-    return bool((there[1:] != there[:-1]).all()) and np.array_equal(there, back)
+    forward, backward = np.sort(starts * count + ends), np.sort(ends * count + starts)
+    return bool((forward[1:] != forward[:-1]).all()) and np.array_equal(forward, backward)
 
 
 def renumbered(faces: _Faces) -> _Faces:

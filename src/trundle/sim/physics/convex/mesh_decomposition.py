@@ -46,12 +46,12 @@ FULL = "TRUNDLE_FULL_DECOMPOSITION"
 MAX_SECONDS = 120.0
 """Time budget of a world on one processor [s]; beyond, parts are decomposed coarsely."""
 MAX_SECONDS_A_MESH = 40.0
-_MAX_KNOWN = 1024
+_MAX_CACHED = 1024
 _cache_lock = threading.Lock()
 
 _splits: dict[bytes, MeshSplit] = {}
 """Mesh digest → split; least recently used first."""
-_known: dict[str, ConvexPieces] = {}
+_pieces: dict[str, ConvexPieces] = {}
 """Part key → pieces; least recently used first."""
 
 
@@ -62,9 +62,9 @@ class DecomposedMesh(Struct, frozen=True):
     is_coarse: bool
     """True if the time budget reduced the number of pieces."""
     is_failed: bool
-    """True if a part failed and is its hull."""
+    """True if a part failed and its hull replaces it."""
     is_stand_in: bool = False
-    """True if a part is its hull until it is cut."""
+    """True if a part's hull replaces it until it is cut."""
 
 
 class WorldDecomposition:
@@ -74,7 +74,7 @@ class WorldDecomposition:
         """Prepare.
 
         Args:
-            background: cuts what takes long, while hulls stand in; None: everything is cut at once.
+            background: decomposes slow meshes while their hulls stand in; None: all are decomposed at once.
         """
         self._background = background
         self._stand_ins: dict[str, ConvexPieces] = {}
@@ -87,11 +87,11 @@ class WorldDecomposition:
 
     def decompose_all(self, meshes: Iterable[MeshRequest]) -> None:
         """Decompose meshes in file order, in several processes or in the background if it takes long."""
-        wanted: dict[str, ConcavePart] = {}
+        parts_by_key: dict[str, ConcavePart] = {}
         for vertices, faces, fixed in meshes:
             _, parts = self._plan(vertices, faces, fixed=fixed)
-            wanted.update((part.key, part) for part in parts)
-        todo = {key: part for key, part in wanted.items() if not self._has(part)}
+            parts_by_key.update((part.key, part) for part in parts)
+        todo = {key: part for key, part in parts_by_key.items() if not self._has(part)}
         if self._background is not None and sum(part.seconds for part in todo.values()) > SHORT_S:
             self._stand_in(todo, self._background)
             return
@@ -144,8 +144,8 @@ class WorldDecomposition:
         for part in parts:
             key = part.key
             if key not in self._chosen:
-                left_s = min(MAX_SECONDS - self._seconds, MAX_SECONDS_A_MESH - (self._seconds - before_s))
-                if part.detail is Detail.FULL and part.seconds > left_s and FULL not in os.environ:
+                remaining_s = min(MAX_SECONDS - self._seconds, MAX_SECONDS_A_MESH - (self._seconds - before_s))
+                if part.detail is Detail.FULL and part.seconds > remaining_s and FULL not in os.environ:
                     part = replace(part, detail=Detail.COARSE)
                 self._chosen[key] = part
                 self._seconds += part.seconds
@@ -153,17 +153,17 @@ class WorldDecomposition:
         return chosen
 
     def _find(self, part: ConcavePart) -> ConvexPieces | None:
-        pieces = _known.get(part.key)
+        pieces = _pieces.get(part.key)
         if pieces is None and part.detail is not Detail.HULL:
             pieces = load_pieces(part.key)
         if pieces is not None:
-            _cache(_known, part.key, pieces)
+            _cache(_pieces, part.key, pieces)
         return pieces
 
 
 def store_pieces(part: ConcavePart, pieces: ConvexPieces) -> None:
     """Keep the pieces of a part, in memory and on disk."""
-    _cache(_known, part.key, pieces)
+    _cache(_pieces, part.key, pieces)
     if part.detail is not Detail.HULL:
         save_pieces(part.key, pieces)
 
@@ -171,14 +171,14 @@ def store_pieces(part: ConcavePart, pieces: ConvexPieces) -> None:
 def clear_cache() -> None:
     """Clear the in-memory caches."""
     _splits.clear()
-    _known.clear()
+    _pieces.clear()
 
 
 def _cache(memory: dict[_K, _V], key: _K, value: _V) -> None:
     with _cache_lock:
         memory.pop(key, None)
         memory[key] = value
-        if len(memory) > _MAX_KNOWN:
+        if len(memory) > _MAX_CACHED:
             del memory[next(iter(memory))]
 
 
@@ -206,11 +206,11 @@ def load_pieces(key: str) -> ConvexPieces | None:
     errors, *pieces = (np.asarray(part.vertices, dtype=float) for part in parts)
     if not pieces or not all(len(corners) and np.isfinite(corners).all() for corners in pieces):
         return None
-    found = [
+    hull_errors = [
         HullError(None if np.isnan(times) else times, away, is_filled=bool(is_filled))
         for times, away, is_filled in errors.tolist()
     ]
-    return ConvexPieces(pieces, found)
+    return ConvexPieces(pieces, hull_errors)
 
 
 def _cache_name(key: str) -> str:

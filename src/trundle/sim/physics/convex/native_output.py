@@ -34,11 +34,11 @@ def _redirected(number: int) -> Generator[None]:
             os.dup2(screen, number)
             os.close(screen)
             caught.seek(0)
-            words = caught.read()
-            if not any(name in words.lower() for name in _STREAMS):
-                _write_all(number, words)
+            output = caught.read()
+            if not any(name in output.lower() for name in _STREAMS):
+                _write_all(number, output)
 
 
-def _write_all(number: int, words: bytes) -> None:
-    while words:
-        words = words[os.write(number, words) :]
+def _write_all(number: int, output: bytes) -> None:
+    while output:
+        output = output[os.write(number, output) :]

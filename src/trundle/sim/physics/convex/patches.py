@@ -23,7 +23,7 @@ class Patches(Struct, frozen=True):
     sizes: _Numbers
     """(P,) number of corners."""
     normals: _Points
-    """(P, 3) sum of the faces' normals, each of twice its area in length."""
+    """(P, 3) sum of the faces' normals, whose lengths are twice the areas."""
     planes: _Points
     """(P, M, 4) unit normal and offset of each face; beyond the count the first is repeated."""
     counts: _Numbers
@@ -82,18 +82,18 @@ def _neighbours(patches: Patches) -> _Numbers:
     width = patches.loops.shape[1]
     owner = np.repeat(np.arange(len(patches.sizes)), width)
     number = np.tile(np.arange(width), len(patches.sizes))
-    is_there = number < patches.sizes[owner]
-    owner, number = owner[is_there], number[is_there]
+    exists = number < patches.sizes[owner]
+    owner, number = owner[exists], number[exists]
     start, end = _corner(patches, owner, number), _corner(patches, owner, number + 1)
-    most = int(patches.loops.max()) + 1
-    keys, back = start * most + end, end * most + start
+    vertex_count = int(patches.loops.max()) + 1
+    keys, back = start * vertex_count + end, end * vertex_count + start
     order = np.argsort(keys, kind="stable")
-    found = np.searchsorted(keys, back, sorter=order)
-    found = order[np.minimum(found, len(keys) - 1)]
-    _, index, times = np.unique(keys, return_inverse=True, return_counts=True)
-    is_once = times[index] == 1
-    is_pair = (keys[found] == back) & is_once & is_once[found] & (owner < owner[found])
-    return np.column_stack([owner, number, owner[found], number[found]])[is_pair]
+    reverse = np.searchsorted(keys, back, sorter=order)
+    reverse = order[np.minimum(reverse, len(keys) - 1)]
+    _, index, occurrences = np.unique(keys, return_inverse=True, return_counts=True)
+    is_once = occurrences[index] == 1
+    is_pair = (keys[reverse] == back) & is_once & is_once[reverse] & (owner < owner[reverse])
+    return np.column_stack([owner, number, owner[reverse], number[reverse]])[is_pair]
 
 
 def _corner(patches: Patches, patch: _Numbers, number: _Numbers) -> _Numbers:
@@ -108,18 +108,18 @@ def _turn(points: _Points, corners: tuple[_Numbers, _Numbers, _Numbers], normals
     return np.einsum("ij,ij->i", np.cross(one, two), normals) / np.maximum(lengths, np.finfo(float).tiny)
 
 
-def _heights(points: _Points, patches: Patches, of: _Numbers, above: _Numbers) -> tuple[_Points, _Points]:
-    """Return (E,) the highest and the lowest vertex of patches `of` above the faces of patches `above` [m]."""
+def _heights(points: _Points, patches: Patches, upper: _Numbers, lower: _Numbers) -> tuple[_Points, _Points]:
+    """Return the highest and the lowest vertex of patches `upper` above the faces of patches `lower`, (E,) each [m]."""
     width = patches.loops.shape[1]
-    numbers = np.minimum(np.arange(width), patches.sizes[of][:, None] - 1)
-    corners = points[patches.loops[of[:, None], numbers]]
-    planes = patches.planes[above]
+    numbers = np.minimum(np.arange(width), patches.sizes[upper][:, None] - 1)
+    corners = points[patches.loops[upper[:, None], numbers]]
+    planes = patches.planes[lower]
     heights = np.einsum("eki,emi->ekm", corners, planes[..., :3]) - planes[:, None, :, 3]
     return heights.max(axis=(1, 2), initial=-np.inf), heights.min(axis=(1, 2), initial=np.inf)
 
 
 def _matched(pairs: _Numbers, gain: _Points, count: int) -> _Numbers:
-    """Return the pairs to merge, each patch in one at most: repeatedly those that are best for both."""
+    """Return the pairs to merge, at most one for each patch: repeatedly the pairs that are best for both patches."""
     order = np.argsort(-gain, kind="stable")
     pairs = pairs[order]
     chosen: list[_Numbers] = []
@@ -130,9 +130,9 @@ def _matched(pairs: _Numbers, gain: _Points, count: int) -> _Numbers:
         np.minimum.at(best, pairs[:, 2], rank)
         is_best = (best[pairs[:, 0]] == rank) & (best[pairs[:, 2]] == rank)
         chosen.append(pairs[is_best])
-        taken = np.zeros(count, dtype=bool)
-        taken[chosen[-1][:, [0, 2]]] = True
-        pairs = pairs[~(taken[pairs[:, 0]] | taken[pairs[:, 2]])]
+        merged = np.zeros(count, dtype=bool)
+        merged[chosen[-1][:, [0, 2]]] = True
+        pairs = pairs[~(merged[pairs[:, 0]] | merged[pairs[:, 2]])]
     return np.concatenate(chosen) if chosen else np.zeros((0, 4), dtype=np.intp)
 
 
@@ -148,17 +148,20 @@ def _joined(patches: Patches, pairs: _Numbers) -> Patches:
     face = np.arange(max(int(counts.max()), patches.planes.shape[1]))
     count = patches.counts[first][:, None]
     from_first = patches.planes[first[:, None], np.minimum(face, count - 1)]
-    most = patches.counts[second][:, None] - 1
-    from_second = patches.planes[second[:, None], np.clip(face - count, 0, most)]
+    last = patches.counts[second][:, None] - 1
+    from_second = patches.planes[second[:, None], np.clip(face - count, 0, last)]
     planes = np.where((face < count)[..., None], from_first, from_second)
-    rest = np.setdiff1d(np.arange(len(patches.sizes)), pairs[:, [0, 2]])
-    more = [(0, 0), (0, len(step) - patches.loops.shape[1])]
+    unmerged = np.setdiff1d(np.arange(len(patches.sizes)), pairs[:, [0, 2]])
+    padding = [(0, 0), (0, len(step) - patches.loops.shape[1])]
     return Patches(
-        np.concatenate([loops, np.pad(patches.loops[rest], more)]),
-        np.concatenate([sizes, patches.sizes[rest]]),
-        np.concatenate([patches.normals[first] + patches.normals[second], patches.normals[rest]]),
+        np.concatenate([loops, np.pad(patches.loops[unmerged], padding)]),
+        np.concatenate([sizes, patches.sizes[unmerged]]),
+        np.concatenate([patches.normals[first] + patches.normals[second], patches.normals[unmerged]]),
         np.concatenate(
-            [planes, np.pad(patches.planes[rest], [(0, 0), (0, len(face) - patches.planes.shape[1]), (0, 0)], "edge")]
+            [
+                planes,
+                np.pad(patches.planes[unmerged], [(0, 0), (0, len(face) - patches.planes.shape[1]), (0, 0)], "edge"),
+            ]
         ),
-        np.concatenate([counts, patches.counts[rest]]),
+        np.concatenate([counts, patches.counts[unmerged]]),
     )

@@ -2,7 +2,7 @@
 
 A convex component of a mesh is one piece. Each flat face of a fixed concave one becomes a thin slab, so that rooms can
 be entered and ramps driven up. A moving one is decomposed into a few nearly convex pieces if it is truly concave;
-otherwise, or where that is no better, it is its hull.
+otherwise, or if the pieces are no better, its hull replaces it.
 """
 
 import hashlib
@@ -23,11 +23,11 @@ from .shell_decomposition import shell_pieces
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
 MAX_PIECES = 1000
-"""Most pieces of a moving mesh; beyond, it is one hull."""
+"""Most pieces of a moving mesh; beyond, it becomes one hull."""
 MAX_SLABS = 50_000
-"""Most slabs of all fixed meshes of a world; beyond, a mesh of more than 1000 is one hull."""
+"""Most slabs of all fixed meshes of a world; beyond, a mesh of more than 1000 becomes one hull."""
 _CLOSE = 0.02
-"""Distance of the hull [m] within which a fixed mesh of over 1000 slabs is its hull."""
+"""Distance of the hull [m] up to which it replaces a fixed mesh of over 1000 slabs."""
 _VERSION = 4
 """Version of the cache keys; raised when a mesh gets different pieces."""
 _HOLLOW = 0.05
@@ -124,11 +124,15 @@ def split_mesh(vertices: _Points, faces: _Faces, *, fixed: bool) -> MeshSplit:
     corners: list[_Points] = []
     concave: list[_Faces] = []
     for component in np.split(faces[order], starts):
-        own = points[np.unique(component)]
-        if fixed and (is_layer(own) or not is_convex(points, component, own)):
-            corners += slabs_of(points, component, own)
-        elif fixed or is_convex(points, component, own) or is_convex_layer(points, component, own):
-            corners.append(own)
+        vertices_of_component = points[np.unique(component)]
+        if fixed and (is_layer(vertices_of_component) or not is_convex(points, component, vertices_of_component)):
+            corners += slabs_of(points, component, vertices_of_component)
+        elif (
+            fixed
+            or is_convex(points, component, vertices_of_component)
+            or is_convex_layer(points, component, vertices_of_component)
+        ):
+            corners.append(vertices_of_component)
         else:
             concave.append(component)
         if len(corners) + len(concave) > (MAX_SLABS if fixed else MAX_PIECES):
@@ -143,7 +147,7 @@ def split_mesh(vertices: _Points, faces: _Faces, *, fixed: bool) -> MeshSplit:
 
 
 def as_single_hull(vertices: _Points, faces: _Faces) -> MeshSplit:
-    """Return a mesh as a single part that is its hull."""
+    """Return a mesh as a single part, replaced by its hull."""
     points, faces = welded(vertices, faces)
     return MeshSplit([], [_concave_part(points, faces, Detail.HULL)])
 
@@ -154,9 +158,9 @@ def _hull_is_close(points: _Points, faces: _Faces) -> bool:
 
 
 def _concave_part(points: _Points, faces: _Faces, detail: Detail) -> tuple[_Points, ConcavePart]:
-    own = points[np.unique(faces)]
-    lowest = own.min(axis=0)
-    return lowest, ConcavePart(np.round((own - lowest) / WELD) * WELD, renumbered(faces), detail)
+    vertices = points[np.unique(faces)]
+    lowest = vertices.min(axis=0)
+    return lowest, ConcavePart(np.round((vertices - lowest) / WELD) * WELD, renumbered(faces), detail)
 
 
 def decompose_part(part: ConcavePart) -> ConvexPieces:
@@ -166,16 +170,16 @@ def decompose_part(part: ConcavePart) -> ConvexPieces:
     triangles, closed = points[faces], is_closed(faces)
     if hull is None:
         return _flat(points, faces, triangles)
-    own_volume = volume_of(triangles) if closed else 0.0
-    times = hull.volume / own_volume if own_volume > 0 else None
-    error = HullError(times, hausdorff_distance(hull.triangles, triangles), is_filled=True)
-    is_hollow = error.distance > _HOLLOW * float(np.ptp(points, axis=0).max()) and not (times and times < _FULL)
+    mesh_volume = volume_of(triangles) if closed else 0.0
+    ratio = hull.volume / mesh_volume if mesh_volume > 0 else None
+    error = HullError(ratio, hausdorff_distance(hull.triangles, triangles), is_filled=True)
+    is_hollow = error.distance > _HOLLOW * float(np.ptp(points, axis=0).max()) and not (ratio and ratio < _FULL)
     if part.detail is not Detail.HULL and is_hollow:
         cut = decompose(points, faces, hull, closed=closed, coarse=part.detail is Detail.COARSE) or []
         solids = [solid for piece in cut if (solid := hull_of(piece)) is not None]
         volume, away = sum(solid.volume for solid in solids), surface_error(triangles, solids, closed=closed)
         if volume < hull.volume / _FULL and away < error.distance:
-            return ConvexPieces(cut, [HullError(volume / own_volume if times else None, away, is_filled=False)])
+            return ConvexPieces(cut, [HullError(volume / mesh_volume if ratio else None, away, is_filled=False)])
     return ConvexPieces([points], [error])
 
 
@@ -185,7 +189,7 @@ def hull_of_part(part: ConcavePart) -> ConvexPieces:
 
 
 def _flat(points: _Points, faces: _Faces, triangles: _Points) -> ConvexPieces:
-    """Return a flat part as one layer, or as thin walls if it is not convex."""
+    """Return a flat part as one layer if it is convex, else as thin walls."""
     walls = shell_pieces(points, faces, closed=False) if len(faces) <= _MAX_FLAT else []
     if len(walls) < 2:
         return ConvexPieces([points], [])

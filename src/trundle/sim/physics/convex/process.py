@@ -17,7 +17,7 @@ _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM
 
 
 class DecompositionProcess:
-    """Process that runs `worker`, restarted when a mesh crashes it."""
+    """Process that runs `worker`; restarted after a crash."""
 
     def __init__(self) -> None:
         """Start the process without waiting for it."""

@@ -19,7 +19,7 @@ class DecompositionProgress:
         Args:
             seconds: estimated time of each part [s].
             processes: number of workers.
-            redraws: False: print lines on a terminal, too.
+            redraws: False: print lines, also on a terminal.
         """
         self._count, self._finished = len(seconds), 0
         self._work, self._worked = sum(seconds), 0.0
@@ -30,8 +30,8 @@ class DecompositionProgress:
         self._width = 0
         self._in_log = self._stream is not None and not self._on_terminal and self._expected_s > _LONG_S
         if self._in_log:
-            what = f"cutting {self._count} hollow meshes into convex pieces, about {_format_duration(self._expected_s)}"
-            self._log(f"{what}; cached for later runs")
+            text = f"cutting {self._count} hollow meshes into convex pieces, about {_format_duration(self._expected_s)}"
+            self._log(f"{text}; cached for later runs")
         self.show()
 
     def done(self, seconds: float) -> None:

@@ -13,11 +13,11 @@ from .hulls import area_of, convex_hull_area, hausdorff_distance, hull_of, volum
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
-_MOST = 64
+_MAX_SHEETS = 64
 _BENDS = (0.002, 0.005, 0.01, 0.02, 0.04)
 """Flatness tolerances of a sheet, relative to the mesh size; the first with few enough sheets is used."""
 _STEEPEST = 0.7
-"""Smallest cosine between the normals of a sheet's faces and its own."""
+"""Smallest cosine between a sheet's normal and its faces'."""
 _WASTE = 1.02
 """Ratio of a convex polygon's area to its faces' up to which a sheet needs no exact test."""
 _PROBES, _SAMPLES = 64, 1000
@@ -29,7 +29,7 @@ _THINNEST, _THICKEST = 1e-3, 0.01
 
 
 def shell_pieces(points: _Points, faces: _Faces, *, closed: bool) -> list[_Points]:
-    """Return corners (N, 3) of each sheet [m]; empty if there would be too many.
+    """Return corners (N, 3) of each sheet [m]; empty if there are too many.
 
     Args:
         points: (N, 3) [m].
@@ -46,8 +46,8 @@ def shell_pieces(points: _Points, faces: _Faces, *, closed: bool) -> list[_Point
         thickness = abs(volume_of(triangles)) / area_of(triangles)
     surface = _Surface(points, faces, thickness, closed=closed)
     for bend in _BENDS:
-        sheets = list(islice(surface.sheets(bend * size), _MOST + 1))
-        if len(sheets) <= _MOST:
+        sheets = list(islice(surface.sheets(bend * size), _MAX_SHEETS + 1))
+        if len(sheets) <= _MAX_SHEETS:
             return sheets
     return []
 
@@ -65,14 +65,14 @@ class _Surface:
         lengths = np.linalg.norm(across, axis=1)
         self._normals = across / lengths[:, None]
         self._areas = lengths / 2
-        self._beside: list[list[int]] = [[] for _ in faces]
+        self._neighbours: list[list[int]] = [[] for _ in faces]
         by_edge: dict[tuple[int, int], list[int]] = {}
         for i, (u, v, w) in enumerate(faces.tolist()):
             for edge in ((u, v), (v, w), (w, u)):
                 others = by_edge.setdefault((min(edge), max(edge)), [])
                 for other in others:
-                    self._beside[i].append(other)
-                    self._beside[other].append(i)
+                    self._neighbours[i].append(other)
+                    self._neighbours[other].append(i)
                 others.append(i)
 
     def sheets(self, bend: float) -> Iterator[_Points]:
@@ -89,18 +89,18 @@ class _Surface:
             free[patch] = False
             yield from self._walls(patch, normal, bend)
 
-    def _connected(self, seed: int, wanted: NDArray[np.bool_]) -> _Faces:
-        """Return the wanted faces connected to `seed`."""
-        found, todo = {seed}, [seed]
+    def _connected(self, seed: int, allowed: NDArray[np.bool_]) -> _Faces:
+        """Return the allowed faces connected to `seed`."""
+        connected, todo = {seed}, [seed]
         while todo:
-            for face in self._beside[todo.pop()]:
-                if wanted[face] and face not in found:
-                    found.add(face)
+            for face in self._neighbours[todo.pop()]:
+                if allowed[face] and face not in connected:
+                    connected.add(face)
                     todo.append(face)
-        return np.array(sorted(found), dtype=np.intp)
+        return np.array(sorted(connected), dtype=np.intp)
 
     def _walls(self, patch: _Faces, normal: _Points, bend: float) -> Iterator[_Points]:
-        """Yield a wall along a patch, halved until its hull covers nothing else."""
+        """Yield walls along a patch, halved until each wall's hull covers no other space."""
         corners, inward = self._points[np.unique(self._faces[patch])], normal * self._thickness
         layers = (corners, corners - inward) if self._closed else (corners - inward / 2, corners + inward / 2)
         wall = np.concatenate(layers)
@@ -115,8 +115,8 @@ class _Surface:
         yield from self._walls(patch[order[len(patch) // 2 :]], normal, bend)
 
     def _is_full(self, patch: _Faces, corners: _Points, normal: _Points) -> bool:
-        seen = self._areas[patch] @ np.abs(self._normals[patch] @ normal)
-        return convex_hull_area(corners, normal) <= _WASTE * float(seen)
+        projected_area = self._areas[patch] @ np.abs(self._normals[patch] @ normal)
+        return convex_hull_area(corners, normal) <= _WASTE * float(projected_area)
 
     def _is_near(self, wall: _Points, bend: float) -> bool:
         solid = hull_of(wall)

@@ -20,23 +20,23 @@ def main() -> None:
         import ctypes
 
         ctypes.CDLL(None).prctl(_DIE_WITH_PARENT, signal.SIGKILL)
-    parts, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
+    parts, results = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # for output of V-HACD
     from .pieces import decompose_part
 
-    pickle.dump(os.getpid(), answers)
-    answers.flush()
+    pickle.dump(os.getpid(), results)
+    results.flush()
     while True:
         try:
             part = pickle.load(parts)
         except EOFError:
             return
         try:
-            answer = decompose_part(part)
+            result = decompose_part(part)
         except Exception:  # any failure falls back to the hull
-            answer = None
-        pickle.dump(answer, answers)
-        answers.flush()
+            result = None
+        pickle.dump(result, results)
+        results.flush()
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Batch: many states of one compiled world, stepped by threads in C++.
 
-A row is the state that the next step depends on, beside the commands of its motors; every thread has a model and data
-of its own, so that a row's numbers depend on nothing but the row. Nothing sleeps.
+A row is the state that the next step depends on, with the commands of its motors. Every thread has its own model and
+data, so that a row's numbers depend on the row only. Nothing sleeps.
 """
 
 import copy
@@ -44,14 +44,14 @@ class Batch:
             compiled: the world.
             rows: number of states.
             threads: number of threads.
-            actuated: the contact laws need actuation without motors.
-            max_speed: from which on a row is unstable [m/s or rad/s].
+            actuated: True if the contact laws need actuation without motors.
+            max_speed: speed from which on a row is unstable [m/s or rad/s].
         """
         self._compiled = compiled
         model = compiled.model
         self._workers = [_make_worker(compiled) for _ in range(max(1, min(threads, rows)))]
         self._stepper = _contact_laws.make_row_stepper(
-            [(each._address, data._address) for each, data in self._workers],
+            [(model._address, data._address) for model, data in self._workers],
             compiled.link_bodies.tolist(),
             max_speed,
             actuated,
@@ -61,7 +61,7 @@ class Batch:
         self._max_efforts = np.zeros((rows, model.ntendon))
         self._rates = np.zeros((rows, model.ntendon))
         self.unstable = np.zeros(rows, dtype=np.bool_)
-        """(rows,) True for those that diverged in the last step; they keep the state before it."""
+        """(rows,) True for rows that diverged in the last step; they keep the state before it."""
         self.poses = np.zeros((rows, len(compiled.link_names), 7))
         """(rows, links, 7) poses of the link frames: x y z [m], qw qx qy qz."""
         self.twists = np.zeros((rows, len(compiled.link_names), 6))
@@ -104,34 +104,40 @@ class Batch:
 
     def command_effort(self, axis: int, efforts: _Array) -> None:
         """Apply efforts [N·m or N] to an axis within its limits, and switch its motors off."""
-        largest, fastest = float(self._compiled.axis_effort[axis]), float(self._compiled.axis_velocity[axis])
-        efforts = np.clip(efforts, -largest, largest)
-        if np.isinf(fastest):
-            self._command(axis, commands=np.zeros_like(efforts), most=0.0, efforts=efforts)
+        max_effort, max_speed = float(self._compiled.axis_effort[axis]), float(self._compiled.axis_velocity[axis])
+        efforts = np.clip(efforts, -max_effort, max_effort)
+        if np.isinf(max_speed):
+            self._command(axis, commands=np.zeros_like(efforts), max_efforts=0.0, efforts=efforts)
             return
-        commands = np.where(efforts == 0.0, 0.0, np.copysign(fastest, efforts))
-        self._command(axis, commands=commands, most=np.abs(efforts) / 2, efforts=efforts / 2)
+        commands = np.where(efforts == 0.0, 0.0, np.copysign(max_speed, efforts))
+        self._command(axis, commands=commands, max_efforts=np.abs(efforts) / 2, efforts=efforts / 2)
 
     def command_velocity(self, axis: int, velocities: _Array, max_effort: float) -> None:
         """Drive an axis at speeds [rad/s or m/s] with limited effort."""
-        self._command(axis, commands=velocities, most=self._limited(axis, max_effort))
+        self._command(axis, commands=velocities, max_efforts=self._limited(axis, max_effort))
 
     def command_position(self, axis: int, positions: _Array, max_effort: float) -> None:
         """Drive an axis to positions [rad or m], within its limits, and hold it there."""
         low, high = self._compiled.axis_range[axis].tolist()
         commands = np.minimum(np.maximum(positions, low), high)
-        self._command(axis, commands=commands, most=self._limited(axis, max_effort), rate=HOLD_RATE)
+        self._command(axis, commands=commands, max_efforts=self._limited(axis, max_effort), rate=HOLD_RATE)
 
     def _limited(self, axis: int, max_effort: float) -> float:
         return max(min(max_effort, float(self._compiled.axis_effort[axis]), _HUGE), 0.0)
 
     def _command(
-        self, axis: int, *, commands: _Array, most: _Array | float, rate: float = 0.0, efforts: _Array | float = 0.0
+        self,
+        axis: int,
+        *,
+        commands: _Array,
+        max_efforts: _Array | float,
+        rate: float = 0.0,
+        efforts: _Array | float = 0.0,
     ) -> None:
         dof, actuator = int(self._compiled.axis_dof[axis]), int(self._compiled.axis_actuator[axis])
         self._part(_STATE.mjSTATE_QFRC_APPLIED)[:, dof] = efforts
         self._part(_STATE.mjSTATE_CTRL)[:, actuator] = commands
-        self._max_efforts[:, actuator] = most
+        self._max_efforts[:, actuator] = max_efforts
         self._rates[:, actuator] = rate
 
     # -- rows

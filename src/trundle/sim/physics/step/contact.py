@@ -51,7 +51,7 @@ class Contacts(Sequence[Contact]):
     @property
     def bodies(self) -> tuple[tuple[str, str], ...]:
         """Names (N) `model::link` of both."""
-        return tuple((one.rpartition("::")[0], other.rpartition("::")[0]) for one, other in self.collisions)
+        return tuple((first.rpartition("::")[0], second.rpartition("::")[0]) for first, second in self.collisions)
 
     @property
     def positions(self) -> _Array:
@@ -82,14 +82,14 @@ class Contacts(Sequence[Contact]):
 
     def among(self, collisions: frozenset[str]) -> "Contacts":
         """Return the contacts of the named collisions."""
-        return self.select([i for i, two in enumerate(self.collisions) if not collisions.isdisjoint(two)])
+        return self.select([i for i, pair in enumerate(self.collisions) if not collisions.isdisjoint(pair)])
 
     def __add__(self, others: "Contacts") -> "Contacts":
-        """Return both, in order; of the same world."""
+        """Return both sequences, in order; they must be of the same world."""
         return Contacts(self._geom_collisions, np.concatenate([self.rows, others.rows])) if others else self
 
     def select(self, chosen: Sequence[int]) -> "Contacts":
-        """Return the contacts of these indices."""
+        """Return the contacts with these indices."""
         return Contacts(self._geom_collisions, self.rows[list(chosen)])
 
     def __len__(self) -> int:
@@ -108,7 +108,7 @@ class Contacts(Sequence[Contact]):
         return map(_contact, self.collisions, self.rows.tolist())
 
     def __repr__(self) -> str:
-        pairs = ", ".join(f"{one} – {other}" for one, other in dict.fromkeys(self.collisions))
+        pairs = ", ".join(f"{first} – {second}" for first, second in dict.fromkeys(self.collisions))
         return f"<{len(self)} contacts{': ' if pairs else ''}{pairs}>"
 
 

@@ -30,14 +30,16 @@ def bind() -> None:
     """Bind MuJoCo's functions from its loaded library.
 
     Raises:
-        TrundleError: MuJoCo has another version than the C++ was built for, or the C++ is out of date.
+        TrundleError: the C++ was built for another version of MuJoCo, or is out of date.
     """
     refuse_stale(_contact_laws)
-    found = mujoco.mj_version()
-    if found != _contact_laws.VERSION:
-        built, here = (f"{v // 1_000_000}.{v // 1000 % 1000}.{v % 1000}" for v in (_contact_laws.VERSION, found))
-        what = f"Trundle is built for MuJoCo {built}, and mujoco-core {here} is installed"
-        raise TrundleError(f"{what}; pip install mujoco-core=={built}")
+    version = mujoco.mj_version()
+    if version != _contact_laws.VERSION:
+        built_version, installed = (
+            f"{v // 1_000_000}.{v // 1000 % 1000}.{v % 1000}" for v in (_contact_laws.VERSION, version)
+        )
+        problem = f"Trundle is built for MuJoCo {built_version}, and mujoco-core {installed} is installed"
+        raise TrundleError(f"{problem}; pip install mujoco-core=={built_version}")
     pattern = _LIBRARIES.get(sys.platform, "libmujoco.so.*")
     library = ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob(pattern))))
     _contact_laws.bind([ctypes.addressof(ctypes.c_byte.in_dll(library, name)) for name in _contact_laws.names()])
@@ -59,7 +61,7 @@ class ContactLaws:
         slides = bool((compiled.model.geom_bodyid > 0).any())
         decays = bool(find_table(compiled.model, "damping").any())
         self._is_slow = False
-        """True if no step needs speculative contacts before the state is written again or a law asks for them."""
+        """True if no step needs speculative contacts until the state is written or a law requests them."""
         self._always = slides or decays or bool(self._head[4:7].any())
 
     @property
@@ -77,7 +79,7 @@ class ContactLaws:
         _contact_laws.install()
 
     def look_ahead(self) -> None:
-        """Enable speculative contacts, where the model needs them, for all who share it; the laws switch them while
+        """Enable speculative contacts, if the model needs them, for all users of the model; the laws switch them while
         stepping.
         """
         if self._head[8] > 0.0:
@@ -85,12 +87,12 @@ class ContactLaws:
             self._model.opt.enableflags |= _SPECULATIVE
 
     def resume(self) -> None:
-        """Return to what the laws decided at the last step, before the next one."""
+        """Restore the laws' last decision on speculative contacts, before the next step."""
         if self._is_slow:
             self._model.opt.enableflags &= ~_SPECULATIVE
 
     def expect_any_speed(self) -> None:
-        """Look ahead at the next step, because the state was written."""
+        """Enable speculative contacts at the next step, because the state was written."""
         self._is_slow = False
 
     def set_surface_motions(self, motions: "Mapping[int, LinkGrip]") -> None:

@@ -31,22 +31,22 @@ class ContactQuery:
         """Return every contact.
 
         Args:
-            among: names of collisions, one of which takes part; None: all.
+            among: names of collisions, at least one of which is part of each contact; None: all.
             asleep: returns the engine's state, if anything sleeps.
         """
         marks = None if among is None else self._geom_mask(among)
         if asleep is None:
             return contacts_of(self._compiled, self._compiled.model, self._data, self._contact_indices(marks, None))
-        found = contacts_of(
+        awake = contacts_of(
             self._compiled, self._compiled.model, self._data, self._contact_indices(marks, self._awake())
         )
-        return found + self.sleeping_contacts(among, asleep)
+        return awake + self.sleeping_contacts(among, asleep)
 
     def sleeping_contacts(self, among: frozenset[str] | None, state: Callable[[], NDArray[np.float64]]) -> Contacts:
-        """Return the contacts among sleeping bodies and what stands.
+        """Return the contacts of sleeping bodies with each other and with fixed shapes.
 
         Args:
-            among: names of collisions, one of which takes part; None: all.
+            among: names of collisions, at least one of which is part of each contact; None: all.
             state: returns the engine's state.
         """
         sleeping = self._sleeping(self._awake(), state)
@@ -54,11 +54,11 @@ class ContactQuery:
 
     def contacts_of_state(self, among: frozenset[str] | None, state: NDArray[np.float64]) -> Contacts:
         """Return the contacts of a state, for data without contacts; see `contacts`."""
-        found = self._scratch.contacts(state, np.zeros(len(self._bodies), dtype=bool))
-        return found if among is None else found.among(among)
+        contacts = self._scratch.contacts(state, np.zeros(len(self._bodies), dtype=bool))
+        return contacts if among is None else contacts.among(among)
 
     def _awake(self) -> _Mask:
-        """Return (geoms,) mask of those of awake bodies."""
+        """Return (geoms,) mask of the geoms of awake bodies."""
         return self._data.body_awake[self._bodies] == _AWAKE
 
     def _geom_mask(self, collisions: frozenset[str]) -> _Mask:
@@ -70,15 +70,15 @@ class ContactQuery:
         """Return indices of contacts with a marked geom and an awake one."""
         geoms = self._data.contact.geom
         chosen = np.ones(len(geoms), dtype=bool)
-        for each in (marks, awake):
-            if each is not None:
-                chosen &= each[geoms].any(axis=1)
+        for mask in (marks, awake):
+            if mask is not None:
+                chosen &= mask[geoms].any(axis=1)
         return np.flatnonzero(chosen)
 
     def _sleeping(self, awake: _Mask, state: Callable[[], NDArray[np.float64]]) -> Contacts:
         data = self._data
         asleep = data.body_awake != _AWAKE
-        key = b"".join(each.tobytes() for each in (asleep, data.xpos[asleep], data.xquat[asleep]))
+        key = b"".join(array.tobytes() for array in (asleep, data.xpos[asleep], data.xquat[asleep]))
         if self._sleeping_contacts is None or key != self._sleeping_contacts[0]:
             self._sleeping_contacts = (key, self._scratch.contacts(state(), awake))
         return self._sleeping_contacts[1]

@@ -9,17 +9,17 @@ from .contact import Contacts
 
 
 class ContactRecorder:
-    """Contacts of some collisions at every step that it is passed to; see `EachStep`."""
+    """Contacts of some collisions at every step; see `StepHooks`."""
 
-    def __init__(self, collisions: frozenset[str], *, most_steps: int) -> None:
-        """Record nothing so far.
+    def __init__(self, collisions: frozenset[str], *, max_steps: int) -> None:
+        """Create an empty record.
 
         Args:
             collisions: names `model::link::collision`.
-            most_steps: steps with contacts to keep, the latest.
+            max_steps: number of the latest steps with contacts to keep.
         """
         self.collisions = collisions
-        self._most_steps = most_steps
+        self._max_steps = max_steps
         self._compiled: CompiledWorld | None = None
         self._native: _contact_laws.ContactRecorder | None = None
         self._earlier: list[tuple[list[int], Contacts]] = []
@@ -31,19 +31,19 @@ class ContactRecorder:
             self._earlier = self._all()
             geoms = [i for i, name in enumerate(compiled.geom_collisions) if name in self.collisions]
             count = len(compiled.geom_collisions)
-            self._native = _contact_laws.ContactRecorder(geoms, count, self._most_steps)
+            self._native = _contact_laws.ContactRecorder(geoms, count, self._max_steps)
             self._compiled = compiled
         return self._native
 
     def pop(self, *, after_ns: int | Fraction, until_ns: int) -> list[tuple[list[int], Contacts]]:
-        """Return times [ns] and contacts, as many of both, for the recorded ones within these times; forget all."""
-        taken, self._earlier = self._all(), []
-        if taken[:1] and not after_ns < taken[0][0][0] <= taken[-1][0][-1] <= until_ns:
-            taken = [_within(times_ns, contacts, after_ns, until_ns) for times_ns, contacts in taken]
-        return taken
+        """Return times [ns] and contacts, as many of both, recorded within these times; clear the record."""
+        records, self._earlier = self._all(), []
+        if records[:1] and not after_ns < records[0][0][0] <= records[-1][0][-1] <= until_ns:
+            records = [_within(times_ns, contacts, after_ns, until_ns) for times_ns, contacts in records]
+        return records
 
     def _all(self) -> list[tuple[list[int], Contacts]]:
-        """Return what is kept, the native recorder's share for the last time."""
+        """Return all records, and clear the native recorder's."""
         if self._native is None or self._compiled is None:
             return self._earlier
         times_ns, rows = self._native.take()
@@ -51,7 +51,7 @@ class ContactRecorder:
         return [*self._earlier, *latest]
 
     def checkpoint(self) -> Callable[[], None]:
-        """Save what is recorded; return a function that restores it exactly."""
+        """Save the records; return a function that restores them exactly."""
         compiled, earlier = self._compiled, self._earlier.copy()
         native = None if self._native is None else self._native.copy()
 

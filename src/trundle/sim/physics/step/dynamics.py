@@ -2,7 +2,7 @@
 
 They are evaluated on a scratch copy of the engine's data. Generalized velocities are ordered: for each free link the
 velocity of its frame's origin [m/s] and its angular velocity [rad/s], world axes; then the axes [rad/s or m/s].
-Featherstone, Rigid Body Dynamics Algorithms (2008), has the terms: τ = M(q) a + h(q, v).
+Terms as in Featherstone, Rigid Body Dynamics Algorithms (2008): τ = M(q) a + h(q, v).
 """
 
 import mujoco
@@ -50,17 +50,17 @@ class Dynamics:
         axes.
 
         Args:
-            state: of the world.
+            state: state of the world.
             of: generalized velocities.
             link: index of the link.
-            point: in the link's frame [m].
+            point: point in the link's frame [m].
         """
         with self._scratch.evaluate() as (model, data):
             basis = self._set_state(model, data, state, of)
             body = int(self._compiled.link_bodies[link])
-            at = data.xpos[body] + data.xmat[body].reshape(3, 3) @ np.asarray(point, dtype=np.float64)
+            position = data.xpos[body] + data.xmat[body].reshape(3, 3) @ np.asarray(point, dtype=np.float64)
             linear, angular = np.zeros((3, model.nv)), np.zeros((3, model.nv))
-            mujoco.mj_jac(model, data, linear, angular, at, body)
+            mujoco.mj_jac(model, data, linear, angular, position, body)
             return np.concatenate([linear, angular]) @ basis
 
     def mass_matrix(self, state: JointState, of: Coordinates) -> _Array:

@@ -29,17 +29,17 @@ from .state_reader import StateReader
 from .state_transfer import transfer_state
 from .state_writer import StateWriter
 from .step_timer import StepTimer
-from .stepper import EachStep, Stepper
+from .stepper import StepHooks, Stepper
 
-if TYPE_CHECKING:  # a world without belts, or alone, does not load these
+if TYPE_CHECKING:  # single worlds without belts do not import these
     from .batch import Batch, WorldRow
     from .surface_motion import LinkGrip
 
 _DATA_BYTES = 450_000
-"""Size of a copied `MjData` beside its buffer and arena, as measured: the struct with its statistics of the solver
-(160 kB in MuJoCo 4), and what the Python binding keeps."""
+"""Measured size of a copied `MjData` without its buffer and arena: the struct with its solver statistics (160 kB in
+MuJoCo 4), and the Python binding's data."""
 _MANY_SPEEDS = 10_000
-"""Numbers from which on BLAS uses several threads, whose waiting for each other may take longer than a step."""
+"""Number of values from which on BLAS uses several threads; their synchronization may take longer than a step."""
 _BAD = (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC)
 MAX_SPEED = 1e6
 """Speed [m/s or rad/s] from which on the physics is unstable; MuJoCo's own limit is 1e10."""
@@ -105,16 +105,16 @@ class Engine:
         self._state_changed()
 
     def _state_changed(self) -> None:
-        """Forget what was derived from the state, which was written."""
+        """Invalidate all that depends on the state, after it was written."""
         self._laws.expect_any_speed()
         self.reader.invalidate()
 
-    def step(self, count: int, each: EachStep | None = None) -> int:
-        """Advance `count` time steps, with the GIL released; return their number, less if an action needs Python.
+    def step(self, count: int, hooks: StepHooks | None = None) -> int:
+        """Advance `count` time steps, with the GIL released; return their number, smaller if an action needs Python.
 
         Args:
             count: number of steps.
-            each: recorders of contacts, and actions.
+            hooks: recorders of contacts, and actions.
 
         Raises:
             SimulationUnstableError: names the diverging link; the state is the one before this call.
@@ -126,8 +126,8 @@ class Engine:
             self._laws.install()
         self._laws.resume()
         efforts, first = self._data.qfrc_actuator.copy(), self._steps
-        motors = self.motors.save() if each is not None and each.actions else None
-        stepper = None if each is None else self._stepper(each)
+        motors = self.motors.save() if hooks is not None and hooks.actions else None
+        stepper = None if hooks is None else self._stepper(hooks)
         self._advance(count, stepper)
         self._laws.look_ahead()
         self.reader.invalidate()
@@ -136,24 +136,24 @@ class Engine:
             raise SimulationUnstableError(divergence)
         return self._steps - first
 
-    def _stepper(self, each: EachStep) -> Stepper:
-        return Stepper(each, self.compiled, self._data, query=self._contact_query, state=self._state)
+    def _stepper(self, hooks: StepHooks) -> Stepper:
+        return Stepper(hooks, self.compiled, self._data, query=self._contact_query, state=self._state)
 
     def _advance(self, count: int, stepper: Stepper | None = None) -> None:
-        """Step in C, up to each update of the sleep policy; a stepper may stop before."""
+        """Step in C, up to each update of the sleep policy; a stepper may stop earlier."""
         goes_on = True
         while count > 0 and goes_on and not self._is_unstable():
-            some = made = min(count, DECISION_PERIOD - self._steps % DECISION_PERIOD)
+            planned = stepped = min(count, DECISION_PERIOD - self._steps % DECISION_PERIOD)
             if stepper is not None:
                 self._sleep_policy.has_state_only = False
-                made = stepper.step(some)
-                goes_on = made == some
-            if stepper is not None or not self._sleep_policy.step(some):
+                stepped = stepper.step(planned)
+                goes_on = stepped == planned
+            if stepper is not None or not self._sleep_policy.step(planned):
                 self.motors.write_efforts()
                 if self._sleep_policy.is_on:
                     self.motors.write_sleeping_efforts(lambda: self._scratch.efforts(self._state()))
-            self._steps += made
-            count -= made
+            self._steps += stepped
+            count -= stepped
             if self._steps % DECISION_PERIOD == 0 and not self._laws.prevents_sleep and not self._is_unstable():
                 self._sleep_policy.update()
                 if stepper is not None and self._sleep_policy.has_state_only:
@@ -164,16 +164,16 @@ class Engine:
             if warning.number > 0:
                 return True
         speeds = self._data.qvel
-        # For most worlds the sum of squares decides, in a tenth of the time.
+        # For nearly all worlds the sum of squares is enough, in a tenth of the time.
         if len(speeds) < _MANY_SPEEDS and speeds.dot(speeds) < MAX_SPEED**2:
             return False
         return not bool((np.abs(speeds) < MAX_SPEED).all())
 
     def _separate(self) -> None:
         self.writer.was_teleported = False
-        apart = self._scratch.separated(self._state())
-        if apart is not None:
-            self._data.qpos[:] = apart
+        separated = self._scratch.separated(self._state())
+        if separated is not None:
+            self._data.qpos[:] = separated
 
     def _update_laws(self) -> None:
         """Disable sleeping while a law forbids it."""
@@ -189,7 +189,7 @@ class Engine:
         self._state_changed()
 
     def _find_divergence(self, count: int, stepper: Stepper | None, roll_back: Callable[[], None]) -> Divergence:
-        """Go back, and repeat the steps one by one up to the bad one; afterwards the state is restored."""
+        """Roll back, and repeat the steps one by one up to the bad one; the state is restored afterwards."""
 
         def restart() -> None:
             if stepper is not None:
@@ -210,7 +210,7 @@ class Engine:
     # -- writing
 
     def set_time(self, time_s: float) -> None:
-        """Set the time, on which nothing but messages depends."""
+        """Set the time; only messages depend on it."""
         self._data.time = time_s
 
     def set_wrench(self, link: int, wrench: Wrench) -> None:
@@ -247,7 +247,7 @@ class Engine:
         """Return the current contacts.
 
         Args:
-            among: names of collisions, one of which takes part; None: all.
+            among: names of collisions, at least one of which is part of each contact; None: all.
         """
         if self._sleep_policy.has_state_only and self._steps:
             return self._contact_query.contacts_of_state(among, self._state())
@@ -268,7 +268,7 @@ class Engine:
         mujoco.mj_getState(self._model, self._data, state, STATE)
         return state
 
-    # -- keeping
+    # -- saving
 
     def transfer_from(self, old: "Engine", *, renamed: Mapping[str, str] | None = None) -> None:
         """Continue from another engine's state, for everything with the same name in both.
@@ -296,7 +296,7 @@ class Engine:
         )
 
     def checkpoint(self) -> Callable[[], None]:
-        """Save the complete state and what was written to the model; return a function that restores both exactly."""
+        """Save the complete state and the model's changed fields; return a function that restores both exactly."""
         state, model = self.save(), self._model
         tables, flags = model.numeric_data.copy(), (model.opt.enableflags, model.opt.disableflags)
         surfaces, stages = model.flg_surfacevel, model.sensor_needstage.copy()
@@ -316,7 +316,7 @@ class Engine:
         Args:
             rows: number of states.
             threads: number of threads.
-            gpu: device of `find_gpu` that steps them; None: the threads do.
+            gpu: device that steps them, from `find_gpu`; None: the threads step them.
 
         Raises:
             UsageError: the GPU cannot step this world.
@@ -339,13 +339,13 @@ class Engine:
         return WorldRow(self._state(), self.motors.save())
 
     def set_row_state(self, state: NDArray[np.float64]) -> None:
-        """Show the state of a row of a batch (mjSTATE_INTEGRATION); the motors stay."""
+        """Set the state of a row of a batch (mjSTATE_INTEGRATION); the motors stay."""
         mujoco.mj_setState(self._model, self._data, state, STATE)
         self._state_changed()
 
     @property
     def checkpoint_bytes(self) -> int:
-        """Size of a checkpoint, about."""
+        """Approximate size of a checkpoint."""
         return int(_DATA_BYTES + self._data.nbuffer + self._data.maxuse_arena)
 
     def restore(self, state: EngineState) -> None:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .. import _contact_laws
 from ..compile.compiled_world import CompiledWorld
-from ..compile.law_tables import follow_friction
+from ..compile.law_tables import copy_friction_laws
 from .contact import Contacts, contacts_of
 from .motors import copy_commands
 from .separation import find_deep, separate
@@ -35,7 +35,7 @@ class ScratchEngine:
         model = copy.copy(self._compiled.model)
         model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_ISLAND)
-        follow_friction(model, self._compiled.model)
+        copy_friction_laws(model, self._compiled.model)
         data = mujoco.MjData(model)
         return model, data, StateReader(replace(self._compiled, model=model), data)
 
@@ -53,23 +53,23 @@ class ScratchEngine:
             reader.set_state(qpos, qvel)
             return reader.link_twists()
 
-    def contacts(self, state: _Array, apart: NDArray[np.bool_]) -> Contacts:
-        """Return the contacts of a state (mjSTATE_INTEGRATION), without those of the geoms masked by `apart`."""
+    def contacts(self, state: _Array, excluded: NDArray[np.bool_]) -> Contacts:
+        """Return the contacts of a state (mjSTATE_INTEGRATION), without contacts of the geoms masked by `excluded`."""
         with self._lock:
             model, data = self._solve(state)
-            chosen = np.flatnonzero(~apart[data.contact.geom].any(axis=1))
+            chosen = np.flatnonzero(~excluded[data.contact.geom].any(axis=1))
             return contacts_of(self._compiled, model, data, chosen)
 
     def overlaps(self, state: _Array, depth: float) -> frozenset[tuple[str, str]]:
-        """Return the names of each two collisions that penetrate each other by more than a depth [m] in a state."""
+        """Return the names of the pairs of collisions that penetrate by more than a depth [m] in a state."""
         with self._lock:
             _, data = self._set_state(state)
             names, deep = self._compiled.geom_collisions, data.contact.geom[data.contact.dist < -depth]
-            return frozenset((names[one], names[other]) for one, other in deep.tolist())
+            return frozenset((names[first], names[second]) for first, second in deep.tolist())
 
     @contextmanager
     def evaluate(self) -> Generator[tuple[mujoco.MjModel, mujoco.MjData]]:
-        """Have the other engine's model and data to oneself, to put a state there and work something out."""
+        """Lock the second engine's model and data, for the evaluation of a state written to them."""
         with self._lock:
             model, data, reader = self._engine
             try:
@@ -123,7 +123,7 @@ class ScratchEngine:
 
     def _solve(self, state: _Array) -> tuple[mujoco.MjModel, mujoco.MjData]:
         model, data, reader = self._engine
-        follow_friction(model, self._compiled.model)
+        copy_friction_laws(model, self._compiled.model)
         copy_commands(self._compiled.model, model)
         model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_ACTUATION)
         mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)

@@ -39,9 +39,9 @@ def find_divergence(
 
     Args:
         compiled: the world.
-        data: after the step.
-        speeds: (nv,) before the step.
-        time_s: before the step.
+        data: data after the step.
+        speeds: (nv,) speeds before the step.
+        time_s: time before the step.
     """
     model = compiled.model
     pushed = np.flatnonzero(~np.isfinite(data.xfrc_applied).all(axis=1))
@@ -61,7 +61,7 @@ def _axes(compiled: CompiledWorld) -> list[tuple[str, range]]:
     return list(zip(compiled.joint_names, compiled.joint_axes, strict=True))
 
 
-def _touching(compiled: CompiledWorld, data: mujoco.MjData, body: int, most: int = 3) -> tuple[str, ...]:
+def _touching(compiled: CompiledWorld, data: mujoco.MjData, body: int, max_count: int = 3) -> tuple[str, ...]:
     """Return the collisions in contact with a body, deepest first."""
     depths: dict[str, float] = {}
     for contact in data.contact:
@@ -69,4 +69,4 @@ def _touching(compiled: CompiledWorld, data: mujoco.MjData, body: int, most: int
         if body in bodies:
             other = compiled.geom_collisions[int(contact.geom[1 - bodies.index(body)])]
             depths[other] = max(depths.get(other, -np.inf), -float(contact.dist))
-    return tuple(sorted(depths, key=lambda name: -depths[name])[:most])
+    return tuple(sorted(depths, key=lambda name: -depths[name])[:max_count])

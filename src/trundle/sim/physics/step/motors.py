@@ -1,7 +1,7 @@
 """Joint motors: effort, velocity and position commands within limits.
 
-A motor is a velocity constraint with bounded force, as in ODE; see `cpp/contact/velocity_motor.cc`. Commands are in
-`cpp/contact/motor_bank.cc`, for those that come at every step.
+A motor is a velocity constraint with bounded force, as in ODE; see `cpp/contact/velocity_motor.cc`. Commands are set in
+`cpp/contact/motor_bank.cc`, fast enough for every step.
 """
 
 from collections.abc import Callable, Iterable
@@ -35,17 +35,17 @@ class MotorCommand(Struct, frozen=True):
     """Command of one axis."""
 
     target: float
-    """Speed [rad/s or m/s], or position [rad or m] where there is a rate to approach it."""
+    """Speed [rad/s or m/s]; with a rate, position [rad or m]."""
     max_effort: float
     """Limit of the motor [N·m or N]; 0: it is off."""
     rate: float
     """Rate of the approach [1/s]; 0: the target is a speed."""
     effort: float
-    """Constant effort beside the motor [N·m or N]."""
+    """Constant effort in addition to the motor [N·m or N]."""
 
 
 class MotorCommands(Struct, frozen=True, eq=False):
-    """Effort limits and rates of a model's motors, whose targets are in the data, and the commands."""
+    """Effort limits, rates and commands of a model's motors; the targets are in the data."""
 
     max_efforts: NDArray[np.float64]
     rates: NDArray[np.float64]
@@ -54,7 +54,7 @@ class MotorCommands(Struct, frozen=True, eq=False):
 
 
 def copy_commands(source: mujoco.MjModel, target: mujoco.MjModel) -> None:
-    """Give the motors of a model the commands of another one of the same world, but for the targets."""
+    """Copy the commands of motors, except for the targets, between two models of one world."""
     target.tendon_frictionloss[:] = source.tendon_frictionloss
     find_table(target, "motors")[:, 1] = find_table(source, "motors")[:, 1]
 
@@ -62,8 +62,8 @@ def copy_commands(source: mujoco.MjModel, target: mujoco.MjModel) -> None:
 class Motors:
     """One motor per hinge or slide axis, inactive until commanded.
 
-    A command with `hardware` is a hardware interface's, which acts beside direct commands, as in Gazebo: efforts add
-    up, also to a motor's; the later of two speeds counts; a kinematic drive overrides all.
+    A command with `hardware` comes from a hardware interface and is combined with direct commands, as in Gazebo:
+    efforts add up, also to a motor's; the later of two speeds counts; a kinematic drive overrides all.
     """
 
     def __init__(self, compiled: CompiledWorld, data: mujoco.MjData) -> None:
@@ -79,19 +79,19 @@ class Motors:
         axes = (compiled.axis_dof, compiled.axis_actuator, compiled.axis_effort, compiled.axis_velocity)
         self._bank = _contact_laws.MotorBank(model, data, np.column_stack(axes).astype(np.float64), self._states)
         self._signs = compiled.axis_sign
-        self._places = compiled.axis_qpos, compiled.axis_dof
+        self._addresses = compiled.axis_qpos, compiled.axis_dof
         self._rates = find_table(model, "motors")[:, 1]
         self._motor_dofs = find_table(model, "motors")[:, 3].astype(np.intp)
         self._sleeping_efforts: tuple[bytes, NDArray[np.float64]] = (b"", np.empty(0))
         """Degrees of freedom and positions of sleeping motors, and the efforts (nv,) of all."""
         self._active: tuple[NDArray[np.intp], NDArray[np.int32], NDArray[np.int32]]
-        """Degrees of freedom of active motors, their trees, and where their positions are in qpos."""
+        """Degrees of freedom of active motors, their trees, and their addresses in qpos."""
         self._switches = -1
-        """Value of the bank's counter for which `_active` holds; −1: none."""
+        """Value of the bank's counter for which `_active` is valid; −1: none."""
 
     def axis(self, axis: int) -> MotorAxis:
         """Return an axis for laws in C++."""
-        qpos, dof = (int(addresses[axis]) for addresses in self._places)
+        qpos, dof = (int(addresses[axis]) for addresses in self._addresses)
         return self._bank, axis, qpos, dof, float(self._signs[axis])
 
     def command_effort(self, axis: int, effort: float, *, hardware: bool = False) -> None:
@@ -103,7 +103,7 @@ class Motors:
         self._bank.command_velocity(axis, velocity, max_effort, hardware)
 
     def drive_kinematically(self, axis: int, velocity: float, *, hardware: bool = False) -> None:
-        """Drive an axis at a speed [rad/s or m/s] that it takes at once; only its child links feel a reaction."""
+        """Drive an axis at a speed [rad/s or m/s] that it reaches at once; only its child links feel a reaction."""
         self._bank.drive_kinematically(axis, velocity, hardware)
 
     def command_position(self, axis: int, position: float, max_effort: float) -> None:
@@ -111,11 +111,11 @@ class Motors:
         self._bank.command_position(axis, position, max_effort, HOLD_RATE)
 
     def command_of(self, axis: int) -> MotorCommand:
-        """Return the direct command that an axis follows."""
+        """Return an axis' current direct command."""
         return MotorCommand(*self._bank.command_of(axis))
 
     def repeat(self, axis: int, command: MotorCommand) -> None:
-        """Give an axis a command that it had before."""
+        """Set an axis' command to an earlier one."""
         self._bank.repeat(axis, (command.target, command.max_effort, command.rate, command.effort))
 
     def write_efforts(self) -> None:
@@ -124,7 +124,7 @@ class Motors:
             _contact_laws.report_efforts(self._model._address, self._data._address)
 
     def write_sleeping_efforts(self, evaluate: Callable[[], NDArray[np.float64]]) -> None:
-        """Write the efforts of motors whose trees sleep, which MuJoCo's step leaves out.
+        """Write the efforts of motors of sleeping trees, which MuJoCo's step skips.
 
         Args:
             evaluate: returns the efforts (nv,) of the current state with all trees awake.
@@ -141,16 +141,16 @@ class Motors:
         self._data.qfrc_actuator[dofs] = self._sleeping_efforts[1][dofs]
 
     def enable(self, *, always: bool) -> None:
-        """Enable actuation if there are motors, or always; without it a step takes a seventh less.
+        """Enable actuation if there are motors, or always; without it a step is a seventh faster.
 
         Args:
-            always: True if the contact laws depend on it.
+            always: True if the contact laws depend on actuation.
         """
         flags, is_on = self._model.opt.disableflags, always or self._model.nu > 0
         self._model.opt.disableflags = flags & ~_NO_MOTORS if is_on else flags | _NO_MOTORS
 
     def invalidate(self) -> None:
-        """Forget the last commands after another writer changed the arrays."""
+        """Clear the last commands after another writer changed the arrays."""
         self._states[:] = 0.0
         self._switches = -1
 
@@ -159,7 +159,7 @@ class Motors:
 
         Args:
             old: the other motors.
-            actuators: old and new index of each motor that both have.
+            actuators: old and new index of each motor in both models.
         """
         self.invalidate()
         for source, target in actuators:

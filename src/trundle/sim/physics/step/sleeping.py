@@ -1,4 +1,4 @@
-"""Sleeping of resting trees, where it is faster.
+"""Sleeping of resting trees, if it saves time.
 
 MuJoCo skips trees that have not moved for ten steps and wakes them on contact or force. For that it computes contact
 islands, which costs an awake world a tenth to a third of its speed. So sleeping is enabled or disabled periodically, at
@@ -41,7 +41,7 @@ class SleepPolicy:
         model.dof_length[:] = 1.0
         model.tree_sleep_policy[:] = int(mujoco.mjtSleepPolicy.mjSLEEP_ALLOWED)
         # One link that must not sleep keeps its whole tree awake.
-        allows = [each.allow_auto_disable for each in compiled.world.models for _ in each.links]
+        allows = [model.allow_auto_disable for model in compiled.world.models for _ in model.links]
         for body, allow in zip(compiled.link_bodies, allows, strict=True):
             tree = int(model.body_treeid[body])
             if tree >= 0 and not allow:
@@ -61,7 +61,7 @@ class SleepPolicy:
         """Step `count` times; while all trees sleep only the clock advances.
 
         Returns:
-            True if all trees slept on; their motors' efforts stay.
+            True if all trees kept sleeping; their motors' efforts stay.
         """
         model, data = self._model, self._data
         self.has_state_only = False
@@ -82,15 +82,15 @@ class SleepPolicy:
         return self.is_on and int(self._data.tree_asleep.min()) >= 0
 
     def update(self) -> None:
-        """Enable sleeping if trees wholly at rest, that may sleep, have at least half of the degrees of freedom."""
+        """Enable sleeping if resting trees that may sleep have at least half of the degrees of freedom."""
         if self._all_sleep():
             return
         moving = self._model.tree_sleep_policy == _NEVER
         moving[self._trees[np.abs(self._data.qvel) >= TOLERANCE]] = True
         still = np.count_nonzero(~moving[self._trees])
-        wanted = self._model.nv > 0 and 2 * still >= self._model.nv
-        if wanted != self.is_on:
-            self._switch(wanted)
+        enables = self._model.nv > 0 and 2 * still >= self._model.nv
+        if enables != self.is_on:
+            self._switch(enables)
 
     def disable(self) -> None:
         """Wake all trees and disable sleeping."""
@@ -104,7 +104,7 @@ class SleepPolicy:
         self.set_state(state, self._data.qfrc_actuator.copy())
 
     def set_state(self, state: NDArray[np.float64], efforts: NDArray[np.float64]) -> None:
-        """Set the engine's state with all trees awake; only a reset clears which ones sleep."""
+        """Set the engine's state with all trees awake; only a reset clears the sleeping ones."""
         mujoco.mj_resetData(self._model, self._data)
         mujoco.mj_setState(self._model, self._data, state, STATE)
         self._data.qfrc_actuator[:] = efforts

@@ -43,7 +43,7 @@ class StateReader:
         self._poses = self._twists = None
 
     def show_link_poses(self, poses: NDArray[np.float64]) -> None:
-        """Take (links, 7) poses for those of the links until `invalidate`; the state stays."""
+        """Replace the link poses with (links, 7) poses until `invalidate`; the state stays."""
         self._poses = poses
 
     def link_poses(self) -> NDArray[np.float64]:

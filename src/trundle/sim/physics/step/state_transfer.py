@@ -17,7 +17,7 @@ def transfer_state(
 ) -> list[tuple[int, int]]:
     """Copy positions, velocities, efforts, motors and wrenches exactly; the time continues.
 
-    Returns the old and new index of each motor that both have.
+    Return the old and new index of each motor in both.
 
     Args:
         old: source.
@@ -61,7 +61,7 @@ def _names(count: int, view: Callable[[int], _Named], renamed: Mapping[str, str]
     names = [view(i).name for i in range(count)]
     for old, new in (renamed or {}).items():
         parts = [name.split(_ON) for name in names]
-        names = [_ON.join(_renamed(part, f"{old}::", f"{new}::") for part in each) for each in parts]
+        names = [_ON.join(_renamed(part, f"{old}::", f"{new}::") for part in name_parts) for name_parts in parts]
     return names
 
 

@@ -17,7 +17,7 @@ _SIZES = {int(mujoco.mjtJoint.mjJNT_FREE): (7, 6), int(mujoco.mjtJoint.mjJNT_BAL
 
 
 class StateWriter:
-    """Writer of one `MjData`; no motor keeps what it writes."""
+    """Writer of one `MjData`; motors do not hold the written values."""
 
     def __init__(
         self, compiled: CompiledWorld, data: mujoco.MjData, *, wake: Callable[[int], None], changed: Callable[[], None]
@@ -45,10 +45,10 @@ class StateWriter:
         ).tolist()
 
     def set_axis_positions(self, axes: range, positions: Sequence[float] | NDArray[np.float64]) -> None:
-        """Set the positions of axes [rad or m], and of those that follow them; velocities stay.
+        """Set the positions of axes [rad or m], and of axes that follow them; velocities stay.
 
         Args:
-            axes: of whole joints; a ball joint's three take a rotation vector.
+            axes: axes of whole joints; a ball joint's three take a rotation vector.
             positions: (axes,)
         """
         for axis, position in zip(axes, positions, strict=True):
@@ -70,10 +70,10 @@ class StateWriter:
         mujoco.mju_axisAngle2Quat(self._data.qpos[address : address + 4], axis, angle)
 
     def set_axis_velocities(self, axes: range, velocities: Sequence[float] | NDArray[np.float64]) -> None:
-        """Set the velocities of axes [rad/s or m/s], and of those that follow them, once.
+        """Set the velocities of axes [rad/s or m/s], and of axes that follow them, once.
 
         Args:
-            axes: of one joint or several.
+            axes: axes of one joint or several.
             velocities: (axes,)
         """
         for axis, velocity in zip(axes, velocities, strict=True):
@@ -84,12 +84,12 @@ class StateWriter:
         self._changed()
 
     def _move_followers(self, joint: int) -> None:
-        """Set the positions of the joints that follow one, as their constraints have them."""
+        """Set the positions of the joints that follow one, by their constraints."""
         model, qpos = self._model, self._data.qpos
         for leader, follower, offset, ratio in self._followers.get(joint, ()):
-            at, to = model.jnt_qposadr[[leader, follower]]
+            source, target = model.jnt_qposadr[[leader, follower]]
             self._velocities.synchronize(int(model.jnt_dofadr[follower]))
-            qpos[to] = model.qpos0[to] + offset + ratio * (qpos[at] - model.qpos0[at])
+            qpos[target] = model.qpos0[target] + offset + ratio * (qpos[source] - model.qpos0[source])
 
     def _speed_up_followers(self, joint: int) -> None:
         """Set the velocities of the joints that follow one."""
@@ -134,7 +134,7 @@ class StateWriter:
         self._changed()
 
     def reset_links(self, links: Sequence[int]) -> None:
-        """Put the joints of links, and links that are free, back to where they start, at rest."""
+        """Reset the joints of links, and free links, to their initial positions, at rest."""
         initial = self._model.qpos0 if self._compiled.initial_qpos is None else self._compiled.initial_qpos
         bodies = self._compiled.link_bodies[list(links)]
         for joint in np.flatnonzero(np.isin(self._model.jnt_bodyid, bodies)):
@@ -160,18 +160,18 @@ class StateWriter:
 
 
 def _find_followers(model: mujoco.MjModel) -> dict[int, list[tuple[int, int, float, float]]]:
-    """Return joint → leader, follower, offset and ratio of each tie of a screw, mimic or gearbox below it, in order."""
+    """Return joint → leader, follower, offset and ratio of each screw, mimic or gearbox below it, in order."""
     ties: dict[int, list[tuple[int, int, float, float]]] = {}
     for tie in np.flatnonzero((model.eq_type == mujoco.mjtEq.mjEQ_JOINT) & model.eq_active0.astype(np.bool_)):
         follower, leader = int(model.eq_obj1id[tie]), int(model.eq_obj2id[tie])
         offset, ratio = model.eq_data[tie, :2].tolist()
         ties.setdefault(leader, []).append((leader, follower, offset, ratio))
-    found: dict[int, list[tuple[int, int, float, float]]] = {}
+    followers: dict[int, list[tuple[int, int, float, float]]] = {}
     for first in ties:
-        reached, below = {first}, list(ties[first])
-        for tie in below:  # grows
+        reached, chain = {first}, list(ties[first])
+        for tie in chain:  # grows
             if tie[1] not in reached:
                 reached.add(tie[1])
-                below += ties.get(tie[1], [])
-        found[first] = [tie for tie in below if tie[1] != first]
-    return found
+                chain += ties.get(tie[1], [])
+        followers[first] = [tie for tie in chain if tie[1] != first]
+    return followers

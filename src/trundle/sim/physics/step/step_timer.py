@@ -1,4 +1,4 @@
-"""Timers of what MuJoCo does in a step; they cost some thirty readings of the clock, so few steps are timed."""
+"""Timers of the parts of MuJoCo's step; they read the clock some thirty times, so few steps are timed."""
 
 import mujoco
 from msgspec import Struct
@@ -26,7 +26,7 @@ class StepTimer:
     def __init__(self, data: mujoco.MjData) -> None:
         timers = data.timer
         kinds = (_COLLISION, _CONSTRAINTS, (_TIMER.mjTIMER_STEP,))
-        self._groups = [[timers[kind] for kind in each] for each in kinds]
+        self._groups = [[timers[kind] for kind in group] for group in kinds]
         self._before = self._read()
 
     def start(self) -> None:

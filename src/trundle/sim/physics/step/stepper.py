@@ -1,4 +1,4 @@
-"""Steps with what C++ does at each of them: actions before it, recording of contacts after it."""
+"""Steps with hooks in C++: actions before each step, recording of contacts after it."""
 
 from collections.abc import Callable, Sequence
 from typing import TypeAlias
@@ -17,7 +17,7 @@ from .contact_recorder import ContactRecorder
 StepAction: TypeAlias = _contact_laws.StepAction
 
 
-class EachStep(Struct, frozen=True, eq=False):
+class StepHooks(Struct, frozen=True, eq=False):
     """Recorders and actions of the coming steps."""
 
     time_ns: int
@@ -26,11 +26,11 @@ class EachStep(Struct, frozen=True, eq=False):
     """[ns]"""
     recorders: Sequence[ContactRecorder] = ()
     actions: Sequence[StepAction] = ()
-    """Actions before each step but the first, for which they have acted."""
+    """Actions before each step but the first, before which they have acted already."""
 
     @property
     def is_empty(self) -> bool:
-        """True if there is nothing to do."""
+        """True without recorders and actions."""
         return not self.recorders and not self.actions
 
 
@@ -39,7 +39,7 @@ class Stepper:
 
     def __init__(
         self,
-        each: EachStep,
+        hooks: StepHooks,
         compiled: CompiledWorld,
         data: mujoco.MjData,
         *,
@@ -49,45 +49,45 @@ class Stepper:
         """Save the actions' state.
 
         Args:
-            each: recorders and actions.
+            hooks: recorders and actions.
             compiled: the world.
             data: its state.
             query: evaluates contacts of sleeping bodies.
             state: returns the state (mjSTATE_INTEGRATION).
         """
-        self._each = each
-        self._natives = [recorder.bind(compiled) for recorder in each.recorders]
-        self._restores = [action.checkpoint() for action in each.actions]
-        self._time_ns = each.time_ns
+        self._hooks = hooks
+        self._natives = [recorder.bind(compiled) for recorder in hooks.recorders]
+        self._restores = [action.checkpoint() for action in hooks.actions]
+        self._time_ns = hooks.time_ns
         self._addresses = compiled.model._address, data._address
         self._query = query
         self._state = state
 
     def step(self, count: int) -> int:
-        """Make `count` steps, or fewer if an action needs Python; return their number."""
-        each, left, goes_on = self._each, count, True
-        while left > 0 and goes_on:
-            acts_first = self._time_ns > each.time_ns
-            made, goes_on = _contact_laws.step(
-                *self._addresses, left, self._natives, each.actions, acts_first, self._time_ns, each.step_ns
+        """Step `count` times, or fewer if an action needs Python; return the number of steps."""
+        hooks, remaining, goes_on = self._hooks, count, True
+        while remaining > 0 and goes_on:
+            acts_first = self._time_ns > hooks.time_ns
+            stepped, goes_on = _contact_laws.step(
+                *self._addresses, remaining, self._natives, hooks.actions, acts_first, self._time_ns, hooks.step_ns
             )
-            self._time_ns += made * each.step_ns
-            left -= made
-            for recorder, native in zip(each.recorders, self._natives, strict=True):
+            self._time_ns += stepped * hooks.step_ns
+            remaining -= stepped
+            for recorder, native in zip(hooks.recorders, self._natives, strict=True):
                 if native.is_stale:
                     native.set_sleeping(self._query.sleeping_contacts(recorder.collisions, self._state).rows)
-        return count - left
+        return count - remaining
 
     def replace_last(self, contacts: Callable[[frozenset[str]], Contacts]) -> None:
         """Record the contacts of the current state in place of the last step's."""
-        for recorder, native in zip(self._each.recorders, self._natives, strict=True):
+        for recorder, native in zip(self._hooks.recorders, self._natives, strict=True):
             native.replace_since(self._time_ns, contacts(recorder.collisions).rows)
 
     def roll_back(self) -> None:
-        """Forget all steps."""
+        """Restore the recorders and actions to the state before all steps."""
         nothing = np.empty((0, 15))
         for native in self._natives:
-            native.replace_since(self._each.time_ns + self._each.step_ns, nothing)
+            native.replace_since(self._hooks.time_ns + self._hooks.step_ns, nothing)
         for restore in self._restores:
             restore()
-        self._time_ns = self._each.time_ns
+        self._time_ns = self._hooks.time_ns

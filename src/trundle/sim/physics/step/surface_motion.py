@@ -21,7 +21,7 @@ class SurfaceMotion(Struct, frozen=True, kw_only=True):
     speed: float = 0.0
     """Speed of the surface relative to its link, along the first direction [m/s]."""
     slip: float = 0.0
-    """Slip along the first direction per friction force of all the link's contacts [m/s/N]."""
+    """Slip along the first direction per friction force, summed over the link's contacts [m/s/N]."""
     slip_across: float = 0.0
     """Slip across the first direction [m/s/N]."""
 

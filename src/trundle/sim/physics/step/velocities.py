@@ -1,6 +1,6 @@
-"""Velocities of the time of the positions.
+"""Velocities at the time of the positions.
 
-A tree that moves by itself has those of half a step before in its `MjData`; see `cpp/contact/midpoint.h`.
+A tree's velocities in `MjData` may belong to a time half a step earlier; see `cpp/contact/midpoint.h`.
 """
 
 from collections.abc import Generator
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..compile.law_tables import velocity_times
 
-_GIVEN, _MIDPOINT = 0.0, 1.0
+_WRITTEN, _MIDPOINT = 0.0, 1.0
 
 
 class Velocities:
@@ -38,11 +38,11 @@ class Velocities:
 
     def set_velocities(self, qvel: NDArray[np.float64]) -> None:
         """Set velocities (nv,)."""
-        self._data.qvel[:], self._times[:] = qvel, _GIVEN
+        self._data.qvel[:], self._times[:] = qvel, _WRITTEN
 
     @contextmanager
     def shown(self) -> Generator[None]:
-        """Put the velocities into the data for a moment."""
+        """Write the velocities to the data within the context."""
         stepped = self._data.qvel.copy()
         self._data.qvel[:] = self.read()
         try:
@@ -51,15 +51,15 @@ class Velocities:
             self._data.qvel[:] = stepped
 
     def synchronize(self, dof: int) -> None:
-        """Write those of a degree of freedom's tree to the data, before its state is changed."""
+        """Write the velocities of a degree of freedom's tree to the data, before its state is changed."""
         tree = self._model.dof_treeid[dof]
         dofs = slice(self._first[tree], self._first[tree] + self._number[tree])
         self._data.qvel[dofs] = self.read()[dofs]
-        self._times[dofs] = _GIVEN
+        self._times[dofs] = _WRITTEN
 
 
 def midpoints_moved(
     qvel: NDArray[np.float64], times: NDArray[np.float64], qacc: NDArray[np.float64], half_step_s: float
 ) -> NDArray[np.float64]:
-    """Return velocities of the time of the positions, from the arrays (…, nv) of one `MjData` or several."""
+    """Return velocities at the time of the positions, from the arrays (…, nv) of one `MjData` or several."""
     return np.where(times == _MIDPOINT, qvel + half_step_s * qacc, qvel)

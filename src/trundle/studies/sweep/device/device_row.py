@@ -1,7 +1,7 @@
 """Run of one row, whose physics is stepped together with others."""
 
 from trundle.base.diagnostics import TrundleError
-from trundle.sim.physics import StepOutcome
+from trundle.sim.physics import StepResult
 from trundle.spatial import NS_PER_S
 
 from ..row_result import RowResult
@@ -9,9 +9,9 @@ from ..row_runner import RowRun, RowRunner
 from ..rows import Row
 
 _WHY = {
-    StepOutcome.UNSTABLE: "the physics became unstable {}; a smaller <max_step_size> or more plausible masses and "
+    StepResult.UNSTABLE: "the physics became unstable {}; a smaller <max_step_size> or more plausible masses and "
     "inertias may help",
-    StepOutcome.CROWDED: "it has more contacts than the GPU has room for {}; device='cpu' has no such bound",
+    StepResult.CROWDED: "it has more contacts than the GPU has room for {}; device='cpu' has no such bound",
 }
 
 
@@ -52,9 +52,9 @@ class DeviceRow:
             return
         self.result = self._runner.result(self._row, self._run)
 
-    def arrive(self, step: int, outcome: StepOutcome) -> None:
+    def arrive(self, step: int, outcome: StepResult) -> None:
         """Go on from a step up to which the physics was computed; a run that is not stable ends."""
-        if outcome is StepOutcome.STABLE:
+        if outcome is StepResult.STABLE:
             self.simulation.set_step(step)
             return
         start_s, end_s = self.simulation.time_ns / NS_PER_S, step * self.simulation.step_ns / NS_PER_S

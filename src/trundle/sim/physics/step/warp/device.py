@@ -5,7 +5,7 @@ import sys
 from importlib.util import find_spec
 
 INSTALL = "pip install 'trundle[gpu]' && pip install --no-deps mujoco-warp"
-"""MuJoCo on Warp requires the full `mujoco`, whose files are those of mujoco-core: it must come without."""
+"""MuJoCo on Warp requires the full `mujoco`, which has the files of mujoco-core: install it without dependencies."""
 _DRIVER = "nvcuda.dll" if sys.platform == "win32" else "libcuda.so.1"
 
 

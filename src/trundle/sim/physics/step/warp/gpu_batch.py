@@ -7,7 +7,7 @@ from trundle.base.diagnostics import TrundleError
 
 from ...compile.compiled_world import CompiledWorld
 from ..batch import Batch
-from .gpu_states import StepOutcome, advance
+from .gpu_states import StepResult, advance
 from .stepper import GpuStepper
 
 
@@ -25,10 +25,10 @@ class GpuBatch(Batch):
             threads: number of threads that compute poses.
             actuated: see `Batch`.
             max_speed: see `Batch`.
-            device: as Warp calls it.
+            device: Warp's name of the GPU.
 
         Raises:
-            UsageError: the GPU cannot step the world; says why.
+            UsageError: the GPU cannot step the world, with the reasons.
         """
         super().__init__(compiled, rows, threads, actuated=actuated, max_speed=max_speed)
         self._max_speed = max_speed
@@ -41,11 +41,11 @@ class GpuBatch(Batch):
             TrundleError: a row has more contacts than the GPU has room for.
         """
         chosen = self._all if chosen is None else chosen
-        outcomes = self._advance(count, chosen) if count else np.full(len(chosen), StepOutcome.STABLE)
-        if (outcomes[chosen] == StepOutcome.CROWDED).any():
+        results = self._advance(count, chosen) if count else np.full(len(chosen), StepResult.STABLE)
+        if (results[chosen] == StepResult.CROWDED).any():
             raise TrundleError("a world has more contacts than the GPU has room for; use device='cpu'")
         super().step(0, chosen=chosen)
-        self.unstable[chosen] = outcomes[chosen] == StepOutcome.UNSTABLE
+        self.unstable[chosen] = results[chosen] == StepResult.UNSTABLE
 
     def _advance(self, count: int, chosen: NDArray[np.bool_]) -> NDArray[np.int8]:
         return advance(

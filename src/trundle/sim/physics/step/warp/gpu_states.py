@@ -23,8 +23,8 @@ _INPUTS = {
 }
 
 
-class StepOutcome(IntEnum):
-    """Outcome of the steps of a world."""
+class StepResult(IntEnum):
+    """Result of the steps of a world."""
 
     STABLE = 0
     UNSTABLE = 1
@@ -44,20 +44,20 @@ def advance(
     chosen: NDArray[np.bool_],
     max_speed: float,
 ) -> NDArray[np.int8]:
-    """Step chosen rows; those that are not stable keep their states.
+    """Step chosen rows; unstable and crowded ones keep their states.
 
     Args:
-        stepper: of as many worlds as there are rows.
+        stepper: stepper of as many worlds as rows.
         model: one of the worlds.
         states: (rows, …) mjSTATE_INTEGRATION; changed in place.
         max_efforts: (rows, motors)
         rates: (rows, motors)
         count: number of steps.
         chosen: (rows,)
-        max_speed: from which on a row has diverged [m/s or rad/s].
+        max_speed: speed from which on a row has diverged [m/s or rad/s].
 
     Returns:
-        (rows,) a `StepOutcome` for each; without meaning for those that were not chosen.
+        (rows,) `StepResult`s; undefined for rows that were not chosen.
     """
     inputs = {name: part_of(model, states, part) for name, part in _INPUTS.items()}
     inputs["qvel"] = velocities_of(model, states)
@@ -66,11 +66,11 @@ def advance(
     targets = laws[:, : model.nu].copy()
     after, crowded = stepper.step(count, inputs, max_efforts, rates, targets)
     slow = (np.abs(after["qvel"]) < max_speed).all(axis=1)
-    outcomes = np.where(np.isfinite(after["qpos"]).all(axis=1) & slow, StepOutcome.STABLE, StepOutcome.UNSTABLE)
-    outcomes[crowded] = StepOutcome.CROWDED
-    stable = chosen & (outcomes == StepOutcome.STABLE)
+    results = np.where(np.isfinite(after["qpos"]).all(axis=1) & slow, StepResult.STABLE, StepResult.UNSTABLE)
+    results[crowded] = StepResult.CROWDED
+    stable = chosen & (results == StepResult.STABLE)
     for name, values in after.items():
         part_of(model, states, _INPUTS[name])[stable] = values[stable]
     laws[stable, : model.nu], laws[stable, model.nu : model.nu + model.nv] = targets[stable], 0.0
     part_of(model, states, mujoco.mjtState.mjSTATE_TIME)[stable] += count * model.opt.timestep
-    return outcomes.astype(np.int8)
+    return results.astype(np.int8)

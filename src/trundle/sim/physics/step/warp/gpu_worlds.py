@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..engine import MAX_SPEED, Engine
-from .gpu_states import StepOutcome, advance
+from .gpu_states import StepResult, advance
 from .varied_numbers import model_on_gpu, varied_numbers
 
 
@@ -17,11 +17,11 @@ class GpuWorlds:
         """Bring the worlds to the GPU.
 
         Args:
-            engines: at time zero, without `gpu_differences` from the first.
-            device: as Warp calls it.
+            engines: engines at time zero, without `gpu_differences` from the first.
+            device: Warp's name of the GPU.
 
         Raises:
-            UsageError: the GPU cannot step such a world; says why.
+            UsageError: the GPU cannot step such a world, with the reasons.
         """
         from .stepper import GpuStepper  # mujoco_warp need not be installed
 
@@ -30,19 +30,19 @@ class GpuWorlds:
         models = [model_on_gpu(engine.compiled) for engine in engines]
         self._stepper = GpuStepper(self._compiled, models[0], len(engines), device, varied_numbers(models))
 
-    def step(self, count: int, *, chosen: NDArray[np.bool_]) -> list[StepOutcome]:
-        """Step chosen engines, with their motors and loads; those that are not stable keep their states.
+    def step(self, count: int, *, chosen: NDArray[np.bool_]) -> list[StepResult]:
+        """Step chosen engines, with their motors and loads; unstable and crowded ones keep their states.
 
         Args:
             count: number of steps.
             chosen: (engines,)
 
         Returns:
-            One for each engine; without meaning for those that were not chosen.
+            One for each engine; undefined for engines that were not chosen.
         """
         rows = [engine.world_row() for engine in self._engines]
         states = np.stack([row.state for row in rows])
-        outcomes = advance(
+        results = advance(
             self._stepper,
             self._compiled.model,
             states,
@@ -52,6 +52,6 @@ class GpuWorlds:
             chosen=chosen,
             max_speed=MAX_SPEED,
         )
-        for at in np.flatnonzero(chosen & (outcomes == StepOutcome.STABLE)).tolist():
-            self._engines[at].set_row_state(states[at])
-        return [*map(StepOutcome, outcomes.tolist())]
+        for index in np.flatnonzero(chosen & (results == StepResult.STABLE)).tolist():
+            self._engines[index].set_row_state(states[index])
+        return [*map(StepResult, results.tolist())]

@@ -1,4 +1,4 @@
-"""Joint motors and stops on a GPU, as `cpp/contact/velocity_motor.cc` and `cpp/contact/joint_stop.cc` have them.
+"""Joint motors and stops on a GPU, as in `cpp/contact/velocity_motor.cc` and `cpp/contact/joint_stop.cc`.
 
 Warp compiles these functions when they first run.
 """
@@ -39,10 +39,10 @@ def drive(
         qpos: (worlds, …)
         nefc: (worlds,) number of rows.
         kinds: (worlds, rows) type of the constraint.
-        ids: (worlds, rows) its tendon or joint.
+        ids: (worlds, rows) tendon or joint of the row.
         positions: (worlds, rows) distance from the limit.
-        margins: (worlds, rows) distance from which on there is a row.
-        speeds: (worlds, rows) of the constraint.
+        margins: (worlds, rows) distance up to which a row exists.
+        speeds: (worlds, rows) velocity of the constraint.
         references: (worlds, rows) reference accelerations.
     """
     world, row = wp.tid()

@@ -8,29 +8,29 @@ import numpy as np
 from ...compile.compiled_world import CompiledWorld
 from ...compile.law_tables import find_table, restore_springs
 
-_MOST = 3
-"""Names that a sentence lists."""
+_MAX_NAMES = 3
+"""Most names in a sentence."""
 _MARGIN = 1e-5
-"""Least distance at which there is a contact [m]; single precision has 4 µm at 50 m."""
+"""Smallest distance of a contact [m]; single precision resolves 4 µm at 50 m."""
 
 
 def gpu_limits(compiled: CompiledWorld) -> list[str]:
-    """Return what in a world a GPU cannot step, a sentence each; empty: it can."""
+    """Return the reasons why a GPU cannot step a world, a sentence each; empty: it can."""
     return list(_limits(compiled))
 
 
 def _limits(compiled: CompiledWorld) -> Iterator[str]:
     friction = find_table(compiled.model, "friction")
     slips, patches = friction[:, 5:8].any(axis=1), friction[:, 8] > 0.0
-    two_ways = ~slips & ~patches
+    anisotropic = ~slips & ~patches
     compliance = find_table(compiled.model, "compliance")
-    yielding = (compliance[:, 1:4] != (0.0, 1.0, 0.0)).any(axis=1)
+    compliant = (compliance[:, 1:4] != (0.0, 1.0, 0.0)).any(axis=1)
     pairs = (
         ("bounce (<restitution_coefficient>)", find_table(compiled.model, "restitution")[:, 0]),
         ("slip under load (<slip1>, <slip2>)", friction[slips, 0]),
         ("have friction about the normal that grows with the load (<torsional>)", friction[patches & ~slips, 0]),
-        ("have two different frictions (<mu>, <mu2>)", friction[two_ways, 0]),
-        ("yield (<min_depth>, <max_vel>, <kp>, <kd>)", compliance[yielding, 0]),
+        ("have two different frictions (<mu>, <mu2>)", friction[anisotropic, 0]),
+        ("yield (<min_depth>, <max_vel>, <kp>, <kd>)", compliance[compliant, 0]),
     )
     for law, keys in pairs:
         if len(keys):
@@ -50,15 +50,15 @@ def _pair(compiled: CompiledWorld, key: int) -> str:
 
 def _names(names: list[str]) -> str:
     unique = list(dict.fromkeys(names))
-    more = f" and {len(unique) - _MOST} more" if len(unique) > _MOST else ""
-    return ", ".join(unique[:_MOST]) + more
+    more = f" and {len(unique) - _MAX_NAMES} more" if len(unique) > _MAX_NAMES else ""
+    return ", ".join(unique[:_MAX_NAMES]) + more
 
 
 def gpu_model(model: mujoco.MjModel) -> None:
-    """Change a copy of a model, in which nothing sleeps, to what MuJoCo on Warp takes.
+    """Adapt a copy of a model, in which nothing sleeps, to MuJoCo on Warp.
 
-    Soft springs and dampers return from the midpoint rule to MuJoCo; a flag against resets and one for thin bodies have
-    no effect. What just touches would not be found in single precision.
+    Soft springs and dampers return from the midpoint rule to MuJoCo; the flags against resets and for thin bodies have
+    no effect. Margins grow, because single precision misses shapes that just touch.
     """
     option, disabled = model.opt, mujoco.mjtDisableBit
     model.tree_sleep_policy[:] = int(mujoco.mjtSleepPolicy.mjSLEEP_AUTO_NEVER)

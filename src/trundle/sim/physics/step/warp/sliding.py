@@ -1,4 +1,4 @@
-"""Sliding that does not lift, on a GPU, as `cpp/contact/contact_offset.cc` has it.
+"""Sliding that does not lift, on a GPU, as in `cpp/contact/contact_offset.cc`.
 
 While a contact slides, its friction rows miss their references, and the cone of friction lifts it by μ times that.
 Warp compiles these functions when they first run.
@@ -37,10 +37,10 @@ class Jacobian:
 class Motors:
     """Motors of the worlds, a tendon each."""
 
-    places: wp.array2d[int]
+    addresses: wp.array2d[int]
     """(tendons, 3) actuator, and addresses in qpos and qvel."""
     efforts: wp.array2d[float]
-    """(worlds, tendons) largest."""
+    """(worlds, tendons) largest effort."""
     rates: wp.array2d[float]
     """(worlds, tendons) position gain [1/s]; 0: speed motor."""
     last_targets: wp.array2d[float]
@@ -49,7 +49,7 @@ class Motors:
 
 @wp.struct
 class Loads:
-    """Weights of what rests on contacts."""
+    """Weights that rest on contacts."""
 
     gravity: float
     geom_trees: wp.array[int]
@@ -111,9 +111,9 @@ def _spring(solref: wp.vec2, impedance: float) -> wp.vec2:
 
 @wp.func
 def _trees(loads: Loads, geoms: wp.vec2i) -> wp.vec2i:
-    one = loads.geom_trees[geoms[0]]
-    other = loads.geom_trees[geoms[1]]
-    return wp.vec2i(wp.min(one, other), wp.max(one, other))
+    first = loads.geom_trees[geoms[0]]
+    second = loads.geom_trees[geoms[1]]
+    return wp.vec2i(wp.min(first, second), wp.max(first, second))
 
 
 @wp.func
@@ -128,17 +128,17 @@ def _holding_effort(
     for row in range(count):
         at = ids[world, row]
         if kinds[world, row] == _ELLIPTIC and contacts.rows[at, 0] == row:
-            both = _trees(loads, contacts.geoms[at])
+            pair = _trees(loads, contacts.geoms[at])
             points = wp.float32(0.0)
             for other in range(count):
-                beside = ids[world, other]
-                is_first = kinds[world, other] == _ELLIPTIC and contacts.rows[beside, 0] == other
-                if is_first and _trees(loads, contacts.geoms[beside]) == both:
+                neighbour = ids[world, other]
+                is_first = kinds[world, other] == _ELLIPTIC and contacts.rows[neighbour, 0] == other
+                if is_first and _trees(loads, contacts.geoms[neighbour]) == pair:
                     points += 1.0
             mass = wp.float32(1e10)
             for i in range(2):
-                if both[i] >= 0:
-                    mass = wp.min(mass, loads.masses[world % loads.masses.shape[0], loads.tree_bodies[both[i]]])
+                if pair[i] >= 0:
+                    mass = wp.min(mass, loads.masses[world % loads.masses.shape[0], loads.tree_bodies[pair[i]]])
             along = contacts.frictions[at][0] * _element(jacobian, world, contacts.rows[at, 1], dof)
             across = contacts.frictions[at][1] * _element(jacobian, world, contacts.rows[at, 2], dof)
             total += 2.0 * loads.gravity * mass / points * wp.sqrt(along * along + across * across)
@@ -162,21 +162,21 @@ def predict(
     predicted: wp.array2d[float],
     jumps: wp.array[int],
 ):
-    """Predict the accelerations of this step (worlds, nv): those of the last one, but of motors with new targets."""
+    """Predict this step's accelerations (worlds, nv): the last step's, changed for motors with new targets."""
     world = wp.tid()
     jumps[world] = 0
     for dof in range(qacc.shape[1]):
         predicted[world, dof] = qacc[world, dof]
-    for motor in range(motors.places.shape[0]):
-        actuator = motors.places[motor, 0]
-        driven = motors.places[motor, 2]
+    for motor in range(motors.addresses.shape[0]):
+        actuator = motors.addresses[motor, 0]
+        driven = motors.addresses[motor, 2]
         effort = motors.efforts[world, motor]
         last = motors.last_targets[world, actuator]
         motors.last_targets[world, actuator] = qvel[world, driven]
         if effort > 0.0:
             target = ctrl[world, actuator]
             if motors.rates[world, motor] > 0.0:
-                target = motors.rates[world, motor] * (target - qpos[world, motors.places[motor, 1]])
+                target = motors.rates[world, motor] * (target - qpos[world, motors.addresses[motor, 1]])
             motors.last_targets[world, actuator] = target
             if wp.abs(target - last) >= _MIN_JUMP:
                 held = _holding_effort(contacts, loads, jacobian, world, driven, nefc[world], kinds, ids)
@@ -210,9 +210,9 @@ def hold(
     impedance = contacts.solimps[at][1]
     normal = _spring(contacts.solrefs[at], impedance)
     damping = normal[1]
-    own = contacts.solreffrictions[at]
-    if own[0] != 0.0 or own[1] != 0.0:
-        damping = _spring(own, impedance)[1]
+    friction_solref = contacts.solreffrictions[at]
+    if friction_solref[0] != 0.0 or friction_solref[1] != 0.0:
+        damping = _spring(friction_solref, impedance)[1]
     slid, change, before, after = wp.float32(0.0), wp.float32(0.0), wp.float32(0.0), wp.float32(0.0)
     for j in range(1, contacts.sizes[at]):
         side = contacts.rows[at, j]
@@ -233,14 +233,14 @@ def hold(
     elif slid <= _MIN_SPEED * _MIN_SPEED:
         return
     whole = 1.0 + h * normal[1] + h * h * normal[0] * impedance
-    most = wp.max(contacts.frictions[at][0], contacts.frictions[at][1])
+    max_mu = wp.max(contacts.frictions[at][0], contacts.frictions[at][1])
     # At an impact, friction that the last step lacked holds with up to μ times the stopping force.
     impact = wp.max(-speeds[world, row], 0.0) * normal[1] / whole
-    references[world, row] -= wp.max(wp.sqrt(missed) - most * most * impact, 0.0)
+    references[world, row] -= wp.max(wp.sqrt(missed) - max_mu * max_mu * impact, 0.0)
 
 
 class Sliding:
-    """The law for the worlds of a `GpuStepper`, as launches within a step."""
+    """Law for the worlds of a `GpuStepper`, as launches within a step."""
 
     def __init__(
         self, model: mujoco.MjModel, on_device: "mujoco_warp.Model", data: "mujoco_warp.Data", rates: "wp.array"
@@ -248,9 +248,9 @@ class Sliding:
         """Bind the arrays on the current device.
 
         Args:
-            model: as on the device.
-            on_device: the model there.
-            data: the states there.
+            model: model on the device, as MuJoCo's.
+            on_device: model on the device.
+            data: states on the device.
             rates: (worlds, tendons) position gains.
         """
         self._h = float(model.opt.timestep)
@@ -258,7 +258,7 @@ class Sliding:
         self.last_targets = wp.zeros((data.nworld, model.nu), dtype=float)
         """(worlds, actuators) target speeds of the last step."""
         self._motors = Motors()
-        self._motors.places = wp.array(find_table(model, "motors")[:, [0, 2, 3]].astype(np.int32), dtype=int, ndim=2)
+        self._motors.addresses = wp.array(find_table(model, "motors")[:, [0, 2, 3]].astype(np.int32), dtype=int, ndim=2)
         self._motors.efforts, self._motors.rates = on_device.tendon_frictionloss, rates
         self._motors.last_targets = self.last_targets
         self._loads = Loads()

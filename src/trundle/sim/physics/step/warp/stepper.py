@@ -19,10 +19,10 @@ from .sliding import Sliding
 from .varied_numbers import GRAVITY
 
 _Array = NDArray[np.float64]
-_CONTACTS_PER_PAIR, _MOST_CONTACTS = 8, 256
+_CONTACTS_PER_PAIR, _MAX_CONTACTS = 8, 256
 _ROWS_PER_CONTACT = 3
 _SPARE_CONTACTS = 4096
-"""Contacts that all worlds share, so that a crowded one takes none of another's."""
+"""Contacts shared by all worlds, so that a crowded one takes no other's."""
 _OVERFLOWS = ("NEFC", "NJMAX_NNZ", "BROADPHASE", "NARROWPHASE", "CCD", "HFIELD", "EPA_HORIZON")
 
 
@@ -37,17 +37,17 @@ class GpuStepper:
         device: str,
         numbers: Mapping[str, _Array] | None = None,
     ) -> None:
-        """Bring a model to the GPU, and compile what steps it, which takes minutes the first time on a machine.
+        """Copy a model to the GPU, and compile the kernels, which takes minutes the first time on a machine.
 
         Args:
             compiled: the world.
             model: copy of its model, in which nothing sleeps.
             worlds: number of states.
-            device: as Warp calls it.
+            device: Warp's name of the GPU.
             numbers: field of the model → (worlds, …) values; None: each world has the model's own.
 
         Raises:
-            UsageError: a law of the world, or a part of its model, is not known there.
+            UsageError: the GPU does not support a law of the world, or a part of its model.
         """
         limits = gpu_limits(compiled)
         if limits:
@@ -56,9 +56,9 @@ class GpuStepper:
         sizes = dict.fromkeys(["tendon_frictionloss", *(name for name in numbers if name != GRAVITY)], worlds)
         model = copy.copy(model)
         gpu_model(model)
-        contacts = min(_CONTACTS_PER_PAIR * max(model.npair, model.ngeom), _MOST_CONTACTS)
+        contacts = min(_CONTACTS_PER_PAIR * max(model.npair, model.ngeom), _MAX_CONTACTS)
         rows = model.nv + model.ntendon + 2 * model.njnt + 6 * model.neq + _ROWS_PER_CONTACT * contacts
-        room = worlds * contacts + _SPARE_CONTACTS
+        max_contacts = worlds * contacts + _SPARE_CONTACTS
         self._device = device
         wp.config.log_level = wp.LOG_WARNING
         with wp.ScopedDevice(device):
@@ -68,7 +68,7 @@ class GpuStepper:
                 raise UsageError(f"a GPU cannot step this world; use device='cpu': {error}") from None
             self._model.opt.warn_overflow = 0
             self._write(numbers)
-            self._data = mujoco_warp.make_data(model, nworld=worlds, naconmax=room, njmax=rows)
+            self._data = mujoco_warp.make_data(model, nworld=worlds, naconmax=max_contacts, njmax=rows)
             self._motors = wp.array(find_table(model, "motors")[:, [0, 2]].astype(np.int32), dtype=int, ndim=2)
             self._stops = wp.array(_stops(model).astype(np.float32), dtype=float, ndim=2)
             self._rates = wp.zeros((worlds, model.ntendon), dtype=float)
@@ -111,7 +111,7 @@ class GpuStepper:
             targets: (worlds, motors) target speeds of the step before; those of the last step afterwards.
 
         Returns:
-            qpos, qvel and qacc_warmstart afterwards; (worlds,) True where contacts were left out for want of room.
+            qpos, qvel and qacc_warmstart afterwards; (worlds,) True if contacts did not fit and were left out.
         """
         with wp.ScopedDevice(self._device):
             self._model.tendon_frictionloss.assign(max_efforts.astype(np.float32))
