@@ -15,7 +15,7 @@ namespace {
 template <typename Number, typename... Shape>
 using Array = nb::ndarray<Number, nb::numpy, nb::c_contig, nb::device::cpu, Shape...>;
 
-using Colour = std::array<float, 3>;
+using Color = std::array<float, 3>;
 
 Transform transform_of(const std::array<double, 7>& pose, const char* owner) {
   const auto transform = Transform::from_pose(pose.data());
@@ -23,7 +23,7 @@ Transform transform_of(const std::array<double, 7>& pose, const char* owner) {
   return *transform;
 }
 
-Sky sky_of(const Colour& horizon, const Colour& zenith) {
+Sky sky_of(const Color& horizon, const Color& zenith) {
   return Sky{{horizon[0], horizon[1], horizon[2]}, {zenith[0], zenith[1], zenith[2]}, {}, 0};
 }
 
@@ -80,7 +80,7 @@ NB_MODULE(_native, module) {
   nb::class_<MaterialSpec>(module, "Material")
       .def(
           "__init__",
-          [](MaterialSpec* self, Colour ambient, Colour diffuse, Colour specular, Colour emissive, float shininess,
+          [](MaterialSpec* self, Color ambient, Color diffuse, Color specular, Color emissive, float shininess,
              float opacity, int32_t texture, std::array<float, 2> repeat) {
             new (self) MaterialSpec{ambient, diffuse, specular, emissive, shininess, opacity, texture, repeat};
           },
@@ -102,8 +102,8 @@ NB_MODULE(_native, module) {
   nb::class_<LightSpec>(module, "Light")
       .def(
           "__init__",
-          [](LightSpec* self, LightKind kind, int32_t body, Vec3 position, Vec3 direction, Colour diffuse,
-             Colour specular, std::array<float, 3> attenuation, float range, float inner_angle, float outer_angle,
+          [](LightSpec* self, LightKind kind, int32_t body, Vec3 position, Vec3 direction, Color diffuse,
+             Color specular, std::array<float, 3> attenuation, float range, float inner_angle, float outer_angle,
              float falloff, bool casts_shadows) {
             new (self)
                 LightSpec{kind,           body,           position, direction,   diffuse,     specular, attenuation[0],
@@ -116,18 +116,18 @@ NB_MODULE(_native, module) {
   nb::class_<Fog>(module, "Fog")
       .def(
           "__init__",
-          [](Fog* self, FogKind kind, Colour colour, float start, float end, float density) {
-            new (self) Fog{kind, {colour[0], colour[1], colour[2]}, start, end, density};
+          [](Fog* self, FogKind kind, Color color, float start, float end, float density) {
+            new (self) Fog{kind, {color[0], color[1], color[2]}, start, end, density};
           },
-          nb::arg("kind"), nb::kw_only(), nb::arg("colour"), nb::arg("start"), nb::arg("end"), nb::arg("density"));
+          nb::arg("kind"), nb::kw_only(), nb::arg("color"), nb::arg("start"), nb::arg("end"), nb::arg("density"));
 
   nb::class_<Renderer> renderer(module, "Renderer");
   renderer
       .def(
           "__init__",
           [](Renderer* self, int32_t bodies, std::vector<Mesh> meshes, std::vector<Image> textures,
-             std::vector<ShapeSpec> shapes, std::vector<LightSpec> lights, Colour ambient, Colour horizon,
-             Colour zenith, std::optional<Fog> fog, int32_t threads) {
+             std::vector<ShapeSpec> shapes, std::vector<LightSpec> lights, Color ambient, Color horizon, Color zenith,
+             std::optional<Fog> fog, int32_t threads) {
             if (bodies < 0) throw std::invalid_argument("bodies must be at least 0");
             const Sky sky = sky_of(horizon, zenith);
             new (self) Renderer(SceneSpec{bodies, std::move(meshes), std::move(textures), std::move(shapes),
@@ -149,7 +149,7 @@ NB_MODULE(_native, module) {
       .def("set_material", &Renderer::set_material, nb::arg("shape"), nb::arg("material"))
       .def(
           "set_lighting",
-          [](Renderer& self, std::vector<LightSpec> lights, Colour ambient, Colour horizon, Colour zenith) {
+          [](Renderer& self, std::vector<LightSpec> lights, Color ambient, Color horizon, Color zenith) {
             self.set_lighting(std::move(lights), ambient, sky_of(horizon, zenith));
           },
           nb::arg("lights"), nb::kw_only(), nb::arg("ambient"), nb::arg("horizon"), nb::arg("zenith"))
@@ -208,10 +208,10 @@ NB_MODULE(_native, module) {
       },
       nb::arg("depths"), nb::kw_only(), nb::arg("seed"), nb::arg("mean"), nb::arg("stddev"));
   module.def(
-      "add_colour_noise",
+      "add_color_noise",
       [noise_of](Array<uint8_t, nb::shape<-1, -1, 3>> rgb, uint64_t seed, float mean, float stddev) {
         nb::gil_scoped_release unlocked;
-        best_kernel().add_colour_noise(noise_of(seed, mean, stddev), static_cast<int64_t>(rgb.size()) / 3, rgb.data());
+        best_kernel().add_color_noise(noise_of(seed, mean, stddev), static_cast<int64_t>(rgb.size()) / 3, rgb.data());
       },
       nb::arg("rgb"), nb::kw_only(), nb::arg("seed"), nb::arg("mean"), nb::arg("stddev"));
   module.def(

@@ -153,15 +153,15 @@ struct Collapser {
   std::vector<BvhLeaf> leaves;
 
   void collapse(int32_t from) {
-    int32_t most = 1;  // leaves below one child
-    while (most * kMaxLanes < binary[from].leaves) most *= kMaxLanes;
+    int32_t max_leaves = 1;  // leaves below one child
+    while (max_leaves * kMaxLanes < binary[from].leaves) max_leaves *= kMaxLanes;
     std::vector<int32_t> children = {from};
     while (children.size() < static_cast<size_t>(kMaxLanes)) {
       const auto fullest = std::max_element(children.begin(), children.end(), [&](int32_t a, int32_t b) {
         return (binary[a].count > 0 ? 0 : binary[a].leaves) < (binary[b].count > 0 ? 0 : binary[b].leaves);
       });
       const int32_t divided = *fullest;
-      if (binary[divided].count > 0 || (binary[divided].leaves <= most && divided != from)) break;
+      if (binary[divided].count > 0 || (binary[divided].leaves <= max_leaves && divided != from)) break;
       *fullest = divided + 1;
       children.push_back(binary[divided].first);
     }

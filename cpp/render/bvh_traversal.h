@@ -80,8 +80,8 @@ inline uint32_t bits8(Ints8 mask) { return static_cast<uint32_t>(_mm256_movemask
 inline Floats8 max8(Floats8 a, Floats8 b) {
   const __m128* as = reinterpret_cast<const __m128*>(&a);
   const __m128* bs = reinterpret_cast<const __m128*>(&b);
-  const __m128 most[2] = {_mm_max_ps(as[0], bs[0]), _mm_max_ps(as[1], bs[1])};
-  return load8(reinterpret_cast<const float*>(most));
+  const __m128 largest[2] = {_mm_max_ps(as[0], bs[0]), _mm_max_ps(as[1], bs[1])};
+  return load8(reinterpret_cast<const float*>(largest));
 }
 inline uint32_t bits8(Ints8 mask) {
   const __m128* halves = reinterpret_cast<const __m128*>(&mask);
@@ -96,11 +96,11 @@ inline uint32_t bits8(Ints8 mask) {
 }
 #endif
 
-// Two-sided Möller-Trumbore test. Terms that all rays from one origin share are computed once: a ray hits a triangle
+// Two-sided Möller-Trumbore test. Terms common to all rays from one origin are computed once: a ray hits a triangle
 // where it is on the inner side of three planes through that origin. Triangles outside the frustum, or no nearer than
-// `least_inverse_range`, are culled.
+// `min_inverse_range`, are culled.
 inline void intersect_leaf(const BvhLeaf* leaves, int32_t number, const float* eye, const Frustum& frustum,
-                           float least_inverse_range, RayPacket& packet) {
+                           float min_inverse_range, RayPacket& packet) {
   const BvhLeaf& leaf = leaves[number];
   Floats8 n[3], p[3], more[3], left[3], right[3], components[4][3];
   for (int i = 0; i < 3; ++i) {
@@ -119,13 +119,14 @@ inline void intersect_leaf(const BvhLeaf* leaves, int32_t number, const float* e
     components[2][i] = (more[i] + right[i]) * sign;
     components[3][i] = (more[i] + (n[i] - left[i] - right[i])) * sign;
   }
-  const auto most = [&](const Floats8* component) {  // over the frustum, per metre along its axis
+  const auto largest = [&](const Floats8* component) {  // over the frustum, per metre along its axis
     Floats8 sum = max8(component[0] * frustum.low[0], component[0] * frustum.high[0]);
     for (int i = 1; i < 3; ++i) sum = sum + max8(component[i] * frustum.low[i], component[i] * frustum.high[i]);
     return sum;
   };
-  const Ints8 hit = (most(components[1]) >= 0.0f) & (most(components[2]) >= 0.0f) & (most(components[3]) >= 0.0f) &
-                    (most(components[0]) * (frustum.fastest * 1.00001f) > least_inverse_range);
+  const Ints8 hit = (largest(components[1]) >= 0.0f) & (largest(components[2]) >= 0.0f) &
+                    (largest(components[3]) >= 0.0f) &
+                    (largest(components[0]) * (frustum.fastest * 1.00001f) > min_inverse_range);
   for (uint32_t still = bits8(hit); still; still &= still - 1) {
     const int i = __builtin_ctz(still);
     for (int group = 0; group < kPacketGroups; ++group) {
@@ -143,7 +144,7 @@ inline void intersect_leaf(const BvhLeaf* leaves, int32_t number, const float* e
   }
 }
 
-// A node to visit, and where its box begins along the frustum's axis.
+// A node to visit, and the start of its box along the frustum's axis.
 struct StackEntry {
   float from;
   int32_t node;
@@ -161,7 +162,7 @@ inline void traverse(const RayTarget& target, const Frustum& frustum, RayPacket&
   StackEntry stack[kMaxStack];
   int count = 1;
   stack[0] = {0.0f, 0};
-  float least_inverse_range = least_active(), furthest = frustum.fastest * 1.00001f / least_inverse_range;
+  float min_inverse_range = least_active(), furthest = frustum.fastest * 1.00001f / min_inverse_range;
   while (count > 0) {
     const StackEntry next = stack[--count];
     if (next.from > furthest) continue;
@@ -186,7 +187,7 @@ inline void traverse(const RayTarget& target, const Frustum& frustum, RayPacket&
         if (leaves > 0) {
           if (k0[lane] > furthest) continue;
           for (int32_t i = first; i < first + leaves; ++i)
-            intersect_leaf(target.bvh.leaves, i, eye, frustum, least_inverse_range, packet);
+            intersect_leaf(target.bvh.leaves, i, eye, frustum, min_inverse_range, packet);
           found_some = true;
           continue;
         }
@@ -197,8 +198,8 @@ inline void traverse(const RayTarget& target, const Frustum& frustum, RayPacket&
       }
     }
     if (found_some) {
-      least_inverse_range = least_active();
-      furthest = frustum.fastest * 1.00001f / least_inverse_range;
+      min_inverse_range = least_active();
+      furthest = frustum.fastest * 1.00001f / min_inverse_range;
     }
   }
 }

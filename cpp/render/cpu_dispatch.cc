@@ -35,11 +35,11 @@ struct Processor {
 const Kernel& best_kernel() {
   static const Kernel& chosen = []() -> const Kernel& {
 #ifdef TRUNDLE_X86
-    const char* wish = std::getenv("TRUNDLE_RENDER_ISA");  // to compare their images
-    const std::string_view most = wish ? wish : "avx512";
+    const char* requested = std::getenv("TRUNDLE_RENDER_ISA");  // for comparison of their images
+    const std::string_view widest = requested ? requested : "avx512";
     const Processor processor;
-    if (most == "avx512" && processor.avx512) return avx512::kernel;
-    if (most != "baseline" && processor.avx2) return avx2::kernel;
+    if (widest == "avx512" && processor.avx512) return avx512::kernel;
+    if (widest != "baseline" && processor.avx2) return avx2::kernel;
 #endif
     return baseline::kernel;
   }();

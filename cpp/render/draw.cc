@@ -33,10 +33,10 @@ struct Renderer::Band {
   }
 };
 
-constexpr int64_t kTilesForThread = 2048;  // 256 Ki pixels; for fewer, starting a thread costs most of what it saves
+constexpr int64_t kTilesForThread = 2048;  // 256 Ki pixels; for fewer, starting a thread costs nearly what it saves
 
 // With all images stacked, each thread draws one band counted from the top and one from the bottom, because skies cost
-// less than what is below them. The two middle bands are one.
+// less than the parts below them. The two middle bands are one.
 template <typename Work>
 void Renderer::for_each_band(const std::vector<View>& views, const Work& work) {
   const auto count = static_cast<int64_t>(workspaces_.size());
@@ -62,7 +62,7 @@ void Renderer::for_each_band(const std::vector<View>& views, const Work& work) {
   const int64_t helpful = std::min(count, starts.back() / kTilesForThread + 1);
   try {
     for (; started < helpful; ++started) others.emplace_back(draw, started);
-  } catch (const std::system_error&) {  // no more threads: this one does the rest
+  } catch (const std::system_error&) {  // no more threads: the calling thread does the rest
   }
   for (int64_t thread = started; thread < count; ++thread) draw(thread);
   draw(0);
@@ -88,7 +88,7 @@ void Renderer::rasterize_all(const View& view, const std::vector<Renderable>& re
     }
 }
 
-// Planes cast no shadow: they are floors, and nothing is below them.
+// Planes cast no shadow: they are floors.
 void Renderer::render_shadow_maps() {
   std::vector<size_t> casters;
   std::vector<BoxCorners> corners;
@@ -196,7 +196,7 @@ void Renderer::render(const std::vector<CameraTarget>& targets) {
     for (Workspace& workspace : workspaces_) {
       workspace.inverse_depth.reserve(count);
       workspace.id.reserve(count);
-      workspace.colour.reserve(count);
+      workspace.color.reserve(count);
       workspace.hi_z.reserve(tiles);
       if (target.segmentation) workspace.segmentation.reserve(count);
       if (!visible_sets.back().transparent.empty()) {
@@ -217,7 +217,7 @@ void Renderer::draw(const CameraTarget& target, const View& view, const VisibleS
   Lighting lighting{{}, visible.lights.data(), static_cast<int32_t>(visible.lights.size()), scene_.fog};
   std::copy(scene_.ambient.begin(), scene_.ambient.end(), lighting.ambient);
   const Buffers buffers{workspace.inverse_depth.data(), workspace.id.data(),
-                        workspace.colour.data(),        target.segmentation ? workspace.segmentation.data() : nullptr,
+                        workspace.color.data(),         target.segmentation ? workspace.segmentation.data() : nullptr,
                         workspace.hi_z.data(),          workspace.projected.data(),
                         workspace.large_faces.data()};
   const auto stride = static_cast<size_t>(view.stride);
@@ -234,7 +234,7 @@ void Renderer::draw(const CameraTarget& target, const View& view, const VisibleS
   kernel.fill_sky(view, visible.sky, band.top, band.bottom, buffers);
   for (const Renderable& renderable : visible.opaque)
     if (const auto part = band.clip(renderable)) kernel.shade(view, *part, lighting, buffers);
-  Buffers through = buffers;  // blended over the image; visibility in buffers of its own
+  Buffers through = buffers;  // blended over the image; visibility in separate buffers
   through.inverse_depth = workspace.inverse_depth_through.data();
   through.id = workspace.id_through.data();
   through.hi_z = workspace.hi_z_through.data();

@@ -66,7 +66,7 @@ Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& f
   mesh.low = {inf, inf, inf};
   mesh.high = {-inf, -inf, -inf};
   if (!uv.empty() && uv.size() != 2 * faces.size())
-    throw std::invalid_argument("there must be one place in the texture for each corner of each face");
+    throw std::invalid_argument("there must be one texture coordinate for each corner of each face");
   if (!normals.empty() && normals.size() != 3 * faces.size())
     throw std::invalid_argument("there must be one normal for each corner of each face");
   bool smooth = false;

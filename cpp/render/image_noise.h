@@ -1,5 +1,5 @@
-// Gaussian image noise. Counter-based: each number depends on the key and its index alone, so that neither the vector
-// width nor the number of threads changes it. Included by kernel.cc alone.
+// Gaussian image noise. Counter-based: each number depends on the key and its index only, so that neither the vector
+// width nor the number of threads changes it. Included by kernel.cc only.
 #pragma once
 
 #include "kernel.h"
@@ -27,8 +27,8 @@ inline void sine_cosine(Floats a, Floats& sine, Floats& cosine) {
 
 // Box-Muller transform of the counters from `first` on.
 inline void normal_pair(const uint32_t key[2], uint32_t first, Floats& one, Floats& other) {
-  const Uints place = reinterpret_cast<Uints>(lane_numbers()) + first;
-  const Uints a = hash(place ^ key[0]), b = hash(hash(place + key[1]) ^ key[0]);
+  const Uints index = reinterpret_cast<Uints>(lane_numbers()) + first;
+  const Uints a = hash(index ^ key[0]), b = hash(hash(index + key[1]) ^ key[0]);
   const Floats chance = (to_float(reinterpret_cast<Ints>(a >> 8)) + 1.0f) * (1.0f / (1 << 24));  // (0, 1]
   const Floats length = sqrt(max(-2.0f * 0.69314718f * log2(chance), Floats{}));
   const Floats angle =
@@ -62,7 +62,7 @@ void add_depth_noise(const Noise& noise, int64_t count, float* depths) {
   }
 }
 
-void add_colour_noise(const Noise& noise, int64_t count, uint8_t* rgb) {
+void add_color_noise(const Noise& noise, int64_t count, uint8_t* rgb) {
   alignas(64) float normal[kNoiseBlock];
   for (int64_t at = 0; at < count; at += kNoiseBlock) {
     normal_block(noise.key, static_cast<uint32_t>(at / kNoiseBlock), normal);

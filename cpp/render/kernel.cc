@@ -112,7 +112,7 @@ void fill_sky(const View& view, const Sky& sky, int32_t top, int32_t bottom, con
                           to_byte(sky.horizon[2] + share * range[2]) << 16;
         word = select(up > 0.0f, high, word);
       }
-      store(buffers.colour + at, word);
+      store(buffers.color + at, word);
     }
   }
 }
@@ -134,7 +134,7 @@ void shade(const View& view, const Renderable& renderable, const Lighting& light
 #define TRUNDLE_TEXT(name) #name
 #define TRUNDLE_NAME(name) TRUNDLE_TEXT(name)
 extern const Kernel kernel;
-const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), rasterize,        update_hi_z, fill_sky,  shade, cast_rays, resolve,
-                       add_depth_noise,           add_colour_noise, clip_depths, fill_cloud};
+const Kernel kernel = {TRUNDLE_NAME(TRUNDLE_ISA), rasterize,       update_hi_z, fill_sky,  shade, cast_rays, resolve,
+                       add_depth_noise,           add_color_noise, clip_depths, fill_cloud};
 
 }  // namespace trundle::TRUNDLE_ISA

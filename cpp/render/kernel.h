@@ -81,7 +81,7 @@ struct Renderable {
   float eye[3];                      // the camera in the shape's frame [m]
   float centre[3];                   // the shape's origin in the camera frame [m]
   int32_t left, top, right, bottom;  // screen bounds, right and bottom excluded
-  float max_inverse_depth;           // no point of it is nearer
+  float max_inverse_depth;           // of its nearest point
   int32_t first_id;                  // visible pixels hold first_id + face
   int32_t id_count;
   int32_t index;  // in the scene
@@ -112,7 +112,7 @@ struct BoundingVolumes {
       cylinder_radius_squared[kMaxLanes];
 };
 
-// Depth image from a light. A point is in shadow where the image holds something nearer.
+// Depth image from a light. A point is in shadow if the image has a smaller depth.
 struct ShadowMap {
   const float* inverse_depth;           // (height, stride), as Buffers'
   const float* tile_max_inverse_depth;  // of each tile: the largest of its texels and their right and lower neighbours
@@ -133,7 +133,7 @@ struct Light {
 
 struct Fog {
   FogKind kind;
-  float colour[3];
+  float color[3];
   float start, end, density;
 };
 
@@ -144,18 +144,18 @@ struct Lighting {
   Fog fog;
 };
 
-// Background: one colour, or a gradient from the horizon up.
+// Background: one color, or a gradient from the horizon up.
 struct Sky {
   float horizon[3], zenith[3];
   float up[3];             // world's z axis in the camera frame
-  int32_t packed_horizon;  // the horizon's colour as in Buffers::colour, used below it and where both are equal
+  int32_t packed_horizon;  // the horizon's color as in Buffers::color, used below it and where both are equal
 };
 
 // Rows of `stride` numbers.
 struct Buffers {
   float* inverse_depth;   // 1 / depth [1/m]; orthographic: -depth [m]; infinite in the padding
-  int32_t* id;            // of the visible face, -1 for none; null: not wanted
-  int32_t* colour;        // red | green << 8 | blue << 16
+  int32_t* id;            // of the visible face, -1 for none; null: not needed
+  int32_t* color;         // red | green << 8 | blue << 16
   int32_t* segmentation;  // index of the shape, or -1; may be null
   float* hi_z;            // of each tile: a fragment with less inverse depth is hidden
   float* projected;       // scratch: 6 rows of the largest mesh's vertices
@@ -170,7 +170,7 @@ struct Noise {
 
 struct Kernel {
   const char* name;
-  // At equal depth the lower id wins, in whatever order shapes come.
+  // At equal depth the lower id wins, for any order of shapes.
   void (*rasterize)(const View&, const Renderable&, const Buffers&);
   void (*update_hi_z)(const View&, const Renderable&, const Buffers&);                     // after rasterize
   void (*fill_sky)(const View&, const Sky&, int32_t top, int32_t bottom, const Buffers&);  // pixels without a shape
@@ -181,10 +181,10 @@ struct Kernel {
   // Buffer rows to image rows; depth may be null.
   void (*resolve)(const View&, int32_t top, int32_t bottom, const Buffers&, uint8_t* rgb, float* depth);
   void (*add_depth_noise)(const Noise&, int64_t count, float* depths);
-  void (*add_colour_noise)(const Noise&, int64_t count, uint8_t* rgb);  // equal on all three channels of a pixel
+  void (*add_color_noise)(const Noise&, int64_t count, uint8_t* rgb);  // equal on all three channels of a pixel
   // Depths outside [near, far] or infinite become NaN; both arrays may be the same.
   void (*clip_depths)(int64_t count, float near, float far, const float* depths, float* clipped);
-  // x, y, z in the optical frame [m] and the colour as PCL packs it, 0x00rrggbb in a float's bits.
+  // x, y, z in the optical frame [m] and the color as PCL packs it, 0x00rrggbb in a float's bits.
   void (*fill_cloud)(int64_t count, const float* depth, const uint8_t* rgb, const float* right, const float* down,
                      float* points);
 };

@@ -13,7 +13,7 @@ size_t tile_count(const View& view) {
 
 namespace {
 
-constexpr double kTexelSize = 0.01;  // [m] wanted width of a texel
+constexpr double kTexelSize = 0.01;  // [m] target width of a texel
 constexpr int32_t kMinMapSize = 512, kMaxMapSize = 2048;
 constexpr int32_t kPadding = 16;  // texels; rows a power of two apart would share cache lines
 constexpr float kNoDepth = -3e38f;
@@ -44,9 +44,9 @@ void ShadowMapImage::add_caster(const Renderable& caster) {
   const int32_t left = std::max(caster.left - 1, 0) / kTileWidth, right = (caster.right - 1) / kTileWidth;
   for (int32_t top = std::max(caster.top - 1, 0) / kTileHeight; top <= (caster.bottom - 1) / kTileHeight; ++top)
     for (int32_t tile = left; tile <= right; ++tile) {
-      float& most = tile_max_inverse_depth[static_cast<size_t>(top) * static_cast<size_t>(view.tile_stride()) +
-                                           static_cast<size_t>(tile)];
-      most = std::max(most, caster.max_inverse_depth);
+      float& tile_max = tile_max_inverse_depth[static_cast<size_t>(top) * static_cast<size_t>(view.tile_stride()) +
+                                               static_cast<size_t>(tile)];
+      tile_max = std::max(tile_max, caster.max_inverse_depth);
     }
 }
 
@@ -63,10 +63,10 @@ std::optional<ShadowMapImage> make_shadow_map(const LightSpec& light, const Tran
   Vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
   for (const BoxCorners& corners : casters)
     for (const Vec3& corner : corners) {
-      const Vec3 seen = view.inverse_rotate(corner);
+      const Vec3 result = view.inverse_rotate(corner);
       for (int i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], seen[i]);
-        high[i] = std::max(high[i], seen[i]);
+        low[i] = std::min(low[i], result[i]);
+        high[i] = std::max(high[i], result[i]);
       }
     }
   const double extent = std::max({high[1] - low[1], high[2] - low[2], 1e-3});
@@ -78,36 +78,36 @@ std::optional<ShadowMapImage> make_shadow_map(const LightSpec& light, const Tran
 }
 
 ShadowMap shadow_map_in_camera(const ShadowMapImage& map, const Transform& world_from_camera) {
-  ShadowMap seen{map.inverse_depth.data(), map.tile_max_inverse_depth.data(), map.view, {}, {}, map.texel};
+  ShadowMap result{map.inverse_depth.data(), map.tile_max_inverse_depth.data(), map.view, {}, {}, map.texel};
   const Transform view_from_camera = map.world_from_view.inverse() * world_from_camera;
-  for (int i = 0; i < 9; ++i) seen.rotation[i] = static_cast<float>(view_from_camera.rotation[i]);
-  for (int i = 0; i < 3; ++i) seen.translation[i] = static_cast<float>(view_from_camera.position[i]);
-  return seen;
+  for (int i = 0; i < 9; ++i) result.rotation[i] = static_cast<float>(view_from_camera.rotation[i]);
+  for (int i = 0; i < 3; ++i) result.translation[i] = static_cast<float>(view_from_camera.position[i]);
+  return result;
 }
 
 Light light_in_camera(const LightSpec& light, const Transform& world_from_body, const Transform& world_from_camera,
                       const ShadowMap* map) {
-  Light seen{};
-  seen.kind = light.kind;
+  Light result{};
+  result.kind = light.kind;
   const Vec3 along = world_from_camera.inverse_rotate(world_from_body.rotate(light.direction));
-  const Vec3 place = world_from_camera.inverse_apply(world_from_body.apply(light.position));
+  const Vec3 light_position = world_from_camera.inverse_apply(world_from_body.apply(light.position));
   for (int i = 0; i < 3; ++i) {
-    seen.to_light[i] = static_cast<float>(-along[i]);
-    seen.position[i] = static_cast<float>(place[i]);
-    seen.diffuse[i] = light.diffuse[i];
-    seen.specular[i] = light.specular[i];
+    result.to_light[i] = static_cast<float>(-along[i]);
+    result.position[i] = static_cast<float>(light_position[i]);
+    result.diffuse[i] = light.diffuse[i];
+    result.specular[i] = light.specular[i];
   }
-  seen.constant = light.constant;
-  seen.linear = light.linear;
-  seen.quadratic = light.quadratic;
-  seen.range = light.range;
-  seen.falloff = light.falloff;
+  result.constant = light.constant;
+  result.linear = light.linear;
+  result.quadratic = light.quadratic;
+  result.range = light.range;
+  result.falloff = light.falloff;
   const double outer = std::cos(light.outer_angle * 0.5);
-  seen.cos_outer = static_cast<float>(outer);
-  seen.cos_inner =
+  result.cos_outer = static_cast<float>(outer);
+  result.cos_inner =
       static_cast<float>(std::max(std::cos(std::min(light.inner_angle, light.outer_angle) * 0.5), outer + 1e-4));
-  seen.shadow = map;
-  return seen;
+  result.shadow = map;
+  return result;
 }
 
 }  // namespace trundle

@@ -11,7 +11,7 @@ namespace trundle {
 
 struct LightSpec {
   LightKind kind = LightKind::kDirectional;
-  int32_t body = -1;                     // it is attached to; -1: the world
+  int32_t body = -1;                     // carrying body; -1: the world
   Vec3 position{}, direction{0, 0, -1};  // in the body frame
   std::array<float, 3> diffuse{}, specular{};
   float constant = 1, linear = 0, quadratic = 0, range = 1e9f;

@@ -42,7 +42,7 @@ struct Grid {
       ++counts[cell];
     }
     for (size_t cell = 0; cell < centres.size(); ++cell)
-      for (double& place : centres[cell]) place /= counts[cell];
+      for (double& coordinate : centres[cell]) coordinate /= counts[cell];
     for (int32_t i = 0; i < mesh.vertex_count; ++i) {
       if (!used[i]) continue;
       double square = 0.0;

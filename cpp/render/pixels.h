@@ -1,4 +1,4 @@
-// Per-pixel passes over finished images. Included by kernel.cc alone.
+// Per-pixel passes over finished images. Included by kernel.cc only.
 #pragma once
 
 #include "kernel.h"
@@ -9,23 +9,23 @@ namespace trundle::TRUNDLE_ISA {
 constexpr float kInfinity = __builtin_inff(), kNotANumber = __builtin_nanf("");
 
 // 3 * kLanes bytes: red, green, blue per lane.
-inline void store_colours(uint8_t* to, Ints colours) {
+inline void store_colors(uint8_t* to, Ints colors) {
 #if defined(__AVX512F__)
   const __m512i together = _mm512_shuffle_epi8(
-      reinterpret_cast<__m512i>(colours),
+      reinterpret_cast<__m512i>(colors),
       _mm512_broadcast_i32x4(_mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1)));
   const __m512i order = _mm512_setr_epi32(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 0, 0, 0, 0);
   _mm512_mask_storeu_epi32(to, 0x0fff, _mm512_permutexvar_epi32(order, together));
 #elif defined(__AVX2__)
   const __m256i together = _mm256_shuffle_epi8(
-      reinterpret_cast<__m256i>(colours),
+      reinterpret_cast<__m256i>(colors),
       _mm256_broadcastsi128_si256(_mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1)));
   const __m256i packed = _mm256_permutevar8x32_epi32(together, _mm256_setr_epi32(0, 1, 2, 4, 5, 6, 0, 0));
   _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm256_castsi256_si128(packed));
   _mm_storel_epi64(reinterpret_cast<__m128i*>(to + 16), _mm256_extracti128_si256(packed, 1));
 #else
-  const auto a = static_cast<uint32_t>(colours[0]), b = static_cast<uint32_t>(colours[1]),
-             c = static_cast<uint32_t>(colours[2]), d = static_cast<uint32_t>(colours[3]);
+  const auto a = static_cast<uint32_t>(colors[0]), b = static_cast<uint32_t>(colors[1]),
+             c = static_cast<uint32_t>(colors[2]), d = static_cast<uint32_t>(colors[3]);
   const uint32_t packed[3] = {a | b << 24, b >> 8 | c << 16, c >> 16 | d << 8};
   for (int k = 0; k < 3; ++k) __builtin_memcpy(to + 4 * k, packed + k, 4);  // one copy would go through memory
 #endif
@@ -38,14 +38,14 @@ void resolve(const View& view, int32_t top, int32_t bottom, const Buffers& buffe
     const int64_t to = static_cast<int64_t>(row) * view.width;
     int column = 0;
     for (; column + kLanes <= view.width; column += kLanes) {
-      store_colours(rgb + 3 * (to + column), load(buffers.colour + from + column));
+      store_colors(rgb + 3 * (to + column), load(buffers.color + from + column));
       if (!depth) continue;
       const Floats away = 1.0f / load(buffers.inverse_depth + from + column);
       store(depth + to + column, select(load(buffers.id + from + column) < 0, splat(kInfinity), away));
     }
     for (; column < view.width; ++column) {
       for (int i = 0; i < 3; ++i)
-        rgb[3 * (to + column) + i] = static_cast<uint8_t>(buffers.colour[from + column] >> (8 * i));
+        rgb[3 * (to + column) + i] = static_cast<uint8_t>(buffers.color[from + column] >> (8 * i));
       if (depth)
         depth[to + column] = buffers.id[from + column] < 0 ? kInfinity : 1.0f / buffers.inverse_depth[from + column];
     }
@@ -88,7 +88,7 @@ inline void store_four(float* to, Floats a, Floats b, Floats c, Floats d) {
 #endif
 }
 
-// kLanes colours as PCL packs them.
+// kLanes colors as PCL packs them.
 inline Ints load_packed(const uint8_t* rgb) {
 #if defined(__AVX512F__)
   const __m512i bytes = _mm512_maskz_loadu_epi32(0x0fff, rgb);
@@ -112,11 +112,11 @@ void fill_cloud(int64_t count, const float* depth, const uint8_t* rgb, const flo
                reinterpret_cast<Floats>(load_packed(rgb + 3 * at)));
   }
   for (; at < count; ++at) {
-    const int32_t colour = rgb[3 * at] << 16 | rgb[3 * at + 1] << 8 | rgb[3 * at + 2];
+    const int32_t color = rgb[3 * at] << 16 | rgb[3 * at + 1] << 8 | rgb[3 * at + 2];
     points[4 * at] = right[at] * depth[at];
     points[4 * at + 1] = down[at] * depth[at];
     points[4 * at + 2] = depth[at];
-    __builtin_memcpy(points + 4 * at + 3, &colour, sizeof colour);
+    __builtin_memcpy(points + 4 * at + 3, &color, sizeof color);
   }
 }
 

@@ -48,8 +48,8 @@ struct Cone {
   explicit Cone(const RayBlock& rays) {
     float square = 0.0f;
     for (int i = 0; i < 3; ++i) {
-      const float* way = rays.directions_f32[i];
-      axis[i] = way[0] + way[rays.count / 2] + way[rays.count - 1];
+      const float* direction = rays.directions_f32[i];
+      axis[i] = direction[0] + direction[rays.count / 2] + direction[rays.count - 1];
       square += axis[i] * axis[i];
     }
     Floats least_of_all = splat(3e38f);
@@ -78,13 +78,13 @@ struct Cone {
 
   // Writes the indices of the others; returns their number.
   int32_t find(const BoundingVolumes* volumes, int32_t count, int32_t* near) const {
-    int32_t found = 0;
+    int32_t count_near = 0;
     for (int32_t first = 0; first < count; first += kLanes) {
       const Ints here = splat(first) + lane_numbers() < count;
       const Ints out = directions_f32 ? misses(volumes[first / kMaxLanes], first % kMaxLanes) : Ints{};
-      for (uint32_t left = bits(here & ~out); left; left &= left - 1) near[found++] = first + __builtin_ctz(left);
+      for (uint32_t left = bits(here & ~out); left; left &= left - 1) near[count_near++] = first + __builtin_ctz(left);
     }
-    return found;
+    return count_near;
   }
 };
 
@@ -144,7 +144,7 @@ inline void cast_shape(const RayTarget& target, const Candidates& candidates, Ra
         intersect<kind>(target.size, o, kind == ShapeKind::kSphere ? d : rotate(target.axes, d));
     const Doubles range = load(rays.ranges + at), shape = load(rays.shapes + at),
                   index = splat(static_cast<double>(target.index));
-    // At equal range the lower index wins, in whatever order shapes come.
+    // At equal range the lower index wins, for any order of shapes.
     const Longs nearer = hit.mask & ((hit.depth < range) | ((hit.depth == range) & (shape > index)));
     store(rays.ranges + at, select(nearer, hit.depth, range));
     store(rays.shapes + at, select(nearer, index, shape));
@@ -162,7 +162,7 @@ inline double range_to(const RayTarget& target, int32_t triangle, double x, doub
   return away / (normal[0] * x + normal[1] * y + normal[2] * z);
 }
 
-// First each ray's nearest mesh by bounding sphere, then the rest that its hit does not hide.
+// First each ray's nearest mesh by bounding sphere, then the meshes that its hit does not hide.
 enum class Pass { kNearest, kRest };
 
 inline void cast_mesh(const RayTarget& target, Pass pass, RayBlock& rays) {
@@ -219,7 +219,7 @@ inline void cast_target(const RayTarget& target, const Candidates& candidates, R
     case ShapeKind::kCylinder: return cast_shape<ShapeKind::kCylinder>(target, candidates, rays);
     case ShapeKind::kCapsule: return cast_shape<ShapeKind::kCapsule>(target, candidates, rays);
     case ShapeKind::kEllipsoid: return cast_shape<ShapeKind::kEllipsoid>(target, candidates, rays);
-    case ShapeKind::kMesh:  // after everything that may hide it
+    case ShapeKind::kMesh:  // after all shapes that may hide it
       for (int i = 0; i < rays.count; i += kLanes) {
         const SphereHits near(target, rays.direction_f32_at(i));
         store(rays.entry + i, min(select(near.reached, near.entry(), splat(3e38f)), load(rays.entry + i)));

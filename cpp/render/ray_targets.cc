@@ -5,7 +5,7 @@
 
 namespace trundle {
 
-// A shape as rays from an origin see it; false if none can reach it.
+// Target of rays from an origin for a shape; false if no ray can reach it.
 bool Renderer::make_target(const Transform& world_from_origin, size_t index, double max_range,
                            RayTarget& target) const {
   const ShapeSpec& shape = scene_.shapes[index];

@@ -61,9 +61,9 @@ Renderer::Renderer(SceneSpec scene, int32_t threads)
   for (Image& image : scene_.textures) image.texture.texels = image.texels.data();
   for (const ShapeSpec& shape : scene_.shapes) {
     if (!is_index(shape.body, static_cast<size_t>(scene_.bodies)))
-      throw std::invalid_argument("a shape rides on a body that does not exist");
+      throw std::invalid_argument("a shape is on a body that does not exist");
     if (shape.kind == ShapeKind::kMesh && !is_index(shape.mesh, scene_.meshes.size()))
-      throw std::invalid_argument("a shape names a mesh that does not exist");
+      throw std::invalid_argument("a shape refers to a mesh that does not exist");
     materials_.push_back(material_of(shape));
   }
   check_lights();
@@ -76,7 +76,7 @@ Renderer::Renderer(SceneSpec scene, int32_t threads)
 
 Material Renderer::material_of(const ShapeSpec& shape) const {
   if (shape.material.texture != -1 && !is_index(shape.material.texture, scene_.textures.size()))
-    throw std::invalid_argument("a shape names a texture that does not exist");
+    throw std::invalid_argument("a shape refers to a texture that does not exist");
   Material material = make_material(shape.material, scene_.textures);
   if (shape.kind == ShapeKind::kMesh && !triangles_[shape.mesh].uv_planes) material.texture = nullptr;
   return material;
@@ -85,7 +85,7 @@ Material Renderer::material_of(const ShapeSpec& shape) const {
 void Renderer::check_lights() const {
   for (const LightSpec& light : scene_.lights)
     if (light.body != -1 && !is_index(light.body, static_cast<size_t>(scene_.bodies)))
-      throw std::invalid_argument("a light rides on a body that does not exist");
+      throw std::invalid_argument("a light is on a body that does not exist");
 }
 
 void Renderer::set_material(int32_t shape, const MaterialSpec& material) {
@@ -201,7 +201,7 @@ bool Renderer::is_infinite(const ShapeSpec& shape) const {
   return shape.kind == ShapeKind::kPlane && !(shape.size[0] > 0 && shape.size[1] > 0);
 }
 
-// Fill in what does not depend on the view; returns camera_from_shape, or nothing if the shape is not drawn.
+// Fill in the view-independent fields; returns camera_from_shape, or nothing if the shape is not drawn.
 std::optional<Transform> Renderer::make_renderable(const Transform& world_from_camera, size_t index,
                                                    Renderable& renderable) const {
   const ShapeSpec& shape = scene_.shapes[index];
@@ -234,7 +234,7 @@ std::optional<Transform> Renderer::make_renderable(const Transform& world_from_c
   return camera_from_shape;
 }
 
-// Coarsest level whose vertices moved by no more than the tolerance [m].
+// Coarsest level whose vertices moved by at most the tolerance [m].
 const Triangles& Renderer::select_lod(int32_t mesh, double tolerance) {
   const Triangles& whole = triangles_[mesh];
   const Vec3 &low = scene_.meshes[mesh].low, &high = scene_.meshes[mesh].high;

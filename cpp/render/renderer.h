@@ -52,7 +52,7 @@ struct CameraTarget {
   int32_t* segmentation;
 };
 
-// Cache-aligned buffer that only grows; its contents are not kept.
+// Cache-aligned buffer that only grows; growing loses its contents.
 template <typename Number>
 class Scratch {
  public:
@@ -83,7 +83,7 @@ class Renderer {
 
   void update(const double* poses);         // (bodies, 7)
   void set_mesh(int32_t index, Mesh mesh);  // for all shapes that use it
-  // What a picture may change without building a scene again. Throws as the constructor does.
+  // Changes that do not need a new scene. Throw as the constructor does.
   void set_material(int32_t shape, const MaterialSpec& material);
   void set_lighting(std::vector<LightSpec> lights, const std::array<float, 3>& ambient, const Sky& sky);
   // All targets in one pass; threads share their rows.
@@ -140,7 +140,7 @@ class Renderer {
   bool shadow_maps_dirty_ = true;
   struct Workspace {  // per thread
     Scratch<float> projected, inverse_depth, inverse_depth_through, hi_z, hi_z_through;
-    Scratch<int32_t> large_faces, id, id_through, colour, segmentation;
+    Scratch<int32_t> large_faces, id, id_through, color, segmentation;
     void reserve(const Mesh& mesh);
   };
   std::vector<Workspace> workspaces_;

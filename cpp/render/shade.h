@@ -12,9 +12,9 @@ inline Ints to_byte(Floats share) {
   return to_int(max(min(share * 255.0f + 0.5f, splat(255.0f)), Floats{}));  // in this order, NaN becomes 255
 }
 
-inline Floats3 clamp_to_white(const Floats3& colour) {
+inline Floats3 clamp_to_white(const Floats3& color) {
   const Floats one = splat(1.0f);
-  return {min(colour.x, one), min(colour.y, one), min(colour.z, one)};
+  return {min(color.x, one), min(color.y, one), min(color.z, one)};
 }
 
 inline Floats saturate(Floats value) { return max(min(value, splat(1.0f)), Floats{}); }
@@ -62,12 +62,12 @@ struct LightSum {
 
 // True if a highlight can change a pixel by at least half a level of 255.
 inline bool has_highlight(const Material& material, const Light& light) {
-  float most = 0.0f;
+  float maximum = 0.0f;
   for (int i = 0; i < 3; ++i) {
     const float shine = material.specular[i] * light.specular[i];
-    if (shine > most) most = shine;
+    if (shine > maximum) maximum = shine;
   }
-  return most >= 0.5f / 255.0f;
+  return maximum >= 0.5f / 255.0f;
 }
 
 __attribute__((always_inline)) inline void add_light(const Light& light, const Renderable& renderable,
@@ -77,9 +77,10 @@ __attribute__((always_inline)) inline void add_light(const Light& light, const R
   Floats3 to_light = splat(light.to_light);
   Floats strength = splat(1.0f);
   if (light.kind != LightKind::kDirectional) {
-    const Floats3 way = {light.position[0] - point.x, light.position[1] - point.y, light.position[2] - point.z};
-    const Floats distance = sqrt(dot(way, way));
-    to_light = way * (1.0f / max(distance, splat(1e-6f)));
+    const Floats3 offset_to_light = {light.position[0] - point.x, light.position[1] - point.y,
+                                     light.position[2] - point.z};
+    const Floats distance = sqrt(dot(offset_to_light, offset_to_light));
+    to_light = offset_to_light * (1.0f / max(distance, splat(1e-6f)));
     strength = 1.0f / max(light.constant + distance * (light.linear + distance * light.quadratic), splat(1e-3f));
     strength = select(distance <= light.range, strength, Floats{});
     if (light.kind == LightKind::kSpot) {
@@ -179,27 +180,27 @@ void shade_shape(const View& view, const Renderable& renderable, const Lighting&
           uv = uv_of_face(*renderable.mesh, local, ids - renderable.first_id, mask);
         else uv = uv_at<kind>(renderable, local, outward);
         const float* repeat = material.repeat;
-        const float most = step * (repeat[0] > repeat[1] ? repeat[0] : repeat[1]);
+        const float maximum = step * (repeat[0] > repeat[1] ? repeat[0] : repeat[1]);
         uv.u = (uv.u - 0.5f) * repeat[0] + 0.5f;
         uv.v = (uv.v - 0.5f) * repeat[1] + 0.5f;
-        const Floats across = depth * most, facing = max(dot(n, to_eye), splat(0.05f));
+        const Floats across = depth * maximum, facing = max(dot(n, to_eye), splat(0.05f));
         sum.diffuse = sum.diffuse * sample_texture(*material.texture, uv, uv.squared_scale * (across * across) / facing,
                                                    mask, last_level);
       }
-      Floats3 colour = sum.diffuse + sum.specular;
+      Floats3 color = sum.diffuse + sum.specular;
       if (lighting.fog.kind != FogKind::kNone) {
         const Floats transmittance = fog_transmittance(lighting.fog, depth);
-        colour = colour * transmittance + splat(lighting.fog.colour) * (1.0f - transmittance);
+        color = color * transmittance + splat(lighting.fog.color) * (1.0f - transmittance);
       }
-      const Ints old = load(buffers.colour + at);
+      const Ints old = load(buffers.color + at);
       if (transparent) {
         const float behind = (1.0f - material.opacity) / 255.0f;
         const Floats a = splat(material.opacity);
-        colour = Floats3{saturate(colour.x), saturate(colour.y), saturate(colour.z)} * a;
-        colour = colour + Floats3{channel(old, 0), channel(old, 8), channel(old, 16)} * splat(behind);
+        color = Floats3{saturate(color.x), saturate(color.y), saturate(color.z)} * a;
+        color = color + Floats3{channel(old, 0), channel(old, 8), channel(old, 16)} * splat(behind);
       }
-      const Ints word = to_byte(colour.x) | to_byte(colour.y) << 8 | to_byte(colour.z) << 16;
-      store(buffers.colour + at, select(mask, word, old));
+      const Ints word = to_byte(color.x) | to_byte(color.y) << 8 | to_byte(color.z) << 16;
+      store(buffers.color + at, select(mask, word, old));
       if (buffers.segmentation && !transparent)
         store(buffers.segmentation + at, select(mask, splat(renderable.index), load(buffers.segmentation + at)));
     }

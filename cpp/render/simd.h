@@ -1,5 +1,5 @@
 // Vector types of the instruction set's width. Every operation is exact per lane (IEEE), so that images do not depend
-// on the width. Included by kernel.cc alone, inside the namespace of one instruction set.
+// on the width. Included by kernel.cc only, inside the namespace of one instruction set.
 #pragma once
 
 #include <cstdint>
@@ -157,9 +157,9 @@ inline float reduce_max(Floats a) {
   half = _mm_max_ps(half, _mm_movehl_ps(half, half));
   return _mm_cvtss_f32(_mm_max_ss(half, _mm_shuffle_ps(half, half, 1)));
 #else
-  float most = a[0];
-  for (int i = 1; i < kLanes; ++i) most = a[i] > most ? a[i] : most;
-  return most;
+  float largest = a[0];
+  for (int i = 1; i < kLanes; ++i) largest = a[i] > largest ? a[i] : largest;
+  return largest;
 #endif
 }
 inline float reduce_min(Floats a) { return -reduce_max(-a); }
@@ -198,7 +198,7 @@ inline Floats log2(Floats a) {
   return exponent + s * (2.88539008f + q * (0.961796694f + q * (0.577078016f + q * (0.412198583f + q * 0.320598898f))));
 }
 
-// By repeated squaring for integer exponents, which most highlights have.
+// By repeated squaring for integer exponents, the usual case for highlights.
 inline Floats pow(Floats a, float exponent) {
   const Ints some = a > 1e-30f;
   const int whole = exponent >= 0.0f && exponent <= 256.0f ? static_cast<int>(exponent) : -1;

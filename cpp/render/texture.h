@@ -37,11 +37,11 @@ inline TextureUv uv_at(const Renderable& renderable, const Floats3& p, const Flo
   if constexpr (kind == ShapeKind::kBox) {
     const Floats x = p.x / (2.0f * size[0]), y = p.y / (2.0f * size[1]), z = p.z / (2.0f * size[2]);
     const Ints is_x = normal.x != 0.0f, is_z = normal.z != 0.0f;
-    const float least =
+    const float smallest =
         size[0] < size[1] ? (size[0] < size[2] ? size[0] : size[2]) : (size[1] < size[2] ? size[1] : size[2]);
     const Floats along = select(is_x, select(normal.x > 0.0f, y, -y), select(normal.y > 0.0f, -x, x));
     return {select(is_z, x, along) + 0.5f, select(is_z, select(normal.z > 0.0f, y, -y), z) + 0.5f,
-            squared(0.5f / least)};
+            squared(0.5f / smallest)};
   }
   const float height = kind == ShapeKind::kCylinder    ? size[1]
                        : kind == ShapeKind::kCapsule   ? size[1] + size[0]
@@ -68,8 +68,8 @@ inline TextureUv uv_of_face(const Triangles& mesh, const Floats3& p, Ints faces,
 
 inline Floats channel(Ints texel, int shift) { return to_float((texel >> shift) & 255); }
 
-// Bilinear sample on the mipmap level whose texels are about as large as the pixel's footprint, whose squared length is
-// given in texture coordinates.
+// Bilinear sample on the mipmap level whose texels are about as large as the pixel's footprint, with its squared length
+// in texture coordinates.
 inline Floats3 sample_texture(const Texture& texture, const TextureUv& uv, Floats squared_footprint, Ints mask,
                               int& last_level) {
   const float across = static_cast<float>(texture.width[0] > texture.height[0] ? texture.width[0] : texture.height[0]);

@@ -170,16 +170,17 @@ struct Triangle {
 template <bool with_id>
 inline void draw_clipped(const View& view, const Renderable& renderable, const Buffers& buffers,
                          const Triangle& corners, int32_t id) {
-  Vertex kept[4];
+  Vertex clipped[4];
   int count = 0;
   for (int i = 0; i < 3; ++i) {
     const Vertex &here = corners.at[i], &next = corners.at[(i + 1) % 3];
     const bool seen = here.x >= view.near_, next_seen = next.x >= view.near_;
-    if (seen) kept[count++] = here;
-    if (seen && !next_seen) kept[count++] = clip_edge(view, here, next);
-    if (!seen && next_seen) kept[count++] = clip_edge(view, next, here);
+    if (seen) clipped[count++] = here;
+    if (seen && !next_seen) clipped[count++] = clip_edge(view, here, next);
+    if (!seen && next_seen) clipped[count++] = clip_edge(view, next, here);
   }
-  for (int i = 2; i < count; ++i) draw_triangle<with_id>(view, renderable, buffers, kept[0], kept[i - 1], kept[i], id);
+  for (int i = 2; i < count; ++i)
+    draw_triangle<with_id>(view, renderable, buffers, clipped[0], clipped[i - 1], clipped[i], id);
 }
 
 }  // namespace trundle::TRUNDLE_ISA

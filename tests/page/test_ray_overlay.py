@@ -118,7 +118,7 @@ def test_a_camera_is_sent_once_under_its_current_topic(tmp_path: Path) -> None:
     show(first)
     assert [topic for topic, _, _ in server.images] == ["/eye/l/camera/image_raw"]
     sim.spawn(replace(sim["eye"].model, name="other"))
-    second = mount_cameras(sim, NativeRenderer, model="other", beside=[first])[0]
+    second = mount_cameras(sim, NativeRenderer, model="other", existing=[first])[0]
     sim.add_hook(second, period_ns=second.period_ns, enabled=second.enabled)
     show(first, second)
     assert sorted(topic for topic, _, _ in server.images) == ["/eye/l/camera/image_raw", "/other/l/camera/image_raw"]

@@ -106,7 +106,7 @@ def test_a_texture_that_cannot_be_read_is_reported(tmp_path: Path) -> None:
 
     (warning,) = shown.sim.report.warnings
     assert warning.endswith(
-        "paint.png: warning: the texture cannot be read: it is not an image; a plain colour is drawn"
+        "paint.png: warning: the texture cannot be read: it is not an image; a plain color is drawn"
     )
 
 

@@ -116,8 +116,8 @@ SceneSpec scene() {
     spec.lights.push_back(light);
   }
   spec.ambient = triple();
-  for (float* colour : {spec.sky.horizon, spec.sky.zenith})
-    for (int32_t i = 0; i < 3; ++i) colour[i] = (float)number();
+  for (float* color : {spec.sky.horizon, spec.sky.zenith})
+    for (int32_t i = 0; i < 3; ++i) color[i] = (float)number();
   spec.fog = {(FogKind)whole(0, 3), {0.5f, 0.5f, 0.5f}, (float)number(), (float)number(), (float)number()};
   return spec;
 }

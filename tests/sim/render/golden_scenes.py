@@ -54,7 +54,7 @@ def shape(geometry: ShapeGeometry, x: float, y: float, z: float, rgba: Rgba, tur
     )
 
 
-THINGS = (
+SHAPES = (
     Shape(name="ground", body=0, geometry=Plane((0.0, 0.0, 1.0), (0.0, 0.0)), rgba=(0.7, 0.7, 0.6, 1.0)),
     shape(Box((0.5, 0.6, 0.7)), 0.0, 1.2, 0.35, (0.9, 0.2, 0.2, 1.0)),
     shape(Sphere(0.4), 0.8, 0.4, 0.4, (0.2, 0.8, 0.3, 1.0)),
@@ -65,10 +65,10 @@ THINGS = (
     shape(Box((0.05, 1.0, 0.6)), -1.4, 0.2, 0.3, (0.4, 0.9, 0.9, 0.4)),
 )
 SCENES = {
-    "sun": Scene(bodies=("b",), shapes=THINGS, lights=(SUN,), ambient=(0.3, 0.3, 0.35, 1.0)),
+    "sun": Scene(bodies=("b",), shapes=SHAPES, lights=(SUN,), ambient=(0.3, 0.3, 0.35, 1.0)),
     "lamps": Scene(
         bodies=("b",),
-        shapes=THINGS,
+        shapes=SHAPES,
         lights=(LAMP, SPOT),
         sky=((0.9, 0.9, 0.9, 1.0), (0.2, 0.4, 0.8, 1.0)),
         fog=Fog(type="exponential", density=0.05, color=(0.9, 0.9, 0.9, 1.0)),
@@ -81,9 +81,9 @@ SEVERAL = [(Pose.from_rpy(-4.0, -0.5, 2.0, 0.1 * i, 0.35, 0.1 * i), replace(LENS
 
 def ready(name: str, *, threads: int = 1) -> NativeRenderer:
     """A renderer of one of the scenes."""
-    made = NativeRenderer(SCENES[name], threads=threads)
-    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    return made
+    renderer = NativeRenderer(SCENES[name], threads=threads)
+    renderer.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    return renderer
 
 
 def draw(name: str, *, threads: int = 1) -> NDArray[np.uint8]:
@@ -94,11 +94,11 @@ def draw(name: str, *, threads: int = 1) -> NDArray[np.uint8]:
 
 def scan() -> bytes:
     """Ranges and labels of rays all around in the first scene."""
-    made = NativeRenderer(SCENES["sun"])
-    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    ways = np.random.default_rng(1).normal(size=(20_001, 3))
-    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
-    ranges, shapes = made.cast(EYE, ways, max_range_m=100.0)
+    renderer = NativeRenderer(SCENES["sun"])
+    renderer.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    directions = np.random.default_rng(1).normal(size=(20_001, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    ranges, shapes = renderer.cast(EYE, directions, max_range_m=100.0)
     return ranges.tobytes() + shapes.tobytes()
 
 

@@ -1,4 +1,4 @@
-"""Scenes of worlds: shapes, poses and colours."""
+"""Scenes of worlds: shapes, poses and colors."""
 
 from io import BytesIO
 from pathlib import Path
@@ -7,6 +7,8 @@ import pytest
 import trimesh
 from msgspec.structs import replace
 from PIL import Image
+from trimesh.visual import TextureVisuals
+from trimesh.visual.material import PBRMaterial
 
 from trundle.base.diagnostics import Diagnostics, Source
 from trundle.robots.meshes import Mesh
@@ -29,7 +31,6 @@ from trundle.robots.model import (
     Visual,
     World,
 )
-from trundle.sim import render
 from trundle.sim.render import Intrinsics, Scene, scene_from_world
 from trundle.spatial import Pose
 
@@ -38,8 +39,8 @@ RED = Material(diffuse=(1.0, 0.0, 0.0, 1.0))
 
 
 def visual(name: str = "v", geometry: Geometry | None = None, **rest: object) -> Visual:
-    made = Visual(name=name, geometry=geometry or Sphere(0.1), at=AT, material=RED)
-    return replace(made, **rest)
+    default = Visual(name=name, geometry=geometry or Sphere(0.1), at=AT, material=RED)
+    return replace(default, **rest)
 
 
 def world(*visuals: Visual, lights: tuple[Light, ...] = ()) -> World:
@@ -49,11 +50,6 @@ def world(*visuals: Visual, lights: tuple[Light, ...] = ()) -> World:
 
 def drawn(*visuals: Visual) -> Scene:
     return scene_from_world(world(*visuals), Diagnostics(strict=True))
-
-
-def test_the_front_door_exports_in_order() -> None:
-    assert render.__all__ == sorted(render.__all__)
-    assert all(hasattr(render, name) for name in render.__all__)
 
 
 def test_bodies_are_the_links_of_all_models_in_file_order() -> None:
@@ -66,13 +62,13 @@ def test_bodies_are_the_links_of_all_models_in_file_order() -> None:
     assert [(shape.name, shape.body) for shape in scene.shapes] == [("b", 0), ("a", 1), ("c", 2)]
 
 
-def test_a_shape_has_the_visuals_geometry_place_and_colour() -> None:
+def test_a_shape_has_the_visuals_geometry_pose_and_color() -> None:
     pose = Pose((1.0, 2.0, 3.0))
     (shape,) = drawn(visual(geometry=Box((1.0, 2.0, 3.0)), link_from_visual=pose)).shapes
     assert (shape.geometry, shape.body_from_shape, shape.rgba) == (Box((1.0, 2.0, 3.0)), pose, (1.0, 0.0, 0.0, 1.0))
 
 
-def test_transparency_takes_from_the_opacity_and_the_invisible_is_left_out() -> None:
+def test_transparency_reduces_opacity_and_invisible_visuals_are_left_out() -> None:
     shapes = drawn(visual("half", transparency=0.5), visual("none", transparency=1.0)).shapes
     assert [(shape.name, shape.rgba[3]) for shape in shapes] == [("half", 0.5)]
 
@@ -80,13 +76,13 @@ def test_transparency_takes_from_the_opacity_and_the_invisible_is_left_out() -> 
 def test_collision_shapes_can_be_drawn_instead() -> None:
     touched = Collision(name="c", geometry=Box((1.0, 1.0, 1.0)), at=AT, link_from_collision=Pose((0.0, 0.0, 1.0)))
     link = Link(name="l", at=AT, visuals=(visual(),), collisions=(touched,))
-    made = World(name="w", at=AT, models=(Model(name="m", at=AT, links=(link,)),))
-    (shape,) = scene_from_world(made, Diagnostics(strict=True), collisions=True).shapes
+    described = World(name="w", at=AT, models=(Model(name="m", at=AT, links=(link,)),))
+    (shape,) = scene_from_world(described, Diagnostics(strict=True), collisions=True).shapes
     assert (shape.name, shape.body_from_shape) == ("c", Pose((0.0, 0.0, 1.0)))
     assert shape.rgba[3] < 1.0
 
 
-def test_a_directional_light_shines_along_its_own_direction_turned_by_its_pose() -> None:
+def test_a_directional_lights_direction_is_rotated_by_its_pose() -> None:
     down = Light(
         name="sun", type="directional", at=AT, world_from_light=Pose.from_rpy(0, 0, 9, 3.141592653589793, 0, 0)
     )
@@ -94,7 +90,7 @@ def test_a_directional_light_shines_along_its_own_direction_turned_by_its_pose()
     assert scene.lights[0].direction == pytest.approx((0.0, 0.0, 1.0))
 
 
-def test_lights_shine_in_the_world_and_on_links() -> None:
+def test_lights_belong_to_the_world_or_to_links() -> None:
     lamp = Light(
         name="lamp",
         type="spot",
@@ -108,17 +104,17 @@ def test_lights_shine_in_the_world_and_on_links() -> None:
         cast_shadows=True,
     )
     carrier = Link(name="l", at=AT, visuals=(visual(),), lights=(replace(lamp, type="point"),))
-    made = World(name="w", at=AT, models=(Model(name="m", at=AT, links=(carrier,)),), lights=(lamp,))
-    first, second = scene_from_world(made, Diagnostics(strict=True)).lights
+    described = World(name="w", at=AT, models=(Model(name="m", at=AT, links=(carrier,)),), lights=(lamp,))
+    first, second = scene_from_world(described, Diagnostics(strict=True)).lights
     assert (first.kind, first.body, first.position, first.diffuse) == ("spot", None, (1, 2, 3), (0.5, 0.25, 0.0, 1.0))
     assert (first.attenuation, first.range_m, first.outer_angle_rad) == ((1.0, 0.25, 0.0), 7.0, 0.6)
     assert first.casts_shadows
     assert (second.kind, second.body) == ("point", 0)
-    dark = replace(made, scene=SceneSettings(shadows=False))
+    dark = replace(described, scene=SceneSettings(shadows=False))
     assert not scene_from_world(dark, Diagnostics()).lights[0].casts_shadows
 
 
-def test_the_sky_is_the_worlds() -> None:
+def test_background_and_sky_come_from_the_world() -> None:
     sky = replace(world(), scene=SceneSettings(background=(0.1, 0.2, 0.3, 1.0)))
     assert scene_from_world(sky, Diagnostics()).background == (0.1, 0.2, 0.3, 1.0)
     assert scene_from_world(sky, Diagnostics()).sky is None
@@ -128,10 +124,10 @@ def test_the_sky_is_the_worlds() -> None:
 def mesh_file(folder: Path) -> MeshFile:
     """A red box of 2 m."""
     box = trimesh.creation.box(extents=(2.0, 2.0, 2.0))
-    box.visual = trimesh.visual.TextureVisuals(
-        material=trimesh.visual.material.PBRMaterial(baseColorFactor=[255, 0, 0, 255])
-    )
-    (folder / "box.glb").write_bytes(trimesh.Scene(box).export(file_type="glb"))
+    box.visual = TextureVisuals(material=PBRMaterial(baseColorFactor=[255, 0, 0, 255]))
+    glb = trimesh.Scene(box).export(file_type="glb")
+    assert isinstance(glb, bytes)
+    (folder / "box.glb").write_bytes(glb)
     return MeshFile(path=folder / "box.glb", uri="model://m/box.glb")
 
 
@@ -141,13 +137,13 @@ def test_a_mesh_is_loaded_and_scaled(tmp_path: Path) -> None:
     assert shape.geometry.vertices.max(axis=0) == pytest.approx([0.5, 1.0, 2.0])
 
 
-def test_a_mesh_has_its_own_colour_unless_the_visual_gives_it_one(tmp_path: Path) -> None:
+def test_a_mesh_has_its_files_color_unless_the_visual_has_a_material(tmp_path: Path) -> None:
     plain = Visual(name="plain", geometry=mesh_file(tmp_path), at=AT)
     blue = replace(plain, name="blue", material=Material(diffuse=(0.0, 0.0, 1.0, 1.0)))
     assert [shape.rgba[:3] for shape in drawn(plain, blue).shapes] == [(1.0, 0.0, 0.0), (0.0, 0.0, 1.0)]
 
 
-def test_a_mesh_of_two_colours_is_two_shapes_unless_the_visual_paints_it(tmp_path: Path) -> None:
+def test_a_mesh_of_two_colors_is_two_shapes_unless_the_visual_has_a_material(tmp_path: Path) -> None:
     (tmp_path / "car.mtl").write_text("newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 0 1\n")
     corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
     (tmp_path / "car.obj").write_text(f"mtllib car.mtl\n{corners}usemtl a\nf 1 2 3\nusemtl b\nf 1 3 2\n")
@@ -156,30 +152,30 @@ def test_a_mesh_of_two_colours_is_two_shapes_unless_the_visual_paints_it(tmp_pat
     assert [shape.rgba[:3] for shape in drawn(replace(plain, material=RED)).shapes] == [(1.0, 0.0, 0.0)]
 
 
-def test_a_texture_that_is_not_there_is_named(tmp_path: Path) -> None:
+def test_a_missing_texture_is_reported(tmp_path: Path) -> None:
     (tmp_path / "car.mtl").write_text("newmtl a\nmap_Kd paint.png\n")
     corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
     (tmp_path / "car.obj").write_text(f"mtllib car.mtl\n{corners}usemtl a\nf 1/1 2/2 3/3\n")
     report = Diagnostics()
     scene_from_world(world(visual(geometry=MeshFile(path=tmp_path / "car.obj", uri="car.obj"))), report)
-    (said,) = report.findings
-    assert str(said).endswith(
-        "car.obj: info: its texture 'paint.png' is nowhere in the model's folder; a plain colour is drawn"
+    (finding,) = report.findings
+    assert str(finding).endswith(
+        "car.obj: info: its texture 'paint.png' is not in the model's folder; a plain color is drawn"
     )
 
 
-def test_a_mesh_that_cannot_be_read_is_left_out_aloud(tmp_path: Path) -> None:
+def test_an_unreadable_mesh_is_left_out_with_a_warning(tmp_path: Path) -> None:
     report = Diagnostics()
     lost = MeshFile(path=tmp_path / "lost.dae", uri="model://m/lost.dae")
     scene = scene_from_world(world(visual("gone", lost), visual("here")), report)
     assert [shape.name for shape in scene.shapes] == ["here"]
-    (said,) = report.warnings
-    assert said.startswith("w.sdf:3: warning: ")
-    assert said.endswith("; the shape is left out")
-    assert "lost.dae" in said
+    (warning,) = report.warnings
+    assert warning.startswith("w.sdf:3: warning: ")
+    assert warning.endswith("; the shape is left out")
+    assert "lost.dae" in warning
 
 
-def test_a_mesh_of_little_but_lines_is_named(tmp_path: Path) -> None:
+def test_a_mesh_of_degenerate_triangles_is_reported(tmp_path: Path) -> None:
     (tmp_path / "lines.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\n" + "f 1 2 3\n" * 3 + "f 1 2 4\n")
     report = Diagnostics()
     scene = scene_from_world(world(visual(geometry=MeshFile(uri="lines.obj", path=tmp_path / "lines.obj"))), report)
@@ -190,7 +186,7 @@ def test_a_mesh_of_little_but_lines_is_named(tmp_path: Path) -> None:
     ]
 
 
-def test_the_focal_length_is_that_of_gazebo_ros() -> None:
+def test_the_focal_length_equals_gazebo_ros() -> None:
     # camera_info of a 320 px wide camera of 1.047 rad in Gazebo: K[0] = 277.19.
     assert Intrinsics(width_px=320, height_px=240, horizontal_fov_rad=1.047).focal_px == pytest.approx(277.19, abs=0.01)
 
@@ -207,10 +203,10 @@ def test_cones_polylines_and_terrain_are_drawn(tmp_path: Path) -> None:
     assert tops == pytest.approx({"cone": 0.5, "tower": 2.0, "hill": 1.5})
 
 
-def test_terrain_is_painted_with_its_layers_by_height(tmp_path: Path) -> None:
+def test_terrain_has_its_texture_layers_by_height(tmp_path: Path) -> None:
     Image.linear_gradient("L").transpose(Image.Transpose.ROTATE_90).save(tmp_path / "ramp.png")
-    for name, colour in (("low", "red"), ("high", "lime")):
-        Image.new("RGB", (8, 8), colour).save(tmp_path / f"{name}.png")
+    for name, color in (("low", "red"), ("high", "lime")):
+        Image.new("RGB", (8, 8), color).save(tmp_path / f"{name}.png")
     layers = (
         TerrainLayer(size=1.0, diffuse=tmp_path / "low.png"),
         TerrainLayer(size=1.0, diffuse=tmp_path / "high.png", from_height=1.0, fade=2.0),
@@ -223,20 +219,20 @@ def test_terrain_is_painted_with_its_layers_by_height(tmp_path: Path) -> None:
     assert isinstance(shape.texture, bytes)
     with Image.open(BytesIO(shape.texture)) as image:
         middle = image.height // 2
-        seen = [image.getpixel((int(share * image.width), middle)) for share in (0.1, 0.5, 0.9)]
-    assert seen[0] == (255, 0, 0)
-    assert seen[1] == pytest.approx((127, 128, 0), abs=3)
-    assert seen[2] == (0, 255, 0)
+        samples = [image.getpixel((int(share * image.width), middle)) for share in (0.1, 0.5, 0.9)]
+    assert samples[0] == (255, 0, 0)
+    assert samples[1] == pytest.approx((127, 128, 0), abs=3)
+    assert samples[2] == (0, 255, 0)
     assert report.warnings == [
         "w.sdf:3: warning: heightmap texture ramp.png.txt cannot be read: No such file or directory; "
         "the layer is left out"
     ]
 
 
-def test_terrain_without_its_image_is_left_out_aloud(tmp_path: Path) -> None:
+def test_terrain_without_its_image_is_left_out_with_a_warning(tmp_path: Path) -> None:
     report = Diagnostics()
     lost = Heightmap(path=tmp_path / "lost.png", uri="file://lost.png")
     assert scene_from_world(world(visual("hill", lost)), report).shapes == ()
-    (said,) = report.warnings
-    assert said.startswith("w.sdf:3: warning: heightmap 'file://lost.png': ")
-    assert said.endswith("; it is not drawn")
+    (warning,) = report.warnings
+    assert warning.startswith("w.sdf:3: warning: heightmap 'file://lost.png': ")
+    assert warning.endswith("; it is not drawn")

@@ -25,9 +25,9 @@ SUN = SceneLight(direction=(0.0, 0.0, -1.0), diffuse=(0.5, 0.5, 0.5, 1.0), casts
 
 def picture(*shapes: Shape, lights: tuple[SceneLight, ...] = (SUN,), **scene: object) -> NDArray[np.uint8]:
     """Image from above."""
-    made = NativeRenderer(replace(Scene(bodies=("b",), shapes=shapes, lights=lights, ambient=BLACK), **scene))
-    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    return drawn(made, DOWN, LENS).rgb
+    native = NativeRenderer(replace(Scene(bodies=("b",), shapes=shapes, lights=lights, ambient=BLACK), **scene))
+    native.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    return drawn(native, DOWN, LENS).rgb
 
 
 def at(rgb: NDArray[np.uint8], x: float, y: float) -> list[int]:
@@ -45,12 +45,12 @@ def block(x: float = 0.0, z: float = 1.0, side: float = 1.0) -> Shape:
     return Shape(name="block", body=0, geometry=Box((side, side, side)), body_from_shape=Pose((x, 0.0, z)), rgba=WHITE)
 
 
-def test_the_ground_answers_the_sun_by_lamberts_law() -> None:
+def test_diffuse_light_follows_lamberts_law() -> None:
     assert at(picture(GROUND), 1.0, 1.0) == [128, 128, 128]
     assert at(picture(GROUND, lights=(leaning(60.0),)), 1.0, 1.0) == pytest.approx([64, 64, 64], abs=1)
 
 
-def test_a_mesh_with_normals_is_lit_as_the_round_thing_that_it_stands_for() -> None:
+def test_a_mesh_with_normals_is_lit_as_a_smooth_surface() -> None:
     import trimesh
 
     ball = trimesh.creation.icosphere(subdivisions=3, radius=3.0)
@@ -59,8 +59,8 @@ def test_a_mesh_with_normals_is_lit_as_the_round_thing_that_it_stands_for() -> N
     lamp = (replace(leaning(30.0), specular=WHITE, casts_shadows=False),)
 
     def lit(geometry: ShapeGeometry) -> NDArray[np.float64]:
-        thing = Shape(name="s", body=0, geometry=geometry, rgba=WHITE, specular=(0.5, 0.5, 0.5, 1.0))
-        return picture(thing, lights=lamp, background=BLACK)[60:140, 60:140].astype(float)
+        probe = Shape(name="s", body=0, geometry=geometry, rgba=WHITE, specular=(0.5, 0.5, 0.5, 1.0))
+        return picture(probe, lights=lamp, background=BLACK)[60:140, 60:140].astype(float)
 
     round_one = lit(Sphere(3.0))
     assert np.abs(lit(smooth) - round_one).mean() < 0.5
@@ -68,7 +68,7 @@ def test_a_mesh_with_normals_is_lit_as_the_round_thing_that_it_stands_for() -> N
     assert (lit(replace(flat, normals=np.zeros((1280, 3, 3), dtype=np.float32))) == lit(flat)).all()
 
 
-def test_a_shadow_lies_where_the_sun_is_hidden() -> None:
+def test_shadows_are_where_the_sun_is_hidden() -> None:
     # The block spans x ±0.5, z 0.5 to 1.5; at 45° its shadow lies from x = 0 to 2, half of it below the block.
     rgb = picture(GROUND, block(), lights=(leaning(45.0),))
     lit = at(rgb, -2.0, 0.0)
@@ -77,40 +77,40 @@ def test_a_shadow_lies_where_the_sun_is_hidden() -> None:
     assert at(rgb, 2.1, 0.0) == at(rgb, 1.0, 0.6) == lit == pytest.approx([90, 90, 90], abs=1)
 
 
-def test_the_edge_of_a_shadow_is_where_it_should_be_to_a_centimetre() -> None:
+def test_the_edge_of_a_shadow_is_exact_to_a_centimetre() -> None:
     close = replace(LENS, horizontal_fov_rad=2.0 * math.atan(0.05))  # 200 px a metre
-    made = NativeRenderer(Scene(bodies=("b",), shapes=(GROUND, block()), lights=(leaning(45.0),), ambient=BLACK))
-    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    rgb = drawn(made, Pose.from_rpy(2.0, 0.0, 10.0, 0.0, math.pi / 2, 0.0), close).rgb[:, 100, 0].astype(float)
+    native = NativeRenderer(Scene(bodies=("b",), shapes=(GROUND, block()), lights=(leaning(45.0),), ambient=BLACK))
+    native.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    rgb = drawn(native, Pose.from_rpy(2.0, 0.0, 10.0, 0.0, math.pi / 2, 0.0), close).rgb[:, 100, 0].astype(float)
     dark = float((90.0 - rgb).sum() / 90.0)  # rows in the shade, from the lowest, x = 1.5, up
     assert 1.5 + dark / 200.0 == pytest.approx(2.0, abs=0.01)
 
 
-def test_nothing_shades_itself() -> None:
+def test_lit_surfaces_do_not_shadow_themselves() -> None:
     ball = Shape(name="ball", body=0, geometry=Sphere(2.0), body_from_shape=Pose((0.0, 0.0, 2.0)), rgba=WHITE)
-    made = picture(ball, lights=(leaning(30.0),)).astype(int)
+    native = picture(ball, lights=(leaning(30.0),)).astype(int)
     plain = picture(ball, lights=(replace(leaning(30.0), casts_shadows=False),)).astype(int)
-    assert (np.abs(made - plain).max(axis=2) > 8).mean() < 0.001
+    assert (np.abs(native - plain).max(axis=2) > 8).mean() < 0.001
 
 
 @pytest.mark.parametrize("change", [{"casts_shadow": False}, {"rgba": (1.0, 1.0, 1.0, 0.5)}])
-def test_glass_and_what_is_told_not_to_cast_no_shadow(change: dict[str, object]) -> None:
+def test_glass_and_shapes_without_casts_shadow_cast_no_shadow(change: dict[str, object]) -> None:
     rgb = picture(GROUND, replace(block(), **change), lights=(leaning(45.0),))
     assert at(rgb, 1.9, 0.0) == at(rgb, -2.0, 0.0)
 
 
-def test_shadows_follow_what_moves() -> None:
-    made = NativeRenderer(
+def test_shadows_follow_moving_bodies() -> None:
+    native = NativeRenderer(
         Scene(bodies=("still", "moving"), shapes=(GROUND, replace(block(), body=1)), lights=(leaning(45.0),))
     )
     here = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]
-    seen = []
+    images = []
     for x in (0.0, 2.0, 0.0):
-        made.update(np.array([here, [x, *here[1:]]]))
-        seen.append(drawn(made, DOWN, LENS).rgb)
-    assert at(seen[0], 1.9, 0.0) != at(seen[0], 3.9, 0.0)
-    assert at(seen[0], 1.9, 0.0) == at(seen[1], 3.9, 0.0)
-    assert (seen[0] == seen[2]).all()
+        native.update(np.array([here, [x, *here[1:]]]))
+        images.append(drawn(native, DOWN, LENS).rgb)
+    assert at(images[0], 1.9, 0.0) != at(images[0], 3.9, 0.0)
+    assert at(images[0], 1.9, 0.0) == at(images[1], 3.9, 0.0)
+    assert (images[0] == images[2]).all()
 
 
 def test_a_point_light_dims_with_distance_and_ends_at_its_range() -> None:
@@ -125,7 +125,7 @@ def test_a_point_light_dims_with_distance_and_ends_at_its_range() -> None:
     assert at(rgb, 2.4, 0.0) == [0, 0, 0]
 
 
-def test_a_spot_lights_its_cone_and_things_in_it_cast_shadows() -> None:
+def test_a_spot_light_lights_its_cone_with_shadows() -> None:
     spot = SceneLight(
         kind="spot",
         position=(0.0, 0.0, 4.0),
@@ -145,11 +145,11 @@ def test_a_spot_lights_its_cone_and_things_in_it_cast_shadows() -> None:
     assert at(shaded, 0.6, 0.4) == at(rgb, 0.6, 0.4)
 
 
-def test_a_light_rides_on_its_body() -> None:
+def test_a_light_moves_with_its_body() -> None:
     lamp = SceneLight(kind="point", body=1, position=(0.0, 0.0, 1.0), diffuse=WHITE, range_m=1.5)
-    made = NativeRenderer(Scene(bodies=("b", "car"), shapes=(GROUND,), lights=(lamp,), ambient=BLACK))
-    made.update(np.array([[0.0, 0, 0, 1, 0, 0, 0], [2.0, 0, 0, 1, 0, 0, 0]]))
-    rgb = drawn(made, DOWN, LENS).rgb
+    native = NativeRenderer(Scene(bodies=("b", "car"), shapes=(GROUND,), lights=(lamp,), ambient=BLACK))
+    native.update(np.array([[0.0, 0, 0, 1, 0, 0, 0], [2.0, 0, 0, 1, 0, 0, 0]]))
+    rgb = drawn(native, DOWN, LENS).rgb
     assert at(rgb, 2.0, 0.0)[0] > 200
     assert at(rgb, 0.0, 0.0) == [0, 0, 0]
 
@@ -175,16 +175,20 @@ def test_ambient_specular_and_emitted_light_add_up() -> None:
         (Fog(), 1.0),
     ],
 )
-def test_fog_hides_what_is_far(fog: Fog, clear: float) -> None:
+def test_fog_hides_distant_shapes(fog: Fog, clear: float) -> None:
     rgb = picture(GROUND, fog=replace(fog, color=(0.0, 0.0, 1.0, 1.0)))
     assert at(rgb, 1.0, 1.0) == pytest.approx([127.5 * clear, 127.5 * clear, 127.5 * clear + 255 * (1 - clear)], abs=1)
 
 
-def test_the_sky_runs_from_the_horizon_up() -> None:
-    made = NativeRenderer(Scene(bodies=(), shapes=(), sky=((1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 1.0, 1.0))))
-    made.update(np.empty((0, 7)))
-    red = drawn(made, Pose(), LENS).rgb[:, 100, 0].astype(int)
+def test_the_sky_is_a_gradient_from_the_horizon_up() -> None:
+    native = NativeRenderer(Scene(bodies=(), shapes=(), sky=((1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 1.0, 1.0))))
+    native.update(np.empty((0, 7)))
+    red = drawn(native, Pose(), LENS).rgb[:, 100, 0].astype(int)
     assert (red[100:] == 255).all()
     assert (np.diff(red[:99]) >= 0).all()
     assert red[0] < 200
-    assert drawn(made, Pose.from_rpy(0.0, 0.0, 0.0, 0.0, -math.pi / 2, 0.0), LENS).rgb[100, 100].tolist() == [0, 0, 255]
+    assert drawn(native, Pose.from_rpy(0.0, 0.0, 0.0, 0.0, -math.pi / 2, 0.0), LENS).rgb[100, 100].tolist() == [
+        0,
+        0,
+        255,
+    ]

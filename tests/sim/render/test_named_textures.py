@@ -27,20 +27,20 @@ def visual(folder: Path, geometry: str, material: str, more: str = ""):
 
 
 @pytest.mark.parametrize("name", TEXTURE_COLORS)
-def test_a_texture_has_its_colour_on_average(name: str) -> None:
+def test_a_textures_mean_is_its_materials_color(name: str) -> None:
     mean = texture_pixels(name).reshape(-1, 3).mean(axis=0) / 255
 
     assert mean == pytest.approx(TEXTURE_COLORS[name], abs=0.02)
     assert texture_pixels(name).std() > 1.5
 
 
-def test_textures_are_the_same_on_every_machine() -> None:
+def test_generated_textures_equal_the_recorded_bytes() -> None:
     digest = hashlib.sha256(b"".join(texture_pixels(name).tobytes() for name in TEXTURE_COLORS)).hexdigest()
 
     assert digest == "6f74d12cfe9493ff1d6bc75621db643b43aa135fa75b14f011aa4dd31efd0bbf"
 
 
-def test_noise_has_no_seam() -> None:
+def test_noise_is_seamless() -> None:
     for field in (noise(3, 8, 4), clouds(5)):
         across = np.abs(np.diff(field, axis=1)).max()
         down = np.abs(np.diff(field, axis=0)).max()
@@ -57,7 +57,7 @@ def test_noise_of_other_seeds_is_independent() -> None:
     assert abs(np.corrcoef(first, second)[0, 1]) < 0.05
 
 
-def test_a_box_shows_the_texture_and_its_own_colours_tint_it(tmp_path: Path) -> None:
+def test_a_box_shows_its_texture_tinted_by_its_colors(tmp_path: Path) -> None:
     plain = visual(tmp_path, BOX, "Gazebo/Bricks")
     tinted = visual(tmp_path, BOX, "Gazebo/Bricks", "<diffuse>0.5 1 1 1</diffuse>")
 
@@ -67,7 +67,7 @@ def test_a_box_shows_the_texture_and_its_own_colours_tint_it(tmp_path: Path) -> 
     assert tinted.rgba == (0.5, 1.0, 1.0, 1.0)
 
 
-def test_a_mesh_without_coordinates_has_the_colour_alone(tmp_path: Path) -> None:
+def test_a_mesh_without_uv_coordinates_has_the_color_only(tmp_path: Path) -> None:
     (tmp_path / "m.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     shape = visual(tmp_path, "<mesh><uri>m.obj</uri></mesh>", "Gazebo/Grass")
 

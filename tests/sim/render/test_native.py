@@ -31,9 +31,9 @@ def scene(*shapes: Shape, bodies: int = 1) -> Scene:
 
 def renderer(*shapes: Shape) -> NativeRenderer:
     """Renderer of shapes on one body at the origin."""
-    made = NativeRenderer(scene(*shapes))
-    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    return made
+    native = NativeRenderer(scene(*shapes))
+    native.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    return native
 
 
 def is_red(rgb: NDArray[np.uint8]) -> NDArray[np.bool_]:
@@ -55,7 +55,7 @@ def test_a_sphere_ahead_is_a_disc_in_the_middle_of_the_right_size() -> None:
     assert mask.sum() == pytest.approx(math.pi * radius**2, rel=0.01)
 
 
-def test_depth_is_along_the_view_axis_and_infinite_where_nothing_is() -> None:
+def test_depth_is_along_the_view_axis_and_infinite_in_the_background() -> None:
     picture = drawn(renderer(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0)))), Pose(), WIDE, depth=True)
     assert picture.depth is not None
     assert picture.depth.shape == (240, 320)
@@ -68,51 +68,53 @@ def test_depth_is_along_the_view_axis_and_infinite_where_nothing_is() -> None:
     assert wall.depth == pytest.approx(2.9, abs=1e-5)
 
 
-def test_no_depth_is_made_unless_asked_for() -> None:
+def test_depth_is_rendered_on_request_only() -> None:
     assert drawn(renderer(shape(Sphere(0.5))), Pose(), WIDE).depth is None
 
 
 @pytest.mark.parametrize(
-    ("place", "column_sign", "row_sign"),
+    ("position", "column_sign", "row_sign"),
     [((4.0, 1.0, 0.0), -1, 0), ((4.0, -1.0, 0.0), 1, 0), ((4.0, 0.0, 1.0), 0, -1), ((4.0, 0.0, -1.0), 0, 1)],
 )
-def test_y_is_left_of_the_image_and_z_is_up(place: tuple[float, float, float], column_sign: int, row_sign: int) -> None:
-    column, row = centroid(is_red(drawn(renderer(shape(Sphere(0.2), Pose(place))), Pose(), WIDE).rgb))
+def test_y_is_left_of_the_image_and_z_is_up(
+    position: tuple[float, float, float], column_sign: int, row_sign: int
+) -> None:
+    column, row = centroid(is_red(drawn(renderer(shape(Sphere(0.2), Pose(position))), Pose(), WIDE).rgb))
     # A sphere off the axis is seen a little farther out than its centre: 1 px.
     shift = WIDE.focal_px * 1.0 / 4.0
     assert (column - 159.5, row - 119.5) == pytest.approx((column_sign * shift, row_sign * shift), abs=1.0)
 
 
 def test_the_camera_looks_along_its_own_x() -> None:
-    made = renderer(shape(Sphere(0.5), Pose((1.0, 6.0, 2.0))))
-    picture = drawn(made, Pose.from_rpy(1.0, 2.0, 2.0, 0.0, 0.0, math.pi / 2), WIDE)
+    native = renderer(shape(Sphere(0.5), Pose((1.0, 6.0, 2.0))))
+    picture = drawn(native, Pose.from_rpy(1.0, 2.0, 2.0, 0.0, 0.0, math.pi / 2), WIDE)
     assert centroid(is_red(picture.rgb)) == pytest.approx((159.5, 119.5), abs=0.1)
 
 
-def test_the_background_is_the_scenes() -> None:
+def test_the_background_has_the_scenes_color() -> None:
     picture = drawn(renderer(shape(Sphere(0.5), Pose((-4.0, 0.0, 0.0)))), Pose(), WIDE)
     assert picture.rgb.dtype == np.uint8
     assert picture.rgb.shape == (240, 320, 3)
     assert (picture.rgb == (51, 102, 153)).all()
 
 
-def test_a_scene_of_nothing_is_background() -> None:
-    made = NativeRenderer(scene(bodies=0))
-    made.update(np.empty((0, 7)))
-    assert (drawn(made, Pose(), WIDE).rgb == (51, 102, 153)).all()
+def test_an_empty_scene_is_background() -> None:
+    native = NativeRenderer(scene(bodies=0))
+    native.update(np.empty((0, 7)))
+    assert (drawn(native, Pose(), WIDE).rgb == (51, 102, 153)).all()
 
 
-def test_what_is_nearer_than_near_or_farther_than_far_is_not_seen() -> None:
-    made = renderer(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0))))
+def test_shapes_outside_the_clip_distances_are_not_drawn() -> None:
+    native = renderer(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0))))
     for near, far in ((3.9, 100.0), (0.1, 3.4)):
         clipped = Intrinsics(width_px=64, height_px=48, horizontal_fov_rad=0.2, near_m=near, far_m=far)
-        centre = drawn(made, Pose(), clipped).rgb[20:28, 28:36]
+        centre = drawn(native, Pose(), clipped).rgb[20:28, 28:36]
         assert (centre == (51, 102, 153)).all()
     clear = Intrinsics(width_px=64, height_px=48, horizontal_fov_rad=0.2, near_m=3.4, far_m=3.6)
-    assert is_red(drawn(made, Pose(), clear).rgb[20:28, 28:36]).all()
+    assert is_red(drawn(native, Pose(), clear).rgb[20:28, 28:36]).all()
 
 
-def test_what_is_in_front_hides_what_is_behind() -> None:
+def test_near_shapes_hide_far_ones() -> None:
     front = shape(Sphere(0.3), Pose((3.0, 0.0, 0.0)))
     behind = shape(Sphere(0.9), Pose((6.0, 0.0, 0.0)), GREEN)
     for order in ((front, behind), (behind, front)):
@@ -121,7 +123,7 @@ def test_what_is_in_front_hides_what_is_behind() -> None:
         assert rgb[120, 160 + 38, 1] > 50
 
 
-def test_a_shape_stands_on_the_ground_before_it() -> None:
+def test_a_shape_is_drawn_in_front_of_the_ground() -> None:
     ground = shape(Plane((0.0, 0.0, 1.0), (100.0, 100.0)), rgba=GREEN)
     post = shape(Box((0.2, 0.2, 1.0)), Pose((5.0, 0.0, 0.5)))
     picture = drawn(renderer(ground, post), Pose((0.0, 0.0, 1.0)), WIDE, depth=True)
@@ -134,7 +136,7 @@ def test_a_shape_stands_on_the_ground_before_it() -> None:
     assert picture.depth[-1, 0] == pytest.approx(WIDE.focal_px / 119.5, rel=1e-4)
 
 
-def test_a_ground_seen_edge_on_or_from_below_hides_no_sky() -> None:
+def test_a_plane_seen_edge_on_or_from_below_is_not_drawn() -> None:
     ground = shape(Plane((0.0, 0.0, 1.0), (100.0, 100.0)), rgba=GREEN)
     level = drawn(renderer(ground), Pose((0.0, 0.0, 1.0)), WIDE)
     assert (level.rgb[:110] == (51, 102, 153)).all()
@@ -158,14 +160,14 @@ def cube(size: float) -> Mesh:
 def test_a_single_triangle_is_drawn_and_one_without_area_is_not() -> None:
     corners = np.array([[4, -1, -1], [4, 1, -1], [4, 0, 1]], dtype=np.float32)
     face = np.array([[0, 2, 1]], dtype=np.int32)
-    seen = is_red(drawn(renderer(shape(Mesh(corners, face))), Pose(), WIDE).rgb)
+    mask = is_red(drawn(renderer(shape(Mesh(corners, face))), Pose(), WIDE).rgb)
     # 2 m² at 4 m.
-    assert seen.sum() == pytest.approx(2.0 * (WIDE.focal_px / 4.0) ** 2, rel=0.02)
+    assert mask.sum() == pytest.approx(2.0 * (WIDE.focal_px / 4.0) ** 2, rel=0.02)
     nothing = Mesh(np.zeros((3, 3), dtype=np.float32), face)
     assert (drawn(renderer(shape(nothing)), Pose(), WIDE).rgb == (51, 102, 153)).all()
 
 
-def test_a_mesh_is_drawn_where_its_triangles_are() -> None:
+def test_a_mesh_is_drawn_at_its_triangles() -> None:
     # Off centre and turned.
     offset = Mesh(cube(0.5).vertices + np.array([0.0, 0.7, 0.3], dtype=np.float32), cube(0.5).faces)
     pose = Pose.from_rpy(4.0, -0.2, 0.1, 0.3, 0.0, 0.0)
@@ -192,21 +194,21 @@ def test_a_mesh_is_drawn_where_its_triangles_are() -> None:
     ],
     ids=lambda geometry: type(geometry).__name__,
 )
-def test_every_shape_is_seen_from_every_side_and_only_where_it_is(geometry: ShapeGeometry) -> None:
-    made = renderer(shape(geometry))
+def test_every_shape_is_drawn_from_every_side_at_its_position(geometry: ShapeGeometry) -> None:
+    native = renderer(shape(geometry))
     for yaw in np.arange(0.0, 2 * math.pi, math.pi / 3):
         away = Pose.from_rpy(-3.0 * math.cos(yaw), -3.0 * math.sin(yaw), 0.0, 0.0, 0.0, float(yaw))
-        picture = drawn(made, away, WIDE, depth=True)
+        picture = drawn(native, away, WIDE, depth=True)
         assert picture.depth is not None
-        seen = np.isfinite(picture.depth)
-        assert seen[120, 160]
+        mask = np.isfinite(picture.depth)
+        assert mask[120, 160]
         # All fit in a ball of 0.87 m.
-        assert not seen[:, :60].any()
-        assert picture.depth[seen].min() > 3.0 - 0.87
-        assert picture.depth[seen].max() < 3.0 + 0.87
+        assert not mask[:, :60].any()
+        assert picture.depth[mask].min() > 3.0 - 0.87
+        assert picture.depth[mask].max() < 3.0 + 0.87
 
 
-def test_a_shape_around_the_camera_is_drawn_all_over() -> None:
+def test_a_shape_around_the_camera_fills_the_image() -> None:
     room = renderer(shape(cube(4.0)))
     picture = drawn(room, Pose(), WIDE, depth=True)
     assert picture.depth is not None
@@ -216,40 +218,40 @@ def test_a_shape_around_the_camera_is_drawn_all_over() -> None:
     assert inside_box.depth == pytest.approx(0.4, abs=1e-5)
 
 
-def test_shapes_ride_on_their_bodies() -> None:
-    made = NativeRenderer(scene(shape(Sphere(0.3)), shape(Sphere(0.3), rgba=GREEN, body=1), bodies=2))
+def test_shapes_move_with_their_bodies() -> None:
+    native = NativeRenderer(scene(shape(Sphere(0.3)), shape(Sphere(0.3), rgba=GREEN, body=1), bodies=2))
     poses = np.array([[4.0, 1.0, 0.0, 1, 0, 0, 0], [4.0, -1.0, 0.0, 1, 0, 0, 0]])
-    made.update(poses)
-    before = drawn(made, Pose(), WIDE).rgb
-    made.update(poses[::-1])
-    after = drawn(made, Pose(), WIDE).rgb
+    native.update(poses)
+    before = drawn(native, Pose(), WIDE).rgb
+    native.update(poses[::-1])
+    after = drawn(native, Pose(), WIDE).rgb
     assert centroid(is_red(before))[0] < 159
     assert centroid(is_red(after))[0] > 160
 
 
 @pytest.mark.parametrize("geometry", [Sphere(0.5), cube(1.0), Plane((0.0, 0.0, 1.0), (0.0, 0.0))])
-def test_a_body_that_is_nowhere_is_not_seen(geometry: ShapeGeometry) -> None:
-    """A body without a pose has NaN for one."""
-    made = NativeRenderer(scene(shape(geometry)))
-    made.update(np.full((1, 7), np.nan))
-    picture = drawn(made, Pose((0.0, 0.0, 1.0)), WIDE, depth=True)
+def test_a_body_without_a_pose_is_not_drawn(geometry: ShapeGeometry) -> None:
+    """The pose of such a body is NaN."""
+    native = NativeRenderer(scene(shape(geometry)))
+    native.update(np.full((1, 7), np.nan))
+    picture = drawn(native, Pose((0.0, 0.0, 1.0)), WIDE, depth=True)
     assert picture.depth is not None
     assert np.isinf(picture.depth).all()
 
 
-def test_light_comes_from_where_it_comes_from() -> None:
+def test_light_has_its_direction() -> None:
     lit_from_left = Scene(
         bodies=("b",),
         shapes=(shape(Sphere(0.5), Pose((4.0, 0.0, 0.0))),),
         lights=(SceneLight(direction=(0.0, -1.0, 0.0)),),
     )
-    made = NativeRenderer(lit_from_left)
-    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    red = drawn(made, Pose(), WIDE).rgb[120, :, 0].astype(int)
+    native = NativeRenderer(lit_from_left)
+    native.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    red = drawn(native, Pose(), WIDE).rgb[120, :, 0].astype(int)
     assert red[160 - 25] > red[160 + 25] + 50
 
 
-def test_glass_is_looked_through_in_its_colour() -> None:
+def test_glass_tints_the_background() -> None:
     pane = shape(Box((0.1, 9.0, 9.0)), Pose((2.0, 0.0, 0.0)), (0.0, 0.0, 1.0, 0.25))
     red = shape(Sphere(0.5), Pose((4.0, 0.0, 0.0)))
     without = drawn(renderer(red), Pose(), WIDE).rgb.astype(float)
@@ -263,7 +265,7 @@ def test_glass_is_looked_through_in_its_colour() -> None:
         assert picture.segmentation[120, 160] == order.index(red)
 
 
-def test_panes_lie_over_each_other_from_the_far_one_to_the_near_one() -> None:
+def test_panes_are_blended_from_far_to_near() -> None:
     near = shape(Box((0.1, 9.0, 9.0)), Pose((2.0, 0.0, 0.0)), (1.0, 0.0, 0.0, 0.5))
     far = shape(Box((0.1, 9.0, 9.0)), Pose((3.0, 0.0, 0.0)), (0.0, 1.0, 0.0, 0.5))
     for order in ((near, far), (far, near)):
@@ -272,7 +274,7 @@ def test_panes_lie_over_each_other_from_the_far_one_to_the_near_one() -> None:
 
 
 @pytest.mark.parametrize(
-    ("wrong", "said"),
+    ("wrong", "message"),
     [
         ({"width_px": 0, "height_px": 0}, "a picture is 1 to 16384 pixels wide and high, not 0 x 0"),
         ({"width_px": 100_000, "height_px": 100_000}, "not 100000 x 100000"),
@@ -284,71 +286,71 @@ def test_panes_lie_over_each_other_from_the_far_one_to_the_near_one() -> None:
         ({"near_m": math.nan}, "not nan m and 100 m"),
     ],
 )
-def test_a_camera_that_cannot_be_is_refused_in_one_sentence(wrong: dict[str, Any], said: str) -> None:
-    with pytest.raises(ValueError, match=said):
+def test_invalid_intrinsics_are_refused_with_a_reason(wrong: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
         replace(WIDE, **wrong)
 
 
-def test_a_camera_or_a_fan_of_rays_that_is_nowhere_is_refused() -> None:
-    made = renderer(shape(Sphere(0.5)))
+def test_poses_that_are_not_finite_are_refused() -> None:
+    native = renderer(shape(Sphere(0.5)))
     nowhere = Pose((math.nan, 0.0, 0.0))
     with pytest.raises(ValueError, match="the pose of a camera is not finite"):
-        drawn(made, nowhere, WIDE)
+        drawn(native, nowhere, WIDE)
     with pytest.raises(ValueError, match="the origin of rays is not finite"):
-        made.cast(nowhere, np.array([[1.0, 0.0, 0.0]], dtype=np.float32), max_range_m=1.0)
+        native.cast(nowhere, np.array([[1.0, 0.0, 0.0]]), max_range_m=1.0)
 
 
-def test_a_million_triangles_without_area_are_not_seen() -> None:
+def test_a_million_triangles_without_area_are_not_drawn() -> None:
     faces = np.repeat(np.arange(1000, dtype=np.int32), 3000).reshape(-1, 3)
     assert len(faces) == 1_000_000
     vertices = np.random.default_rng(0).random((1000, 3)).astype(np.float32)
-    made = renderer(shape(Mesh(vertices, faces)))
-    assert (drawn(made, Pose((-3.0, 0.0, 0.0)), WIDE).rgb == (51, 102, 153)).all()
-    assert np.isinf(made.cast(Pose((-3.0, 0.0, 0.0)), np.eye(3, dtype=np.float32), max_range_m=9.0)[0]).all()
+    native = renderer(shape(Mesh(vertices, faces)))
+    assert (drawn(native, Pose((-3.0, 0.0, 0.0)), WIDE).rgb == (51, 102, 153)).all()
+    assert np.isinf(native.cast(Pose((-3.0, 0.0, 0.0)), np.eye(3), max_range_m=9.0)[0]).all()
 
 
-def test_the_same_world_is_the_same_picture_to_the_last_byte() -> None:
+def test_equal_scenes_give_equal_bytes() -> None:
     parts = (
         shape(Sphere(0.5), Pose((4.0, 0.3, 0.1))),
         shape(cube(0.6), Pose.from_rpy(3.0, -0.5, 0.0, 0.1, 0.2, 0.3), GREEN),
     )
     first = drawn(renderer(*parts), Pose(), WIDE, depth=True)
-    made = renderer(*parts)
-    drawn(made, Pose((0.0, 1.0, 0.0)), WIDE)
-    second = drawn(made, Pose(), WIDE, depth=True)
+    native = renderer(*parts)
+    drawn(native, Pose((0.0, 1.0, 0.0)), WIDE)
+    second = drawn(native, Pose(), WIDE, depth=True)
     assert first.rgb.tobytes() == second.rgb.tobytes()
     assert first.depth is not None
     assert second.depth is not None
     assert first.depth.tobytes() == second.depth.tobytes()
 
 
-def test_a_mesh_that_is_reshaped_is_drawn_and_met_as_it_is_now() -> None:
-    """Faces without area may have some now, and the shape after it keeps its own indices."""
+def test_a_deformed_mesh_is_drawn_and_hit_in_its_new_shape() -> None:
+    """Faces without area may gain some, and the next shape keeps its indices."""
     square = np.array([[0, -1, -1], [0, 1, -1], [0, 1, 1], [0, -1, 1]], dtype=np.float32)
     faces = np.array([[0, 2, 1], [0, 3, 2]], dtype=np.int32)
-    flat = Mesh(square * np.float32([1, 1, 0]), faces)
-    made = renderer(shape(flat, Pose((4.0, 0.0, 0.0))), shape(Sphere(0.3), Pose((3.0, 0.0, 0.0)), GREEN))
-    ahead = np.array([[1.0, 0.0, 0.2]], dtype=np.float32)
+    flat = Mesh(square * np.array([1, 1, 0], dtype=np.float32), faces)
+    native = renderer(shape(flat, Pose((4.0, 0.0, 0.0))), shape(Sphere(0.3), Pose((3.0, 0.0, 0.0)), GREEN))
+    ahead = np.array([[1.0, 0.0, 0.2]])
     ahead /= np.linalg.norm(ahead)
 
-    assert not is_red(drawn(made, Pose(), WIDE).rgb).any()
-    assert made.cast(Pose(), ahead, max_range_m=50)[1].tolist() == [-1]
-    made.set_vertices(0, square)
-    picture = drawn(made, Pose(), WIDE, segmentation=True)
+    assert not is_red(drawn(native, Pose(), WIDE).rgb).any()
+    assert native.cast(Pose(), ahead, max_range_m=50)[1].tolist() == [-1]
+    native.set_vertices(0, square)
+    picture = drawn(native, Pose(), WIDE, segmentation=True)
 
     assert picture.segmentation is not None
     side = 2 * WIDE.focal_px / 4
     assert (picture.segmentation == 0).sum() + (picture.segmentation == 1).sum() == pytest.approx(side**2, rel=0.03)
     assert (picture.rgb[picture.segmentation == 1][:, 1] > 0).all()
-    assert made.cast(Pose(), ahead, max_range_m=50)[1].tolist() == [0]
-    made.set_vertices(0, square * np.float32([1, 0.5, 0.5]))
-    assert is_red(drawn(made, Pose(), WIDE).rgb).sum() < side**2 / 3
+    assert native.cast(Pose(), ahead, max_range_m=50)[1].tolist() == [0]
+    native.set_vertices(0, square * np.array([1, 0.5, 0.5], dtype=np.float32))
+    assert is_red(drawn(native, Pose(), WIDE).rgb).sum() < side**2 / 3
 
 
-def test_what_is_no_mesh_cannot_be_reshaped() -> None:
-    made = renderer(shape(Sphere(0.3)))
+def test_only_meshes_can_be_deformed() -> None:
+    native = renderer(shape(Sphere(0.3)))
     with pytest.raises(KeyError):
-        made.set_vertices(0, np.zeros((3, 3), dtype=np.float32))
+        native.set_vertices(0, np.zeros((3, 3), dtype=np.float32))
 
 
 _AWAY = np.linspace(2.0, 5.0, 500)
@@ -359,7 +361,7 @@ _AWAY = np.linspace(2.0, 5.0, 500)
     [_AWAY, _AWAY[::-1], np.random.default_rng(1).permutation(_AWAY)],
     ids=["near first", "far first", "mixed"],
 )
-def test_of_many_triangles_behind_one_another_the_nearest_is_seen(away: NDArray[np.float64]) -> None:
+def test_the_nearest_of_many_triangles_is_drawn(away: NDArray[np.float64]) -> None:
     """Most of them are never drawn, whichever comes first."""
     triangle = np.array([[0.004, 0, 12], [0, 9, -9], [0, -9, -9]])
     vertices = (triangle + away[:, None, None] * np.array([1.0, 0.0, 0.0])).astype(np.float32)
@@ -374,7 +376,7 @@ def test_of_many_triangles_behind_one_another_the_nearest_is_seen(away: NDArray[
     assert every.depth.tobytes() == alone.depth.tobytes()
 
 
-def test_of_two_at_one_place_the_first_shape_is_seen_whichever_comes_nearer_elsewhere() -> None:
+def test_the_first_of_two_coincident_shapes_is_drawn() -> None:
     corners = np.array([[3, 1, -1], [3, -1, -1], [3, -1, 1], [3, 1, 1], [2, 1.2, 0], [2, 1.1, 0], [2, 1.1, 0.1]])
     wall = shape(Mesh(corners.astype(np.float32), np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6]], dtype=np.int32)))
     box = shape(Box((1.0, 1.0, 1.0)), Pose((3.5, 0.0, 0.0)), GREEN)
@@ -385,8 +387,8 @@ def test_of_two_at_one_place_the_first_shape_is_seen_whichever_comes_nearer_else
 
 
 def test_no_views_and_views_of_two_sizes_are_refused() -> None:
-    made = renderer(shape(Sphere(0.5)))
+    native = renderer(shape(Sphere(0.5)))
     wider = replace(WIDE, width_px=WIDE.width_px + 1)
     for views in ([], [(Pose(), WIDE), (Pose(), wider)]):
         with pytest.raises(ValueError, match="a call draws one picture or more, all of one size"):
-            made.render(views)
+            native.render(views)

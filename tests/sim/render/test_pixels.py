@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from trundle.sim.render import add_colour_noise, add_depth_noise, clip_depths, coloured_points
+from trundle.sim.render import add_color_noise, add_depth_noise, clip_depths, colored_points
 
 _SEED = 0x1234_5678_9ABC_DEF0
 
@@ -31,31 +31,31 @@ def test_noise_is_gaussian() -> None:
 
 
 @pytest.mark.parametrize("lag", [1, 4, 8, 16, 32, 640])
-def test_neighbours_in_a_picture_have_nothing_to_do_with_each_other(lag: int) -> None:
+def test_noise_of_neighbouring_pixels_is_uncorrelated(lag: int) -> None:
     numbers = _normal(500_000)
 
     assert abs(np.corrcoef(numbers[:-lag], numbers[lag:])[0, 1]) < 7e-3
 
 
 @pytest.mark.parametrize("other", [_SEED + 1, _SEED + (1 << 32), 0])
-def test_another_seed_gives_other_numbers(other: int) -> None:
+def test_another_seed_gives_different_noise(other: int) -> None:
     assert abs(np.corrcoef(_normal(200_000), _normal(200_000, other))[0, 1]) < 0.012
 
 
 @pytest.mark.parametrize("count", [1, 15, 16, 31, 33, 100])
-def test_a_smaller_picture_has_the_first_numbers(count: int) -> None:
+def test_a_smaller_image_has_the_first_noise_values(count: int) -> None:
     assert _normal(count).tolist() == _normal(1000)[:count].tolist()
 
 
-def test_every_instruction_set_makes_the_same_noise_and_points() -> None:
+def test_every_instruction_set_computes_the_same_noise_and_points() -> None:
     program = (
-        "import numpy as np, sys; from trundle.sim.render import add_depth_noise, clip_depths, coloured_points;"
+        "import numpy as np, sys; from trundle.sim.render import add_depth_noise, clip_depths, colored_points;"
         "d = np.ones((37, 41), np.float32); add_depth_noise(d, seed=99, mean=0.1, stddev=0.3);"
         "c = np.arange(37 * 41 * 3).astype(np.uint8).reshape(37, 41, 3);"
-        "p = coloured_points(clip_depths(d, near_m=0.9, far_m=1.3), c, d, d);"
+        "p = colored_points(clip_depths(d, near_m=0.9, far_m=1.3), c, d, d);"
         "sys.stdout.write(d.tobytes().hex() + p.tobytes().hex())"
     )
-    told = {
+    outputs = {
         subprocess.run(
             [sys.executable, "-c", program],
             env={**os.environ, "TRUNDLE_RENDER_ISA": name},
@@ -66,10 +66,10 @@ def test_every_instruction_set_makes_the_same_noise_and_points() -> None:
         for name in ("baseline", "avx2", "avx512")
     }
 
-    assert len(told) == 1
+    assert len(outputs) == 1
 
 
-def test_depths_that_are_nothing_stay_so() -> None:
+def test_depths_that_are_not_finite_stay_so() -> None:
     depths = np.array([[np.nan, np.inf, 1.0]], dtype=np.float32)
 
     add_depth_noise(depths, seed=1, mean=0.5, stddev=0.0)
@@ -80,7 +80,7 @@ def test_depths_that_are_nothing_stay_so() -> None:
 
 
 @pytest.mark.parametrize("in_place", [False, True])
-def test_depths_outside_a_range_are_not_numbers(in_place: bool) -> None:
+def test_depths_outside_the_range_become_nan(in_place: bool) -> None:
     """The ends of the range are inside, infinity never is."""
     depths = np.array([[0.5, 1.0, 2.0, 3.0, 3.5], [np.nan, np.inf, -np.inf, -0.0, 1e30]], dtype=np.float32)
     out = depths if in_place else None
@@ -94,11 +94,11 @@ def test_depths_outside_a_range_are_not_numbers(in_place: bool) -> None:
     assert (clipped is depths) == in_place
 
 
-def test_the_colours_of_a_pixel_have_the_same_noise_within_black_and_white() -> None:
+def test_color_noise_is_equal_on_all_channels_and_clipped() -> None:
     rgb = np.zeros((200, 200, 3), dtype=np.uint8)
     rgb[:] = (0, 128, 255)
 
-    add_colour_noise(rgb, seed=7, mean=0.0, stddev=0.08)
+    add_color_noise(rgb, seed=7, mean=0.0, stddev=0.08)
 
     dark, middle, bright = (rgb[..., i].astype(int) for i in range(3))
     assert np.abs(dark - np.maximum(middle - 128, 0)).max() <= 1
@@ -107,22 +107,22 @@ def test_the_colours_of_a_pixel_have_the_same_noise_within_black_and_white() -> 
 
 
 @pytest.mark.parametrize("shape", [(5, 7), (1, 16), (3, 11), (2, 40)])
-def test_a_point_is_where_its_pixel_looks_at_its_depth(shape: tuple[int, int]) -> None:
-    """Widths: as many pixels as an instruction takes, and some more."""
+def test_points_lie_on_their_pixels_rays_at_their_depths(shape: tuple[int, int]) -> None:
+    """Widths of whole vectors, and a few pixels more."""
     random = np.random.default_rng(3)
     depth, right, down = (random.random(shape, dtype=np.float32) for _ in range(3))
     depth[0, 0] = np.nan
     rgb = random.integers(0, 256, (*shape, 3), dtype=np.uint8)
 
-    points = coloured_points(depth, rgb, right, down)
+    points = colored_points(depth, rgb, right, down)
 
     assert np.array_equal(points[..., :3], np.stack([right * depth, down * depth, depth], axis=-1), equal_nan=True)
-    colours = points.view("<u4")[..., 3]
-    assert np.array_equal(colours, rgb[..., 0].astype(int) << 16 | rgb[..., 1].astype(int) << 8 | rgb[..., 2])
+    colors = points.view("<u4")[..., 3]
+    assert np.array_equal(colors, rgb[..., 0].astype(int) << 16 | rgb[..., 1].astype(int) << 8 | rgb[..., 2])
 
 
 def test_arrays_of_other_sizes_are_refused() -> None:
     flat = np.zeros((2, 2), dtype=np.float32)
 
     with pytest.raises(ValueError, match="one height and width"):
-        coloured_points(flat, np.zeros((2, 3, 3), dtype=np.uint8), flat, flat)
+        colored_points(flat, np.zeros((2, 3, 3), dtype=np.uint8), flat, flat)

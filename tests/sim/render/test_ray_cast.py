@@ -23,9 +23,9 @@ SOLIDS: dict[str, ShapeGeometry] = {
 
 
 def renderer(*shapes: Shape, bodies: int = 1) -> NativeRenderer:
-    made = NativeRenderer(Scene(bodies=tuple(map(str, range(bodies))), shapes=shapes))
-    made.update(np.array([HERE] * bodies))
-    return made
+    native = NativeRenderer(Scene(bodies=tuple(map(str, range(bodies))), shapes=shapes))
+    native.update(np.array([HERE] * bodies))
+    return native
 
 
 def around(columns: int, rows: int = 1) -> NDArray[np.float64]:
@@ -68,7 +68,7 @@ def engine(placed: list[tuple[str, ShapeGeometry, Pose]]) -> tuple[mujoco.MjMode
     return model, data
 
 
-def test_rays_meet_what_mujocos_meet() -> None:
+def test_rays_agree_with_mujocos_rays() -> None:
     random = np.random.default_rng(3)
     placed = []
     for _ in range(40):
@@ -77,9 +77,9 @@ def test_rays_meet_what_mujocos_meet() -> None:
         away, up = random.uniform(1.6, 12.0), random.uniform(-2.0, 2.0)
         rpy = random.uniform(-3.0, 3.0, 3).tolist()
         placed.append((name, SOLIDS[name], Pose.from_rpy(away * math.cos(yaw), away * math.sin(yaw), up, *rpy)))
-    made = renderer(*(Shape(name=n, body=0, geometry=g, body_from_shape=p) for n, g, p in placed))
+    native = renderer(*(Shape(name=n, body=0, geometry=g, body_from_shape=p) for n, g, p in placed))
     directions = around(1800, 16)
-    ranges, shapes = made.cast(Pose(), directions, max_range_m=30.0)
+    ranges, shapes = native.cast(Pose(), directions, max_range_m=30.0)
 
     model, data = engine(placed)
     count = len(directions)
@@ -92,7 +92,7 @@ def test_rays_meet_what_mujocos_meet() -> None:
     assert np.abs(ranges[met] - far[met]).max() < 1e-8
 
 
-def test_a_fan_on_a_wall_reads_what_the_wall_is_to_a_hundredth_of_a_millimetre() -> None:
+def test_a_fan_of_rays_measures_a_wall_to_a_hundredth_of_a_millimetre() -> None:
     wall = Shape(name="wall", body=0, geometry=Box((1.0, 400.0, 40.0)), body_from_shape=Pose((20.5, 0.0, 0.0)))
     angles = np.linspace(-1.2, 1.2, 720)
     fan = np.stack([np.cos(angles), np.sin(angles), np.zeros(720)], axis=-1)
@@ -131,28 +131,28 @@ def surface(geometry: ShapeGeometry, random: np.random.Generator) -> tuple[NDArr
 @pytest.mark.parametrize("origin", [0.0, 1e4], ids=["here", "10 km away"])
 @pytest.mark.parametrize("name", SOLIDS)
 def test_a_range_is_exact_at_any_distance(name: str, origin: float) -> None:
-    """A ray from outside to a point of a convex solid hits nothing of it before that point."""
+    """A ray from outside to a point of a convex solid does not hit it before that point."""
     random = np.random.default_rng(7)
     for distance in (0.1, 1.0, 10.0, 30.0, 100.0, 1000.0):
         for _ in range(60):
             point, normal = surface(SOLIDS[name], random)
-            way = random.normal(size=3)
-            way /= np.linalg.norm(way)
-            if abs(way @ normal) < 0.01:
+            direction = random.normal(size=3)
+            direction /= np.linalg.norm(direction)
+            if abs(direction @ normal) < 0.01:
                 continue
-            way *= -np.sign(way @ normal)
+            direction *= -np.sign(direction @ normal)
             x, y, z = random.uniform(-5.0, 5.0, 3) + origin
             pose = Pose.from_rpy(x, y, z, *random.uniform(-3.0, 3.0, 3))
-            start = point - distance * way
+            start = point - distance * direction
             eye = pose @ Pose((start[0], start[1], start[2]))
-            made = renderer(Shape(name=name, body=0, geometry=SOLIDS[name], body_from_shape=pose))
-            ranges, shapes = made.cast(eye, way[None], max_range_m=2000.0)
+            native = renderer(Shape(name=name, body=0, geometry=SOLIDS[name], body_from_shape=pose))
+            ranges, shapes = native.cast(eye, direction[None], max_range_m=2000.0)
             assert shapes[0] == 0
             assert ranges[0] == pytest.approx(distance, abs=1e-6)
 
 
 @pytest.mark.parametrize("distance", [1.0, 10.0, 100.0])
-def test_a_floor_is_met_exactly_where_a_ray_comes_down_to_it_at_last(distance: float) -> None:
+def test_grazing_rays_hit_a_floor_exactly(distance: float) -> None:
     upwards = Pose.from_rpy(0.0, 0.0, 0.0, 0.0, math.pi / 2, 0.0)
     floors: list[tuple[ShapeGeometry, Pose]] = [
         (Plane((0.0, 0.0, 1.0), (0.0, 0.0)), Pose()),
@@ -160,29 +160,29 @@ def test_a_floor_is_met_exactly_where_a_ray_comes_down_to_it_at_last(distance: f
         (quad(150.0), upwards),
     ]
     for geometry, pose in floors:
-        made = renderer(Shape(name="floor", body=0, geometry=geometry, body_from_shape=pose))
-        way = np.array([[math.sqrt(1.0 - 0.25 / distance**2), 0.0, -0.5 / distance]])
-        ranges, _ = made.cast(Pose((0.3, 0.2, 0.5)), way, max_range_m=200.0)
+        native = renderer(Shape(name="floor", body=0, geometry=geometry, body_from_shape=pose))
+        direction = np.array([[math.sqrt(1.0 - 0.25 / distance**2), 0.0, -0.5 / distance]])
+        ranges, _ = native.cast(Pose((0.3, 0.2, 0.5)), direction, max_range_m=200.0)
         assert ranges[0] == pytest.approx(distance, abs=1e-5)
 
 
-def test_rays_start_where_they_are_told_to_and_end_at_their_reach() -> None:
+def test_rays_start_at_their_origin_and_end_at_their_reach() -> None:
     ball = Shape(name="ball", body=0, geometry=Sphere(0.5), body_from_shape=Pose((1.0, 4.0, 2.0)))
-    made = renderer(ball)
-    place = Pose.from_rpy(1.0, 1.0, 2.0, 0.0, 0.0, math.pi / 2)
+    native = renderer(ball)
+    position = Pose.from_rpy(1.0, 1.0, 2.0, 0.0, 0.0, math.pi / 2)
     ahead = np.array([[1.0, 0.0, 0.0]])
-    ranges, shapes = made.cast(place, ahead, max_range_m=10.0)
+    ranges, shapes = native.cast(position, ahead, max_range_m=10.0)
     assert (ranges[0], shapes[0]) == (pytest.approx(2.5, abs=1e-6), 0)
-    ranges, shapes = made.cast(place, ahead, max_range_m=2.4)
+    ranges, shapes = native.cast(position, ahead, max_range_m=2.4)
     assert (ranges[0], shapes[0]) == (math.inf, -1)
 
 
 @pytest.mark.parametrize("level", [0, 2, 4])
-def test_meshes_are_met_from_outside_and_inside(level: int) -> None:
+def test_rays_hit_meshes_from_outside_and_inside(level: int) -> None:
     mesh = Shape(name="m", body=0, geometry=ico(level), body_from_shape=Pose.from_rpy(2.0, 0.1, 0.0, 0.4, 0.3, 0.2))
-    made = renderer(mesh)
+    native = renderer(mesh)
     directions = around(720, 8)
-    ranges, shapes = made.cast(Pose(), directions, max_range_m=10.0)
+    ranges, shapes = native.cast(Pose(), directions, max_range_m=10.0)
     # Triangles lie a little below the ball that they make.
     slack = {0: 0.16, 2: 0.02, 4: 0.002}[level]
     exact, _ = renderer(Shape(name="b", body=0, geometry=Sphere(0.7), body_from_shape=mesh.body_from_shape)).cast(
@@ -195,13 +195,13 @@ def test_meshes_are_met_from_outside_and_inside(level: int) -> None:
     hit = np.isfinite(inner)
     assert (ranges[hit] >= exact[hit] - 1e-5).all()
     assert (ranges[hit] <= inner[hit] + 1e-5).all()
-    within, shapes = made.cast(Pose((2.0, 0.1, 0.0)), directions, max_range_m=10.0)
+    within, shapes = native.cast(Pose((2.0, 0.1, 0.0)), directions, max_range_m=10.0)
     assert (shapes == 0).all()
     assert within.min() > 0.7 - slack
     assert within.max() < 0.7 + 1e-5
 
 
-def test_every_triangle_of_a_large_mesh_is_found() -> None:
+def test_rays_hit_every_triangle_of_a_large_mesh() -> None:
     """A sheet of 20,000 triangles, each looked at through its middle."""
     side = np.linspace(-1.0, 1.0, 101)
     heights = 0.1 * np.sin(9.0 * side)[:, None] * np.cos(7.0 * side)[None, :]
@@ -209,27 +209,29 @@ def test_every_triangle_of_a_large_mesh_is_found() -> None:
     corner = np.arange(101 * 101).reshape(101, 101)
     a, b, c, d = corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]
     faces = np.concatenate([np.stack([a, b, c], -1).reshape(-1, 3), np.stack([a, c, d], -1).reshape(-1, 3)])
-    made = renderer(Shape(name="sheet", body=0, geometry=Mesh(vertices, faces.astype(np.int32))))
+    native = renderer(Shape(name="sheet", body=0, geometry=Mesh(vertices, faces.astype(np.int32))))
     eye = np.array([0.1, 0.2, 3.0])
-    ways = vertices[faces].mean(axis=1) - eye
-    away = np.linalg.norm(ways, axis=1)
-    ranges, _ = made.cast(Pose((0.1, 0.2, 3.0)), ways / away[:, None], max_range_m=10.0)
+    rays = vertices[faces].mean(axis=1) - eye
+    away = np.linalg.norm(rays, axis=1)
+    ranges, _ = native.cast(Pose((0.1, 0.2, 3.0)), rays / away[:, None], max_range_m=10.0)
     assert (ranges <= away + 1e-5).all()
     assert (np.abs(ranges - away) < 1e-5).mean() > 0.99  # a few are hidden behind a crest
 
 
-def test_a_ray_meets_the_same_whichever_rays_are_cast_beside_it() -> None:
+def test_a_rays_hit_is_independent_of_the_other_rays() -> None:
     """Narrow fans of rays go through a mesh together, others one by one."""
-    places = ((2.0, 0.1, 0.0), (-1.0, 0.9, 0.2), (0.2, -1.1, 0.1))
-    made = renderer(*(Shape(name="m", body=0, geometry=ico(3), body_from_shape=Pose(place)) for place in places))
-    ways = around(720, 8)
-    ranges, shapes = made.cast(Pose(), ways, max_range_m=10.0)
+    positions = ((2.0, 0.1, 0.0), (-1.0, 0.9, 0.2), (0.2, -1.1, 0.1))
+    native = renderer(
+        *(Shape(name="m", body=0, geometry=ico(3), body_from_shape=Pose(position)) for position in positions)
+    )
+    rays = around(720, 8)
+    ranges, shapes = native.cast(Pose(), rays, max_range_m=10.0)
     assert len(set(shapes.tolist())) == 4
-    shuffled = np.random.default_rng(1).permutation(len(ways))
-    again, others = made.cast(Pose(), ways[shuffled], max_range_m=10.0)
+    shuffled = np.random.default_rng(1).permutation(len(rays))
+    again, others = native.cast(Pose(), rays[shuffled], max_range_m=10.0)
     assert again.tobytes() == ranges[shuffled].tobytes()
     assert (others == shapes[shuffled]).all()
-    alone = [made.cast(Pose(), way[None], max_range_m=10.0)[0][0] for way in ways[::97]]
+    alone = [native.cast(Pose(), direction[None], max_range_m=10.0)[0][0] for direction in rays[::97]]
     assert alone == ranges[::97].tolist()
 
 
@@ -244,65 +246,65 @@ def quad(half: float, along: float = 0.0) -> Mesh:
     return Mesh(np.array(corners, dtype=np.float32), np.array([[0, 2, 1], [0, 3, 2]], dtype=np.int32))
 
 
-def test_of_two_walls_at_one_place_the_first_is_met_whichever_is_come_to_first() -> None:
+def test_rays_hit_the_first_of_two_coincident_walls() -> None:
     """The wide one's ball begins elsewhere than the small one's: rays look into one before the other."""
     wall = Pose((2.0, 0.0, 0.0))
     wide, small = quad(4.0, along=3.0), quad(0.5)
     ahead = np.array([[1.0, 0.0, 0.0]])
     for meshes in ((wide, small), (small, wide)):
-        made = renderer(*(Shape(name="w", body=0, geometry=mesh, body_from_shape=wall) for mesh in meshes))
-        ranges, shapes = made.cast(Pose(), ahead, max_range_m=10.0)
+        native = renderer(*(Shape(name="w", body=0, geometry=mesh, body_from_shape=wall) for mesh in meshes))
+        ranges, shapes = native.cast(Pose(), ahead, max_range_m=10.0)
         assert (ranges[0], shapes[0]) == (2.0, 0)
 
 
-def test_a_mesh_behind_another_is_seen_beside_it() -> None:
+def test_rays_past_a_mesh_hit_the_one_behind_it() -> None:
     """The mesh with the nearest bounding ball need not be hit: rays go on to the next."""
     near, far = quad(0.5, along=1.0), quad(4.0)
     placed = ((far, Pose((3.0, 0.0, 0.0))), (near, Pose((2.0, 0.0, 0.0))))
-    made = renderer(*(Shape(name="w", body=0, geometry=mesh, body_from_shape=pose) for mesh, pose in placed))
+    native = renderer(*(Shape(name="w", body=0, geometry=mesh, body_from_shape=pose) for mesh, pose in placed))
     slopes = np.linspace(-1.0, 1.0, 201)
-    ways = np.stack([np.ones(201), slopes, np.zeros(201)], axis=-1)
-    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
-    _, shapes = made.cast(Pose(), ways, max_range_m=20.0)
+    rays = np.stack([np.ones(201), slopes, np.zeros(201)], axis=-1)
+    rays /= np.linalg.norm(rays, axis=1, keepdims=True)
+    _, shapes = native.cast(Pose(), rays, max_range_m=20.0)
     behind_near = (slopes > 0.255) & (slopes < 0.745)
     assert (shapes[behind_near] == 1).all()
     assert (shapes[(slopes < 0.245) | (slopes > 0.755)] == 0).all()
 
 
-def test_a_ray_that_goes_nowhere_disturbs_no_other() -> None:
-    made = renderer(Shape(name="m", body=0, geometry=ico(2), body_from_shape=Pose((2.0, 0.0, 0.0))))
-    ways = around(720, 3)[720:1440]
-    kept, _ = made.cast(Pose(), ways, max_range_m=10.0)
+def test_invalid_rays_do_not_affect_others() -> None:
+    native = renderer(Shape(name="m", body=0, geometry=ico(2), body_from_shape=Pose((2.0, 0.0, 0.0))))
+    rays = around(720, 3)[720:1440]
+    expected, _ = native.cast(Pose(), rays, max_range_m=10.0)
     lost = np.zeros(720, dtype=bool)
     lost[::7] = True
-    ways[lost] = np.nan
-    ways[14] = 0.0
-    ranges, shapes = made.cast(Pose(), ways, max_range_m=10.0)
+    rays[lost] = np.nan
+    rays[14] = 0.0
+    ranges, shapes = native.cast(Pose(), rays, max_range_m=10.0)
     assert np.isinf(ranges[lost]).all()
     assert (shapes[lost] == -1).all()
-    assert ranges[~lost].tobytes() == kept[~lost].tobytes()
-    assert np.isfinite(kept).any()
+    assert ranges[~lost].tobytes() == expected[~lost].tobytes()
+    assert np.isfinite(expected).any()
 
 
-def test_a_body_can_be_looked_through_and_one_that_is_nowhere_is_not_met() -> None:
+def test_excluded_bodies_and_bodies_without_a_pose_are_not_hit() -> None:
     near = Shape(name="near", body=0, geometry=Sphere(0.2), body_from_shape=Pose((1.0, 0.0, 0.0)))
     far = Shape(name="far", body=1, geometry=Sphere(0.2), body_from_shape=Pose((3.0, 0.0, 0.0)))
     ground = Shape(name="ground", body=2, geometry=Plane((0.0, 0.0, 1.0), (0.0, 0.0)))
-    made = renderer(near, far, ground, bodies=3)
-    ways = np.array([[1.0, 0.0, 0.0], [0.0, 0.6, -0.8]])
+    native = renderer(near, far, ground, bodies=3)
+    rays = np.array([[1.0, 0.0, 0.0], [0.0, 0.6, -0.8]])
     eye = Pose((0.0, 0.0, 2.0))
-    made.update(np.array([[0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0]] * 2 + [HERE]))
-    ranges, shapes = made.cast(eye, ways, max_range_m=9.0)
+    native.update(np.array([[0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0]] * 2 + [HERE]))
+    ranges, shapes = native.cast(eye, rays, max_range_m=9.0)
     assert shapes.tolist() == [0, 2]
     assert ranges == pytest.approx([0.8, 2.5], abs=1e-5)
-    assert made.cast(eye, ways, max_range_m=9.0, exclude=0)[1].tolist() == [1, 2]
-    made.update(np.array([[math.nan] * 7, [0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0], HERE]))
-    assert made.cast(eye, ways, max_range_m=9.0)[1].tolist() == [1, 2]
+    assert native.cast(eye, rays, max_range_m=9.0, exclude=0)[1].tolist() == [1, 2]
+    native.update(np.array([[math.nan] * 7, [0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0], HERE]))
+    assert native.cast(eye, rays, max_range_m=9.0)[1].tolist() == [1, 2]
 
 
-def test_no_rays_and_no_shapes_are_no_trouble() -> None:
-    made = renderer()
-    ranges, shapes = made.cast(Pose(), around(5), max_range_m=9.0)
+def test_casts_without_rays_or_shapes_are_valid() -> None:
+    native = renderer()
+    ranges, shapes = native.cast(Pose(), around(5), max_range_m=9.0)
     assert np.isinf(ranges).all()
     assert (shapes == -1).all()
-    assert len(made.cast(Pose(), np.empty((0, 3)), max_range_m=9.0)[0]) == 0
+    assert len(native.cast(Pose(), np.empty((0, 3)), max_range_m=9.0)[0]) == 0

@@ -11,14 +11,14 @@ CPP = HERE.parents[2] / "cpp/render"
 RENDERER = (
     "bvh", "cpu_dispatch", "draw", "geometry", "kernel", "light", "mesh_lod", "ray_targets", "renderer", "transform"
 )  # fmt: skip
-COMPILER = next((found for name in ("g++", "clang++") if (found := shutil.which(name))), None)
+COMPILER = next((path for name in ("g++", "clang++") if (path := shutil.which(name))), None)
 
 
 @pytest.mark.slow
 @pytest.mark.skipif(COMPILER is None, reason="g++ and clang++ are not installed")
 @pytest.mark.skipif(not CPP.is_dir(), reason="the C++ sources are not here")
 @pytest.mark.parametrize("options", [[], ["-mavx2"]], ids=["baseline", "avx2"])
-def test_scenes_that_nobody_means_are_drawn_within_bounds(tmp_path: Path, options: list[str]) -> None:
+def test_extreme_scenes_are_drawn_without_memory_errors(tmp_path: Path, options: list[str]) -> None:
     assert COMPILER is not None
     if options and "avx2" not in Path("/proc/cpuinfo").read_text():
         pytest.skip("this processor has no AVX2")

@@ -28,13 +28,13 @@ def quarters(tmp_path: Path) -> Path:
     return tmp_path / "quarters.png"
 
 
-def seen(geometry: ShapeGeometry, texture: Path | bytes, view: Pose, **change: object) -> NDArray[np.uint8]:
+def rendered(geometry: ShapeGeometry, texture: Path | bytes, view: Pose, **change: object) -> NDArray[np.uint8]:
     """A shape in ambient light alone."""
     shape = replace(Shape(name="s", body=0, geometry=geometry, rgba=WHITE, texture=texture), **change)
     dark = SceneLight(diffuse=(0.0, 0.0, 0.0, 1.0))
-    made = NativeRenderer(Scene(bodies=("b",), shapes=(shape,), lights=(dark,), ambient=WHITE))
-    made.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-    return drawn(made, view, LENS).rgb
+    native = NativeRenderer(Scene(bodies=("b",), shapes=(shape,), lights=(dark,), ambient=WHITE))
+    native.update(np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
+    return drawn(native, view, LENS).rgb
 
 
 def corners(rgb: NDArray[np.uint8], away: int = 30) -> list[list[int]]:
@@ -55,72 +55,72 @@ def square(uv: tuple[tuple[float, float], ...]) -> Mesh:
     return Mesh(vertices, faces, uv=np.array(uv, dtype=np.float32)[faces])
 
 
-def test_a_mesh_is_painted_by_its_layout(quarters: Path) -> None:
+def test_a_mesh_is_textured_by_its_uv_coordinates(quarters: Path) -> None:
     mesh = square(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)))
-    assert corners(seen(mesh, quarters, FROM_PLUS_X)) == [RED, GREEN, BLUE, YELLOW]
+    assert corners(rendered(mesh, quarters, FROM_PLUS_X)) == [RED, GREEN, BLUE, YELLOW]
     turned = square(((1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)))
-    assert corners(seen(turned, quarters, FROM_PLUS_X)) == [BLUE, RED, YELLOW, GREEN]
+    assert corners(rendered(turned, quarters, FROM_PLUS_X)) == [BLUE, RED, YELLOW, GREEN]
 
 
-def test_an_image_repeats_also_before_nought(quarters: Path) -> None:
+def test_a_texture_repeats_also_at_negative_coordinates(quarters: Path) -> None:
     twice = square(((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)))
-    rgb = seen(twice, quarters, FROM_PLUS_X)
+    rgb = rendered(twice, quarters, FROM_PLUS_X)
     assert corners(rgb, 10) == [YELLOW, BLUE, GREEN, RED]
     assert corners(rgb, 33) == [RED, GREEN, BLUE, YELLOW]
 
 
-def test_a_mesh_without_a_layout_is_plain(quarters: Path) -> None:
+def test_a_mesh_without_uv_coordinates_is_plain(quarters: Path) -> None:
     bare = replace(square(((0.0, 0.0),) * 4), uv=None)
-    assert corners(seen(bare, quarters, FROM_PLUS_X)) == [[255, 255, 255]] * 4
+    assert corners(rendered(bare, quarters, FROM_PLUS_X)) == [[255, 255, 255]] * 4
 
 
 @pytest.mark.parametrize("view", [FROM_PLUS_X, FROM_ABOVE, Pose.from_rpy(0.0, -10.0, 0.0, 0.0, 0.0, math.pi / 2)])
 def test_every_face_of_a_box_shows_the_image_upright(quarters: Path, view: Pose) -> None:
-    assert corners(seen(Box((4.0, 4.0, 4.0)), quarters, view)) == [RED, GREEN, BLUE, YELLOW]
+    assert corners(rendered(Box((4.0, 4.0, 4.0)), quarters, view)) == [RED, GREEN, BLUE, YELLOW]
 
 
-def test_a_plane_a_ball_and_a_cylinder_are_painted(quarters: Path) -> None:
-    assert corners(seen(Plane((0.0, 0.0, 1.0), (4.0, 4.0)), quarters, FROM_ABOVE)) == [RED, GREEN, BLUE, YELLOW]
+def test_planes_spheres_and_cylinders_are_textured(quarters: Path) -> None:
+    assert corners(rendered(Plane((0.0, 0.0, 1.0), (4.0, 4.0)), quarters, FROM_ABOVE)) == [RED, GREEN, BLUE, YELLOW]
     behind = Pose.from_rpy(0.0, 10.0, 0.0, 0.0, 0.0, -math.pi / 2)  # the image's first half goes around by +y
-    assert corners(seen(Sphere(2.0), quarters, behind), 15) == [RED, RED, BLUE, BLUE]
-    assert corners(seen(Sphere(2.0), quarters, FROM_PLUS_X), 15) == [GREEN, RED, YELLOW, BLUE]
-    assert corners(seen(Cylinder(2.0, 4.0), quarters, FROM_ABOVE), 15) == [RED, GREEN, BLUE, YELLOW]
+    assert corners(rendered(Sphere(2.0), quarters, behind), 15) == [RED, RED, BLUE, BLUE]
+    assert corners(rendered(Sphere(2.0), quarters, FROM_PLUS_X), 15) == [GREEN, RED, YELLOW, BLUE]
+    assert corners(rendered(Cylinder(2.0, 4.0), quarters, FROM_ABOVE), 15) == [RED, GREEN, BLUE, YELLOW]
 
 
-def test_what_is_far_shows_the_mean_of_an_image(tmp_path: Path) -> None:
+def test_far_surfaces_show_the_mean_of_a_texture(tmp_path: Path) -> None:
     board = np.indices((256, 256)).sum(axis=0) % 2 * 255
     Image.fromarray(board.astype(np.uint8)).convert("RGB").save(tmp_path / "board.png")
     mesh = square(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)))
-    grey = seen(mesh, tmp_path / "board.png", FROM_PLUS_X)[70:130, 70:130]
+    grey = rendered(mesh, tmp_path / "board.png", FROM_PLUS_X)[70:130, 70:130]
     assert np.abs(grey.astype(int) - 128).max() <= 2
 
 
-def test_a_colour_tints_the_image(quarters: Path) -> None:
+def test_a_color_tints_the_texture(quarters: Path) -> None:
     mesh = square(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)))
-    tinted = seen(mesh, quarters, FROM_PLUS_X, ambient=(0.5, 0.5, 0.5, 1.0))
+    tinted = rendered(mesh, quarters, FROM_PLUS_X, ambient=(0.5, 0.5, 0.5, 1.0))
     assert corners(tinted)[3] == [128, 128, 0]
 
 
-def test_light_beyond_white_shows_the_image_and_no_more(quarters: Path) -> None:
+def test_light_beyond_white_shows_the_unlit_texture(quarters: Path) -> None:
     mesh = square(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)))
     grey = quarters.with_name("grey.png")
     Image.new("RGB", (8, 8), (100, 150, 200)).save(grey)
     for bright in ({"ambient": (5.0, 5.0, 5.0, 1.0)}, {"emissive": WHITE}):
-        assert corners(seen(mesh, grey, FROM_PLUS_X, **bright))[0] == [100, 150, 200]
+        assert corners(rendered(mesh, grey, FROM_PLUS_X, **bright))[0] == [100, 150, 200]
 
 
-def test_a_scale_makes_the_image_larger_about_its_middle(quarters: Path) -> None:
+def test_a_scale_enlarges_the_texture_about_its_middle(quarters: Path) -> None:
     mesh = square(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)))
-    halved = seen(mesh, quarters, FROM_PLUS_X, texture_scale=(0.5, 1.0))
+    halved = rendered(mesh, quarters, FROM_PLUS_X, texture_scale=(0.5, 1.0))
     assert corners(halved, 10) == [RED, GREEN, BLUE, YELLOW]
     assert corners(halved, 30) == [GREEN, RED, YELLOW, BLUE]
 
 
 def test_an_image_inside_a_mesh_file_is_drawn(quarters: Path) -> None:
     mesh = square(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)))
-    assert corners(seen(mesh, quarters.read_bytes(), FROM_PLUS_X)) == [RED, GREEN, BLUE, YELLOW]
+    assert corners(rendered(mesh, quarters.read_bytes(), FROM_PLUS_X)) == [RED, GREEN, BLUE, YELLOW]
 
 
-def test_an_image_that_cannot_be_read_leaves_the_shape_plain(tmp_path: Path) -> None:
+def test_an_unreadable_texture_leaves_the_shape_plain(tmp_path: Path) -> None:
     (tmp_path / "broken.png").write_bytes(b"no image")
-    assert corners(seen(Box((4.0, 4.0, 4.0)), tmp_path / "broken.png", FROM_PLUS_X)) == [[255, 255, 255]] * 4
+    assert corners(rendered(Box((4.0, 4.0, 4.0)), tmp_path / "broken.png", FROM_PLUS_X)) == [[255, 255, 255]] * 4

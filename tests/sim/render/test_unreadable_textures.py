@@ -1,4 +1,4 @@
-"""Textures that cannot be decoded are named once, with the reason, and plain colours are drawn."""
+"""Textures that cannot be decoded are named once, with the reason, and plain colors are drawn."""
 
 from io import BytesIO
 from pathlib import Path
@@ -21,22 +21,22 @@ def png() -> bytes:
     return file.getvalue()
 
 
-def said(*textures: Path | bytes) -> list[str]:
+def warnings_of(*textures: Path | bytes) -> list[str]:
     shapes = [Shape(name=f"v{i}", body=0, geometry=Box((1.0, 1.0, 1.0)), texture=t) for i, t in enumerate(textures)]
     report = Diagnostics()
     report_unreadable_textures(Scene(bodies=("m::l",), shapes=tuple(shapes)), report)
     return report.warnings
 
 
-def test_each_file_is_named_once_with_the_reason(tmp_path: Path) -> None:
+def test_each_unreadable_texture_is_reported_once_with_the_reason(tmp_path: Path) -> None:
     fine, text, cut = tmp_path / "fine.png", tmp_path / "text.png", tmp_path / "cut.png"
     fine.write_bytes(png())
     text.write_text("version https://git-lfs.github.com/spec/v1")
     cut.write_bytes(png()[:2000])
 
-    not_an_image, truncated, missing, within = said(fine, text, text, cut, tmp_path / "no.png", b"\x89PNG")
+    not_an_image, truncated, missing, within = warnings_of(fine, text, text, cut, tmp_path / "no.png", b"\x89PNG")
 
-    drawn = "a plain colour is drawn"
+    drawn = "a plain color is drawn"
     assert not_an_image == f"{text}: warning: the texture cannot be read: it is not an image; {drawn}"
     assert truncated.startswith(f"{cut}: warning: the texture cannot be read: ")
     assert "truncated" in truncated
@@ -47,7 +47,7 @@ def test_each_file_is_named_once_with_the_reason(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "command", [["render", "-o", "out.png"], ["run", "--headless", "--no-ros", "--speed", "max", "--duration", "0.2"]]
 )
-def test_commands_with_a_camera_say_it(
+def test_commands_with_a_camera_report_unreadable_textures(
     tmp_path: Path, command: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -65,5 +65,5 @@ def test_commands_with_a_camera_say_it(
 
     assert main([command[0], str(file), *command[1:]]) == 0
 
-    warning = f"{tmp_path}/map.png: warning: the texture cannot be read: it is not an image; a plain colour is drawn"
+    warning = f"{tmp_path}/map.png: warning: the texture cannot be read: it is not an image; a plain color is drawn"
     assert capsys.readouterr().err.count(warning) == 1

@@ -9,7 +9,7 @@ from tests.skinned import bending_column
 
 import trundle
 from trundle.sim.render import NativeRenderer
-from trundle.sim.sensors import mount_cameras, mount_sensors
+from trundle.sim.sensors import RangeSensor, mount_cameras, mount_sensors
 
 _EYE = """<model name="eye"><static>1</static><link name="l"><pose>{}</pose>
 <sensor name="s" type="depth"><camera><horizontal_fov>1.2</horizontal_fov>
@@ -31,54 +31,55 @@ def world(folder: Path, eye: str, actor: str) -> Any:
     return trundle.load(str(file))
 
 
-def seen(sim: Any, camera: Any) -> tuple[float, float]:
-    """Height of what the camera sees at 6 m, and its distance [m]."""
+def height_and_distance(sim: Any, camera: Any) -> tuple[float, float]:
+    """Height of the visible column at 6 m, and its distance [m]."""
     depth = camera.measure(sim.snapshot()).depth
     rows = np.flatnonzero(np.isfinite(depth).any(axis=1))
     focal = 60.5 / np.tan(0.6)
     return 1.0 + (60.5 - rows.min()) * 6.0 / focal, float(np.nanmin(depth))
 
 
-def test_a_camera_sees_bones_move_in_step_with_the_way(tmp_path: Path) -> None:
+def test_bones_move_in_step_with_the_path(tmp_path: Path) -> None:
     """With <interpolate_x> the column has bent over by as much as it has walked: a quarter of a turn in a metre."""
     sim = world(tmp_path, "-6 0 1 0 0 0", _ACTOR.format("true", _WALK))
     (camera,) = mount_cameras(sim, NativeRenderer)
 
-    assert seen(sim, camera) == pytest.approx((2.0, 5.8), abs=0.06)
+    assert height_and_distance(sim, camera) == pytest.approx((2.0, 5.8), abs=0.06)
     sim.run(3.999)
 
-    high, near = seen(sim, camera)
+    high, near = height_and_distance(sim, camera)
     assert near == pytest.approx(6.8, abs=0.01), "the animation's own way along x is not added to that of the script"
     assert high == pytest.approx(1.0 + 0.2 * 6.0 / 6.8, abs=0.06)
 
 
-def test_without_it_bones_move_by_time(tmp_path: Path) -> None:
+def test_without_interpolate_x_bones_move_by_time(tmp_path: Path) -> None:
     sim = world(tmp_path, "-6 0 1 0 0 0", _ACTOR.format("false", _WALK))
     (camera,) = mount_cameras(sim, NativeRenderer)
 
     sim.run(1.0)
-    bent, _ = seen(sim, camera)
+    bent, _ = height_and_distance(sim, camera)
     sim.run(1.0)
-    upright, _ = seen(sim, camera)
+    upright, _ = height_and_distance(sim, camera)
 
     assert bent == pytest.approx(1.2, abs=0.07)
     assert upright == pytest.approx(2.0, abs=0.15)
 
 
-def test_an_actor_without_a_way_is_carried_along_by_its_animation(tmp_path: Path) -> None:
+def test_an_actor_without_a_path_moves_by_its_animation(tmp_path: Path) -> None:
     sim = world(tmp_path, "-6 0 1 0 0 0", _ACTOR.format("true", ""))
     (camera,) = mount_cameras(sim, NativeRenderer)
 
     sim.run(1.0)
 
-    assert seen(sim, camera)[1] == pytest.approx(6.8, abs=0.01)
+    assert height_and_distance(sim, camera)[1] == pytest.approx(6.8, abs=0.01)
 
 
-def test_lidars_on_a_gpu_see_the_skin_and_not_a_box(tmp_path: Path) -> None:
+def test_gpu_lidars_hit_the_skin_and_not_a_box(tmp_path: Path) -> None:
     """A ray at 1.8 m height hits only the upright column."""
     sim = world(tmp_path, "-6 0 1.8 0 0 0", _ACTOR.format("false", _WALK))
     (lidar,) = mount_sensors(sim)
 
+    assert isinstance(lidar, RangeSensor)
     upright = lidar.measure(sim.snapshot()).ranges.item()
     sim.run(1.0)
 
@@ -86,7 +87,7 @@ def test_lidars_on_a_gpu_see_the_skin_and_not_a_box(tmp_path: Path) -> None:
     assert lidar.measure(sim.snapshot()).ranges.item() == np.inf
 
 
-def test_two_actors_of_one_skin_move_apart(tmp_path: Path) -> None:
+def test_two_actors_with_one_skin_move_independently(tmp_path: Path) -> None:
     second = _ACTOR.format("false", _WALK.replace("<time>4", "<time>400")).replace("bender", "other")
     second = second.replace("<loop>", "").replace("<script>", "<script><delay_start>9</delay_start>")
     second = second.replace("<pose>0 0 0 ", "<pose>0 2 0 ").replace("<pose>1 0 0 ", "<pose>1 2 0 ")
@@ -95,19 +96,20 @@ def test_two_actors_of_one_skin_move_apart(tmp_path: Path) -> None:
 
     sim.run(1.0)
     depth = camera.measure(sim.snapshot()).depth
+    assert depth is not None
 
     heights = [
         np.flatnonzero(np.isfinite(depth[:, columns]).any(axis=1)).min() for columns in (slice(50, 71), slice(80, 121))
     ]
-    assert heights[0] < heights[1] - 5, "the one that waits stands upright"
+    assert heights[0] < heights[1] - 5, "the waiting actor stands upright"
 
 
-def test_a_skin_without_bones_is_a_box_and_says_why(tmp_path: Path) -> None:
+def test_a_skin_without_bones_is_a_box_with_a_reason(tmp_path: Path) -> None:
     text = _ACTOR.format("false", _WALK).replace("<skin><filename>column.dae", "<skin><filename>lost.dae")
     sim = world(tmp_path, "-6 0 1 0 0 0", text)
 
-    told = [finding.what for finding in sim.report.findings]
+    messages = [finding.what for finding in sim.report.findings]
     assert any(
-        "actor 'bender' is a box of its skin's size; its bones do not move: its skin file was not found" in each
-        for each in told
+        "actor 'bender' is a box of its skin's size; its bones do not move: its skin file was not found" in message
+        for message in messages
     )

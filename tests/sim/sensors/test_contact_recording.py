@@ -45,39 +45,39 @@ def load(tmp_path: Path) -> Callable[[], Simulation]:
     return lambda: trundle.load(str(file))
 
 
-class _Sensors:
-    """The contact sensors of a simulation, and all that they tell."""
+class _ContactSensors:
+    """Contact sensors of a simulation, and all their readings."""
 
     def __init__(self, sim: Simulation) -> None:
-        self.told: list[tuple[str, ContactReading]] = []
+        self.readings: list[tuple[str, ContactReading]] = []
         self.mounted = [sensor for sensor in mount_sensors(sim) if isinstance(sensor, ContactSensor)]
         for sensor in self.mounted:
-            sensor.listen(lambda reading, name=sensor.model.name: self.told.append((name, reading)))
+            sensor.listen(lambda reading, name=sensor.model.name: self.readings.append((name, reading)))
             sensor.start(sim)
 
     def records(self, model: str) -> list[ContactRecord]:
-        return [record for name, reading in self.told if name == model for record in reading.contacts]
+        return [record for name, reading in self.readings if name == model for record in reading.contacts]
 
 
 class _EveryStep:
-    """Hook that looks at the contacts of some collisions after every step."""
+    """Hook that reads the contacts of some collisions after every step."""
 
     def __init__(self, sim: Simulation, collision: str) -> None:
-        self.seen: list[tuple[int, Contact]] = []
+        self.contacts: list[tuple[int, Contact]] = []
         self._among = frozenset({collision})
         self._sim = sim
         sim.add_hook(self)
 
     def after_step(self, snapshot: Snapshot) -> None:
-        self.seen += [(snapshot.time_ns, contact) for contact in self._sim.contacts(self._among)]
+        self.contacts += [(snapshot.time_ns, contact) for contact in self._sim.contacts(self._among)]
 
 
-def _from_side(seen: list[tuple[int, Contact]], own: str, until_ns: int) -> list[ContactRecord]:
-    """Contacts up to a time as the sensor of one side tells them."""
+def _from_side(contacts: list[tuple[int, Contact]], collision: str, until_ns: int) -> list[ContactRecord]:
+    """Contacts up to a time, as reported by the sensor of one side."""
     records: list[ContactRecord] = []
-    for time_ns, contact in seen:
+    for time_ns, contact in contacts:
         first, second = contact.collisions
-        sign, other = (1.0, first) if second == own else (-1.0, second)
+        sign, other = (1.0, first) if second == collision else (-1.0, second)
         normal, force, torque = (
             (sign * x, sign * y, sign * z) for x, y, z in (contact.normal, contact.force.force, contact.force.torque)
         )
@@ -85,7 +85,7 @@ def _from_side(seen: list[tuple[int, Contact]], own: str, until_ns: int) -> list
             records.append(
                 ContactRecord(
                     time_ns=time_ns,
-                    own=own,
+                    collision=collision,
                     other=other,
                     position=contact.position,
                     normal=normal,
@@ -96,10 +96,10 @@ def _from_side(seen: list[tuple[int, Contact]], own: str, until_ns: int) -> list
     return records
 
 
-def test_they_tell_of_the_same_bytes_as_a_look_at_every_step(load: Callable[[], Simulation]) -> None:
+def test_recorded_contacts_equal_contacts_read_at_every_step(load: Callable[[], Simulation]) -> None:
     """While a pile falls, rests, sleeps, and is woken."""
     recorded, looked = load(), load()
-    sensors = _Sensors(recorded)
+    sensors = _ContactSensors(recorded)
     hooks = {f"b{i}": _EveryStep(looked, f"b{i}::l::c") for i in range(2)}
     for sim in (recorded, looked):
         sim.run(2.1)
@@ -108,14 +108,14 @@ def test_they_tell_of_the_same_bytes_as_a_look_at_every_step(load: Callable[[], 
         sim.run(0.6)
 
     for name, hook in hooks.items():
-        last_ns = max(reading.time_ns for told, reading in sensors.told if told == name)
-        expected = _from_side(hook.seen, f"{name}::l::c", last_ns)
+        last_ns = max(reading.time_ns for readings, reading in sensors.readings if readings == name)
+        expected = _from_side(hook.contacts, f"{name}::l::c", last_ns)
         assert len(expected) > 4_000
         assert repr(sensors.records(name)) == repr(expected), "floats are written in full"
     assert recorded.snapshot().poses.tobytes() == looked.snapshot().poses.tobytes()
 
 
-def test_no_step_is_python_s(load: Callable[[], Simulation], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_recording_needs_no_python_per_step(load: Callable[[], Simulation], monkeypatch: pytest.MonkeyPatch) -> None:
     """The engine is asked for a stride from reading to reading, 30 a second; with no listener for all 1000 steps."""
     strides: list[int] = []
     step = Engine.step
@@ -130,15 +130,15 @@ def test_no_step_is_python_s(load: Callable[[], Simulation], monkeypatch: pytest
         sensor.start(silent)
     silent.run(1.0)
     assert strides == [1000]
-    _Sensors(sim)
+    _ContactSensors(sim)
     sim.run(1.0)
     assert 30 <= len(strides[1:]) <= 32
     assert sum(strides[1:]) == 1000
 
 
-def test_two_simulations_on_two_threads_are_as_one_alone(load: Callable[[], Simulation]) -> None:
+def test_two_simulations_on_two_threads_record_as_one_alone(load: Callable[[], Simulation]) -> None:
     sims = [load() for _ in range(3)]
-    sensors = [_Sensors(sim) for sim in sims]
+    sensors = [_ContactSensors(sim) for sim in sims]
     sims[2].run(1.0)
     threads = [Thread(target=sim.run, args=(1.0,)) for sim in sims[:2]]
     for thread in threads:
@@ -146,56 +146,56 @@ def test_two_simulations_on_two_threads_are_as_one_alone(load: Callable[[], Simu
     for thread in threads:
         thread.join()
 
-    assert sensors[2].told
-    assert repr(sensors[0].told) == repr(sensors[1].told) == repr(sensors[2].told)
+    assert sensors[2].readings
+    assert repr(sensors[0].readings) == repr(sensors[1].readings) == repr(sensors[2].readings)
 
 
-def test_a_timeline_goes_back_into_the_middle_of_a_period(load: Callable[[], Simulation]) -> None:
+def test_a_timeline_seeks_into_the_middle_of_a_recording_period(load: Callable[[], Simulation]) -> None:
     """Contacts recorded before the saved state are reported again."""
     sim = load()
-    sensors = _Sensors(sim)
+    sensors = _ContactSensors(sim)
     sim.run(0.35)
     timeline = Timeline(sim, roots=sensors.mounted)
     timeline.advance(NS_PER_S)
-    first = repr([told for told in sensors.told if told[1].time_ns > 350_000_000])
+    first = repr([readings for readings in sensors.readings if readings[1].time_ns > 350_000_000])
 
     timeline.seek(350_000_000)
     timeline.advance(NS_PER_S)
 
-    assert repr([told for told in sensors.told if told[1].time_ns > 350_000_000]) == first
+    assert repr([readings for readings in sensors.readings if readings[1].time_ns > 350_000_000]) == first
 
 
-def test_a_saved_state_is_told_of_again_from_its_next_period_on(load: Callable[[], Simulation]) -> None:
+def test_contacts_after_a_restore_repeat_from_the_next_period_on(load: Callable[[], Simulation]) -> None:
     sim = load()
-    sensors = _Sensors(sim)
+    sensors = _ContactSensors(sim)
     sim.run(3.0)
     saved = sim.save()
     sim.run(0.5)
-    first = [told for told in sensors.told if told[1].time_ns > 3_040_000_000]
-    sensors.told.clear()
+    first = [readings for readings in sensors.readings if readings[1].time_ns > 3_040_000_000]
+    sensors.readings.clear()
 
     sim.restore(saved)
     sim.run(0.5)
 
-    assert repr([told for told in sensors.told if told[1].time_ns > 3_040_000_000]) == repr(first)
+    assert repr([readings for readings in sensors.readings if readings[1].time_ns > 3_040_000_000]) == repr(first)
 
 
-def test_what_touched_before_a_model_went_is_told(load: Callable[[], Simulation]) -> None:
+def test_contacts_before_a_deletion_are_reported(load: Callable[[], Simulation]) -> None:
     sim, unchanged = load(), load()
-    sensors, others = _Sensors(sim), _Sensors(unchanged)
+    sensors, others = _ContactSensors(sim), _ContactSensors(unchanged)
     sim.run(0.31)
     sim.delete("alone")
-    for each in (sim, unchanged):
-        each.advance(410_000_000)
+    for simulation in (sim, unchanged):
+        simulation.advance(410_000_000)
 
-    def before(told: _Sensors) -> str:
-        return repr([record for record in told.records("b1") if record.time_ns <= 310_000_000])
+    def before(readings: _ContactSensors) -> str:
+        return repr([record for record in readings.records("b1") if record.time_ns <= 310_000_000])
 
     assert sensors.records("b1")[-1].time_ns > 310_000_000
     assert before(sensors) == before(others)
 
 
-def test_an_error_of_mujoco_s_is_raised(tmp_path: Path) -> None:
+def test_an_error_within_a_recorded_step_is_raised(tmp_path: Path) -> None:
     """A callback of the user's that fails within a recorded step ends the run, not the process."""
     import mujoco
 
@@ -203,7 +203,7 @@ def test_an_error_of_mujoco_s_is_raised(tmp_path: Path) -> None:
     report = Diagnostics()
     loaded = load_text(world.encode(), name="w", folder=tmp_path, packages=Packages({}, start=tmp_path), report=report)
     sim = Simulation(loaded.world, report)
-    _Sensors(sim)
+    _ContactSensors(sim)
 
     def fail(_: mujoco.MjModel, __: mujoco.MjData) -> None:
         raise ValueError("no")

@@ -13,7 +13,7 @@ from trundle.sim.sensors import SIMULATED_CAMERAS, mount_cameras, mount_sensors
 from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
-from .test_scheduling import UNHEARD, of_type
+from .test_scheduling import TRANSMITTING, of_type
 
 BOX = """<model name="{}"><static>1</static><pose>{} 0 0 0 0 0</pose><link name="l">
 <visual name="v"><geometry><box><size>1 1 1</size></box></geometry></visual></link></model>"""
@@ -24,13 +24,13 @@ def world(tmp_path: Path, inside: str) -> tuple[Simulation, list[Any]]:
     file.write_text(f'<sdf version="1.6"><world name="w">{inside}</world></sdf>')
     sim = trundle.load(str(file))
     mounted = [*mount_cameras(sim, NativeRenderer), *mount_sensors(sim)]
-    for one in mounted:
-        one.start(sim)
+    for sensor in mounted:
+        sensor.start(sim)
     return sim, mounted
 
 
-@pytest.mark.parametrize("type_", sorted(SIMULATED_CAMERAS - set(UNHEARD)))
-def test_every_sensor_measures_on_and_ends_with_its_model(tmp_path: Path, type_: str) -> None:
+@pytest.mark.parametrize("type_", sorted(SIMULATED_CAMERAS - set(TRANSMITTING)))
+def test_every_sensor_measures_until_its_model_is_deleted(tmp_path: Path, type_: str) -> None:
     """A model before its own is deleted, another spawned, then its own deleted."""
     sim, (sensor,) = world(tmp_path, BOX.format("first", 9) + of_type(type_))
     readings: list[Any] = []
@@ -48,11 +48,11 @@ def test_every_sensor_measures_on_and_ends_with_its_model(tmp_path: Path, type_:
     assert len(readings) == 3
 
 
-def test_a_camera_sees_what_came_and_from_its_own_link(tmp_path: Path) -> None:
+def test_a_camera_sees_spawned_models_from_its_own_link(tmp_path: Path) -> None:
     """Boxes ahead come and go; a model before the camera's own in the world is deleted, too."""
     shape = "<camera><image><width>9</width><height>9</height></image></camera>"
-    own = f'<sensor name="s" type="depth">{shape}</sensor>'
-    eye = f'<model name="m"><static>1</static><link name="l">{own}</link></model>'
+    sensor = f'<sensor name="s" type="depth">{shape}</sensor>'
+    eye = f'<model name="m"><static>1</static><link name="l">{sensor}</link></model>'
     sim, (camera,) = world(tmp_path, BOX.format("far", 6) + eye)
 
     def depth() -> float:

@@ -18,7 +18,7 @@ def source(noise: Noise, seed: int = 1) -> NoiseSource:
 def test_a_bias_is_drawn_once_and_of_either_sign() -> None:
     """Half of many sources err to one side, half to the other, each by the same at every reading."""
     drawn = [source(Noise(bias_mean=5.0, bias_stddev=0.1), seed) for seed in range(200)]
-    first, later = ([each.apply_to_value(0.0, time_ns) for each in drawn] for time_ns in (0, _STEP_NS))
+    first, later = ([noise.apply_to_value(0.0, time_ns) for noise in drawn] for time_ns in (0, _STEP_NS))
 
     assert first == later
     assert np.abs(first).mean() == pytest.approx(5.0, abs=0.05)
@@ -35,7 +35,7 @@ def test_values_are_rounded_to_the_precision() -> None:
 
 
 @pytest.mark.parametrize("step_ns", [_STEP_NS, 7 * _STEP_NS])
-def test_a_wandering_bias_forgets_itself_in_its_time_however_often_it_is_read(step_ns: int) -> None:
+def test_a_wandering_bias_has_its_correlation_time_at_any_rate(step_ns: int) -> None:
     """Ornstein and Uhlenbeck's: its variance is density² τ / 2, and after a time t, e^(−t/τ) of it is left."""
     density, tau = 2.0, 0.5
     wandering = source(Noise(wander_density=density, wander_time_s=tau))
@@ -46,7 +46,7 @@ def test_a_wandering_bias_forgets_itself_in_its_time_however_often_it_is_read(st
     assert left == pytest.approx(math.exp(-step_ns / 1e9 / tau), abs=0.02)
 
 
-def test_a_reset_of_time_leaves_a_bias_where_it_is() -> None:
+def test_a_reset_of_time_keeps_the_bias() -> None:
     wandering = source(Noise(bias_mean=3.0, wander_density=1.0, wander_time_s=1.0))
     before = [wandering.apply_to_value(0.0, t) for t in (0, _STEP_NS)][-1]
 

@@ -35,8 +35,8 @@ def picture(scene_world: World) -> NDArray[np.int_]:
     """(240, 320, 3)"""
     renderer = NativeRenderer(scene_from_world(scene_world, Diagnostics()))
     renderer.update(Simulation(scene_world, Diagnostics()).snapshot().poses)
-    seen = drawn(renderer, WORLD_FROM_CAMERA, Intrinsics(width_px=320, height_px=240, horizontal_fov_rad=1.047))
-    return seen.rgb.astype(int)
+    picture = drawn(renderer, WORLD_FROM_CAMERA, Intrinsics(width_px=320, height_px=240, horizontal_fov_rad=1.047))
+    return picture.rgb.astype(int)
 
 
 # Centroid and area in Gazebo's picture [px], measured on the right half of gazebo_cameras.png.
@@ -45,7 +45,7 @@ def picture(scene_world: World) -> NDArray[np.int_]:
     [(0, 83.6, 195.7, 7514), (1, 187.7, 177.1, 2436), (2, 265.7, 176.3, 4909)],
     ids=["red box", "green ball", "blue cylinder"],
 )
-def test_each_thing_is_where_gazebo_sees_it_and_as_large(
+def test_objects_have_gazebos_positions_and_sizes_in_the_image(
     picture: NDArray[np.int_], channel: int, column: float, row: float, area: int
 ) -> None:
     others = [i for i in range(3) if i != channel]
@@ -57,7 +57,7 @@ def test_each_thing_is_where_gazebo_sees_it_and_as_large(
     assert mask.sum() == pytest.approx(area, rel=0.06)
 
 
-def test_the_sky_is_gazebos_grey_and_the_ground_another(picture: NDArray[np.int_]) -> None:
+def test_sky_and_ground_have_gazebos_greys(picture: NDArray[np.int_]) -> None:
     assert (picture[:100, :200] == picture[0, 0]).all()
     assert picture[0, 0] == pytest.approx([178, 178, 178], abs=2)
     r, g, b = picture[235, 235]

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import trundle
 from trundle.sim.render import Intrinsics, Picture, Scene
@@ -17,7 +18,7 @@ from trundle.spatial import Pose
 MS = 1_000_000
 BODY = "<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>"
 ON_JOINTS = ("force_torque",)
-UNHEARD = ("rfidtag", "wireless_transmitter")
+TRANSMITTING = ("rfidtag", "wireless_transmitter")
 """Sensors that publish nothing: others detect them."""
 
 
@@ -33,6 +34,9 @@ class Blank:
     def update(self, poses: Any) -> None:
         del poses
         self.updates += 1
+
+    def set_vertices(self, shape: int, vertices: NDArray[np.float32]) -> None:
+        raise AssertionError(f"shape {shape} with {len(vertices)} vertices: the scene has no meshes")
 
     def render(
         self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False
@@ -74,16 +78,16 @@ def load(tmp_path: Any) -> Any:
         file.write_text(f'<sdf version="1.6"><world name="w">{inside}</world></sdf>')
         sim = trundle.load(str(file))
         mounted = [*mount_cameras(sim, Blank), *mount_sensors(sim)]
-        for one in mounted:
-            one.start(sim)
+        for sensor in mounted:
+            sensor.start(sim)
         return sim, mounted
 
     return load
 
 
 def of_type(type_: str, *, rate: float = 50.0, more: str = "") -> str:
-    one = sensor(type_, rate=rate, more=more)
-    return robot("", on_joint=one) if type_ in ON_JOINTS else robot(one)
+    element = sensor(type_, rate=rate, more=more)
+    return robot("", on_joint=element) if type_ in ON_JOINTS else robot(element)
 
 
 @pytest.mark.parametrize("rate", [1, 7, 30, 59.94, 60, 144])
@@ -98,47 +102,45 @@ def test_readings_come_at_exact_multiples_of_the_period(load: Any, rate: float) 
     assert stamps == [-(-1000 * k // exact) * MS for k in range(1, int(20 * exact) + 1)]
 
 
-@pytest.mark.parametrize("type_", sorted(SIMULATED_CAMERAS - set(UNHEARD)))
-def test_a_sensor_that_nobody_wants_measures_nothing_and_costs_no_stride(load: Any, type_: str) -> None:
+@pytest.mark.parametrize("type_", sorted(SIMULATED_CAMERAS - set(TRANSMITTING)))
+def test_a_sensor_without_listeners_measures_nothing_and_shortens_no_stride(load: Any, type_: str) -> None:
     sim, (mounted,) = load(of_type(type_))
-    mounted.listen(lambda _: pytest.fail("nobody wanted it"), enabled=lambda: False)
-    mounted.measure = lambda _: pytest.fail("nobody wanted it")
+    mounted.listen(lambda _: pytest.fail("the sensor has no listener"), enabled=lambda: False)
+    mounted.measure = lambda _: pytest.fail("the sensor has no listener")
     strides: list[int] = []
     step = sim.engine.step
-    sim.engine.step = lambda count, each: (strides.append(count), step(count, each))[1]
+    sim.engine.step = lambda count, hooks: (strides.append(count), step(count, hooks))[1]
     sim.run(0.5)
 
     assert strides == [500]
 
 
-@pytest.mark.parametrize("type_", sorted(SIMULATED_CAMERAS - set(UNHEARD)))
-def test_a_sensor_that_is_always_on_keeps_its_schedule_and_measures_if_its_next_reading_needs_it(
-    load: Any, type_: str
-) -> None:
+@pytest.mark.parametrize("type_", sorted(SIMULATED_CAMERAS - set(TRANSMITTING)))
+def test_an_always_on_sensor_keeps_its_schedule_and_measures_if_it_has_history(load: Any, type_: str) -> None:
     sim, (mounted,) = load(of_type(type_, more="<always_on>1</always_on>"))
-    taken: list[int] = []
-    take = mounted.measure
+    times_ms: list[int] = []
+    measure = mounted.measure
     mounted.listen(lambda _: None, enabled=lambda: sim.time_ns > 70 * MS)
 
     def counted(snapshot: Any) -> Any:
-        taken.append(snapshot.time_ns // MS)
-        return take(snapshot)
+        times_ms.append(snapshot.time_ns // MS)
+        return measure(snapshot)
 
     mounted.measure = counted
     sim.run(0.1)
 
-    assert taken == ([20, 40, 60, 80, 100] if mounted.has_history else [80, 100])
+    assert times_ms == ([20, 40, 60, 80, 100] if mounted.has_history else [80, 100])
     assert mounted.reading_count == 5
 
 
-@pytest.mark.parametrize("type_", UNHEARD)
-def test_what_others_look_for_is_no_sensor_of_its_own(load: Any, type_: str) -> None:
+@pytest.mark.parametrize("type_", TRANSMITTING)
+def test_transmitters_and_tags_are_not_sensors(load: Any, type_: str) -> None:
     _, mounted = load(of_type(type_))
     assert mounted == []
 
 
-def test_a_reading_is_of_the_instant_that_it_is_stamped_with(load: Any) -> None:
-    """A barometer in free fall reads the pressure of where it is then."""
+def test_a_reading_measures_the_state_at_its_stamp(load: Any) -> None:
+    """A barometer in free fall reads the pressure at its current height."""
     sim, (barometer,) = load(f'<model name="m"><link name="l">{BODY}{sensor("air_pressure", rate=30)}</link></model>')
     readings: list[Any] = []
     barometer.listen(readings.append)
@@ -150,7 +152,7 @@ def test_a_reading_is_of_the_instant_that_it_is_stamped_with(load: Any) -> None:
     assert len(readings) == 30
 
 
-def test_many_cameras_cost_each_its_own_picture_one_call_and_place_the_world_once(load: Any) -> None:
+def test_many_cameras_render_in_one_call_with_one_update(load: Any) -> None:
     """24 cameras on one robot: 24 pictures an instant, one update, one call; half of them cost half."""
     small = "<camera><image><width>160</width><height>120</height></image></camera>"
     eyes = "".join(
@@ -168,8 +170,8 @@ def test_many_cameras_cost_each_its_own_picture_one_call_and_place_the_world_onc
     assert work == {24: 240, 12: 120}
 
 
-def test_a_triggered_camera_takes_one_picture_for_each_time_it_is_told(load: Any) -> None:
-    """At the next instant it is due, 10 times a second; of several orders before that, one picture."""
+def test_a_triggered_camera_renders_one_image_per_trigger(load: Any) -> None:
+    """At the next due time, 10 times a second; several triggers before it give one image."""
     sim, (camera,) = load(robot('<sensor name="s" type="camera"><update_rate>10</update_rate></sensor>'))
     stamps: list[int] = []
     camera.listen(lambda reading: stamps.append(reading.time_ns))
@@ -185,16 +187,16 @@ def test_a_triggered_camera_takes_one_picture_for_each_time_it_is_told(load: Any
 
 
 @pytest.mark.parametrize("rate", ["-5", "nan", "inf"])
-def test_a_rate_that_cannot_be_is_mended_aloud(load: Any, rate: str) -> None:
-    one = f'<sensor name="s" type="camera"><update_rate>{rate}</update_rate></sensor>'
-    sim, (camera,) = load(robot(one))
+def test_an_invalid_rate_is_replaced_with_a_warning(load: Any, rate: str) -> None:
+    element = f'<sensor name="s" type="camera"><update_rate>{rate}</update_rate></sensor>'
+    sim, (camera,) = load(robot(element))
 
     assert camera.period_ns == Fraction(10**9, 30)
     assert any("w.sdf:1: warning: " in warning and "0" in warning for warning in sim.report.warnings)
 
 
 @pytest.mark.parametrize("rate", [1e-9, 1e300])
-def test_a_rate_beyond_all_measure_is_as_slow_or_fast_as_can_be(load: Any, rate: float) -> None:
+def test_extreme_rates_are_limited(load: Any, rate: float) -> None:
     sim, (imu,) = load(of_type("imu", rate=rate, more="<always_on>1</always_on>"))
     stamps: list[int] = []
     imu.listen(lambda reading: stamps.append(reading.time_ns))

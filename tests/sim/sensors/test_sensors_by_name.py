@@ -44,24 +44,24 @@ def sim(tmp_path: Path):
     return trundle.load(file)
 
 
-def test_a_camera_renders_colour_depth_and_segmentation(sim) -> None:
+def test_a_camera_renders_color_depth_and_segmentation(sim) -> None:
     """A wall 0.5 m wide and 0.4 m high, 2.5 m ahead, through f = 100 px / tan 0.5."""
     image = sim.camera("head::eye").render()
 
     focal = 100 / math.tan(0.5)
-    seen = image.mask("wall")
+    mask = image.mask("wall")
     assert (image.rgb.shape, image.rgb.dtype) == ((100, 200, 3), np.uint8)
     assert image.depth is not None
     assert image.depth[50, 100] == pytest.approx(2.5, abs=1e-5)
-    assert image.depth[seen].min() == pytest.approx(image.depth[seen].max(), abs=1e-5)
-    assert np.isinf(image.depth[~seen]).all()
-    assert seen.sum() == pytest.approx(focal * 0.5 / 2.5 * focal * 0.4 / 2.5, rel=0.07)
+    assert image.depth[mask].min() == pytest.approx(image.depth[mask].max(), abs=1e-5)
+    assert np.isinf(image.depth[~mask]).all()
+    assert mask.sum() == pytest.approx(focal * 0.5 / 2.5 * focal * 0.4 / 2.5, rel=0.07)
     assert image.names[image.segmentation[50, 100]] == "wall::brick::red"
     assert image.names[image.segmentation[0, 0]] == ""
     assert repr(image) == "<CameraImage 200x100 at 0.000 s: 1 visuals seen>"
 
 
-def test_a_render_has_no_noise_and_a_reading_has(sim) -> None:
+def test_a_render_has_no_noise_but_a_reading_does(sim) -> None:
     clean, again = (sim.camera("head::eye").render().rgb for _ in range(2))
 
     assert (clean == again).all()
@@ -69,19 +69,19 @@ def test_a_render_has_no_noise_and_a_reading_has(sim) -> None:
     assert np.std(noisy.astype(float) - clean) > 5.0
 
 
-def test_a_render_is_of_the_state_as_it_is(sim) -> None:
+def test_a_render_shows_the_current_state(sim) -> None:
     camera = sim.camera("head::eye")
     sim["wall"].set_pose(Pose((5.0, 0.0, 1.0)))
     assert camera.render().depth[50, 100] == pytest.approx(4.5, abs=1e-5)
 
 
-def test_notebooks_show_what_was_rendered(sim) -> None:
+def test_notebooks_show_the_rendered_image(sim) -> None:
     image = sim.camera("head::eye").render()
 
     assert (np.asarray(Image.open(io.BytesIO(image._repr_png_()))) == image.rgb).all()
 
 
-def test_a_mask_of_what_is_not_there_lists_what_is(sim) -> None:
+def test_an_unknown_mask_name_is_refused_with_the_existing_names(sim) -> None:
     image = sim.camera("head::eye").render()
 
     assert (image.mask("wall::brick") == image.mask("wall::brick::red")).all()
@@ -98,7 +98,7 @@ def test_a_mask_of_what_is_not_there_lists_what_is(sim) -> None:
         ("sensor", "ead::eye", "no sensor 'ead::eye'; there are: 'robot::head::eye', 'robot::tail::eye', 'robot::head"),
     ],
 )
-def test_a_name_that_is_not_one_sensor_is_answered_with_those_that_are(sim, kind, name, says) -> None:
+def test_unknown_and_ambiguous_sensor_names_are_refused_with_the_names(sim, kind, name, says) -> None:
     with pytest.raises(UsageError) as caught:
         getattr(sim, kind)(name)
     assert str(caught.value).startswith(says)
@@ -111,7 +111,7 @@ def test_sensors_are_found_by_the_end_of_their_name(sim) -> None:
     assert set(sim.sensor_names) == {*sim.camera_names, "robot::head::lidar", "rider::body::imu", "rider::body::bumper"}
 
 
-def test_a_sensor_reads_the_state_as_it_is(sim) -> None:
+def test_a_sensor_reads_the_current_state(sim) -> None:
     scan = sim.sensor("lidar").read()
 
     assert isinstance(scan, RangeReading)
@@ -120,8 +120,8 @@ def test_a_sensor_reads_the_state_as_it_is(sim) -> None:
     assert sim.sensor("lidar").read().ranges[0, 0] == pytest.approx(6.5)
 
 
-def test_an_imu_measures_at_its_rate_from_when_it_is_asked_for(sim) -> None:
-    """In free fall it feels nothing, on the floor what holds it."""
+def test_an_imu_measures_at_its_rate_from_its_first_lookup_on(sim) -> None:
+    """In free fall it reads zero, on the floor the supporting acceleration."""
     sim["rider"].set_pose(Pose((9.0, 9.0, 10.0)))
     imu = sim.sensor("imu")
     sim.run(0.505)
@@ -136,7 +136,7 @@ def test_an_imu_measures_at_its_rate_from_when_it_is_asked_for(sim) -> None:
     assert imu.read().linear_acceleration == pytest.approx((0.0, 0.0, 10.0), abs=1e-3)
 
 
-def test_a_bumper_has_what_touched_within_its_period(sim) -> None:
+def test_a_bumper_reports_the_contacts_of_its_period(sim) -> None:
     bumper = sim.sensor("bumper")
     sim.run(1.0)
 

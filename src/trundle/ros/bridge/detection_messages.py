@@ -1,6 +1,6 @@
 """Detections of bounding box cameras as vision_msgs, without headers."""
 
-from trundle.sim.sensors import CameraReading, SeenBox
+from trundle.sim.sensors import CameraReading, DetectedBox
 from trundle.spatial import Pose, quaternion_from_rpy
 
 _HALF_TURN = 1.5707963267948966
@@ -17,7 +17,7 @@ def boxes_3d(reading: CameraReading) -> dict[str, object]:
     return {"detections": [_detection_3d(box, reading.time_ns) for box in reading.boxes or ()]}
 
 
-def _detection_2d(box: SeenBox, time_ns: int) -> dict[str, object]:
+def _detection_2d(box: DetectedBox, time_ns: int) -> dict[str, object]:
     return {
         "header": {"stamp": time_ns},
         "results": [{"id": box.label, "score": 1.0}],
@@ -29,7 +29,7 @@ def _detection_2d(box: SeenBox, time_ns: int) -> dict[str, object]:
     }
 
 
-def _detection_3d(box: SeenBox, time_ns: int) -> dict[str, object]:
+def _detection_3d(box: DetectedBox, time_ns: int) -> dict[str, object]:
     pose = _OPTICAL_FROM_CAMERA @ box.camera_from_box
     qw, qx, qy, qz = pose.quaternion
     pose_fields = {

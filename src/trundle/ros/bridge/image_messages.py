@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.sim.render import coloured_points
+from trundle.sim.render import colored_points
 from trundle.sim.sensors import CameraReading, CameraSensor, pixels_in
 
 _FLOAT32 = 7
@@ -56,7 +56,7 @@ def point_cloud_encoder(camera: CameraSensor) -> Callable[[CameraReading], dict[
     def cloud(reading: CameraReading) -> dict[str, object]:
         assert reading.depth is not None
         height, width = reading.depth.shape
-        points = coloured_points(reading.depth, reading.rgb, right, down)
+        points = colored_points(reading.depth, reading.rgb, right, down)
         return {
             "height": height,
             "width": width,

@@ -85,7 +85,7 @@ def contacts_message(reading: ContactReading) -> dict[str, object]:
     """gazebo_msgs/ContactsState in the world frame; one state per step and pair of collisions."""
     groups: dict[tuple[int, str, str], list[ContactRecord]] = {}
     for contact in reading.contacts:
-        groups.setdefault((contact.time_ns, contact.own, contact.other), []).append(contact)
+        groups.setdefault((contact.time_ns, contact.collision, contact.other), []).append(contact)
     states: list[dict[str, object]] = []
     for (time_ns, collision1, collision2), contacts in groups.items():
         total = sum((contact.wrench for contact in contacts), start=Wrench())

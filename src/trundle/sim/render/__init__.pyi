@@ -8,10 +8,10 @@ from .from_world import scene_from_world as scene_from_world
 from .named_textures import NAMED_TEXTURES as NAMED_TEXTURES, named_texture as named_texture
 from .native import NativeRenderer as NativeRenderer
 from .pixels import (
-    add_colour_noise as add_colour_noise,
+    add_color_noise as add_color_noise,
     add_depth_noise as add_depth_noise,
     clip_depths as clip_depths,
-    coloured_points as coloured_points,
+    colored_points as colored_points,
 )
 from .renderer import Intrinsics as Intrinsics, Picture as Picture, Renderer as Renderer, size_of as size_of
 from .scene import (

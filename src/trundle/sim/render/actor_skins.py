@@ -35,7 +35,7 @@ def skinned_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], Sc
     """Return the shapes of an actor's skin and their animation; None if it cannot be animated.
 
     Args:
-        actor: with a skin.
+        actor: actor with a skin.
         body: index of its body.
         first: index of the first shape in the scene.
     """
@@ -48,12 +48,12 @@ def skinned_shapes(actor: Actor, body: int, first: int) -> tuple[list[Shape], Sc
     start = mesh.with_vertices(puppet.vertices(AnimationState()))
     shapes: list[Shape] = []
     rows: list[NDArray[np.intp]] = []
-    for piece, same in zip(start.split_by_material(), numbered.split_by_material(), strict=True):
+    for piece, numbered_piece in zip(start.split_by_material(), numbered.split_by_material(), strict=True):
         texture = piece.parts[0].texture if piece.parts and piece.uv is not None else None
         rgba = piece.parts[0].tint if texture is not None else piece.rgba
         shape = Shape(name=f"{actor.name}_skin", body=body, geometry=piece, texture=texture)
         shapes.append(shape if rgba is None else replace(shape, rgba=rgba))
-        rows.append(same.vertices[:, 0].astype(np.intp))
+        rows.append(numbered_piece.vertices[:, 0].astype(np.intp))
     return shapes, SceneSkin(actor=actor.name, body=body, first=first, rows=tuple(rows), animated=puppet)
 
 
@@ -91,17 +91,17 @@ class SkinnedActor:
             bones = match_bones(skin.bones, motion.bones)
             if bones is not None:
                 self._animations[animation.name] = (animation, motion, bones)
-        turned = skin.joint_poses(self._bone_poses(AnimationState()))[:, :3, :3]
-        lengths = np.maximum(np.linalg.norm(turned, axis=1), _SMALL)
-        self._stretches: _Array = lengths * np.sign(np.linalg.det(turned))[:, None]
-        """(B, 3) scales along the bones' axes when the first animation begins; of a mirrored bone negative."""
+        axes = skin.joint_poses(self._bone_poses(AnimationState()))[:, :3, :3]
+        lengths = np.maximum(np.linalg.norm(axes, axis=1), _SMALL)
+        self._stretches: _Array = lengths * np.sign(np.linalg.det(axes))[:, None]
+        """(B, 3) scales along the bones' axes at the start of the first animation; negative for a mirrored bone."""
         self.bone_from_skin: _Array = skin.bone_from_skin.copy()
-        """(B, 4, 4) bind matrices, with those scales and the skin's, which `bone_poses` have not."""
+        """(B, 4, 4) bind matrices, with those scales and the skin's, which `bone_poses` do not contain."""
         self.bone_from_skin[:, :3] *= self._scale * self._stretches[:, :, None]
 
     @property
     def bones(self) -> tuple[str, ...]:
-        """Names of what `bone_poses` returns."""
+        """Names of the bones of `bone_poses`."""
         return tuple(f"bone {number}" for number in range(len(self.skin.joint_indices)))
 
     def bone_poses(self, state: AnimationState) -> _Array:

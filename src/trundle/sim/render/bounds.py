@@ -13,11 +13,11 @@ from .scene import ShapeGeometry
 
 _Points = NDArray[np.float64]
 _AROUND = 64
-"""Points per circle; between them it bulges by a thousandth of its radius."""
+"""Points per circle, a thousandth of its radius away from the polygon between them."""
 
 
 def corners_of(geometry: ShapeGeometry) -> list[Vector3]:
-    """Return the eight corners of a shape's bounding box in its own frame [m]; none for an infinite plane."""
+    """Return the eight corners of a shape's bounding box in its frame [m]; none for an infinite plane."""
     match geometry:
         case Box((x, y, z)):
             half = (x / 2, y / 2, z / 2)

@@ -30,7 +30,7 @@ _COLLISION: Rgba = (1.0, 0.55, 0.1, 0.45)
 _SKY: tuple[Rgba, Rgba] = ((0.86, 0.91, 0.96, 1.0), (0.30, 0.52, 0.82, 1.0))
 _MAX_CORNERS = 1000
 """Most corners of a polyline; triangulation time grows with their cube."""
-_BARELY_THERE = 0.02
+_MIN_OPACITY = 0.02
 """Opacity below which a visual is not drawn at all."""
 
 
@@ -38,10 +38,10 @@ def scene_from_world(world: World, report: Diagnostics, *, collisions: bool = Fa
     """Return a scene whose bodies are the links of all models, in the order of `Snapshot.poses`.
 
     Args:
-        world: with its models.
-        report: takes warnings of shapes that cannot be drawn.
+        world: world with its models.
+        report: receives warnings of shapes that cannot be drawn.
         collisions: draw collisions instead of visuals.
-        mask: draw only visuals whose flags share a bit with it.
+        mask: visibility mask; only visuals whose flags share a bit with it are drawn.
     """
     shapes: list[Shape] = []
     bodies: list[str] = []
@@ -50,19 +50,19 @@ def scene_from_world(world: World, report: Diagnostics, *, collisions: bool = Fa
     skins: list[SceneSkin] = []
     for model in world.models:
         for link in model.links:
-            seen = tuple(visual for visual in link.visuals if visual.visibility_flags & mask)
-            items = link.collisions if collisions else seen
+            visible = tuple(visual for visual in link.visuals if visual.visibility_flags & mask)
+            items = link.collisions if collisions else visible
             actor = actors.get(link.name)
-            moving = None
+            animated = None
             if actor is not None and actor.name == model.name:
-                from .actor_skins import skinned_shapes  # these read COLLADA's bones, which most worlds have none of
+                from .actor_skins import skinned_shapes  # reads COLLADA's bones; few worlds have any
 
-                moving = skinned_shapes(actor, len(bodies), len(shapes))
-            if moving is None:
+                animated = skinned_shapes(actor, len(bodies), len(shapes))
+            if animated is None:
                 shapes += _shapes(items, len(bodies), report)
             else:
-                shapes += moving[0]
-                skins.append(moving[1])
+                shapes += animated[0]
+                skins.append(animated[1])
             lights += [_light(light, len(bodies), world) for light in link.lights]
             bodies.append(f"{model.name}::{link.name}")
     if world.roads and not collisions:
@@ -82,8 +82,8 @@ def scene_from_world(world: World, report: Diagnostics, *, collisions: bool = Fa
 
 
 def _light(light: Light, body: int | None, world: World) -> SceneLight:
-    def dimmed(colour: Rgba) -> Rgba:
-        return (colour[0] * light.intensity, colour[1] * light.intensity, colour[2] * light.intensity, colour[3])
+    def dimmed(color: Rgba) -> Rgba:
+        return (color[0] * light.intensity, color[1] * light.intensity, color[2] * light.intensity, color[3])
 
     return SceneLight(
         name=light.name,
@@ -119,12 +119,12 @@ def _shapes(items: tuple[Visual, ...] | tuple[Collision, ...], body: int, report
             continue
         for shape in _textured_shapes(geometry, item, body):
             r, g, b, a = shape.rgba
-            if (opacity := a * (1.0 - item.transparency)) > _BARELY_THERE:
+            if (opacity := a * (1.0 - item.transparency)) > _MIN_OPACITY:
                 yield replace(shape, rgba=(r, g, b, opacity))
 
 
 def _textured_shapes(geometry: ShapeGeometry, visual: Visual, body: int) -> Iterator[Shape]:
-    """Yield a shape with its material; a mesh without one takes the colours of its file."""
+    """Yield a shape with its material; a mesh without one has the colors of its file."""
     material = visual.material
     shape = material_shape(visual.name, body, geometry, material)
     shape = replace(
@@ -186,7 +186,5 @@ def _geometry(geometry: Geometry, at: Source, report: Diagnostics) -> ShapeGeome
             at, f"{path.name}: {empty} of its {len(mesh.faces)} triangles have no area; only the others are drawn"
         )
     for name in sorted({part.missing_texture for part in mesh.parts if part.missing_texture is not None}):
-        report.info(
-            Source(str(path)), f"its texture {name!r} is nowhere in the model's folder; a plain colour is drawn"
-        )
+        report.info(Source(str(path)), f"its texture {name!r} is not in the model's folder; a plain color is drawn")
     return mesh.scaled(geometry.scale)

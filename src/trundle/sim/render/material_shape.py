@@ -7,7 +7,7 @@ from .scene import Shape, ShapeGeometry
 
 
 def material_shape(name: str, body: int, geometry: ShapeGeometry, material: Material) -> Shape:
-    """Return a shape with a material; a mesh without texture coordinates has a named texture's colour alone."""
+    """Return a shape with a material; a mesh without texture coordinates has a named texture's color only."""
     texture = material.texture
     if isinstance(geometry, Mesh) and geometry.uv is None:
         material = with_plain_color(material)

@@ -1,4 +1,4 @@
-"""Textures of Gazebo's named materials, made here: only Gazebo ships its own."""
+"""Textures of Gazebo's named materials, generated: Gazebo's images are not ours."""
 
 from functools import lru_cache
 from io import BytesIO
@@ -57,12 +57,12 @@ NAMED_TEXTURES = (
     "Gazebo/Wood", "Gazebo/WoodFloor", "Gazebo/WoodPallet", "Gazebo/Bricks", "Gazebo/CeilingTiled",
     "Gazebo/PaintedWall", "Gazebo/CloudySky", "Gazebo/Pedestrian", "Gazebo/Grass", "Gazebo/Runway", "Gazebo/Steps",
 )  # fmt: skip
-"""Names of those that look different from each other and suit any surface."""
+"""Names of textures that look different from each other and suit any surface."""
 
 
 @lru_cache(maxsize=32)
 def named_texture(name: str) -> bytes:
-    """Return the texture of a material in `TEXTURE_COLORS`, as PNG; its mean is the material's colour."""
+    """Return the texture of a material in `TEXTURE_COLORS`, as PNG; its mean is the material's color."""
     from PIL import Image  # slow to load, and most worlds have no such material
 
     png = BytesIO()
@@ -74,11 +74,11 @@ def texture_pixels(name: str) -> NDArray[np.uint8]:
     """Return the texture of a material in `TEXTURE_COLORS`, (256, 256, 3), upper row first."""
     pattern, contrast = _PATTERNS[name]
     field = pattern(sum(name.encode()))
-    colour = np.array([round(255 * value) for value in TEXTURE_COLORS[name]], dtype=np.int64)
+    color = np.array([round(255 * value) for value in TEXTURE_COLORS[name]], dtype=np.int64)
     is_paint = field >= PAINT
     paint, rest = field[is_paint] - PAINT, field[~is_paint]
-    ground = (colour * field.size - paint.sum()) // rest.size
-    # A pattern's values are brightness: each channel changes as the colour is strong in it.
+    ground = (color * field.size - paint.sum()) // rest.size
+    # A pattern's values are brightness: each channel changes in proportion to the color.
     relative = (rest - rest.sum() // rest.size) * contrast // 256
     pixels = np.empty((*field.shape, 3), dtype=np.int64)
     pixels[is_paint] = paint[:, None]

@@ -38,7 +38,7 @@ Item = TypeVar("Item")
 
 
 class _Registry(Generic[Key, Item]):
-    """Objects shared by several shapes, each created once."""
+    """Objects shared by shapes, each created once."""
 
     def __init__(self) -> None:
         self._numbers: dict[Key, int] = {}
@@ -62,8 +62,8 @@ class NativeRenderer:
 
         Args:
             scene: shapes and lights.
-            threads: share the rows of all images of a call, at most 64; results do not depend on their number.
-            textures: further ones, which `restyle` may give to shapes.
+            threads: number of threads that share the rows of all images of a call, at most 64; results are independent.
+            textures: further textures, for shapes in `restyle`.
         """
         meshes = _Registry[int, _native.Mesh]()
         self._textures = _Registry[Texture, _native.Texture]()
@@ -121,10 +121,10 @@ class NativeRenderer:
         )
 
     def restyle(self, scene: Scene) -> None:
-        """Take the materials, lights, ambient light and background of a scene with the same shapes.
+        """Use the materials, lights, ambient light and background of a scene with the same shapes.
 
         Args:
-            scene: its textures are those that the renderer was made with.
+            scene: scene with textures that were passed to the constructor.
         """
         for number, (old, new) in enumerate(zip(self._scene.shapes, scene.shapes, strict=True)):
             if old is not new:
@@ -238,7 +238,7 @@ def _native_fog(fog: Fog) -> _native.Fog | None:
     kind = _FOGS.get(fog.type)
     if kind is None:
         return None
-    return _native.Fog(kind, colour=fog.color[:3], start=fog.start_m, end=fog.end_m, density=fog.density)
+    return _native.Fog(kind, color=fog.color[:3], start=fog.start_m, end=fog.end_m, density=fog.density)
 
 
 def _native_shape(shape: Shape, mesh: int, material: _native.Material) -> _native.Shape:
@@ -246,15 +246,15 @@ def _native_shape(shape: Shape, mesh: int, material: _native.Material) -> _nativ
     size = (0.0, 0.0, 0.0)
     match shape.geometry:
         case Box((x, y, z)):
-            kind, size = _native.ShapeKind.BOX, (_at_least_thin(x) / 2, _at_least_thin(y) / 2, _at_least_thin(z) / 2)
+            kind, size = _native.ShapeKind.BOX, (_thickness(x) / 2, _thickness(y) / 2, _thickness(z) / 2)
         case Cylinder(radius, length):
-            kind, size = _native.ShapeKind.CYLINDER, (_at_least_thin(radius), _at_least_thin(length) / 2, 0.0)
+            kind, size = _native.ShapeKind.CYLINDER, (_thickness(radius), _thickness(length) / 2, 0.0)
         case Capsule(radius, length):
-            kind, size = _native.ShapeKind.CAPSULE, (_at_least_thin(radius), _at_least_thin(length) / 2, 0.0)
+            kind, size = _native.ShapeKind.CAPSULE, (_thickness(radius), _thickness(length) / 2, 0.0)
         case Sphere(radius):
-            kind, size = _native.ShapeKind.SPHERE, (_at_least_thin(radius), 0.0, 0.0)
+            kind, size = _native.ShapeKind.SPHERE, (_thickness(radius), 0.0, 0.0)
         case Ellipsoid((x, y, z)):
-            kind, size = _native.ShapeKind.ELLIPSOID, (_at_least_thin(x), _at_least_thin(y), _at_least_thin(z))
+            kind, size = _native.ShapeKind.ELLIPSOID, (_thickness(x), _thickness(y), _thickness(z))
         case Plane(normal, (width, height)):
             kind, size = _native.ShapeKind.PLANE, (width / 2, height / 2, 0.0)
             pose = pose @ Pose(quaternion=rotation_from_z(normal))
@@ -271,5 +271,5 @@ def _native_shape(shape: Shape, mesh: int, material: _native.Material) -> _nativ
     )
 
 
-def _at_least_thin(length: float) -> float:
+def _thickness(length: float) -> float:
     return max(length, _THINNEST)

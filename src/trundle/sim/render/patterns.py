@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 SIDE_PX = 256
 PAINT = 256
-"""Added to a grey from 0 to 255 that is no part of the pattern: mortar, marks of roads."""
+"""Offset of greys from 0 to 255 outside the pattern: mortar, road markings."""
 Field = NDArray[np.int64]
 """(256, 256) values from 0 to 255, or grey from `PAINT`; upper row first."""
 Pattern = Callable[[int], Field]
@@ -33,7 +33,7 @@ def noise(seed: int, columns: int, rows: int) -> Field:
 
 
 def clouds(seed: int, columns: int = 4, rows: int = 4, octaves: int = 5) -> Field:
-    """Return noise of several scales, each half as strong as the one before."""
+    """Return noise of several scales, each half as strong as the previous one."""
     total = np.zeros((SIDE_PX, SIDE_PX), dtype=np.int64)
     for octave in range(octaves):
         total += noise(seed + octave, columns << octave, rows << octave) << (octaves - octave)
@@ -69,7 +69,7 @@ def wood(seed: int) -> Field:
 
 
 def floor(seed: int) -> Field:
-    """Return floor boards: eight beside each other, each of its own shade, with staggered ends."""
+    """Return floor boards: eight side by side, of different shades, with staggered ends."""
     board = _COLUMNS // 32
     shift = _random(seed, 1, 8)[0][board]
     shade = _random(seed + 1, 2, 8)[(_ROWS + shift) % SIDE_PX // 128, board]

@@ -8,20 +8,20 @@ from numpy.typing import NDArray
 from . import _native
 
 
-def add_colour_noise(rgb: NDArray[np.uint8], *, seed: int, mean: float, stddev: float) -> None:
+def add_color_noise(rgb: NDArray[np.uint8], *, seed: int, mean: float, stddev: float) -> None:
     """Add Gaussian noise to an image in place, equal on all channels of a pixel, as in Gazebo's shader.
 
     Args:
         rgb: (height, width, 3)
         seed: 0 to 2^64 − 1; gives the same noise on every machine.
-        mean: 1 is the difference of black and white.
-        stddev: in the same unit.
+        mean: mean noise; 1 is the difference of black and white.
+        stddev: standard deviation, in the same unit.
     """
-    _native.add_colour_noise(rgb, seed=seed, mean=mean, stddev=stddev)
+    _native.add_color_noise(rgb, seed=seed, mean=mean, stddev=stddev)
 
 
 def add_depth_noise(depths: NDArray[np.float32], *, seed: int, mean: float, stddev: float) -> None:
-    """Add Gaussian noise to (height, width) depths [m] in place; see `add_colour_noise`."""
+    """Add Gaussian noise to (height, width) depths [m] in place; see `add_color_noise`."""
     _native.add_depth_noise(depths, seed=seed, mean=mean, stddev=stddev)
 
 
@@ -45,10 +45,10 @@ def clip_depths(
     return clipped
 
 
-def coloured_points(
+def colored_points(
     depth: NDArray[np.float32], rgb: NDArray[np.uint8], right: NDArray[np.float32], down: NDArray[np.float32]
 ) -> NDArray[np.float32]:
-    """Return a coloured point per pixel: (height, width, 4) x, y, z in the optical frame [m], and the colour packed in
+    """Return a colored point per pixel: (height, width, 4) x, y, z in the optical frame [m], and the color packed in
     a float.
 
     Args:

@@ -1,4 +1,4 @@
-"""Renderer interface: poses in, images out. Implementations live with their engines."""
+"""Renderer interface: poses in, images out."""
 
 import math
 from collections.abc import Sequence
@@ -20,7 +20,7 @@ class Intrinsics(Struct, frozen=True, kw_only=True):
     width_px: int
     height_px: int
     horizontal_fov_rad: float
-    """Less than pi for rendering; a wide-angle image is composed of several."""
+    """Less than pi for rendering; a wide-angle image is composed of several images."""
     near_m: float = 0.1
     far_m: float = 100.0
 
@@ -28,7 +28,7 @@ class Intrinsics(Struct, frozen=True, kw_only=True):
         """Validate the values.
 
         Raises:
-            ValueError: with the reason.
+            ValueError: a value is out of range.
         """
         if not (1 <= self.width_px <= _LARGEST and 1 <= self.height_px <= _LARGEST):
             size = f"{self.width_px} x {self.height_px}"
@@ -59,7 +59,7 @@ def size_of(views: Sequence[tuple[Pose, Intrinsics]]) -> tuple[int, int]:
     """Return the common height and width of views [px].
 
     Raises:
-        ValueError: there are none, or their sizes differ.
+        ValueError: there are no views, or their sizes differ.
     """
     sizes = {(lens.height_px, lens.width_px) for _, lens in views}
     if len(sizes) != 1:
@@ -93,6 +93,6 @@ class Renderer(Protocol):
             One image per view, in order.
 
         Raises:
-            ValueError: there are none, or their sizes differ.
+            ValueError: there are no views, or their sizes differ.
         """
         ...

@@ -29,9 +29,9 @@ class Shape(Struct, frozen=True, kw_only=True):
     geometry: ShapeGeometry
     body_from_shape: Pose = Pose()
     rgba: Rgba = (0.7, 0.7, 0.7, 1.0)
-    """Diffuse colour and opacity."""
+    """Diffuse color and opacity."""
     ambient: Rgba | None = None
-    """Ambient colour; None: `rgba`."""
+    """Ambient color; None: `rgba`."""
     specular: Rgba = (0.0, 0.0, 0.0, 1.0)
     shininess: float = 16.0
     """Phong exponent."""
@@ -103,7 +103,7 @@ class SceneSkin(Struct, frozen=True, eq=False, kw_only=True):
 
     actor: str
     body: int
-    """Index of the body in whose frame it is animated."""
+    """Index of the body that is the frame of its animation."""
     first: int
     """Index of its first shape; the others follow."""
     rows: tuple[NDArray[np.intp], ...]
@@ -123,7 +123,7 @@ class Scene(Struct, frozen=True, kw_only=True):
     ambient: Rgba = (0.4, 0.4, 0.4, 1.0)
     background: Rgba = (0.7, 0.7, 0.7, 1.0)
     sky: tuple[Rgba, Rgba] | None = None
-    """Colours at the horizon and overhead, which replace the background."""
+    """Colors at the horizon and overhead, which replace the background."""
     fog: Fog = Fog()
 
     @property

@@ -52,12 +52,12 @@ def _painted(
         if isinstance(image, str):
             report.warn(at, f"heightmap texture {layer.diffuse.name} cannot be read: {image}; the layer is left out")
             continue
-        colours = _repeated(image, layer.size, size)
+        colors = _repeated(image, layer.size, size)
         if picture is None:
-            picture = colours
+            picture = colors
             continue
-        share = np.clip((above - layer.from_height) / max(layer.fade, 1e-6), 0.0, 1.0)
-        picture = np.asarray(picture + share * (colours - picture), dtype=np.float32)
+        weight = np.clip((above - layer.from_height) / max(layer.fade, 1e-6), 0.0, 1.0)
+        picture = np.asarray(picture + weight * (colors - picture), dtype=np.float32)
     if picture is None:
         return None
     file = BytesIO()

@@ -27,12 +27,12 @@ def load_texture(texture: Texture) -> NDArray[np.uint8] | str:
             if max(image.size) > LARGEST_TEXTURE_PX:
                 image.thumbnail((LARGEST_TEXTURE_PX, LARGEST_TEXTURE_PX))
             return np.ascontiguousarray(np.asarray(image.convert("RGB")))
-    except Exception as error:  # every decoder behind Pillow fails in its own way
+    except Exception as error:  # every decoder of Pillow raises its own exceptions
         return decoding_error(error)
 
 
 def report_unreadable_textures(scene: Scene, report: Diagnostics) -> None:
-    """Warn of the textures that are not drawn, at their file; of one within a mesh's file, at its visual."""
+    """Warn of textures that cannot be drawn, at their file, or at the visual for a texture inside a mesh file."""
     for shape in scene.shapes:
         if shape.texture is None:
             continue
@@ -40,4 +40,4 @@ def report_unreadable_textures(scene: Scene, report: Diagnostics) -> None:
         if isinstance(image, str):
             visual = f"{scene.bodies[shape.body]}::{shape.name}"
             at = Source(visual if isinstance(shape.texture, bytes) else str(shape.texture))
-            report.warn(at, f"the texture cannot be read: {image}; a plain colour is drawn")
+            report.warn(at, f"the texture cannot be read: {image}; a plain color is drawn")

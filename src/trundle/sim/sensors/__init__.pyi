@@ -5,7 +5,7 @@ from .air import (
 )
 from .altimeter import AltimeterReading as AltimeterReading, AltimeterSensor as AltimeterSensor
 from .cameras.bounding_box import BoundingBoxCameraSensor as BoundingBoxCameraSensor
-from .cameras.camera import CameraReading as CameraReading, CameraSensor as CameraSensor, SeenBox as SeenBox
+from .cameras.camera import CameraReading as CameraReading, CameraSensor as CameraSensor, DetectedBox as DetectedBox
 from .cameras.camera_handle import CameraHandle as CameraHandle
 from .cameras.camera_image import CameraImage as CameraImage
 from .cameras.depth import DepthCameraSensor as DepthCameraSensor

@@ -81,7 +81,7 @@ class AirSpeedSensor(_PressureSensor):
     def pressure(self, snapshot: Snapshot) -> float:
         """Return the dynamic pressure without noise [Pa]."""
         world_from_sensor = self.world_from_sensor(snapshot)
-        vx, vy, vz = (own - air for own, air in zip(self.velocity(snapshot), self.wind, strict=True))
+        vx, vy, vz = (motion - wind for motion, wind in zip(self.velocity(snapshot), self.wind, strict=True))
         ahead, _, _ = Pose(quaternion=world_from_sensor.quaternion).inverse().transform_vector((vx, vy, vz))
         return 0.5 * density_at(self.air, world_from_sensor.position[2]) * ahead * abs(ahead)
 
@@ -95,11 +95,11 @@ def _geopotential(height: float) -> float:
 def pressure_at(air: Atmosphere, height: float) -> float:
     """Return the pressure [Pa] at a height [m], by the barometric formula for a constant temperature gradient."""
     if air.temperature_gradient == 0.0:
-        thinner = -_GRAVITY * _MOLAR_MASS * height / (_GAS * air.temperature)
-        return air.pressure * math.exp(min(thinner, _DENSEST))
+        log_ratio = -_GRAVITY * _MOLAR_MASS * height / (_GAS * air.temperature)
+        return air.pressure * math.exp(min(log_ratio, _DENSEST))
     exponent = -_GRAVITY * _MOLAR_MASS / (_GAS * air.temperature_gradient)
-    thinner = exponent * math.log(_temperature_at(air, height) / air.temperature)
-    return air.pressure * math.exp(min(thinner, _DENSEST))
+    log_ratio = exponent * math.log(_temperature_at(air, height) / air.temperature)
+    return air.pressure * math.exp(min(log_ratio, _DENSEST))
 
 
 def density_at(air: Atmosphere, height: float) -> float:

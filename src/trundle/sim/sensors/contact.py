@@ -12,7 +12,7 @@ from trundle.spatial import Pose, Vector3, Wrench
 from .live_sensor import LiveSensor, SensorMount
 
 MAX_STEPS = 100
-"""Most steps in one reading, the latest; Gazebo's limit too."""
+"""Most steps in one reading, the latest; as in Gazebo."""
 
 
 class ContactRecord(Struct, frozen=True, kw_only=True):
@@ -20,7 +20,7 @@ class ContactRecord(Struct, frozen=True, kw_only=True):
 
     time_ns: int
     """Time of the step."""
-    own: str
+    collision: str
     """`model::link::collision` of the sensor."""
     other: str
     """`model::link::collision` in contact with it."""
@@ -52,8 +52,8 @@ class ContactSensor(LiveSensor[ContactReading]):
         """Mount a contact sensor; see `LiveSensor`."""
         super().__init__(mount)
         names = mount.sensor.contact_collisions or tuple(collision.name for collision in mount.link.collisions)
-        self._own = frozenset(f"{mount.model.name}::{mount.link.name}::{name}" for name in names)
-        self._recorder = ContactRecorder(self._own, max_steps=MAX_STEPS)
+        self._collisions = frozenset(f"{mount.model.name}::{mount.link.name}::{name}" for name in names)
+        self._recorder = ContactRecorder(self._collisions, max_steps=MAX_STEPS)
 
     def start(self, simulation: Simulation) -> None:
         """Register the recorder, and a hook that reports at the sensor's rate."""
@@ -61,12 +61,12 @@ class ContactSensor(LiveSensor[ContactReading]):
         super().start(simulation)
 
     def stop(self, simulation: Simulation) -> None:
-        """Remove both."""
+        """Remove the recorder and the hook."""
         simulation.remove_recorder(self._recorder)
         super().stop(simulation)
 
     def measure(self, snapshot: Snapshot) -> ContactReading:
-        """Return the contacts of the last period; older ones fell into a time without listeners."""
+        """Return the contacts of the last period; older ones were recorded without listeners."""
         now_ns, period_ns = snapshot.time_ns, max(self.period_ns, 1)
         recorded = self._recorder.pop(after_ns=now_ns - period_ns, until_ns=now_ns)
         return ContactReading(
@@ -76,7 +76,7 @@ class ContactSensor(LiveSensor[ContactReading]):
         )
 
     def _records(self, times_ns: list[int], contacts: Contacts) -> Iterator[ContactRecord]:
-        """Yield the contacts from the side of the sensor's link."""
+        """Yield the contacts as seen from the sensor's link."""
         sides = {pair: self._side(pair) for pair in set(contacts.collisions)}
         pairs = [sides[pair] for pair in contacts.collisions]
         signs = np.array([sign for _, _, sign in pairs]).reshape(-1, 1)
@@ -88,12 +88,12 @@ class ContactSensor(LiveSensor[ContactReading]):
             signs * contacts.torques,
         )
         columns = [column.tolist() for column in columns]
-        for time_ns, (own, other, _), position, normal, depth, force, torque in zip(
+        for time_ns, (collision, other, _), position, normal, depth, force, torque in zip(
             times_ns, pairs, *columns, strict=True
         ):
             yield ContactRecord(
                 time_ns=time_ns,
-                own=own,
+                collision=collision,
                 other=other,
                 position=tuple(position),
                 normal=tuple(normal),
@@ -102,6 +102,6 @@ class ContactSensor(LiveSensor[ContactReading]):
             )
 
     def _side(self, collisions: tuple[str, str]) -> tuple[str, str, float]:
-        """Return the sensor's collision, the other one, and the sign of what acts on the former."""
+        """Return the sensor's collision, the other one, and the sign of the force on the sensor's."""
         first, second = collisions
-        return (second, first, 1.0) if second in self._own else (first, second, -1.0)
+        return (second, first, 1.0) if second in self._collisions else (first, second, -1.0)

@@ -17,7 +17,7 @@ class ForceTorqueReading(Struct, frozen=True, kw_only=True):
 
     time_ns: int
     wrench: Wrench
-    """Wrench in the frame that the sensor names."""
+    """Wrench in the frame set in the sensor."""
 
 
 class ForceTorqueSensor(LiveSensor[ForceTorqueReading]):
@@ -30,8 +30,8 @@ class ForceTorqueSensor(LiveSensor[ForceTorqueReading]):
 
         Args:
             mount: model, link and sensor.
-            joint: the measured joint.
-            parent: the joint's parent link; None: the world.
+            joint: measured joint.
+            parent: parent link of the joint; None: the world.
             reaction: returns the wrench of the parent on the child at the joint, world axes.
         """
         super().__init__(mount)
@@ -41,8 +41,8 @@ class ForceTorqueSensor(LiveSensor[ForceTorqueReading]):
         self.link_from_sensor = joint.child_from_joint @ mount.sensor.link_from_sensor
         self._parent = parent
         self._reaction = reaction
-        self._forces = [NoiseSource(each, mount.random) for each in self.settings.force]
-        self._torques = [NoiseSource(each, mount.random) for each in self.settings.torque]
+        self._forces = [NoiseSource(noise, mount.random) for noise in self.settings.force]
+        self._torques = [NoiseSource(noise, mount.random) for noise in self.settings.torque]
 
     def measure(self, snapshot: Snapshot) -> ForceTorqueReading:
         """Measure the joint's wrench."""

@@ -47,26 +47,26 @@ class GpsSensor(LiveSensor[GpsReading]):
         self.variances = (_variance(noise.horizontal), _variance(noise.vertical))
         """Horizontal and vertical variance [m²]."""
         self._origin = origin
-        self._noise = [NoiseSource(each, mount.random) for each in (noise.horizontal, noise.horizontal, noise.vertical)]
+        self._noise = [NoiseSource(axis, mount.random) for axis in (noise.horizontal, noise.horizontal, noise.vertical)]
 
     def measure(self, snapshot: Snapshot) -> GpsReading:
         """Measure a position fix."""
-        place = self.world_from_link(snapshot).transform_point(self.sensor.link_from_sensor.position)
+        position = self.world_from_link(snapshot).transform_point(self.sensor.link_from_sensor.position)
         x, y, z = (
-            min(max(value, -_FARTHEST), _FARTHEST) for value in apply_noise(place, self._noise, snapshot.time_ns)
+            min(max(value, -_FARTHEST), _FARTHEST) for value in apply_noise(position, self._noise, snapshot.time_ns)
         )
         latitude, longitude, altitude = geodetic(self._origin, (x, y, z))
         return GpsReading(time_ns=snapshot.time_ns, latitude_deg=latitude, longitude_deg=longitude, altitude=altitude)
 
 
-def geodetic(origin: SphericalCoordinates, place: Vector3) -> Vector3:
+def geodetic(origin: SphericalCoordinates, position: Vector3) -> Vector3:
     """Return latitude [deg], longitude [deg] and height above the WGS84 ellipsoid [m] of a point in the world [m].
 
     The world's tangent plane at its origin is rotated by the heading, transformed to ECEF and converted by Bowring's
     formula, accurate to a micrometre near the ground.
     """
     heading = math.radians(origin.heading_deg)
-    x, y, up = place
+    x, y, up = position
     east = x * math.cos(heading) - y * math.sin(heading)
     north = x * math.sin(heading) + y * math.cos(heading)
     latitude, longitude = math.radians(origin.latitude_deg), math.radians(origin.longitude_deg)

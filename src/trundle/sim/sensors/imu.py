@@ -15,7 +15,7 @@ class ImuReading(Struct, frozen=True, kw_only=True):
 
     time_ns: int
     orientation: Quaternion
-    """reference_from_sensor, wxyz; the reference is the sensor's initial frame unless the file names another."""
+    """reference_from_sensor, wxyz; the reference is the sensor's initial frame unless the file sets another."""
     angular_velocity: Vector3
     """In the sensor's frame [rad/s]."""
     linear_acceleration: Vector3
@@ -43,8 +43,8 @@ class ImuSensor(LiveSensor[ImuReading]):
         noise = mount.sensor.imu or ImuNoise()
         self._gravity = gravity
         self._reference_from_world = reference_from_world
-        self._rates = [NoiseSource(each, mount.random) for each in noise.angular_velocity]
-        self._accelerations = [NoiseSource(each, mount.random) for each in noise.linear_acceleration]
+        self._rates = [NoiseSource(axis, mount.random) for axis in noise.angular_velocity]
+        self._accelerations = [NoiseSource(axis, mount.random) for axis in noise.linear_acceleration]
         self._link_from_com = mount.link.inertial.link_from_com.position
         self._last_velocity: tuple[int, Vector3, Vector3] | None = None
         """Time, velocity of the centre of mass and angular velocity at the last reading, world axes."""
@@ -72,7 +72,7 @@ class ImuSensor(LiveSensor[ImuReading]):
         )
 
     def _specific_force(self, snapshot: Snapshot, velocity: Vector3, angular_velocity: Vector3) -> Vector3:
-        """Return acceleration minus gravity, world axes; `velocity` is that of the link's origin."""
+        """Return acceleration minus gravity, world axes; `velocity` is the velocity of the link's origin."""
         world_from_link = self.world_from_link(snapshot)
         com = world_from_link.transform_vector(self._link_from_com)
         speed = _sum(velocity, cross(angular_velocity, com))
@@ -93,7 +93,7 @@ def _sum(*vectors: Vector3) -> Vector3:
     return (x, y, z)
 
 
-def _difference(one: Vector3, other: Vector3, scale: float = 1.0) -> Vector3:
-    """Return (one − other) / scale."""
-    x, y, z = ((a - b) / scale for a, b in zip(one, other, strict=True))
+def _difference(first: Vector3, second: Vector3, scale: float = 1.0) -> Vector3:
+    """Return (first − second) / scale."""
+    x, y, z = ((a - b) / scale for a, b in zip(first, second, strict=True))
     return (x, y, z)

@@ -14,10 +14,10 @@ def reference_from_world(
     """Return the rotation from the world to the reference frame of an IMU's orientation.
 
     Args:
-        reference: as described; None: the sensor's initial frame, as in Gazebo.
+        reference: reference in the file; None: the sensor's initial frame, as in Gazebo.
         at_start: initial world_from_sensor.
-        gravity: the world's gravity [m/s²].
-        heading_rad: from east to the world's x axis.
+        gravity: gravity of the world [m/s²].
+        heading_rad: angle from east to the world's x axis.
     """
     start = Pose(quaternion=at_start.quaternion)
     if reference is None:

@@ -19,9 +19,9 @@ def mount_sensors(
     """Create every sensor other than cameras, in file order, each with its own random numbers.
 
     Args:
-        simulation: with its sensors; its seed is that of the noise.
-        model: only the sensors of this model.
-        ray_scene: shared with existing sensors.
+        simulation: simulation with the sensors; its seed is the noise's.
+        model: model whose sensors are created; None: all models.
+        ray_scene: scene shared with existing sensors.
     """
     if not any(map(has_instruments, simulation.world.models)):
         return []

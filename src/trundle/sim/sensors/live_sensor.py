@@ -51,11 +51,11 @@ class SensorMount(Struct, frozen=True, eq=False, dict=True):
 class LiveSensor(Generic[Reading]):
     """Hook that measures when it is due and a listener is active; otherwise it costs nothing.
 
-    An always-on sensor keeps its schedule without listeners: it counts what it does not measure.
+    An always-on sensor keeps its schedule without listeners: it counts readings that it does not measure.
     """
 
     has_history: ClassVar[bool] = False
-    """A reading depends on what was before it, and so on measuring all the time."""
+    """True if a reading depends on earlier states, so that the sensor measures continuously."""
 
     def __init__(self, mount: SensorMount, *, default_rate_hz: float | None = None) -> None:
         """Mount a sensor.
@@ -70,9 +70,9 @@ class LiveSensor(Generic[Reading]):
         self._index = mount.link_index
         self._handle: LinkHandle | None = None
         self.parent_name = mount.link.name
-        """Name in its topics: its link, or the joint that it measures."""
+        """Name in its topics: its link, or the measured joint."""
         self.topics: dict[str, str] = {}
-        """Topics that its readings are published on, the main one first, each with its message type."""
+        """Topics of its readings, the main one first, each with its message type."""
         rate = mount.sensor.update_rate_hz or default_rate_hz
         self.period_ns = 0 if rate is None else _period_ns(rate)
         self._simulation: Simulation | None = None
@@ -129,7 +129,7 @@ class LiveSensor(Generic[Reading]):
     def listen(self, call: Callable[[Reading], None], *, enabled: Callable[[], bool] = lambda: True) -> None:
         """Call a function with each reading while `enabled` returns True; nothing is measured without listeners.
 
-        A function that listens already keeps its place.
+        A function that listens already is not added again.
         """
         if all(listener.call != call for listener in self._listeners):
             self._listeners.append(_Listener(call, enabled))
@@ -160,7 +160,7 @@ class LiveSensor(Generic[Reading]):
             profiler.lap(StridePart.LISTENERS)
 
     def skip(self) -> None:
-        """Leave out a reading that is due and has no listener."""
+        """Skip a due reading without listeners."""
 
     def measure(self, snapshot: Snapshot) -> Reading:
         """Return a reading of the snapshot."""

@@ -29,7 +29,7 @@ class ModelShapes(Struct, frozen=True, eq=False, kw_only=True):
     """Link index → (n, 3) corners of the link's collision shapes in its frame [m]."""
 
 
-class SeenModel(Struct, frozen=True, kw_only=True):
+class VisibleModel(Struct, frozen=True, kw_only=True):
     """Model in view."""
 
     name: str
@@ -40,7 +40,7 @@ class LogicalCameraReading(Struct, frozen=True, kw_only=True):
     """Models in view."""
 
     time_ns: int
-    models: tuple[SeenModel, ...]
+    models: tuple[VisibleModel, ...]
 
 
 class LogicalCameraSensor(LiveSensor[LogicalCameraReading]):
@@ -64,18 +64,18 @@ class LogicalCameraSensor(LiveSensor[LogicalCameraReading]):
     def measure(self, snapshot: Snapshot) -> LogicalCameraReading:
         """List the models in view."""
         camera_from_world = self.world_from_sensor(snapshot).inverse()
-        seen: list[SeenModel] = []
+        models: list[VisibleModel] = []
         for body in self._bodies():
             if body.name == self.model.name or not body.corners:
                 continue
             points = np.concatenate(
-                [transform_points(pose_from_row(snapshot.poses[i]), at) for i, at in body.corners.items()]
+                [transform_points(pose_from_row(snapshot.poses[i]), corners) for i, corners in body.corners.items()]
             )
-            if not self._intersects(transform_points(camera_from_world, _box(points))):
+            if not self._intersects(transform_points(camera_from_world, _bounding_box(points))):
                 continue
             pose = camera_from_world @ pose_from_row(snapshot.poses[body.base_index]) @ body.base_from_model
-            seen.append(SeenModel(name=body.name, camera_from_model=pose))
-        return LogicalCameraReading(time_ns=snapshot.time_ns, models=tuple(seen))
+            models.append(VisibleModel(name=body.name, camera_from_model=pose))
+        return LogicalCameraReading(time_ns=snapshot.time_ns, models=tuple(models))
 
     def _intersects(self, corners: _Points) -> bool:
         """True if no frustum plane has all corners of a box outside."""
@@ -84,7 +84,7 @@ class LogicalCameraSensor(LiveSensor[LogicalCameraReading]):
 
 
 def _frustum_planes(settings: LogicalCamera) -> _Points:
-    """Return (6, 4) planes, normal and least n · p of points inside: near, far, left, right, top and bottom."""
+    """Return (6, 4) planes, normal and smallest n · p of points inside: near, far, left, right, top and bottom."""
     across = settings.horizontal_fov_rad / 2
     along = math.atan(math.tan(across) / settings.aspect_ratio)
     sides = [
@@ -96,7 +96,7 @@ def _frustum_planes(settings: LogicalCamera) -> _Points:
     return np.array([(1.0, 0.0, 0.0, settings.near_m), (-1.0, 0.0, 0.0, -settings.far_m), *sides])
 
 
-def _box(points: _Points) -> _Points:
+def _bounding_box(points: _Points) -> _Points:
     """Return the (8, 3) corners of the axis-aligned box around points."""
     low, high = points.min(axis=0), points.max(axis=0)
     return np.array([np.where(mask, high, low) for mask in np.ndindex(2, 2, 2)])

@@ -31,10 +31,10 @@ class MagnetometerSensor(LiveSensor[MagnetometerReading]):
         super().__init__(mount)
         assert isinstance(mount.sensor.instrument, Magnetometer), f"{mount.sensor.name!r} is no magnetometer"
         self._field = world_field
-        self._noise = [NoiseSource(each, mount.random) for each in mount.sensor.instrument.field]
+        self._noise = [NoiseSource(axis, mount.random) for axis in mount.sensor.instrument.field]
 
     def measure(self, snapshot: Snapshot) -> MagnetometerReading:
         """Measure the field."""
         world_from_sensor = self.world_from_link(snapshot) @ self.sensor.link_from_sensor
-        own = Pose(quaternion=world_from_sensor.quaternion).inverse().transform_vector(self._field)
-        return MagnetometerReading(time_ns=snapshot.time_ns, field=apply_noise(own, self._noise, snapshot.time_ns))
+        field = Pose(quaternion=world_from_sensor.quaternion).inverse().transform_vector(self._field)
+        return MagnetometerReading(time_ns=snapshot.time_ns, field=apply_noise(field, self._noise, snapshot.time_ns))

@@ -50,7 +50,7 @@ class _MountContext(Struct, frozen=True, eq=False):
 
     @property
     def world(self) -> World:
-        """World that is simulated."""
+        """Simulated world."""
         return self.simulation.world
 
 
@@ -62,21 +62,21 @@ def mount_instruments(
     ray_scene = ray_scene or RayScene(simulation)
     index = number = 0
     for owner in simulation.world.models:
-        wanted = model in (None, owner.name)
+        is_selected = model in (None, owner.name)
         for link in owner.links:
             for sensor in link.sensors:
                 number += 1
-                make = MAKERS.get(sensor.type)
-                if sensor.type == "force_torque" and wanted:
-                    what = f"sensor {sensor.name!r}: force_torque sensors measure joints; not simulated on a link"
-                    simulation.report.warn(sensor.at, what)
-                if make is not None and wanted:
+                create = MAKERS.get(sensor.type)
+                if sensor.type == "force_torque" and is_selected:
+                    problem = f"sensor {sensor.name!r}: force_torque sensors measure joints; not simulated on a link"
+                    simulation.report.warn(sensor.at, problem)
+                if create is not None and is_selected:
                     mount = SensorMount(owner, link, sensor, index, (simulation.seed, number))
-                    made = make(_MountContext(simulation, ray_scene, mount))
-                    made.attach_to(simulation[owner.name].link(link.name))
-                    mounted.append(made)
+                    instrument = create(_MountContext(simulation, ray_scene, mount))
+                    instrument.attach_to(simulation[owner.name].link(link.name))
+                    mounted.append(instrument)
             index += 1
-        if wanted:
+        if is_selected:
             mounted += _on_joints(simulation, owner, first=index - len(owner.links))
     return mounted
 
@@ -88,12 +88,12 @@ def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[Inst
     for number, joint in enumerate(model.joints):
         for sensor in joint.sensors:
             if sensor.force_torque is None or joint.child not in indices:
-                what = f"sensor {sensor.name!r}: {sensor.type} sensors on joints are not simulated yet"
-                simulation.report.warn(sensor.at, what)
+                problem = f"sensor {sensor.name!r}: {sensor.type} sensors on joints are not simulated yet"
+                simulation.report.warn(sensor.at, problem)
                 continue
             robot = simulation[model.name]
             handle = robot.joint(joint.name)
-            made = ForceTorqueSensor(
+            instrument = ForceTorqueSensor(
                 SensorMount(
                     model, model.link(joint.child), sensor, indices[joint.child], (simulation.seed, first, number)
                 ),
@@ -101,70 +101,74 @@ def _on_joints(simulation: Simulation, model: Model, *, first: int) -> list[Inst
                 parent=robot.link(joint.parent) if joint.parent in indices else None,
                 reaction=lambda handle=handle: handle.reaction,
             )
-            made.attach_to(robot.link(joint.child))
-            mounted.append(made)
+            instrument.attach_to(robot.link(joint.child))
+            mounted.append(instrument)
     return mounted
 
 
-def _air_speed(at: _MountContext) -> AirSpeedSensor:
-    made = AirSpeedSensor(at.mount, air=at.world.atmosphere)
-    made.wind = at.world.wind
-    return made
+def _air_speed(context: _MountContext) -> AirSpeedSensor:
+    sensor = AirSpeedSensor(context.mount, air=context.world.atmosphere)
+    sensor.wind = context.world.wind
+    return sensor
 
 
-def _imu(at: _MountContext) -> ImuSensor:
-    settings = at.mount.sensor.imu
+def _imu(context: _MountContext) -> ImuSensor:
+    settings = context.mount.sensor.imu
     reference = reference_from_world(
         None if settings is None else settings.reference,
-        at_start=at.mount.initial_pose(),
-        gravity=at.world.physics.gravity,
-        heading_rad=math.radians(at.world.spherical_coordinates.heading_deg),
+        at_start=context.mount.initial_pose(),
+        gravity=context.world.physics.gravity,
+        heading_rad=math.radians(context.world.spherical_coordinates.heading_deg),
     )
-    return ImuSensor(at.mount, gravity=at.world.physics.gravity, reference_from_world=reference)
+    return ImuSensor(context.mount, gravity=context.world.physics.gravity, reference_from_world=reference)
 
 
-def _range(at: _MountContext) -> RangeSensor:
-    sensor = at.mount.sensor
+def _range(context: _MountContext) -> RangeSensor:
+    sensor = context.mount.sensor
     scan = sensor.scan or RangeScan()
-    lit = at.ray_scene.visual_rays(scan.min_m, scan.visibility_mask)
-    rays = lit if sensor.type.startswith("gpu_") else at.ray_scene.rays
-    return RangeSensor(at.mount, rays=rays)
+    visual_rays = context.ray_scene.visual_rays(scan.min_m, scan.visibility_mask)
+    rays = visual_rays if sensor.type.startswith("gpu_") else context.ray_scene.rays
+    return RangeSensor(context.mount, rays=rays)
 
 
-def _wireless_receiver(at: _MountContext) -> WirelessSensor:
-    around = at.ray_scene
-    return WirelessSensor(at.mount, transmitters=lambda: around.transmitters("wireless_transmitter"), rays=around.rays)
+def _wireless_receiver(context: _MountContext) -> WirelessSensor:
+    scene = context.ray_scene
+    return WirelessSensor(
+        context.mount, transmitters=lambda: scene.transmitters("wireless_transmitter"), rays=scene.rays
+    )
 
 
-def _contact(at: _MountContext) -> ContactSensor:
-    sensor, link = at.mount.sensor, at.mount.link
-    there = [collision.name for collision in link.collisions]
+def _contact(context: _MountContext) -> ContactSensor:
+    sensor, link = context.mount.sensor, context.mount.link
+    names = [collision.name for collision in link.collisions]
     for name in sensor.contact_collisions or ():
-        if name not in there:
-            what = f"no collision {name!r} on link {link.name!r}; collisions here: {', '.join(there) or 'none'}"
-            at.simulation.report.warn(sensor.at, f"sensor {sensor.name!r}: {what}")
-    return ContactSensor(at.mount)
+        if name not in names:
+            problem = f"no collision {name!r} on link {link.name!r}; collisions here: {', '.join(names) or 'none'}"
+            context.simulation.report.warn(sensor.at, f"sensor {sensor.name!r}: {problem}")
+    return ContactSensor(context.mount)
 
 
-def _gps(at: _MountContext) -> GpsSensor:
-    return GpsSensor(at.mount, origin=at.world.spherical_coordinates)
+def _gps(context: _MountContext) -> GpsSensor:
+    return GpsSensor(context.mount, origin=context.world.spherical_coordinates)
 
 
 MAKERS: Mapping[str, Callable[[_MountContext], InstrumentSensor]] = {
-    "air_pressure": lambda at: AirPressureSensor(at.mount, air=at.world.atmosphere),
+    "air_pressure": lambda context: AirPressureSensor(context.mount, air=context.world.atmosphere),
     "air_speed": _air_speed,
-    "altimeter": lambda at: AltimeterSensor(at.mount, start_height=at.mount.initial_pose().position[2]),
+    "altimeter": lambda context: AltimeterSensor(context.mount, start_height=context.mount.initial_pose().position[2]),
     "contact": _contact,
     "gps": _gps,
     "gpu_lidar": _range,
     "gpu_ray": _range,
     "imu": _imu,
     "lidar": _range,
-    "logical_camera": lambda at: LogicalCameraSensor(at.mount, bodies=lambda: at.ray_scene.models),
-    "magnetometer": lambda at: MagnetometerSensor(at.mount, world_field=at.world.magnetic_field),
+    "logical_camera": lambda context: LogicalCameraSensor(context.mount, bodies=lambda: context.ray_scene.models),
+    "magnetometer": lambda context: MagnetometerSensor(context.mount, world_field=context.world.magnetic_field),
     "navsat": _gps,
     "ray": _range,
-    "rfid": lambda at: RfidSensor(at.mount, tags=lambda: at.ray_scene.transmitters("rfidtag")),
-    "sonar": lambda at: SonarSensor(at.mount, rays=at.ray_scene.rays_excluding(at.mount.model, at.mount.link)),
+    "rfid": lambda context: RfidSensor(context.mount, tags=lambda: context.ray_scene.transmitters("rfidtag")),
+    "sonar": lambda context: SonarSensor(
+        context.mount, rays=context.ray_scene.rays_excluding(context.mount.model, context.mount.link)
+    ),
     "wireless_receiver": _wireless_receiver,
 }

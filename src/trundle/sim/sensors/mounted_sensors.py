@@ -10,7 +10,7 @@ from trundle.sim.simulation import ModelHandle, Simulation
 from .cameras.mount import mount_cameras
 from .instruments import has_instruments, mount_sensors
 
-if TYPE_CHECKING:  # a world without cameras or without lidars starts without theirs
+if TYPE_CHECKING:  # worlds without cameras or lidars do not import their modules
     from trundle.sim.render import Renderer, Scene
 
     from .cameras.camera import CameraSensor
@@ -26,22 +26,22 @@ _Sensor = TypeVar("_Sensor", bound="AnySensor")
 
 
 class MountedSensors:
-    """Sensors of one simulation; `update` follows models that were spawned or deleted, as each lookup does."""
+    """Sensors of one simulation; `update`, and each lookup, follows spawned and deleted models."""
 
     def __init__(self, simulation: Simulation, make: "Callable[[Scene], Renderer]") -> None:
         """Mount the existing sensors.
 
         Args:
-            simulation: with its sensors.
-            make: creates the renderer that cameras share.
+            simulation: simulation with the sensors.
+            make: creates the renderer shared by cameras.
         """
         self._simulation = simulation
         self._make = make
         self._cameras: list[tuple[ModelHandle, CameraSensor]] = []
         self._instruments: list[tuple[ModelHandle, InstrumentSensor]] = []
-        self._known: list[ModelHandle] = []
+        self._models: list[ModelHandle] = []
         self._started: dict[int, AnySensor] = {}
-        """By identity."""
+        """Started sensors, by identity."""
         self._handles: list[tuple[AnySensor, SensorHandle]] = []
         self.update()
 
@@ -78,8 +78,8 @@ class MountedSensors:
         from .sensor_handle import SensorHandle
 
         full, sensor = _find(name, self._all(), "sensor")
-        for each, handle in self._handles:
-            if each is sensor:
+        for handled, handle in self._handles:
+            if handled is sensor:
                 return handle
         if sensor.has_history:
             self._start(sensor)
@@ -92,7 +92,7 @@ class MountedSensors:
         from .range import RangeSensor
 
         self.update()
-        lidars = [(model, each) for model, each in self._instruments if isinstance(each, RangeSensor)]
+        lidars = [(model, sensor) for model, sensor in self._instruments if isinstance(sensor, RangeSensor)]
         return _find(name, _by_name(lidars), "lidar")[1]
 
     def names(self) -> tuple[str, ...]:
@@ -106,24 +106,24 @@ class MountedSensors:
 
     def update(self) -> None:
         """Mount the sensors of spawned models; stop and drop those of deleted ones."""
-        known = set(map(id, self._known))
-        spawned = [model for model in self._simulation.models if id(model) not in known]
-        if len(spawned) > 1 and not known:
+        mounted = set(map(id, self._models))
+        spawned = [model for model in self._simulation.models if id(model) not in mounted]
+        if len(spawned) > 1 and not mounted:
             self._mount({model.name: model for model in spawned}, None)
         else:
             for model in spawned:
                 self._mount({model.name: model}, model.name)
-        self._known = list(self._simulation.models)
+        self._models = list(self._simulation.models)
         self._cameras = self._remaining(self._cameras)
         self._instruments = self._remaining(self._instruments)
 
     def _remaining(self, mounted: "list[tuple[ModelHandle, _Sensor]]") -> "list[tuple[ModelHandle, _Sensor]]":
         """Stop the sensors of deleted models; return the others."""
-        known = set(map(id, self._known))
+        existing = set(map(id, self._models))
         for model, sensor in mounted:
-            if id(model) not in known and (started := self._started.pop(id(sensor), None)) is not None:
+            if id(model) not in existing and (started := self._started.pop(id(sensor), None)) is not None:
                 started.stop(self._simulation)
-        return [each for each in mounted if id(each[0]) in known]
+        return [(model, sensor) for model, sensor in mounted if id(model) in existing]
 
     def _start(self, sensor: "AnySensor") -> None:
         if id(sensor) not in self._started:
@@ -131,12 +131,12 @@ class MountedSensors:
             sensor.start(self._simulation)
 
     def _mount(self, models: Mapping[str, ModelHandle], name: str | None) -> None:
-        """Mount the sensors of models by name: of the one with this name, or of all."""
-        cameras = mount_cameras(self._simulation, self._make, model=name, beside=self.cameras)
+        """Mount the sensors of the model with a name, or of all models (None)."""
+        cameras = mount_cameras(self._simulation, self._make, model=name, existing=self.cameras)
         self._cameras += [(models[camera.model.name], camera) for camera in cameras]
         if any(has_instruments(model.model) for model in models.values()):
             instruments = mount_sensors(self._simulation, model=name, ray_scene=self._ray_scene)
-            self._instruments += [(models[each.model.name], each) for each in instruments]
+            self._instruments += [(models[instrument.model.name], instrument) for instrument in instruments]
 
     @cached_property
     def _ray_scene(self) -> "RayScene":
@@ -149,9 +149,9 @@ class MountedSensors:
         self.update()
         return {
             name: sensor
-            for model in self._known
+            for model in self._models
             for mounted in (self._cameras, self._instruments)
-            for name, sensor in _by_name([each for each in mounted if each[0] is model]).items()
+            for name, sensor in _by_name([(owner, sensor) for owner, sensor in mounted if owner is model]).items()
         }
 
 
@@ -163,12 +163,12 @@ def _find(name: str, named: "Mapping[str, _Sensor]", kind: str) -> "tuple[str, _
     """Return the sensor whose scoped name is `name` or ends in it, as Gazebo's SensorManager::GetSensor does.
 
     Raises:
-        UsageError: there is none, or there are several; with the names there are.
+        UsageError: no or several sensors match; the message lists the names.
     """
-    found = [full for full in named if full == name] or [full for full in named if full.endswith(f"::{name}")]
-    if len(found) == 1:
-        return found[0], named[found[0]]
-    names = ", ".join(map(repr, found or named)) or "none"
-    if found:
+    matches = [full for full in named if full == name] or [full for full in named if full.endswith(f"::{name}")]
+    if len(matches) == 1:
+        return matches[0], named[matches[0]]
+    names = ", ".join(map(repr, matches or named)) or "none"
+    if matches:
         raise UsageError(f"several {kind}s are called {name!r}; write one of {names}")
     raise UsageError(f"no {kind} {name!r}; there are: {names}")

@@ -39,10 +39,10 @@ class NoiseSource:
     def _wander(self, time_ns: int) -> None:
         """Advance the bias by the elapsed time with the exact Ornstein-Uhlenbeck step, as Gazebo does."""
         density, tau = self._noise.wander_density, self._noise.wander_time_s
-        then, self._last_ns = self._last_ns, time_ns
-        if not (density and tau) or then is None or time_ns <= then:
+        last_ns, self._last_ns = self._last_ns, time_ns
+        if not (density and tau) or last_ns is None or time_ns <= last_ns:
             return
-        elapsed = (time_ns - then) / NS_PER_S
+        elapsed = (time_ns - last_ns) / NS_PER_S
         spread = density * math.sqrt(-tau / 2.0 * math.expm1(-2.0 * elapsed / tau))
         self._bias = math.exp(-elapsed / tau) * self._bias + self._random.normal(0.0, spread)
 

@@ -28,7 +28,7 @@ class RangeReading(Struct, frozen=True, eq=False, kw_only=True):
 
 
 class RangeSensor(LiveSensor[RangeReading]):
-    """Ray sensor: casts against the collision shapes of other links; a GPU sensor, as Gazebo's, against all visuals."""
+    """Ray sensor: casts against collision shapes of other links; a GPU sensor, as in Gazebo, against all visuals."""
 
     def __init__(self, mount: SensorMount, *, rays: Rays) -> None:
         """Mount a ray sensor; see `LiveSensor`.
@@ -55,21 +55,21 @@ class RangeSensor(LiveSensor[RangeReading]):
         Args:
             world_from_link: pose of the carrying link.
             time_ns: simulation time.
-            noise: in place of the sensor's own.
+            noise: noise in place of the sensor's own.
         """
         scan = self.scan
         pose = world_from_link @ self.sensor.link_from_sensor
-        met = self._rays(pose.position, rotate_vectors(pose, self._directions), scan.max_m, self.link_index)
-        found, retros = met.distances, met.retros
-        far, near = found >= scan.max_m, found <= scan.min_m
+        hits = self._rays(pose.position, rotate_vectors(pose, self._directions), scan.max_m, self.link_index)
+        ranges, retros = hits.distances, hits.retros
+        far, near = ranges >= scan.max_m, ranges <= scan.min_m
         missed = far | near
         if not noise.is_silent:
-            seen = ~missed
-            noisy = noise.apply(found[seen], time_ns)
-            found[seen] = np.minimum(np.maximum(noisy, scan.min_m), scan.max_m)  # np.clip takes twice as long
-        found[far], found[near], retros[missed] = np.inf, -np.inf, 0.0
+            is_hit = ~missed
+            noisy = noise.apply(ranges[is_hit], time_ns)
+            ranges[is_hit] = np.minimum(np.maximum(noisy, scan.min_m), scan.max_m)  # np.clip takes twice as long
+        ranges[far], ranges[near], retros[missed] = np.inf, -np.inf, 0.0
         shape = (scan.vertical.values, scan.horizontal.values)
-        return RangeReading(time_ns=time_ns, scan=scan, ranges=found.reshape(shape), intensities=retros.reshape(shape))
+        return RangeReading(time_ns=time_ns, scan=scan, ranges=ranges.reshape(shape), intensities=retros.reshape(shape))
 
 
 def directions_of(scan: RangeScan) -> NDArray[np.float64]:

@@ -36,22 +36,24 @@ class RayScene:
         return self._collision_caster.cast(origin, directions, reach, exclude)
 
     def rays_excluding(self, model: Model, link: Link) -> Rays:
-        """Return a caster against the collision shapes that this link may collide with, as Gazebo's sonar is a shape of
-        its link: none of its own model, or with <self_collide> those that no joint connects to it.
+        """Return a caster against the collision shapes that a link may collide with, as Gazebo's sonar is a shape of
+        its link: none of its own model, or with <self_collide> the shapes of links without a joint to it.
         """
-        tied = {link.name, *(end for joint in model.joints for end in _ends(joint, link.name))}
+        connected = {link.name, *(end for joint in model.joints for end in _ends(joint, link.name))}
 
         def may_touch(other: Link) -> bool:
-            asked = (model.self_collide if each.self_collide is None else each.self_collide for each in (link, other))
-            return other.name not in tied and any(asked)
+            self_collides = (
+                model.self_collide if end.self_collide is None else end.self_collide for end in (link, other)
+            )
+            return other.name not in connected and any(self_collides)
 
-        names = [each.name for each in model.links if not may_touch(each)]
+        names = [other.name for other in model.links if not may_touch(other)]
 
         def cast(origin: Vector3, directions: _Array, reach: float, exclude: int) -> RayHits:
             del exclude
             self._collision_caster = self._updated_caster(self._collision_caster, collisions=True)
-            own = self._simulation[model.name]
-            hidden = [own.link(name).index for name in names]
+            handle = self._simulation[model.name]
+            hidden = [handle.link(name).index for name in names]
             return self._collision_caster.cast_through(origin, directions, reach, hidden)
 
         return cast
@@ -81,7 +83,7 @@ class RayScene:
 
     def transmitters(self, type_: str) -> list[Transmitter]:
         """Return every sensor of a transmitting type."""
-        found: list[Transmitter] = []
+        transmitters: list[Transmitter] = []
         index = 0
         for model in self._simulation.world.models:
             for link in model.links:
@@ -89,7 +91,7 @@ class RayScene:
                     if sensor.type == type_:
                         settings = sensor.instrument if isinstance(sensor.instrument, Transceiver) else Transceiver()
                         name = f"{model.name}::{link.name}::{sensor.name}"
-                        found.append(
+                        transmitters.append(
                             Transmitter(
                                 name=name,
                                 link_index=index,
@@ -98,7 +100,7 @@ class RayScene:
                             )
                         )
                 index += 1
-        return found
+        return transmitters
 
     @property
     def models(self) -> list[ModelShapes]:
@@ -117,13 +119,13 @@ def _ends(joint: Joint, link: str) -> tuple[str, str]:
 def _model_shapes(world: World) -> list[ModelShapes]:
     corners: dict[int, list[_Array]] = {}
     for shape in scene_from_world(world, Diagnostics(), collisions=True).shapes:
-        place = shape.body_from_shape
+        body_from_box = shape.body_from_shape
         if isinstance(shape.geometry, Plane):
-            place, box = place @ Pose(quaternion=rotation_from_z(shape.geometry.normal)), _HALF_SPACE
+            body_from_box, points = body_from_box @ Pose(quaternion=rotation_from_z(shape.geometry.normal)), _HALF_SPACE
         else:
-            box = corners_of(shape.geometry)
-        if box:
-            corners.setdefault(shape.body, []).append(transform_points(place, np.array(box)))
+            points = corners_of(shape.geometry)
+        if points:
+            corners.setdefault(shape.body, []).append(transform_points(body_from_box, np.array(points)))
     bodies: list[ModelShapes] = []
     first = 0
     for model in world.models:
@@ -132,8 +134,10 @@ def _model_shapes(world: World) -> list[ModelShapes]:
         if not model.links:
             continue
         base, base_from_model = _base(model)
-        own = {index: np.concatenate(corners[index]) for index in span if index in corners}
-        bodies.append(ModelShapes(name=model.name, base_index=span[base], base_from_model=base_from_model, corners=own))
+        link_corners = {index: np.concatenate(corners[index]) for index in span if index in corners}
+        bodies.append(
+            ModelShapes(name=model.name, base_index=span[base], base_from_model=base_from_model, corners=link_corners)
+        )
     return bodies
 
 

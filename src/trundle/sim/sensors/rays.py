@@ -17,7 +17,7 @@ _Array = NDArray[np.float64]
 _ENDLESS = 2e6
 """Width of an infinite collision plane [m]; only a visual plane has a size."""
 _LAYERS = 8
-"""Most nested links that a ray passes through; a lidar sits inside two or three."""
+"""Most nested links that a ray passes through; a lidar is inside two or three."""
 _AWAY = 1e6
 """Position that hides links from rays [m]."""
 
@@ -32,7 +32,7 @@ class RayHits(Struct, frozen=True, eq=False):
 
 
 class Rays(Protocol):
-    """Ray cast against one kind of shapes."""
+    """Ray cast against collisions or visuals."""
 
     def __call__(self, origin: Vector3, directions: _Array, reach: float, exclude: int, /) -> RayHits:
         """Cast from one origin along (rays, 3) directions in the world, up to `reach` [m], ignoring one link."""
@@ -43,7 +43,7 @@ class RayCaster:
     """Ray caster against all collision shapes of a world, or all its visuals."""
 
     def __init__(self, world: World, *, collisions: bool, mask: int = EVERY_BIT) -> None:
-        """Build the scene; compiling or rendering the world already warned of unsupported shapes."""
+        """Build the scene; unsupported shapes were reported when the world was compiled or rendered."""
         self.world = world
         scene = scene_from_world(world, Diagnostics(), collisions=collisions, mask=mask)
         scene = _with_infinite_planes(scene) if collisions else scene
@@ -75,9 +75,9 @@ class RayCaster:
         poses = self._poses.copy()
         poses[hidden, :3] = _AWAY
         self._renderer.update(poses)
-        found = self.cast(origin, directions, reach, None)
+        hits = self.cast(origin, directions, reach, None)
         self._renderer.update(self._poses)
-        return found
+        return hits
 
     def cast_from_distance(self, origin: Vector3, directions: _Array, reach: float, nearest: float) -> RayHits:
         """Cast rays that ignore links nearer than `nearest` [m], as a GPU's near clip plane does."""

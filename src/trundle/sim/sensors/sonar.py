@@ -24,7 +24,7 @@ class SonarReading(Struct, frozen=True, kw_only=True):
 
     time_ns: int
     range_m: float
-    """Range within the sensor's limits; the maximum also stands for no echo, as in Gazebo."""
+    """Range within the sensor's limits; the maximum also means no echo, as in Gazebo."""
 
 
 class SonarSensor(LiveSensor[SonarReading]):
@@ -57,8 +57,8 @@ class SonarSensor(LiveSensor[SonarReading]):
         """Measure the range."""
         beam = self.world_from_link(snapshot) @ self.link_from_beam
         directions = rotate_vectors(beam, self._directions)
-        found = self._rays(beam.position, directions, self._farthest, self.link_index).distances
-        nearest = float(np.min(np.where(found <= self._reach, found, np.inf)))
+        distances = self._rays(beam.position, directions, self._farthest, self.link_index).distances
+        nearest = float(np.min(np.where(distances <= self._reach, distances, np.inf)))
         low, high = self.settings.min_m, self.settings.max_m
         return SonarReading(time_ns=snapshot.time_ns, range_m=min(max(nearest, low), high))
 

@@ -17,7 +17,7 @@ DEFAULT_RATE_HZ = 10.0
 """Update rate of a receiver whose update_rate is 0."""
 _LIGHT = 299_792_458.0
 """Speed of light [m/s]."""
-_THROUGH_AIR, _THROUGH_THINGS = 6.0, 12.0
+_FREE, _OBSTRUCTED = 6.0, 12.0
 """Gazebo's path loss exponents."""
 _SHADOWING = 6.0
 """Standard deviation of Gazebo's random shadowing loss [dB]."""
@@ -77,35 +77,35 @@ class WirelessSensor(LiveSensor[WirelessReading]):
 
     def measure(self, snapshot: Snapshot) -> WirelessReading:
         """Return the signals above the sensitivity."""
-        own = self._settings
-        heard: list[ReceivedSignal] = []
+        settings = self._settings
+        signals: list[ReceivedSignal] = []
         for transmitter in self._transmitters():
-            sent = transmitter.settings
-            if not own.lowest_mhz <= sent.frequency_mhz <= own.highest_mhz:
+            sender = transmitter.settings
+            if not settings.lowest_mhz <= sender.frequency_mhz <= settings.highest_mhz:
                 continue
             level = self._level(transmitter, snapshot)
-            if level >= own.sensitivity_dbm:
-                heard.append(ReceivedSignal(name=sent.essid, frequency_mhz=sent.frequency_mhz, level_dbm=level))
-        return WirelessReading(time_ns=snapshot.time_ns, signals=tuple(heard))
+            if level >= settings.sensitivity_dbm:
+                signals.append(ReceivedSignal(name=sender.essid, frequency_mhz=sender.frequency_mhz, level_dbm=level))
+        return WirelessReading(time_ns=snapshot.time_ns, signals=tuple(signals))
 
     def _level(self, transmitter: Transmitter, snapshot: Snapshot) -> float:
-        here, there = self.world_from_sensor(snapshot).position, transmitter.position(snapshot)
-        sent = transmitter.settings
-        exponent = _THROUGH_THINGS if self._is_obstructed(here, there, transmitter.link_index) else _THROUGH_AIR
-        lost = abs(float(self._random.normal(0.0, _SHADOWING)))
-        wave = 20.0 * math.log10(_LIGHT / (sent.frequency_mhz * 1e6) / (4.0 * math.pi))
-        far = 10.0 * exponent * math.log10(max(_NEAREST, math.dist(here, there)))
-        return sent.power_dbm + sent.gain_dbi + self._settings.gain_dbi - lost + wave - far
+        receiver, sender = self.world_from_sensor(snapshot).position, transmitter.position(snapshot)
+        settings = transmitter.settings
+        exponent = _OBSTRUCTED if self._is_obstructed(receiver, sender, transmitter.link_index) else _FREE
+        shadowing = abs(float(self._random.normal(0.0, _SHADOWING)))
+        wave = 20.0 * math.log10(_LIGHT / (settings.frequency_mhz * 1e6) / (4.0 * math.pi))
+        path_loss = 10.0 * exponent * math.log10(max(_NEAREST, math.dist(receiver, sender)))
+        return settings.power_dbm + settings.gain_dbi + self._settings.gain_dbi - shadowing + wave - path_loss
 
-    def _is_obstructed(self, here: Vector3, there: Vector3, other: int) -> bool:
-        """True if a third link lies between: rays from both ends stop before they meet."""
-        across = normalized((there[0] - here[0], there[1] - here[1], there[2] - here[2]))
-        if across is None:
+    def _is_obstructed(self, start: Vector3, end: Vector3, exclude: int) -> bool:
+        """True if a third link is in between: rays from both ends stop before they meet."""
+        direction = normalized((end[0] - start[0], end[1] - start[1], end[2] - start[2]))
+        if direction is None:
             return False
-        distance = math.dist(here, there)
-        one = self._rays(here, np.array([across]), distance, self.link_index).distances[0]
-        back = self._rays(there, -np.array([across]), distance, other).distances[0]
-        return bool(one + back <= distance)
+        distance = math.dist(start, end)
+        forward = self._rays(start, np.array([direction]), distance, self.link_index).distances[0]
+        backward = self._rays(end, -np.array([direction]), distance, exclude).distances[0]
+        return bool(forward + backward <= distance)
 
 
 class RfidReading(Struct, frozen=True, kw_only=True):
@@ -131,6 +131,6 @@ class RfidSensor(LiveSensor[RfidReading]):
 
     def measure(self, snapshot: Snapshot) -> RfidReading:
         """List the tags in range."""
-        here = self.world_from_sensor(snapshot).position
-        near = [tag.name for tag in self._tags() if math.dist(here, tag.position(snapshot)) <= _TAG_REACH]
+        position = self.world_from_sensor(snapshot).position
+        near = [tag.name for tag in self._tags() if math.dist(position, tag.position(snapshot)) <= _TAG_REACH]
         return RfidReading(time_ns=snapshot.time_ns, tags=tuple(near))

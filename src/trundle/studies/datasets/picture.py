@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from trundle.base.diagnostics import Diagnostics
-from trundle.sim.render import Intrinsics, NativeRenderer, add_colour_noise, scene_from_world
+from trundle.sim.render import Intrinsics, NativeRenderer, add_color_noise, scene_from_world
 from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose
 
@@ -85,7 +85,7 @@ class PictureMaker:
         rgb, depth, shapes = self.draw(view)
         if self.plan.camera.noise:
             seed = int(random_stream(self.plan.seed, number, NOISE).integers(1 << 63))
-            add_colour_noise(rgb, seed=seed, mean=0.0, stddev=self.plan.camera.noise)
+            add_color_noise(rgb, seed=seed, mean=0.0, stddev=self.plan.camera.noise)
         instances = self._annotator.numbers.take(shapes, mode="wrap")  # -1, no shape, is the last
         objects = self._annotator.annotate(arrangement, view, depth, instances)
         cloud = None if self._lidar is None else self._lidar.scan(view.world_from_camera, self.renderer, scene)

@@ -41,8 +41,8 @@ def look(folder: Path, shape: str, *, pose: str, type_: str, inside: str = "") -
 
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("kind", ["visible_2d", "full_2d"])
-def test_a_box_in_the_picture_is_as_large_as_the_thing(tmp_path: Path, shape: str, kind: str) -> None:
-    """To a pixel, in any pose: not the box around its bounding box."""
+def test_a_2d_box_encloses_the_shape_tightly(tmp_path: Path, shape: str, kind: str) -> None:
+    """To a pixel, in any pose; not the rectangle around the shape's bounding box."""
     pose = "0 0 0 0.7 0.5 0.3"
     labels = look(tmp_path, shape, pose=pose, type_="segmentation").labels
     (box,) = look(tmp_path, shape, pose=pose, type_="boundingbox", inside=f"<box_type>{kind}</box_type>").boxes
@@ -52,7 +52,7 @@ def test_a_box_in_the_picture_is_as_large_as_the_thing(tmp_path: Path, shape: st
     assert rim == pytest.approx([columns.min(), columns.max() + 1, rows.min(), rows.max() + 1], abs=1.0)
 
 
-def test_a_box_in_space_is_as_large_as_the_thing(tmp_path: Path) -> None:
+def test_a_3d_box_encloses_the_shape_tightly(tmp_path: Path) -> None:
     """A cylinder about a reaches √(1 − a²) r + |a| l / 2 along each axis of its link."""
     inside = "<box_type>3d</box_type>"
     (box,) = look(tmp_path, "cylinder", pose="0 0 0 0.7 0.5 0.3", type_="boundingbox", inside=inside).boxes

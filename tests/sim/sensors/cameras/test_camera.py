@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from trundle.base.diagnostics import Diagnostics, Source
 from trundle.robots.model import CameraOptics, Inertial, Link, Model, Noise, PhysicsSettings, Sensor, World
-from trundle.sim import sensors
 from trundle.sim.render import Intrinsics, Picture, Scene
 from trundle.sim.sensors import CameraReading, CameraSensor, mount_cameras
 from trundle.sim.simulation import Simulation
@@ -34,6 +33,9 @@ class CountingRenderer:
     def update(self, poses: NDArray[np.float64]) -> None:
         self.updates.append(poses)
 
+    def set_vertices(self, shape: int, vertices: NDArray[np.float32]) -> None:
+        raise AssertionError(f"shape {shape} with {len(vertices)} vertices: the scene has no meshes")
+
     def render(
         self, views: Sequence[tuple[Pose, Intrinsics]], *, depth: bool = False, segmentation: bool = False
     ) -> list[Picture]:
@@ -44,28 +46,28 @@ class CountingRenderer:
 
 
 def camera(name: str = "eye", **rest: object) -> Sensor:
-    made = Sensor(name=name, type="camera", at=AT, cameras=(OPTICS,), update_rate_hz=30.0)
-    return replace(made, **rest)
+    sensor = Sensor(name=name, type="camera", at=AT, cameras=(OPTICS,), update_rate_hz=30.0)
+    return replace(sensor, **rest)
 
 
-def world(*sensors_: Sensor) -> World:
+def world(*sensors: Sensor) -> World:
     """Two links that float and drift, the second with sensors."""
     still = Inertial(mass=1.0, moments=(0.1, 0.1, 0.1))
     links = (
         Link(name="base", at=AT, inertial=still),
-        Link(name="head", at=AT, model_from_link=Pose((0.0, 0.0, 2.0)), inertial=still, sensors=sensors_),
+        Link(name="head", at=AT, model_from_link=Pose((0.0, 0.0, 2.0)), inertial=still, sensors=sensors),
     )
     physics = PhysicsSettings(gravity=(0.0, 0.0, -1.0))
     return World(name="w", at=AT, models=(Model(name="m", at=AT, links=links),), physics=physics)
 
 
-def mounted(*sensors_: Sensor) -> tuple[Simulation, list[CameraSensor], CountingRenderer]:
-    made, renderer = world(*sensors_), CountingRenderer()
+def mounted(*sensors: Sensor) -> tuple[Simulation, list[CameraSensor], CountingRenderer]:
+    renderer = CountingRenderer()
     report = Diagnostics(strict=True)
-    sim = Simulation(made, report)
+    sim = Simulation(world(*sensors), report)
     cameras = mount_cameras(sim, lambda _: renderer)
-    for one in cameras:
-        one.start(sim)
+    for eye in cameras:
+        eye.start(sim)
     return sim, cameras, renderer
 
 
@@ -74,78 +76,73 @@ def watch(cameras: Sequence[CameraSensor]) -> None:
         eye.listen(lambda _: None)
 
 
-def test_the_front_door_exports_in_order() -> None:
-    assert sensors.__all__ == sorted(sensors.__all__)
-    assert all(hasattr(sensors, name) for name in sensors.__all__)
-
-
-def test_a_camera_nobody_looks_at_costs_nothing() -> None:
+def test_a_camera_without_listeners_costs_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     sim, (eye,), renderer = mounted(camera())
     eye.listen(lambda _: pytest.fail("the listener is disabled"), enabled=lambda: False)
     strides: list[int] = []
     step = sim.engine.step
 
-    def counted(count: int, each: Any) -> int:
+    def counted(count: int, hooks: Any) -> int:
         strides.append(count)
-        return step(count, each)
+        return step(count, hooks)
 
-    sim.engine.step = counted
+    monkeypatch.setattr(sim.engine, "step", counted)
     sim.run(1.0)
     assert (eye.reading_count, renderer.updates, renderer.views) == (0, [], [])
     assert strides == [1000]
 
 
-def test_a_camera_that_is_always_on_counts_its_instants_and_draws_for_nobody() -> None:
+def test_an_always_on_camera_counts_readings_without_rendering() -> None:
     sim, (eye,), renderer = mounted(camera(always_on=True))
     eye.listen(lambda _: pytest.fail("the listener is disabled"), enabled=lambda: False)
     sim.run(1.0)
     assert (eye.reading_count, eye.image_count, renderer.updates, renderer.views) == (30, 0, [], [])
 
 
-def test_pictures_of_a_camera_that_is_always_on_do_not_depend_on_when_somebody_began_to_look() -> None:
+def test_images_of_an_always_on_camera_do_not_depend_on_the_start_of_listening() -> None:
     """The same instants, with the same noise."""
     noisy = replace(OPTICS, noise=Noise(stddev=0.1))
-    seen: list[list[tuple[int, bytes]]] = []
+    runs: list[list[tuple[int, bytes]]] = []
     for start_s in (0.0, 0.15):
         sim, (eye,), _ = mounted(camera(cameras=(noisy,), update_rate_hz=10.0, always_on=True))
-        taken: list[tuple[int, bytes]] = []
+        images: list[tuple[int, bytes]] = []
         eye.listen(
-            lambda reading, taken=taken: taken.append((reading.time_ns, reading.rgb.tobytes())),
+            lambda reading, images=images: images.append((reading.time_ns, reading.rgb.tobytes())),
             enabled=lambda sim=sim, start_s=start_s: sim.time_ns > start_s * 1e9,
         )
         sim.run(0.4)
-        seen.append(taken)
-    assert len(seen[0]) == 4
-    assert seen[0][1:] == seen[1]
+        runs.append(images)
+    assert len(runs[0]) == 4
+    assert runs[0][1:] == runs[1]
 
 
-def test_thirty_a_second_are_three_hundred_in_ten_seconds_each_stamped_with_its_instant() -> None:
+def test_a_rate_of_30_hz_gives_300_stamped_images_in_ten_seconds() -> None:
     sim, (eye,), renderer = mounted(camera())
-    taken: list[CameraReading] = []
-    eye.listen(taken.append)
+    readings: list[CameraReading] = []
+    eye.listen(readings.append)
     sim.run(10.0)
-    assert len(taken) == eye.image_count == len(renderer.views) == 300
+    assert len(readings) == eye.image_count == len(renderer.views) == 300
     period_ns = 1e9 / 30
-    assert all(0 <= reading.time_ns - (i + 1) * period_ns < 1.001 * MS for i, reading in enumerate(taken))
-    assert all(reading.time_ns % MS == 0 for reading in taken)
-    assert taken[0].rgb.shape == (6, 8, 3)
+    assert all(0 <= reading.time_ns - (i + 1) * period_ns < 1.001 * MS for i, reading in enumerate(readings))
+    assert all(reading.time_ns % MS == 0 for reading in readings)
+    assert readings[0].rgb.shape == (6, 8, 3)
 
 
-def test_cameras_that_are_due_together_are_drawn_by_one_call_and_told_of_in_their_order() -> None:
+def test_cameras_due_together_are_rendered_in_one_batch_and_reported_in_order() -> None:
     """The last one is due at every second time only, and the third has no listener."""
     rates = {"left": 10.0, "right": 10.0, "blind": 10.0, "slow": 5.0}
     sim, cameras, renderer = mounted(*(camera(name, update_rate_hz=rate) for name, rate in rates.items()))
-    told: list[tuple[str, int]] = []
+    reports: list[tuple[str, int]] = []
     for eye in cameras:
-        note = partial(lambda name, reading: told.append((name, reading.time_ns // MS)), eye.name)
+        note = partial(lambda name, reading: reports.append((name, reading.time_ns // MS)), eye.name)
         eye.listen(note, enabled=partial(str.__ne__, eye.name, "blind"))
     sim.run(0.2)
-    assert told == [("left", 100), ("right", 100), ("left", 200), ("right", 200), ("slow", 200)]
+    assert reports == [("left", 100), ("right", 100), ("left", 200), ("right", 200), ("slow", 200)]
     assert renderer.calls == [2, 3]
     assert len(renderer.updates) == 2
 
 
-def test_large_pictures_are_not_all_kept_at_once() -> None:
+def test_large_images_are_rendered_in_several_batches() -> None:
     """Three of two million pixels each: a call draws two."""
     large = replace(OPTICS, width_px=2048, height_px=1024)
     sim, cameras, renderer = mounted(*(camera(name, cameras=(large,)) for name in "abc"))
@@ -155,16 +152,16 @@ def test_large_pictures_are_not_all_kept_at_once() -> None:
     assert len(renderer.updates) == 1
 
 
-def test_sizes_are_drawn_apart() -> None:
+def test_cameras_of_different_sizes_are_rendered_separately() -> None:
     wide = replace(OPTICS, width_px=9)
     kinds = {"a": OPTICS, "b": wide, "c": OPTICS}
-    sim, cameras, renderer = mounted(*(camera(name, cameras=(each,)) for name, each in kinds.items()))
+    sim, cameras, renderer = mounted(*(camera(name, cameras=(optics,)) for name, optics in kinds.items()))
     watch(cameras)
     sim.run(0.04)
     assert renderer.calls == [2, 1]
 
 
-def test_a_camera_that_is_asked_by_itself_draws_by_itself() -> None:
+def test_a_single_measurement_renders_one_camera_only() -> None:
     sim, cameras, renderer = mounted(camera("left"), camera("right"))
     sim.step()
     for eye in cameras:
@@ -174,26 +171,26 @@ def test_a_camera_that_is_asked_by_itself_draws_by_itself() -> None:
     assert renderer.calls == [1, 1]
 
 
-def test_a_rate_of_zero_is_thirty() -> None:
+def test_an_update_rate_of_zero_means_30_hz() -> None:
     sim, (eye,), _ = mounted(camera(update_rate_hz=0.0, always_on=True))
     sim.run(1.0)
     assert eye.reading_count == 30
 
 
-def test_a_camera_wakes_when_somebody_looks_and_sleeps_again() -> None:
+def test_a_camera_renders_only_while_a_listener_is_enabled() -> None:
     sim, (eye,), _ = mounted(camera(update_rate_hz=10.0))
-    looking = [False]
-    taken: list[int] = []
-    eye.listen(lambda reading: taken.append(reading.time_ns // MS), enabled=lambda: looking[0])
+    enabled = [False]
+    times_ms: list[int] = []
+    eye.listen(lambda reading: times_ms.append(reading.time_ns // MS), enabled=lambda: enabled[0])
     sim.run(1.0)
-    looking[0] = True
+    enabled[0] = True
     sim.run(0.3)
-    looking[0] = False
+    enabled[0] = False
     sim.run(1.0)
-    assert taken == [1100, 1200, 1300]
+    assert times_ms == [1100, 1200, 1300]
 
 
-def test_only_who_wants_a_picture_gets_it_and_it_is_taken_once() -> None:
+def test_several_listeners_share_one_image() -> None:
     sim, (eye,), _ = mounted(camera(update_rate_hz=10.0))
     first: list[CameraReading] = []
     second: list[CameraReading] = []
@@ -205,7 +202,7 @@ def test_only_who_wants_a_picture_gets_it_and_it_is_taken_once() -> None:
     assert all(a is b for a, b in zip(first, second, strict=True))
 
 
-def test_the_camera_is_where_its_link_carries_it_at_that_instant() -> None:
+def test_the_camera_pose_follows_its_link() -> None:
     tilted = Pose.from_rpy(0.1, 0.0, 0.05, 0.0, 0.3, 0.0)
     optics = replace(OPTICS, sensor_from_camera=Pose((0.0, 0.02, 0.0)))
     sim, (eye,), renderer = mounted(camera(link_from_sensor=tilted, cameras=(optics,), update_rate_hz=10.0))
@@ -221,7 +218,7 @@ def test_the_camera_is_where_its_link_carries_it_at_that_instant() -> None:
     assert renderer.updates[0] == pytest.approx(sim.snapshot().poses)
 
 
-def test_taking_pictures_does_not_change_the_world() -> None:
+def test_rendering_does_not_change_the_simulation() -> None:
     ends = []
     for is_watched in (False, True):
         sim, cameras, _ = mounted(camera())
@@ -232,24 +229,24 @@ def test_taking_pictures_does_not_change_the_world() -> None:
     assert ends[0].poses.tobytes() == ends[1].poses.tobytes()
 
 
-def test_all_cameras_share_one_renderer_and_a_world_without_makes_none() -> None:
-    made: list[CountingRenderer] = []
+def test_all_cameras_share_one_renderer_and_no_cameras_need_none() -> None:
+    renderers: list[CountingRenderer] = []
 
     def make(_: Scene) -> CountingRenderer:
-        made.append(CountingRenderer())
-        return made[-1]
+        renderers.append(CountingRenderer())
+        return renderers[-1]
 
     assert [eye.name for eye in mount_cameras(Simulation(world(camera("a"), camera("b")), Diagnostics()), make)] == [
         "a",
         "b",
     ]
-    assert len(made) == 1
+    assert len(renderers) == 1
     assert mount_cameras(Simulation(world(), Diagnostics()), make) == []
-    assert len(made) == 1
+    assert len(renderers) == 1
 
 
-def test_a_sensor_that_does_not_measure_yet_is_named() -> None:
+def test_unsupported_sensor_types_are_reported() -> None:
     report = Diagnostics()
-    odd = Sensor(name="nose", type="smell", at=AT)
-    assert mount_cameras(Simulation(world(odd), report), lambda _: CountingRenderer()) == []
+    unknown = Sensor(name="nose", type="smell", at=AT)
+    assert mount_cameras(Simulation(world(unknown), report), lambda _: CountingRenderer()) == []
     assert report.warnings == ["robot.sdf:9: warning: sensor 'nose': smell sensors are not simulated yet"]

@@ -34,7 +34,7 @@ def attach(sensor: InstrumentSensor, parameters: TagParameters, names: PluginNam
 
 def _mean_force(reading: ContactReading) -> Vector3:
     """Mean force of a reading's contacts, world axes [N]."""
-    count = len({(contact.time_ns, contact.own, contact.other) for contact in reading.contacts})
+    count = len({(contact.time_ns, contact.collision, contact.other) for contact in reading.contacts})
     if not count:
         return (0.0, 0.0, 0.0)
     x, y, z = (

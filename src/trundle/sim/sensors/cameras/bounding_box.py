@@ -7,7 +7,7 @@ from trundle.sim.render import outline_of
 from trundle.sim.simulation import Snapshot
 from trundle.spatial import Pose, pose_from_row, transform_points
 
-from .camera import CameraReading, CameraSensor, SeenBox
+from .camera import CameraReading, CameraSensor, DetectedBox
 from .segmentation import INSTANCES, instance_labels
 
 _Points = NDArray[np.float64]
@@ -23,31 +23,37 @@ class BoundingBoxCameraSensor(CameraSensor):
         """Render, and compute the box of each visible instance."""
         picture = self.render(snapshot)
         assert picture.segmentation is not None
-        things = instance_labels(self.scene)
-        seen = things[picture.segmentation]
-        boxes = [self._box(int(thing), things, seen, snapshot) for thing in np.unique(seen[seen > 0])]
+        instances = instance_labels(self.scene)
+        pixels = instances[picture.segmentation]
+        boxes = [
+            self._detection(int(instance), instances, pixels, snapshot) for instance in np.unique(pixels[pixels > 0])
+        ]
         return CameraReading(time_ns=snapshot.time_ns, rgb=picture.rgb, boxes=tuple(boxes))
 
-    def _box(self, thing: int, things: NDArray[np.int32], seen: NDArray[np.int32], snapshot: Snapshot) -> SeenBox:
-        (shapes,) = np.nonzero(things == thing)
+    def _detection(
+        self, instance: int, instances: NDArray[np.int32], pixels: NDArray[np.int32], snapshot: Snapshot
+    ) -> DetectedBox:
+        (shapes,) = np.nonzero(instances == instance)
         bodies = self.scene.scene.bodies
         model = bodies[self.scene.scene.shapes[int(shapes[0])].body].partition("::")[0]
-        label = thing // INSTANCES
+        label = instance // INSTANCES
         if self.optics.box_type == "3d":
             world_from_box, size = self._box_3d(shapes.tolist(), snapshot)
             camera_from_box = self.world_from_camera(snapshot).inverse() @ world_from_box
-            return SeenBox(
+            return DetectedBox(
                 model=model, label=label, center=camera_from_box.position, size=size, camera_from_box=camera_from_box
             )
-        rows, columns = np.nonzero(seen == thing)
+        rows, columns = np.nonzero(pixels == instance)
         low, high = (columns.min(), rows.min()), (columns.max() + 1, rows.max() + 1)
         if self.optics.box_type == "full_2d":
             low, high = self._full_box(shapes.tolist(), snapshot, low, high)
         center = (float(low[0] + high[0]) / 2, float(low[1] + high[1]) / 2)
-        return SeenBox(model=model, label=label, center=center, size=(float(high[0] - low[0]), float(high[1] - low[1])))
+        return DetectedBox(
+            model=model, label=label, center=center, size=(float(high[0] - low[0]), float(high[1] - low[1]))
+        )
 
     def _box_3d(self, shapes: list[int], snapshot: Snapshot) -> tuple[Pose, tuple[float, float, float]]:
-        """Return the box along the axes of the instance's first body: world_from_box and size [m]."""
+        """Return the 3D box along the axes of the instance's first body: world_from_box and size [m]."""
         world_from_body = pose_from_row(snapshot.poses[self.scene.scene.shapes[shapes[0]].body])
         points = transform_points(world_from_body.inverse(), self._outline(shapes, snapshot))
         low, high = points.min(axis=0), points.max(axis=0)
@@ -71,10 +77,10 @@ class BoundingBoxCameraSensor(CameraSensor):
 
     def _outline(self, shapes: list[int], snapshot: Snapshot) -> _Points:
         """Return the extents of shapes as (n, 3) points in the world; infinite planes give their origin only."""
-        found: list[_Points] = []
+        outlines: list[_Points] = []
         for number in shapes:
             shape = self.scene.scene.shapes[number]
             outline = outline_of(shape.geometry)
             points = outline if len(outline) else np.zeros((1, 3))
-            found.append(transform_points(pose_from_row(snapshot.poses[shape.body]) @ shape.body_from_shape, points))
-        return np.concatenate(found)
+            outlines.append(transform_points(pose_from_row(snapshot.poses[shape.body]) @ shape.body_from_shape, points))
+        return np.concatenate(outlines)

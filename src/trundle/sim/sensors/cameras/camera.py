@@ -8,7 +8,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from trundle.robots.model import CameraOptics, Noise
-from trundle.sim.render import Intrinsics, Picture, add_colour_noise
+from trundle.sim.render import Intrinsics, Picture, add_color_noise
 from trundle.sim.simulation import Snapshot
 from trundle.spatial import Pose
 
@@ -20,7 +20,7 @@ DEFAULT_RATE_HZ = 30.0
 """Update rate of a camera whose update_rate is 0; Gazebo then renders at every step."""
 
 
-class SeenBox(Struct, frozen=True, kw_only=True):
+class DetectedBox(Struct, frozen=True, kw_only=True):
     """Detection by a bounding box camera."""
 
     model: str
@@ -28,7 +28,7 @@ class SeenBox(Struct, frozen=True, kw_only=True):
     center: tuple[float, ...]
     """[px]; for a 3D box [m], in the camera frame."""
     size: tuple[float, ...]
-    """[px]; for a 3D box [m], along its own axes."""
+    """[px]; for a 3D box [m], along its axes."""
     camera_from_box: Pose = Pose()
     """Pose of a 3D box."""
 
@@ -39,12 +39,12 @@ class CameraReading(Struct, frozen=True, eq=False, kw_only=True):
     time_ns: int
     """Simulation time of the snapshot rendered."""
     rgb: NDArray[np.uint8]
-    """(height, width, 3) Colour image; grey for a thermal camera, one colour per label for a segmentation camera."""
+    """(height, width, 3) Color image; grey for a thermal camera, one color per label for a segmentation camera."""
     depth: NDArray[np.float32] | None = None
     """(height, width) Depth along the view axis [m]; NaN outside the depth range."""
     labels: NDArray[np.uint8] | NDArray[np.int32] | None = None
     """(height, width) Label, or 65536 · label + instance number."""
-    boxes: tuple[SeenBox, ...] | None = None
+    boxes: tuple[DetectedBox, ...] | None = None
     temperatures: NDArray[np.float32] | None = None
     """(height, width) [K]"""
 
@@ -57,7 +57,7 @@ class CameraSensor(LiveSensor[CameraReading]):
 
     needs_depth: ClassVar[bool] = False
     needs_segmentation: ClassVar[bool] = False
-    """Render passes needed besides colour."""
+    """Render passes needed besides color."""
     sees_labels: ClassVar[bool] = False
     """True if the camera identifies objects by their labels."""
 
@@ -66,8 +66,8 @@ class CameraSensor(LiveSensor[CameraReading]):
 
         Args:
             mount: model, link and sensor.
-            optics: this camera's optics.
-            scene: shared by all cameras.
+            optics: optics of this camera.
+            scene: scene shared by all cameras.
         """
         super().__init__(mount, default_rate_hz=DEFAULT_RATE_HZ)
         self.optics = optics
@@ -80,7 +80,7 @@ class CameraSensor(LiveSensor[CameraReading]):
             far_m=optics.far_m,
         )
         self.projection = projection_of(optics, self.intrinsics)
-        self._spot = mount
+        self._mount = mount
         self.image_count = 0
         """Images rendered."""
         self.scene = scene
@@ -106,7 +106,7 @@ class CameraSensor(LiveSensor[CameraReading]):
         return isinstance(self.projection, PinholeProjection)
 
     def await_trigger(self) -> Callable[[], None]:
-        """Switch to triggered mode and return the trigger function, which any thread may call; the image is taken at
+        """Switch to triggered mode and return the trigger function, which any thread may call; the camera renders at
         the next due time.
         """
         self._is_triggered = False
@@ -121,7 +121,7 @@ class CameraSensor(LiveSensor[CameraReading]):
         return self._is_triggered is not False and super().enabled()
 
     def after_step(self, snapshot: Snapshot) -> None:
-        """Take an image and pass it to the listeners."""
+        """Render an image and pass it to the listeners."""
         self._is_triggered = self._is_triggered and False
         super().after_step(snapshot)
 
@@ -135,7 +135,7 @@ class CameraSensor(LiveSensor[CameraReading]):
 
     def skip(self) -> None:
         if self.optics.noise != Noise():
-            self.noise_seed()  # an image's noise depends on its number alone
+            self.noise_seed()  # an image's noise depends on its number only
 
     def prepare(self, snapshot: Snapshot) -> None:
         """Request rendering for listeners, batched with the other cameras that are due."""
@@ -174,12 +174,12 @@ class CameraSensor(LiveSensor[CameraReading]):
         if noise == Noise():
             return rgb
         noisy = np.ascontiguousarray(rgb)
-        add_colour_noise(noisy, seed=self.noise_seed(), mean=noise.mean, stddev=noise.stddev)
+        add_color_noise(noisy, seed=self.noise_seed(), mean=noise.mean, stddev=noise.stddev)
         return noisy
 
     def noise_seed(self) -> int:
         """Return the seed of the next image's noise."""
-        return int(self._spot.random.integers(1 << 64, dtype=np.uint64))
+        return int(self._mount.random.integers(1 << 64, dtype=np.uint64))
 
     def world_from_camera(self, snapshot: Snapshot) -> Pose:
         """Return the camera pose in the world."""

@@ -23,9 +23,9 @@ class CameraHandle:
         return self._sensor.optics.width_px, self._sensor.optics.height_px
 
     def render(self) -> CameraImage:
-        """Render colours, depths and segmentation of the current state at once, through the lens, without noise.
+        """Render colors, depths and segmentation of the current state at once, through the lens, without noise.
 
-        Cameras of every type return all three; `Simulation.sensor` reads what the type measures, with noise.
+        Cameras of every type return all three; `Simulation.sensor` reads the type's measurement, with noise.
         """
         snapshot = self._simulation.snapshot()
         sensor = self._sensor

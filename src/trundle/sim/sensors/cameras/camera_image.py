@@ -1,4 +1,4 @@
-"""Camera image: colours, depths and segmentation of one instant."""
+"""Camera image: colors, depths and segmentation of one instant."""
 
 import io
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from trundle.base.diagnostics import UsageError
 
 
 class CameraImage(Struct, frozen=True, eq=False, kw_only=True):
-    """Image without noise. A notebook shows its colours."""
+    """Image without noise. A notebook shows its colors."""
 
     time_ns: int
     """Simulation time."""
@@ -31,15 +31,15 @@ class CameraImage(Struct, frozen=True, eq=False, kw_only=True):
         `model::link::visual`.
 
         Raises:
-            UsageError: no visual has that name; with the visuals there are.
+            UsageError: no visual has that name; the message lists the visuals.
         """
-        chosen = np.array([each == name or each.startswith(f"{name}::") for each in self.names])
+        chosen = np.array([full == name or full.startswith(f"{name}::") for full in self.names])
         if not name or not chosen.any():
             raise UsageError(f"nothing is called {name!r}; there are: {_listed(self.names[:-1])}")
         return chosen[self.segmentation]
 
     def _repr_png_(self) -> bytes:
-        """Return the colours as PNG, for notebooks."""
+        """Return the colors as PNG, for notebooks."""
         from PIL import Image
 
         file = io.BytesIO()
@@ -48,8 +48,8 @@ class CameraImage(Struct, frozen=True, eq=False, kw_only=True):
 
     def __repr__(self) -> str:
         height, width, _ = self.rgb.shape
-        seen = int(np.count_nonzero(np.unique(self.segmentation) >= 0))
-        return f"<CameraImage {width}x{height} at {self.time_ns / 1e9:.3f} s: {seen} visuals seen>"
+        visible = int(np.count_nonzero(np.unique(self.segmentation) >= 0))
+        return f"<CameraImage {width}x{height} at {self.time_ns / 1e9:.3f} s: {visible} visuals seen>"
 
 
 def _listed(names: Sequence[str]) -> str:

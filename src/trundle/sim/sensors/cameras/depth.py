@@ -12,7 +12,7 @@ from .camera import CameraReading, CameraSensor
 
 
 class DepthCameraSensor(CameraSensor):
-    """Camera for registered colour and depth images, as Gazebo's depth camera."""
+    """Camera for registered color and depth images, as Gazebo's depth camera."""
 
     needs_depth = True
 

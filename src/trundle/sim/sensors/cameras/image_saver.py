@@ -23,7 +23,7 @@ _ILLEGAL = str.maketrans({":": "_", "/": "_", "\\": "_"})
 
 
 class Quota:
-    """Images and bytes that the cameras of one run may still save."""
+    """Remaining images and bytes that the cameras of one run may save."""
 
     def __init__(self) -> None:
         has_bounds = os.environ.get(SAVE_ALL) != "1"
@@ -56,10 +56,10 @@ class ImageSaver:
 
         Args:
             camera: source of the images.
-            folder: where images are written.
-            world: the world's name.
-            report: gets a warning when writing fails and saving stops.
-            quota: shared limit.
+            folder: folder of the images.
+            world: name of the world.
+            report: receives a warning when writing fails and saving stops.
+            quota: limit shared by all cameras of a run.
         """
         names = (world, camera.model.name, camera.link.name, camera.name)
         self._start = "_".join(names).translate(_ILLEGAL)
@@ -97,12 +97,12 @@ class ImageSaver:
             return
         self._count += 1
 
-    def _stop(self, why: str) -> None:
+    def _stop(self, problem: str) -> None:
         self._is_stopped = True
-        self._report.warn(self._at, why)
+        self._report.warn(self._at, problem)
 
     def _write(self, data: memoryview) -> None:
-        """Write the next image; what does not fit is removed."""
+        """Write the next image; an incomplete file is removed."""
         file = self._create()
         try:
             with file:
@@ -112,7 +112,7 @@ class ImageSaver:
             raise
 
     def _create(self) -> BinaryIO:
-        """Create the next image's file; the first one's decides the number in brackets."""
+        """Create the next image's file; the first one determines the number in brackets."""
         for run in itertools.count(1) if self._run == 0 else (self._run,):
             try:
                 file = (self._folder / f"{self._start}({run})-{self._count:04}.jpg").open("xb")

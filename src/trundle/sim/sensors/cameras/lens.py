@@ -19,7 +19,7 @@ CUBE = (
 
 
 def focal_of(lens: Lens, fov_rad: float) -> float:
-    """Return f of r = c1 f fun(θ / c2 + c3): scaled to the field of view where possible, else the lens' own."""
+    """Return f of r = c1 f fun(θ / c2 + c3): scaled to the field of view if possible, else the lens' f."""
     if not lens.scale_to_hfov or not fits(lens, fov_rad):
         return lens.f
     return 1.0 / _edge(lens, fov_rad)
@@ -44,7 +44,7 @@ def directions_through(lens: Lens, fov_rad: float, x: _Array, y: _Array) -> tupl
     """Return the view ray of each pixel.
 
     Args:
-        lens: the lens.
+        lens: lens parameters.
         fov_rad: horizontal field of view.
         x: right of the image centre; half the image width is 1.
         y: below the image centre, in the same unit.
@@ -53,20 +53,20 @@ def directions_through(lens: Lens, fov_rad: float, x: _Array, y: _Array) -> tupl
         (…, 3) unit vectors in the camera frame, and a mask of the pixels that the lens images.
     """
     radius = np.hypot(x, y)
-    known = radius / (lens.c1 * focal_of(lens, fov_rad))
+    ratio = radius / (lens.c1 * focal_of(lens, fov_rad))
     with np.errstate(invalid="ignore"):
         match lens.fun:
             case "tan":
-                inner = np.arctan(known)
+                inner = np.arctan(ratio)
             case "sin":
-                inner = np.arcsin(known)
+                inner = np.arcsin(ratio)
             case _:
-                inner = known
+                inner = ratio
     angle = (inner - lens.c3) * lens.c2
-    seen = np.isfinite(angle) & (angle >= 0.0) & (angle <= min(lens.cutoff_rad, math.pi))
-    angle = np.where(seen, angle, 0.0)
+    is_valid = np.isfinite(angle) & (angle >= 0.0) & (angle <= min(lens.cutoff_rad, math.pi))
+    angle = np.where(is_valid, angle, 0.0)
     across = np.sin(angle) / np.maximum(radius, 1e-12)
-    return np.stack([np.cos(angle), -across * x, -across * y], axis=-1), seen
+    return np.stack([np.cos(angle), -across * x, -across * y], axis=-1), is_valid
 
 
 def _fun(name: str, angle: float) -> float:

@@ -45,19 +45,19 @@ def mount_cameras(
     make: Callable[[Scene], Renderer],
     *,
     model: str | None = None,
-    beside: Sequence[CameraSensor] = (),
+    existing: Sequence[CameraSensor] = (),
 ) -> list[CameraSensor]:
     """Create every camera of a world, in file order; warn of unsupported sensor types.
 
     Args:
-        simulation: with its sensors; its seed is that of the noise.
+        simulation: simulation with the sensors; its seed is the noise's.
         make: creates a renderer, one per visibility mask; not called without cameras.
-        model: only the cameras of this model.
-        beside: existing cameras, whose renderers are shared.
+        model: model whose cameras are created; None: all models.
+        existing: existing cameras, whose renderers are shared.
     """
     world, report = simulation.world, simulation.report
     cameras: list[CameraSensor] = []
-    scenes = {camera.scene.mask: camera.scene for camera in beside}
+    scenes = {camera.scene.mask: camera.scene for camera in existing}
     index = number = 0
     for owner in world.models:
         for link in owner.links:
@@ -70,7 +70,7 @@ def mount_cameras(
                     continue
                 kind: type[CameraSensor] = getattr(sensors, _KINDS[sensor.type])
                 _report_unsupported(sensor, report)
-                together: list[CameraSensor] = []
+                multicamera: list[CameraSensor] = []
                 for part, optics in enumerate(_supported_cameras(sensor, report)):
                     mask = optics.visibility_mask
                     if mask not in scenes:
@@ -81,11 +81,11 @@ def mount_cameras(
                         scene=scenes[mask],
                     )
                     camera.attach_to(simulation[owner.name].link(link.name))
-                    camera.multicamera = together
+                    camera.multicamera = multicamera
                     _save(camera, simulation, world.name, report)
-                    together.append(camera)
-                _check_labels(together, report)
-                cameras += together
+                    multicamera.append(camera)
+                _check_labels(multicamera, report)
+                cameras += multicamera
             index += 1
     return cameras
 
@@ -93,8 +93,8 @@ def mount_cameras(
 def _check_labels(cameras: Sequence[CameraSensor], report: Diagnostics) -> None:
     for camera in cameras:
         if camera.sees_labels and not camera.scene.labels.any():
-            what = "nothing in the world has a label (gz-sim-label-system in a <visual> or <model> gives one)"
-            report.warn(camera.sensor.at, f"sensor {camera.name!r}: {what}; the image shows background only")
+            problem = "nothing in the world has a label (gz-sim-label-system in a <visual> or <model> gives one)"
+            report.warn(camera.sensor.at, f"sensor {camera.name!r}: {problem}; the image shows background only")
 
 
 def _supported_cameras(sensor: Sensor, report: Diagnostics) -> Iterator[CameraOptics]:
@@ -103,9 +103,9 @@ def _supported_cameras(sensor: Sensor, report: Diagnostics) -> Iterator[CameraOp
         if optics.format in FORMATS:
             yield optics
         else:
-            known = ", ".join(FORMATS)
-            what = f"no image format {optics.format}; formats: {known}; R8G8B8 is used"
-            report.warn(sensor.at, f"sensor {sensor.name!r}: {what}")
+            formats = ", ".join(FORMATS)
+            problem = f"no image format {optics.format}; formats: {formats}; R8G8B8 is used"
+            report.warn(sensor.at, f"sensor {sensor.name!r}: {problem}")
             yield replace(optics, format="R8G8B8")
 
 
@@ -123,10 +123,10 @@ def _save(camera: CameraSensor, simulation: Simulation, world: str, report: Diag
 
 
 def _report_unsupported(sensor: Sensor, report: Diagnostics) -> None:
-    who = f"sensor {sensor.name!r}"
+    prefix = f"sensor {sensor.name!r}"
     for optics in sensor.cameras:
         if optics.lens is not None and optics.lens.scale_to_hfov and not fits(optics.lens, optics.horizontal_fov_rad):
             fov = f"{optics.horizontal_fov_rad:g} rad"
-            report.warn(sensor.at, f"{who}: no scale of this lens spans {fov}; <scale_to_hfov> is ignored")
+            report.warn(sensor.at, f"{prefix}: no scale of this lens spans {fov}; <scale_to_hfov> is ignored")
         if optics.box_type == "full_2d" and (optics.distortion != Distortion() or optics.intrinsics is not None):
-            report.warn(sensor.at, f"{who}: full_2d boxes ignore distortion and <intrinsics>")
+            report.warn(sensor.at, f"{prefix}: full_2d boxes ignore distortion and <intrinsics>")

@@ -15,11 +15,11 @@ def pixels_in(format_: str, rgb: _Rgb) -> tuple[_Pixels, str]:
     """Return the image in a format, (height, width[, 3]), and its ROS encoding.
 
     Args:
-        format_: one of FORMATS.
+        format_: key of FORMATS.
         rgb: (height, width, 3)
     """
-    encoding, make = FORMATS[format_]
-    return make(rgb), encoding
+    encoding, convert = FORMATS[format_]
+    return convert(rgb), encoding
 
 
 def _same(rgb: _Rgb) -> _Pixels:
@@ -49,9 +49,9 @@ def _bayer(pattern: str) -> Callable[[_Rgb], _Pixels]:
 
     def make(rgb: _Rgb) -> _Pixels:
         mosaic = np.empty(rgb.shape[:2], dtype=np.uint8)
-        for place, colour in enumerate(pattern):
-            row, column = divmod(place, 2)
-            mosaic[row::2, column::2] = rgb[row::2, column::2, "rgb".index(colour)]
+        for index, color in enumerate(pattern):
+            row, column = divmod(index, 2)
+            mosaic[row::2, column::2] = rgb[row::2, column::2, "rgb".index(color)]
         return mosaic
 
     return make

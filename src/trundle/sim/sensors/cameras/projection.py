@@ -55,10 +55,10 @@ class PinholeProjection:
 
     def slopes(self) -> tuple[_Array, _Array]:
         """See `CameraProjection.slopes`."""
-        ((_, seen),) = self.pinhole_views
-        columns, rows = _pixels(seen.width_px, seen.height_px)
-        f = seen.focal_px
-        return (columns - seen.width_px / 2) / f, (rows - seen.height_px / 2) / f
+        ((_, lens),) = self.pinhole_views
+        columns, rows = _pixels(lens.width_px, lens.height_px)
+        f = lens.focal_px
+        return (columns - lens.width_px / 2) / f, (rows - lens.height_px / 2) / f
 
 
 class DistortedProjection:
@@ -69,19 +69,19 @@ class DistortedProjection:
         columns, rows = _pixels(optics.width_px, optics.height_px)
         f, pinhole, distortion = intrinsics.focal_px, optics.intrinsics, optics.distortion
         if pinhole is None:
-            right, down, sound = _gazebo_slopes(columns, rows, f, distortion, crop=crop)
+            right, down, is_valid = _gazebo_slopes(columns, rows, f, distortion, crop=crop)
         else:
             f = max(pinhole.fx, pinhole.fy)
             down = (rows - pinhole.cy) / pinhole.fy
             right = (columns - pinhole.cx - pinhole.skew * down) / pinhole.fx
-            right, down, sound = undistorted(right, down, distortion)
+            right, down, is_valid = undistorted(right, down, distortion)
         self._right, self._down = right, down
-        sound &= (np.abs(self._right) < _STEEPEST) & (np.abs(self._down) < _STEEPEST)
-        face = _covering_intrinsics(self._right[sound], self._down[sound], f, intrinsics)
+        is_valid &= (np.abs(self._right) < _STEEPEST) & (np.abs(self._down) < _STEEPEST)
+        face = _covering_intrinsics(self._right[is_valid], self._down[is_valid], f, intrinsics)
         self.pinhole_views = [(Pose(), face)]
         ahead = np.ones_like(self._right)
         directions = np.stack([ahead, -self._right, -self._down], axis=-1)
-        self._remap = Remap(self.pinhole_views, directions, sound)
+        self._remap = Remap(self.pinhole_views, directions, is_valid)
 
     def compose(self, pictures: list[Picture]) -> Picture:
         """See `CameraProjection.compose`."""
@@ -93,7 +93,7 @@ class DistortedProjection:
 
 
 class WideAngleProjection:
-    """Wide-angle lens, sampled from the faces of a cube map that it needs."""
+    """Wide-angle lens, sampled from the faces of a cube map in its view."""
 
     def __init__(self, optics: CameraOptics, intrinsics: Intrinsics) -> None:
         lens = optics.lens
@@ -102,7 +102,7 @@ class WideAngleProjection:
         columns, rows = _pixels(width, height)
         half = width / 2
         x, y = (columns - half) / half, (rows - height / 2) / half
-        directions, seen = directions_through(lens, optics.horizontal_fov_rad, x, y)
+        directions, is_valid = directions_through(lens, optics.horizontal_fov_rad, x, y)
         # Two extra pixels beyond 90°: interpolation stays within one face.
         size = lens.face_px + 2
         fov = 2.0 * math.atan(size / lens.face_px)
@@ -113,7 +113,7 @@ class WideAngleProjection:
             near_m=intrinsics.near_m,
             far_m=intrinsics.far_m,
         )
-        self._remap = Remap([(side, face) for side in CUBE], directions, seen)
+        self._remap = Remap([(side, face) for side in CUBE], directions, is_valid)
         self.pinhole_views = self._remap.pinhole_views
 
     def compose(self, pictures: list[Picture]) -> Picture:
@@ -129,9 +129,9 @@ def projection_of(optics: CameraOptics, intrinsics: Intrinsics, *, crop: bool = 
     """Return the projection of a camera.
 
     Args:
-        optics: the camera's optics.
-        intrinsics: of the pinhole with the same field of view.
-        crop: for negative `k1`, enlarge the image until no border is black, as Gazebo does.
+        optics: camera's optics.
+        intrinsics: pinhole with the same field of view.
+        crop: True: for negative `k1`, enlarge the image until no border is black, as in Gazebo.
     """
     if optics.lens is not None:
         return WideAngleProjection(optics, intrinsics)
@@ -160,12 +160,12 @@ def _gazebo_slopes(
         if min(scale) < _MIN_SCALE:  # as in Gazebo, no crop
             scale = (1.0, 1.0)
     u, v = (
-        ((at / size - 0.5) * factor + 0.5 - center) * side
-        for at, size, factor, center in zip((columns, rows), (width, height), scale, middle, strict=True)
+        ((pixel / size - 0.5) * factor + 0.5 - center) * side
+        for pixel, size, factor, center in zip((columns, rows), (width, height), scale, middle, strict=True)
     )
-    across, along, sound = undistorted(u, v, distortion)
+    across, along, is_valid = undistorted(u, v, distortion)
     right = across * width / focal / side + (middle[0] - 0.5) * width / focal
-    return right, along * height / focal / side + (middle[1] - 0.5) * height / focal, sound
+    return right, along * height / focal / side + (middle[1] - 0.5) * height / focal, is_valid
 
 
 def _pixels(width: int, height: int) -> tuple[_Array, _Array]:
@@ -175,7 +175,7 @@ def _pixels(width: int, height: int) -> tuple[_Array, _Array]:
 
 
 def _covering_intrinsics(right: _Array, down: _Array, focal: float, intrinsics: Intrinsics) -> Intrinsics:
-    """Return a pinhole that covers all slopes, at the camera's own resolution where the size limits allow."""
+    """Return a pinhole that covers all slopes, at the camera's resolution if the size limits allow it."""
     across = float(np.abs(right).max(initial=1e-3))
     along = float(np.abs(down).max(initial=1e-3))
     focal = min(focal, math.sqrt(_MAX_PX / (4.0 * across * along)), _MAX_ALONG / max(across, along))
@@ -190,7 +190,7 @@ def _covering_intrinsics(right: _Array, down: _Array, focal: float, intrinsics: 
 
 
 def undistorted(right: _Array, down: _Array, distortion: Distortion) -> tuple[_Array, _Array, NDArray[np.bool_]]:
-    """Return the undistorted slopes and a mask of the valid ones: beyond its fold the distortion has no inverse."""
+    """Return the undistorted slopes and a mask of the valid ones: beyond a fold the distortion has no inverse."""
     x, y = right.copy(), down.copy()
     with np.errstate(all="ignore"):
         for _ in range(_ROUNDS):
@@ -199,8 +199,8 @@ def undistorted(right: _Array, down: _Array, distortion: Distortion) -> tuple[_A
             if np.all(np.abs(x - last) < _STILL):
                 break
         back_x, back_y = distorted(x, y, distortion)
-        sound = (np.abs(back_x - right) < _CLOSE) & (np.abs(back_y - down) < _CLOSE)
-    return np.where(sound, x, 0.0), np.where(sound, y, 0.0), sound
+        is_valid = (np.abs(back_x - right) < _CLOSE) & (np.abs(back_y - down) < _CLOSE)
+    return np.where(is_valid, x, 0.0), np.where(is_valid, y, 0.0), is_valid
 
 
 def distorted(x: _Array, y: _Array, distortion: Distortion) -> tuple[_Array, _Array]:

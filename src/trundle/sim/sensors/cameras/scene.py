@@ -32,7 +32,7 @@ class RenderRequest(Struct, eq=False):
     depth: bool
     segmentation: bool
     camera: object
-    """Hook that requests them."""
+    """Requesting hook."""
     batch: list["RenderRequest"]
     """Requests rendered together on the first fetch; empty afterwards."""
     pictures: list[Picture] | None = None
@@ -40,14 +40,14 @@ class RenderRequest(Struct, eq=False):
 
 
 class CameraScene:
-    """World as the cameras see it; tables are indexed by shape number, and −1 (no shape) is their last entry."""
+    """Scene of the world for cameras; tables are indexed by shape number, and −1 (no shape) is their last entry."""
 
     def __init__(self, simulation: Simulation, make: Callable[[Scene], Renderer], *, mask: int = EVERY_BIT) -> None:
         """Build the scene and its renderer.
 
         Args:
-            simulation: its world; the scene is rebuilt when models are spawned, deleted or edited.
-            make: creates the renderer that all cameras share.
+            simulation: simulation; the scene is rebuilt when models are spawned, deleted or edited.
+            make: creates the renderer shared by all cameras.
             mask: visibility mask of the cameras; see `scene_from_world`.
         """
         self.mask = mask
@@ -56,7 +56,7 @@ class CameraScene:
         self._shown: Snapshot | None = None
         self._requested: Snapshot | None = None
         self._open: dict[tuple[int, int, bool, bool], list[RenderRequest]] = {}
-        """Pending requests of that snapshot, by height, width and passes."""
+        """Pending requests of the last requested snapshot, by height, width and passes."""
         self._build(simulation.world)
 
     def _build(self, world: World) -> None:
@@ -75,13 +75,15 @@ class CameraScene:
         self.models: NDArray[np.intp] = np.array([*(model_of[body] for body, _ in shapes), -1], dtype=np.intp)
         """Model number of each shape; −1: none."""
         self.labels: NDArray[np.uint8] = np.array([*(v.label if v else 0 for _, v in shapes), 0], dtype=np.uint8)
-        heats = [air if visual is None or visual.temperature is None else visual.temperature for _, visual in shapes]
-        self.temperatures: NDArray[np.float32] = np.array([*heats, air], dtype=np.float32)
+        temperatures = [
+            air if visual is None or visual.temperature is None else visual.temperature for _, visual in shapes
+        ]
+        self.temperatures: NDArray[np.float32] = np.array([*temperatures, air], dtype=np.float32)
         """Temperature of each shape [K]."""
 
     @property
     def visuals(self) -> tuple[NDArray[np.int32], tuple[str, ...]]:
-        """By shape: the number of its visual, −1 for none; and the visuals' names, `model::link::visual`, then ""."""
+        """Visual number of each shape, −1 for none; and the visuals' names, `model::link::visual`, then ""."""
         scene = self.scene
         owners = [f"{scene.bodies[shape.body]}::{shape.name}" for shape in scene.shapes]
         names = tuple(dict.fromkeys(owners))
@@ -102,24 +104,24 @@ class CameraScene:
             self._requested, self._open = snapshot, {}
         height, width = size_of(views)
         kind = (height, width, depth, segmentation)
-        together = self._open.get(kind, [])
-        if (len(together) + 1) * len(views) * height * width > _MAX_BATCH_PX:
-            together = []
-        self._open[kind] = together
-        request = RenderRequest(snapshot, views, depth, segmentation, camera, together)
-        together.append(request)
+        batch = self._open.get(kind, [])
+        if (len(batch) + 1) * len(views) * height * width > _MAX_BATCH_PX:
+            batch = []
+        self._open[kind] = batch
+        request = RenderRequest(snapshot, views, depth, segmentation, camera, batch)
+        batch.append(request)
         return request
 
     def fetch(self, request: RenderRequest) -> list[Picture]:
         """Return the requested images; link poses are updated once for all cameras."""
         if request.pictures is None:
             self._show(request.snapshot)
-            views = [view for each in request.batch for view in each.views]
+            views = [view for batched in request.batch for view in batched.views]
             pictures = iter(self._renderer.render(views, depth=request.depth, segmentation=request.segmentation))
-            for each in request.batch:
-                each.pictures = [next(pictures) for _ in each.views]
+            for batched in request.batch:
+                batched.pictures = [next(pictures) for _ in batched.views]
             if self._simulation.profiler is not None:
-                self._simulation.profiler.lap(*(each.camera for each in request.batch))
+                self._simulation.profiler.lap(*(batched.camera for batched in request.batch))
             request.batch.clear()
         assert request.pictures is not None
         return request.pictures
@@ -131,7 +133,7 @@ class CameraScene:
         if self._shown is not snapshot:
             self._renderer.update(snapshot.poses)
             if self.scene.skins:
-                from trundle.sim.render import update_skins  # only actors have some
+                from trundle.sim.render import update_skins  # only actors have skins
 
                 update_skins(self._renderer, self.scene, self._simulation.animation_state)
             self._shown = snapshot

@@ -13,7 +13,7 @@ from .scene import CameraScene
 INSTANCES = 1 << 16
 """Factor of the label in a panoptic value."""
 _GOLDEN = 0.6180339887498949
-"""Golden ratio step of hues, which keeps the colours of labels apart."""
+"""Golden ratio step of hues, which makes the colors of labels distinct."""
 
 
 class SegmentationCameraSensor(CameraSensor):
@@ -30,9 +30,9 @@ class SegmentationCameraSensor(CameraSensor):
         shapes = self.render(snapshot).segmentation
         assert shapes is not None
         values = instance_labels(self.scene) if self.optics.panoptic else self.scene.labels
-        kinds, kind_of = np.unique(values, return_inverse=True)
-        colours = np.array([_colour(int(value)) for value in kinds], dtype=np.uint8)
-        return CameraReading(time_ns=snapshot.time_ns, rgb=colours[kind_of[shapes]], labels=values[shapes])
+        unique, index = np.unique(values, return_inverse=True)
+        colors = np.array([_color(int(value)) for value in unique], dtype=np.uint8)
+        return CameraReading(time_ns=snapshot.time_ns, rgb=colors[index[shapes]], labels=values[shapes])
 
 
 def instance_labels(scene: CameraScene) -> NDArray[np.int32]:
@@ -45,7 +45,7 @@ def instance_labels(scene: CameraScene) -> NDArray[np.int32]:
     return values
 
 
-def _colour(value: int) -> tuple[int, int, int]:
+def _color(value: int) -> tuple[int, int, int]:
     """Return black for the background, else a distinct hue."""
     if value == 0:
         return (0, 0, 0)

@@ -13,11 +13,11 @@ class ThermalCameraSensor(CameraSensor):
     needs_segmentation = True
 
     def measure(self, snapshot: Snapshot) -> CameraReading:
-        """Render the temperatures; the colour image maps the coldest to black and the warmest to white."""
+        """Render the temperatures; the color image maps the coldest to black and the warmest to white."""
         shapes = self.render(snapshot).segmentation
         assert shapes is not None
-        known = self.scene.temperatures
-        span = max(float(known.max() - known.min()), 1.0)
-        grey = ((known - known.min()) / span * 255.0).astype(np.uint8)[shapes]
+        temperatures = self.scene.temperatures
+        span = max(float(temperatures.max() - temperatures.min()), 1.0)
+        grey = ((temperatures - temperatures.min()) / span * 255.0).astype(np.uint8)[shapes]
         rgb = np.repeat(grey[..., None], 3, axis=-1)
-        return CameraReading(time_ns=snapshot.time_ns, rgb=rgb, temperatures=known[shapes])
+        return CameraReading(time_ns=snapshot.time_ns, rgb=rgb, temperatures=temperatures[shapes])
