@@ -79,9 +79,7 @@ class EkfLocalization:
         )
         self._sources = read_sources(settings)
         if not self._sources:
-            raise ParamError(
-                f"{settings.namespace}: no sensor; set odom0, pose0, twist0 or imu0 to a topic"
-            )
+            raise ParamError(f"{settings.namespace}: no sensor; set odom0, pose0, twist0 or imu0 to a topic")
 
     def _subscribe(self, settings: RosParameters) -> None:
         node = self._node
