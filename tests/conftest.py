@@ -1,4 +1,4 @@
-"""Fixtures every room's tests share."""
+"""Fixtures of all tests."""
 
 import os
 import signal
@@ -13,12 +13,12 @@ from trundle.robots import packages
 
 _SHARED = Path(__file__).resolve().parents[2] / "shared"
 _VARIABLES = ("ROS_MASTER_URI", "ROS_IP", "ROS_HOSTNAME", "ROS_NAMESPACE", packages.ALLOW_OUTSIDE, packages.LENIENT)
-"""A user's shell may have set them, and commands that run in this process set them."""
+"""Variables that a user's shell may set, and that commands in this process set."""
 _INSTALLED_PACKAGES = {
     "trundle.robots.packages.ros_packages._INSTALLED": Path("/nowhere"),
     "trundle.ros.messages.definition_search.DEBIAN_SHARE": "",
 }
-"""Folders of Debian's packages of ROS, which are searched last, and what hides them."""
+"""Folders of Debian's ROS packages, which are searched last → replacements that hide them."""
 _CHROMIUM = Path("/usr/bin/chromium")
 _SOFTWARE_GL = (
     "--no-sandbox",
@@ -31,15 +31,15 @@ _SOFTWARE_GL = (
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
-    "--disable-features=WebUIOmniboxPopup,WebUIOmniboxAimPopup,WebUIOmniboxFullPopup",  # pages of its own per window
+    "--disable-features=WebUIOmniboxPopup,WebUIOmniboxAimPopup,WebUIOmniboxFullPopup",  # additional pages per window
 )
 
 
 def pytest_configure() -> None:
-    """Make tests repeatable, and reset signals that programs would inherit as ignored from background jobs or nohup."""
+    """Make tests repeatable, and reset signals that background jobs and nohup ignore and child processes inherit."""
     for variable in _VARIABLES:
         os.environ.pop(variable, None)
-    os.environ["XDG_DATA_HOME"] = os.devnull  # packages that the user has fetched are not the tests'
+    os.environ["XDG_DATA_HOME"] = os.devnull  # hides packages that the user has fetched
     # Tests are the same on each run and on a slow machine; `--hypothesis-profile default` draws new examples.
     quiet = [HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
     settings.register_profile("steady", deadline=None, derandomize=True, suppress_health_check=quiet)
@@ -52,22 +52,22 @@ def pytest_configure() -> None:
 
 @pytest.fixture(autouse=True)
 def _no_installed_packages(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
-    """Hide the machine's packages of ROS, their message definitions and rules, from tests without its tools."""
+    """Hide installed ROS packages, message definitions and rules from tests that do not use ROS' tools."""
     if request.node.get_closest_marker("real_ros") is None:
-        for name, nothing in _INSTALLED_PACKAGES.items():
-            monkeypatch.setattr(name, nothing)
+        for name, replacement in _INSTALLED_PACKAGES.items():
+            monkeypatch.setattr(name, replacement)
 
 
 @pytest.fixture(autouse=True)
 def _commands_leave_no_variables(monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
     for variable in _VARIABLES:
-        monkeypatch.setenv(variable, "")  # so that it is taken back, whatever the test does
+        monkeypatch.setenv(variable, "")  # so that monkeypatch restores it
         monkeypatch.delenv(variable)
 
 
 @pytest.fixture(scope="session")
 def shared() -> Path:
-    """The folder of published robots and reference figures beside the checkout."""
+    """Folder of published robots and reference data next to the checkout."""
     if not (_SHARED / "seeds").is_dir():
         pytest.skip("the published robots (../shared) are not beside this checkout")
     return _SHARED
@@ -77,7 +77,7 @@ def shared() -> Path:
 def chromium() -> Iterator[Any]:
     """Start a real browser with software rendering.
 
-    For one module: Playwright keeps an event loop running in this thread, which asyncio.run of other tests refuses.
+    Module scope: Playwright's event loop in this thread conflicts with asyncio.run of other tests.
     """
     if not _CHROMIUM.exists():
         pytest.skip(f"{_CHROMIUM} is not installed")

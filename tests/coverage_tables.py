@@ -1,6 +1,6 @@
-"""Tables of what `make coverage` has measured, as Markdown: Python by room, C++ by folder.
+"""Markdown tables of the results of `make coverage`: Python by package, C++ by folder.
 
-Lines of C++ are those that its own tests in tests/cpp run; what Python's tests run of it is not counted.
+C++ lines count only if tests in tests/cpp run them, not if Python's tests do.
 """
 
 import json
@@ -20,7 +20,7 @@ def main() -> None:
 
 
 def python_lines() -> Iterator[tuple[str, int, int]]:
-    """Room, statements and those of them that ran, for each file."""
+    """Yield package, number of statements, and number of statements that ran, for each file."""
     coverage = [sys.executable, "-m", "coverage"]
     subprocess.run([*coverage, "json", "--quiet", "-o", str(OUT / "python.json")], cwd=ROOT, check=True)
     for name, file in json.loads((OUT / "python.json").read_text())["files"].items():
@@ -29,7 +29,7 @@ def python_lines() -> Iterator[tuple[str, int, int]]:
 
 
 def cpp_lines() -> Iterator[tuple[str, int, int]]:
-    """Folder, lines and those of them that ran, for each file."""
+    """Yield folder, number of lines, and number of lines that ran, for each file."""
     report = OUT / "cpp.json"
     gcovr = ["gcovr", "--root", str(ROOT), "--filter", "cpp/", "--json-summary", str(report), "build/kernel_tests"]
     subprocess.run([sys.executable, "-m", *gcovr], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
@@ -38,14 +38,16 @@ def cpp_lines() -> Iterator[tuple[str, int, int]]:
 
 
 def table(title: str, files: Iterable[tuple[str, int, int]]) -> list[str]:
-    """Rows of a table, with its total."""
+    """Return the rows of a table with its total."""
     counts: defaultdict[str, list[int]] = defaultdict(lambda: [0, 0])
-    for room, lines, covered in files:
-        for key in (room, "total"):
+    for package, lines, covered in files:
+        for key in (package, "total"):
             counts[key][0] += lines
             counts[key][1] += covered
     total = counts.pop("total")
-    rows = [f"| {room} | {lines} | {_percent(lines, covered)} |" for room, (lines, covered) in sorted(counts.items())]
+    rows = [
+        f"| {package} | {lines} | {_percent(lines, covered)} |" for package, (lines, covered) in sorted(counts.items())
+    ]
     return [f"| {title} | lines | run |", "|---|---|---|", *rows, f"| **total** | {total[0]} | {_percent(*total)} |"]
 
 

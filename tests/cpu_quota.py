@@ -1,4 +1,4 @@
-"""A slow machine for a test: a program and what it starts get a share of one processor."""
+"""A slow machine for a test: a program and its child processes get a fraction of one CPU core."""
 
 import os
 import signal
@@ -13,21 +13,21 @@ from typing import IO
 _V1, _V2 = Path("/sys/fs/cgroup/cpu"), Path("/sys/fs/cgroup")
 _PERIOD_US = 100_000
 _SLICE_S = 0.02
-"""Time that a program runs in a row without cgroups."""
+"""Time that a program runs without interruption if there are no cgroups."""
 
 
 @contextmanager
 def slowed(
     words: Sequence[str], *, ratio: float, env: Mapping[str, str], log: IO[str]
 ) -> Generator["subprocess.Popen[bytes]"]:
-    """Run a program with a ratio of one processor, by a cgroup, else by SIGSTOP and SIGCONT; kill it at the end."""
+    """Run a program with a fraction of one core, by a cgroup or by SIGSTOP and SIGCONT; kill it at the end."""
     group = _new_cgroup(ratio)
     if group is not None:
         words = ["/bin/sh", "-c", f'echo $$ > {group}/cgroup.procs; exec "$@"', "sh", *words]
     process = subprocess.Popen(words, env=env, stdout=log, stderr=log, start_new_session=True)
     ended = threading.Event()
     if group is None:
-        threading.Thread(target=_stop_and_go, args=(process.pid, ratio, ended), daemon=True).start()
+        threading.Thread(target=_throttle, args=(process.pid, ratio, ended), daemon=True).start()
     try:
         yield process
     finally:
@@ -40,7 +40,7 @@ def slowed(
 
 
 def _new_cgroup(ratio: float) -> Path | None:
-    """Make a cgroup with a quota; None where the user may not."""
+    """Create a cgroup with a quota; return None without permission."""
     name = f"trundle-test-{os.getpid()}-{time.monotonic_ns()}"
     quota_us = round(ratio * _PERIOD_US)
     for parent, limits in (
@@ -63,14 +63,14 @@ def _new_cgroup(ratio: float) -> Path | None:
 
 
 def _remove(group: Path) -> None:
-    for _ in range(100):  # the processes of a killed group take a moment to end
+    for _ in range(100):  # processes of a killed group end with a delay
         with suppress(OSError):
             group.rmdir()
             return
         time.sleep(0.05)
 
 
-def _stop_and_go(group: int, ratio: float, ended: threading.Event) -> None:
+def _throttle(group: int, ratio: float, ended: threading.Event) -> None:
     """Stop the processes of a group most of the time."""
     with suppress(ProcessLookupError):
         while not ended.is_set():

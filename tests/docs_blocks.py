@@ -1,16 +1,16 @@
-"""Runs the blocks of a page of the documentation, in order, in a folder of its own.
+"""Runs the code blocks of a documentation page in order in an empty folder.
 
 A fence is
 
-- ```bash: commands; a ```text fence that follows is what they print, with `...` for what differs;
-- ```python: a program, with what it prints likewise; with `>>>` at its start, a doctest of the whole page;
+- ```bash: commands; a following ```text fence is their output, with `...` for variable parts;
+- ```python: a program, likewise with its output; with `>>>` at its start, a doctest of the whole page;
 - any language with title="FILE": a file that later blocks use;
-- ```xml and ```yaml without a title: part of a file, which has to be well-formed.
+- ```xml and ```yaml without a title: part of a file, which must be well-formed.
 
-An HTML comment before a fence says what is special: `<!-- not run: REASON -->`, `<!-- fails -->` (exit code 1), and
-`<!-- keeps running: TEXT -->`, which has the driver go on once TEXT is printed and press Ctrl-C at the page's end, or
-before a block with `<!-- after Ctrl-C -->`. `trundle core` gets the port that the page's other commands look at.
-`<!-- slow -->` at the start of a page leaves it to `make test-all`.
+An HTML comment before a fence is a mark: `<!-- not run: REASON -->`, `<!-- fails -->` (exit code 1), and
+`<!-- keeps running: TEXT -->`: the next block runs after TEXT is printed, and SIGINT is sent at the page's end or
+before a block with `<!-- after Ctrl-C -->`. `trundle core` gets the port of the page's ROS_MASTER_URI.
+`<!-- slow -->` at the start of a page: it runs only in `make test-all`.
 """
 
 import itertools
@@ -34,9 +34,9 @@ import yaml
 ROOT = Path(__file__).parents[1]
 _DOCS = sorted((ROOT / "docs").rglob("*.md"))
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "ARCHITECTURE.md", *_DOCS] if _DOCS else []
-"""The documentation; none in the sdist."""
+"""Pages of the documentation; empty in the sdist."""
 COMMANDS = Path(os.environ.get("TRUNDLE_COMMANDS", Path(sys.executable).parent))
-"""Folder of the `trundle` and the `python` that blocks call."""
+"""Folder of `trundle` and `python` for blocks."""
 _TIMEOUT_S = 60.0
 _FENCE = re.compile(
     r"(?:^[ ]*<!-- (?P<mark>[^\n]+?) -->\n+)?"
@@ -55,36 +55,36 @@ class Block:
     text: str
     title: str | None
     mark: str
-    """Mark in the HTML comment above the block; empty if there is none."""
+    """Mark in the HTML comment above the block, or empty."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Folder:
-    """Where a page's blocks run, and what they may rely on."""
+    """Folder and environment of a page's blocks."""
 
     path: Path
     commands: Path
-    """Folder of the `trundle` and the `python` that they call."""
+    """Folder of `trundle` and `python`."""
     environment: dict[str, str]
 
 
 def read_blocks(page: Path) -> list[Block]:
-    """Every fence of a page, in order."""
+    """Return all fences of a page in order."""
     text = page.read_text()
     return [
         Block(
-            line=text.count("\n", 0, found.start("language")) + 1,
-            language=found["language"],
-            text=textwrap.dedent(found["text"]),
-            title=found["title"],
-            mark=found["mark"] or "",
+            line=text.count("\n", 0, match.start("language")) + 1,
+            language=match["language"],
+            text=textwrap.dedent(match["text"]),
+            title=match["title"],
+            mark=match["mark"] or "",
         )
-        for found in _FENCE.finditer(text)
+        for match in _FENCE.finditer(text)
     ]
 
 
 def has_blocks(page: Path) -> bool:
-    """Whether there is something to run."""
+    """Return whether a page has blocks to run."""
     return bool(read_blocks(page)) or _has_doctest(page)
 
 
@@ -93,31 +93,31 @@ def _has_doctest(page: Path) -> bool:
 
 
 def is_slow(page: Path) -> bool:
-    """Whether the page is left to `make test-all`."""
+    """Return whether a page runs only in `make test-all`."""
     return page.read_text().startswith("<!-- slow -->")
 
 
 def run_page(page: Path, folder: Path, *, commands: Path = COMMANDS) -> None:
-    """Run every block; an assertion names the page and the line of the one that does not do what it says."""
-    where = Folder(path=folder, commands=commands, environment=_environment(folder, commands))
+    """Run every block; assertions name the page and the line of the failing block."""
+    page_folder = Folder(path=folder, commands=commands, environment=_environment(folder, commands))
     blocks = read_blocks(page)
     if _has_doctest(page):
-        doctest = [str(where.commands / "python"), "-m", "doctest", "-o", "ELLIPSIS", str(page)]
-        _run(doctest, where, f"{page.name}: the doctest")
+        doctest = [str(page_folder.commands / "python"), "-m", "doctest", "-o", "ELLIPSIS", str(page)]
+        _run(doctest, page_folder, f"{page.name}: the doctest")
     with ExitStack() as running:
         for block, after in itertools.zip_longest(blocks, blocks[1:]):
             name = f"{page.relative_to(ROOT)}:{block.line}"
             expected = after.text if after and (after.language, after.title) == ("text", None) else None
-            _run_block(block, expected, where, name, running)
+            _run_block(block, expected, page_folder, name, running)
 
 
-def _run_block(block: Block, expected: str | None, where: Folder, name: str, running: ExitStack) -> None:
+def _run_block(block: Block, expected: str | None, page_folder: Folder, name: str, running: ExitStack) -> None:
     if block.mark.startswith("not run:"):
         return
     if block.mark == "after Ctrl-C":
         running.close()
     if block.title:
-        file = where.path / block.title.replace("~", str(where.path))
+        file = page_folder.path / block.title.replace("~", str(page_folder.path))
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(block.text)
     elif block.language == "xml":
@@ -125,56 +125,56 @@ def _run_block(block: Block, expected: str | None, where: Folder, name: str, run
     elif block.language == "yaml":
         yaml.safe_load(block.text)
     elif block.mark.startswith("keeps running:"):
-        running.enter_context(_kept_running(block, where, name))
+        running.enter_context(_run_in_background(block, page_folder, name))
     elif block.language == "bash":
         script = ["bash", "-e", "-c", block.text]
-        _compare(_run(script, where, name, code=1 if block.mark == "fails" else 0), expected, name)
+        _compare(_run(script, page_folder, name, code=1 if block.mark == "fails" else 0), expected, name)
     elif block.language == "python" and not block.text.startswith(">>>"):
-        _compare(_run([str(where.commands / "python"), "-c", block.text], where, name), expected, name)
+        _compare(_run([str(page_folder.commands / "python"), "-c", block.text], page_folder, name), expected, name)
 
 
-def _run(command: list[str], where: Folder, name: str, *, code: int = 0) -> str:
-    cwd = ROOT if "doctest" in command else where.path
-    done = subprocess.run(
+def _run(command: list[str], page_folder: Folder, name: str, *, code: int = 0) -> str:
+    cwd = ROOT if "doctest" in command else page_folder.path
+    process = subprocess.run(
         command,
         cwd=cwd,
-        env=where.environment,
+        env=page_folder.environment,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
         timeout=_TIMEOUT_S,
     )
-    assert done.returncode == code, f"{name} ends with {done.returncode}:\n{done.stdout}"
-    return done.stdout
+    assert process.returncode == code, f"{name} ends with {process.returncode}:\n{process.stdout}"
+    return process.stdout
 
 
-def _compare(got: str, expected: str | None, name: str) -> None:
+def _compare(output: str, expected: str | None, name: str) -> None:
     if expected is not None:
-        matches = OutputChecker().check_output(f"\n{expected}", f"\n{got}", ELLIPSIS)
-        assert matches, f"{name} prints\n{got}\nand not\n{expected}"
+        matches = OutputChecker().check_output(f"\n{expected}", f"\n{output}", ELLIPSIS)
+        assert matches, f"{name} prints\n{output}\nand not\n{expected}"
 
 
 @contextmanager
-def _kept_running(block: Block, where: Folder, name: str) -> Iterator[None]:
-    port = where.environment["ROS_MASTER_URI"].rstrip("/").rpartition(":")[2]
+def _run_in_background(block: Block, page_folder: Folder, name: str) -> Iterator[None]:
+    port = page_folder.environment["ROS_MASTER_URI"].rstrip("/").rpartition(":")[2]
     command = block.text.replace("trundle core", f"trundle core -p {port}")
-    awaited = block.mark.partition(":")[2].strip()
-    output = where.path / f".output_{block.line}"
+    expected = block.mark.partition(":")[2].strip()
+    output = page_folder.path / f".output_{block.line}"
     with output.open("w") as file:
         process = subprocess.Popen(
             ["bash", "-c", f"exec {command}"],
-            cwd=where.path,
-            env=where.environment,
+            cwd=page_folder.path,
+            env=page_folder.environment,
             stdout=file,
             stderr=subprocess.STDOUT,
             start_new_session=True,
         )
     try:
         deadline = time.monotonic() + _TIMEOUT_S
-        while awaited not in output.read_text():
-            said = f"{name} does not say {awaited!r}:\n{output.read_text()}"
-            assert process.poll() is None, said
-            assert time.monotonic() < deadline, said
+        while expected not in output.read_text():
+            message = f"{name} does not print {expected!r}:\n{output.read_text()}"
+            assert process.poll() is None, message
+            assert time.monotonic() < deadline, message
             time.sleep(0.05)
         yield
         assert process.poll() is None, f"{name} ended before the page did:\n{output.read_text()}"
@@ -189,12 +189,12 @@ def _kept_running(block: Block, where: Folder, name: str) -> Iterator[None]:
 
 
 def _environment(folder: Path, commands: Path) -> dict[str, str]:
-    """Those of a user who has nothing of ROS: a home and a master of the page's own."""
+    """Return the environment of a user without ROS, with a home and a master's URI for the page."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    kept = {key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "GAZEBO_", "TRUNDLE_"))}
-    return kept | {
+    variables = {key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "GAZEBO_", "TRUNDLE_"))}
+    return variables | {
         "HOME": str(folder),
         "PATH": f"{commands}{os.pathsep}{os.environ['PATH']}",
         "PYTHONUNBUFFERED": "1",

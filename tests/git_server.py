@@ -1,4 +1,4 @@
-"""A git server of a test, on loopback."""
+"""A git server on loopback for tests."""
 
 import os
 import signal
@@ -14,7 +14,7 @@ _NOBODY = ("-c", "user.name=a", "-c", "user.email=a@b", "-c", "init.defaultBranc
 
 def manifest(name: str, *needs: str, build: str = "catkin") -> str:
     """Return a package.xml."""
-    depends = "".join(f"<exec_depend>{each}</exec_depend>" for each in needs)
+    depends = "".join(f"<exec_depend>{package}</exec_depend>" for package in needs)
     return f"""<package format="2"><name>{name}</name><version>0.1.0</version><license>BSD</license>
 <buildtool_depend>{build}</buildtool_depend>{depends}
 <export><build_type>{build}</build_type></export></package>"""
@@ -40,7 +40,7 @@ class GitServer:
         self._git(folder, "init", "-q")
         for branch, files in branches.items():
             self._git(folder, "checkout", "-q", "--orphan", branch)
-            for file in [each for each in folder.iterdir() if each.name != ".git"]:
+            for file in [path for path in folder.iterdir() if path.name != ".git"]:
                 subprocess.run(["rm", "-rf", str(file)], check=True)
             for path, text in files.items():
                 (folder / path).parent.mkdir(parents=True, exist_ok=True)

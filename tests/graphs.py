@@ -1,4 +1,4 @@
-"""A ROS graph of its own for a test: a loop, a master at a free port, and nodes on it."""
+"""A ROS graph for a test: a loop, a master at a free port, and nodes."""
 
 import time
 from collections.abc import Callable, Iterator
@@ -13,7 +13,7 @@ PATIENCE_S = 60.0
 
 
 def until(condition: Callable[[], object]) -> None:
-    """Wait until a condition holds that another thread brings about."""
+    """Wait until another thread has made a condition true."""
     end = time.monotonic() + PATIENCE_S
     while not condition():
         assert time.monotonic() < end, "waited in vain"
@@ -31,7 +31,7 @@ class Graph:
         return Node(name, loop=self.loop, master_uri=self.core.uri, **options)
 
     def ready(self, *nodes: Node) -> None:
-        """Wait until all registrations of the nodes are at the master."""
+        """Wait until all registrations of the nodes have reached the master."""
         for node in nodes:
             self.loop.run(node.wait_registered(), PATIENCE_S)
 

@@ -16,20 +16,20 @@ PATIENCE_S = 60.0
 
 
 def socket_url(url: str) -> str:
-    """WebSocket address of a page's URL, with its token."""
+    """Return the WebSocket address of a page's URL, with its token."""
     parts = urlsplit(url)
     return f"ws://{parts.netloc}/" + (f"?{parts.query}" if parts.query else "")
 
 
 def page_url(url: str, path: str) -> str:
-    """Address of a path of a page, with the token of its link."""
+    """Return the address of a path of a page, with its token."""
     parts = urlsplit(url)
     joint = "" if not parts.query else "&" if "?" in path else "?"
     return f"{parts.scheme}://{parts.netloc}/{path.lstrip('/')}{joint}{parts.query}"
 
 
 class ProtocolClient:
-    """Blocking client that keeps what it was told."""
+    """Blocking client that stores all messages."""
 
     def __init__(self, url: str, *, protocol: str = "trundle.v1", **options: Any) -> None:
         self.socket: ClientConnection = connect(
@@ -45,9 +45,9 @@ class ProtocolClient:
         self.jsons: list[dict[str, Any]] = []
         """All text messages."""
         self.messages: list[tuple[str, int, bytes]] = []
-        """Topic, time and payload of all messages of channels; no topic: subscribed to by hand."""
+        """Topic, time and payload of all messages of channels; the topic is empty for unknown subscriptions."""
         self.binaries: list[bytes] = []
-        """Other binary messages but the time."""
+        """Other binary messages, except for the time."""
         self.times: list[int] = []
         self._subscribed: dict[int, str] = {}
         self._numbers = itertools.count(100)
@@ -67,7 +67,7 @@ class ProtocolClient:
         self.send("unsubscribe", subscriptionIds=[number])
 
     def read(self, timeout_s: float) -> bool:
-        """Read one message; False: none came."""
+        """Read one message; return False after a timeout."""
         try:
             data = self.socket.recv(timeout=timeout_s)
         except TimeoutError:
@@ -84,7 +84,7 @@ class ProtocolClient:
         return True
 
     def until(self, condition: Callable[[], object]) -> None:
-        """Read until a condition holds."""
+        """Read until a condition is true."""
         end = time.monotonic() + PATIENCE_S
         while not condition():
             assert time.monotonic() < end, "waited in vain"
@@ -94,12 +94,12 @@ class ProtocolClient:
         return [payload for name, _, payload in self.messages if name == topic]
 
     def last(self, op: str) -> dict[str, Any]:
-        """Last text message of a kind; waits for one."""
+        """Wait for a text message of a kind; return the last one."""
         self.until(lambda: any(message["op"] == op for message in self.jsons))
         return next(message for message in reversed(self.jsons) if message["op"] == op)
 
     def settle(self, seconds: float = 0.3) -> None:
-        """Read whatever comes."""
+        """Read all messages for some time."""
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 0:
             self.read(left)

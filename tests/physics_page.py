@@ -1,4 +1,4 @@
-"""Figures of docs/physics.md: its rows, and measurements of the worlds of examples/physics."""
+"""Rows of docs/physics.md, and measurements of the worlds of examples/physics."""
 
 import math
 import os
@@ -27,7 +27,7 @@ _ROW = re.compile(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Row:
-    """A line of the page's tables."""
+    """A row of the page's tables."""
 
     world: str
     duration: float
@@ -43,7 +43,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trace:
-    """A run, sampled: arrays of (n,) but for positions."""
+    """Samples of a run: arrays of (n,), except for positions."""
 
     time: NDArray[np.float64]
     positions: NDArray[np.float64]
@@ -53,7 +53,7 @@ class Trace:
     velocity: NDArray[np.float64]
     """Velocity of the model's first link along x [m/s]."""
     energy: NDArray[np.float64]
-    """Energy of links whose frames are at their centres of mass and whose moments are equal [J]."""
+    """Energy of links, for frames at the centres of mass and equal moments [J]."""
     joint: NDArray[np.float64]
     """Position of the joint [rad]."""
     rate: NDArray[np.float64]
@@ -63,8 +63,8 @@ class Trace:
 def read_rows() -> list[Row]:
     """Read every table of the page."""
     lines = [line for line in PAGE.read_text().splitlines() if re.match(r"\| [^|]+ \| `\w+`, ", line)]
-    found = [_ROW.fullmatch(line) for line in lines]
-    assert None not in found, lines[found.index(None)]
+    matches = [_ROW.fullmatch(line) for line in lines]
+    assert None not in matches, lines[matches.index(None)]
     return [
         Row(
             world=row["world"],
@@ -76,13 +76,13 @@ def read_rows() -> list[Row]:
             figure=float(row["figure"]),
             tolerance=float(row["tolerance"]),
         )
-        for row in found
+        for row in matches
         if row is not None
     ]
 
 
 def measure(row: Row) -> float:
-    """Run the row's world, and measure what the row names."""
+    """Run the row's world, and return the row's measure."""
     trace = _run(row)
     return MEASURES[row.measure](trace)
 
@@ -112,8 +112,8 @@ def _run(row: Row) -> Trace:
 
 def _sample(sim: Simulation, model: ModelHandle, joint: str | None) -> tuple[float, ...]:
     x, y, z = model.pose.position
-    turn = (model.joint(joint).position, model.joint(joint).velocity) if joint else (math.nan, math.nan)
-    return sim.time_ns * 1e-9, x, y, z, model.pose.rpy[2], model.links[0].twist.linear[0], _energy(model), *turn
+    joint_state = (model.joint(joint).position, model.joint(joint).velocity) if joint else (math.nan, math.nan)
+    return sim.time_ns * 1e-9, x, y, z, model.pose.rpy[2], model.links[0].twist.linear[0], _energy(model), *joint_state
 
 
 def _energy(model: ModelHandle) -> float:
@@ -125,7 +125,7 @@ def _energy(model: ModelHandle) -> float:
     return total
 
 
-def _way(trace: Trace) -> float:
+def _distance(trace: Trace) -> float:
     return float(np.linalg.norm(trace.positions[-1] - trace.positions[0]))
 
 
@@ -134,10 +134,10 @@ def _elapsed(trace: Trace) -> float:
 
 
 def _period(trace: Trace) -> float:
-    """Between the first and the last time that the joint comes to rest on the same side [s]."""
+    """Return the mean period between the joint's turning points on one side [s]."""
     after = np.flatnonzero((trace.rate[:-1] < 0.0) & (trace.rate[1:] >= 0.0))
-    share = trace.rate[after] / (trace.rate[after] - trace.rate[after + 1])
-    turns = trace.time[after] + share * (trace.time[after + 1] - trace.time[after])
+    ratio = trace.rate[after] / (trace.rate[after] - trace.rate[after + 1])
+    turns = trace.time[after] + ratio * (trace.time[after + 1] - trace.time[after])
     return float((turns[-1] - turns[0]) / (len(turns) - 1))
 
 
@@ -148,9 +148,9 @@ MEASURES: dict[str, Callable[[Trace], float]] = {
     "highest z": lambda trace: trace.positions[:, 2].max(),
     "lowest z": lambda trace: trace.positions[:, 2].min(),
     "speed along x": lambda trace: trace.velocity[-1],
-    "way": _way,
-    "mean speed": lambda trace: _way(trace) / _elapsed(trace),
-    "acceleration": lambda trace: 2 * _way(trace) / _elapsed(trace) ** 2,
+    "way": _distance,
+    "mean speed": lambda trace: _distance(trace) / _elapsed(trace),
+    "acceleration": lambda trace: 2 * _distance(trace) / _elapsed(trace) ** 2,
     "yaw": lambda trace: trace.yaw[-1],
     "turning": lambda trace: (trace.yaw[-1] - trace.yaw[0]) / _elapsed(trace),
     "position": lambda trace: trace.joint[-1],
@@ -159,4 +159,4 @@ MEASURES: dict[str, Callable[[Trace], float]] = {
     "period": _period,
     "lost energy": lambda trace: trace.energy[0] - trace.energy[-1],
 }
-"""Measures by the names that rows use."""
+"""Name in the page's rows → measure."""

@@ -1,4 +1,4 @@
-"""One camera's picture."""
+"""Picture of one camera."""
 
 from trundle.sim.render import Intrinsics, Picture, Renderer
 from trundle.spatial import Pose
@@ -7,6 +7,6 @@ from trundle.spatial import Pose
 def drawn(
     renderer: Renderer, eye: Pose, lens: Intrinsics, *, depth: bool = False, segmentation: bool = False
 ) -> Picture:
-    """Image of one camera."""
+    """Return the picture of one camera."""
     (picture,) = renderer.render([(eye, lens)], depth=depth, segmentation=segmentation)
     return picture

@@ -1,4 +1,4 @@
-"""Examples of the documentation work, and the files that it names exist."""
+"""Examples in the documentation run, and the files that it names exist."""
 
 import re
 import runpy
@@ -34,19 +34,19 @@ def _parameters() -> list[object]:
 
 
 @pytest.mark.parametrize("page", _parameters())
-def test_every_block_does_what_it_says(page: Path, tmp_path: Path) -> None:
+def test_blocks_of_a_page_run(page: Path, tmp_path: Path) -> None:
     run_page(page, tmp_path)
 
 
 @pytest.mark.slow
-def test_the_readme_holds_for_the_tutorial_s_own_model(shared: Path, tmp_path: Path) -> None:
-    """The tutorial's model precedes the one that comes with Trundle, and is called my_robot."""
+def test_the_readme_runs_with_the_tutorials_model(shared: Path, tmp_path: Path) -> None:
+    """The tutorial's model has precedence over Trundle's model; its name is my_robot."""
     (tmp_path / ".gazebo/models").mkdir(parents=True)
     (tmp_path / ".gazebo/models/rp2w").symlink_to(shared / "seeds/rp2w")
     run_page(ROOT / "README.md", tmp_path)
 
 
-def test_the_blocks_that_are_not_run_are_counted() -> None:
+def test_blocks_that_are_not_run_have_known_reasons() -> None:
     marks = [block.mark for page in PAGES for block in read_blocks(page)]
     assert Counter(mark.partition("needs ")[2] for mark in marks if mark.startswith("not run:")) == REASONS
 
@@ -61,27 +61,27 @@ def test_a_decision_has_its_status_context_and_alternatives(page: Path) -> None:
 
 
 def _current(page: Path) -> bool:
-    """False for decisions, which name the files of their day."""
+    """Return False for decisions, which may name files that no longer exist."""
     return "decisions" not in page.parts
 
 
 @pytest.mark.parametrize(
     "page", [page for page in PAGES if _current(page)], ids=lambda page: str(page.relative_to(ROOT))
 )
-def test_every_file_that_a_page_names_is_there(page: Path) -> None:
+def test_files_named_on_a_page_exist(page: Path) -> None:
     text = "".join(part for i, part in enumerate(page.read_text().split("```")) if i % 2 == 0)
-    made = {Path(block.title).name for block in read_blocks(page) if block.title}
-    named = {name for name in _FILE.findall(text) if name not in made}
+    created = {Path(block.title).name for block in read_blocks(page) if block.title}
+    named = {name for name in _FILE.findall(text) if name not in created}
     assert {name for name in named if not any((base / name).exists() for base in (ROOT, ROOT / "src/trundle"))} == set()
 
 
-def test_the_table_of_sensor_topics_is_that_of_the_code() -> None:
-    made = runpy.run_path(str(ROOT / "docs/generate/sensor_topics.py"))
-    page = made["PAGE"].read_text()
-    assert made["with_table"](page) == page, "make format rewrites it"
+def test_the_table_of_sensor_topics_is_up_to_date() -> None:
+    module = runpy.run_path(str(ROOT / "docs/generate/sensor_topics.py"))
+    page = module["PAGE"].read_text()
+    assert module["with_table"](page) == page, "make format rewrites it"
 
 
-def test_every_room_has_its_line_in_the_architecture() -> None:
+def test_every_package_is_in_the_architecture() -> None:
     plan = (ROOT / "ARCHITECTURE.md").read_text()
     wings = [path.parent for path in (ROOT / "src/trundle").glob("*/__init__.py")]
     rooms = [path.name for path in wings] + [path.parent.name for wing in wings for path in wing.glob("*/__init__.py")]

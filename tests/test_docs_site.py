@@ -1,4 +1,4 @@
-"""The site of the documentation builds without a warning and loads nothing from other servers."""
+"""The documentation's site builds without warnings and loads nothing from other servers."""
 
 import http.server
 import re
@@ -22,23 +22,23 @@ _LOADED = re.compile(
     r"|<link\b(?=[^>]*?rel=[\"']?(?:stylesheet|icon|preload|preconnect|prefetch|manifest))[^>]*?\shref=[\"']?([^\"'\s>]+)"
     r"|url\(\s*[\"']?([^\"')\s]+)|@import\s+[\"']([^\"']+)"
 )
-"""Attributes of elements that a browser loads by itself."""
+"""URLs in elements that a browser loads automatically."""
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The site, built as `make docs` does."""
+    """The site, built like by `make docs`."""
     pytest.importorskip("material", reason="Material for MkDocs is not installed")
-    built = tmp_path_factory.mktemp("site")
-    command = [sys.executable, "-W", "ignore", "-m", "mkdocs", "build", "--strict", "--site-dir", str(built)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    return built
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-W", "ignore", "-m", "mkdocs", "build", "--strict", "--site-dir", str(folder)]
+    process = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert process.returncode == 0, process.stderr
+    return folder
 
 
-def test_it_is_whole_and_asks_nobody_else_for_anything(site: Path) -> None:
+def test_pages_link_only_existing_local_files(site: Path) -> None:
     pages = {file: file.read_text() for kind in ("html", "css") for file in site.rglob(f"*.{kind}")}
-    loaded = [(page, next(filter(None, found))) for page, text in pages.items() for found in _LOADED.findall(text)]
+    loaded = [(page, next(filter(None, groups))) for page, text in pages.items() for groups in _LOADED.findall(text)]
     assert len(pages) > 40
     assert len(loaded) > 100
 
@@ -49,7 +49,7 @@ def test_it_is_whole_and_asks_nobody_else_for_anything(site: Path) -> None:
     assert missing == []
 
 
-def test_its_references_name_what_there_is(site: Path) -> None:
+def test_references_have_generated_content(site: Path) -> None:
     def page(name: str) -> str:
         return (site / f"reference/{name}.html").read_text()
 
@@ -69,14 +69,14 @@ def test_the_site_loads_nothing_from_other_hosts(site: Path, chromium: Any) -> N
     try:
         origin = f"http://127.0.0.1:{server.server_port}"
         page = chromium.new_page()
-        asked: list[str] = []
+        requests: list[str] = []
         failed: list[str] = []
-        page.on("request", lambda request: asked.append(request.url))
+        page.on("request", lambda request: requests.append(request.url))
         page.on("response", lambda response: failed.append(response.url) if response.status >= 400 else None)
         for name in ("index", "start", "reference/sdf", "howto/see"):
             page.goto(f"{origin}/{name}.html", wait_until="networkidle")
-        assert len(asked) > 10
-        assert [url for url in asked if not url.startswith((origin, "data:", "blob:"))] == []
+        assert len(requests) > 10
+        assert [url for url in requests if not url.startswith((origin, "data:", "blob:"))] == []
         assert failed == []
     finally:
         server.shutdown()

@@ -1,4 +1,4 @@
-"""The table of Gazebo's and MuJoCo's windows has an answer for each of their entries."""
+"""The tables of Gazebo's and MuJoCo's windows have an answer for each entry."""
 
 import re
 from pathlib import Path
@@ -33,20 +33,20 @@ ENTRIES = {
 
 
 def test_each_entry_has_an_answer() -> None:
-    found: dict[str, list[str]] = {}
+    entries: dict[str, list[str]] = {}
     heading = ""
     for line in PAGE.read_text(encoding="utf-8").splitlines():
         if line.startswith("## "):
             heading = line.removeprefix("## ")
         elif (row := re.fullmatch(r"\| (.+?) \| (.+) \|", line)) and row[2] != "Here":
-            found.setdefault(heading, []).append(row[1])
+            entries.setdefault(heading, []).append(row[1])
             assert len(row[2]) > 5, f"{row[1]} has no answer"
 
     expected = {heading: [entry.strip() for entry in text.split("|")] for heading, text in ENTRIES.items()}
-    assert found == expected
+    assert entries == expected
 
 
-def test_each_command_that_it_names_is_there() -> None:
+def test_commands_named_on_the_page_exist() -> None:
     sources = (file.read_text(encoding="utf-8").lower() for file in (ROOT / "web/src").rglob("*.ts*"))
     strings = {string for source in sources for string in re.findall(r'"[^"\n]*"', source)}
     named = re.findall(r"(?<![*\w])\*([^*\n]+)\*", PAGE.read_text(encoding="utf-8"))

@@ -1,4 +1,4 @@
-"""Film and picture of the page, and the clock by which they are made."""
+"""Video and picture of the page, and the clock of their recording."""
 
 import sys
 import threading
@@ -15,27 +15,27 @@ pytestmark = pytest.mark.skipif(not (ROOT / "docs/generate").is_dir(), reason="n
 STRIDE_NS = 20_000_000
 
 
-def test_the_film_shows_a_robot_that_drives_and_is_small_enough() -> None:
+def test_the_video_shows_a_moving_robot_and_is_small() -> None:
     film = ROOT / "docs/page.webp"
-    with Image.open(film) as moving:
-        frames = [np.asarray(frame.convert("L")).astype(int) for frame in ImageSequence.all_frames(moving)]
+    with Image.open(film) as image:
+        frames = [np.asarray(frame.convert("L")).astype(int) for frame in ImageSequence.all_frames(image)]
     changes = [np.abs(one - other)[60:330, 200:760].mean() for one, other in pairwise(frames)]
 
     assert film.stat().st_size < 2_000_000
     assert len(frames) >= 50
     assert frames[0].shape == (600, 960)
-    assert sum(change > 0.2 for change in changes) > 0.8 * len(changes), "the scene stands still"
+    assert sum(change > 0.2 for change in changes) > 0.8 * len(changes), "the scene does not move"
 
 
-def test_the_picture_is_small_enough() -> None:
+def test_the_picture_is_small() -> None:
     file = ROOT / "docs/page.png"
     with Image.open(file) as picture:
         assert picture.size == (1440, 900)
     assert file.stat().st_size < 300_000
 
 
-def test_a_simulation_waits_for_each_step_of_the_film_s_clock(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It goes on by what the clock does, and is one stride ahead when the picture is taken."""
+def test_a_simulation_follows_the_steps_of_the_film_clock(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It advances with the clock, and is one stride ahead when a picture is taken."""
     monkeypatch.setattr(sys, "path", [str(ROOT / "docs"), *sys.path])
     from generate.film_clock import FilmClock
 

@@ -1,4 +1,4 @@
-"""Targets of `make fuzz`: seeds are read, damaged ones are read or refused in a sentence; and what is a finding."""
+"""Targets of `make fuzz`: seeds are read, mutated inputs are read or refused; findings are recorded."""
 
 import contextlib
 import json
@@ -44,13 +44,13 @@ fuzz.worker.main()
 
 
 @pytest.fixture(autouse=True)
-def _own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
+def _isolated_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:  # pyright: ignore[reportUnusedFunction]
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     (tmp_path / "open").mkdir()
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_the_seeds_of_a_reader_are_read(tmp_path: Path, name: str) -> None:
+def test_readers_accept_their_seeds(tmp_path: Path, name: str) -> None:
     target = load_target(name)
 
     with target.open(tmp_path / "open") as execute:
@@ -59,7 +59,7 @@ def test_the_seeds_of_a_reader_are_read(tmp_path: Path, name: str) -> None:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_a_damaged_file_is_read_or_refused_in_a_sentence(tmp_path: Path, name: str) -> None:
+def test_readers_accept_or_refuse_mutated_files(tmp_path: Path, name: str) -> None:
     target = load_target(name)
     pool = Pool(target.words, target.seeds())
 
@@ -76,7 +76,7 @@ def test_a_damaged_file_is_read_or_refused_in_a_sentence(tmp_path: Path, name: s
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SERVERS)
-def test_a_server_withstands_its_seeds_and_damaged_ones(tmp_path: Path, name: str) -> None:
+def test_servers_withstand_seeds_and_mutations(tmp_path: Path, name: str) -> None:
     with Campaign(tmp_path, None, {}) as campaign:
         campaign.run([name], 3.0, 1)
 
@@ -85,7 +85,7 @@ def test_a_server_withstands_its_seeds_and_damaged_ones(tmp_path: Path, name: st
 
 
 @pytest.mark.slow
-def test_a_run_counts_what_it_did_and_the_next_one_adds_to_it(tmp_path: Path) -> None:
+def test_the_summary_accumulates_over_runs(tmp_path: Path) -> None:
     for runs in (1, 2):
         with Campaign(tmp_path, None, {}) as campaign:
             campaign.run(["state-log", "map"], 4.0, 2)
@@ -98,7 +98,7 @@ def test_a_run_counts_what_it_did_and_the_next_one_adds_to_it(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize(
-    ("data", "said"),
+    ("data", "summary"),
     [
         (b"raise", "faulty: KeyError: 'no such key'"),
         (b"print", "faulty: printed: x.py:1: RuntimeWarning: overflow"),
@@ -107,7 +107,7 @@ def test_a_run_counts_what_it_did_and_the_next_one_adds_to_it(tmp_path: Path) ->
         (b"all is well", None),
     ],
 )
-def test_a_fault_is_kept_with_its_input(tmp_path: Path, data: bytes, said: str | None) -> None:
+def test_a_fault_is_recorded_with_its_input(tmp_path: Path, data: bytes, summary: str | None) -> None:
     (tmp_path / "input").write_bytes(data)
     options = ["--findings", str(tmp_path / "findings"), "--corpus", str(tmp_path), "--input", str(tmp_path / "input")]
     (tmp_path / "open").rmdir()
@@ -115,19 +115,19 @@ def test_a_fault_is_kept_with_its_input(tmp_path: Path, data: bytes, said: str |
         command = [sys.executable, "-c", FAULTY, "faulty", str(tmp_path), *options]
         subprocess.run(command, stderr=printed, check=True, cwd=Path(__file__).parents[1])
 
-    found = sorted((tmp_path / "findings").glob("*")) if said else []
-    assert len(found) == (said is not None)
-    for folder in found:
+    folders = sorted((tmp_path / "findings").glob("*")) if summary else []
+    assert len(folders) == (summary is not None)
+    for folder in folders:
         report = (folder / "report.txt").read_text()
-        assert report.startswith(said or "")
+        assert report.startswith(summary or "")
         assert f"-m fuzz faulty --input {folder}/input" in report
         assert (folder / "input").read_bytes() == data
 
 
-def test_mutations_are_bounded_and_hardly_ever_leave_an_input_as_it_was() -> None:
+def test_mutations_are_bounded_and_mostly_change_the_input() -> None:
     pool = Pool((b"word",), [b"<a><b c='1'>text</b></a>" * 3, bytes(range(60))])
-    made = [mutate(pool.inputs[seed % 2], pool, Random(seed)) for seed in range(500)]
+    mutated = [mutate(pool.inputs[seed % 2], pool, Random(seed)) for seed in range(500)]
 
-    assert sum(each in pool.inputs for each in made) < 50
-    assert max(map(len, made)) < 100_000
-    assert len(set(made)) > 350
+    assert sum(data in pool.inputs for data in mutated) < 50
+    assert max(map(len, mutated)) < 100_000
+    assert len(set(mutated)) > 350

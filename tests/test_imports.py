@@ -1,6 +1,6 @@
-"""Imports: no module reaches itself, types included.
+"""Imports, including imports for types, have no cycles.
 
-Names that come through a room's front door count as imports of the module that defines them.
+A name imported from a package counts as an import of the module that defines it.
 """
 
 import ast
@@ -23,7 +23,7 @@ _FILES = {_name(path): path for path in _ROOT.rglob("*.py")}
 
 
 def _base(module: str, path: Path, node: ast.ImportFrom) -> str:
-    """The module that a `from … import` names, as an absolute name."""
+    """Return the absolute module name of a `from … import`."""
     if node.level == 0:
         return node.module or ""
     package = module.split(".") if path.stem == "__init__" else module.split(".")[:-1]
@@ -31,7 +31,7 @@ def _base(module: str, path: Path, node: ast.ImportFrom) -> str:
 
 
 def _origin(base: str, name: str) -> str:
-    """The module that defines `name` of `base`, followed through front doors."""
+    """Return the module that defines `name` of `base`, also through packages' stubs."""
     if f"{base}.{name}" in _FILES:
         return f"{base}.{name}"
     source = _exports(base).get(name)
@@ -40,15 +40,15 @@ def _origin(base: str, name: str) -> str:
 
 @cache
 def _exports(room: str) -> dict[str, str]:
-    """Names of a front door, with the module that each is imported from."""
-    door = _FILES[room].with_suffix(".pyi")
-    body = ast.parse(door.read_text()).body if door.exists() else []
+    """Return the names in a package's stub, with the modules that they are imported from."""
+    stub = _FILES[room].with_suffix(".pyi")
+    body = ast.parse(stub.read_text()).body if stub.exists() else []
     imports = [node for node in body if isinstance(node, ast.ImportFrom)]
-    return {alias.name: _base(room, door, node) for node in imports for alias in node.names}
+    return {alias.name: _base(room, stub, node) for node in imports for alias in node.names}
 
 
 def _imports(module: str, path: Path) -> Iterator[str]:
-    """Modules of ours that one imports: at its top, in functions, and for types only."""
+    """Yield Trundle's modules that a module imports: at its top, in functions, and only for types."""
     stub = path.with_suffix(".pyi")
     texts = [path.read_text()] if path.stem == "__init__" or not stub.exists() else [path.read_text(), stub.read_text()]
     for node in (node for text in texts for node in ast.walk(ast.parse(text))):
@@ -58,12 +58,12 @@ def _imports(module: str, path: Path) -> Iterator[str]:
             yield from (_origin(base, alias.name) for alias in node.names)
 
 
-def test_no_module_imports_itself_in_a_circle() -> None:
+def test_imports_have_no_cycles() -> None:
     graph = {module: set(_imports(module, path)) for module, path in _FILES.items()}
-    circle: list[str] = []
+    cycle: list[str] = []
     try:
         TopologicalSorter(graph).prepare()
     except CycleError as error:
-        circle = error.args[1]
+        cycle = error.args[1]
 
-    assert circle == []
+    assert cycle == []

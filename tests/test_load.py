@@ -1,4 +1,4 @@
-"""The public API, on the published robot."""
+"""The public API with the published robot, and imports at the start."""
 
 import subprocess
 import sys
@@ -11,7 +11,7 @@ from trundle.spatial import Wrench
 
 
 @pytest.mark.parametrize(("force", "distance", "within"), [(15.0, 0.412, 0.412 * 0.02), (5.0, 0.0, 0.001)])
-def test_a_push_rolls_the_robot_or_not(shared: Path, force: float, distance: float, within: float) -> None:
+def test_a_force_above_friction_rolls_the_robot(shared: Path, force: float, distance: float, within: float) -> None:
     """Rigid rolling of 6 kg with three wheels of 1 kg·m² against 0.3 N·m of friction in two: 0.4117 m for 15 N in
     10 s; 5 N do not overcome the friction (2 · 0.3 N·m / 0.0635 m = 9.4 N).
     """
@@ -25,8 +25,8 @@ def test_a_push_rolls_the_robot_or_not(shared: Path, force: float, distance: flo
     assert chassis.pose.position[1] - start == pytest.approx(distance, abs=within)
 
 
-def test_importing_it_loads_nothing_heavy() -> None:
-    """Light commands must answer at once."""
+def test_importing_trundle_imports_no_heavy_modules() -> None:
+    """Light commands must start fast."""
     heavy = {"numpy", "mujoco", "aiohttp", "lxml"}
     code = f"import sys, trundle, trundle.app.cli; print(*sorted({heavy} & set(sys.modules)))"
 
@@ -49,7 +49,7 @@ def test_xacro_loads_no_parser_of_descriptions(tmp_path: Path) -> None:
     assert done.stderr.strip() == ""
 
 
-def test_the_way_in_loads_nothing_before_it_minds_the_interrupt() -> None:
+def test_the_entry_point_imports_nothing_before_it_handles_sigint() -> None:
     """Ctrl-C while modules load would print Python's traceback."""
     code = (
         "import sys, trundle; had = set(sys.modules); import trundle.__main__; print(*sorted(set(sys.modules) - had))"
@@ -60,8 +60,8 @@ def test_the_way_in_loads_nothing_before_it_minds_the_interrupt() -> None:
     assert done.stdout.split() == ["trundle.__main__"]
 
 
-def test_a_robot_loads_nothing_that_it_has_not() -> None:
-    """RP2W has cameras; each module and each dataclass of others would cost time at every start."""
+def test_a_robot_imports_only_modules_that_it_needs() -> None:
+    """RP2W has cameras; modules and dataclasses of other sensors would slow every start."""
     words = ["run", "model://rp2w", "--headless", "--no-ros", "--duration", "0.001"]
     others = {
         "numpy.random",
@@ -87,8 +87,8 @@ def test_a_robot_loads_nothing_that_it_has_not() -> None:
     assert done.stderr.splitlines()[-1] == ""
 
 
-def test_the_simulator_makes_no_dataclass_at_its_start() -> None:
-    """Each takes half a millisecond; RP2W loaded 110."""
+def test_the_start_of_the_simulator_creates_no_dataclasses() -> None:
+    """Each takes half a millisecond; RP2W used to load 110."""
     words = ["run", "model://rp2w", "--headless", "--no-ros", "--duration", "0.001"]
     rooms = ["spatial", "model", "meshes", "description", "physics", "render", "simulation", "sensors", "control"]
     code = (

@@ -13,7 +13,7 @@ ROWS = read_rows()
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.world}-{row.measure}")
-def test_a_world_does_what_its_row_says(row: Row) -> None:
+def test_worlds_have_the_documented_values(row: Row) -> None:
     assert measure(row) == pytest.approx(row.figure, abs=row.tolerance)
 
 
@@ -24,13 +24,13 @@ def test_every_world_is_on_the_page() -> None:
 
 
 @pytest.mark.parametrize("world", sorted(WORLDS.glob("*.world")), ids=lambda world: world.stem)
-def test_a_world_reads_without_a_warning(world: Path) -> None:
+def test_worlds_have_no_warnings(world: Path) -> None:
     assert trundle.load(str(world)).report.warnings == []
 
 
-def test_the_page_s_own_command_prints_the_figure(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_on_the_page_prints_the_documented_value(capsys: pytest.CaptureFixture[str]) -> None:
     command = next(line.split() for line in PAGE.read_text().splitlines() if line.endswith("--json"))
-    (row,) = (each for each in ROWS if each.world == "cart")
+    (row,) = (row for row in ROWS if row.world == "cart")
 
     assert command[:3] == ["trundle", "run", "physics/cart.world"]
     assert main([*command[1:], "--no-ros"]) == 0

@@ -1,4 +1,4 @@
-"""Every module can be imported, and nothing ends with a traceback, where Python has no POSIX modules, as on Windows."""
+"""Modules can be imported without Python's POSIX modules, as on Windows, and features degrade without tracebacks."""
 
 import subprocess
 import sys
@@ -36,7 +36,7 @@ for name in HIDDEN:
 sys.meta_path.insert(0, Absent())
 """
 NEED_A_GPU = ("mujoco_warp", "warp")
-"""Modules that `pip install` brings on request only."""
+"""Optional modules."""
 IMPORT_ALL = f"""
 NEED_A_GPU = {NEED_A_GPU!r}
 import importlib, pkgutil, trundle, trundle.ros.rospy.finder
@@ -58,7 +58,7 @@ def without(modules: tuple[str, ...], code: str) -> subprocess.CompletedProcess[
     return subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
 
 
-def test_every_module_imports_without_the_modules_of_posix() -> None:
+def test_every_module_imports_without_posix_modules() -> None:
     imported = without(MODULES_OF_POSIX, IMPORT_ALL)
 
     assert imported.returncode == 0, imported.stderr
@@ -79,7 +79,7 @@ def terminal_without_termios(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("terminal_without_termios")
-def test_a_bag_plays_without_keys_where_there_is_no_termios(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_bag_plays_without_keys_if_termios_is_missing(capsys: pytest.CaptureFixture[str]) -> None:
     with play._keys() as pressed:
         assert pressed() == ""
 
@@ -87,5 +87,5 @@ def test_a_bag_plays_without_keys_where_there_is_no_termios(capsys: pytest.Captu
 
 
 @pytest.mark.usefixtures("terminal_without_termios")
-def test_no_node_reads_keys_where_there_is_no_termios() -> None:
+def test_nodes_read_no_keys_if_termios_is_missing() -> None:
     assert not Keyboard(None).is_available

@@ -1,4 +1,4 @@
-"""Statements about a release agree in all places."""
+"""Version, packaging and release files are consistent."""
 
 import re
 import shlex
@@ -15,55 +15,55 @@ from trundle.base.extras import rospy_requirements
 
 ROOT = Path(__file__).parents[1]
 CITATION = ROOT / "CITATION.cff"
-OF_AN_INDEX = ("mujoco-warp",)
-"""Packages of others that the documentation names."""
+THIRD_PARTY = ("mujoco-warp",)
+"""Other projects' packages in the documentation."""
 
 
 @pytest.mark.skipif(not CITATION.is_file(), reason="CITATION.cff is not part of the sdist")
-def test_the_citation_names_this_version() -> None:
+def test_the_citation_has_the_current_version() -> None:
     (version,) = re.findall(r"^version: (.+)$", CITATION.read_text(), re.MULTILINE)
 
     assert version == trundle.__version__
 
 
 @pytest.mark.skipif(not (ROOT / ".dockerignore").is_file(), reason="the sdist has no hidden files")
-def test_the_container_has_all_that_the_build_reads() -> None:
-    """.dockerignore passes the files that CMake and the package's metadata name."""
-    let_through = {line[1:] for line in (ROOT / ".dockerignore").read_text().splitlines() if line.startswith("!")}
+def test_the_container_has_all_files_of_the_build() -> None:
+    """.dockerignore includes the files named in CMake and in the package's metadata."""
+    included = {line[1:] for line in (ROOT / ".dockerignore").read_text().splitlines() if line.startswith("!")}
 
-    assert {"src", "cpp", "web", "examples", "CMakeLists.txt", "pyproject.toml", "README.md", "LICENSE"} <= let_through
+    assert {"src", "cpp", "web", "examples", "CMakeLists.txt", "pyproject.toml", "README.md", "LICENSE"} <= included
 
 
 def _pip_lines(*folders: str) -> list[tuple[str, list[str]]]:
-    """Each `pip install …` of the documentation with its requirements."""
+    """Return each `pip install …` of the documentation with its requirements."""
     files = [ROOT / "README.md", ROOT / "packaging/trundle-rospy/README.md"]
     files += [path for folder in folders for path in (ROOT / folder).rglob("*.md") if "decisions" not in path.parts]
-    lines = [found for path in files for found in re.findall(r"pip install ([^`\n]+)", path.read_text())]
+    lines = [line for path in files for line in re.findall(r"pip install ([^`\n]+)", path.read_text())]
     return [(line, [word for word in shlex.split(line, comments=True) if not word.startswith("-")]) for line in lines]
 
 
 @pytest.mark.skipif(not (ROOT / "packaging").is_dir(), reason="the documentation's paths are those of a checkout")
-def test_every_pip_install_of_the_documentation_names_a_folder_of_the_checkout() -> None:
-    """Before the first release an index knows neither trundle nor trundle-rospy."""
+def test_pip_install_lines_of_the_documentation_name_existing_folders() -> None:
+    """Before the first release, neither trundle nor trundle-rospy is on an index."""
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
     lines = _pip_lines("docs")
     assert len(lines) > 5
     for line, words in lines:
         for word in words:
             folder, _, extra = word.rstrip("]").partition("[")
-            if folder in OF_AN_INDEX:
+            if folder in THIRD_PARTY:
                 continue
             assert (ROOT / folder / "pyproject.toml").is_file(), line
             assert not extra or extra in extras, line
 
 
 @pytest.mark.skipif(not (ROOT / "packaging").is_dir(), reason="the advice's path is that of a checkout")
-def test_advice_for_another_python_names_this_checkout() -> None:
+def test_requirements_for_another_python_are_in_this_checkout() -> None:
     assert rospy_requirements() == shlex.join([str(ROOT), str(ROOT / "packaging/trundle-rospy")])
 
 
-def test_extras_that_messages_name_are_there() -> None:
-    """`pip install 'trundle[x]'` finds the installed Trundle, and brings what its extra needs."""
+def test_extras_named_in_messages_exist() -> None:
+    """`pip install 'trundle[x]'` installs the extra's requirements for the installed Trundle."""
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
     named = [
         extra for path in (ROOT / "src").rglob("*.py") for extra in re.findall(r"trundle\[(\w+)\]", path.read_text())
@@ -74,12 +74,12 @@ def test_extras_that_messages_name_are_there() -> None:
 
 @pytest.mark.skipif(not (ROOT / ".github").is_dir(), reason="the sdist has no hidden files")
 def test_actions_of_ci_are_pinned_by_their_commit() -> None:
-    """A tag can be moved to other code; the version beside it is for readers and dependabot."""
+    """A tag can be moved to other code; the version in the comment is for readers and dependabot."""
     workflows = sorted((ROOT / ".github/workflows").glob("*.yml"))
-    used = [found for file in workflows for found in re.findall(r"uses: (.+)", file.read_text())]
+    used = [action for file in workflows for action in re.findall(r"uses: (.+)", file.read_text())]
 
     assert used
-    assert [each for each in used if not re.match(r"[\w./-]+@[0-9a-f]{40}  # v\d+\.\d+\.\d+", each)] == []
+    assert [action for action in used if not re.match(r"[\w./-]+@[0-9a-f]{40}  # v\d+\.\d+\.\d+", action)] == []
 
 
 @pytest.mark.skipif(not (ROOT / "changelog.d").is_dir(), reason="fragments of the changelog are not part of the sdist")

@@ -21,4 +21,4 @@ def read_video(file: Path) -> list[Frame]:
     """Decode all pictures of a video."""
     av = pytest.importorskip("av", reason="av, which reads videos, is not installed: pip install av")
     with av.open(str(file)) as video:
-        return [Frame(float(each.time), each.to_ndarray(format="rgb24")) for each in video.decode(video=0)]
+        return [Frame(float(frame.time), frame.to_ndarray(format="rgb24")) for frame in video.decode(video=0)]

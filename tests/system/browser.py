@@ -1,4 +1,4 @@
-"""A command that runs, and its page in a browser."""
+"""A running command and its page in a browser."""
 
 import os
 import re
@@ -19,13 +19,13 @@ PATIENCE_S = 120.0
 def running_page(
     *words: str, environment: dict[str, str], folder: Path | None = None, output: IO[str] | None = None
 ) -> Generator[str]:
-    """Run a command in a folder until its page answers; yields the page's address, then presses Ctrl-C.
+    """Run a command until its page is served; yield the page's address, then send SIGINT.
 
     Args:
-        words: of the command.
-        environment: variables beside those of this process.
-        folder: None: the working folder.
-        output: takes what the command prints on stdout.
+        words: arguments of `trundle`.
+        environment: variables in addition to this process'.
+        folder: working folder; None: this process'.
+        output: file for the command's standard output.
     """
     process = subprocess.Popen(
         [sys.executable, "-m", "trundle", *words],
@@ -37,23 +37,23 @@ def running_page(
         cwd=folder,
     )
     assert process.stderr is not None
-    said = ""
-    late = threading.Timer(PATIENCE_S, os.killpg, (process.pid, signal.SIGKILL))
-    late.start()
+    errors = ""
+    timeout = threading.Timer(PATIENCE_S, os.killpg, (process.pid, signal.SIGKILL))
+    timeout.start()
     try:
         for line in process.stderr:
-            said += line
-            if found := re.search(r"see it at (http://\S+)", line):
-                late.cancel()
-                yield found[1]
+            errors += line
+            if match := re.search(r"see it at (http://\S+)", line):
+                timeout.cancel()
+                yield match[1]
                 os.killpg(process.pid, signal.SIGINT)
                 _, rest = process.communicate(timeout=PATIENCE_S)
-                assert "Traceback" not in said + rest
+                assert "Traceback" not in errors + rest
                 assert process.returncode == 130
                 return
-        raise AssertionError(f"no page: {said}")
+        raise AssertionError(f"no page: {errors}")
     finally:
-        late.cancel()
+        timeout.cancel()
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
             process.communicate()

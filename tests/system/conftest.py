@@ -1,4 +1,4 @@
-"""Runs the `trundle` command as a user does: a process of its own."""
+"""Runs the `trundle` command in a process, like a user."""
 
 import contextlib
 import os
@@ -31,29 +31,29 @@ class Running:
         return self.log.read_text(errors="replace")
 
     def interrupt(self) -> int:
-        """Ctrl-C; return the exit code."""
+        """Send SIGINT; return the exit code."""
         self.process.send_signal(signal.SIGINT)
         return self.process.wait(TIMEOUT_S)
 
 
 @pytest.fixture
 def env(tmp_path: Path) -> dict[str, str]:
-    """A user's environment with nothing of ROS in it but a port of the test's own."""
+    """A user's environment without ROS variables, except for a master's URI with the test's port."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
-    kept = {key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "GAZEBO_", "TRUNDLE_"))}
-    return {**kept, "HOME": str(tmp_path), "ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
+    variables = {key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "GAZEBO_", "TRUNDLE_"))}
+    return {**variables, "HOME": str(tmp_path), "ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
 
 
 @pytest.fixture
 def trundle(env: dict[str, str], tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
     """Run a command to its end."""
 
-    def call(*arguments: str, **more: str) -> subprocess.CompletedProcess[str]:
+    def call(*arguments: str, **variables: str) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
             [sys.executable, "-m", "trundle", *arguments],
-            env={**env, **more},
+            env={**env, **variables},
             cwd=tmp_path,
             capture_output=True,
             text=True,
@@ -66,11 +66,11 @@ def trundle(env: dict[str, str], tmp_path: Path) -> Callable[..., subprocess.Com
 
 @pytest.fixture
 def start(env: dict[str, str], tmp_path: Path) -> Iterator[Callable[..., Running]]:
-    """Start a command in the background; it is killed when the test ends."""
+    """Start a command in the background; it is killed after the test."""
     started: list[Running] = []
 
-    def call(*arguments: str, **more: str) -> Running:
-        running = Running(arguments, {**env, **more}, tmp_path)
+    def call(*arguments: str, **variables: str) -> Running:
+        running = Running(arguments, {**env, **variables}, tmp_path)
         started.append(running)
         return running
 
@@ -82,21 +82,21 @@ def start(env: dict[str, str], tmp_path: Path) -> Iterator[Callable[..., Running
 
 @pytest.fixture
 def master(env: dict[str, str]) -> MasterProxy:
-    """The master of the test's environment, which may not be up yet."""
+    """Proxy of the test's master, which may not run yet."""
     return MasterProxy(env["ROS_MASTER_URI"], caller_id="/test")
 
 
 @pytest.fixture
 def until() -> Callable[[str, Callable[[], object]], None]:
-    """Wait until a condition holds; a master that is not up yet counts as False."""
+    """Wait until a condition is true; a master that does not run yet counts as False."""
 
-    def wait(what: str, is_so: Callable[[], object]) -> None:
+    def wait(description: str, condition: Callable[[], object]) -> None:
         end = time.monotonic() + TIMEOUT_S
         while True:
             with contextlib.suppress(MasterUnreachableError):
-                if is_so():
+                if condition():
                     return
-            assert time.monotonic() < end, f"waited {TIMEOUT_S:g} s for {what}"
+            assert time.monotonic() < end, f"waited {TIMEOUT_S:g} s for {description}"
             time.sleep(0.05)
 
     return wait

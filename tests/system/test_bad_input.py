@@ -1,4 +1,4 @@
-"""Errors end in one sentence with place and remedy, and exit code 1."""
+"""Errors are one sentence with location and remedy, and exit code 1."""
 
 import json
 import socket
@@ -10,7 +10,7 @@ LINK = '<sdf version="1.6"><model name="m">\n<link name="a"/>\n{}\n</model></sdf
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "sentence"),
+    ("name", "text", "message"),
     [
         ("empty.sdf", "", "empty.sdf:1: error: the file is empty"),
         ("words.sdf", "hello", "words.sdf:1: error: not well-formed XML: the root element must start here, with '<'"),
@@ -24,23 +24,23 @@ LINK = '<sdf version="1.6"><model name="m">\n<link name="a"/>\n{}\n</model></sdf
     ],
 )
 @pytest.mark.parametrize("command", ["run", "check"])
-def test_a_bad_description_is_one_sentence(trundle, tmp_path: Path, command, name, text, sentence) -> None:
+def test_an_invalid_description_is_an_error(trundle, tmp_path: Path, command, name, text, message) -> None:
     (tmp_path / name).write_text(text)
 
     done = trundle(command, name, *(["--headless", "--no-ros"] if command == "run" else []))
 
     assert done.returncode == 1
-    assert sentence in done.stderr + done.stdout
+    assert message in done.stderr + done.stdout
     assert "Traceback" not in done.stderr
 
 
-def test_a_file_that_is_not_there(trundle) -> None:
+def test_a_missing_file_is_an_error(trundle) -> None:
     done = trundle("run", "nowhere.sdf", "--headless")
 
     assert (done.returncode, done.stderr) == (1, "nowhere.sdf: error: no such file or folder\n")
 
 
-def test_a_refused_file_is_still_json(trundle, tmp_path: Path) -> None:
+def test_errors_of_check_are_printed_as_json(trundle, tmp_path: Path) -> None:
     (tmp_path / "empty.sdf").write_text("")
 
     done = trundle("check", "empty.sdf", "--json")
@@ -53,19 +53,19 @@ def test_a_refused_file_is_still_json(trundle, tmp_path: Path) -> None:
     }
 
 
-def test_a_run_of_no_file_is_still_json_and_names_a_similar_one(trundle, tmp_path: Path) -> None:
+def test_errors_of_run_are_printed_as_json_with_a_similar_file_name(trundle, tmp_path: Path) -> None:
     (tmp_path / "robot.sdf").write_text("<sdf version='1.6'/>")
 
     done = trundle("run", "robt.sdf", "--json", "--headless")
 
-    said = "no such file or folder (did you mean 'robot.sdf'?)"
-    assert (done.returncode, done.stderr) == (1, f"robt.sdf: error: {said}\n")
-    found = {"severity": "error", "file": "robt.sdf", "line": None, "message": said}
-    assert json.loads(done.stdout) == {"models": [], "diagnostics": [found]}
+    message = "no such file or folder (did you mean 'robot.sdf'?)"
+    assert (done.returncode, done.stderr) == (1, f"robt.sdf: error: {message}\n")
+    finding = {"severity": "error", "file": "robt.sdf", "line": None, "message": message}
+    assert json.loads(done.stdout) == {"models": [], "diagnostics": [finding]}
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         ("msg show geometry_msgs/Twsit", "no message type 'geometry_msgs/Twsit' (did you mean 'geometry_msgs/Twist'?)"),
         ("msg show Twiist", "no message type 'Twiist' in any package (did you mean 'Twist'?)"),
@@ -74,23 +74,23 @@ def test_a_run_of_no_file_is_still_json_and_names_a_similar_one(trundle, tmp_pat
         ("launch robot.lanch", "no such file: robot.lanch (did you mean 'robot.launch'?)"),
     ],
 )
-def test_a_name_with_a_slip_is_told_the_nearest(trundle, tmp_path: Path, words: str, said: str) -> None:
+def test_a_misspelled_name_is_an_error_with_a_similar_name(trundle, tmp_path: Path, words: str, message: str) -> None:
     (tmp_path / "robot.launch").write_text("<launch/>")
 
     done = trundle(*words.split())
 
     assert done.returncode == 1
-    assert said in done.stderr
+    assert message in done.stderr
 
 
-def test_a_missing_package_says_where_was_looked(trundle, tmp_path: Path) -> None:
+def test_the_error_of_a_missing_package_lists_the_searched_folders(trundle, tmp_path: Path) -> None:
     done = trundle("launch", "no_such_package", "x.launch", ROS_PACKAGE_PATH=str(tmp_path))
 
     assert done.returncode == 1
     assert f"no package 'no_such_package'; looked below {tmp_path}" in done.stderr
 
 
-def test_a_launch_file_is_no_robot(trundle, tmp_path: Path) -> None:
+def test_run_refuses_a_launch_file(trundle, tmp_path: Path) -> None:
     (tmp_path / "arm.xml").write_text("<launch/>")
 
     done = trundle("run", "arm.xml", "--headless", "--no-ros")
@@ -99,7 +99,7 @@ def test_a_launch_file_is_no_robot(trundle, tmp_path: Path) -> None:
     assert done.stderr == "arm.xml:1: error: a launch file, not a robot or a world; `trundle launch` starts it\n"
 
 
-def test_a_launch_argument_that_is_not_there_names_those_that_are(trundle, tmp_path: Path) -> None:
+def test_the_error_of_an_unknown_launch_argument_lists_the_arguments(trundle, tmp_path: Path) -> None:
     (tmp_path / "a.launch").write_text('<launch>\n<arg name="gui" default="true"/>\n</launch>')
 
     done = trundle("launch", "a.launch", "guy:=false")
@@ -108,7 +108,7 @@ def test_a_launch_argument_that_is_not_there_names_those_that_are(trundle, tmp_p
     assert done.stderr == "a.launch:1: error: no argument 'guy' to set; the file's arguments: 'gui'\n"
 
 
-def test_a_page_port_that_is_taken_is_said_before_anything_runs(trundle, tmp_path: Path) -> None:
+def test_a_page_port_in_use_is_an_error_before_the_run(trundle, tmp_path: Path) -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
@@ -121,7 +121,7 @@ def test_a_page_port_that_is_taken_is_said_before_anything_runs(trundle, tmp_pat
     assert "Traceback" not in done.stderr
 
 
-def test_a_second_core_says_that_the_port_is_taken(start, trundle, master, until, env) -> None:
+def test_a_second_core_on_the_same_port_is_an_error(start, trundle, master, until, env) -> None:
     port = env["ROS_MASTER_URI"].rpartition(":")[2]
     start("core", "-p", port)
     until("the first core", lambda: master.call("getPid"))
@@ -134,14 +134,14 @@ def test_a_second_core_says_that_the_port_is_taken(start, trundle, master, until
 
 
 @pytest.mark.parametrize("words", [["run"], ["run", "x", "--speed", "fast"], ["fly"], ["topic", "fly"]])
-def test_wrong_usage_is_exit_code_two(trundle, words) -> None:
+def test_wrong_usage_exits_with_2(trundle, words) -> None:
     done = trundle(*words)
 
     assert done.returncode == 2
     assert "Traceback" not in done.stderr
 
 
-def test_a_broken_plugin_names_its_own_line_and_the_run_goes_on(trundle, tmp_path: Path) -> None:
+def test_a_failing_plugin_is_a_warning_with_its_line(trundle, tmp_path: Path) -> None:
     (tmp_path / "model.sdf").write_text(LINK.format('<plugin name="p" filename="libp.so"/>'))
     (tmp_path / "p.py").write_text("import math\n\n1 / 0\n")
 

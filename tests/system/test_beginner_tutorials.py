@@ -1,4 +1,4 @@
-"""The package that the tutorials of ROS make, which is here before a user makes it."""
+"""The package of the ROS tutorials, which Trundle contains."""
 
 from pathlib import Path
 
@@ -6,7 +6,7 @@ NODES = ("talker", "listener", "add_two_ints_server")
 LAUNCH = "".join(f'<node pkg="beginner_tutorials" name="{name}" type="{name}.py" output="screen"/>' for name in NODES)
 
 
-def test_its_nodes_talk_and_add(start, trundle, until, tmp_path: Path) -> None:
+def test_talker_listener_and_add_two_ints_run(start, trundle, until, tmp_path: Path) -> None:
     (tmp_path / "a.launch").write_text(f"<launch>{LAUNCH}</launch>")
     launch = start("launch", "a.launch", "--headless")
     until("a listener that hears", lambda: "/listenerI heard hello world" in launch.output())
@@ -16,11 +16,11 @@ def test_its_nodes_talk_and_add(start, trundle, until, tmp_path: Path) -> None:
     assert "Returning [40 + 2 = 42]" in launch.output()
 
 
-def test_a_users_own_comes_first(trundle, tmp_path: Path) -> None:
-    own = tmp_path / "ws/src/beginner_tutorials"
-    (own / "msg").mkdir(parents=True)
-    (own / "package.xml").write_text("<package><name>beginner_tutorials</name></package>")
-    (own / "msg/Num.msg").write_text("int64 num\nstring name\n")
+def test_a_users_package_has_precedence(trundle, tmp_path: Path) -> None:
+    package = tmp_path / "ws/src/beginner_tutorials"
+    (package / "msg").mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>beginner_tutorials</name></package>")
+    (package / "msg/Num.msg").write_text("int64 num\nstring name\n")
 
     shown = trundle("--as", "rosmsg", "show", "beginner_tutorials/Num", ROS_PACKAGE_PATH=str(tmp_path / "ws/src"))
 

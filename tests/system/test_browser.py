@@ -1,4 +1,4 @@
-"""The tutorials' two robots as a user meets them: one command, and a page in a browser."""
+"""The tutorials' two robots, each with one command and its page in a browser."""
 
 import io
 from pathlib import Path
@@ -18,8 +18,8 @@ def _blue_columns(page: Any) -> np.ndarray[Any, Any]:
     return np.nonzero((picture[..., 2] > 100) & (picture[..., 0] < 60) & (picture[..., 1] < 60))[1]
 
 
-def test_the_smartcar_is_shown_and_driven_from_the_page(chromium: Any, shared: Path) -> None:
-    """The file names an urdf.rviz that was never published: the usual displays, with odom as the fixed frame."""
+def test_the_smartcar_is_drawn_and_driven_on_the_page(chromium: Any, shared: Path) -> None:
+    """The file refers to an unpublished urdf.rviz: the default displays are used, with odom as the fixed frame."""
     words = ("launch", "smartcar_description", "smartcar_display.rviz.launch", "--port", "0", "--view-port", "0")
     with (
         running_page(*words, environment={"ROS_PACKAGE_PATH": str(shared / "seeds")}) as url,
@@ -28,19 +28,19 @@ def test_the_smartcar_is_shown_and_driven_from_the_page(chromium: Any, shared: P
         frame = page.get_by_label("Fixed Frame").first
         until(page, lambda: frame.input_value() == "odom", "odom was not worked out")
         until(page, lambda: len(_blue_columns(page)) > 100, "the car never appeared")
-        standing = _blue_columns(page)
+        before = _blue_columns(page)
 
         page.keyboard.down("w")
-        until(page, lambda: _has_left(_blue_columns(page), standing), "the car never moved")
+        until(page, lambda: _has_moved(_blue_columns(page), before), "the car never moved")
         page.keyboard.up("w")
 
 
-def _has_left(now: np.ndarray[Any, Any], before: np.ndarray[Any, Any]) -> bool:
-    """True if the car is elsewhere in the picture, or out of it."""
+def _has_moved(now: np.ndarray[Any, Any], before: np.ndarray[Any, Any]) -> bool:
+    """Return whether the car has moved in the picture, or out of it."""
     return len(now) < len(before) / 4 or bool(abs(now.mean() - before.mean()) > 40)
 
 
-def test_the_rp2w_runs_with_both_cameras_and_its_world_on_the_page(chromium: Any, shared: Path) -> None:
+def test_the_page_shows_the_rp2w_with_both_cameras(chromium: Any, shared: Path) -> None:
     with (
         running_page("run", str(shared / "seeds" / "rp2w"), "--no-ros", "--port", "0", environment={}) as url,
         opened(chromium, url) as page,

@@ -1,4 +1,4 @@
-"""The command lines that run a missing node's real program in a container: what is inside runs, by its name here."""
+"""Command lines that run a missing node's real program in a container."""
 
 import re
 import shlex
@@ -18,8 +18,8 @@ print(rospy.get_name(), rospy.get_param("~rate"), rospy.resolve_name("goal"), ro
 """
 
 
-def test_the_real_node_has_the_launchs_name_parameters_and_remappings(start, trundle, until, tmp_path: Path) -> None:
-    """A twin of the real program stands in for the one that the container would install."""
+def test_a_container_line_has_the_nodes_name_parameters_and_remappings(start, trundle, until, tmp_path: Path) -> None:
+    """A local program replaces the program in the container."""
     program = tmp_path / "installed/move_base/scripts/move_base"
     program.parent.mkdir(parents=True)
     (program.parents[1] / "package.xml").write_text("<package><name>move_base</name></package>")
@@ -29,14 +29,14 @@ def test_the_real_node_has_the_launchs_name_parameters_and_remappings(start, tru
     launch = start("launch", "a.launch", "--headless", "--no-summary", ROS_HOSTNAME="127.0.0.1")
     until("the table", lambda: "missing  /r1/planner" in launch.output())
 
-    found = re.search(r"docker run --rm -it --network host .*", launch.output().partition("WHAT RUNS")[2])
-    assert found is not None
-    *outside, script = shlex.split(found[0])
+    match = re.search(r"docker run --rm -it --network host .*", launch.output().partition("WHAT RUNS")[2])
+    assert match is not None
+    *outside, script = shlex.split(match[0])
     variables = dict(word.split("=", 1) for before, word in pairwise(outside) if before == "-e")
-    *_, (program_name, *words) = [shlex.split(each) for each in script.split(" && ")]
+    *_, (program_name, *words) = [shlex.split(part) for part in script.split(" && ")]
     assert program_name == "rosrun"
     assert set(variables) == {"ROS_MASTER_URI", "ROS_HOSTNAME"}
-    ran = trundle("exec", *words, ROS_PACKAGE_PATH=str(tmp_path / "installed"), **variables)
+    process = trundle("exec", *words, ROS_PACKAGE_PATH=str(tmp_path / "installed"), **variables)
 
-    assert ran.stdout.splitlines()[0] == "/r1/planner 5 /elsewhere/goal ['-v', 'two words']", ran.stderr
+    assert process.stdout.splitlines()[0] == "/r1/planner 5 /elsewhere/goal ['-v', 'two words']", process.stderr
     assert launch.interrupt() == 130

@@ -1,4 +1,4 @@
-"""A person changes a running world in the Inspector, takes it back and does it again."""
+"""Edits of a running world in the Inspector, with undo and redo."""
 
 import json
 from pathlib import Path
@@ -15,8 +15,8 @@ _WORLD = """<sdf version="1.6"><world name="yard"><light name="sun" type="direct
 <collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision></link></model></world></sdf>"""
 
 
-def test_pose_mass_friction_gravity_and_light_are_typed_and_undone(chromium: Any, tmp_path: Path) -> None:
-    """The simulation has what was typed; what is refused cannot be undone."""
+def test_edits_of_pose_mass_friction_gravity_and_light_can_be_undone(chromium: Any, tmp_path: Path) -> None:
+    """The simulation has the entered values; refused edits are not in the undo history."""
     (tmp_path / "yard.world").write_text(_WORLD)
     words = ("run", str(tmp_path / "yard.world"), "--no-ros", "--port", "0")
     with (
@@ -55,13 +55,13 @@ def test_pose_mass_friction_gravity_and_light_are_typed_and_undone(chromium: Any
         until(page, lambda: base()["friction"] == [1.0, 0.25], "the friction")
 
         undo = page.get_by_role("button", name="Undo")
-        for taken_back in (
+        for is_undone in (
             lambda: base()["friction"] == [1.0, 1.0],
             lambda: base()["mass"] == 2.0,
             lambda: is_at("5.000"),
         ):
             undo.first.click()
-            until(page, taken_back, "an edit taken back")
+            until(page, is_undone, "an edit to be undone")
         page.get_by_role("button", name="Redo").first.click()
         until(page, lambda: is_at("7.500"), "the height again")
 

@@ -1,4 +1,4 @@
-"""`trundle launch` as people use roslaunch: options, logs, respawn, required nodes."""
+"""`trundle launch`: options, logs, respawn, required nodes."""
 
 import os
 import re
@@ -57,10 +57,10 @@ def package(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def launch(trundle, env: dict[str, str], package: Path) -> Iterator[Launch]:
-    """Launches at a master that is there: they end with their last node."""
+    """Run launches with a running master; they end with their last node."""
 
-    def call(*words: str, **more: str) -> subprocess.CompletedProcess[str]:
-        return trundle("launch", *words, ROS_PACKAGE_PATH=str(package.parent), **more)
+    def call(*words: str, **variables: str) -> subprocess.CompletedProcess[str]:
+        return trundle("launch", *words, ROS_PACKAGE_PATH=str(package.parent), **variables)
 
     with GraphLoop() as loop:
         core = Core(loop=loop, port=int(env["ROS_MASTER_URI"].rpartition(":")[2]))
@@ -74,9 +74,7 @@ def launch(trundle, env: dict[str, str], package: Path) -> Iterator[Launch]:
     "option",
     ["--nodes", "--files", "--find-node=/five", "--args=/sub/one", "--args=/two", "--ros-args", "--dump-params"],
 )
-def test_what_is_printed_is_line_for_line_what_roslaunch_prints(
-    launch: Launch, package: Path, env: dict[str, str], option: str
-) -> None:
+def test_output_of_options_equals_roslaunch(launch: Launch, package: Path, env: dict[str, str], option: str) -> None:
     if not Path(REAL_ROSLAUNCH).exists():
         pytest.skip("Debian's roslaunch is not installed (make system)")
     words = (option, str(package / "main.launch"), "need:=1")
@@ -84,7 +82,7 @@ def test_what_is_printed_is_line_for_line_what_roslaunch_prints(
     real = subprocess.run([REAL_ROSLAUNCH, *words], env=real_env, capture_output=True, text=True, check=True)
 
     ours = launch(*words).stdout
-    if option == "--files":  # roslaunch's order is that of a set
+    if option == "--files":  # roslaunch's order is arbitrary
         assert sorted(ours.splitlines()) == sorted(real.stdout.splitlines())
     else:
         assert ours == real.stdout
@@ -92,7 +90,7 @@ def test_what_is_printed_is_line_for_line_what_roslaunch_prints(
 
 @pytest.mark.slow
 @pytest.mark.real_ros
-def test_the_summary_is_that_of_roslaunch(trundle: Launch, package: Path, env: dict[str, str]) -> None:
+def test_the_summary_equals_roslaunch(trundle: Launch, package: Path, env: dict[str, str]) -> None:
     if not Path(REAL_ROSLAUNCH).exists():
         pytest.skip("Debian's roslaunch is not installed (make system)")
 
@@ -115,7 +113,7 @@ def test_the_summary_is_that_of_roslaunch(trundle: Launch, package: Path, env: d
     assert parts(ours) == parts("".join(lines).replace("\033[1m", ""))
 
 
-def test_arguments_are_listed_without_being_given(launch: Launch, package: Path) -> None:
+def test_arguments_are_listed_without_values(launch: Launch, package: Path) -> None:
     listed = launch("--ros-args", "p", "main.launch")
 
     assert listed.stdout.splitlines() == [
@@ -141,12 +139,12 @@ def test_output_goes_to_the_screen_or_to_a_log_file(launch: Launch, package: Pat
     assert "__name:=kept" not in done.stdout
     assert "[deep/kept-2] process has finished cleanly\nlog file: " in done.stdout
     assert re.search(r"process\[seen-1\]: started with pid \[\d+\]", done.stdout)
-    (own,) = log.parent.glob("roslaunch-*.log")
-    assert "[roslaunch][INFO] " in own.read_text()
-    assert "process[seen-1]: started with pid" in own.read_text()
+    (roslaunch_log,) = log.parent.glob("roslaunch-*.log")
+    assert "[roslaunch][INFO] " in roslaunch_log.read_text()
+    assert "process[seen-1]: started with pid" in roslaunch_log.read_text()
 
 
-def test_a_launch_with_a_master_of_its_own_keeps_its_logs_too(
+def test_a_launch_with_its_own_master_writes_logs(
     trundle: Callable[..., "subprocess.CompletedProcess[str]"], package: Path, tmp_path: Path
 ) -> None:
     (package / "main.launch").write_text('<launch><node pkg="tf" type="static_transform_publisher" name="s"/></launch>')
@@ -157,7 +155,7 @@ def test_a_launch_with_a_master_of_its_own_keeps_its_logs_too(
     assert "Node Startup" in (logs / "rosout.log").read_text()
 
 
-def test_a_required_node_ends_everything_with_exit_code_1(launch: Launch, package: Path) -> None:
+def test_the_end_of_a_required_node_ends_the_launch_with_1(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="stays"/>'
         '<node pkg="p" type="talk" name="ends" args="0 3" required="true"/></launch>'
@@ -171,7 +169,7 @@ def test_a_required_node_ends_everything_with_exit_code_1(launch: Launch, packag
 
 
 @pytest.mark.real_ros
-def test_a_script_finds_debians_rospy_where_a_virtual_environment_is_active(launch: Launch, package: Path) -> None:
+def test_a_script_finds_debians_rospy_in_an_active_virtual_environment(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="asks.py" name="asks" output="screen" required="true"/></launch>'
     )
@@ -183,7 +181,7 @@ def test_a_script_finds_debians_rospy_where_a_virtual_environment_is_active(laun
     assert "I am /asks" in launch("p", "main.launch", "--headless", PATH=active).stdout
 
 
-def test_a_node_that_dies_again_and_again_is_started_ever_more_slowly(start, until, package: Path) -> None:
+def test_the_respawn_delay_of_a_dying_node_increases(start, until, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="n" args="0 1" respawn="true"/></launch>'
     )
@@ -195,8 +193,8 @@ def test_a_node_that_dies_again_and_again_is_started_ever_more_slowly(start, unt
     assert running.interrupt() == 130
 
 
-def test_a_second_launch_takes_over_the_names_it_shares(start, trundle, until, package: Path) -> None:
-    """As in ROS: the master shuts the older node of that name down, and everything else goes on."""
+def test_a_second_launch_replaces_nodes_of_equal_names(start, trundle, until, package: Path) -> None:
+    """As in ROS, the master shuts down the older node of a name; all other nodes continue."""
     node = '<node pkg="tf2_ros" type="static_transform_publisher" name="{0}" args="0 0 0 0 0 0 x {0}" output="screen"/>'
     for name in ("first", "second"):
         (package / f"{name}.launch").write_text(f"<launch>{node.format('shared')}{node.format(name)}</launch>")
@@ -215,7 +213,7 @@ def test_a_second_launch_takes_over_the_names_it_shares(start, trundle, until, p
     assert first.interrupt() == 130
 
 
-def test_what_runs_is_said_in_a_table(launch: Launch, package: Path) -> None:
+def test_a_table_lists_processes_and_stand_ins(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="a" args="0"/><node pkg="p" type="gone" name="b"/>'
         '<node pkg="tf2_ros" type="static_transform_publisher" name="c" args="0 0 0 0 0 0 x y" launch-prefix="nice"/>'
@@ -234,24 +232,24 @@ def test_what_runs_is_said_in_a_table(launch: Launch, package: Path) -> None:
     assert "node /c: launch-prefix 'nice' is not used; the stand-in runs within this process" in done.stderr
 
 
-def test_a_prefix_that_cannot_start_a_node_is_left_out(launch: Launch, package: Path) -> None:
-    """The node runs without it, and its output is shown."""
+def test_an_unusable_launch_prefix_is_ignored_with_a_warning(launch: Launch, package: Path) -> None:
+    """The node runs without the prefix, and its output is shown."""
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="a" args="0" launch-prefix="no_such_debugger -ex run --args"/>'
         '<node pkg="p" type="talk" name="b" args="0" launch-prefix="env A=1"/></launch>'
     )
     done = launch("p", "main.launch", "--headless", "--duration", "0.1")
 
-    where = f"{package / 'main.launch'}:1: warning: node /a: "
+    start = f"{package / 'main.launch'}:1: warning: node /a: "
     prefix = "launch-prefix 'no_such_debugger -ex run --args' is left out: there is no no_such_debugger here"
-    assert where + prefix in done.stderr
+    assert start + prefix in done.stderr
     assert "/b: launch-prefix" not in done.stderr
     assert "hello 0 __name:=a" in done.stdout
     assert "hello 0 __name:=b" not in done.stdout, "its output is in the log"
 
 
-def test_rosparam_dumps_and_deletes_what_was_there_before(launch: Launch, trundle, package: Path) -> None:
-    """As roslaunch does, which runs both before it sets anything: launch files clear a node's old parameters so."""
+def test_rosparam_dump_and_delete_run_before_parameters_are_set(launch: Launch, trundle, package: Path) -> None:
+    """As in roslaunch; launch files use it to clear a node's old parameters."""
     (package / "main.launch").write_text(
         '<launch><param name="costs/fresh" value="1"/><rosparam command="dump" file="$(dirname)/were.yaml"/>'
         '<rosparam command="delete" param="/costs"/><node pkg="p" type="talk" name="a" args="0"/></launch>'
@@ -263,7 +261,7 @@ def test_rosparam_dumps_and_deletes_what_was_there_before(launch: Launch, trundl
     assert yaml.safe_load((package / "were.yaml").read_text())["costs"] == {"stale": 2}
 
 
-def test_the_table_says_where_the_page_is(launch: Launch, package: Path) -> None:
+def test_the_table_has_the_address_of_the_page(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text('<launch><node pkg="rviz" type="rviz" name="see"/></launch>')
     done = launch("p", "main.launch", "--duration", "0.1", "--view-port", "0")
 
@@ -273,7 +271,7 @@ def test_the_table_says_where_the_page_is(launch: Launch, package: Path) -> None
     assert table[1].split()[1] in done.stderr
 
 
-def test_a_launch_file_may_come_in_on_standard_input(env: dict[str, str], package: Path) -> None:
+def test_a_launch_file_is_read_from_standard_input(env: dict[str, str], package: Path) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "trundle", "launch", "-", "--nodes"],
         input='<launch><node pkg="p" type="talk" name="n"/></launch>',
@@ -306,7 +304,7 @@ def test_a_launch_without_nodes_sets_its_parameters_and_ends(launch: Launch, tru
     assert trundle("param", "get", "/noop").stdout == "5\n"
 
 
-def test_nodes_of_another_machine_are_not_started_and_those_of_this_one_are(launch: Launch, package: Path) -> None:
+def test_only_nodes_of_this_machine_are_started(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="there" machine="far" args="0"/>'
         '<node pkg="p" type="talk" name="here" machine="near" args="0"/>'
@@ -321,7 +319,7 @@ def test_nodes_of_another_machine_are_not_started_and_those_of_this_one_are(laun
 
 
 @pytest.mark.parametrize("words", [("launch", "a.launch"), ("launch", "a.launch", "--wait"), ("run", "model://rp2w")])
-def test_one_press_ends_the_wait_for_a_master_that_never_answers(start, tmp_path: Path, words: tuple[str, ...]) -> None:
+def test_one_sigint_ends_the_wait_for_a_silent_master(start, tmp_path: Path, words: tuple[str, ...]) -> None:
     (tmp_path / "a.launch").write_text('<launch><node pkg="topic_tools" type="relay" name="r" args="a b"/></launch>')
     with socket.create_server(("127.0.0.1", 0)) as silent:
         running = start(*words, "--headless", ROS_MASTER_URI=f"http://127.0.0.1:{silent.getsockname()[1]}")
@@ -330,15 +328,15 @@ def test_one_press_ends_the_wait_for_a_master_that_never_answers(start, tmp_path
             assert running.interrupt() == 130
 
 
-@pytest.mark.parametrize("how", ["word", "environment"])
-def test_a_launch_may_be_put_in_a_namespace(trundle, package: Path, how: str) -> None:
-    words, env = (("__ns:=deep",), {}) if how == "word" else ((), {"ROS_NAMESPACE": "/deep"})
+@pytest.mark.parametrize("source", ["argument", "environment"])
+def test_a_launch_can_have_a_namespace(trundle, package: Path, source: str) -> None:
+    words, env = (("__ns:=deep",), {}) if source == "argument" else ((), {"ROS_NAMESPACE": "/deep"})
     (package / "main.launch").write_text('<launch><node pkg="p" type="talk" name="n"/></launch>')
 
     assert trundle("launch", str(package / "main.launch"), "--nodes", *words, **env).stdout == "/deep/n\n"
 
 
-def test_an_argument_is_for_all_the_files_that_have_it(launch: Launch, package: Path) -> None:
+def test_an_argument_applies_to_all_files_that_declare_it(launch: Launch, package: Path) -> None:
     files = (str(package / "main.launch"), str(package / "other.launch"))
     (package / "other.launch").write_text('<launch><node pkg="p" type="talk" name="six"/></launch>')
 
@@ -350,18 +348,18 @@ def test_an_argument_is_for_all_the_files_that_have_it(launch: Launch, package: 
     ("words", "code"),
     [((), 2), (("--nodes",), 2), (("--core", "a.launch"), 2), (("a.launch", "--sigint-timeout", "0"), 1)],
 )
-def test_wrong_usage_is_told_from_what_is_wrong_in_files(trundle, words: tuple[str, ...], code: int) -> None:
+def test_exit_codes_of_wrong_usage_and_invalid_values(trundle, words: tuple[str, ...], code: int) -> None:
     done = trundle("launch", *words)
     assert (done.returncode, done.stdout) == (code, "")
     assert "trundle launch: error: " in done.stderr
 
 
-def test_options_may_stand_between_the_words(launch: Launch, package: Path) -> None:
+def test_options_can_be_between_positional_arguments(launch: Launch, package: Path) -> None:
     done = launch("p", "--nodes", "main.launch", "--no-summary", "need:=1")
     assert done.stdout.splitlines() == ["/sub/one", "/two", "/five", "/tt"]
 
 
-def test_a_launch_with_a_node_of_no_machine_is_refused(launch: Launch, package: Path) -> None:
+def test_a_node_of_an_undefined_machine_is_an_error(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text('<launch>\n<node pkg="p" type="talk" name="n" machine="far"/></launch>')
     done = launch("p", "main.launch", "--headless")
 
@@ -370,7 +368,7 @@ def test_a_launch_with_a_node_of_no_machine_is_refused(launch: Launch, package: 
     assert launch("p", "main.launch", "--nodes").returncode == 0
 
 
-def test_a_null_is_no_parameter_and_the_rest_are_set(launch: Launch, trundle, package: Path) -> None:
+def test_a_null_parameter_is_skipped_with_a_warning(launch: Launch, trundle, package: Path) -> None:
     (package / "main.launch").write_text("<launch><rosparam>{a: ~, b: 1}</rosparam></launch>")
     done = launch("p", "main.launch", "--headless", "--duration", "0.1")
 
@@ -378,24 +376,24 @@ def test_a_null_is_no_parameter_and_the_rest_are_set(launch: Launch, trundle, pa
     assert trundle("param", "list").stdout.split()[:1] == ["/b"]
 
 
-def test_quiet_leaves_what_nodes_say_and_what_goes_wrong(launch: Launch, package: Path) -> None:
+def test_quiet_keeps_output_of_nodes_and_failures(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="a" args="0" output="screen"/>'
         '<node pkg="p" type="talk" name="b" args="0 3"/></launch>'
     )
     done = launch("p", "main.launch", "--headless", "-q")
 
-    said = [line for line in done.stdout.splitlines() if not line.startswith(" ")]
-    assert len(said) == 3
-    assert [line.startswith("hello 0") for line in said].count(True) == 1  # before or after what b's end says
-    of_b = [line for line in said if not line.startswith("hello 0")]
-    assert of_b[0] == "[b-2] process has died [exit code 3]; its last output:"
-    assert of_b[1].startswith("log file: ")
+    lines = [line for line in done.stdout.splitlines() if not line.startswith(" ")]
+    assert len(lines) == 3
+    assert [line.startswith("hello 0") for line in lines].count(True) == 1  # before or after the messages about b
+    messages = [line for line in lines if not line.startswith("hello 0")]
+    assert messages[0] == "[b-2] process has died [exit code 3]; its last output:"
+    assert messages[1].startswith("log file: ")
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("distro", "topic"), [("indigo", "/tf"), ("noetic", "/tf_static")])
-def test_a_launch_is_like_the_distribution_asked_for(
+def test_fixed_joints_are_published_like_in_the_distribution(
     launch: Launch, trundle, package: Path, tmp_path: Path, distro: str, topic: str
 ) -> None:
     """Up to Indigo, transforms of fixed joints were sent repeatedly; --record has every topic."""
@@ -417,10 +415,10 @@ def test_a_launch_is_like_the_distribution_asked_for(
 
 
 @pytest.mark.parametrize("words", [(), ("--speed", "max")])
-def test_a_launch_does_not_overwrite_what_another_records(
+def test_a_launch_does_not_overwrite_an_active_recording(
     start, trundle, until, package: Path, tmp_path: Path, words: tuple[str, ...]
 ) -> None:
-    """Both in step with the simulation and beside other programs."""
+    """With lockstep and without."""
     (package / "main.launch").write_text(
         '<launch><node pkg="tf2_ros" type="static_transform_publisher" name="s" args="0 0 0 0 0 0 a b"/></launch>'
     )
@@ -435,22 +433,22 @@ def test_a_launch_does_not_overwrite_what_another_records(
     until("the transform", lambda: "/tf_static" in bag.with_name("out.bag.active").read_text(errors="replace"))
     first.interrupt()
     assert "/tf_static" in trundle("bag", "info", str(bag)).stdout
-    assert [each.name for each in tmp_path.iterdir() if "out.bag" in each.name] == ["out.bag"]
+    assert [path.name for path in tmp_path.iterdir() if "out.bag" in path.name] == ["out.bag"]
 
 
 @pytest.mark.slow
-def test_a_simulation_may_run_as_fast_as_it_can(launch: Launch, package: Path) -> None:
+def test_speed_max_runs_faster_than_real_time(launch: Launch, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch"/></launch>'
     )
     done = launch("p", "main.launch", "--headless", "--duration", "300", "--speed", "max")
 
-    assert done.returncode == 0  # within the patience of a test, which is a minute
+    assert done.returncode == 0  # within the timeout of a minute
 
 
 @pytest.mark.slow
-def test_what_a_paused_world_says_is_the_same_in_every_bag(launch: Launch, package: Path, tmp_path: Path) -> None:
-    """Whatever its nodes took to start: a flat-out recording has no wall time."""
+def test_bags_of_a_world_that_starts_paused_are_identical(launch: Launch, package: Path, tmp_path: Path) -> None:
+    """The start times of nodes have no effect: a recording with --speed max has no wall time."""
     (package / "ball.sdf").write_text(_BALL)
     (package / "main.launch").write_text(
         '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch"><arg name="paused" value="true"/>'
@@ -489,8 +487,8 @@ def test_a_gazebo_launch_file_simulates_its_robot_without_gazebo(start, trundle,
     assert "Traceback" not in running.output()
 
 
-def test_the_empty_world_is_opened_for_one_that_is_not_there(launch: Launch, package: Path) -> None:
-    """Jackal's empty_world.launch names a world that gazebo_ros never had; gzserver falls back on its own."""
+def test_a_missing_world_is_replaced_by_the_empty_world(launch: Launch, package: Path) -> None:
+    """Jackal's empty_world.launch names a world that gazebo_ros never had; gzserver uses its empty world."""
     (package / "main.launch").write_text(
         '<launch><include file="$(find gazebo_ros)/launch/empty_world.launch">'
         '<arg name="world_name" value="worlds/nowhere.world"/><arg name="server_required" value="true"/></include>'
@@ -505,7 +503,7 @@ def test_the_empty_world_is_opened_for_one_that_is_not_there(launch: Launch, pac
 
 
 @pytest.mark.parametrize("pace", [(), ("--speed", "1")])
-def test_a_launch_whose_world_ended_still_ends_at_its_duration(
+def test_a_launch_with_a_failed_world_ends_after_its_duration(
     launch: Launch, package: Path, pace: tuple[str, ...]
 ) -> None:
     (package / "bad.world").write_text("<sdf version='1.6'><world")
@@ -521,9 +519,7 @@ def test_a_launch_whose_world_ended_still_ends_at_its_duration(
     assert "[stays-2] killing on exit" in done.stdout
 
 
-def test_what_a_stand_in_says_goes_where_the_launch_file_wants_it(
-    launch: Launch, package: Path, tmp_path: Path
-) -> None:
+def test_output_of_a_stand_in_goes_to_screen_or_log(launch: Launch, package: Path, tmp_path: Path) -> None:
     node = '<node pkg="tf2_ros" type="static_transform_publisher" name="{0}" args="0 0 0 0 0 0 x {0}" output="{1}"/>'
     (package / "main.launch").write_text(
         f"<launch>{node.format('loud', 'screen')}{node.format('mute', 'log')}</launch>"
@@ -536,7 +532,7 @@ def test_what_a_stand_in_says_goes_where_the_launch_file_wants_it(
 
 
 @pytest.mark.slow
-def test_a_time_that_nobody_tells_is_said_to_be_missing(start, until, package: Path) -> None:
+def test_a_missing_clock_is_reported(start, until, package: Path) -> None:
     (package / "main.launch").write_text(
         '<launch><param name="/use_sim_time" value="true"/><node pkg="p" type="talk" name="n"/></launch>'
     )
@@ -546,7 +542,7 @@ def test_a_time_that_nobody_tells_is_said_to_be_missing(start, until, package: P
     assert running.interrupt() == 130
 
 
-def test_a_launch_file_may_say_where_models_are(start, trundle, until, package: Path, tmp_path: Path) -> None:
+def test_a_launch_file_can_set_the_model_path(start, trundle, until, package: Path, tmp_path: Path) -> None:
     model = tmp_path / "models" / "rock"
     model.mkdir(parents=True)
     (model / "model.config").write_text("<model><name>rock</name><sdf version='1.6'>model.sdf</sdf></model>")
@@ -565,9 +561,7 @@ def test_a_launch_file_may_say_where_models_are(start, trundle, until, package: 
     assert running.interrupt() == 130
 
 
-def test_a_script_that_asks_for_python_runs_where_there_is_only_python3(
-    launch: Launch, package: Path, tmp_path
-) -> None:
+def test_a_script_for_python_runs_with_python3(launch: Launch, package: Path, tmp_path) -> None:
     script = package / "old.py"
     script.write_text("#!/usr/bin/env python\nimport sys\nprint('I run on Python', sys.version_info.major)\n")
     script.chmod(0o755)
@@ -578,9 +572,7 @@ def test_a_script_that_asks_for_python_runs_where_there_is_only_python3(
     assert done.returncode == 0
 
 
-def test_a_master_of_its_own_stays_for_others_when_the_last_node_has_ended(
-    start, trundle: Launch, until, package: Path
-) -> None:
+def test_a_launchs_master_runs_on_after_the_last_node(start, trundle: Launch, until, package: Path) -> None:
     file = package / "main.launch"
     file.write_text('<launch><param name="kept" value="3"/><node pkg="p" type="talk" name="a" args="0"/></launch>')
     launched = start("launch", str(file), "--headless", ROS_PACKAGE_PATH=str(package.parent))
@@ -590,8 +582,8 @@ def test_a_master_of_its_own_stays_for_others_when_the_last_node_has_ended(
     assert launched.interrupt() == 130
 
 
-def test_nodes_are_stopped_though_nobody_reads_what_is_said_any_more(env: dict[str, str], package: Path, until) -> None:
-    """`trundle launch … | tee log`: Ctrl-C ends the tee as well, and often first."""
+def test_nodes_are_stopped_after_the_output_pipe_is_closed(env: dict[str, str], package: Path, until) -> None:
+    """`trundle launch … | tee log`: Ctrl-C also ends tee, often first."""
     (package / "main.launch").write_text(
         '<launch><node pkg="p" type="talk" name="a"/><node pkg="tf2_ros" type="static_transform_publisher" name="b"'
         ' args="0 0 0 0 0 0 x y"/></launch>'
@@ -603,10 +595,10 @@ def test_nodes_are_stopped_though_nobody_reads_what_is_said_any_more(env: dict[s
     ) as launched:
         assert launched.stdout is not None
         assert launched.stderr is not None
-        said = ""
-        while "process[b-2]" not in said:
-            said += launched.stdout.readline()
-        talk = int(said.partition("started with pid [")[2].partition("]")[0])
+        output = ""
+        while "process[b-2]" not in output:
+            output += launched.stdout.readline()
+        talk = int(output.partition("started with pid [")[2].partition("]")[0])
         launched.stdout.close()
         launched.stderr.close()
         launched.send_signal(signal.SIGINT)
@@ -618,8 +610,8 @@ def test_nodes_are_stopped_though_nobody_reads_what_is_said_any_more(env: dict[s
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="/proc, which shows who lives, is Linux's")
-def test_a_launch_that_is_killed_takes_its_nodes_with_it(start, package: Path, tmp_path: Path, until) -> None:
-    """Also one that writes nothing, what that one started, and the tools that stand in as processes."""
+def test_nodes_end_with_a_killed_launch(start, package: Path, tmp_path: Path, until) -> None:
+    """Also a node without output, its child processes, and stand-ins that are processes."""
     script = package / "mute"
     script.write_text('#!/bin/sh\nsetsid sleep 600 &\necho $! $$ > "$1"\nwait\n')
     script.chmod(0o755)

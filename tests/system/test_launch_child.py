@@ -28,7 +28,7 @@ _XML = """<?xml version="1.0" encoding="utf-8"?>
 <node pkg="p" type="gone" ns="/" args="" respawn="False" respawn_delay="0.0" name="two" required="False">
 </node>
 </launch>"""
-# The whole of Debian's roslaunch but for ssh, which is a program of this machine.
+# Debian's roslaunch, with ssh replaced by a local process.
 _PARENT = """
 import os, socket, subprocess, sys
 from roslaunch import parent, remoteprocess, rlutil
@@ -89,10 +89,10 @@ def parent(loop: GraphLoop) -> Iterator[tuple[str, Calls]]:
 
 @pytest.fixture
 def child(start, until, loop: GraphLoop, parent: tuple[str, Calls], package: Path, env: dict[str, str]):
-    """A registered child, and a way to call it; the master starts after it."""
+    """A registered child, and a function that calls it; the master starts later."""
     uri, calls = parent
     words = ("launch", "-c", "far-0", "-u", uri, "--run_id", "run 7", "--headless", "--sigint-timeout", "5.0")
-    running = start(*words, ROS_PACKAGE_PATH=str(package.parent), OUT=str(package / "said"))
+    running = start(*words, ROS_PACKAGE_PATH=str(package.parent), OUT=str(package / "output"))
     until("it to register", lambda: calls)
     assert calls[0][0] == "register"
 
@@ -115,7 +115,7 @@ def core(loop: GraphLoop, env: dict[str, str]) -> Iterator[Callable[[str], None]
         loop.run(started.stop())
 
 
-def test_it_runs_what_the_parent_sends_and_ends_when_it_is_told_to(child, core, parent, package: Path, until) -> None:
+def test_the_child_runs_the_parents_nodes_until_shutdown(child, core, parent, package: Path, until) -> None:
     running, call = child
     core("run 7")
 
@@ -125,19 +125,19 @@ def test_it_runs_what_the_parent_sends_and_ends_when_it_is_told_to(child, core, 
     assert call("list_processes")[2] == [[["deep/one-1", 1]], []]
     assert call("process_info", "deep/one-1")[2] == {"name": "deep/one-1", "alive": True, "spawn_count": 1}
     assert call("process_info", "two")[0] == -1
-    until("the program", lambda: (package / "said").exists() and (package / "said").read_text())
-    assert (package / "said").read_text().startswith("/deep hi stay x y a:=b __name:=one __log:=")
+    until("the program", lambda: (package / "output").exists() and (package / "said").read_text())
+    assert (package / "output").read_text().startswith("/deep hi stay x y a:=b __name:=one __log:=")
     assert call("shutdown") == [1, "success", 1]
 
     assert running.process.wait(60) == 0
-    told = [arguments for method, arguments in parent[1] if method == "log"]
-    assert any("process[deep/one-1]: started with pid" in text for _, level, text in told if level == 2)
-    assert any("no executable 'gone'" in text for _, level, text in told if level == 8)
-    assert all(name == "far-0" for name, _, _ in told)
+    messages = [arguments for method, arguments in parent[1] if method == "log"]
+    assert any("process[deep/one-1]: started with pid" in text for _, level, text in messages if level == 2)
+    assert any("no executable 'gone'" in text for _, level, text in messages if level == 8)
+    assert all(name == "far-0" for name, _, _ in messages)
 
 
 @pytest.mark.parametrize(("required", "code"), [(False, 0), (True, 1)])
-def test_it_tells_what_died_and_ends_with_its_last_process(
+def test_the_child_reports_dead_processes_and_ends_with_the_last(
     child, core, parent, until, required: bool, code: int
 ) -> None:
     running, call = child
@@ -148,7 +148,7 @@ def test_it_tells_what_died_and_ends_with_its_last_process(
     assert ("process_died", ["deep/one-1", 3]) in parent[1]
 
 
-def test_what_it_cannot_launch_is_answered_and_it_goes_on(child, core, package: Path) -> None:
+def test_invalid_requests_are_errors_of_a_running_child(child, core, package: Path) -> None:
     running, call = child
     command = f"<param name='x' command='touch {package}/mark'/>"
 
@@ -169,30 +169,28 @@ def test_what_it_cannot_launch_is_answered_and_it_goes_on(child, core, package: 
 
 
 @pytest.mark.parametrize(
-    ("name", "uri", "said"),
+    ("name", "uri", "message"),
     [
         ("near-1", None, "unknown child [near-1]"),
         ("far-0", "http://127.0.0.1:1/", "no roslaunch at http://127.0.0.1:1/ that takes 'far-0' as its child"),
         ("far-0", "nonsense", "no roslaunch at nonsense"),
     ],
 )
-def test_a_parent_that_does_not_want_it_is_named(trundle, parent, name: str, uri: str | None, said: str) -> None:
+def test_a_refusing_parent_is_an_error(trundle, parent, name: str, uri: str | None, message: str) -> None:
     done = trundle("launch", "-c", name, "-u", uri or parent[0], "--run_id", "1", "--headless")
     assert (done.returncode, "Traceback" in done.stderr) == (1, False)
-    assert said in done.stderr
+    assert message in done.stderr
 
 
 @pytest.mark.parametrize("words", [["-c", "a"], ["-c", "a", "-u", "b", "--run_id", "c", "x.launch"]])
-def test_its_options_go_together_and_without_files(trundle, words: list[str]) -> None:
+def test_child_options_require_each_other_and_exclude_files(trundle, words: list[str]) -> None:
     done = trundle("launch", *words)
     assert done.returncode == 2
     assert "launch: error: " in done.stderr
 
 
 @pytest.mark.real_ros
-def test_debians_roslaunch_uses_it_on_another_machine_and_ends_it(
-    env: dict[str, str], package: Path, tmp_path: Path, until
-) -> None:
+def test_debians_roslaunch_starts_and_ends_a_child(env: dict[str, str], package: Path, tmp_path: Path, until) -> None:
     if not REAL_ROSLAUNCH.exists():
         pytest.skip("Debian's roslaunch is not installed (make system)")
     loader, file = tmp_path / "loader", package / "far.launch"
@@ -204,18 +202,18 @@ def test_debians_roslaunch_uses_it_on_another_machine_and_ends_it(
         <node pkg="p" type="talk" name="one" machine="far" args="stay" ns="deep"><remap from="a" to="b"/></node>
         </launch>"""
     )
-    said = package / "said"
-    real_env = {**env, "PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": str(package.parent), "OUT": str(said)}
+    output_file = package / "output"
+    real_env = {**env, "PATH": "/usr/bin:/bin", "ROS_PACKAGE_PATH": str(package.parent), "OUT": str(output_file)}
     words = [REAL_PYTHON, "-c", _PARENT, str(file)]
     with subprocess.Popen(words, env=real_env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as real:
         try:
-            until("the program", lambda: said.exists() and said.read_text())
+            until("the program", lambda: output_file.exists() and output_file.read_text())
             assert MasterProxy(env["ROS_MASTER_URI"]).call("getParam", "/kept") == 3
             real.terminate()
             output, _ = real.communicate(timeout=60)
         finally:
             real.kill()
 
-    assert said.read_text().startswith("/deep  stay a:=b __name:=one")
+    assert output_file.read_text().startswith("/deep  stay a:=b __name:=one")
     assert "[localhost-0]: process[deep/one-1]: started with pid [" in output
     assert "[localhost-0]: [deep/one-1] killing on exit" in output

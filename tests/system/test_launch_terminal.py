@@ -1,4 +1,4 @@
-"""Nodes that read keys where there is no page: the terminal in which the launch runs, or a sentence on what to do."""
+"""Nodes that read keys without a page: they get the launch's terminal, or an error with a remedy."""
 
 import os
 import subprocess
@@ -50,23 +50,23 @@ def write_launch(package: Path, *nodes: str) -> Path:
     return file
 
 
-class Person:
-    """Person at the terminal in which a launch runs."""
+class TerminalUser:
+    """User of the terminal of a launch."""
 
     def __init__(self, file: Path, env: dict[str, str]) -> None:
-        self.descriptor, theirs = os.openpty()
+        self.descriptor, child_terminal = os.openpty()
         os.set_blocking(self.descriptor, False)
         launch = (sys.executable, "-m", "trundle", "launch", "--headless", str(file))
         self._process = subprocess.Popen(
             [sys.executable, "-I", "-S", str(LEADER), *launch],
-            stdin=theirs,
-            stdout=theirs,
+            stdin=child_terminal,
+            stdout=child_terminal,
             stderr=subprocess.PIPE,
             text=True,
             env=env,
             start_new_session=True,
         )
-        self._theirs = theirs
+        self._child_terminal = child_terminal
         self.read = ""
 
     def until(self, condition: Callable[[], object]) -> None:
@@ -84,45 +84,50 @@ class Person:
     def is_raw(self) -> bool:
         import termios
 
-        return not termios.tcgetattr(self._theirs)[3] & termios.ICANON
+        return not termios.tcgetattr(self._child_terminal)[3] & termios.ICANON
 
     def end(self) -> str:
-        """Press Ctrl-C; return what the launch said."""
+        """Press Ctrl-C; return the launch's standard error."""
         self.type("\x03")
-        _, said = self._process.communicate(timeout=PATIENCE_S)
-        return said
+        _, errors = self._process.communicate(timeout=PATIENCE_S)
+        return errors
 
 
-def test_the_first_node_that_asks_for_a_terminal_has_that_of_the_launch(env: dict[str, str], package: Path) -> None:
+def test_the_first_node_with_an_xterm_prefix_gets_the_launchs_terminal(env: dict[str, str], package: Path) -> None:
     xterm = 'launch-prefix="xterm -e"'
     file = write_launch(
         package, f'pkg="p" type="raw_key.py" name="a" {xterm}', f'pkg="p" type="line.py" name="b" {xterm}'
     )
-    person = Person(file, {**env, "ROS_PACKAGE_PATH": str(package.parent), "DISPLAY": ""})
-    person.until(lambda: "raw at True" in person.read)
-    assert person.is_raw()
-    person.type("w")
-    person.until(lambda: "got 'w'" in person.read)
-    person.until(lambda: "[a-1] process has finished cleanly" in person.read)
-    said = person.end()
+    user = TerminalUser(file, {**env, "ROS_PACKAGE_PATH": str(package.parent), "DISPLAY": ""})
+    user.until(lambda: "raw at True" in user.read)
+    assert user.is_raw()
+    user.type("w")
+    user.until(lambda: "got 'w'" in user.read)
+    user.until(lambda: "[a-1] process has finished cleanly" in user.read)
+    errors = user.end()
 
-    assert "node /a: launch-prefix" not in said
-    why = "there is no xterm here, and another node has the only terminal; without --headless each has one on the page"
-    assert f"node /b: launch-prefix 'xterm -e' is left out: {why}; or run it by itself: trundle exec p line.py" in said
-    assert not person.is_raw()
+    assert "node /a: launch-prefix" not in errors
+    reason = (
+        "there is no xterm here, and another node has the only terminal; without --headless each has one on the page"
+    )
+    assert (
+        f"node /b: launch-prefix 'xterm -e' is left out: {reason};  or run it by itself: trundle exec p line.py"
+        in errors
+    )
+    assert not user.is_raw()
 
 
 def test_a_node_without_a_prefix_reads_the_terminal_of_the_launch(env: dict[str, str], package: Path) -> None:
-    """As all nodes of roslaunch do."""
+    """As in roslaunch."""
     file = write_launch(package, 'pkg="p" type="line.py" name="a" output="screen"')
-    person = Person(file, {**env, "ROS_PACKAGE_PATH": str(package.parent)})
-    person.until(lambda: "process[a-1]: started" in person.read)
-    person.type("hello\n")
-    person.until(lambda: "line 'hello'" in person.read)
-    person.end()
+    user = TerminalUser(file, {**env, "ROS_PACKAGE_PATH": str(package.parent)})
+    user.until(lambda: "process[a-1]: started" in user.read)
+    user.type("hello\n")
+    user.until(lambda: "line 'hello'" in user.read)
+    user.end()
 
 
-def test_without_any_terminal_it_is_said_what_to_do(trundle: Launch, package: Path) -> None:
+def test_a_missing_terminal_is_explained(trundle: Launch, package: Path) -> None:
     xterm = 'launch-prefix="xterm -e"'
     file = write_launch(
         package,

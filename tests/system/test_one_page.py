@@ -1,4 +1,4 @@
-"""A launch with Gazebo and rviz has one page, with the simulated world and the displays of rviz's file."""
+"""The page of a launch with Gazebo and rviz: simulated world and displays of rviz's file."""
 
 import json
 import re
@@ -33,7 +33,7 @@ def launch(tmp_path: Path) -> str:
 
 
 def test_gazebo_and_rviz_are_on_one_page(start: Any, until: Any, launch: str, env: dict[str, str]) -> None:
-    """Requests to the simulation and those to nodes of the graph are both answered."""
+    """Requests to the simulation and to nodes of the graph are answered."""
     port = env["ROS_MASTER_URI"].rpartition(":")[2]
     running = start("launch", launch, "--port", port, "--view-port", "0")
     until("the table", lambda: "WHAT RUNS" in running.output() and "  page " in running.output())
@@ -58,9 +58,12 @@ def test_gazebo_and_rviz_are_on_one_page(start: Any, until: Any, launch: str, en
         )
         for number, request in enumerate(requests):
             client.send("trundle/request", id=number, **request)
-        answers = dict.fromkeys(range(len(requests)), True)
-        client.until(lambda: len([each for each in client.jsons if each["op"] == "trundle/response"]) == len(requests))
-        assert {each["id"]: each["ok"] for each in client.jsons if each["op"] == "trundle/response"} == answers
+
+        def responses() -> dict[int, bool]:
+            return {m["id"]: m["ok"] for m in client.jsons if m["op"] == "trundle/response"}
+
+        client.until(lambda: len(responses()) == len(requests))
+        assert responses() == dict.fromkeys(range(len(requests)), True)
         client.until(lambda: any(json.loads(state)["paused"] for state in client.payloads("trundle/state")))
     assert Path(launch).with_name("see.rviz").read_text() == "Panels: []\n"
     assert running.interrupt() == 130
@@ -68,7 +71,7 @@ def test_gazebo_and_rviz_are_on_one_page(start: Any, until: Any, launch: str, en
 
 @pytest.mark.browser
 @pytest.mark.slow
-def test_a_person_finds_the_world_and_the_displays_on_it(chromium: Any, launch: str, tmp_path: Path) -> None:
+def test_the_page_has_the_world_and_the_displays(chromium: Any, launch: str, tmp_path: Path) -> None:
     words = ("launch", launch, "--port", "0", "--view-port", "0")
     with running_page(*words, environment={"HOME": str(tmp_path)}) as url, opened(chromium, url) as page:
         page.get_by_text("post").first.wait_for()

@@ -1,4 +1,4 @@
-"""Sensors publish what docs/physics.md states."""
+"""Sensors publish the values in docs/physics.md."""
 
 import re
 
@@ -9,8 +9,8 @@ _ROW = re.compile(r"\| [^|]+ \| `(?P<topic>/[^`]+)` \| .* \| (?P<figure>-?[\d.]+
 
 
 @pytest.mark.slow
-def test_a_topic_has_what_its_row_says(trundle, start, master, until) -> None:
-    rows = [found for line in PAGE.read_text().splitlines() if (found := _ROW.fullmatch(line))]
+def test_topics_have_the_documented_values(trundle, start, master, until) -> None:
+    rows = [match for line in PAGE.read_text().splitlines() if (match := _ROW.fullmatch(line))]
     start("run", "physics/sensors.world", "--headless")
     until("its sensors", lambda: "/robot/wrist/force/wrench" in dict(master.call("getTopicTypes")))
 

@@ -1,4 +1,4 @@
-"""Recorded and shown again."""
+"""`trundle play` of recorded runs."""
 
 import re
 import shutil
@@ -23,16 +23,16 @@ def test_a_recorded_run_is_played_on_a_page(start, trundle, until, tmp_path) -> 
 
     playing = start("play", str(log), "--pause")
     until("the page", lambda: "see it at" in playing.output())
-    found = re.search(r"see it at (http://127\.0\.0\.1:\d+/\?token=[\w-]+)", playing.output())
-    assert found is not None
-    with urllib.request.urlopen(found[1], timeout=10) as page:
+    match = re.search(r"see it at (http://127\.0\.0\.1:\d+/\?token=[\w-]+)", playing.output())
+    assert match is not None
+    with urllib.request.urlopen(match[1], timeout=10) as page:
         assert page.status == 200
     assert playing.interrupt() == 130
     assert "Traceback" not in playing.output()
 
 
-def test_a_run_whose_recording_breaks_off_fails(env, tmp_path) -> None:
-    """A disk that fills up; here a file may have 512 or 1024 bytes times 20."""
+def test_a_run_whose_recording_cannot_be_written_fails(env, tmp_path) -> None:
+    """A full disk, simulated by a file size limit of 20 blocks of 512 or 1024 bytes."""
     file, log = tmp_path / "m.sdf", tmp_path / "run.log"
     file.write_text('<sdf version="1.6"><model name="m"><pose>0 0 2 0 0 0</pose><link name="a"/></model></sdf>')
     words = ["run", file, "--headless", "--no-ros", "--speed", "max", "--duration", "9", "--record", log]
@@ -47,7 +47,7 @@ def test_a_run_whose_recording_breaks_off_fails(env, tmp_path) -> None:
     assert times == pytest.approx(np.arange(len(times)) * 0.02)
 
 
-def test_what_is_no_recording_is_refused_in_a_sentence(trundle, tmp_path) -> None:
+def test_a_file_that_is_not_a_recording_is_an_error(trundle, tmp_path) -> None:
     file = tmp_path / "x.log"
     file.write_text("hello\n")
 

@@ -1,7 +1,7 @@
-"""Published launch files start their robots and run, whatever parts are missing.
+"""Published launch files start their robots and run in spite of missing parts.
 
-Each line of `published_launches.txt` is a launch file with its arguments and, behind `->`, topics on which something
-must come while it runs; a robot of one link has none.
+Each line of `published_launches.txt` is a launch file with its arguments and, after `->`, topics with messages during
+the run; a robot of one link has none.
 """
 
 import json
@@ -41,7 +41,7 @@ _NOT_MOUNTED = (
 """Files of packages that husky's xacro includes for accessories that it does not carry by default."""
 
 
-def test_there_are_enough_of_them() -> None:
+def test_the_list_has_40_launch_files() -> None:
     assert len(set(_LINES)) == len(_LINES) >= 40
 
 
@@ -53,8 +53,10 @@ def loop() -> Iterator[GraphLoop]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("lines", _BATCHES, ids=lambda lines: lines[0].partition("/")[0])
-def test_they_run_without_an_error(shared: Path, tmp_path: Path, loop: GraphLoop, lines: Sequence[str]) -> None:
-    """Missing parts, mostly compiled nodes, are named; there are no other errors."""
+def test_published_launches_run_without_errors(
+    shared: Path, tmp_path: Path, loop: GraphLoop, lines: Sequence[str]
+) -> None:
+    """Missing parts, mostly compiled nodes, are reported; there are no other errors."""
     corpus = shared / "corpus"
     if not corpus.is_dir():
         pytest.skip("the published launch files (../shared/corpus) are not beside this checkout")
@@ -70,7 +72,7 @@ def test_they_run_without_an_error(shared: Path, tmp_path: Path, loop: GraphLoop
 
 
 def _run(line: str, corpus: Path, folder: Path, loop: GraphLoop) -> str:
-    """Launch, listen until the time is over and all messages have come, and press Ctrl-C; return the faults."""
+    """Run a launch until all messages have arrived and its duration is over; return the faults."""
     command, _, topics = line.partition(" -> ")
     file, *arguments = command.replace("$(find urdf_tutorial)", str(corpus / "repos/ros+urdf_tutorial")).split()
     rows = json.loads((corpus / "manifest.json").read_text())["launch"]
@@ -96,41 +98,43 @@ def _run(line: str, corpus: Path, folder: Path, loop: GraphLoop) -> str:
             process.kill()
             process.wait()
     text = (home / "log").read_text(errors="replace")
-    missing_code = {found[1] for found in _NO_CONTROLLER.finditer(text) if found[2] not in STOCK}
-    named = tuple(words for name in missing_code for words in (f"controller '{name}': no ", f"Failed to load {name}"))
-    said = [row for row in text.splitlines() if _BAD.search(row) and not any(words in row for words in named)]
-    if code != 130 or said or missing or "killing on exit" not in text:
-        return f"{file}: exit code {code}; not heard: {missing}; said: {said[:3]}"
+    missing_code = {match[1] for match in _NO_CONTROLLER.finditer(text) if match[2] not in STOCK}
+    expected = tuple(
+        words for name in missing_code for words in (f"controller '{name}': no ", f"Failed to load {name}")
+    )
+    errors = [row for row in text.splitlines() if _BAD.search(row) and not any(words in row for words in expected)]
+    if code != 130 or errors or missing or "killing on exit" not in text:
+        return f"{file}: exit code {code}; no messages: {missing}; errors: {errors[:3]}"
     return ""
 
 
 def _listen(process: "subprocess.Popen[bytes]", node: Node, topics: Sequence[str]) -> list[str]:
-    """Wait for the messages, and for the time; return the topics on which they did not come."""
-    heard = dict.fromkeys(topics, 0)
+    """Wait for the messages and the duration; return the topics without enough messages."""
+    counts = dict.fromkeys(topics, 0)
     clock_ns = [0]
 
-    def look(message: Message) -> None:
+    def on_clock(message: Message) -> None:
         clock_ns[0] = to_nsec(message.clock)
 
     for topic in topics:
 
         def count(_message: object, topic: str = topic) -> None:
-            heard[topic] += _MESSAGES if topic == "/tf_static" else 1
+            counts[topic] += _MESSAGES if topic == "/tf_static" else 1
 
         node.subscribe(topic, "*", count)
-    simulated = "/clock" in heard
+    simulated = "/clock" in counts
     if simulated:
-        node.subscribe("/clock", "rosgraph_msgs/Clock", look)
-    began = time.monotonic()
+        node.subscribe("/clock", "rosgraph_msgs/Clock", on_clock)
+    start = time.monotonic()
     try:
-        while process.poll() is None and time.monotonic() < began + _TIMEOUT_S:
-            ros_time_s = clock_ns[0] / 1e9 if simulated else time.monotonic() - began
-            if ros_time_s >= _RUN_S and all(number >= _MESSAGES for number in heard.values()):
+        while process.poll() is None and time.monotonic() < start + _TIMEOUT_S:
+            ros_time_s = clock_ns[0] / 1e9 if simulated else time.monotonic() - start
+            if ros_time_s >= _RUN_S and all(number >= _MESSAGES for number in counts.values()):
                 break
             time.sleep(0.1)
     finally:
         node.loop.run(node.shutdown())
-    return [topic for topic, number in heard.items() if number < _MESSAGES]
+    return [topic for topic, number in counts.items() if number < _MESSAGES]
 
 
 def _free_port() -> int:

@@ -1,4 +1,4 @@
-"""A world that is loaded again from the page, after its file has changed."""
+"""Reloading a changed world from the page."""
 
 import json
 import re
@@ -15,14 +15,14 @@ def _write(file: Path, world: str, *models: str) -> None:
     file.write_text(f'<sdf version="1.6"><world name="{world}">{inside}</world></sdf>')
 
 
-def _ask(client: ProtocolClient, number: int) -> dict[str, Any]:
+def _reload(client: ProtocolClient, number: int) -> dict[str, Any]:
     client.send("trundle/request", id=number, request="reload")
-    client.until(lambda: any(each.get("id") == number for each in client.jsons))
-    return next(each for each in client.jsons if each.get("id") == number)
+    client.until(lambda: any(message.get("id") == number for message in client.jsons))
+    return next(message for message in client.jsons if message.get("id") == number)
 
 
-def test_a_changed_world_replaces_the_one_that_runs(start, trundle, master, until, tmp_path) -> None:
-    """Its models, its name and its topics; a broken file is refused with its line, and the world goes on."""
+def test_a_changed_world_replaces_the_running_world(start, trundle, master, until, tmp_path) -> None:
+    """Models, name and topics change; an invalid file is refused with its line, and the old world continues."""
     file = tmp_path / "w.sdf"
     _write(file, "first", "one")
     running = start("run", str(file), "--port", "0")
@@ -34,16 +34,16 @@ def test_a_changed_world_replaces_the_one_that_runs(start, trundle, master, unti
 
         def worlds() -> list[tuple[str, list[str]]]:
             manifests = map(json.loads, client.payloads("trundle/world"))
-            return [(each["name"], [model["name"] for model in each["models"]]) for each in manifests]
+            return [(world["name"], [model["name"] for model in world["models"]]) for world in manifests]
 
         client.until(lambda: worlds() == [("first", ["one"])])
         _write(file, "second", "one", "two")
-        assert _ask(client, 1)["ok"] is True
+        assert _reload(client, 1)["ok"] is True
         client.until(lambda: worlds()[-1] == ("second", ["one", "two"]))
         client.until(lambda: json.loads(client.payloads("trundle/session")[-1])["title"] == "second")
 
         file.write_text("<sdf version='1.6'><world name='third'>")
-        refused = _ask(client, 2)
+        refused = _reload(client, 2)
         assert refused["ok"] is False
         assert "w.sdf:1" in refused["error"]
         client.subscribe("trundle/state")
@@ -56,14 +56,14 @@ def test_a_changed_world_replaces_the_one_that_runs(start, trundle, master, unti
     assert running.interrupt() == 130
 
 
-def test_what_cannot_be_loaded_again_says_why(start, until, tmp_path) -> None:
+def test_reload_with_a_recording_is_refused(start, until, tmp_path) -> None:
     file = tmp_path / "w.sdf"
     _write(file, "first", "one")
     running = start("run", str(file), "--port", "0", "--no-ros", "--record", "run.log")
     until("the page", lambda: "see it at" in running.output())
     (url,) = re.findall(r"see it at (\S+)", running.output())
     with ProtocolClient(url) as client:
-        assert "start it without --record" in _ask(client, 1)["error"]
+        assert "start it without --record" in _reload(client, 1)["error"]
 
 
 _ROBOT = """<robot name="cart"><link name="base"><inertial><mass value="1"/>
@@ -86,8 +86,8 @@ def _world_of(client: ProtocolClient) -> list[str]:
 
 def _request(client: ProtocolClient, number: int, request: str, **fields: Any) -> dict[str, Any]:
     client.send("trundle/request", id=number, request=request, **fields)
-    client.until(lambda: any(each.get("id") == number for each in client.jsons))
-    return next(each for each in client.jsons if each.get("id") == number)
+    client.until(lambda: any(message.get("id") == number for message in client.jsons))
+    return next(message for message in client.jsons if message.get("id") == number)
 
 
 def _state(client: ProtocolClient) -> dict[str, Any]:
@@ -95,8 +95,8 @@ def _state(client: ProtocolClient) -> dict[str, Any]:
     return json.loads(client.payloads("trundle/state")[-1])
 
 
-def test_a_launch_goes_back_in_time_and_is_loaded_again_with_its_changed_files(start, master, until, tmp_path) -> None:
-    """The page stays; the robot's description, the world and the nodes are those of the files as they are now."""
+def test_a_launch_reloads_its_changed_files(start, master, until, tmp_path) -> None:
+    """The page stays open; description, world and nodes are read from the changed files, after seeking, too."""
     (tmp_path / "robot.launch").write_text(_LAUNCH)
     (tmp_path / "robot.xacro").write_text(_ROBOT.format(height=0.1))
     _write(tmp_path / "w.world", "first", "one")
@@ -129,8 +129,8 @@ def test_a_launch_goes_back_in_time_and_is_loaded_again_with_its_changed_files(s
     assert running.interrupt() == 130
 
 
-def test_gzserver_loads_its_world_again_with_the_models_that_were_spawned(start, trundle, until, tmp_path) -> None:
-    """The file's models are those of the file as it is now; what spawn_model brought comes back as it was."""
+def test_gzserver_reloads_its_world_with_spawned_models(start, trundle, until, tmp_path) -> None:
+    """The world's models are read from the changed file; models of spawn_model are spawned again."""
     _write(tmp_path / "w.world", "first", "one")
     (tmp_path / "box.sdf").write_text(f'<sdf version="1.6">{_MODEL.format("box")}</sdf>')
     running = start("--as", "gazebo", "w.world")

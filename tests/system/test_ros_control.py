@@ -1,4 +1,4 @@
-"""A robot package as ros_control's tutorial has it: xacro, transmissions, YAML, spawners, one launch file."""
+"""A robot package as in ros_control's tutorial: xacro, transmissions, YAML, spawners, one launch file."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -75,7 +75,7 @@ def test_an_action_moves_the_arm_along_a_trajectory(
 
 
 @pytest.mark.slow
-def test_a_published_robot_drives_by_cmd_vel_as_its_tutorial_says(
+def test_a_published_robot_drives_by_cmd_vel_as_in_its_tutorial(
     start: Callable[..., Any], trundle: Callable[..., Any], until: Callable[..., None], master: Any, shared: Path
 ) -> None:
     """urdf_sim_tutorial's R2D2 with its diff_drive_controller."""
@@ -90,8 +90,8 @@ def test_a_published_robot_drives_by_cmd_vel_as_its_tutorial_says(
     publisher = start("topic", "pub", "-r", "10", f"{base}/cmd_vel", "geometry_msgs/Twist", "{linear: {x: 0.5}}")
 
     def forwards() -> float:
-        told = trundle("topic", "echo", "-n", "1", f"{base}/odom/pose/pose/position/x").stdout
-        return float(told.split()[0])
+        output = trundle("topic", "echo", "-n", "1", f"{base}/odom/pose/pose/position/x").stdout
+        return float(output.split()[0])
 
     until("it to drive", lambda: forwards() > 0.3)
     publisher.interrupt()
@@ -105,7 +105,7 @@ def test_a_published_robot_drives_by_cmd_vel_as_its_tutorial_says(
 
 
 @pytest.mark.slow
-def test_a_command_turns_the_arm_and_its_frame(
+def test_a_command_rotates_the_arm_and_its_frame(
     start: Callable[..., Any], trundle: Callable[..., Any], until: Callable[..., None], tmp_path: Path
 ) -> None:
     for name, text in (("rr.xacro", XACRO), ("rr.yaml", YAML), ("rr.launch", LAUNCH)):
@@ -128,10 +128,10 @@ def test_a_command_turns_the_arm_and_its_frame(
 
 @needs_client
 @pytest.mark.slow
-def test_a_person_gives_a_controller_other_gains(
+def test_gains_of_a_controller_are_changed_on_the_page(
     chromium: Any, trundle: Callable[..., Any], until: Callable[..., None], env: dict[str, str], tmp_path: Path
 ) -> None:
-    """The arm has a target, and no strength until p is typed at the page."""
+    """The arm has a target and zero gains until p is entered on the page."""
     launch = LAUNCH.replace('<arg name="gui" value="false"/>', "")
     for name, text in (
         ("rr.xacro", XACRO),

@@ -1,14 +1,14 @@
 """The RP2W with its Python plugin: motion and poses."""
 
 import shutil
-from pathlib import Path@@from typing import Any
+from pathlib import Path
+from typing import Any
 
 import pytest
 from tests.graphs import running_graph
 
 from trundle.base.diagnostics import Diagnostics
 from trundle.gazebo.model_plugins import load_plugins
-
 from trundle.live.world_setup import load_world
 from trundle.robots.packages import Packages
 from trundle.sim.simulation import Simulation
@@ -104,9 +104,7 @@ def test_a_reset_clears_the_command() -> None:
     assert run.robot.pose.position == pytest.approx((0.0, 0.0, 0.0), abs=1e-3)
 
 
-def test_the_demo_world_loads_its_plugin_without_warnings(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_demo_world_loads_its_plugin_without_warnings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A failing plugin would be a warning."""
     monkeypatch.chdir(tmp_path)
     with running_graph() as graph:

@@ -1,4 +1,4 @@
-"""Each of rqt's programs opens its panel on the launch's one page."""
+"""Panels of rqt's programs on the launch's page."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -45,7 +45,7 @@ SHOWN = {
     "Joints": ("joint_state_publisher_gui", "shoulder"),
     "Joystick": ("joy", "Left stick"),
 }
-"""Panel → the program whose place it takes, and what stands in it."""
+"""Panel → the replaced program, and a text in the panel."""
 
 
 @pytest.fixture(scope="module")
@@ -60,13 +60,13 @@ def user(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Pa
         user.close()
 
 
-def test_each_program_s_panel_is_on_the_launch_s_one_page(user: PanelUser) -> None:
+def test_the_page_has_a_panel_for_each_program(user: PanelUser) -> None:
     def panels() -> set[str]:
         answer = user.page.request.get(f"{user.page.url}session.json")
         return set(answer.json()["panels"])
 
     user.until(lambda: panels() == {program for program, _ in SHOWN.values()}, what=f"for all programs: {panels()}")
-    for panel in SHOWN:  # one that comes later would be in front
+    for panel in SHOWN:  # wait for all, as a later panel would be in front
         user.page.locator(".dv-tab", has_text=panel).wait_for()
     for panel, (_, text) in SHOWN.items():
         user.open(panel)
@@ -76,7 +76,7 @@ def test_each_program_s_panel_is_on_the_launch_s_one_page(user: PanelUser) -> No
     assert user.page.get_by_role("combobox", name="Topic of the velocity").input_value() == "/base/cmd_vel"
 
 
-def test_a_slider_of_the_page_moves_the_robot_s_joint(user: PanelUser) -> None:
+def test_a_slider_of_the_page_moves_a_joint(user: PanelUser) -> None:
     user.open("Joints")
     user.type("shoulder [rad]", "0.25")
     user.open("Plots")

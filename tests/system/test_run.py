@@ -1,4 +1,4 @@
-"""`trundle run` as a user runs it."""
+"""`trundle run` in a process."""
 
 import json
 import math
@@ -7,6 +7,7 @@ import signal
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 
@@ -19,8 +20,8 @@ def seed(shared: Path) -> Path:
     return shared / "seeds/rp2w"
 
 
-def test_the_published_robot_stands_for_ten_seconds(trundle, seed, shared) -> None:
-    """Every link is where Gazebo 11 has it, within 1 mm and 1 mrad; the wheels' own roll aside, Gazebo's creeps."""
+def test_the_published_robot_stands_like_in_gazebo(trundle, seed, shared) -> None:
+    """Link poses equal Gazebo 11's within 1 mm and 1 mrad, except for the roll of the wheels, which creep in Gazebo."""
     done = trundle("run", str(seed / "model.sdf"), *FLAT_OUT, "--duration", "10", "--no-sensors", "--json")
 
     assert done.returncode == 0, done.stderr
@@ -37,35 +38,35 @@ def test_the_published_robot_stands_for_ten_seconds(trundle, seed, shared) -> No
     assert [model["name"] for model in result["models"] if model.get("added")] == ["ground_plane"]
 
 
-def test_what_the_published_robot_lacks_is_said_once(trundle, seed) -> None:
+def test_warnings_about_the_published_robot_are_printed_once(trundle, seed) -> None:
     done = trundle("run", str(seed), *FLAT_OUT, "--duration", "0.1", "--no-sensors", "--no-ros")
 
-    said = done.stderr.splitlines()
-    assert sum("librp2w.so" in line and "the run goes on without it" in line for line in said) == 1
-    assert sum("of zero thickness; physics uses 0.1 mm" in line for line in said) == 2
+    lines = done.stderr.splitlines()
+    assert sum("librp2w.so" in line and "the run goes on without it" in line for line in lines) == 1
+    assert sum("of zero thickness; physics uses 0.1 mm" in line for line in lines) == 2
     assert "stands at" in done.stdout
 
 
-def test_no_image_is_drawn_without_a_reader(trundle) -> None:
-    """Both of its cameras are always on."""
+def test_cameras_without_subscribers_render_no_images(trundle) -> None:
+    """Both cameras are always on."""
     done = trundle("run", str(EXAMPLE), *FLAT_OUT, "--duration", "1", "--json", "--no-ros")
 
     assert json.loads(done.stdout)["images"] == 0
 
 
-def test_a_model_is_found_as_gazebo_finds_it(trundle, seed, tmp_path) -> None:
+def test_models_are_searched_like_in_gazebo(trundle, seed, tmp_path) -> None:
     """`~/.gazebo/models` first, then GAZEBO_MODEL_PATH, then the shipped models."""
     shipped = trundle("run", "model://rp2w", *FLAT_OUT, "--duration", "0.01", "--no-ros", "--json", "--no-sensors")
     home = tmp_path / ".gazebo/models"
     home.mkdir(parents=True)
     shutil.copytree(seed, home / "rp2w")
-    own = trundle("run", "model://rp2w", *FLAT_OUT, "--duration", "0.01", "--no-ros", "--json", "--no-sensors")
+    local = trundle("run", "model://rp2w", *FLAT_OUT, "--duration", "0.01", "--no-ros", "--json", "--no-sensors")
 
     assert json.loads(shipped.stdout)["models"][0]["name"] == "rp2w"
-    assert json.loads(own.stdout)["models"][0]["name"] == "my_robot"
+    assert json.loads(local.stdout)["models"][0]["name"] == "my_robot"
 
 
-def test_two_runs_end_in_the_same_bytes(trundle) -> None:
+def test_two_runs_end_in_identical_states(trundle) -> None:
     results = [
         json.loads(trundle("run", str(EXAMPLE), *FLAT_OUT, "--duration", "3", "--json", "--no-sensors").stdout)
         for _ in range(2)
@@ -75,7 +76,7 @@ def test_two_runs_end_in_the_same_bytes(trundle) -> None:
 
 
 def test_the_plugin_drives_on_cmd_vel(start, trundle, master, until) -> None:
-    """From a topic of one process to the wheels of another, and back as odometry."""
+    """A topic of one process moves the wheels in another, which publishes odometry."""
     running = start("run", str(EXAMPLE), "--headless", "--no-sensors")
     until("the plugin's subscription", lambda: "/cmd_vel" in dict(master.call("getTopicTypes")))
 
@@ -91,20 +92,20 @@ def test_the_plugin_drives_on_cmd_vel(start, trundle, master, until) -> None:
     assert y > 0.2
 
 
-def test_the_living_room_is_seen_by_its_robot(trundle, tmp_path) -> None:
-    """`make demo HEADLESS=1`: no image is drawn without a reader, and only movable models are printed."""
-    ran = trundle("run", "rp2w_at_home.world", *FLAT_OUT, "--duration", "1")
-    seen = trundle("render", "rp2w_at_home.world", "--camera", "my_sensor", "-o", "seen.png")
+def test_the_robot_in_the_living_room_sees_the_sofa(trundle, tmp_path) -> None:
+    """`make demo HEADLESS=1`: without subscribers no images are rendered, and only movable models are printed."""
+    run = trundle("run", "rp2w_at_home.world", *FLAT_OUT, "--duration", "1")
+    render = trundle("render", "rp2w_at_home.world", "--camera", "my_sensor", "-o", "seen.png")
 
-    assert ran.returncode == 0, ran.stderr
-    assert "1000 steps, 0 images" in ran.stdout
-    assert [line.split()[0] for line in ran.stdout.splitlines()[1:]] == ["ball", "rp2w"]
-    assert seen.returncode == 0, seen.stderr
-    red, _, blue = Image.open(tmp_path / "seen.png").getpixel((80, 205))
+    assert run.returncode == 0, run.stderr
+    assert "1000 steps, 0 images" in run.stdout
+    assert [line.split()[0] for line in run.stdout.splitlines()[1:]] == ["ball", "rp2w"]
+    assert render.returncode == 0, render.stderr
+    red, _, blue = np.asarray(Image.open(tmp_path / "seen.png"))[205, 80].astype(int)
     assert blue > 2 * red, "the sofa is blue"
 
 
-def test_images_carry_their_calibration(start, trundle, master, until) -> None:
+def test_images_have_camera_info(start, trundle, master, until) -> None:
     start("run", str(EXAMPLE), "--headless")
     until("the camera", lambda: "/rp2w/camera/my_sensor/image_raw" in dict(master.call("getTopicTypes")))
 
@@ -120,7 +121,7 @@ def test_images_carry_their_calibration(start, trundle, master, until) -> None:
 
 @pytest.mark.parametrize("times", [1, 2], ids=["once", "twice at once"])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_it_stops_cleanly_when_asked_to(start, master, until, number, times) -> None:
+def test_a_run_stops_cleanly_on_signals(start, master, until, number, times) -> None:
     running = start("run", str(EXAMPLE), "--headless", "--no-sensors")
     until("the run", lambda: "/clock" in dict(master.call("getTopicTypes")))
 
@@ -133,8 +134,8 @@ def test_it_stops_cleanly_when_asked_to(start, master, until, number, times) -> 
     assert "stands at" in running.output()
 
 
-def test_a_second_run_takes_a_port_of_its_own(start, trundle, master, until, env) -> None:
-    """With no ROS_MASTER_URI ten runs side by side do not meet."""
+def test_a_second_run_uses_another_port(start, trundle, master, until, env) -> None:
+    """Without ROS_MASTER_URI parallel runs are independent."""
     del env["ROS_MASTER_URI"]
     first = start("run", str(EXAMPLE), "--headless", "--no-sensors")
     until("the first run's master", lambda: "ROS master started" in first.output())

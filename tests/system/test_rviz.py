@@ -1,4 +1,4 @@
-"""The real rviz, in a display of its own, on our graph: its own status says Ok, and the car drives in its picture."""
+"""The real rviz in a virtual display with Trundle's graph: its status is Ok, and its picture shows the driving car."""
 
 import os
 import subprocess
@@ -35,7 +35,7 @@ PANEL, VIEW = np.s_[70:660, 0:340], np.s_[70:760, 370:1080]
 
 @pytest.fixture
 def look(env: dict[str, str], tmp_path: Path) -> Iterator[Callable[[], np.ndarray]]:
-    """Start rviz; a function that takes a picture of its window, (height, width, 3)."""
+    """Start rviz; return a function that captures its window, (height, width, 3)."""
     (tmp_path / "car.rviz").write_text(CONFIG)
     reading, writing = os.pipe()
     quiet: dict[str, Any] = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
@@ -69,7 +69,7 @@ def look(env: dict[str, str], tmp_path: Path) -> Iterator[Callable[[], np.ndarra
 
 
 def _is_ok(window: np.ndarray) -> bool:
-    """Return True if the list of displays has green ticks and neither an error's red nor a warning's orange."""
+    """Return whether the list of displays has green ticks, and no red errors or orange warnings."""
     red, green, blue = np.moveaxis(window[PANEL], -1, 0)
     ticks = (green > red + 60) & (green > blue + 60)
     faults = (red > green + 60) & (red > blue + 100)
@@ -77,22 +77,22 @@ def _is_ok(window: np.ndarray) -> bool:
 
 
 def _car(window: np.ndarray) -> np.ndarray:
-    """Position of the blue car in the picture, (x, y) [px]; NaN: not seen."""
+    """Return the position of the blue car in the picture, (x, y) [px]; NaN: not visible."""
     red, green, blue = np.moveaxis(window[VIEW], -1, 0)
     rows, columns = np.nonzero((blue > red + 60) & (blue > green + 60))
     return np.array([columns.mean(), rows.mean()]) if len(rows) > 100 else np.full(2, np.nan)
 
 
-def test_the_real_rviz_shows_the_car_and_it_drives(start, master, until, trundle, shared, look) -> None:
+def test_the_real_rviz_shows_the_driving_car(start, master, until, trundle, shared, look) -> None:
     """The car turns left: away from its start, and up in a picture from above."""
     packages = str(shared / "seeds")
     start("launch", "smartcar_description", "smartcar_display.rviz.launch", "--headless", ROS_PACKAGE_PATH=packages)
     until("the driver", lambda: "/odom" in dict(master.call("getTopicTypes")))
     until("rviz to find nothing wrong and draw the car", lambda: _is_ok(w := look()) and np.isfinite(_car(w)).all())
-    stood = _car(look())
+    start_position = _car(look())
 
     twist = "{linear: {x: 0.5}, angular: {z: 0.5}}"
     assert trundle("topic", "pub", "-1", "/cmd_vel", "geometry_msgs/Twist", twist).returncode == 0
 
-    until("the car to drive", lambda: stood[1] - _car(look())[1] > 40)
+    until("the car to drive", lambda: start_position[1] - _car(look())[1] > 40)
     assert _is_ok(look())

@@ -1,4 +1,4 @@
-"""Every type of sensor, from the file to a subscriber of its topic, as docs/sensors.md lists them."""
+"""Topics of all types of sensors, as listed in docs/sensors.md."""
 
 import re
 import threading
@@ -10,7 +10,7 @@ from trundle.ros import GraphLoop, Node
 from trundle.sim.sensors import SIMULATED_CAMERAS
 
 DOCS = Path(__file__).parents[2] / "docs/sensors.md"
-UNHEARD = {"rfidtag", "wireless_transmitter"}
+WITHOUT_TOPIC = {"rfidtag", "wireless_transmitter"}
 _SMALL = "<image><width>16</width><height>12</height></image><clip><near>0.1</near><far>20</far></clip>"
 _SCAN = "<scan><horizontal><samples>5</samples></horizontal></scan><range><min>0.1</min><max>9</max></range>"
 _INSIDE = {
@@ -26,7 +26,7 @@ _CAMERAS = [type_ for type_ in SIMULATED_CAMERAS if "camera" in type_] + [
 
 
 def documented() -> dict[str, dict[str, str]]:
-    """Topic and message of each type of sensor."""
+    """Return the topics and messages of each type of sensor."""
     table: dict[str, dict[str, str]] = {}
     types: list[str] = []
     for row in re.findall(r"^\| (.*) \| `(.*)` \| `(.*)` \|$", DOCS.read_text(), re.MULTILINE):
@@ -37,56 +37,54 @@ def documented() -> dict[str, dict[str, str]]:
 
 
 def world() -> str:
-    """One sensor of each type, named by it, on a box that stands on the ground."""
+    """Return a world with one sensor of each type, with the type's name, on a box on the ground."""
 
     def sensor(type_: str) -> str:
         inside = _INSIDE.get(type_) or (f"<camera>{_SMALL}</camera>" if type_ in _CAMERAS else "")
         return f'<sensor name="{type_}" type="{type_}"><update_rate>20</update_rate>{inside}</sensor>'
 
     on_link = "".join(sensor(type_) for type_ in sorted(SIMULATED_CAMERAS - {"force_torque"}))
-    box = '<collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>'
+    collision = '<collision name="c"><geometry><box><size>1 1 1</size></box></geometry></collision>'
     return f"""<sdf version="1.9"><world name="w"><spherical_coordinates/>
         <include><uri>model://sun</uri></include><include><uri>model://ground_plane</uri></include>
-        <model name="m"><pose>0 0 0.5 0 0 0</pose><link name="l">{box}{on_link}</link>
+        <model name="m"><pose>0 0 0.5 0 0 0</pose><link name="l">{collision}{on_link}</link>
         <link name="k"><pose>0 0 0.6 0 0 0</pose></link>
         <joint name="j" type="fixed"><parent>l</parent><child>k</child>{sensor("force_torque")}</joint></model>
-        <model name="post"><static>1</static><pose>3 0 0.5 0 0 0</pose><link name="l">{box}</link></model>
+        <model name="post"><static>1</static><pose>3 0 0.5 0 0 0</pose><link name="l">{collision}</link></model>
         </world></sdf>"""
 
 
 def test_the_table_names_every_sensor() -> None:
-    assert set(documented()) == SIMULATED_CAMERAS - UNHEARD
+    assert set(documented()) == SIMULATED_CAMERAS - WITHOUT_TOPIC
 
 
 @pytest.mark.slow
-def test_every_topic_of_the_table_is_there_and_speaks_in_a_frame_that_is_known(
-    start, master, until, env, tmp_path
-) -> None:
+def test_every_documented_topic_has_messages_in_a_known_frame(start, master, until, env, tmp_path) -> None:
     file = tmp_path / "w.sdf"
     file.write_text(world())
-    wanted = {
+    expected_topics = {
         f"/m/{'j' if type_ == 'force_torque' else 'l'}/{type_}/{topic}": message
         for type_, topics in documented().items()
         for topic, message in topics.items()
     }
     start("run", str(file), "--headless", "--speed", "max")
-    until("the topics", lambda: wanted.items() <= dict(master.call("getTopicTypes")).items())
+    until("the topics", lambda: expected_topics.items() <= dict(master.call("getTopicTypes")).items())
 
-    heard: dict[str, str] = {}
+    frame_ids: dict[str, str] = {}
     frames: set[str] = {"world"}
-    enough = threading.Event()
+    all_received = threading.Event()
 
-    def hear(topic: str, message) -> None:
+    def receive(topic: str, message) -> None:
         first = message.transforms[0] if topic.endswith("/models") else message
-        heard[topic] = first.header.frame_id
-        if heard.keys() == wanted.keys():
-            enough.set()
+        frame_ids[topic] = first.header.frame_id
+        if frame_ids.keys() == expected_topics.keys():
+            all_received.set()
 
     with GraphLoop() as loop:
-        node = Node("/ears", loop=loop, master_uri=env["ROS_MASTER_URI"], rosout=False)
+        node = Node("/listener", loop=loop, master_uri=env["ROS_MASTER_URI"], rosout=False)
         for topic in ("/tf", "/tf_static"):
             node.subscribe(topic, "tf2_msgs/TFMessage", lambda m: frames.update(t.child_frame_id for t in m.transforms))
-        for topic, message in wanted.items():
-            node.subscribe(topic, message, lambda message, topic=topic: hear(topic, message))
-        assert enough.wait(60), f"nothing came on {sorted(wanted.keys() - heard.keys())}"
-        until("the frames", lambda: set(heard.values()) <= frames)
+        for topic, message in expected_topics.items():
+            node.subscribe(topic, message, lambda message, topic=topic: receive(topic, message))
+        assert all_received.wait(60), f"nothing came on {sorted(expected_topics.keys() - frame_ids.keys())}"
+        until("the frames", lambda: set(frame_ids.values()) <= frames)

@@ -1,4 +1,4 @@
-"""A ray sensor and an imu of a file, on their topics."""
+"""Topics of a ray sensor, an IMU, a GPS and a contact sensor."""
 
 from pathlib import Path
 
@@ -13,9 +13,7 @@ WORLD = """<sdf version="1.6"><world name="w"><model name="box"><static>1</stati
 </geometry></collision><sensor name="bumper" type="contact"/></link></model></world></sdf>"""
 
 
-def test_scans_and_imu_readings_reach_subscribers_with_frames_that_exist(
-    start, master, until, trundle, tmp_path
-) -> None:
+def test_sensor_messages_have_existing_frames(start, master, until, trundle, tmp_path) -> None:
     file = Path(tmp_path) / "w.sdf"
     file.write_text(WORLD)
     start("run", str(file), "--headless")

@@ -1,4 +1,4 @@
-"""Launches on a machine that is twenty times slower: the same nodes, the same robots, the same bytes."""
+"""Launches on a machine that is twenty times slower have the same nodes, robots and bags."""
 
 import os
 import re
@@ -21,7 +21,7 @@ _LAUNCHES = (
     "ROBOTIS-GIT+turtlebot3_simulations/turtlebot3_gazebo/launch/turtlebot3_stage_4.launch",
     "husky+husky/husky_gazebo/launch/empty_world.launch",
 )
-"""A robot without a simulation, one in a world, and one that spawners of controllers wait for."""
+"""A robot without a simulation, a robot in a world, and a robot with controller spawners."""
 _FAILED = re.compile(r"\[FATAL\]|Traceback|has died|cannot be started|does not arrive while time is held")
 _WORLD = """<launch><node pkg="gazebo_ros" type="gzserver" name="gazebo" args="worlds/empty.world"/></launch>"""
 
@@ -59,12 +59,12 @@ def _launched(file: Path, home: Path, packages: Sequence[Path], *, ratio: float)
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", _LAUNCHES, ids=lambda name: Path(name).parent.parent.name)
-def test_a_slow_machine_runs_the_same_nodes_and_records_the_same_bytes(shared: Path, tmp_path: Path, name: str) -> None:
+def test_a_slow_machine_runs_the_same_nodes_and_records_the_same_bag(shared: Path, tmp_path: Path, name: str) -> None:
     repos = shared / _REPOS
     if not repos.is_dir():
         pytest.skip("the published launch files (../shared/corpus) are not beside this checkout")
-    own = repos / name.partition("/")[0]
-    packages = [own, repos, *_not_mounted(tmp_path)]
+    repository = repos / name.partition("/")[0]
+    packages = [repository, repos, *_not_mounted(tmp_path)]
 
     nodes, bag = _launched(repos / name, tmp_path / "fast", packages, ratio=1.0)
     slow_nodes, slow_bag = _launched(repos / name, tmp_path / "slow", packages, ratio=_RATIO)
@@ -77,7 +77,7 @@ def test_a_slow_machine_runs_the_same_nodes_and_records_the_same_bytes(shared: P
 
 
 def _not_mounted(folder: Path) -> list[Path]:
-    """Make the packages whose files husky's xacro includes for accessories that it does not carry by default."""
+    """Write the packages of optional accessories that Husky's xacro includes."""
     for name in ("fath_pivot_mount_description/urdf/lockmount", "flir_camera_description/urdf/flir_blackflys"):
         file = folder / "not_mounted" / f"{name}.urdf.xacro"
         file.parent.mkdir(parents=True)
@@ -92,8 +92,8 @@ def _not_mounted(folder: Path) -> list[Path]:
 
 
 @pytest.mark.slow
-def test_the_first_calls_of_gazebos_services_are_answered_on_a_busy_machine(tmp_path: Path) -> None:
-    """Each service is called as soon as the master knows it, while the launch shares its time with busy loops."""
+def test_first_calls_of_gazebos_services_succeed_on_a_busy_machine(tmp_path: Path) -> None:
+    """Each service is called as soon as it is registered, while busy loops share the CPU with the launch."""
     file = tmp_path / "w.launch"
     file.write_text(_WORLD)
     env = _environment(tmp_path / "home", [])

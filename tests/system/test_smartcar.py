@@ -1,4 +1,4 @@
-"""The tutorial's two commands, as it gives them."""
+"""The tutorial's two commands."""
 
 import math
 import subprocess
@@ -32,8 +32,8 @@ def odometry(trundle) -> tuple[float, float]:
     return float(row["field.pose.pose.position.x"]), float(row["field.pose.pose.position.y"])
 
 
-def test_our_own_topic_pub_drives_the_car_and_it_keeps_on_driving(car, trundle, until) -> None:
-    """In sim mode nothing stops it when the publisher is gone, as in the original."""
+def test_topic_pub_drives_the_car_until_the_next_command(car, trundle, until) -> None:
+    """As in the original, in sim mode the car does not stop after the publisher's end."""
     assert trundle("topic", "pub", "-1", "/cmd_vel", "geometry_msgs/Twist", TWIST).returncode == 0
 
     first = odometry(trundle)
@@ -84,7 +84,7 @@ def test_the_real_rostopic_pub_drives_the_car(car, env, master, until, tmp_path)
 
 
 def _rows(log: Path) -> list[dict[str, str]]:
-    """The whole lines that `rostopic echo -p` has written so far."""
+    """Return the complete lines written by `rostopic echo -p` so far."""
     lines = log.read_text().splitlines() if log.exists() else []
     names = lines[0].split(",") if lines else []
     return [dict(zip(names, line.split(","), strict=True)) for line in lines[1:] if line.count(",") == len(names) - 1]
@@ -95,21 +95,21 @@ def _listens(master: MasterProxy, topic: str, count: int) -> bool:
     return len(subscribers.get(topic, [])) >= count
 
 
-def test_parameters_are_those_of_the_original(trundle, shared, packages) -> None:
+def test_parameters_equal_the_original(trundle, shared, packages) -> None:
     import yaml
 
     done = trundle(
         "launch", "smartcar_description", "smartcar_display.rviz.launch", "--dump-params", ROS_PACKAGE_PATH=packages
     )
-    ours = yaml.safe_load(done.stdout)
-    theirs = yaml.safe_load((shared / "peers/ros_reference/rosparam_dump.txt").read_text())
+    parameters = yaml.safe_load(done.stdout)
+    expected = yaml.safe_load((shared / "peers/ros_reference/rosparam_dump.txt").read_text())
 
-    assert ours["/arbotix/controllers/base_controller/ticks_meter"] == 4100
-    for name, value in theirs["arbotix"].items():
+    assert parameters["/arbotix/controllers/base_controller/ticks_meter"] == 4100
+    for name, value in expected["arbotix"].items():
         if not isinstance(value, dict):
-            assert ours[f"/arbotix/{name}"] == value
-    for name, value in theirs["arbotix"]["controllers"]["base_controller"].items():
-        assert ours[f"/arbotix/controllers/base_controller/{name}"] == value
+            assert parameters[f"/arbotix/{name}"] == value
+    for name, value in expected["arbotix"]["controllers"]["base_controller"].items():
+        assert parameters[f"/arbotix/controllers/base_controller/{name}"] == value
 
 
 def test_a_launch_ends_by_itself_after_its_duration(trundle, packages) -> None:

@@ -1,4 +1,4 @@
-"""The example car, as `examples/smartcar` ships it: shown by the arbotix driver, and simulated among furniture."""
+"""The car of `examples/smartcar`: driven by the arbotix driver, and simulated in a living room."""
 
 import math
 from concurrent.futures import ThreadPoolExecutor
@@ -10,7 +10,7 @@ from trundle.ros import open_bag
 
 
 @pytest.mark.slow
-def test_it_drives_through_a_living_room_and_sees_the_walls(start, trundle, master, until) -> None:
+def test_the_car_drives_through_a_living_room_and_scans_the_walls(start, trundle, master, until) -> None:
     start("launch", "smartcar", "drive.launch", "--headless")
     topics = {"/scan", "/odom", "/camera/image_raw", "/joint_states", "/gazebo/model_states"}
     until("the car's topics", lambda: topics <= set(dict(master.call("getTopicTypes"))))
@@ -25,14 +25,16 @@ def test_it_drives_through_a_living_room_and_sees_the_walls(start, trundle, mast
     size = trundle("topic", "echo", "-n1", "/camera/image_raw/width").stdout.split()[0]
     tree = trundle("tf", "tree").stdout
 
-    assert min(map(float, ranges)) > 0.15, "it does not see itself"
-    assert sum(math.isfinite(float(distance)) for distance in ranges) > 90, "it sees two walls, a sofa and a table"
+    assert min(map(float, ranges)) > 0.15, "the scan does not hit the car"
+    assert sum(math.isfinite(float(distance)) for distance in ranges) > 90, (
+        "the scan hits two walls, a sofa and a table"
+    )
     assert size == "320"
     for frame in ("odom", "base_footprint", "base_link", "left_front_wheel", "head"):
         assert frame in tree
 
 
-def test_arbotix_imagines_it_driving(start, trundle, master, until) -> None:
+def test_arbotix_in_sim_mode_publishes_odometry(start, trundle, master, until) -> None:
     start("launch", "smartcar", "display.launch", "--headless")
     until("the driver", lambda: "/odom" in dict(master.call("getTopicTypes")))
     start("topic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", "{linear: {x: 0.5}, angular: {z: 0.5}}")
@@ -52,8 +54,8 @@ def test_arbotix_imagines_it_driving(start, trundle, master, until) -> None:
     ],
     ids=["with a simulation", "without"],
 )
-def test_flat_out_it_writes_the_same_bag_every_time(trundle, tmp_path: Path, file: str, topics: set[str]) -> None:
-    """To the byte, on a busy machine and with any order of Python's sets."""
+def test_runs_with_speed_max_write_identical_bags(trundle, tmp_path: Path, file: str, topics: set[str]) -> None:
+    """On a busy machine, too, and with any order of Python's sets."""
     for number in (1, 2):
         bag = str(tmp_path / f"{number}.bag")
         words = ("smartcar", file, "--headless", "--speed", "max", "--duration", "3", "--record", bag)

@@ -1,4 +1,4 @@
-"""`trundle test` runs the tests of launch files as rostest does."""
+"""`trundle test` runs the tests of launch files like rostest."""
 
 import signal
 import xml.etree.ElementTree as ET
@@ -11,7 +11,7 @@ from trundle.ros import MasterProxy
 
 _MANIFEST = """<package><name>p</name><version>1.0.0</version><description>d</description>
 <maintainer email="a@b.c">m</maintainer><license>x</license></package>"""
-# Like a gtest or rosunit program, it writes its results to the file given.
+# Like a gtest or rosunit program, it writes its results to the given file.
 _CHECK = """#!/usr/bin/env python3
 import os, sys, pathlib
 out = next(w.partition("xml:")[2] for w in sys.argv if w.startswith("--gtest_output="))
@@ -53,16 +53,16 @@ def package(tmp_path: Path) -> Path:
     return folder
 
 
-def written(package: Path, *tests: str) -> None:
+def write_tests(package: Path, *tests: str) -> None:
     (package / "a.test").write_text(f"<launch><param name='x' value='1'/>{''.join(tests)}</launch>")
 
 
-def a_test(name: str, verdict: str, more: str = "") -> str:
-    return f'<test pkg="p" type="check" test-name="{name}" args="{verdict}" {more}/>'
+def launch_test(name: str, verdict: str, attributes: str = "") -> str:
+    return f'<test pkg="p" type="check" test-name="{name}" args="{verdict}" {attributes}/>'
 
 
-def test_cases_pass_and_fail_and_a_ci_server_can_read_it(trundle, package: Path, tmp_path: Path) -> None:
-    written(package, a_test("good", "pass"), a_test("bad", "fail"))
+def test_results_are_printed_and_written_as_junit_xml(trundle, package: Path, tmp_path: Path) -> None:
+    write_tests(package, launch_test("good", "pass"), launch_test("bad", "fail"))
     junit = tmp_path / "out" / "results.xml"
     done = trundle("test", "p", "a.test", "--junit", str(junit), ROS_PACKAGE_PATH=str(package.parent))
 
@@ -80,36 +80,36 @@ def test_cases_pass_and_fail_and_a_ci_server_can_read_it(trundle, package: Path,
     assert failure.get("message") == "no <sound>"
 
 
-def test_all_passed_is_zero_and_a_flaky_one_may_try_again(trundle, package: Path, tmp_path: Path) -> None:
-    written(package, a_test("flaky", f"flaky {tmp_path / 'mark'}", 'retry="1"'))
+def test_a_flaky_test_is_retried(trundle, package: Path, tmp_path: Path) -> None:
+    write_tests(package, launch_test("flaky", f"flaky {tmp_path / 'mark'}", 'retry="1"'))
     done = trundle("test", "p", "a.test", ROS_PACKAGE_PATH=str(package.parent))
 
     assert done.returncode == 0
     assert "1 more try" in done.stderr
     assert "RESULT: SUCCESS" in done.stdout
-    written_by_itself = tmp_path / ".ros/test_results/p/rostest-a.xml"
-    assert [s.get("name") for s in ET.parse(written_by_itself).getroot()] == ["p.flaky"]
+    results = tmp_path / ".ros/test_results/p/rostest-a.xml"
+    assert [s.get("name") for s in ET.parse(results).getroot()] == ["p.flaky"]
 
 
 @pytest.mark.parametrize(
-    ("test", "said"),
+    ("test", "message"),
     [
-        (a_test("t", "silent"), "[p.t/t][error]\n  it wrote no results"),
-        (a_test("t", "slow", 'time-limit="1"'), "[p.t/t][failed]\n  it took more than its 1 s"),
+        (launch_test("t", "silent"), "[p.t/t][error]\n  it wrote no results"),
+        (launch_test("t", "slow", 'time-limit="1"'), "[p.t/t][failed]\n  it took more than its 1 s"),
         ('<test pkg="p" type="gone" test-name="t"/>', "[p.t/t][error]\n  no executable 'gone'"),
     ],
 )
-def test_a_test_that_says_nothing_is_no_success(trundle, package: Path, test: str, said: str) -> None:
-    written(package, test)
+def test_a_test_without_results_fails(trundle, package: Path, test: str, message: str) -> None:
+    write_tests(package, test)
     done = trundle("test", "p", "a.test", ROS_PACKAGE_PATH=str(package.parent))
 
     assert done.returncode == 1
-    assert said in done.stdout
+    assert message in done.stdout
     assert "Traceback" not in done.stdout + done.stderr
 
 
-def test_a_file_without_tests_is_named(trundle, package: Path) -> None:
-    written(package)
+def test_a_file_without_tests_is_an_error(trundle, package: Path) -> None:
+    write_tests(package)
     done = trundle("test", "p", "a.test", ROS_PACKAGE_PATH=str(package.parent))
     assert done.returncode == 1
     assert "no <test>" in done.stderr
@@ -119,7 +119,7 @@ def test_a_file_without_tests_is_named(trundle, package: Path) -> None:
 def test_text_leaves_no_files_and_the_exit_code_decides(
     trundle, package: Path, tmp_path: Path, verdict: str, code: int
 ) -> None:
-    written(package, a_test("t", verdict))
+    write_tests(package, launch_test("t", verdict))
     done = trundle("test", "p", "a.test", "--text", ROS_PACKAGE_PATH=str(package.parent))
 
     assert done.returncode == code
@@ -127,15 +127,15 @@ def test_text_leaves_no_files_and_the_exit_code_decides(
     assert list(tmp_path.rglob("ros*-*.xml")) == []
 
 
-def test_results_lie_where_they_are_told_to(trundle, package: Path, tmp_path: Path) -> None:
-    written(package, a_test("good", "pass"))
+def test_the_results_folder_and_file_name_can_be_set(trundle, package: Path, tmp_path: Path) -> None:
+    write_tests(package, launch_test("good", "pass"))
     path = str(package.parent)
     named = ("--package", "q", "--results-base-dir", "out", "--results-filename", "all.v2.xml")
     assert trundle("test", "p", "a.test", *named, ROS_PACKAGE_PATH=path).returncode == 0
     assert trundle("test", "ws/p/a.test", "--pkgdir", path, "--results-base-dir", "out").returncode == 0
 
-    found = {str(file.relative_to(tmp_path / "out")) for file in (tmp_path / "out").rglob("*.xml")}
-    assert found == {"q/rosunit-good.xml", "q/rostest-all.v2.xml", "p/rosunit-good.xml", "p/rostest-p_a.xml"}
+    files = {str(file.relative_to(tmp_path / "out")) for file in (tmp_path / "out").rglob("*.xml")}
+    assert files == {"q/rosunit-good.xml", "q/rostest-all.v2.xml", "p/rosunit-good.xml", "p/rostest-p_a.xml"}
     assert not (tmp_path / ".ros/test_results").exists()
 
     refused = trundle("test", "ws/p/a.test", "--results-filename", "b/all.xml")
@@ -143,60 +143,60 @@ def test_results_lie_where_they_are_told_to(trundle, package: Path, tmp_path: Pa
     assert "'b/all.xml' is not a file name; --results-base-dir takes the folder" in refused.stderr
 
 
-def test_a_graph_that_runs_is_taken_and_cleared_when_asked(trundle, package: Path) -> None:
-    written(package, a_test("says", "says"))
+def test_a_running_graph_is_reused_and_cleared(trundle, package: Path) -> None:
+    write_tests(package, launch_test("says", "says"))
     with running_graph() as graph:
         master = MasterProxy(graph.core.uri)
-        mine = ("/old/deep", "/roslaunch/uris/host_a__1")
-        for name in mine:
+        names = ("/old/deep", "/roslaunch/uris/host_a__1")
+        for name in names:
             master.call("setParam", name, "v")
-        where = {"ROS_PACKAGE_PATH": str(package.parent), "ROS_MASTER_URI": graph.core.uri}
-        at_first = set(master.call("getParamNames"))
+        variables = {"ROS_PACKAGE_PATH": str(package.parent), "ROS_MASTER_URI": graph.core.uri}
+        initial = set(master.call("getParamNames"))
 
-        alone = trundle("test", "p", "a.test", "-t", **where)
-        said = alone.stdout + alone.stderr
-        assert "the graph is at" in said
-        assert f"the graph is at {graph.core.uri}" not in said
-        assert ":11311" not in said  # the port of a user's next roscore
-        assert set(master.call("getParamNames")) == at_first
+        alone = trundle("test", "p", "a.test", "-t", **variables)
+        output = alone.stdout + alone.stderr
+        assert "the graph is at" in output
+        assert f"the graph is at {graph.core.uri}" not in output
+        assert ":11311" not in output  # the port of a user's next roscore
+        assert set(master.call("getParamNames")) == initial
 
-        reused = trundle("test", "p", "a.test", "-t", "-r", **where)
+        reused = trundle("test", "p", "a.test", "-t", "-r", **variables)
         assert reused.returncode == 0
         assert f"the graph is at {graph.core.uri}" in reused.stdout + reused.stderr
-        assert set(master.call("getParamNames")) == at_first | {"/x"}
+        assert set(master.call("getParamNames")) == initial | {"/x"}
 
-        cleared = trundle("test", "p", "a.test", "--reuse-master", "--clear", **where)
+        cleared = trundle("test", "p", "a.test", "--reuse-master", "--clear", **variables)
         assert cleared.returncode == 0
-        assert set(master.call("getParamNames")) == (at_first | {"/x"}) - {"/old/deep"}
+        assert set(master.call("getParamNames")) == (initial | {"/x"}) - {"/old/deep"}
 
 
 @pytest.mark.parametrize(
-    ("options", "said"),
+    ("options", "message"),
     [(["--clear"], "--clear is only valid with --reuse-master"), (["-r"], "--reuse-master: no ROS master answers at")],
 )
-def test_a_graph_that_cannot_be_taken_is_said(trundle, package: Path, options: list[str], said: str) -> None:
-    written(package, a_test("good", "pass"))
+def test_invalid_reuse_options_are_errors(trundle, package: Path, options: list[str], message: str) -> None:
+    write_tests(package, launch_test("good", "pass"))
     done = trundle("test", "p", "a.test", *options, ROS_PACKAGE_PATH=str(package.parent))
     assert done.returncode == 1
-    assert said in done.stderr
+    assert message in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_a_test_is_alone_with_its_master(trundle, package: Path) -> None:
-    """No /rosout beside it, as under rostest: a test may have that name itself."""
-    written(package, a_test("rosout", "nodes"))
+def test_the_master_of_a_test_has_no_rosout(trundle, package: Path) -> None:
+    """As with rostest: a test itself may have the name /rosout."""
+    write_tests(package, launch_test("rosout", "nodes"))
     done = trundle("test", "p", "a.test", "-t", ROS_PACKAGE_PATH=str(package.parent))
     assert done.returncode == 0
     assert "nodes: [[], [], []]" in done.stdout + done.stderr
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_test_in_a_shells_background_is_stopped_with_its_nodes(
+def test_a_test_in_a_shells_background_stops_on_signals(
     start, until, package: Path, tmp_path: Path, number: int
 ) -> None:
-    """A shell starts its background jobs with SIGINT ignored, which children inherit."""
+    """A shell starts background jobs with SIGINT ignored, and children inherit that."""
     mark = tmp_path / "mark"
-    written(package, a_test("waits", f"waits {mark}"))
+    write_tests(package, launch_test("waits", f"waits {mark}"))
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         running = start("test", "p", "a.test", ROS_PACKAGE_PATH=str(package.parent))

@@ -1,4 +1,4 @@
-"""Scripts whose own lines do not name ROS, where `python3` is another Python than Trundle's."""
+"""Scripts that import ROS only through their package, with a `python3` that is not Trundle's."""
 
 import signal
 import subprocess
@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def test_scripts_that_import_only_their_packages_module_run(shared: Path, env: dict[str, str], tmp_path: Path) -> None:
-    """As with trundle started by its path, by pipx or uv."""
+    """As with trundle installed by pipx or uv."""
     case = shared / "cases/node_thin_script"
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", tmp_path / "venv"], check=True)
     env |= {"PATH": f"{tmp_path}/venv/bin:/usr/bin:/bin", "ROS_PACKAGE_PATH": str(case / "ws")}
@@ -21,7 +21,7 @@ def test_scripts_that_import_only_their_packages_module_run(shared: Path, env: d
         assert launch.stdout is not None
         for line in launch.stdout:
             lines.append(line)
-            expected -= {each for each in expected if each in line}
+            expected -= {text for text in expected if text in line}
             if not expected or "has died" in line:
                 break
         launch.send_signal(signal.SIGINT)

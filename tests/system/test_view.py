@@ -1,9 +1,9 @@
-"""`trundle view` beside other nodes of the graph."""
+"""`trundle view` with other nodes in the graph."""
 
 import re
 
 
-def test_a_view_joins_without_pushing_another_rviz_out(start, trundle, master, until, shared) -> None:
+def test_a_view_does_not_replace_a_running_rviz(start, trundle, master, until, shared) -> None:
     launch = ("launch", "smartcar_description", "smartcar_display.rviz.launch", "--headless")
     start(*launch, ROS_PACKAGE_PATH=str(shared / "seeds"))
     until("the launch", lambda: "/rviz" in trundle("node", "list").stdout.split())
@@ -19,7 +19,7 @@ def test_a_view_joins_without_pushing_another_rviz_out(start, trundle, master, u
     until("the view to be gone", lambda: names() == ["/rviz"])
 
 
-def test_without_a_master_a_view_says_what_to_do(trundle, env) -> None:
+def test_the_error_of_view_without_a_master_names_trundle_core(trundle, env) -> None:
     done = trundle("view")
 
     assert done.returncode == 1

@@ -1,4 +1,4 @@
-"""The wheel that `make dist` built, in an environment of its own outside the checkout: it is whole, and runs."""
+"""The wheel built by `make dist`, in a new environment outside the checkout, is complete and runs."""
 
 import json
 import os
@@ -22,7 +22,7 @@ SEEDS = ROOT.parent / "shared/seeds"
 WHEELS = sorted((ROOT / "dist").glob("trundle-*.whl"))
 ROSPY = sorted((ROOT / "dist").glob("trundle_rospy-*.whl"))
 CLIENT = "src/trundle/page/client/"
-"""The built client, which is no file of the repository."""
+"""The built client, which is not in the repository."""
 TIMEOUT_S = 300.0
 
 pytestmark = [
@@ -35,12 +35,12 @@ Run = Callable[..., subprocess.CompletedProcess[str]]
 
 @pytest.fixture(scope="module")
 def commands(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder of the commands of an environment with the wheel."""
+    """Folder of the programs of an environment with the wheel."""
     return _installed(tmp_path_factory.mktemp("installed") / "venv", WHEELS[-1])
 
 
 def _installed(folder: Path, *wheels: Path) -> Path:
-    """Install wheels in a new environment, whose dependencies are the test's; its trundle is not. Return its bin."""
+    """Install wheels in a new environment with the test's dependencies except trundle; return its programs' folder."""
     subprocess.run([sys.executable, "-m", "venv", folder], check=True, timeout=TIMEOUT_S)
     python = next(folder.glob("bin/python")) if os.name == "posix" else folder / "Scripts/python.exe"
     install = [python, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", *wheels]
@@ -53,7 +53,7 @@ def _installed(folder: Path, *wheels: Path) -> Path:
 
 @pytest.fixture
 def run(commands: Path, tmp_path: Path) -> Run:
-    """Run a command of that environment in an empty folder, as a user without any setting does."""
+    """Run a program of the environment in an empty folder, without settings."""
 
     def call(name: str, *arguments: str, **variables: str) -> subprocess.CompletedProcess[str]:
         kept = {key: os.environ[key] for key in ("SYSTEMROOT", "TEMP", "TMPDIR") if key in os.environ}
@@ -72,7 +72,7 @@ def result(done: subprocess.CompletedProcess[str]) -> dict[str, Any]:
 
 
 def test_every_file_of_the_package_is_in_the_wheel() -> None:
-    """Stubs, too: the lazy front doors read theirs at run time, and py.typed is for type checkers."""
+    """Also stubs, which the lazy packages read at run time, and py.typed."""
     package = ROOT / "src"
     sources = {str(file.relative_to(package).as_posix()) for file in package.rglob("*") if file.is_file()}
     with zipfile.ZipFile(WHEELS[-1]) as wheel:
@@ -83,7 +83,7 @@ def test_every_file_of_the_package_is_in_the_wheel() -> None:
 
 
 @pytest.mark.skipif(not (ROOT / ".git").exists(), reason="this is no checkout")
-def test_the_sdist_holds_files_of_the_repository_alone() -> None:
+def test_the_sdist_has_only_files_of_the_repository() -> None:
     command = ["git", "-C", str(ROOT), "ls-files"]
     tracked = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
     with tarfile.open(next((ROOT / "dist").glob("trundle-*.tar.gz"))) as sdist:
@@ -94,7 +94,7 @@ def test_the_sdist_holds_files_of_the_repository_alone() -> None:
 
 
 def test_the_page_s_client_is_in_sdist_and_wheel() -> None:
-    """Whole, so that neither needs Node; with licences, but without what only its build needs."""
+    """Complete, so that neither needs Node; with licences, but without build dependencies."""
     with tarfile.open(next((ROOT / "dist").glob("trundle-*.tar.gz"))) as sdist:
         packed = {name.partition("/")[2] for name in sdist.getnames()}
     with zipfile.ZipFile(WHEELS[-1]) as wheel:
@@ -111,7 +111,7 @@ def test_the_page_s_client_is_in_sdist_and_wheel() -> None:
     assert not [name for name in packed | installed if "node_modules" in name]
 
 
-def test_the_installed_trundle_is_the_wheel_s(run: Run, commands: Path) -> None:
+def test_trundle_is_imported_from_the_wheel(run: Run, commands: Path) -> None:
     done = run("python", "-c", "import trundle; print(trundle.__file__)")
 
     assert Path(done.stdout).is_relative_to(commands.parent)
@@ -121,7 +121,7 @@ def test_every_module_of_the_wheel_imports(run: Run) -> None:
     code = """
 import importlib, pkgutil, trundle
 from trundle.ros.rospy.finder import install
-install()  # as in every program of ROS: genpy and its kin are found
+install()  # as in all ROS programs: genpy etc. are found
 for module in pkgutil.walk_packages(trundle.__path__, "trundle."):
     try:
         importlib.import_module(module.name)
@@ -134,7 +134,7 @@ for module in pkgutil.walk_packages(trundle.__path__, "trundle."):
     assert done.returncode == 0, done.stderr
 
 
-def test_rospy_comes_to_any_python_by_a_wheel_of_its_own(tmp_path: Path) -> None:
+def test_the_trundle_rospy_wheel_provides_rospy(tmp_path: Path) -> None:
     python = _installed(tmp_path / "venv", WHEELS[-1], ROSPY[-1]) / "python"
     code = "import rospy, tf, std_msgs.msg; print(rospy.__file__, std_msgs.msg.String('a'))"
     done = subprocess.run(
@@ -155,7 +155,7 @@ def test_rospy_comes_to_any_python_by_a_wheel_of_its_own(tmp_path: Path) -> None
 
 
 def test_the_gazebo_tutorial_runs(run: Run) -> None:
-    """The model of the shared folder if present, else the wheel's."""
+    """With the model of the shared folder if present, else with the wheel's model."""
     variables = {"GAZEBO_MODEL_PATH": str(SEEDS)} if SEEDS.is_dir() else {}
 
     final = result(
@@ -168,7 +168,7 @@ def test_the_gazebo_tutorial_runs(run: Run) -> None:
 
 
 def test_the_ros_tutorial_launches(run: Run) -> None:
-    """The package of the shared folder if present, else the wheel's."""
+    """With the package of the shared folder if present, else with the wheel's package."""
     words = ("smartcar_description", "smartcar_display.rviz.launch") if SEEDS.is_dir() else ("smartcar", "drive.launch")
     variables = {"ROS_PACKAGE_PATH": str(SEEDS)} if SEEDS.is_dir() else {}
 
@@ -186,7 +186,7 @@ def test_the_wheel_renders(run: Run, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if has_blocks(page)], ids=lambda page: page.name)
-def test_every_block_of_the_documentation_does_what_it_says(page: Path, commands: Path, tmp_path: Path) -> None:
+def test_code_blocks_of_the_documentation_run(page: Path, commands: Path, tmp_path: Path) -> None:
     run_page(page, tmp_path, commands=commands)
 
 
