@@ -125,7 +125,7 @@ def test_the_child_runs_the_parents_nodes_until_shutdown(child, core, parent, pa
     assert call("list_processes")[2] == [[["deep/one-1", 1]], []]
     assert call("process_info", "deep/one-1")[2] == {"name": "deep/one-1", "alive": True, "spawn_count": 1}
     assert call("process_info", "two")[0] == -1
-    until("the program", lambda: (package / "output").exists() and (package / "said").read_text())
+    until("the program", lambda: (package / "output").exists() and (package / "output").read_text())
     assert (package / "output").read_text().startswith("/deep hi stay x y a:=b __name:=one __log:=")
     assert call("shutdown") == [1, "success", 1]
 
