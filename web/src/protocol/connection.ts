@@ -117,6 +117,6 @@ export interface Connection {
   release(topic: string): void;
   /** Type into a node's terminal, and set its size (columns, rows). */
   useTerminal(number: number, text: string, size?: readonly [number, number]): void;
-  /** Show the others what is selected here. */
+  /** Show the selection to the other people. */
   present(selection: SharedSelection | null): void;
 }

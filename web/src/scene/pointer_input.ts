@@ -54,7 +54,7 @@ export class SceneInput {
 
   /**
    * `tool`: offers an event to the current tool; true: it was the tool's. `menu`: opens the menu of what is under a point
-   * of the scene [px], or of what is selected.
+   * of the scene [px], or of the selection.
    */
   constructor(
     private readonly scene: ThreeScene,

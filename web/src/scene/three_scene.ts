@@ -300,7 +300,7 @@ export class ThreeScene implements SceneView {
     return isResized;
   }
 
-  /** Show what was drawn, with its labels and axes. */
+  /** Show the drawn picture, with its labels and axes. */
   private show(): void {
     this.offscreen?.show();
     for (const pane of this.panes.shown.peek()) pane.showOver();

@@ -27,7 +27,7 @@ export class CovarianceProperty extends BoolProperty {
   }
 }
 
-/** Thickness of what is flat [m], and the widest angle that is drawn [rad]. */
+/** Thickness of flat shapes [m], and the widest drawn angle [rad]. */
 const FLAT = 0.001;
 const WIDEST = (89 * Math.PI) / 180;
 /**

@@ -1,4 +1,4 @@
-/** Opens files of the person's machine: an .rviz file that is chosen, or what is dropped onto the page. */
+/** Opens files of the person's machine: a chosen .rviz file, or files dropped onto the page. */
 
 import { droppedModel } from "../insert/model_files";
 import type { Shell } from "../shell";

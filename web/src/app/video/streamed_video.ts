@@ -45,7 +45,7 @@ export class StreamedVideo implements VideoFile {
     return new StreamedVideo(recorder, type.startsWith("video/mp4") ? "mp4" : "webm");
   }
 
-  /** The stream takes what is drawn by itself. */
+  /** Nothing to do: the stream captures the canvas by itself. */
   add(): void {
     return;
   }

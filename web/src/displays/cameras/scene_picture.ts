@@ -1,4 +1,4 @@
-/** Pictures of the displays by another camera, on what is transparent. */
+/** Pictures of the displays by another camera, on a transparent background. */
 
 import {
   Color,

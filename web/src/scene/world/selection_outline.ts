@@ -1,5 +1,5 @@
 /**
- * Outlines of what is selected, here and by others: thin around a model, broad around a link; seen through what is before
+ * Outlines of the selections, own and others': thin around a model, broad around a link; seen through what is before
  * it.
  */
 
