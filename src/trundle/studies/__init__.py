@@ -1,1 +1,1 @@
-"""Worlds run many times: sweeps and datasets."""
+"""Many runs of a world: sweeps and datasets."""

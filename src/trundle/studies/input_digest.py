@@ -1,4 +1,4 @@
-"""Digest of what results depend on: texts, worlds, and files by their content."""
+"""Digest of inputs: texts, worlds, and files by content."""
 
 import hashlib
 import os
@@ -14,23 +14,23 @@ from trundle.robots.model import PluginTag, World
 
 
 def input_digest(texts: Iterable[str], worlds: Iterable[World], files: Iterable[Path]) -> str:
-    """Return a digest that changes with the content of anything given.
+    """Return a digest of the content of all inputs.
 
     Args:
-        texts: in their order.
-        worlds: as read; included models, meshes, their textures and the code of plugins count, places in files do not.
-        files: further files; those that meshes among them name count, too.
+        texts: texts; their order matters.
+        worlds: worlds with their included models, meshes, textures and plugin code; positions in files do not matter.
+        files: further files; files referenced by meshes among them are included.
     """
-    found, digest = set(files), hashlib.sha256()
-    for part in (*texts, *(part for world in worlds for part in _parts(world, found))):
+    all_files, digest = set(files), hashlib.sha256()
+    for part in (*texts, *(part for world in worlds for part in _parts(world, all_files))):
         digest.update(part.encode("utf-8", "surrogateescape") + b"\0")
-    for path in sorted(found.union(*map(referenced_files, found))):
+    for path in sorted(all_files.union(*map(referenced_files, all_files))):
         digest.update(_content(path))
     return digest.hexdigest()
 
 
 def _content(path: Path) -> bytes:
-    """Return the digest of a file; a missing or unreadable one has its own."""
+    """Return the digest of a file, also of a missing or unreadable one."""
     try:
         return hashlib.sha256(path.read_bytes() if path.is_file() else b"").digest()
     except OSError as error:
@@ -38,7 +38,7 @@ def _content(path: Path) -> bytes:
 
 
 def _parts(value: object, files: set[Path]) -> Iterator[str]:
-    """Yield everything that is written in a world, and note its files; where it stands in a file does not count."""
+    """Yield all values of a world, except for positions in files, and collect its files."""
     if isinstance(value, Path):
         files.add(value)
     elif isinstance(value, XmlNode):
@@ -53,7 +53,7 @@ def _parts(value: object, files: set[Path]) -> Iterator[str]:
                 yield from _parts(getattr(value, name), files)
     elif isinstance(value, tuple):
         yield f"{len(value)}"
-        for each in value:
-            yield from _parts(each, files)
+        for item in value:
+            yield from _parts(item, files)
     else:
         yield repr(value)

@@ -14,7 +14,7 @@ from PIL import Image
 
 import trundle
 from trundle.ros import Messages, open_bag
-from trundle.studies.datasets.overlay import category_colour
+from trundle.studies.datasets.overlay import category_color
 
 SIZE = (320, 240)
 WORLD = """<sdf version="1.6"><world name="w"><model name="floor"><static>1</static><link name="l">
@@ -192,4 +192,4 @@ def test_the_contact_sheet_opens_alone(folder: Path) -> None:
         assert sheet.width == 3 * 406 + 6
         colours = sheet.convert("RGB").getcolors(1 << 24)
     assert colours is not None
-    assert category_colour(0) in {colour for _, colour in colours}, "boxes are drawn"
+    assert category_color(0) in {colour for _, colour in colours}, "boxes are drawn"

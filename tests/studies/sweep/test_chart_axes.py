@@ -9,14 +9,14 @@ from trundle.studies.sweep.chart_axes import axis_of, tick_texts
 def test_values_lie_between_the_ends_in_proportion() -> None:
     axis = axis_of(np.array([2.0, 4.0]), 10.0, 110.0)
 
-    assert axis.place(np.array([2.0, 3.0, 4.0])) == pytest.approx([10.0, 60.0, 110.0])
-    assert axis_of(np.array([7.0, 7.0]), 0.0, 10.0).place(np.array([7.0])) == [5.0], "a constant is in the middle"
+    assert axis.coordinates(np.array([2.0, 3.0, 4.0])) == pytest.approx([10.0, 60.0, 110.0])
+    assert axis_of(np.array([7.0, 7.0]), 0.0, 10.0).coordinates(np.array([7.0])) == [5.0], "a constant is in the middle"
 
 
 def test_a_logarithm_spaces_decades_evenly_and_needs_positive_values() -> None:
     axis = axis_of(np.array([0.01, 1.0]), 0.0, 100.0, is_log=True)
 
-    assert axis.place(np.array([0.01, 0.1, 1.0])) == pytest.approx([0.0, 50.0, 100.0])
+    assert axis.coordinates(np.array([0.01, 0.1, 1.0])) == pytest.approx([0.0, 50.0, 100.0])
     assert not axis_of(np.array([0.0, 1.0]), 0.0, 100.0, is_log=True).is_log
 
 

@@ -1,1 +1,1 @@
-"""Datasets for vision: a plan's world, its pictures in many processes, the files."""
+"""Making of vision datasets: a plan's world, its pictures in many processes, and the output files."""

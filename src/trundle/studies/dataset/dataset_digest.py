@@ -1,4 +1,4 @@
-"""Digest of everything that the pictures of a dataset depend on."""
+"""Digest of all inputs of a dataset."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ from ..input_digest import input_digest
 
 
 def dataset_digest(maker: PictureMaker) -> str:
-    """Return a digest that changes with anything that may change a picture; the number of pictures does not count."""
+    """Return a digest of everything that may change a picture, which excludes the number of pictures."""
     text = "\n".join(line for line in maker.plan.text.splitlines() if not line.startswith("count:"))
     textures = [texture for texture in maker.looks.textures if isinstance(texture, Path)]
     return input_digest([text], [maker.world], textures)

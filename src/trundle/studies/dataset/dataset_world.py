@@ -1,4 +1,4 @@
-"""World of a dataset: the plan's, with its objects and distractors in it."""
+"""World of a dataset: the plan's world with its objects and distractors."""
 
 import os
 from collections.abc import Generator
@@ -17,10 +17,10 @@ from trundle.studies.datasets import DatasetPlan, DistractorPlan, Instance, Obje
 
 
 def picture_maker(plan: DatasetPlan) -> PictureMaker:
-    """Read a plan's world and models, and prepare its pictures.
+    """Read a plan's world and models, and return the maker of its pictures.
 
     Raises:
-        DescriptionError: with the line of the plan or of the file.
+        DescriptionError: the plan, or a file that it names, is invalid.
     """
     packages = Packages(dict(os.environ), start=Path.cwd())
     with _errors_at(plan.world_at):
@@ -28,21 +28,21 @@ def picture_maker(plan: DatasetPlan) -> PictureMaker:
     names = {model.name for model in world.models}
     instances: list[Instance] = []
     added: list[Model] = []
-    for each in plan.objects:
-        if each.model is None:
-            _check_name(each, names)
-            instances.append(_object(len(instances) + 1, each.name, each))
+    for item in plan.objects:
+        if item.model is None:
+            _check_name(item, names)
+            instances.append(_object(len(instances) + 1, item.name, item))
             continue
-        model = _read_model(each, each.model, packages)
-        for count in range(round(each.count.largest)):
-            added.append(replace(model, name=_free(f"{each.name}_{count}", names), static=False))
-            instances.append(_object(len(instances) + 1, added[-1].name, each))
+        model = _read_model(item, item.model, packages)
+        for count in range(round(item.count.largest)):
+            added.append(replace(model, name=_unique_name(f"{item.name}_{count}", names), static=False))
+            instances.append(_object(len(instances) + 1, added[-1].name, item))
     if plan.distractors is not None:
         for model in distractor_models(plan.distractors, plan.seed):
-            added.append(replace(model, name=_free(model.name, names)))
+            added.append(replace(model, name=_unique_name(model.name, names)))
             instances.append(_distractor(len(instances) + 1, added[-1].name, plan.distractors))
     moved = {
-        each.model for each in instances if each.placement.surface is not None or each.placement.position is not None
+        item.model for item in instances if item.placement.surface is not None or item.placement.position is not None
     }
     models = tuple(replace(model, static=False) if model.name in moved else model for model in world.models)
     simulation = Simulation(replace(world, models=(*models, *added)), Diagnostics(), seed=plan.seed)
@@ -51,7 +51,7 @@ def picture_maker(plan: DatasetPlan) -> PictureMaker:
 
 @contextmanager
 def _errors_at(at: Source) -> Generator[None]:
-    """Say where in the plan a file is named that is not found."""
+    """Report a missing file at its source in the plan."""
     try:
         yield
     except DescriptionError as error:
@@ -64,9 +64,9 @@ def _errors_at(at: Source) -> Generator[None]:
 
 def _check_name(plan: ObjectPlan, names: set[str]) -> None:
     if plan.name not in names:
-        there = ", ".join(sorted(names)) or "none"
-        what = f"the world has no model {plan.name!r}; models: {there}; `model: FILE` adds one"
-        raise DescriptionError(plan.at, what)
+        listed = ", ".join(sorted(names)) or "none"
+        message = f"the world has no model {plan.name!r}; models: {listed}; `model: FILE` adds one"
+        raise DescriptionError(plan.at, message)
 
 
 def _object(number: int, model: str, plan: ObjectPlan) -> Instance:
@@ -77,8 +77,8 @@ def _distractor(number: int, model: str, plan: DistractorPlan) -> Instance:
     return Instance(number=number, model=model, placement=plan.placement, paint=plan.paint, plan=None)
 
 
-def _free(name: str, names: set[str]) -> str:
-    """Return a name that no model has yet, and take it."""
+def _unique_name(name: str, names: set[str]) -> str:
+    """Return a unique name, and add it to the names in use."""
     while name in names:
         name += "_"
     names.add(name)
@@ -89,7 +89,7 @@ def _read_model(plan: ObjectPlan, file: str, packages: Packages) -> Model:
     """Read a model.
 
     Raises:
-        DescriptionError: it cannot be read, or is a world.
+        DescriptionError: the file cannot be read, or is a world.
     """
     with _errors_at(plan.at):
         loaded = load(file, Diagnostics(), packages=packages)

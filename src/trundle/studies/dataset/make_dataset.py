@@ -34,31 +34,31 @@ class DatasetResult:
     rate: float
     """Pictures per second of wall time of this call."""
     failed: Mapping[int, str]
-    """Number of a picture that could not be made → why; without it the formats' files of the whole are missing."""
+    """Number of a failed picture → reason; if any failed, files of the whole dataset are not written."""
     interrupted: bool
-    """True after Ctrl-C; the same call goes on where it was."""
+    """True after Ctrl-C; the same call resumes the run."""
 
     def summary(self) -> str:
-        """Return what is there, in one line."""
+        """Return a summary in one line."""
         return f"{self.done} of {self.total} pictures"
 
 
 def make_dataset(
     plan: DatasetPlan, *, output: Path | None = None, workers: int | None = None, address: str | None = None
 ) -> DatasetResult:
-    """Make the pictures of a plan that are not there yet, then the files of the whole dataset.
+    """Make the missing pictures of a plan, then the files of the whole dataset.
 
     Args:
-        plan: as read.
-        output: folder of the dataset; None: beside the plan.
-        workers: number of processes; None: one for each processor.
-        address: of a Ray cluster whose nodes share the folder; None: this machine, without Ray.
+        plan: plan of the dataset.
+        output: folder of the dataset; None: next to the plan.
+        workers: number of processes; None: one per processor.
+        address: address of a Ray cluster whose nodes share the folder; None: this machine, without Ray.
 
     Raises:
-        TrundleError: the plan cannot be drawn, or its pictures not be written.
+        TrundleError: the pictures cannot be made or written.
     """
     check_workers(workers)
-    maker = picture_maker(plan)  # a plan with errors is refused here, once, not by each process
+    maker = picture_maker(plan)  # refuses an invalid plan once, not in each process
     plan, digest = maker.plan, dataset_digest(maker)
     path = (output or Path(plan.file).with_suffix(".dataset")).resolve()
     job = Job(make=partial(_picture_writer, plan, path))
@@ -69,16 +69,16 @@ def make_dataset(
         progress = Progress(plan.count, plan.count - len(missing), what="pictures")
         failed: dict[int, str] = {}
 
-        def add_outcome(outcome: JobResult[str]) -> bool:
-            reason = outcome.reason if outcome.failure is not None else outcome.value
+        def add_result(result: JobResult[str]) -> bool:
+            reason = result.reason if result.failure is not None else result.value
             if reason:
-                failed[outcome.row] = reason
+                failed[result.row] = reason
             return not reason
 
         run_job(
             job,
             iter(missing),
-            add_outcome,
+            add_result,
             count=len(missing),
             progress=progress,
             workers=workers,
@@ -101,7 +101,7 @@ def make_dataset(
 
 
 def _picture_writer(plan: DatasetPlan, path: Path) -> Callable[[int], str]:
-    """Return the function that makes and writes the picture of a number, and returns why it could not, or ""."""
+    """Return a function that makes and writes the picture of a number and returns an error message, or ""."""
     maker, folder = picture_maker(plan), DatasetFolder(path)
     formats = [format_of(name) for name in plan.formats]
 
@@ -109,13 +109,13 @@ def _picture_writer(plan: DatasetPlan, path: Path) -> Callable[[int], str]:
         try:
             picture = maker.make(number)
             folder.write(picture)
-            for each in formats:
-                each.write(plan, path, picture)
+            for format_ in formats:
+                format_.write(plan, path, picture)
             folder.add(picture.annotation)
         except TrundleError as error:
             return str(error)
         except OSError as error:
-            return f"{error.filename or path}: {error.strerror}"  # a write names no file
+            return f"{error.filename or path}: {error.strerror}"  # errors of `write` have no file name
         return ""
 
     return write

@@ -1,4 +1,4 @@
-"""`trundle dataset PLAN --show N`: one picture with all that is written about it."""
+"""`trundle dataset PLAN --show N`: one picture with its annotations."""
 
 from io import BytesIO
 from pathlib import Path
@@ -7,29 +7,29 @@ from PIL import Image
 
 from trundle.base.atomic_write import write_atomically
 from trundle.base.diagnostics import UsageError
-from trundle.studies.datasets import AnnotatedPicture, DatasetPlan, depth_colours, draw_overlay, instance_colours
+from trundle.studies.datasets import AnnotatedPicture, DatasetPlan, depth_image, draw_overlay, instance_image
 
 from .dataset_world import picture_maker
 
 
 def show_picture(plan: DatasetPlan, number: int, path: Path) -> str:
-    """Write a picture four times: with boxes, with bodies and key points, its depths, its segmentation.
+    """Write a picture with 2D boxes, with 3D boxes and key points, its depths and its segmentation.
 
     Returns:
         One line for each object.
 
     Raises:
-        TrundleError: the plan cannot be drawn, or has no such picture.
+        TrundleError: the picture cannot be made, or the plan has no such picture.
     """
     if not 0 <= number < plan.count:
         raise UsageError(f"there is no picture {number}; the plan has pictures 0 to {plan.count - 1}")
-    made = picture_maker(plan).make(number)
-    picture = Image.fromarray(made.rgb)
+    annotated = picture_maker(plan).make(number)
+    picture = Image.fromarray(annotated.rgb)
     parts = [
-        draw_overlay(picture, made.annotation, plan.categories, solid=False),
-        draw_overlay(picture, made.annotation, plan.categories, solid=True),
-        Image.fromarray(depth_colours(made.depth)),
-        Image.fromarray(instance_colours(made.instances)),
+        draw_overlay(picture, annotated.annotation, plan.categories, solid=False),
+        draw_overlay(picture, annotated.annotation, plan.categories, solid=True),
+        Image.fromarray(depth_image(annotated.depth)),
+        Image.fromarray(instance_image(annotated.instances)),
     ]
     sheet = Image.new("RGB", (2 * picture.width, 2 * picture.height))
     for i, part in enumerate(parts):
@@ -37,13 +37,13 @@ def show_picture(plan: DatasetPlan, number: int, path: Path) -> str:
     file = BytesIO()
     sheet.save(file, "PNG")
     write_atomically(path, file.getvalue())
-    return _table(made)
+    return _table(annotated)
 
 
-def _table(made: AnnotatedPicture) -> str:
-    lines = [f"{len(made.annotation.objects)} objects"]
-    for each in made.annotation.objects:
-        width, height = each.box.width, each.box.height
-        hidden = f"{100 * each.occlusion:.0f} % hidden, {100 * each.truncation:.0f} % beyond the edge"
-        lines.append(f"  {each.instance} {each.model} ({each.category}): {width:g} x {height:g} px, {hidden}")
+def _table(annotated: AnnotatedPicture) -> str:
+    lines = [f"{len(annotated.annotation.objects)} objects"]
+    for item in annotated.annotation.objects:
+        width, height = item.box.width, item.box.height
+        hidden = f"{100 * item.occlusion:.0f} % hidden, {100 * item.truncation:.0f} % beyond the edge"
+        lines.append(f"  {item.instance} {item.model} ({item.category}): {width:g} x {height:g} px, {hidden}")
     return "\n".join(lines)

@@ -1,4 +1,4 @@
-"""Training data for vision: pictures with their annotations, as the formats of the field hold them."""
+"""Training data for vision: annotated pictures in common dataset formats."""
 
 import lazy_loader
 

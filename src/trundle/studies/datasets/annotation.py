@@ -46,11 +46,11 @@ class KeyPointAnnotation(Struct, frozen=True, kw_only=True):
     pixel: Numbers | None
     """None: behind the camera or outside the picture."""
     is_visible: bool
-    """True if nothing is in front of it, its own model neither."""
+    """True if nothing hides it, not even its own model."""
 
 
 class Mask(Struct, frozen=True, kw_only=True):
-    """Mask as run lengths, COCO's: down the columns, in characters."""
+    """Mask in COCO's compressed run-length encoding, column by column."""
 
     size: tuple[int, int]
     """Height and width [px]."""
@@ -58,7 +58,7 @@ class Mask(Struct, frozen=True, kw_only=True):
 
 
 class ObjectAnnotation(Struct, frozen=True, kw_only=True):
-    """Seen object."""
+    """Visible object."""
 
     instance: int
     """Value in the segmentation."""
@@ -67,22 +67,22 @@ class ObjectAnnotation(Struct, frozen=True, kw_only=True):
     world_from_model: Numbers
     """x y z [m], qw qx qy qz."""
     box: Box2d
-    """Around its visible pixels."""
+    """Bounding box of the visible pixels."""
     amodal_box: Box2d
-    """Around all of it, hidden parts too, within the picture."""
+    """Bounding box of the whole object, including hidden parts, clipped to the picture."""
     box_3d: Box3d
     pixels: int
     """Number of visible pixels."""
     occlusion: float
-    """Share of it within the picture that others hide."""
+    """Fraction of its part within the picture that other objects hide."""
     truncation: float
-    """Share of it beyond the picture's edges, 0 to 1."""
+    """Fraction of it outside the picture."""
     mask: Mask
     key_points: tuple[KeyPointAnnotation, ...] = ()
 
 
 class CameraAnnotation(Struct, frozen=True, kw_only=True):
-    """Pinhole without distortion."""
+    """Pinhole camera without distortion."""
 
     fx: float
     fy: float

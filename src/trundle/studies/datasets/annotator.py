@@ -21,44 +21,47 @@ from .silhouettes import Silhouettes
 from .view import View
 
 _Array = NDArray[np.float64]
-_HIDDEN_M, _HIDDEN_SHARE = 0.01, 0.01
-"""Distance by which something that hides a key point is nearer [m], and as a share of its depth."""
+_HIDDEN_M, _HIDDEN_RATIO = 0.01, 0.01
+"""Minimum distance between a key point and what hides it [m], and as a ratio of its depth."""
 
 
 class Annotator:
-    """Annotates pictures of one scene."""
+    """Annotator of one scene's pictures."""
 
     def __init__(self, simulation: Simulation, scene: Scene, instances: Sequence[Instance], outlines: Outlines) -> None:
-        """Number the shapes.
+        """Assign shapes to instances.
 
         Raises:
-            DescriptionError: a key point's link is not there.
+            DescriptionError: unknown link of a key point.
         """
         self._outlines = outlines
         self._silhouettes = Silhouettes(scene)
         self._bodies = {
-            each.number: bodies_of(find_model(simulation, each.model, each.placement)) for each in instances
+            instance.number: bodies_of(find_model(simulation, instance.model, instance.placement))
+            for instance in instances
         }
-        number_of = {body: each.number for each in instances if each.plan for body in self._bodies[each.number]}
+        number_of = {
+            body: instance.number for instance in instances if instance.plan for body in self._bodies[instance.number]
+        }
         self.numbers: NDArray[np.uint16] = np.array(
             [*(number_of.get(shape.body, 0) for shape in scene.shapes), 0], dtype=np.uint16
         )
-        """Shape → number of its instance, 0 for all else; the last entry is that of no shape."""
+        """Shape → number of its instance, 0 for the rest of the world; the last entry is for no shape."""
         self._links = {body: name.partition("::")[2] for body, name in enumerate(scene.bodies)}
-        for each in instances:
-            for point in each.plan.key_points if each.plan is not None else ():
-                self._body_of(point, each)
+        for instance in instances:
+            for point in instance.plan.key_points if instance.plan is not None else ():
+                self._body_of(point, instance)
 
     def _body_of(self, point: KeyPoint, instance: Instance) -> int | None:
-        """Return the index of a key point's link; None: it is the model's frame."""
+        """Return the index of a key point's link; None for the model frame."""
         if point.link is None:
             return None
         bodies = self._bodies[instance.number]
         for body in bodies:
             if self._links[body] == point.link:
                 return body
-        there = ", ".join(self._links[body] for body in bodies)
-        raise DescriptionError(point.at, f"key point {point.name!r}: no link {point.link!r}; links: {there}")
+        links = ", ".join(self._links[body] for body in bodies)
+        raise DescriptionError(point.at, f"key point {point.name!r}: no link {point.link!r}; links: {links}")
 
     def annotate(
         self, arrangement: Arrangement, view: View, depth: NDArray[np.float32], instances: NDArray[np.uint16]
@@ -66,15 +69,15 @@ class Annotator:
         """Annotate each object with a visible pixel.
 
         Args:
-            arrangement: poses.
-            view: camera.
+            arrangement: poses of the picture.
+            view: camera of the picture.
             depth: (height, width) [m]; infinite in the background.
             instances: (height, width) number of the instance at each pixel.
         """
         return tuple(
-            self._object(each, arrangement, view, depth, instances, pixels)
-            for each in arrangement.present
-            if each.plan is not None and (pixels := find_pixels(instances, each.number)) is not None
+            self._object(instance, arrangement, view, depth, instances, pixels)
+            for instance in arrangement.present
+            if instance.plan is not None and (pixels := find_pixels(instances, instance.number)) is not None
         )
 
     def _object(
@@ -91,7 +94,7 @@ class Annotator:
         points = self._outlines.in_world(bodies, poses)
         world_from_model = arrangement.world_from_models[instance.number]
         projected = _projected_box(points, view)
-        hiding = self._silhouettes.hiding(bodies, poses, points, view, depth, instances, instance.number)
+        hidden = self._silhouettes.hidden_parts(bodies, poses, points, view, depth, instances, instance.number)
         return ObjectAnnotation(
             instance=instance.number,
             model=instance.model,
@@ -101,8 +104,8 @@ class Annotator:
             amodal_box=_union(projected, pixels.box),
             box_3d=_box_3d(points, world_from_model),
             pixels=int(np.count_nonzero(pixels.mask)),
-            occlusion=hiding.occlusion,
-            truncation=hiding.truncation,
+            occlusion=hidden.occlusion,
+            truncation=hidden.truncation,
             mask=encode_mask(pixels.mask, top=pixels.top, left=pixels.left, size=instances.shape),
             key_points=self._key_points(instance, arrangement, view, depth),
         )
@@ -111,7 +114,7 @@ class Annotator:
         self, instance: Instance, arrangement: Arrangement, view: View, depth: NDArray[np.float32]
     ) -> tuple[KeyPointAnnotation, ...]:
         assert instance.plan is not None
-        found: list[KeyPointAnnotation] = []
+        annotations: list[KeyPointAnnotation] = []
         for point in instance.plan.key_points:
             body = self._body_of(point, instance)
             frame = (
@@ -122,8 +125,8 @@ class Annotator:
             world = frame.transform_point(point.point)
             x, y, ahead = view.project(np.array([world]))[0].tolist()
             inside = ahead > view.lens.near_m and 0 <= x < view.lens.width_px and 0 <= y < view.lens.height_px
-            slack = max(_HIDDEN_M, _HIDDEN_SHARE * ahead)
-            found.append(
+            slack = max(_HIDDEN_M, _HIDDEN_RATIO * ahead)
+            annotations.append(
                 KeyPointAnnotation(
                     name=point.name,
                     world=world,
@@ -131,7 +134,7 @@ class Annotator:
                     is_visible=inside and float(depth[int(y), int(x)]) >= ahead - slack,
                 )
             )
-        return tuple(found)
+        return tuple(annotations)
 
 
 def _row(pose: Pose) -> tuple[float, ...]:
@@ -139,8 +142,9 @@ def _row(pose: Pose) -> tuple[float, ...]:
 
 
 def _projected_box(points: _Array, view: View) -> Box2d:
-    """Return the box around the projected points, within the picture; where some are behind the camera, up to the edges
-    that they reach.
+    """Return the bounding box of the projected points, clipped to the picture.
+
+    Points behind the camera extend it to the picture's edge.
     """
     pixels = view.project(points)
     ahead = pixels[:, 2] > view.lens.near_m
@@ -148,8 +152,8 @@ def _projected_box(points: _Array, view: View) -> Box2d:
     if not ahead.any():
         return Box2d(0.0, 0.0, width, height)
     is_whole = bool(ahead.all())
-    seen = pixels[:, :2] if is_whole else pixels[ahead, :2]
-    low, high = seen.min(axis=0), seen.max(axis=0)
+    visible = pixels[:, :2] if is_whole else pixels[ahead, :2]
+    low, high = visible.min(axis=0), visible.max(axis=0)
     if not is_whole:
         local = (points[~ahead] - view.world_from_camera.position) @ view.rotation
         low = np.where((local[:, :2] < 0).any(axis=0), 0.0, low)

@@ -1,4 +1,4 @@
-"""Contact sheet: some pictures of a dataset with what is written about them, as PNG and as one HTML file."""
+"""Contact sheet: some annotated pictures of a dataset, as PNG and as one HTML file."""
 
 import base64
 import math
@@ -15,8 +15,8 @@ from trundle.base.http.html_policy import policy_of_document
 
 from .annotation import PictureAnnotation
 from .dataset_folder import picture_path
-from .label_places import is_beside, place_labels
-from .overlay import box_edges, box_rect, category_colour, draw_overlay, middle
+from .label_layout import layout_labels, touches_box
+from .overlay import box_edges, box_rect, category_color, center, draw_overlay
 from .plan import DatasetPlan
 
 _SHOWN = 24
@@ -24,8 +24,8 @@ _COLUMNS = 4
 _CELL_PX = 400
 _GAP_PX = 6
 _PAPER = (24, 28, 34)
-_LETTER = 0.6
-"""Width of a letter in the page's font, of its height."""
+_LETTER_ASPECT = 0.6
+"""Mean width of a letter in the page's font, relative to the font size."""
 _STYLE = """
 :root{color-scheme:light dark;--ink:#1d232b;--paper:#f6f7f9;--card:#fff;--line:#d8dde4}
 @media(prefers-color-scheme:dark){:root{--ink:#e6eaf0;--paper:#14181d;--card:#1d232b;--line:#333c47}}
@@ -45,12 +45,12 @@ body:not(:has(#points:checked)) .point{display:none}
 
 
 def write_contact_sheet(plan: DatasetPlan, folder: Path, annotations: Sequence[PictureAnnotation]) -> None:
-    """Write `contact_sheet.png` and `contact_sheet.html`, which opens alone.
+    """Write `contact_sheet.png` and the self-contained `contact_sheet.html`.
 
     Args:
-        plan: of the dataset.
-        folder: the dataset's.
-        annotations: those of `shown_pictures`.
+        plan: plan of the dataset.
+        folder: dataset's folder.
+        annotations: annotations of `shown_pictures`.
     """
     rows = math.ceil(len(annotations) / _COLUMNS)
     height_px = round(_CELL_PX * plan.height_px / plan.width_px)
@@ -58,13 +58,13 @@ def write_contact_sheet(plan: DatasetPlan, folder: Path, annotations: Sequence[P
     size = (columns * (_CELL_PX + _GAP_PX) + _GAP_PX, rows * (height_px + _GAP_PX) + _GAP_PX)
     sheet = Image.new("RGB", size, _PAPER)
     figures: list[str] = []
-    for i, each in enumerate(annotations):
-        with Image.open(folder / picture_path("images", each.number)) as picture:
+    for i, annotation in enumerate(annotations):
+        with Image.open(folder / picture_path("images", annotation.number)) as picture:
             small = picture.convert("RGB").resize((_CELL_PX, height_px), Image.Resampling.LANCZOS)
-        cell = draw_overlay(small, each, plan.categories, solid=False)
+        cell = draw_overlay(small, annotation, plan.categories, solid=False)
         row, column = divmod(i, _COLUMNS)
         sheet.paste(cell, (_GAP_PX + column * (_CELL_PX + _GAP_PX), _GAP_PX + row * (height_px + _GAP_PX)))
-        figures.append(_figure(plan, each, small))
+        figures.append(_figure(plan, annotation, small))
     file = BytesIO()
     sheet.save(file, "PNG", optimize=True)
     write_atomically(folder / "contact_sheet.png", file.getvalue())
@@ -72,14 +72,14 @@ def write_contact_sheet(plan: DatasetPlan, folder: Path, annotations: Sequence[P
 
 
 def shown_pictures(count: int) -> list[int]:
-    """Return the numbers of the pictures of a contact sheet, spread over all."""
+    """Return the numbers of the pictures on a contact sheet, evenly spaced."""
     shown = min(count, _SHOWN)
     return [i * count // shown for i in range(shown)]
 
 
 def _page(plan: DatasetPlan, annotations: Sequence[PictureAnnotation], figures: Sequence[str]) -> str:
     name = escape(Path(plan.file).name)
-    counts = Counter(each.category for picture in annotations for each in picture.objects)
+    counts = Counter(annotated.category for picture in annotations for annotated in picture.objects)
     rows = "".join(
         f"<tr><td><i style='background:{_css(i)}'></i>{escape(category)}</td><td>{counts[category]}</td></tr>"
         for i, category in enumerate(plan.categories)
@@ -93,14 +93,13 @@ def _page(plan: DatasetPlan, annotations: Sequence[PictureAnnotation], figures: 
             ("points", "key points", " checked"),
         )
     )
-    said = f"{len(annotations)} of {plan.count} pictures, {plan.width_px} × {plan.height_px} px, seed {plan.seed}"
+    summary = f"{len(annotations)} of {plan.count} pictures, {plan.width_px} × {plan.height_px} px, seed {plan.seed}"
     head = (
         f'<meta charset="utf-8">{policy_of_document()}<meta name="viewport" content="width=device-width">'
         f"<title>{name}</title>"
     )
-    body = (
-        f"<h1>{name}</h1><p>{said}</p>{table}<fieldset>{switches}</fieldset><div class='grid'>{''.join(figures)}</div>"
-    )
+    intro = f"<h1>{name}</h1><p>{summary}</p>{table}<fieldset>{switches}</fieldset>"
+    body = f"{intro}<div class='grid'>{''.join(figures)}</div>"
     return f'<!doctype html><html lang="en"><head>{head}<style>{_STYLE}</style></head><body>{body}</body></html>'
 
 
@@ -116,38 +115,42 @@ def _figure(plan: DatasetPlan, picture: PictureAnnotation, small: Image.Image) -
 
 
 def _shapes(plan: DatasetPlan, picture: PictureAnnotation) -> Iterator[str]:
-    for each in picture.objects:
-        colour, box = _css(plan.categories.index(each.category)), each.box
-        style = f'fill="none" stroke="{colour}" stroke-width="2" vector-effect="non-scaling-stroke"'
+    for annotated in picture.objects:
+        color, box = _css(plan.categories.index(annotated.category)), annotated.box
+        style = f'fill="none" stroke="{color}" stroke-width="2" vector-effect="non-scaling-stroke"'
         size = f'width="{box.width:g}" height="{box.height:g}"'
         yield f'<rect class="box" x="{box.left:g}" y="{box.top:g}" {size} {style}/>'
-        path = "".join(f"M{x:.1f} {y:.1f}L{u:.1f} {v:.1f}" for (x, y), (u, v) in box_edges(each.box_3d, picture.camera))
+        path = "".join(
+            f"M{x:.1f} {y:.1f}L{u:.1f} {v:.1f}" for (x, y), (u, v) in box_edges(annotated.box_3d, picture.camera)
+        )
         yield f'<path class="solid" d="{path}" {style}/>'
-        for point in each.key_points:
+        for point in annotated.key_points:
             if point.pixel is not None:
                 x, y = point.pixel
                 fill = "#fff" if point.is_visible else "none"
                 title = f"<title>{escape(point.name)}</title>"
-                ring = f'stroke="{colour}" stroke-width="2"'
+                ring = f'stroke="{color}" stroke-width="2"'
                 yield f'<circle class="point" cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{fill}" {ring}>{title}</circle>'
 
 
 def _labels(plan: DatasetPlan, picture: PictureAnnotation) -> Iterator[str]:
-    """Yield labels whose texts do not cover each other; a thin line joins one that is not at its box."""
-    high = picture.width / 30
-    boxes = [box_rect(each) for each in picture.objects]
-    sizes = [(high * (_LETTER * len(each.category) + 0.4), high * 1.25) for each in picture.objects]
-    places = place_labels(boxes, sizes, (picture.width, picture.height))
-    for each, box, place in zip(picture.objects, boxes, places, strict=True):
-        colour, (left, top, right, bottom) = _css(plan.categories.index(each.category)), place
+    """Yield labels that do not cover one another; a thin line connects a detached label to its box."""
+    font_px = picture.width / 30
+    boxes = [box_rect(annotated) for annotated in picture.objects]
+    sizes = [
+        (font_px * (_LETTER_ASPECT * len(annotated.category) + 0.4), font_px * 1.25) for annotated in picture.objects
+    ]
+    labels = layout_labels(boxes, sizes, (picture.width, picture.height))
+    for annotated, box, label in zip(picture.objects, boxes, labels, strict=True):
+        color, (left, top, right, bottom) = _css(plan.categories.index(annotated.category)), label
         line = ""
-        if not is_beside(place, box):
-            (x, y), (u, v) = middle(place), middle(box)
-            line = f'<path d="M{x:.1f} {y:.1f}L{u:.1f} {v:.1f}" stroke="{colour}"/>'
+        if not touches_box(label, box):
+            (x, y), (u, v) = center(label), center(box)
+            line = f'<path d="M{x:.1f} {y:.1f}L{u:.1f} {v:.1f}" stroke="{color}"/>'
         card = f'<rect x="{left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{bottom - top:.1f}"'
-        text = f'<text x="{left + 0.2 * high:.1f}" y="{top + 0.95 * high:.1f}" font-size="{high:.1f}">'
-        yield f'<g class="box">{line}{card} fill="{colour}"/>{text}{escape(each.category)}</text></g>'
+        text = f'<text x="{left + 0.2 * font_px:.1f}" y="{top + 0.95 * font_px:.1f}" font-size="{font_px:.1f}">'
+        yield f'<g class="box">{line}{card} fill="{color}"/>{text}{escape(annotated.category)}</text></g>'
 
 
 def _css(number: int) -> str:
-    return "#" + "".join(f"{part:02x}" for part in category_colour(number))
+    return "#" + "".join(f"{part:02x}" for part in category_color(number))

@@ -1,6 +1,6 @@
-"""Folder of a dataset: what is there of each picture, so that a killed run goes on from it.
+"""Folder of a dataset, from which a killed run resumes.
 
-A picture is there once its record is, which is written last.
+A picture is complete once its record exists, which is written last.
 """
 
 import os
@@ -23,7 +23,7 @@ from .plan import DatasetPlan
 _RECORDS, _PLAN = "records", "plan.json"
 _FOLDERS = ("images", "depth", "segmentation", _RECORDS)
 DEPTH_SCALE = 1000.0
-"""Depth pictures count millimetres; 0: nothing, or farther than 65.535 m."""
+"""Depth pictures are in millimetres; 0: background, or farther than 65.535 m."""
 
 
 def picture_path(kind: str, number: int, ending: str = "png") -> Path:
@@ -38,14 +38,14 @@ class DatasetFolder:
         self.path = path
 
     def open(self, plan: DatasetPlan, digest: str) -> None:
-        """Make the folder, or go on with one of the same plan.
+        """Create the folder, or resume one of the same plan.
 
         Args:
-            plan: kept beside its pictures.
-            digest: of everything that the pictures depend on.
+            plan: plan to save with the pictures.
+            digest: digest of all inputs of the pictures.
 
         Raises:
-            UsageError: it has the pictures of another plan, or cannot be written.
+            UsageError: the folder has the pictures of another plan, or cannot be written.
         """
         try:
             for name in _FOLDERS:
@@ -56,16 +56,16 @@ class DatasetFolder:
         if not path.exists():
             write_atomically(path, json.encode({"digest": digest, "text": plan.text}) + b"\n")
         elif _digest_in(path) != digest:
-            what = "has the pictures of another plan, or the plan, its world or its models have changed since"
-            raise UsageError(f"{self.path} {what}; give another folder with -o, or delete this one")
+            reason = "has the pictures of another plan, or the plan, its world or its models have changed since"
+            raise UsageError(f"{self.path} {reason}; give another folder with -o, or delete this one")
 
     def done(self) -> set[int]:
-        """Return the numbers of the pictures that are there."""
+        """Return the numbers of the complete pictures."""
         names = os.listdir(self.path / _RECORDS)
         return {int(name[:-5]) for name in names if name.endswith(".json") and name[:-5].isdecimal()}
 
     def write(self, picture: AnnotatedPicture) -> None:
-        """Write colours, depths and segmentation."""
+        """Write colors, depths and segmentation."""
         number = picture.annotation.number
         for kind, pixels in (
             ("images", picture.rgb),
@@ -75,17 +75,17 @@ class DatasetFolder:
             (self.path / picture_path(kind, number)).write_bytes(png(pixels))
 
     def add(self, annotation: PictureAnnotation) -> None:
-        """Write a picture's record; once this returns a kill does not lose it."""
+        """Write a picture's record atomically, which completes the picture."""
         path = self.path / picture_path(_RECORDS, annotation.number, "json")
-        half = path.with_suffix(".part")
-        half.write_bytes(json.encode(annotation) + b"\n")
-        os.replace(half, path)
+        unfinished = path.with_suffix(".part")
+        unfinished.write_bytes(json.encode(annotation) + b"\n")
+        os.replace(unfinished, path)
 
     def read(self, numbers: Iterable[int]) -> Iterator[PictureAnnotation]:
         """Yield the annotations of pictures.
 
         Raises:
-            UsageError: one is not there, or not readable.
+            UsageError: a record is missing or unreadable.
         """
         for number in numbers:
             path = self.path / picture_path(_RECORDS, number, "json")
@@ -98,7 +98,7 @@ class DatasetFolder:
 
 
 def _digest_in(path: Path) -> str | None:
-    """Return the digest in a plan's file; None if the file is damaged."""
+    """Return the digest in a saved plan; None if the file is damaged."""
     try:
         return json.decode(path.read_bytes(), type=dict[str, str]).get("digest")
     except (OSError, MsgspecError):
@@ -106,13 +106,13 @@ def _digest_in(path: Path) -> str | None:
 
 
 def depth_pixels(depth: NDArray[np.float32], scale: float) -> NDArray[np.uint16]:
-    """Return depths in units of 1/scale m; 0 for the background and what is farther than 65535 units."""
+    """Return depths in units of 1/scale m; 0 for the background and for more than 65535 units."""
     counts = np.rint(depth * np.float32(scale))
     return np.where(counts <= 65535, counts, 0).astype(np.uint16)
 
 
 def png(pixels: NDArray[np.uint8] | NDArray[np.uint16]) -> bytes:
-    """Encode a picture, quickly rather than small."""
+    """Encode a picture as PNG with fast compression."""
     file = BytesIO()
     Image.fromarray(pixels).save(file, "PNG", compress_level=1)
     return file.getvalue()

@@ -1,6 +1,6 @@
-"""Distractors: boxes, cylinders, capsules and balls of different sizes, the same for all pictures of a plan.
+"""Distractors: boxes, cylinders, capsules and spheres of random sizes, the same for all pictures of a plan.
 
-A picture shows some of them, each with a pose and a look of its own.
+Each picture shows some of them, with random poses and looks.
 """
 
 import math
@@ -13,17 +13,17 @@ from trundle.robots.model import Box, Capsule, Collision, Cylinder, Inertial, Li
 from .plan import DistractorPlan
 
 _PER_SHOWN = 3
-"""Distractors for each one that a picture may show."""
+"""Number of distractors per one that a picture may show."""
 _DENSITY = 400.0
 """[kg/m³]"""
 _POOL = 1 << 32
-"""Part of the seed, apart from the numbers of pictures."""
+"""Second part of the seed, larger than any picture's number."""
 
 
 def distractor_models(plan: DistractorPlan, seed: int) -> list[Model]:
     """Return the distractors of a plan."""
     random = np.random.default_rng((seed, _POOL))
-    found: list[Model] = []
+    models: list[Model] = []
     for number in range(round(plan.count.largest) * _PER_SHOWN):
         x, y, z = (plan.size.draw(random) for _ in range(3))
         shapes: tuple[tuple[Solid, float], ...] = (
@@ -33,12 +33,12 @@ def distractor_models(plan: DistractorPlan, seed: int) -> list[Model]:
             (Sphere(x / 2), math.pi * x**3 / 6),
         )
         shape, volume = shapes[number % len(shapes)]
-        found.append(_model(f"distractor_{number}", shape, _DENSITY * volume, max(x, y, z), plan.at))
-    return found
+        models.append(_model(f"distractor_{number}", shape, _DENSITY * volume, max(x, y, z), plan.at))
+    return models
 
 
 def _model(name: str, shape: Solid, mass: float, size: float, at: Source) -> Model:
-    moment = 0.1 * mass * size * size  # of a compact solid, about: two fifths of the square of half its size
+    moment = 0.1 * mass * size * size  # sphere of diameter `size`: 2/5 m r²
     link = Link(
         name="link",
         at=at,

@@ -10,7 +10,7 @@ class Instance:
     """Model that a picture may show."""
 
     number: int
-    """Value in segmentations, the same in every picture; from 1 on."""
+    """Value in segmentations, from 1, the same in every picture."""
     model: str
     """Name in the world."""
     placement: Placement

@@ -24,14 +24,14 @@ class Cloud(Struct, frozen=True, eq=False):
 
 
 class Lidar:
-    """Lidar that moves with the camera, and sees what the camera sees."""
+    """Lidar that moves with the camera and scans the same scene."""
 
     def __init__(self, plan: LidarPlan, numbers: NDArray[np.uint16], classes: NDArray[np.uint16]) -> None:
-        """Compute its rays.
+        """Compute the rays.
 
         Args:
-            plan: of the lidar.
-            numbers: shape → number of its instance; the last entry is that of no shape.
+            plan: lidar's plan.
+            numbers: shape → number of its instance; the last entry is for no shape.
             classes: instance → number of its category.
         """
         x, y, z, roll, pitch, yaw = plan.camera_from_lidar
@@ -45,7 +45,7 @@ class Lidar:
         self._directions = np.stack([flat * np.cos(yaws), flat * np.sin(yaws), np.sin(pitches)], axis=-1).reshape(-1, 3)
 
     def scan(self, world_from_camera: Pose, renderer: NativeRenderer, scene: Scene) -> Cloud:
-        """Scan the renderer's scene, from the lidar's pose at a camera."""
+        """Scan the renderer's scene from the lidar's pose on a camera."""
         ranges, shapes = renderer.cast(world_from_camera @ self.pose, self._directions, max_range_m=self._range_m)
         hit = np.isfinite(ranges)
         points = self._directions[hit] * ranges[hit, None]
@@ -56,7 +56,7 @@ class Lidar:
 
 
 def _reflectance(scene: Scene, number: int) -> float:
-    """Return the shape's <laser_retro>, or the brightness of its colour where it has none."""
+    """Return the shape's <laser_retro>, or the luminance of its color if it has none."""
     shape = scene.shapes[number]
     retro = shape.laser_retro or float(np.dot(shape.rgba[:3], _LUMINANCE))
     return min(max(retro, 0.0), 1.0)

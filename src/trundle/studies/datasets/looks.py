@@ -1,4 +1,4 @@
-"""Looks of a picture: colours and textures of models, lights, ambient light and background."""
+"""Random looks of a picture: colors and textures of models, lights, ambient light and background."""
 
 import math
 from collections.abc import Sequence
@@ -15,21 +15,21 @@ from trundle.spatial import Vector3
 from .instance import Instance
 from .placer import Arrangement
 from .plan import DatasetPlan, LightPlan, Paint
-from .random_stream import LIGHTS, LOOKS, draw_colour, draw_numbers, random_stream
+from .random_stream import LIGHTS, LOOKS, draw_color, draw_numbers, random_stream
 
 _WHITE = (1.0, 1.0, 1.0)
 _FALL_OFF = (1.0, 0.0, 0.1)
-"""Attenuation of a point light that the plan adds."""
+"""Attenuation of a point light that the plan adds: constant, linear, quadratic."""
 
 
 class Looks:
-    """Draws the looks of one scene."""
+    """Random looks of one scene."""
 
     def __init__(self, plan: DatasetPlan, scene: Scene, instances: Sequence[Instance]) -> None:
-        """Find what is painted and lit.
+        """Find the painted shapes, the textures and the lights.
 
         Raises:
-            DescriptionError: the plan names a model or light that is not there, or a texture that cannot be read.
+            DescriptionError: unknown model or light, or an unreadable texture.
         """
         self._plan = plan
         self._scene = scene
@@ -37,18 +37,18 @@ class Looks:
         models = [scene.bodies[shape.body].partition("::")[0] for shape in scene.shapes]
         self._painted: list[tuple[str, Paint, list[int]]] = []
         """Model, its paint and its shapes."""
-        self._placed = {each.model for each in instances}
+        self._placed = {instance.model for instance in instances}
         self.textures: list[Texture] = []
         """Every texture that a picture may show."""
-        for each in instances:
-            if each.model in plan.materials and _has_look(each.paint):
-                what = f"object {each.model!r} has a look of its own; give one of them"
-                raise DescriptionError(plan.materials[each.model].at, f"materials: {what}")
-        paints = {each.model: each.paint for each in instances} | dict(plan.materials)
+        for instance in instances:
+            if instance.model in plan.materials and _has_look(instance.paint):
+                message = f"object {instance.model!r} has a look of its own; give one of them"
+                raise DescriptionError(plan.materials[instance.model].at, f"materials: {message}")
+        paints = {instance.model: instance.paint for instance in instances} | dict(plan.materials)
         for name, paint in paints.items():
             if name not in models:
-                there = ", ".join(dict.fromkeys(models)) or "none"
-                raise DescriptionError(paint.at, f"there is no model {name!r} with a visual; models: {there}")
+                names = ", ".join(dict.fromkeys(models)) or "none"
+                raise DescriptionError(paint.at, f"there is no model {name!r} with a visual; models: {names}")
             if _has_look(paint):
                 self._painted.append((name, paint, [i for i, model in enumerate(models) if model == name]))
             for texture in paint.textures:
@@ -56,18 +56,20 @@ class Looks:
                 image = load_texture(texture)
                 if isinstance(image, str):
                     raise DescriptionError(paint.at, f"{texture!s} cannot be read: {image}")
-        named = {light.name for light in self._lights}
+        light_names = {light.name for light in self._lights}
         for light in plan.lights:
-            if light.kind is None and light.name not in named:
-                there = ", ".join(sorted(named)) or "none"
-                what = f"the world has no light {light.name!r}; lights: {there}; `type: directional` or point adds one"
-                raise DescriptionError(light.at, what)
+            if light.kind is None and light.name not in light_names:
+                names = ", ".join(sorted(light_names)) or "none"
+                message = (
+                    f"the world has no light {light.name!r}; lights: {names}; `type: directional` or point adds one"
+                )
+                raise DescriptionError(light.at, message)
             if light.kind is None:
-                _check_kind(light, next(each for each in self._lights if each.name == light.name))
+                _check_kind(light, next(instance for instance in self._lights if instance.name == light.name))
 
     def scene(self, number: int, arrangement: Arrangement) -> Scene:
         """Draw the looks of a picture."""
-        absent = self._placed - {each.model for each in arrangement.present}
+        absent = self._placed - {instance.model for instance in arrangement.present}
         random = random_stream(self._plan.seed, number, LOOKS)
         shapes = list(self._scene.shapes)
         for name, paint, numbers in self._painted:
@@ -81,7 +83,7 @@ class Looks:
             level = self._plan.ambient.draw(random)
             ambient = (level, level, level, 1.0)
         if self._plan.background is not None:
-            background, sky = (*draw_colour(self._plan.background, random), 1.0), None
+            background, sky = (*draw_color(self._plan.background, random), 1.0), None
         return replace(
             self._scene,
             shapes=tuple(shapes),
@@ -93,10 +95,10 @@ class Looks:
 
     def _draw_lights(self, random: np.random.Generator) -> list[SceneLight]:
         lights = list(self._lights)
-        place = {light.name: i for i, light in enumerate(lights)}
+        index = {light.name: i for i, light in enumerate(lights)}
         for plan in self._plan.lights:
             if plan.kind is None:
-                lights[place[plan.name]] = _varied(lights[place[plan.name]], plan, random)
+                lights[index[plan.name]] = _varied(lights[index[plan.name]], plan, random)
             else:
                 new = SceneLight(name=plan.name, kind=plan.kind, casts_shadows=True)
                 if plan.kind == "point":
@@ -106,28 +108,28 @@ class Looks:
 
 
 def _has_look(paint: Paint) -> bool:
-    return paint.colour is not None or bool(paint.textures)
+    return paint.color is not None or bool(paint.textures)
 
 
 def _check_kind(plan: LightPlan, light: SceneLight) -> None:
-    """Refuse numbers that a light of the world does not have.
+    """Refuse parameters that a light of the world does not have.
 
     Raises:
-        DescriptionError: with the light's line.
+        DescriptionError: the light has such a parameter.
     """
     if light.kind == "point" and plan.elevation is not None:
         raise DescriptionError(plan.at, f"light {plan.name}: a point light has no `elevation`; leave it out")
     if light.kind == "directional" and plan.position is not None:
-        what = "a directional light has no `position`; give `azimuth` and `elevation`"
-        raise DescriptionError(plan.at, f"light {plan.name}: {what}")
+        message = "a directional light has no `position`; give `azimuth` and `elevation`"
+        raise DescriptionError(plan.at, f"light {plan.name}: {message}")
 
 
 def _painted(shapes: Sequence[Shape], paint: Paint, random: np.random.Generator) -> list[Shape]:
-    """Return shapes of one colour and texture."""
-    colour: Vector3 | None = None if paint.colour is None else draw_colour(paint.colour, random)
+    """Return shapes with one random color and texture."""
+    color: Vector3 | None = None if paint.color is None else draw_color(paint.color, random)
     if paint.textures:
         texture = paint.textures[int(random.integers(len(paint.textures)))]
-        scale, rgb = 1.0 / paint.repeat.draw(random), colour or _WHITE
+        scale, rgb = 1.0 / paint.repeat.draw(random), color or _WHITE
         return [
             replace(
                 shape,
@@ -138,13 +140,13 @@ def _painted(shapes: Sequence[Shape], paint: Paint, random: np.random.Generator)
             )
             for shape in shapes
         ]
-    assert colour is not None
-    return [replace(shape, texture=None, rgba=(*colour, shape.rgba[3]), ambient=(*colour, 1.0)) for shape in shapes]
+    assert color is not None
+    return [replace(shape, texture=None, rgba=(*color, shape.rgba[3]), ambient=(*color, 1.0)) for shape in shapes]
 
 
 def _varied(light: SceneLight, plan: LightPlan, random: np.random.Generator) -> SceneLight:
     intensity, azimuth = plan.intensity.draw(random), plan.azimuth.draw(random)
-    rgb = light.diffuse[:3] if plan.colour is None else draw_colour(plan.colour, random)
+    rgb = light.diffuse[:3] if plan.color is None else draw_color(plan.color, random)
     direction, position = light.direction, light.position
     if plan.elevation is not None:
         elevation = plan.elevation.draw(random)
@@ -162,5 +164,5 @@ def _varied(light: SceneLight, plan: LightPlan, random: np.random.Generator) -> 
     )
 
 
-def _scaled(colour: Rgba, factor: float) -> Rgba:
-    return (colour[0] * factor, colour[1] * factor, colour[2] * factor, colour[3])
+def _scaled(color: Rgba, factor: float) -> Rgba:
+    return (color[0] * factor, color[1] * factor, color[2] * factor, color[3])

@@ -1,4 +1,4 @@
-"""Camera of a robot in the world, from which a dataset's pictures are made."""
+"""Camera sensor of a model in the world, which makes a dataset's pictures."""
 
 from dataclasses import replace
 
@@ -22,14 +22,14 @@ class MountedCamera:
         """Find a plan's `camera: MODEL/SENSOR`.
 
         Raises:
-            DescriptionError: there is no such camera, or its lens is no pinhole; with its line.
+            DescriptionError: no such camera, or its lens is no pinhole.
         """
-        assert isinstance(plan.camera.place, str)
-        self._name = plan.camera.place
+        assert isinstance(plan.camera.viewpoint, str)
+        self._name = plan.camera.viewpoint
         link, self._link_from_camera, optics = _find(plan, world)
         if optics.lens is not None or optics.intrinsics is not None or optics.distortion != Distortion():
-            what = "pictures of datasets are those of a pinhole without distortion"
-            raise DescriptionError(plan.camera.at, f"{self._name!r} has a lens, a distortion or intrinsics; {what}")
+            message = "pictures of datasets are those of a pinhole without distortion"
+            raise DescriptionError(plan.camera.at, f"{self._name!r} has a lens, a distortion or intrinsics; {message}")
         self._body = scene.bodies.index(link)
         self.plan = replace(
             plan,
@@ -56,7 +56,7 @@ class MountedCamera:
         """Return the camera of a picture.
 
         Raises:
-            UsageError: its model is not in the picture.
+            UsageError: the camera's model is absent from the picture.
         """
         row = arrangement.poses[self._body]
         if np.isnan(row).any():
@@ -66,14 +66,14 @@ class MountedCamera:
 
 def _find(plan: DatasetPlan, world: World) -> tuple[str, Pose, CameraOptics]:
     """Return the name of a camera's body, its pose there and its optics."""
-    there: list[str] = []
+    names: list[str] = []
     for model in world.models:
         for link in model.links:
             for sensor in link.sensors:
                 for optics in sensor.cameras:
                     name = f"{model.name}/{sensor.name}" + (f"/{optics.name}" if len(sensor.cameras) > 1 else "")
-                    if name == plan.camera.place:
+                    if name == plan.camera.viewpoint:
                         return f"{model.name}::{link.name}", sensor.link_from_sensor @ optics.sensor_from_camera, optics
-                    there.append(name)
-    what = f"there is no camera {plan.camera.place!r}; cameras: {', '.join(there) or 'none'}"
-    raise DescriptionError(plan.camera.at, what)
+                    names.append(name)
+    message = f"there is no camera {plan.camera.viewpoint!r}; cameras: {', '.join(names) or 'none'}"
+    raise DescriptionError(plan.camera.at, message)

@@ -8,16 +8,16 @@ from .annotation import Box2d
 
 
 class ObjectPixels(Struct, frozen=True, eq=False):
-    """Visible pixels of an object within the box around them."""
+    """Visible pixels of an object within their bounding box."""
 
     top: int
     left: int
     mask: NDArray[np.bool_]
-    """(height, width) pixels of the box that show it."""
+    """(height, width) mask of the box's pixels that show the object."""
 
     @property
     def box(self) -> Box2d:
-        """Box around them [px]."""
+        """Bounding box [px]."""
         height, width = self.mask.shape
         return Box2d(float(self.left), float(self.top), float(self.left + width), float(self.top + height))
 
@@ -27,7 +27,7 @@ def find_pixels(instances: NDArray[np.uint16], number: int) -> ObjectPixels | No
 
     Args:
         instances: (height, width) number of the instance at each pixel.
-        number: the instance's.
+        number: number of the instance.
     """
     mask = instances == number
     rows = np.flatnonzero(mask.any(axis=1))

@@ -1,4 +1,4 @@
-"""Pictures with their annotations, each from its number alone."""
+"""Annotated pictures, each determined by its number alone."""
 
 from collections.abc import Sequence
 
@@ -26,7 +26,7 @@ from .view import CAMERA_FROM_OPTICAL, View, draw_view
 
 
 class AnnotatedPicture(Struct, frozen=True, eq=False, kw_only=True):
-    """Picture and what is known about it."""
+    """Picture with its annotation, depths, segmentation and lidar cloud."""
 
     annotation: PictureAnnotation
     rgb: NDArray[np.uint8]
@@ -39,32 +39,34 @@ class AnnotatedPicture(Struct, frozen=True, eq=False, kw_only=True):
 
 
 class PictureMaker:
-    """Makes the pictures of one plan."""
+    """Maker of one plan's pictures."""
 
     def __init__(self, plan: DatasetPlan, simulation: Simulation, instances: Sequence[Instance]) -> None:
-        """Prepare what all pictures share.
+        """Prepare the shared state of all pictures.
 
         Args:
-            plan: as read.
-            simulation: of its world, with the instances in it; nothing else may use it.
+            plan: plan of the dataset.
+            simulation: simulation of the plan's world with all instances; for exclusive use.
             instances: objects and distractors.
 
         Raises:
-            DescriptionError: the plan names something that is not there; with its line.
+            DescriptionError: the plan names an unknown model, link, light or camera.
         """
         scene = scene_from_world(simulation.world, Diagnostics())
-        is_mounted = isinstance(plan.camera.place, str)
+        is_mounted = isinstance(plan.camera.viewpoint, str)
         self._mounted = MountedCamera(plan, simulation.world, scene) if is_mounted else None
         plan = plan if self._mounted is None else self._mounted.plan
         self.plan = plan
-        """The plan; of a camera in the world with what its sensor says."""
+        """Plan, with the parameters of a camera in the world filled in."""
         self.world = simulation.world
-        """The world with all its objects and distractors."""
+        """World with all objects and distractors."""
         outlines = Outlines(scene)
         self.looks = Looks(plan, scene, instances)
         self.placer = Placer(plan, simulation, instances, scene, outlines)
         self._annotator = Annotator(simulation, scene, instances, outlines)
-        categories = [0 if each.plan is None else plan.categories.index(each.plan.category) + 1 for each in instances]
+        categories = [
+            0 if instance.plan is None else plan.categories.index(instance.plan.category) + 1 for instance in instances
+        ]
         classes = np.array([0, *categories], dtype=np.uint16)
         self._lidar = None if plan.lidar is None else Lidar(plan.lidar, self._annotator.numbers, classes)
         self.renderer = NativeRenderer(scene, textures=self.looks.textures)
@@ -73,8 +75,8 @@ class PictureMaker:
         """Make a picture.
 
         Raises:
-            SimulationUnstableError: physics does not let its things come to rest.
-            UsageError: the robot that has the camera found no place.
+            SimulationUnstableError: the placed models do not come to rest.
+            UsageError: the camera's model found no free place.
         """
         arrangement = self.placer.arrange(number)
         mounted = self._mounted
@@ -100,7 +102,7 @@ class PictureMaker:
         return AnnotatedPicture(annotation=annotation, rgb=rgb, depth=depth, instances=instances, cloud=cloud)
 
     def draw(self, view: View) -> tuple[NDArray[np.uint8], NDArray[np.float32], NDArray[np.int32]]:
-        """Render colours with several samples per pixel, and depths and shapes at the pixels' centres."""
+        """Render colors with several samples per pixel; depths and shapes at the pixels' centres."""
         picture = self.renderer.render([(view.world_from_camera, view.lens)], depth=True, segmentation=True)[0]
         assert picture.depth is not None
         assert picture.segmentation is not None

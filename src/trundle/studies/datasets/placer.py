@@ -1,4 +1,4 @@
-"""Places of models in a picture: on surfaces, apart from each other, at rest."""
+"""Random poses of models in a picture: on surfaces, without overlaps, at rest."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -16,81 +16,83 @@ from trundle.spatial import Pose, matrix_from_quaternion
 from .instance import Instance
 from .outlines import Outlines
 from .plan import DatasetPlan, Placement
-from .random_stream import PLACES, draw_numbers, draw_rotation, random_stream
+from .random_stream import POSES, draw_numbers, draw_rotation, random_stream
 from .surface import Surface
 
 _Array = NDArray[np.float64]
 _ATTEMPTS = 40
-_SETTLINGS = 5
-"""Arrangements drawn until physics lets one come to rest."""
+_MAX_ARRANGEMENTS = 5
+"""Maximum arrangements drawn until one comes to rest."""
 _CLEARANCE_M = 1e-3
 """Height above a surface."""
-_DEEPEST_M = 5e-4
+_MAX_OVERLAP_M = 5e-4
 """Penetration that counts as touching."""
-_FAR_M = 20_000.0
-"""Height at which models wait that a picture does not show; `settle` ends before they have fallen."""
-_APART_M = 50.0
+_PARKING_HEIGHT_M = 20_000.0
+"""Height of models absent from a picture; `settle` ends before they reach the ground."""
+_PARKING_SPACING_M = 50.0
 
 
 class Arrangement(Struct, frozen=True, eq=False):
     """Poses of a picture."""
 
     poses: _Array
-    """(links, 7) in the world; NaN: not in the picture."""
+    """(links, 7) poses in the world; NaN: absent from the picture."""
     present: tuple[Instance, ...]
     world_from_models: Mapping[int, Pose]
     """Number of an instance → pose of its model."""
 
 
 class Placer:
-    """Draws arrangements of one world."""
+    """Random arrangements of one world."""
 
     def __init__(
         self, plan: DatasetPlan, simulation: Simulation, instances: Sequence[Instance], scene: Scene, outlines: Outlines
     ) -> None:
-        """Park what is placed, and find the surfaces.
+        """Find the surfaces, and park the models to place.
 
         Raises:
-            DescriptionError: a model that the plan names is not there, or cannot be moved; with its line in the plan.
+            DescriptionError: unknown model, or a model that cannot be moved.
         """
         self._plan = plan
         self._simulation = simulation
         self._instances = instances
         self._outlines = outlines
-        self._models = {each.number: find_model(simulation, each.model, each.placement) for each in instances}
+        self._models = {
+            instance.number: find_model(simulation, instance.model, instance.placement) for instance in instances
+        }
         self._groups: dict[str, list[Instance]] = {}
         """Object, or "" for distractors → its instances."""
-        for each in instances:
-            self._groups.setdefault(each.plan.name if each.plan else "", []).append(each)
+        for instance in instances:
+            self._groups.setdefault(instance.plan.name if instance.plan else "", []).append(instance)
         self._extents: dict[int, _Array] = {}
         rest = simulation.snapshot().poses
         self._surfaces = self._find_surfaces(scene, rest)
-        for each in instances:
-            self._check_joints(each)
-            if self._moves(each):
-                self._park(each)
+        for instance in instances:
+            self._check_joints(instance)
+            if self._moves(instance):
+                self._park(instance)
         self._saved = simulation.save()
 
     def _find_surfaces(self, scene: Scene, poses: _Array) -> dict[str, Surface]:
         surfaces: dict[str, Surface] = {}
-        moved = {each.model for each in self._instances if self._moves(each)}
-        for each in self._instances:
-            name = each.placement.surface
+        moved = {instance.model for instance in self._instances if self._moves(instance)}
+        for instance in self._instances:
+            name = instance.placement.surface
             if name is None or name in surfaces:
                 continue
-            at = each.placement.at
+            at = instance.placement.at
             if name in moved:
                 raise DescriptionError(at, f"surface: {name!r} is placed itself; name a model that stays where it is")
-            model = find_model(self._simulation, name, each.placement)
+            model = find_model(self._simulation, name, instance.placement)
             surfaces[name] = Surface(scene, bodies_of(model), poses, self._outlines, at)
-            if surfaces[name].extent is None and each.placement.within is None:
+            if surfaces[name].extent is None and instance.placement.within is None:
                 raise DescriptionError(
                     at, f"surface: {name!r} is an endless plane; add within: {{x: [low, high], y: […]}}"
                 )
         return surfaces
 
     def _moves(self, instance: Instance) -> bool:
-        """True if the plan draws its pose."""
+        """True if the plan draws the instance's pose."""
         return instance.placement.surface is not None or instance.placement.position is not None
 
     def _check_joints(self, instance: Instance) -> None:
@@ -98,42 +100,42 @@ class Placer:
         if self._moves(instance) and not any(
             self._simulation.engine.writer.is_free(link.index) for link in model.links
         ):
-            what = f"model {model.name!r} is static or fixed to the world, and cannot be placed"
-            raise DescriptionError(instance.placement.at, what)
+            message = f"model {model.name!r} is static or fixed to the world, and cannot be placed"
+            raise DescriptionError(instance.placement.at, message)
         if plan is not None and plan.joints != "any":
             for name in plan.joints:
-                there = [joint.name for joint in model.joints if len(joint.axes) == 1]
-                if name not in there:
-                    what = f"model {model.name!r} has no joint {name!r}; joints: {', '.join(there) or 'none'}"
-                    raise DescriptionError(plan.at, what)
+                names = [joint.name for joint in model.joints if len(joint.axes) == 1]
+                if name not in names:
+                    message = f"model {model.name!r} has no joint {name!r}; joints: {', '.join(names) or 'none'}"
+                    raise DescriptionError(plan.at, message)
 
     def _park(self, instance: Instance) -> None:
-        self._models[instance.number].set_pose(Pose((_APART_M * instance.number, 0.0, _FAR_M)))
+        self._models[instance.number].set_pose(Pose((_PARKING_SPACING_M * instance.number, 0.0, _PARKING_HEIGHT_M)))
 
     def arrange(self, number: int) -> Arrangement:
         """Draw the arrangement of a picture.
 
         Raises:
-            SimulationUnstableError: physics does not let the things come to rest.
+            SimulationUnstableError: the placed models do not come to rest.
         """
-        random = random_stream(self._plan.seed, number, PLACES)
-        placed = self._settle(random, attempts=_SETTLINGS)
+        random = random_stream(self._plan.seed, number, POSES)
+        placed = self._settle(random, attempts=_MAX_ARRANGEMENTS)
         poses = self._simulation.snapshot().poses.copy()
-        there = {each.number for each in placed}
-        for each in self._instances:
-            if each.number not in there:
-                poses[list(bodies_of(self._models[each.number]))] = np.nan
+        present = {instance.number for instance in placed}
+        for instance in self._instances:
+            if instance.number not in present:
+                poses[list(bodies_of(self._models[instance.number]))] = np.nan
         return Arrangement(
             poses=poses,
             present=tuple(placed),
-            world_from_models={each.number: self._models[each.number].pose for each in placed},
+            world_from_models={instance.number: self._models[instance.number].pose for instance in placed},
         )
 
     def _settle(self, random: np.random.Generator, *, attempts: int) -> list[Instance]:
-        """Place instances, let them fall, and return those that found a place."""
+        """Place instances, let them fall, and return those that found a free place."""
         self._simulation.restore(self._saved)
-        present = [each for group in self._groups.values() for each in self._chosen(group, random)]
-        placed = [each for each in present if self._place(each, random)]
+        present = [instance for group in self._groups.values() for instance in self._chosen(group, random)]
+        placed = [instance for instance in present if self._place(instance, random)]
         try:
             self._simulation.run(self._plan.settle_s)
         except SimulationUnstableError:
@@ -168,7 +170,7 @@ class Placer:
         return False
 
     def _points(self, instance: Instance, model: ModelHandle) -> _Array:
-        """Return (N, 3) extent of a parked model in its own frame, upright [m]; kept unless its joints move."""
+        """Return the (N, 3) extent of a parked model in its own frame, upright [m]; cached unless its joints vary."""
         points = self._extents.get(instance.number)
         if points is None:
             points = self._outlines.in_world(bodies_of(model), self._simulation.snapshot().poses)
@@ -191,12 +193,12 @@ class Placer:
                 model.joint(name).set_position(quantity.draw(random))
 
     def _draw_pose(self, placement: Placement, points: _Array, random: np.random.Generator) -> Pose | None:
-        """Draw a pose; None if it stands on nothing there.
+        """Draw a pose; None if the surface does not support the model there.
 
         Args:
-            placement: on a surface or at a position.
+            placement: placement on a surface or at a position.
             points: (N, 3) extent of the model in its own frame, upright [m].
-            random: the picture's.
+            random: random stream of the picture.
         """
         rotation = draw_rotation(placement.rotation, random)
         if placement.position is not None:
@@ -215,7 +217,7 @@ class Placer:
 
     def _overlaps(self, name: str) -> bool:
         """True if a model penetrates another one."""
-        for one, other in self._simulation.engine.overlaps(_DEEPEST_M):
+        for one, other in self._simulation.engine.overlaps(_MAX_OVERLAP_M):
             models = one.partition("::")[0], other.partition("::")[0]
             if name in models and models[0] != models[1]:
                 return True
@@ -231,10 +233,10 @@ def find_model(simulation: Simulation, name: str, placement: Placement) -> Model
     """Return a model.
 
     Raises:
-        DescriptionError: there is none; lists those that there are.
+        DescriptionError: no such model; the message lists the models.
     """
     for model in simulation.models:
         if model.name == name:
             return model
-    there = ", ".join(repr(model.name) for model in simulation.models) or "none"
-    raise DescriptionError(placement.at, f"the world has no model {name!r}; models: {there}")
+    names = ", ".join(repr(model.name) for model in simulation.models) or "none"
+    raise DescriptionError(placement.at, f"the world has no model {name!r}; models: {names}")

@@ -1,4 +1,4 @@
-"""Plan of a dataset, as read from its file."""
+"""Plan of a dataset."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -16,8 +16,8 @@ Numbers: TypeAlias = tuple[Quantity, Quantity, Quantity]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Colour:
-    """Colour to draw."""
+class Color:
+    """Random color."""
 
     choices: tuple[Vector3, ...] = ()
     """Red, green, blue, each 0 to 1; empty: hue, saturation and value."""
@@ -30,27 +30,27 @@ class Paint:
     """Look of a model."""
 
     at: Source
-    colour: Colour | None = None
-    """Colour of all its visuals; None: as written."""
+    color: Color | None = None
+    """Color of all its visuals; None: as written."""
     textures: tuple[Texture, ...] = ()
-    """Images, one of which it gets; empty: as written."""
+    """Images to choose from; empty: as written."""
     repeat: Quantity = constant(1.0)
-    """Number of times that the image repeats along each axis."""
+    """Repetitions of the image along each axis."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Placement:
-    """Pose to draw."""
+    """Random pose."""
 
     at: Source
     surface: str | None = None
-    """Model on whose upper surface it stands; None: at `position`."""
+    """Model on whose upper surface to place it; None: at `position`."""
     within: tuple[tuple[float, float], tuple[float, float]] | None = None
     """x and y of two opposite corners, in the world [m]; None: the extent of the surface."""
     position: Numbers | None = None
-    """Position in the world [m]; without one and without a surface the model stays where it is."""
+    """Position in the world [m]; without position and surface the model is not moved."""
     rotation: Literal["upright", "any"] | Numbers = "upright"
-    """Rotation about z alone, uniform over all rotations, or roll, pitch, yaw [rad]."""
+    """upright: about z only; any: uniform over all rotations; or roll, pitch, yaw [rad]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,13 +79,13 @@ class ObjectPlan:
     placement: Placement
     paint: Paint
     joints: Mapping[str, Quantity] | Literal["any"] = field(default_factory=dict[str, Quantity])
-    """Joint → its position [rad or m]; "any": each between its limits."""
+    """Joint → position [rad or m]; "any": all joints, between their limits."""
     key_points: tuple[KeyPoint, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DistractorPlan:
-    """Simple shapes without annotation, which hide others and vary the view."""
+    """Simple shapes without annotation, for occlusion and variety."""
 
     at: Source
     count: Quantity
@@ -109,11 +109,11 @@ class Orbit:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CameraPlan:
-    """Camera to draw."""
+    """Random camera."""
 
     at: Source
-    place: Orbit | Numbers | str
-    """Orbit; x, y, z in the world [m]; or a camera of the world, MODEL/SENSOR."""
+    viewpoint: Orbit | Numbers | str
+    """Orbit; x, y, z in the world [m]; or a camera in the world, MODEL/SENSOR."""
     look_at: Numbers | str | None
     """Point in the world [m], or the name of an object; None: the centre of all objects."""
     roll: Quantity
@@ -123,26 +123,26 @@ class CameraPlan:
     near_m: float
     far_m: float
     noise: float
-    """Standard deviation of the colours' noise; 1 is the difference of black and white."""
+    """Standard deviation of the color noise; 1 is the difference between black and white."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LightPlan:
-    """Light of the world that varies, or a further one."""
+    """Random light: one of the world, or an additional one."""
 
     name: str
     at: Source
     kind: Literal["directional", "point"] | None
     """None: a light of the world."""
     intensity: Quantity
-    colour: Colour | None
+    color: Color | None
     azimuth: Quantity
     elevation: Quantity | None
-    """Direction from which a directional light comes [rad]; None: as written."""
+    """Elevation of a directional light's source [rad]; None: as written."""
     position: Numbers | None
     """Position of a point light in the world [m]."""
     shadows: bool | None
-    """None: as written; a light that the plan adds casts them."""
+    """None: as written; an additional light casts shadows."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -162,7 +162,7 @@ class LidarPlan:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DatasetPlan:
-    """World, what varies in it from picture to picture, and what is written."""
+    """World, random parameters of its pictures, and output formats."""
 
     file: str
     """Plan's name in messages."""
@@ -177,24 +177,24 @@ class DatasetPlan:
     width_px: int
     height_px: int
     samples: int
-    """Samples per pixel and axis, against jagged edges."""
+    """Samples per pixel and axis, for antialiasing."""
     formats: tuple[Format, ...]
     camera: CameraPlan
     objects: tuple[ObjectPlan, ...]
     distractors: DistractorPlan | None
     materials: Mapping[str, Paint]
-    """Model of the world → its look."""
+    """Model of the world → look."""
     lights: tuple[LightPlan, ...]
     ambient: Quantity | None
     """Grey level; None: as written."""
-    background: Colour | None
+    background: Color | None
     lidar: LidarPlan | None
     apart: bool
-    """True: no placed model interpenetrates another."""
+    """True to place models without overlaps."""
     settle_s: float
-    """Simulated time after placing, in which things fall and come to rest."""
+    """Simulated time after placing, in which models fall and come to rest."""
 
     @property
     def categories(self) -> tuple[str, ...]:
-        """Categories in the order of the plan; the first one's number is 1."""
-        return tuple(dict.fromkeys(each.category for each in self.objects))
+        """Categories in the order of the plan, numbered from 1."""
+        return tuple(dict.fromkeys(object_plan.category for object_plan in self.objects))

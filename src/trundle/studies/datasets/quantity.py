@@ -1,4 +1,4 @@
-"""Numbers that a picture draws."""
+"""Random numbers of a picture."""
 
 import math
 from dataclasses import dataclass
@@ -10,24 +10,24 @@ from trundle.studies.plan_files.variation import Distribution, quantile
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Quantity:
-    """Number, or where it is drawn from."""
+    """Constant or random number."""
 
     choices: tuple[float, ...] = ()
-    """One of these; a single one is a constant."""
+    """Numbers to choose from; a single one is a constant."""
     distribution: Distribution | None = None
     low: float = -math.inf
     high: float = math.inf
-    """Bounds, at which a normal distribution is cut off."""
+    """Bounds, to which a normal distribution is clamped."""
 
     def draw(self, random: np.random.Generator) -> float:
-        """Draw a number; the stream advances by one number in any case."""
+        """Draw a number; the stream always advances by one."""
         q = float(random.random())
         if self.distribution is not None:
             return min(max(quantile(self.distribution, q), self.low), self.high)
         return self.choices[min(int(q * len(self.choices)), len(self.choices) - 1)]
 
     def draw_whole(self, random: np.random.Generator) -> int:
-        """Draw a whole number; a uniform distribution includes both ends."""
+        """Draw an integer; a uniform distribution includes both ends."""
         if self.distribution is None or self.distribution.kind != "uniform":
             return round(self.draw(random))
         low, high = (round(end) for end in self.distribution.parameters)
@@ -35,12 +35,12 @@ class Quantity:
 
     @property
     def largest(self) -> float:
-        """Largest number that it may draw; infinite for a normal distribution."""
+        """Largest possible number; infinite for a normal distribution."""
         if self.distribution is None:
             return max(self.choices)
         return self.distribution.parameters[1] if self.distribution.kind != "normal" else math.inf
 
 
 def constant(number: float) -> Quantity:
-    """Return a quantity that does not vary."""
+    """Return a constant quantity."""
     return Quantity(choices=(number,))

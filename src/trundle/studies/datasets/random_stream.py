@@ -1,4 +1,4 @@
-"""Random streams of a picture: one for each of its parts, so that a change of one leaves the others as they were."""
+"""Random streams of a picture, one for each part, so that a change of one part does not affect the others."""
 
 import colorsys
 
@@ -6,9 +6,9 @@ import numpy as np
 
 from trundle.spatial import Quaternion, Vector3, quaternion_from_rpy
 
-from .plan import Colour, Numbers
+from .plan import Color, Numbers
 
-PLACES, LOOKS, LIGHTS, CAMERA, NOISE = range(5)
+POSES, LOOKS, LIGHTS, CAMERA, NOISE = range(5)
 
 
 def random_stream(seed: int, number: int, part: int) -> np.random.Generator:
@@ -18,20 +18,20 @@ def random_stream(seed: int, number: int, part: int) -> np.random.Generator:
 
 def draw_numbers(numbers: Numbers, random: np.random.Generator) -> Vector3:
     """Draw three numbers."""
-    x, y, z = (each.draw(random) for each in numbers)
+    x, y, z = (quantity.draw(random) for quantity in numbers)
     return x, y, z
 
 
-def draw_colour(colour: Colour, random: np.random.Generator) -> Vector3:
+def draw_color(color: Color, random: np.random.Generator) -> Vector3:
     """Draw red, green and blue, each 0 to 1."""
-    if colour.choices:
-        return colour.choices[int(random.integers(len(colour.choices)))]
-    hue, saturation, value = draw_numbers(colour.hsv, random)
+    if color.choices:
+        return color.choices[int(random.integers(len(color.choices)))]
+    hue, saturation, value = draw_numbers(color.hsv, random)
     return colorsys.hsv_to_rgb(hue % 1.0, min(max(saturation, 0.0), 1.0), min(max(value, 0.0), 1.0))
 
 
 def draw_rotation(rotation: "str | Numbers", random: np.random.Generator) -> Quaternion:
-    """Draw a rotation: about z alone, uniform over all, or of roll, pitch and yaw [rad]."""
+    """Draw a rotation: about z only, uniform over all rotations, or from roll, pitch and yaw [rad]."""
     if rotation == "upright":
         return quaternion_from_rpy(0.0, 0.0, float(random.uniform(-np.pi, np.pi)))
     if rotation == "any":

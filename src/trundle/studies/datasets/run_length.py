@@ -1,4 +1,4 @@
-"""Run lengths of masks, in the characters that COCO's tools read."""
+"""COCO's compressed run-length encoding of masks."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,14 +6,14 @@ from numpy.typing import NDArray
 from .annotation import Mask
 
 _BITS = 5
-"""Bits of a number in one character."""
+"""Bits of a number per character."""
 
 
 def encode_mask(mask: NDArray[np.bool_], *, top: int, left: int, size: tuple[int, ...]) -> Mask:
-    """Encode the part of a picture outside of which a mask is empty.
+    """Encode a mask from its non-empty part.
 
     Args:
-        mask: (height, width) of the part.
+        mask: (height, width) part of the mask; the rest is empty.
         top: first row of the part.
         left: first column of the part.
         size: height and width of the picture.
@@ -24,7 +24,7 @@ def encode_mask(mask: NDArray[np.bool_], *, top: int, left: int, size: tuple[int
     flat = columns.reshape(-1)
     column, row = np.divmod(np.flatnonzero(flat[1:] != flat[:-1]), columns.shape[1])
     changes = (left + column) * height + top + row
-    joined = np.flatnonzero(changes[1:] == changes[:-1])  # a run that goes on at the top of the next column
+    joined = np.flatnonzero(changes[1:] == changes[:-1])  # a run that continues at the top of the next column
     changes = np.delete(changes, np.concatenate([joined, joined + 1]))
     counts = np.diff(changes, prepend=0, append=height * width)
     if counts[-1] == 0 and len(counts) > 1:
@@ -33,7 +33,7 @@ def encode_mask(mask: NDArray[np.bool_], *, top: int, left: int, size: tuple[int
 
 
 def _characters(counts: NDArray[np.int64]) -> str:
-    """Return each run as its difference from the one two before, in groups of five bits, the least first."""
+    """Return the difference of each run to the one two before, in groups of five bits, least significant first."""
     rest = counts.copy()
     rest[3:] -= counts[1:-2]
     is_left = np.ones(len(rest), dtype=bool)

@@ -1,4 +1,4 @@
-"""Occlusion and truncation: each object drawn alone, as large as it fits a small picture, against the whole."""
+"""Occlusion and truncation, from a small picture of each object alone, compared with the whole picture."""
 
 import math
 
@@ -14,34 +14,34 @@ from .view import View, looking_rotation
 
 _Array = NDArray[np.float64]
 _SIDE_PX = 64
-"""Size of the small picture: an object covers one or two thousand of its pixels."""
+"""Side of the small picture, of which an object covers one or two thousand pixels."""
 _MARGIN = 1.05
-_WIDEST = 2.6
-"""Field of view for what surrounds the camera [rad]."""
-_NEARER = 0.005
-"""Share of the distance by which an occluder must be nearer, against rounding."""
-_FLAT = 1e-9
-"""Depth below which a pixel beside the camera stays finite."""
+_MAX_FOV_RAD = 2.6
+"""Field of view for an object that surrounds the camera."""
+_NEARER_RATIO = 0.005
+"""Minimum distance between an object and its occluder, relative to its depth, to allow for rounding."""
+_MIN_DEPTH = 1e-9
+"""Minimum absolute depth in a projection, so that pixels beside the camera stay finite."""
 _WHITE = (1.0, 1.0, 1.0, 1.0)
 
 
-class Hiding(Struct, frozen=True):
-    """Hidden parts of an object."""
+class HiddenParts(Struct, frozen=True):
+    """Hidden fractions of an object."""
 
     occlusion: float
-    """Share of it within the picture that others hide."""
+    """Fraction of its part within the picture that other objects hide."""
     truncation: float
-    """Share of it beyond the picture's edges."""
+    """Fraction of it outside the picture."""
 
 
 class Silhouettes:
-    """Draws single objects of a scene."""
+    """Renderer of single objects of a scene."""
 
     def __init__(self, scene: Scene) -> None:
         shapes = tuple(replace(shape, texture=None, rgba=_WHITE, casts_shadow=False) for shape in scene.shapes)
         self._renderer = NativeRenderer(replace(scene, shapes=shapes, skins=(), lights=()))
 
-    def hiding(
+    def hidden_parts(
         self,
         bodies: range,
         poses: _Array,
@@ -50,65 +50,65 @@ class Silhouettes:
         depth: NDArray[np.float32],
         instances: NDArray[np.uint16],
         number: int,
-    ) -> Hiding:
-        """Return the hidden parts of an object.
+    ) -> HiddenParts:
+        """Return the hidden fractions of an object.
 
         Args:
-            bodies: the object's links.
-            poses: (links, 7) of the whole picture.
+            bodies: links of the object.
+            poses: (links, 7) poses in the picture.
             points: (N, 3) extent of the object in the world [m].
-            view: the picture's camera.
-            depth: (height, width) of the picture [m].
+            view: camera of the picture.
+            depth: (height, width) depths of the picture [m].
             instances: (height, width) number of the instance at each pixel.
-            number: the object's.
+            number: number of the object.
         """
         alone = np.full_like(poses, np.nan)
         alone[bodies.start : bodies.stop] = poses[bodies.start : bodies.stop]
         eye = view.world_from_camera.position
         world_from_small, lens = _fitted(eye, points, view)
         self._renderer.update(alone)
-        found = self._renderer.render([(world_from_small, lens)], depth=True)[0].depth
-        assert found is not None
-        rows, columns = np.nonzero(np.isfinite(found))
+        small_depth = self._renderer.render([(world_from_small, lens)], depth=True)[0].depth
+        assert small_depth is not None
+        rows, columns = np.nonzero(np.isfinite(small_depth))
         if not len(rows):
-            return Hiding(0.0, 0.0)
+            return HiddenParts(0.0, 0.0)
         u, v, ahead = _pixels_in(view, world_from_small, lens, rows, columns)
-        ahead *= found[rows, columns]
+        ahead *= small_depth[rows, columns]
         height, width = depth.shape
         inside = np.flatnonzero((ahead > view.lens.near_m) & (u >= 0) & (u < width) & (v >= 0) & (v < height))
         if not len(inside):
-            return Hiding(0.0, 1.0)
+            return HiddenParts(0.0, 1.0)
         at = v[inside].astype(np.intp), u[inside].astype(np.intp)
-        # What is seen behind the object beside its edge does not hide it.
-        hidden = (instances[at] != number) & (depth[at] < ahead[inside] * (1.0 - _NEARER))
-        return Hiding(int(np.count_nonzero(hidden)) / len(inside), 1.0 - len(inside) / len(rows))
+        # Background next to the object's edge does not hide it.
+        hidden = (instances[at] != number) & (depth[at] < ahead[inside] * (1.0 - _NEARER_RATIO))
+        return HiddenParts(int(np.count_nonzero(hidden)) / len(inside), 1.0 - len(inside) / len(rows))
 
 
 def _pixels_in(
     view: View, world_from_small: Pose, lens: Intrinsics, rows: NDArray[np.intp], columns: NDArray[np.intp]
 ) -> tuple[_Array, _Array, _Array]:
-    """Return columns and rows in the picture [px] of pixels of a small one, and depths there of what is 1 m ahead here.
+    """Return the columns and rows in the picture [px] of a small picture's pixels, and the depths there per 1 m here.
 
-    Both cameras are at the same place, so that the depth does not move a pixel.
+    Both cameras have the same position, so the pixel does not depend on the depth.
     """
     f, optical_from_small = view.lens.focal_px, view.rotation.T @ matrix_from_quaternion(world_from_small.quaternion)
     aside, up = (_SIDE_PX / 2 - 0.5 - columns) / lens.focal_px, (_SIDE_PX / 2 - 0.5 - rows) / lens.focal_px
-    x, y, ahead = (each[0] + each[1] * aside + each[2] * up for each in optical_from_small)
-    safe = np.where(np.abs(ahead) < _FLAT, _FLAT, ahead)
+    x, y, ahead = (row[0] + row[1] * aside + row[2] * up for row in optical_from_small)
+    safe = np.where(np.abs(ahead) < _MIN_DEPTH, _MIN_DEPTH, ahead)
     return view.lens.width_px / 2 + f * x / safe, view.lens.height_px / 2 + f * y / safe, ahead
 
 
 def _fitted(eye: tuple[float, float, float], points: _Array, view: View) -> tuple[Pose, Intrinsics]:
-    """Return a camera at the same place that looks at the points alone."""
+    """Return a camera at the same position whose view fits the points."""
     low, high = points.min(axis=0), points.max(axis=0)
     x, y, z = ((low + high) / 2).tolist()
     turn = looking_rotation(eye, (x, y, z))
     local = (points - eye) @ matrix_from_quaternion(turn)
     if (local[:, 0] > view.lens.near_m).all():
         half = float(np.abs(local[:, 1:] / local[:, :1]).max())
-        fov = min(2.0 * math.atan(half * _MARGIN), _WIDEST)
+        fov = min(2.0 * math.atan(half * _MARGIN), _MAX_FOV_RAD)
     else:
-        fov = _WIDEST
+        fov = _MAX_FOV_RAD
     lens = Intrinsics(
         width_px=_SIDE_PX,
         height_px=_SIDE_PX,

@@ -1,4 +1,4 @@
-"""Upper surfaces of models, on which others stand."""
+"""Upper surfaces of models, on which other models are placed."""
 
 import math
 
@@ -14,18 +14,18 @@ from trundle.spatial import Pose
 from .outlines import Outlines
 
 _DOWN = np.array([[0.0, 0.0, -1.0]])
-_EVEN_M = 0.005
-"""Height difference below which a footprint counts as even."""
+_MAX_UNEVENNESS_M = 0.005
+"""Maximum height difference within a footprint."""
 
 
 class Surface:
-    """Upper surface of a model that does not move."""
+    """Upper surface of an immobile model."""
 
     def __init__(self, scene: Scene, bodies: range, poses: NDArray[np.float64], outlines: Outlines, at: Source) -> None:
-        """Find its extent.
+        """Find the surface's extent.
 
         Raises:
-            DescriptionError: it has no visual.
+            DescriptionError: the model has no visual.
         """
         shapes = tuple(shape for shape in scene.shapes if shape.body in bodies)
         if not shapes:
@@ -36,7 +36,7 @@ class Surface:
         self._renderer.update(poses)
         points = outlines.in_world(bodies, poses)
         self.extent: tuple[tuple[float, float], tuple[float, float]] | None = None
-        """x and y of two opposite corners [m]; None: a plane, which has no end."""
+        """x and y of two opposite corners [m]; None: an infinite plane."""
         planes = [float(poses[shape.body][2]) for shape in shapes if isinstance(shape.geometry, Plane)]
         if len(points) and not planes:
             (x0, y0, _), (x1, y1, _) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
@@ -44,11 +44,11 @@ class Surface:
         self._above = max([*planes, *points[:, 2].tolist()]) + 1.0
 
     def height(self, points: NDArray[np.float64]) -> float | None:
-        """Return the height below the first of (N, 2) points; None if there is none, or another below others."""
+        """Return the height at (N, 2) points; None if there is no surface, or an uneven one."""
         heights: list[float] = []
         for x, y in points.tolist():
             distances, _ = self._renderer.cast(Pose((x, y, self._above)), _DOWN, max_range_m=math.inf)
             heights.append(self._above - float(distances[0]))
-            if not abs(heights[-1] - heights[0]) <= _EVEN_M:
+            if not abs(heights[-1] - heights[0]) <= _MAX_UNEVENNESS_M:
                 return None
         return heights[0] if math.isfinite(heights[0]) else None

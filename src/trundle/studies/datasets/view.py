@@ -1,4 +1,4 @@
-"""Cameras of pictures."""
+"""Camera of a picture."""
 
 import math
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from .random_stream import CAMERA, draw_numbers, random_stream
 
 _HALF_TURN = math.pi / 2
 CAMERA_FROM_OPTICAL = Pose(quaternion=quaternion_from_rpy(-_HALF_TURN, 0.0, -_HALF_TURN))
-"""Optical frame (x to the right, y down, z along the view) in the camera's (x along the view, y to the left, z up)."""
+"""Optical frame (x right, y down, z ahead) in the camera frame (x ahead, y left, z up)."""
 
 
 @dataclass(frozen=True)
@@ -38,8 +38,9 @@ class View:
         return matrix_from_quaternion(self.world_from_optical.quaternion)
 
     def project(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return (N, 3) pixel coordinates and depths [px, px, m] of (N, 3) points in the world; behind the camera the
-        depth is negative, and the pixel means nothing.
+        """Return (N, 3) pixel coordinates and depths [px, px, m] of (N, 3) points in the world.
+
+        Behind the camera the depth is negative and the pixel is meaningless.
         """
         local = (points - self.world_from_camera.position) @ self.rotation
         depth = local[:, 2]
@@ -52,15 +53,16 @@ class View:
 def draw_view(plan: DatasetPlan, number: int, arrangement: Arrangement) -> View:
     """Draw the camera of a picture."""
     random, camera = random_stream(plan.seed, number, CAMERA), plan.camera
-    if isinstance(camera.place, Orbit):
+    if isinstance(camera.viewpoint, Orbit):
         distance, azimuth, elevation = (
-            each.draw(random) for each in (camera.place.distance, camera.place.azimuth, camera.place.elevation)
+            quantity.draw(random)
+            for quantity in (camera.viewpoint.distance, camera.viewpoint.azimuth, camera.viewpoint.elevation)
         )
-        flat, (x, y, z) = distance * math.cos(elevation), camera.place.center
+        flat, (x, y, z) = distance * math.cos(elevation), camera.viewpoint.center
         eye = (x + flat * math.cos(azimuth), y + flat * math.sin(azimuth), z + distance * math.sin(elevation))
     else:
-        assert not isinstance(camera.place, str), "a mounted camera has its own view"
-        eye = draw_numbers(camera.place, random)
+        assert not isinstance(camera.viewpoint, str), "a mounted camera has its own view"
+        eye = draw_numbers(camera.viewpoint, random)
     target = _target(plan, arrangement, random)
     lens = Intrinsics(
         width_px=plan.width_px,
@@ -76,16 +78,22 @@ def _target(plan: DatasetPlan, arrangement: Arrangement, random: np.random.Gener
     look_at = plan.camera.look_at
     if isinstance(look_at, tuple):
         return draw_numbers(look_at, random)
-    seen = [each for each in arrangement.present if each.plan is not None and look_at in (None, each.plan.name)]
-    if not seen:
-        return plan.camera.place.center if isinstance(plan.camera.place, Orbit) else (0.0, 0.0, 0.0)
+    candidates = [
+        instance
+        for instance in arrangement.present
+        if instance.plan is not None and look_at in (None, instance.plan.name)
+    ]
+    if not candidates:
+        return plan.camera.viewpoint.center if isinstance(plan.camera.viewpoint, Orbit) else (0.0, 0.0, 0.0)
     if look_at is not None:
-        return arrangement.world_from_models[seen[int(random.integers(len(seen)))].number].position
-    x, y, z = np.mean([arrangement.world_from_models[each.number].position for each in seen], axis=0).tolist()
+        return arrangement.world_from_models[candidates[int(random.integers(len(candidates)))].number].position
+    x, y, z = np.mean(
+        [arrangement.world_from_models[instance.number].position for instance in candidates], axis=0
+    ).tolist()
     return x, y, z
 
 
 def looking_rotation(eye: Vector3, target: Vector3, roll: float = 0.0) -> Quaternion:
-    """Return the rotation of a camera that looks at a point, with the horizon level but for `roll` [rad]."""
-    x, y, z = (there - here for there, here in zip(target, eye, strict=True))
+    """Return the rotation of a camera that looks at a point; `roll` is about its view axis [rad]."""
+    x, y, z = (t - e for t, e in zip(target, eye, strict=True))
     return quaternion_from_rpy(roll, -math.atan2(z, math.hypot(x, y)), math.atan2(y, x))

@@ -1,1 +1,1 @@
-"""Files of plans: their source, their YAML with lines, quantities that vary, and a folder of results' lock."""
+"""Plan files: YAML with source lines, varied quantities, and locks of result folders."""

@@ -1,4 +1,4 @@
-"""Lock on a folder of results: two sweeps must not write the same one."""
+"""Lock on a folder of results, against two sweeps that write to it."""
 
 import errno
 from collections.abc import Generator
@@ -11,10 +11,10 @@ from trundle.base.file_lock import FileLock
 
 @contextmanager
 def lock_folder(folder: Path) -> Generator[None]:
-    """Hold a folder, which is made if it is not there; the lock ends with the process, however that ends.
+    """Lock a folder, created if missing; the end of the process always releases the lock.
 
     Raises:
-        UsageError: another sweep holds it, or it cannot be written.
+        UsageError: another sweep holds the lock, or the folder cannot be written.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)

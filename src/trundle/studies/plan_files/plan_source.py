@@ -16,7 +16,7 @@ class PlanSource(NamedTuple):
     """Text of a plan."""
 
     text: str
-    """YAML."""
+    """YAML text."""
     file: str
     """Name of the file in messages."""
     folder: Path
@@ -24,7 +24,7 @@ class PlanSource(NamedTuple):
 
 
 def read_source(plan: "str | os.PathLike[str] | Mapping[str, object]") -> PlanSource:
-    """Read a plan's file, or write a dictionary as one.
+    """Read a plan's file, or convert a dictionary to YAML.
 
     Raises:
         UsageError: the file cannot be read.
@@ -41,12 +41,12 @@ def read_source(plan: "str | os.PathLike[str] | Mapping[str, object]") -> PlanSo
     return PlanSource(text, str(file), file.resolve().parent)
 
 
-def description_path(node: YamlNode, folder: Path, what: str) -> str:
+def description_path(node: YamlNode, folder: Path, label: str) -> str:
     """Return the name of a world or model; a path is relative to the plan.
 
     Raises:
-        DescriptionError: it is not a text.
+        DescriptionError: the value is not a text.
     """
-    name = node.text(what)
-    beside = folder / name
-    return str(beside) if "://" not in name and os.path.exists(beside) else name
+    name = node.text(label)
+    path = folder / name
+    return str(path) if "://" not in name and os.path.exists(path) else name

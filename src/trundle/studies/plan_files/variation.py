@@ -1,4 +1,4 @@
-"""Quantities that vary, and distributions of numbers."""
+"""Varied quantities, and distributions of numbers."""
 
 import math
 from dataclasses import dataclass
@@ -8,8 +8,8 @@ from typing import Literal, TypeAlias
 from trundle.base.diagnostics import Source
 
 Value: TypeAlias = bool | int | float | str | tuple["Value", ...]
-_LEAST = 1e-12
-"""Smallest quantile, and distance of the largest from 1: a normal distribution has no others."""
+_MIN_QUANTILE = 1e-12
+"""Minimum quantile, and distance of the maximum from 1: at 0 and 1 a normal distribution is infinite."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,20 +26,20 @@ class Variation:
     """Quantity that differs from row to row."""
 
     name: str
-    """Path of a property, or a name of its own."""
+    """Path of a property, or a name defined by the plan."""
     at: Source
     values: tuple[Value, ...] = ()
     """Values of a grid; empty for a distribution."""
-    beside: str | None = None
-    """Variation whose values these go with, one by one; None: every combination."""
+    paired_with: str | None = None
+    """Variation with whose values these are paired; None: every combination."""
     distribution: Distribution | None = None
 
 
 def quantile(distribution: Distribution, q: float) -> float:
-    """Return the value below which a share `q` of a distribution lies."""
+    """Return the quantile `q` of a distribution."""
     a, b = distribution.parameters
     if distribution.kind == "uniform":
         return a + (b - a) * q
     if distribution.kind == "log_uniform":
         return math.exp(math.log(a) + (math.log(b) - math.log(a)) * q)
-    return NormalDist(a, b).inv_cdf(min(max(q, _LEAST), 1 - _LEAST))
+    return NormalDist(a, b).inv_cdf(min(max(q, _MIN_QUANTILE), 1 - _MIN_QUANTILE))

@@ -19,28 +19,28 @@ _MAX_VALUES = 1_000_000
 
 
 def read_variation(name: str, node: YamlNode, at: Source) -> Variation:
-    """Read what one quantity takes.
+    """Read the values of one quantity.
 
     Raises:
-        DescriptionError: nothing of `_FORMS`.
+        DescriptionError: none of `_FORMS`.
     """
     if isinstance(node.value, list):
         return Variation(name=name, at=at, values=_values(node))
     if not isinstance(node.value, dict):
         node.fail(f"{name!r} must be {_FORMS}; a single value belongs to `set`")
-    found = node.check_keys(f"{name!r}", "values", "range", "with", *_KINDS)
-    beside = found["with"].text("with") if "with" in found else None
-    forms = [form for form in found if form != "with"]
+    values = node.check_keys(f"{name!r}", "values", "range", "with", *_KINDS)
+    paired_with = values["with"].text("with") if "with" in values else None
+    forms = [form for form in values if form != "with"]
     if len(forms) != 1:
         node.fail(f"{name!r} must be {_FORMS}")
     (form,) = forms
     if form == "values":
-        return Variation(name=name, at=at, values=_values(found[form]), beside=beside)
+        return Variation(name=name, at=at, values=_values(values[form]), paired_with=paired_with)
     if form == "range":
-        return Variation(name=name, at=at, values=_range(found[form]), beside=beside)
-    if beside is not None:
-        found["with"].fail("`with` pairs lists and ranges, not distributions")
-    return Variation(name=name, at=at, distribution=_distribution(_KINDS[form], found[form]))
+        return Variation(name=name, at=at, values=_range(values[form]), paired_with=paired_with)
+    if paired_with is not None:
+        values["with"].fail("`with` pairs lists and ranges, not distributions")
+    return Variation(name=name, at=at, distribution=_distribution(_KINDS[form], values[form]))
 
 
 def _values(node: YamlNode) -> tuple[Value, ...]:
@@ -57,10 +57,10 @@ def _value(node: YamlNode) -> Value:
     return node.text("a value") if number is None else number
 
 
-def _numbers(node: YamlNode, what: str, form: str) -> tuple[float, ...]:
+def _numbers(node: YamlNode, label: str, form: str) -> tuple[float, ...]:
     if len(node.items()) != form.count(",") + 1:
-        node.fail(f"{what} must be {form}")
-    return tuple(item.number(what) for item in node.items())
+        node.fail(f"{label} must be {form}")
+    return tuple(item.number(label) for item in node.items())
 
 
 def _range(node: YamlNode) -> tuple[Value, ...]:
@@ -84,6 +84,6 @@ def _distribution(kind: Literal["uniform", "normal", "log_uniform"], node: YamlN
         return Distribution(kind=kind, parameters=(mean, deviation))
     low, high = _numbers(node, kind, "[low, high]")
     if not low < high or (kind == "log_uniform" and low <= 0):
-        least = "0 < low < high" if kind == "log_uniform" else "low < high"
-        node.fail(f"{kind}: needs {least}, not [{low:g}, {high:g}]")
+        requirement = "0 < low < high" if kind == "log_uniform" else "low < high"
+        node.fail(f"{kind}: needs {requirement}, not [{low:g}, {high:g}]")
     return Distribution(kind=kind, parameters=(low, high))

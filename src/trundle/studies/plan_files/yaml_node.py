@@ -10,7 +10,7 @@ from trundle.base.yaml_loader import BoundedLoader, one_line
 
 
 class YamlNode:
-    """Value of a YAML document: a mapping, a list or a scalar, and where it stands."""
+    """Value of a YAML document, a mapping, a list or a scalar, with its source."""
 
     def __init__(self, node: yaml.Node, file: str, loader: BoundedLoader) -> None:
         self.at = Source(file, node.start_mark.line + 1)
@@ -31,9 +31,9 @@ class YamlNode:
             case _:
                 self.value = loader.construct_object(node)
 
-    def fail(self, what: str) -> NoReturn:
+    def fail(self, message: str) -> NoReturn:
         """Raise an error at this value."""
-        raise DescriptionError(self.at, what)
+        raise DescriptionError(self.at, message)
 
     def plain(self) -> Any:
         """Return the value without lines."""
@@ -41,80 +41,80 @@ class YamlNode:
             return {key: value.plain() for key, value in self.value.items()}
         return [item.plain() for item in self.value] if isinstance(self.value, list) else self.value
 
-    def mapping(self, what: str) -> "dict[str, YamlNode]":
+    def mapping(self, label: str) -> "dict[str, YamlNode]":
         """Return a mapping's values.
 
         Raises:
-            DescriptionError: it is none.
+            DescriptionError: not a mapping.
         """
-        return self.value if isinstance(self.value, dict) else self.fail(f"{what} must be `name: value` lines")
+        return self.value if isinstance(self.value, dict) else self.fail(f"{label} must be `name: value` lines")
 
-    def check_keys(self, what: str, *known: str) -> "dict[str, YamlNode]":
+    def check_keys(self, label: str, *allowed: str) -> "dict[str, YamlNode]":
         """Return a mapping's values.
 
         Raises:
-            DescriptionError: it is none, or has other keys.
+            DescriptionError: not a mapping, or unknown keys.
         """
-        found = self.mapping(what)
-        for name in found:
-            if name not in known:
-                raise DescriptionError(self.keys[name], f"{what} has no {name!r}; it has: {', '.join(known)}")
-        return found
+        values = self.mapping(label)
+        for name in values:
+            if name not in allowed:
+                raise DescriptionError(self.keys[name], f"{label} has no {name!r}; it has: {', '.join(allowed)}")
+        return values
 
     def items(self) -> "list[YamlNode]":
         """Return the values of a list; any other value counts as a list of one."""
         return self.value if isinstance(self.value, list) else [self]
 
-    def number(self, what: str, *, above: float | None = None, at_least: float | None = None) -> float:
+    def number(self, label: str, *, above: float | None = None, minimum: float | None = None) -> float:
         """Return a number.
 
         Raises:
-            DescriptionError: it is none, or too small.
+            DescriptionError: not a number, or too small.
         """
         value = as_number(self.value)
         if value is None:
-            self.fail(f"{what} must be a number, not {self.plain()!r}")
-        if (above is not None and not value > above) or (at_least is not None and not value >= at_least):
-            bound = f"above {above:g}" if above is not None else f"at least {at_least:g}"
-            self.fail(f"{what} must be {bound}, not {value:g}")
+            self.fail(f"{label} must be a number, not {self.plain()!r}")
+        if (above is not None and not value > above) or (minimum is not None and not value >= minimum):
+            bound = f"above {above:g}" if above is not None else f"at least {minimum:g}"
+            self.fail(f"{label} must be {bound}, not {value:g}")
         return value
 
-    def whole(self, what: str, *, at_least: int) -> int:
-        """Return a whole number.
+    def whole(self, label: str, *, minimum: int) -> int:
+        """Return an integer.
 
         Raises:
-            DescriptionError: it is none, or too small.
+            DescriptionError: not an integer, or too small.
         """
-        if not isinstance(self.value, int) or isinstance(self.value, bool) or self.value < at_least:
-            self.fail(f"{what} must be a whole number of at least {at_least}, not {self.plain()!r}")
+        if not isinstance(self.value, int) or isinstance(self.value, bool) or self.value < minimum:
+            self.fail(f"{label} must be a whole number of at least {minimum}, not {self.plain()!r}")
         return self.value
 
-    def flag(self, what: str) -> bool:
+    def flag(self, label: str) -> bool:
         """Return true or false.
 
         Raises:
-            DescriptionError: it is neither.
+            DescriptionError: another value.
         """
-        return self.value if isinstance(self.value, bool) else self.fail(f"{what} must be true or false")
+        return self.value if isinstance(self.value, bool) else self.fail(f"{label} must be true or false")
 
-    def text(self, what: str) -> str:
-        """Return a text; a number is one, as it is written.
+    def text(self, label: str) -> str:
+        """Return a text, also of a number.
 
         Raises:
             DescriptionError: a list or mapping.
         """
         if isinstance(self.value, dict | list) or self.value is None:
-            self.fail(f"{what} must be a text, not {self.plain()!r}")
+            self.fail(f"{label} must be a text, not {self.plain()!r}")
         return self.value if isinstance(self.value, str) else repr(self.value)
 
-    def texts(self, what: str) -> "Iterator[tuple[str, Source]]":
-        """Yield each text of a list, or the only one, with its line."""
+    def texts(self, label: str) -> "Iterator[tuple[str, Source]]":
+        """Yield the texts of a list, or the single text, each with its source."""
         for item in self.items():
-            yield item.text(what), item.at
+            yield item.text(label), item.at
 
 
 def as_number(value: object) -> float | None:
-    """Return a number; YAML 1.1 reads 1e-3 as a text."""
+    """Return a number, also from text such as 1e-3, which YAML 1.1 does not read as a number; None if neither."""
     if isinstance(value, str):
         try:
             return float(value)

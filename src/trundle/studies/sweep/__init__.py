@@ -1,1 +1,1 @@
-"""Sweeps: a world run many times with different values."""
+"""Sweeps: many runs of a world with different values."""

@@ -1,4 +1,4 @@
-"""Statistics of a table of results: which values matter, and which runs lie far out."""
+"""Statistics of a table of results: influence of varied values, and outliers."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -10,11 +10,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _NORMAL_MAD = 1.4826
-"""Standard deviation of a normal distribution over its median absolute deviation."""
+"""Ratio of a normal distribution's standard deviation to its median absolute deviation."""
 
 
 def numbers(column: Any) -> "NDArray[np.float64] | None":
-    """Return a column of a `pyarrow.Table` as (rows,) numbers, NaN where there is none; None for a column of text."""
+    """Return a column of a `pyarrow.Table` as (rows,) numbers, NaN for missing values; None for a column of text."""
     values = column.to_pylist()
     if any(isinstance(value, str) for value in values):
         return None
@@ -24,31 +24,31 @@ def numbers(column: Any) -> "NDArray[np.float64] | None":
 def rank_correlation(varied: Any, measured: "NDArray[np.float64]") -> float | None:
     """Return Spearman's rank correlation of a column and a measure, −1 to 1; None if one of them is constant.
 
-    Text has no order: its share of the ranks' variance counts, as the square root, 0 to 1.
+    For text, which has no order, the result is the square root of the ranks' variance that it explains, 0 to 1.
     """
     rankdata = import_extra("scipy.stats").rankdata
-    found = np.isfinite(measured)
+    valid = np.isfinite(measured)
     values = numbers(varied)
     if values is not None:
-        found &= np.isfinite(values)
-    if np.count_nonzero(found) < 3:
+        valid &= np.isfinite(values)
+    if np.count_nonzero(valid) < 3:
         return None
-    ranks = rankdata(measured[found])
+    ranks = rankdata(measured[valid])
     if values is None:
-        texts = np.array(varied.to_pylist(), dtype=object)[found]
+        texts = np.array(varied.to_pylist(), dtype=object)[valid]
         means = {text: ranks[texts == text].mean() for text in set(texts)}
         fitted = np.array([means[text] for text in texts])
         return None if ranks.std() == 0 or len(means) < 2 else float(fitted.std() / ranks.std())
-    others = rankdata(values[found])
+    others = rankdata(values[valid])
     if ranks.std() == 0 or others.std() == 0:
         return None
     return float(np.corrcoef(others, ranks)[0, 1])
 
 
 def worst_rows(table: Any, measures: list[str], count: int) -> list[int]:
-    """Return the rows that lie farthest from the median of a measure, those that are not ok first.
+    """Return the worst rows: those that are not ok first, then by distance from the median of a measure.
 
-    The distance is counted in robust standard deviations; of several measures the largest counts.
+    The distance is in robust standard deviations, the largest over all measures.
     """
     distance = np.zeros(table.num_rows)
     for name in measures:

@@ -1,4 +1,4 @@
-"""Rows whose arguments differ: each may read other files."""
+"""Rows with different arguments, which may read different files."""
 
 from collections.abc import Iterator
 
@@ -11,23 +11,32 @@ from .plan import Plan
 from .property_path import ARGUMENTS
 from .rows import Row, Rows
 
-_MOST = 32
-"""Most values of arguments that are read beside those of the first row."""
+_MAX_VALUES = 32
+"""Maximum values of arguments besides those of the first row."""
 
 
 def argument_rows(plan: Plan, rows: Rows) -> Iterator[Row]:
-    """Yield the first row, and then that row with each further value of a list on which an argument depends."""
-    first, left = rows.row(0), _MOST
+    """Yield the first row, and that row with each further value of every list on which an argument depends."""
+    first, remaining = rows.row(0), _MAX_VALUES
     yield first
-    named = {name for path, each in plan.assignments.items() if _is_argument(path) for name in free_names(each.text)}
+    used_names = {
+        name
+        for path, variation in plan.assignments.items()
+        if _is_argument(path)
+        for name in free_names(variation.text)
+    }
     for root in plan.vary:
-        together = [each for each in plan.vary if root.beside is None and root.name in (each.name, each.beside)]
-        if not any(_is_argument(each.name) or each.name in named for each in together):
+        group = [
+            variation
+            for variation in plan.vary
+            if root.paired_with is None and root.name in (variation.name, variation.paired_with)
+        ]
+        if not any(_is_argument(variation.name) or variation.name in used_names for variation in group):
             continue
         for number in range(1, len(root.values)):
-            if left > 0:
-                left -= 1
-                yield _with_values(first, together, number)
+            if remaining > 0:
+                remaining -= 1
+                yield _with_values(first, group, number)
 
 
 def _is_argument(path: str) -> bool:
@@ -35,4 +44,4 @@ def _is_argument(path: str) -> bool:
 
 
 def _with_values(row: Row, variations: list[Variation], number: int) -> Row:
-    return replace(row, values={**row.values, **{each.name: each.values[number] for each in variations}})
+    return replace(row, values={**row.values, **{variation.name: variation.values[number] for variation in variations}})

@@ -1,4 +1,4 @@
-"""Values that a row assigns: arguments, ROS parameters and properties of the world."""
+"""Values assigned by a row: arguments, ROS parameters and properties of the world."""
 
 from collections.abc import Generator
 from contextlib import contextmanager
@@ -18,7 +18,7 @@ _T = TypeVar("_T")
 
 
 class Property(Struct, frozen=True):
-    """Property of the world, and where the plan assigns it."""
+    """Assigned property of the world."""
 
     path: str
     value: Value
@@ -28,7 +28,7 @@ class Property(Struct, frozen=True):
         """Return the world with this property.
 
         Raises:
-            UsageError: it has no such property; with the plan's line.
+            UsageError: no such property, with the plan's line.
         """
         try:
             return with_property(world, self.path, self.value)
@@ -45,11 +45,11 @@ class Assignments(Struct, frozen=True):
     """Global name of a ROS parameter → its value."""
     properties: list[Property]
     sources: dict[str, Source]
-    """Path → where the plan assigns it."""
+    """Path → source of the assignment."""
 
     @contextmanager
     def unknown_arguments_at_plan(self) -> Generator[None]:
-        """Say where in the plan an argument is assigned that a file does not have."""
+        """Report an unknown argument at its assignment in the plan."""
         try:
             yield
         except UnknownArgumentError as error:
@@ -58,32 +58,32 @@ class Assignments(Struct, frozen=True):
 
 
 def assignments_of(plan: Plan, row: Row, expressions: StateExpressions) -> Assignments:
-    """Return what a row assigns.
+    """Return the assignments of a row.
 
     Raises:
-        UsageError: an expression of `set` has no such value; with its line.
+        UsageError: an expression of `set` has an invalid value, with its line.
     """
     assigned = {
-        each.name: Property(each.name, row.values[each.name], each.at) for each in plan.vary if is_property(each.name)
+        item.name: Property(item.name, row.values[item.name], item.at) for item in plan.vary if is_property(item.name)
     }
     names = named_values(row.values)
     for path, formula in plan.assignments.items():
         assigned[path] = Property(path, _plain(expressions.evaluate(formula, names), formula), formula.at)
-    found = Assignments({}, {}, [], {path: each.at for path, each in assigned.items()})
-    for path, each in assigned.items():
+    assignments = Assignments({}, {}, [], {path: item.at for path, item in assigned.items()})
+    for path, item in assigned.items():
         kind, _, name = path.partition("/")
         if kind == ARGUMENTS:
-            found.arguments[name] = _text(each.value)
+            assignments.arguments[name] = _text(item.value)
         elif kind == PARAMETERS:
-            found.parameters[f"/{name}"] = each.value
+            assignments.parameters[f"/{name}"] = item.value
         else:
-            found.properties.append(each)
-    return found
+            assignments.properties.append(item)
+    return assignments
 
 
 def _plain(value: object, formula: Formula) -> Value:
     if isinstance(value, list | tuple):
-        return tuple(_plain(each, formula) for each in value)
+        return tuple(_plain(part, formula) for part in value)
     if not isinstance(value, bool | int | float | str):
         raise UsageError(f"{formula.at}: error: {formula.text} must be a number, a text or a list, and is {value!r}")
     return value

@@ -1,4 +1,4 @@
-"""Results of a run at its end: what the plan's Python functions measure, and whether its criteria are met."""
+"""Result of a run: measures by the plan's Python functions, and its criteria."""
 
 import math
 import runpy
@@ -21,13 +21,13 @@ class Judge:
         self._expressions = expressions
         self._functions: dict[str, Callable[..., object]] = {}
 
-    def check(self, row: Row, found: Mapping[str, float | str | None]) -> None:
-        """Evaluate everything once, on the measures of a run's start.
+    def check(self, row: Row, start_measures: Mapping[str, float | str | None]) -> None:
+        """Check all functions and criteria with the measures at a run's start.
 
         Raises:
-            UsageError: a function or criterion is invalid; with its line.
+            UsageError: a function or criterion is invalid, with its line.
         """
-        measures = {each.name: found.get(each.name) or 0.0 for each in self._plan.measures}
+        measures = {item.name: start_measures.get(item.name) or 0.0 for item in self._plan.measures}
         for formula in self._plan.criteria:
             self._expressions.evaluate(formula, named_values(row.values) | measures)
         for measure in self._plan.measures:
@@ -35,12 +35,12 @@ class Judge:
                 self._function(measure)
 
     def call_functions(self, simulation: Simulation) -> dict[str, float | str | None]:
-        """Return what the plan's Python functions measure.
+        """Return the measures by Python functions.
 
         Raises:
-            UsageError: one raised an exception, or returned no number.
+            UsageError: a function raised an exception, or returned no number.
         """
-        found: dict[str, float | str | None] = {}
+        measures: dict[str, float | str | None] = {}
         for measure in self._plan.measures:
             if measure.function is None:
                 continue
@@ -52,33 +52,33 @@ class Judge:
                 raise UsageError(f"{measure.at}: error: {measure.name}: {type(error).__name__}: {error}") from None
             if not isinstance(value, int | float) or not math.isfinite(value):
                 raise UsageError(f"{measure.at}: error: {measure.name} must return a finite number, not {value!r}")
-            found[measure.name] = float(value)
-        return found
+            measures[measure.name] = float(value)
+        return measures
 
     def _function(self, measure: Measure) -> Callable[..., object]:
         assert measure.function is not None
         if measure.name not in self._functions:
             file, name = measure.function
             try:
-                found = runpy.run_path(str(file)).get(name)
+                function = runpy.run_path(str(file)).get(name)
             except Exception as error:  # a user's code may raise anything
                 raise UsageError(f"{measure.at}: error: {file}: {type(error).__name__}: {error}") from None
-            if not callable(found):
+            if not callable(function):
                 raise UsageError(f"{measure.at}: error: {file} has no function {name!r}")
-            self._functions[measure.name] = found
+            self._functions[measure.name] = function
         return self._functions[measure.name]
 
     def judged(self, row: Row, time_s: float, measures: dict[str, float | str | None], note: str) -> RowResult:
-        """Return the result of a run that came to its end.
+        """Return the result of a completed run.
 
         Args:
-            row: its values.
-            time_s: simulation time at its end [s].
-            measures: what was measured; None: there was nothing to measure.
-            note: reason of a run that is ok.
+            row: row of the run.
+            time_s: simulation time at the end [s].
+            measures: name → measured value; None: not measured.
+            note: reason of an ok result.
 
         Raises:
-            UsageError: a criterion cannot be evaluated; with its line.
+            UsageError: a criterion cannot be evaluated, with its line.
         """
         names = named_values(row.values) | dict(measures)
         for formula in self._plan.criteria:

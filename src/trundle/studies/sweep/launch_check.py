@@ -1,4 +1,4 @@
-"""Names that a plan assigns, against those that a launch has."""
+"""Check of a plan's assignments against the names in a launch."""
 
 from collections.abc import Iterator
 from itertools import pairwise
@@ -15,65 +15,67 @@ from .property_path import PARAMETERS
 _MODELS = "models"
 
 
-def check_launch(read: LoadedLaunch, assigned: Assignments) -> list[str]:
-    """Refuse what a launch cannot have; return warnings of what only its programs could use or make.
+def check_launch(launch: LoadedLaunch, assigned: Assignments) -> list[str]:
+    """Refuse invalid assignments; return warnings of names that only the launch's programs may define.
 
     Args:
-        read: the launch, with its own parameters.
+        launch: launch with its own parameters.
         assigned: values of a row.
 
     Raises:
-        TrundleError: a parameter's name is not legal, or a world or model of the launch has no such property.
+        TrundleError: illegal parameter name, or unknown property of a world or model of the launch.
     """
     report = Diagnostics()
-    _check_parameters(read, assigned, report)
-    worlds = launch_inputs(read).worlds
-    names = {model.name for world in worlds for model in world.models} | set(_spawned_names(read))
-    for each in assigned.properties:
-        kind, _, rest = each.path.partition("/")
+    _check_parameters(launch, assigned, report)
+    worlds = launch_inputs(launch).worlds
+    names = {model.name for world in worlds for model in world.models} | set(_spawned_names(launch))
+    for property_ in assigned.properties:
+        kind, _, rest = property_.path.partition("/")
         name = rest.partition("/")[0] if kind == _MODELS else None
         if name is None or name in names:
-            _check_property(each, [world for world in worlds if name is None or _has(world, name)])
+            _check_property(property_, [world for world in worlds if name is None or _has(world, name)])
         elif name != "*":
-            near = nearest(name, names)
-            said = f"; the nearest is {near!r}" if near else ""
-            there = ", ".join(map(repr, sorted(names))) or "none"
-            what = f"{each.path}: the launch names no model {name!r}{said}; models: {there}; a program must spawn it"
-            report.warn(each.at, what)
+            closest = nearest(name, names)
+            hint = f"; the nearest is {closest!r}" if closest else ""
+            listed = ", ".join(map(repr, sorted(names))) or "none"
+            message = (
+                f"{property_.path}: the launch names no model {name!r}{hint}; models: {listed}; a program must spawn it"
+            )
+            report.warn(property_.at, message)
     return report.warnings
 
 
-def _check_parameters(read: LoadedLaunch, assigned: Assignments, report: Diagnostics) -> None:
-    there = {param.name for param in read.params}
+def _check_parameters(launch: LoadedLaunch, assigned: Assignments, report: Diagnostics) -> None:
+    names = {param.name for param in launch.params}
     for name in assigned.parameters:
         path = f"{PARAMETERS}{name}"
         at = assigned.sources[path]
         if not is_legal_name(name):
             raise DescriptionError(at, f"{path}: not a legal name of a ROS parameter")
-        if name not in there and not any(each.startswith(f"{name}/") for each in there):
-            near = nearest(name, there)
-            said = f"; the nearest is {near!r}" if near else ""
-            report.warn(at, f"{path}: the launch sets no parameter {name!r}{said}; each run has it all the same")
+        if name not in names and not any(other.startswith(f"{name}/") for other in names):
+            closest = nearest(name, names)
+            hint = f"; the nearest is {closest!r}" if closest else ""
+            report.warn(at, f"{path}: the launch sets no parameter {name!r}{hint}; each run has it all the same")
 
 
-def _spawned_names(read: LoadedLaunch) -> Iterator[str]:
-    """Yield the names that nodes give to the models that they spawn."""
-    for node in read.plan.nodes:
+def _spawned_names(launch: LoadedLaunch) -> Iterator[str]:
+    """Yield the names of the models that nodes spawn."""
+    for node in launch.plan.nodes:
         for option, word in pairwise(words_of(node)):
             if option == "-model":
                 yield word
 
 
 def _has(world: World, model: str) -> bool:
-    return any(each.name == model for each in world.models)
+    return any(candidate.name == model for candidate in world.models)
 
 
-def _check_property(each: Property, worlds: list[World]) -> None:
-    """Refuse a property that none of some worlds has."""
+def _check_property(property_: Property, worlds: list[World]) -> None:
+    """Refuse a property that no world has."""
     errors: list[UsageError] = []
     for world in worlds:
         try:
-            each.assigned(world)
+            property_.assigned(world)
         except UsageError as error:
             errors.append(error)
     if worlds and len(errors) == len(worlds):

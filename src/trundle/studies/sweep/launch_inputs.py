@@ -1,4 +1,4 @@
-"""Files, parameters, worlds and models of a launch, read without starting it."""
+"""Input files, parameters, worlds and models of a launch, read without starting it."""
 
 import os
 import shlex
@@ -19,48 +19,50 @@ from .plan_digest import RunInputs
 _DATABASE = "-database"
 
 
-def launch_inputs(read: LoadedLaunch) -> RunInputs:
-    """Return what the nodes of a launch read as far as their command lines and parameters name it.
+def launch_inputs(launch: LoadedLaunch) -> RunInputs:
+    """Return the inputs of a launch that its nodes' command lines and parameters name.
 
-    Files that a program names in its own code are not among them.
+    Files named in a program's own code are not included.
     """
-    files, worlds = list(read.plan.files), list(_described(read))
-    for node in read.plan.nodes:
-        found = find_node(node.package, node.type, read.packages.find_package, env=read.env, arguments=node.arguments)
-        files += [found.path] if isinstance(found, Executable) else []
-        packages = Packages({**read.env, **dict(node.env)}, start=read.start)
+    files, worlds = list(launch.plan.files), list(_described(launch))
+    for node in launch.plan.nodes:
+        executable = find_node(
+            node.package, node.type, launch.packages.find_package, env=launch.env, arguments=node.arguments
+        )
+        files += [executable.path] if isinstance(executable, Executable) else []
+        packages = Packages({**launch.env, **dict(node.env)}, start=launch.start)
         for word in words_of(node):
             if os.path.isfile(word):
                 files.append(Path(word))
             if node.package == "gazebo_ros":
                 worlds += _loaded(word, packages)
-    params = repr([(each.name, each.value) for each in read.params])
+    params = repr([(param.name, param.value) for param in launch.params])
     return RunInputs(worlds=tuple(worlds), texts=(params,), files=tuple(files))
 
 
 def words_of(node: LaunchNode) -> Iterator[str]:
-    """Yield a node's arguments; models of the model path as URIs."""
+    """Yield a node's arguments; models on the model path as URIs."""
     try:
         words = shlex.split(node.arguments)
     except ValueError:
-        return  # the run says so
+        return  # the run reports it
     for before, word in zip(["", *words], words, strict=False):
         yield f"model://{word}" if before == _DATABASE else os.path.expanduser(word.removeprefix("file://"))
 
 
 def _loaded(word: str, packages: Packages) -> list[World]:
-    """Return the world of a file or URI; none if it is neither."""
+    """Return the world of a file or URI; empty for another word."""
     if not (os.path.isfile(word) or word.startswith("model://") or packages.find_world(word) is not None):
         return []
-    with suppress(TrundleError):  # the run says so
+    with suppress(TrundleError):  # the run reports it
         return [load(word, Diagnostics(), packages=packages).world]
     return []
 
 
-def _described(read: LoadedLaunch) -> Iterator[World]:
-    """Yield the robots and models whose descriptions are parameters."""
-    for param in read.params:
+def _described(launch: LoadedLaunch) -> Iterator[World]:
+    """Yield the worlds of robots and models described by parameters."""
+    for param in launch.params:
         if isinstance(param.value, str) and param.value.lstrip().startswith("<"):
             with suppress(TrundleError):
                 text, report = param.value, Diagnostics()
-                yield load_text(text, name=param.name, folder=Path.cwd(), packages=read.packages, report=report).world
+                yield load_text(text, name=param.name, folder=Path.cwd(), packages=launch.packages, report=report).world

@@ -1,4 +1,4 @@
-"""Runs of single rows of a launch file, each on a graph of its own, in lockstep with the nodes of its process."""
+"""Runner of a launch plan's rows, each on its own graph, in lockstep with the nodes of this process."""
 
 import io
 import os
@@ -31,12 +31,12 @@ from .state_names import StateExpressions
 from .topics import topics_of
 
 _POLL_S = 0.01
-_PAUSED_S = 30.0
-"""Wall time for which a world may stay paused while nothing is at work, as at the start of controllers."""
+_MAX_PAUSED_S = 30.0
+"""Maximum wall time for which a world may stay paused while the launch is idle, as at the start of controllers."""
 
 
 class LaunchRowRunner:
-    """Runs rows of a plan of a launch file one after the other."""
+    """Runner of the rows of a launch plan, one after the other."""
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
@@ -45,7 +45,7 @@ class LaunchRowRunner:
         self._topics = topics_of(plan)
 
     def run(self, row: Row) -> RowResult:
-        """Run a row to its end; what goes wrong is in its result."""
+        """Run a row to its end; errors are in its result."""
         return self._run(row, LaunchOptions(duration_s=self._plan.duration_s))
 
     def bag(self, row: Row, result: RowResult) -> bytes | None:
@@ -68,7 +68,7 @@ class LaunchRowRunner:
         """Read the launch once with a row's values; return warnings.
 
         Raises:
-            TrundleError: the plan cannot be run; with its line.
+            TrundleError: the plan cannot be run, with its line.
         """
         assigned = assignments_of(self._plan, row, self._expressions)
         with _quiet_environment() as environment:
@@ -78,24 +78,24 @@ class LaunchRowRunner:
         """Read the launch with the arguments and parameters of a row.
 
         Raises:
-            TrundleError: it cannot be read.
+            TrundleError: the launch cannot be read.
         """
-        read = self._read_files(assigned, environment)
-        ours = assigned.parameters
+        launch = self._read_files(assigned, environment)
+        assigned_params = assigned.parameters
         at = self._plan.world_at
-        params = [each for each in read.params if each.name not in ours]
-        params += [LaunchParam(name=name, value=_parameter(value), at=at) for name, value in ours.items()]
-        return replace_fields(read, params=params)
+        params = [param for param in launch.params if param.name not in assigned_params]
+        params += [LaunchParam(name=name, value=_parameter(value), at=at) for name, value in assigned_params.items()]
+        return replace_fields(launch, params=params)
 
     def _read_files(self, assigned: Assignments, environment: dict[str, str]) -> LoadedLaunch:
         words = [*self._plan.world.split(), *(f"{name}:={value}" for name, value in assigned.arguments.items())]
         with assigned.unknown_arguments_at_plan():
-            read = read_files(words, LaunchOptions(), environment)
-        assert read is not None
-        return read
+            launch = read_files(words, LaunchOptions(), environment)
+        assert launch is not None
+        return launch
 
     def inputs(self, row: Row) -> RunInputs:
-        """Return what a row depends on.
+        """Return the inputs of a row.
 
         Raises:
             TrundleError: the launch cannot be read.
@@ -104,10 +104,10 @@ class LaunchRowRunner:
             return launch_inputs(self.read(assignments_of(self._plan, row, self._expressions), environment))
 
     def _run(self, row: Row, options: LaunchOptions) -> RowResult:
-        said = io.StringIO()
+        output = io.StringIO()
         options = replace_fields(options, headless=True, speed=None)
         try:
-            with redirect_stderr(said), redirect_stdout(said), self.session(row, options) as (session, setup):
+            with redirect_stderr(output), redirect_stdout(output), self.session(row, options) as (session, setup):
                 try:
                     self._wait(session, setup)
                 except TrundleError as error:
@@ -118,10 +118,10 @@ class LaunchRowRunner:
 
     @contextmanager
     def session(self, row: Row, options: LaunchOptions) -> Generator[tuple[LaunchSession, LaunchSetup]]:
-        """Yield the launch of a row, on a graph of its own, and its setup; no node is started yet.
+        """Yield the launch of a row on its own graph, with its setup, before any node is started.
 
         Raises:
-            TrundleError: it cannot be read.
+            TrundleError: the launch cannot be read.
         """
         options = replace_fields(options, summary=False, quiet=True, output="log")
         assigned = assignments_of(self._plan, row, self._expressions)
@@ -133,7 +133,7 @@ class LaunchRowRunner:
             yield session, setup
 
     def result(self, row: Row, setup: LaunchSetup) -> RowResult:
-        """Return the result of a run that has ended."""
+        """Return the result of a completed run."""
         try:
             setup.finish()
             measures = setup.script.measures() | self._judge.call_functions(setup.simulation)
@@ -145,7 +145,7 @@ class LaunchRowRunner:
         """Wait for the end of a run.
 
         Raises:
-            TrundleError: it ended before its end.
+            TrundleError: the launch ended too early.
         """
         running = session.start(session.nodes)
         paused_s: float | None = None
@@ -158,15 +158,15 @@ class LaunchRowRunner:
                 return
             elif paused_s is None:
                 paused_s = time.monotonic()
-            elif session.stop_reason is not None or time.monotonic() - paused_s > _PAUSED_S:
+            elif session.stop_reason is not None or time.monotonic() - paused_s > _MAX_PAUSED_S:
                 raise UsageError(session.stop_reason or "the world stays paused")
 
 
 def check_running(running: RunningNodes) -> None:
-    """Raise an error if the nodes of a launch have ended before its end.
+    """Check that a launch still has its required nodes and its world.
 
     Raises:
-        UsageError: they have.
+        UsageError: a required node died, or there is no world.
     """
     if running.required_died:
         raise UsageError("a required node died")
@@ -176,7 +176,7 @@ def check_running(running: RunningNodes) -> None:
 
 @contextmanager
 def _environment() -> Generator[dict[str, str]]:
-    """Yield the variables of a launch on a graph of its own, with logs that are not kept."""
+    """Yield the environment of a launch on its own graph, with temporary logs."""
     with TemporaryDirectory(prefix="trundle-sweep-") as logs:
         environment = {name: value for name, value in os.environ.items() if name != "ROS_MASTER_URI"}
         yield environment | {"ROS_LOG_DIR": logs}
@@ -184,11 +184,11 @@ def _environment() -> Generator[dict[str, str]]:
 
 @contextmanager
 def _quiet_environment() -> Generator[dict[str, str]]:
-    """Yield the same while nothing is printed."""
-    said = io.StringIO()
-    with redirect_stderr(said), redirect_stdout(said), _environment() as environment:
+    """Yield the environment while output is suppressed."""
+    output = io.StringIO()
+    with redirect_stderr(output), redirect_stdout(output), _environment() as environment:
         yield environment
 
 
 def _parameter(value: Value) -> ParamValue:
-    return [_parameter(each) for each in value] if isinstance(value, tuple) else value
+    return [_parameter(part) for part in value] if isinstance(value, tuple) else value

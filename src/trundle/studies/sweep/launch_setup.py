@@ -1,4 +1,4 @@
-"""World of a launch with the properties, events and measures of a row."""
+"""Setup of a launch's world with the properties, events and measures of a row."""
 
 from collections.abc import Sequence
 
@@ -21,7 +21,7 @@ _MODELS = "models"
 
 
 class LaunchSetup:
-    """Changes to the world of a launch, and what happens in it; see `WorldSetup`."""
+    """Properties, events and measures of a row in the world of a launch; see `WorldSetup`."""
 
     simulation: Simulation
     script: RunScript
@@ -37,8 +37,8 @@ class LaunchSetup:
         self._plan = plan
         self._row = row
         self._properties = properties
-        self._unassigned = {each.path: each for each in properties}
-        """Properties that no world or model had so far."""
+        self._unassigned = {property_.path: property_ for property_ in properties}
+        """Properties not yet assigned to a world or model."""
         self._expressions = expressions
         self._topics = topics
         self._base: World | None = None
@@ -52,38 +52,38 @@ class LaunchSetup:
 
     @property
     def time_s(self) -> float | None:
-        """Simulation time [s]; None: there is no world yet."""
+        """Simulation time [s]; None before the world exists."""
         return self.simulation.time_ns / NS_PER_S if self._has_started else None
 
     @property
     def is_over(self) -> bool:
-        """True if a stop condition is true, or an event or measure failed."""
+        """True if a stop condition holds, or an event or measure failed."""
         return self._error is not None or (self._has_started and self.script.is_over)
 
     def world(self, world: World) -> World:
-        """Assign the properties of the world, and of the models that are in it."""
+        """Assign the properties of the world and its models."""
         self._base = replace(world, models=())
-        for each in self._properties:
-            name = each.path.split("/")[1] if each.path.startswith(f"{_MODELS}/") else None
+        for property_ in self._properties:
+            name = property_.path.split("/")[1] if property_.path.startswith(f"{_MODELS}/") else None
             if name is None or (name == "*" and world.models) or any(model.name == name for model in world.models):
-                world = self._assigned(each, world)
+                world = self._assigned(property_, world)
         return world
 
     def model(self, model: Model) -> Model:
-        """Assign the properties of a model that is spawned."""
+        """Assign the properties of a spawned model."""
         assert self._base is not None
         world = replace(self._base, models=(model,))
-        for each in self._properties:
-            if each.path.startswith((f"{_MODELS}/{model.name}/", f"{_MODELS}/*/")):
-                world = self._assigned(each, world)
+        for property_ in self._properties:
+            if property_.path.startswith((f"{_MODELS}/{model.name}/", f"{_MODELS}/*/")):
+                world = self._assigned(property_, world)
         return world.models[0]
 
-    def _assigned(self, each: Property, world: World) -> World:
+    def _assigned(self, property_: Property, world: World) -> World:
         try:
-            world = each.assigned(world)
+            world = property_.assigned(world)
         except UsageError as error:
             self._error = error
-        self._unassigned.pop(each.path, None)
+        self._unassigned.pop(property_.path, None)
         return world
 
     def start(self, simulation: Simulation, node: Node) -> None:
@@ -97,7 +97,7 @@ class LaunchSetup:
             simulation.add_hook(_Act(self), period_ns=period_ns)
 
     def act(self) -> None:
-        """Perform what is due; what goes wrong ends the run."""
+        """Perform due events and samples; an error ends the run."""
         if self.is_over or not self._has_started:
             return
         try:
@@ -106,27 +106,27 @@ class LaunchSetup:
             self._error = error
 
     def settle(self) -> bool:
-        """Perform what is due; return True if a stop condition is true, or something failed."""
+        """Perform due events and samples; return `is_over`."""
         self.act()
         return self.is_over
 
     def finish(self) -> None:
-        """Raise what went wrong.
+        """Check the run at its end.
 
         Raises:
-            TrundleError: an event, a measure or a property.
+            TrundleError: an event, measure or property failed.
         """
         if self._error is not None:
             raise self._error
         if not self._has_started:
             raise UsageError("the launch has no world: none of its nodes is one of gazebo_ros")
-        for each in self._unassigned.values():
-            there = ", ".join(repr(model.name) for model in self.simulation.models) or "none"
-            raise UsageError(f"{each.at}: error: {each.path}: no such model was spawned; models: {there}")
+        for property_ in self._unassigned.values():
+            listed = ", ".join(repr(model.name) for model in self.simulation.models) or "none"
+            raise UsageError(f"{property_.at}: error: {property_.path}: no such model was spawned; models: {listed}")
 
 
 class _Act:
-    """Hook that performs what is due."""
+    """Hook that performs due events and samples."""
 
     def __init__(self, setup: LaunchSetup) -> None:
         self._setup = setup

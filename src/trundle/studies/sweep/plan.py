@@ -1,4 +1,4 @@
-"""Plan of a sweep, as read from its file."""
+"""Plan of a sweep."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -28,9 +28,9 @@ class Measure:
     at: Source
     expression: str | None = None
     over: Over = "end"
-    """Time of the measure, or statistic of all samples; "time": the first time at which the expression is true [s]."""
+    """Time of the measure, or statistic of all samples; "time": first time at which the expression is true [s]."""
     function: tuple[Path, str] | None = None
-    """File and name of a function of the simulation."""
+    """File and name of a function that takes the simulation."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +49,7 @@ class Event:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Plan:
-    """World, what varies in it, and what is measured."""
+    """World, variations and measures."""
 
     file: str
     """Plan's name in messages."""
@@ -64,16 +64,16 @@ class Plan:
     every_s: float = 0.1
     """Period at which stop conditions and measures over time are evaluated."""
     time_limit_s: float | None = None
-    """Wall time of one run."""
+    """Maximum wall time of a run."""
     memory_limit_bytes: int | None = None
-    """Resident memory of one run."""
+    """Maximum resident memory of a run."""
     bag_s: float | None = None
-    """Last seconds of a run that is not ok, kept as a bag [s]; None: none."""
+    """Duration at the end of a run that is not ok, saved as a bag [s]; None: no bag."""
     bag_without: frozenset[str] = frozenset()
-    """Message types that the bag leaves out."""
+    """Message types excluded from the bag."""
     seed: int = 0
     seeds: tuple[int, ...] = ()
-    """Seed of each repetition; empty: drawn from the plan's seed and the row's number."""
+    """Seed of each repetition; empty: derived from the plan's seed and the row's number."""
     repetitions: int = 1
     samples: int = 1
     """Samples of the distributions at each point of the grid."""
@@ -81,11 +81,11 @@ class Plan:
     plugins: bool = False
     vary: tuple[Variation, ...] = ()
     assignments: Mapping[str, Formula] = field(default_factory=dict[str, Formula])
-    """Path of a property → its value."""
+    """Path of a property → expression of its value."""
     events: tuple[Event, ...] = ()
     stop: tuple[Formula, ...] = ()
     measures: tuple[Measure, ...] = ()
     criteria: tuple[Formula, ...] = ()
-    """Conditions on the measures; a run that does not meet one has failed."""
+    """Conditions on the measures; a run that violates one has failed."""
     keys: Mapping[str, Source] = field(default_factory=dict[str, Source])
-    """Key of the plan → its line."""
+    """Key of the plan → source."""

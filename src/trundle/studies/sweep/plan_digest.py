@@ -1,4 +1,4 @@
-"""Digest of everything that the results of a sweep depend on."""
+"""Digest of all inputs of a sweep."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from .plan import Plan
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RunInputs:
-    """Inputs of a run beside its plan."""
+    """Inputs of a run besides its plan."""
 
     worlds: tuple[World, ...]
     """Worlds and spawned models, as read."""
@@ -21,11 +21,11 @@ class RunInputs:
 
 
 def plan_digest(plan: Plan, inputs: Iterable[RunInputs]) -> str:
-    """Return a digest that changes with anything that may change a row; `inputs` are those of `argument_rows`."""
+    """Return a digest of everything that may change a row; `inputs` are the inputs of `argument_rows`."""
     texts, worlds = [plan.text], list[World]()
-    files = {each.function[0] for each in plan.measures if each.function is not None}
-    for each in inputs:
-        texts += each.texts
-        worlds += each.worlds
-        files |= {*each.files}
+    files = {item.function[0] for item in plan.measures if item.function is not None}
+    for item in inputs:
+        texts += item.texts
+        worlds += item.worlds
+        files |= {*item.files}
     return input_digest(texts, worlds, files)

@@ -1,4 +1,4 @@
-"""Rows of a sweep in processes: of this machine, or of a Ray cluster."""
+"""Execution of rows in processes, on this machine or a Ray cluster."""
 
 from collections.abc import Callable
 from functools import partial
@@ -10,7 +10,7 @@ from trundle.base.workers import Job, JobResult, Progress, run_job
 from .plan import Plan
 from .results import Results
 from .row_result import RowResult
-from .row_runner import RowOutcome, run_row
+from .row_runner import RowOutput, run_row
 
 
 def run_in_processes(
@@ -22,18 +22,18 @@ def run_in_processes(
     address: str | None,
     is_ending: Callable[[], bool],
 ) -> None:
-    """Run the rows of a plan that have no result yet, and add theirs; see `run_job`."""
+    """Run the rows of a plan without a result, and add their results; see `run_job`."""
     job = Job(make=partial(run_row, plan), time_limit_s=plan.time_limit_s, memory_limit_bytes=plan.memory_limit_bytes)
 
-    def add_outcome(outcome: JobResult[RowOutcome]) -> bool:
-        result = _kept(outcome, results.folder)
+    def add_result(job_result: JobResult[RowOutput]) -> bool:
+        result = _saved_result(job_result, results.folder)
         results.add(result)
         return result.status == "ok"
 
     run_job(
         job,
         results.missing(),
-        add_outcome,
+        add_result,
         count=progress.remaining,
         progress=progress,
         workers=workers,
@@ -42,18 +42,18 @@ def run_in_processes(
     )
 
 
-def _kept(outcome: JobResult[RowOutcome], folder: Path) -> RowResult:
-    """Write a row's bag, if it has one, and return its result."""
-    if outcome.failure is not None:
-        return RowResult(outcome.row, outcome.failure, outcome.reason)
-    assert outcome.value is not None
-    if outcome.value.bag is not None:
-        file = bag_file(folder, outcome.row)
+def _saved_result(job_result: JobResult[RowOutput], folder: Path) -> RowResult:
+    """Write a row's bag, if any, and return its result."""
+    if job_result.failure is not None:
+        return RowResult(job_result.row, job_result.failure, job_result.reason)
+    assert job_result.value is not None
+    if job_result.value.bag is not None:
+        file = bag_file(folder, job_result.row)
         file.parent.mkdir(exist_ok=True)
-        write_atomically(file, outcome.value.bag)
-    return outcome.value.result
+        write_atomically(file, job_result.value.bag)
+    return job_result.value.result
 
 
 def bag_file(folder: Path, row: int) -> Path:
-    """Return the bag of a row in a folder of results."""
+    """Return the path of a row's bag in a folder of results."""
     return folder / "bags" / f"row_{row}.bag"

@@ -1,7 +1,7 @@
 """Properties of a world by path, such as `models/rp2w/links/chassis/inertial/mass`.
 
-A part of a path is a field, or the name of one of the things that a field lists, * for all of them. Short names stand
-for fields in which the file and the structs differ.
+A part of a path is a field, or the name of an element of a list, or * for all its elements. Aliases exist for fields
+whose names differ between files and structs.
 """
 
 from collections.abc import Sequence
@@ -33,15 +33,15 @@ _COMPONENTS = {3: _XYZ, 4: ("r", "g", "b", "a")}
 
 
 def is_property(name: str) -> bool:
-    """Return True if a varied quantity is a property; else it is a name of the plan's own."""
+    """True if a varied quantity is a property; False if it is a name defined by the plan."""
     return "/" in name or name == TIME_STEP
 
 
 def with_property(world: _T, path: str, value: Value) -> _T:
-    """Return the world with another value of a property; what does not change is shared.
+    """Return the world with another value of a property; unchanged parts are shared.
 
     Raises:
-        UsageError: no such property; the message lists what is there. Or a value of another kind.
+        UsageError: unknown property, with the properties available, or a value of another type.
     """
     parts = path.strip("/").split("/")
     return cast(_T, _Path(path, value).replaced(world, parts, 0))
@@ -52,16 +52,16 @@ class _Path:
         self._path = path
         self._value = value
 
-    def _fail(self, parts: Sequence[str], depth: int, there: Sequence[str]) -> UsageError:
-        where = "/".join(parts[:depth]) or "the world"
-        near = nearest(parts[depth], there) if len(there) > 1 else None
-        said = f"; the nearest is {near!r}" if near else ""
+    def _fail(self, parts: Sequence[str], depth: int, available: Sequence[str]) -> UsageError:
+        owner_path = "/".join(parts[:depth]) or "the world"
+        closest = nearest(parts[depth], available) if len(available) > 1 else None
+        hint = f"; the nearest is {closest!r}" if closest else ""
         return UsageError(
-            f"{self._path}: {where} has no {parts[depth]!r}{said}; it has: {', '.join(there) or 'nothing'}"
+            f"{self._path}: {owner_path} has no {parts[depth]!r}{hint}; it has: {', '.join(available) or 'nothing'}"
         )
 
     def replaced(self, owner: object, parts: list[str], depth: int) -> object:
-        """Return `owner` with the value at the rest of the path."""
+        """Return `owner` with the value at the remaining path."""
         if depth == len(parts):
             return self._converted(owner)
         part = parts[depth]
@@ -69,7 +69,7 @@ class _Path:
             return self._pose(owner, parts, depth)
         if isinstance(owner, Struct):
             return self._struct(owner, parts, depth)
-        if isinstance(owner, tuple) and owner and all(isinstance(each, Struct) for each in owner):
+        if isinstance(owner, tuple) and owner and all(isinstance(part_value, Struct) for part_value in owner):
             return self._listed(owner, parts, depth)
         if isinstance(owner, tuple) and len(owner) in _COMPONENTS:
             names = _COMPONENTS[len(owner)]
@@ -100,25 +100,25 @@ class _Path:
         part = parts[depth]
         if part == "*":
             return self._everywhere(owner, parts, depth + 1)
-        names = [str(getattr(each, "name", i)) for i, each in enumerate(owner)]
+        names = [str(getattr(item, "name", i)) for i, item in enumerate(owner)]
         if part not in names:
             raise self._fail(parts, depth, [*names, "*"])
         at = names.index(part)
         return (*owner[:at], self.replaced(owner[at], parts, depth + 1), *owner[at + 1 :])
 
     def _everywhere(self, owners: tuple[Any, ...], parts: list[str], depth: int) -> tuple[object, ...]:
-        """Replace the value in all that have it, such as the joints with an axis; at least one must."""
-        found: list[object] = []
+        """Replace the value in every element that has the property; at least one must have it."""
+        replaced: list[object] = []
         missing: UsageError | None = None
         for owner in owners:
             try:
-                found.append(self.replaced(owner, parts, depth))
+                replaced.append(self.replaced(owner, parts, depth))
             except UsageError as error:
-                found.append(owner)
+                replaced.append(owner)
                 missing = error
-        if missing is not None and all(old is new for old, new in zip(owners, found, strict=True)):
+        if missing is not None and all(old is new for old, new in zip(owners, replaced, strict=True)):
             raise missing
-        return tuple(found)
+        return tuple(replaced)
 
     def _pose(self, pose: Pose, parts: list[str], depth: int) -> Pose:
         if parts[depth] not in _POSE or depth + 1 != len(parts):
@@ -129,7 +129,7 @@ class _Path:
         return Pose.from_rpy(*numbers)
 
     def _converted(self, before: object) -> object:
-        """Return the value, of the kind of the one it replaces."""
+        """Return the value, converted to the type of the one that it replaces."""
         value = self._value
         if isinstance(before, bool):
             return value if isinstance(value, bool) else self._refuse("true or false")
@@ -144,20 +144,20 @@ class _Path:
             return Pose.from_rpy(*self._numbers(6, "[x, y, z, roll, pitch, yaw]"))
         if isinstance(before, tuple) and len(before) in _COMPONENTS:
             return self._numbers(len(before), f"[{', '.join(_COMPONENTS[len(before)])}]")
-        there = _names(before) if isinstance(before, Struct) else ()
-        named = [str(getattr(each, "name", "")) for each in before] if isinstance(before, tuple) else there
-        raise UsageError(f"{self._path} is no single value; go on with one of: {', '.join(named)}")
+        names = _names(before) if isinstance(before, Struct) else ()
+        available = [str(getattr(item, "name", "")) for item in before] if isinstance(before, tuple) else names
+        raise UsageError(f"{self._path} is no single value; go on with one of: {', '.join(available)}")
 
     def _numbers(self, count: int, form: str) -> tuple[float, ...]:
         parts = self._value if isinstance(self._value, tuple) else ()
-        numbers = [float(each) for each in parts if isinstance(each, int | float) and not isinstance(each, bool)]
+        numbers = [float(part) for part in parts if isinstance(part, int | float) and not isinstance(part, bool)]
         return tuple(numbers) if len(numbers) == len(parts) == count else self._refuse(form)
 
-    def _refuse(self, wanted: str) -> Any:
-        raise UsageError(f"{self._path} must be {wanted}, not {self._value!r}")
+    def _refuse(self, expected: str) -> Any:
+        raise UsageError(f"{self._path} must be {expected}, not {self._value!r}")
 
 
 def _names(owner: Struct) -> list[str]:
-    """Return what a path may go on with."""
+    """Return the names with which a path may continue."""
     names = ["pose" if name in _POSES else name for name in owner.__struct_fields__ if name not in ("at", "name")]
     return sorted({*names, *(["friction"] if "surface" in names or "mu2" in names else [])})

@@ -1,4 +1,4 @@
-"""Regression test of a plan: every run of it must be ok."""
+"""Regression test of a plan: all its runs must be ok."""
 
 import tempfile
 import time
@@ -10,14 +10,14 @@ from .plan import Plan
 from .run_sweep import SweepResult, sweep
 
 _SHOWN = 20
-"""Most runs that a message lists."""
+"""Maximum runs listed in a message."""
 
 
 def run_plan_test(plan: Plan, *, junit: Path | None) -> int:
-    """Run a plan from its beginning, as `trundle test` does; return 0: all runs are ok, 2: one is not, 130: Ctrl-C.
+    """Run a whole plan for `trundle test`; return 0: all runs are ok, 2: one is not, 130: Ctrl-C.
 
     Args:
-        plan: as read.
+        plan: plan to test.
         junit: JUnit XML file to write, with a case for each run.
 
     Raises:
@@ -39,11 +39,11 @@ def run_plan_test(plan: Plan, *, junit: Path | None) -> int:
 
 
 def plan_problems(plan: Plan, folder: Path) -> tuple[SweepResult, str | None]:
-    """Run a plan; return its results and, unless every run is ok, a text about those that are not.
+    """Run a plan; return its results, and a message about the runs that are not ok, or None.
 
     Args:
-        plan: as read.
-        folder: of the results.
+        plan: plan to test.
+        folder: folder of the results.
 
     Raises:
         TrundleError: the plan cannot be run.
@@ -57,7 +57,7 @@ def plan_problems(plan: Plan, folder: Path) -> tuple[SweepResult, str | None]:
 
 
 def verdict(plan: Plan, result: SweepResult, cases: tuple[CaseResult, ...]) -> str:
-    """Return the number of runs that are ok, and the first that are not with their reasons."""
+    """Return a message with the number of ok runs, and the first others with their reasons."""
     failed = [case for case in cases if case.problem]
     lines = [f"{plan.file}: ok in {result.counts.get('ok', 0):,} of {result.total:,} variations"]
     lines += [f"  {case.name}: {case.problem}" for case in failed[:_SHOWN]]

@@ -1,4 +1,4 @@
-"""`trundle sweep PLAN --row N`: one run again, in the browser or without."""
+"""`trundle sweep PLAN --row N`: repetition of one run, optionally in the browser."""
 
 from trundle.base.console import say
 from trundle.base.http.page_address import PageAddress
@@ -12,15 +12,15 @@ from .shown_world import show_world
 
 
 def replay(plan: Plan, number: int, at: PageAddress | None) -> int:
-    """Run a row again and print its values and its result; return the exit code, 130 after a page's Ctrl-C.
+    """Run a row again and print its values and result; return the exit code, 130 after Ctrl-C with a page.
 
     Args:
-        plan: as read.
-        number: of the row.
+        plan: plan of the sweep.
+        number: row number.
         at: address of the page; None: no page.
 
     Raises:
-        TrundleError: there is no such row, or its world cannot be read.
+        TrundleError: no such row, or its world cannot be read.
     """
     row, runner = Rows(plan).row(number), runner_of(plan)
     say("\n".join([f"row {number}: seed {row.seed}", *(f"  {name} = {value}" for name, value in row.values.items())]))

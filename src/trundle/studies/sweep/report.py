@@ -1,4 +1,4 @@
-"""`trundle sweep report`: one HTML file that opens alone."""
+"""`trundle sweep report`: a self-contained HTML file."""
 
 from collections import Counter
 from html import escape
@@ -30,11 +30,11 @@ def write_report(plan: Plan, *, output: Path | None = None) -> Path:
     """Write the report of a plan's results, `report.html` in their folder; return its path.
 
     Args:
-        plan: as read.
-        output: folder of the results; None: beside the plan.
+        plan: plan of the sweep.
+        output: folder of the results; None: next to the plan.
 
     Raises:
-        UsageError: there are no results of this plan.
+        UsageError: the plan has no results.
     """
     folder, rows = results_folder(plan, output), Rows(plan)
     if not folder.is_dir():
@@ -53,7 +53,7 @@ class _Report:
         self._plan = plan
         self._rows = rows
         self._table = table
-        self._measures = {each.name: numbers(table[each.name]) for each in plan.measures}
+        self._measures = {measure.name: numbers(table[measure.name]) for measure in plan.measures}
         self._is_ok: NDArray[np.bool_] = np.array(
             [status == "ok" for status in table["status"].to_pylist()], dtype=bool
         )
@@ -79,9 +79,9 @@ class _Report:
         done, total = self._table.num_rows, len(self._rows)
         of = f"{done} runs" if done == total else f"{done} of {total} runs so far"
         world = escape(Path(self._plan.world).name or self._plan.world)
-        said = f"{of} of {self._plan.duration_s:g} s of {world}, seed {self._plan.seed}"
+        summary = f"{of} of {self._plan.duration_s:g} s of {world}, seed {self._plan.seed}"
         table = f"<table class='reasons'><tr><th>runs</th><th>reason</th></tr>{listed}</table>" if listed else ""
-        return f'<h1>{escape(Path(self._plan.file).name)}</h1><p>{said}</p><ul class="counts">{cards}</ul>{table}'
+        return f'<h1>{escape(Path(self._plan.file).name)}</h1><p>{summary}</p><ul class="counts">{cards}</ul>{table}'
 
     def _distributions(self) -> str:
         charts = "".join(
@@ -92,61 +92,61 @@ class _Report:
         return f'<h2>Distributions</h2><div class="grid">{charts}</div>' if charts else ""
 
     def _importance(self) -> str:
-        varied = [each.name for each in self._plan.vary]
+        varied = [variation.name for variation in self._plan.vary]
         targets = {name: values for name, values in self._measures.items() if values is not None}
         if not self._is_ok.all() and self._is_ok.any():
             targets = {"ok": self._is_ok.astype(float), **targets}
         sections: list[str] = []
         for target, values in targets.items():
-            found = [(name, rank_correlation(self._table[name], values)) for name in varied]
-            known = [(abs(value), name) for name, value in found if value is not None]
-            if not known:
+            correlations = [(name, rank_correlation(self._table[name], values)) for name in varied]
+            strengths = [(abs(value), name) for name, value in correlations if value is not None]
+            if not strengths:
                 continue
-            drawn = "" if target == "ok" else self._drawn_over(max(known)[1], target, values)
-            bars = correlation_bars(found)
+            drawn = "" if target == "ok" else self._drawn_over(max(strengths)[1], target, values)
+            bars = correlation_bars(correlations)
             sections.append(f"<figure><figcaption>{escape(target)}</figcaption>{bars}{drawn}</figure>")
         if not sections:
             return ""
-        said = "Rank correlation of each varied value with each measure: ±1 decides it alone, 0 does not matter."
-        return f'<h2>What matters</h2><p>{said}</p><div class="grid">{"".join(sections)}</div>'
+        intro = "Rank correlation of each varied value with each measure: ±1 decides it alone, 0 does not matter."
+        return f'<h2>What matters</h2><p>{intro}</p><div class="grid">{"".join(sections)}</div>'
 
     def _drawn_over(self, varied: str, target: str, values: NDArray[np.float64]) -> str:
-        """Draw a measure over the varied value that matters most to it; text has no order."""
+        """Draw a measure over its most influential varied value, unless that is text."""
         over = numbers(self._table[varied])
         if over is None:
             return ""
-        variation = next(each for each in self._plan.vary if each.name == varied)
+        variation = next(candidate for candidate in self._plan.vary if candidate.name == varied)
         is_log = variation.distribution is not None and variation.distribution.kind == "log_uniform"
-        said = f"{breakable(target)} over {breakable(varied)}{' (logarithmic)' if is_log else ''}"
-        return f"<p>{said}</p>{scatter(over, values, self._is_ok, is_log=is_log)}"
+        caption = f"{breakable(target)} over {breakable(varied)}{' (logarithmic)' if is_log else ''}"
+        return f"<p>{caption}</p>{scatter(over, values, self._is_ok, is_log=is_log)}"
 
     def _worst(self) -> str:
         runner = runner_of(self._plan)
-        place = {row: i for i, row in enumerate(self._table["row"].to_pylist())}
+        index = {row: i for i, row in enumerate(self._table["row"].to_pylist())}
         cards: list[str] = []
         for number in worst_rows(self._table, list(self._measures), _WORST):
-            row, found = self._rows.row(number), self._table.slice(place[number], 1).to_pylist()[0]
+            row, record = self._rows.row(number), self._table.slice(index[number], 1).to_pylist()[0]
             picture = None
-            if isinstance(runner, RowRunner) and found["status"] in ("ok", "failed", "error"):
+            if isinstance(runner, RowRunner) and record["status"] in ("ok", "failed", "error"):
                 picture = end_picture(self._plan, runner, row)
             image = f'<img src="{picture}" alt="row {number} at its end">' if picture else ""
-            values = {name: found[name] for name in (*row.values, *self._measures)}
+            values = {name: record[name] for name in (*row.values, *self._measures)}
             cells = "".join(
                 f"<tr><th>{breakable(name)}</th><td>{_text(value)}</td></tr>" for name, value in values.items()
             )
-            said = escape(found["reason"] or found["status"])
+            reason = escape(record["reason"] or record["status"])
             again = f"<code>trundle sweep {escape(Path(self._plan.file).name)} --row {number}</code>"
-            caption = f'<figcaption>row {number}: <span class="{found["status"]}">{said}</span></figcaption>'
+            caption = f'<figcaption>row {number}: <span class="{record["status"]}">{reason}</span></figcaption>'
             cards.append(f"<figure>{caption}{image}<table>{cells}</table>{again}</figure>")
-        said = "Runs that are not ok first; among those, the ones farthest from the median of a measure."
-        return f'<h2>Worst runs</h2><p>{said}</p><div class="grid">{"".join(cards)}</div>'
+        intro = "Runs that are not ok first; among those, the ones farthest from the median of a measure."
+        return f'<h2>Worst runs</h2><p>{intro}</p><div class="grid">{"".join(cards)}</div>'
 
 
 def _spread(values: NDArray[np.float64]) -> str:
-    found = values[np.isfinite(values)]
-    if not len(found):
+    finite = values[np.isfinite(values)]
+    if not len(finite):
         return ""
-    low, middle, high = np.percentile(found, [5, 50, 95]).tolist()
+    low, middle, high = np.percentile(finite, [5, 50, 95]).tolist()
     return f"<small>median {middle:.4g}, 90 % from {low:.4g} to {high:.4g}</small>"
 
 

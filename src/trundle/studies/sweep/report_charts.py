@@ -1,4 +1,4 @@
-"""Charts of a sweep's report, as SVG that takes its colours from the page."""
+"""Charts of a sweep's report, as SVG with the page's colors."""
 
 from collections.abc import Sequence
 from html import escape
@@ -15,9 +15,9 @@ _MAX_POINTS = 2000
 
 
 def histogram(values: NDArray[np.float64], is_ok: NDArray[np.bool_]) -> str:
-    """Draw the distribution of (rows,) values; the part of the runs that are not ok stands out."""
-    found = np.isfinite(values)
-    values, is_ok = values[found], is_ok[found]
+    """Draw the distribution of (rows,) values; runs that are not ok have another color."""
+    finite = np.isfinite(values)
+    values, is_ok = values[finite], is_ok[finite]
     if not len(values):
         return "<p>no run has a value</p>"
     low, high = float(values.min()), float(values.max())
@@ -30,9 +30,9 @@ def histogram(values: NDArray[np.float64], is_ok: NDArray[np.bool_]) -> str:
     bars: list[str] = []
     for i, (all_of, good) in enumerate(zip(total.tolist(), ok.tolist(), strict=True)):
         x = _LEFT + i * width
-        said = f"<title>{edges[i]:.4g} to {edges[i + 1]:.4g}: {all_of} runs, {all_of - good} not ok</title>"
-        bars.append(_bar(x, base - good * scale, width, good * scale, "ok", said))
-        bars.append(_bar(x, base - all_of * scale, width, (all_of - good) * scale, "bad", said))
+        tooltip = f"<title>{edges[i]:.4g} to {edges[i + 1]:.4g}: {all_of} runs, {all_of - good} not ok</title>"
+        bars.append(_bar(x, base - good * scale, width, good * scale, "ok", tooltip))
+        bars.append(_bar(x, base - all_of * scale, width, (all_of - good) * scale, "bad", tooltip))
     shown = across if high > low else Axis(low, low, across.first, across.last)
     counts = [tick for tick in up.ticks(_TICKS_Y) if tick == round(tick)]
     title = f"{len(values)} runs from {low:.4g} to {high:.4g}"
@@ -43,34 +43,34 @@ def scatter(x: NDArray[np.float64], y: NDArray[np.float64], is_ok: NDArray[np.bo
     """Draw (rows,) values against others; at most 2,000 evenly chosen points.
 
     Args:
-        x: values along the width.
-        y: values along the height.
-        is_ok: of each row.
-        is_log: draw `x` by its logarithm.
+        x: values on the horizontal axis.
+        y: values on the vertical axis.
+        is_ok: (rows,) True for runs that are ok.
+        is_log: True for a logarithmic horizontal axis.
     """
-    found = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
-    found = found[:: max(-(-len(found) // _MAX_POINTS), 1)]
-    if not len(found):
+    rows = np.flatnonzero(np.isfinite(x) & np.isfinite(y))
+    rows = rows[:: max(-(-len(rows) // _MAX_POINTS), 1)]
+    if not len(rows):
         return ""
-    across = axis_of(x[found], _LEFT + 3, _WIDTH - _RIGHT, is_log=is_log)
-    up = axis_of(y[found], _HEIGHT - _BOTTOM - 3, _TOP + 3)
+    across = axis_of(x[rows], _LEFT + 3, _WIDTH - _RIGHT, is_log=is_log)
+    up = axis_of(y[rows], _HEIGHT - _BOTTOM - 3, _TOP + 3)
     points = [
         f'<circle class="{"ok" if good else "bad"}" cx="{a:.1f}" cy="{b:.1f}" r="2"/>'
-        for a, b, good in zip(across.place(x[found]), up.place(y[found]), is_ok[found], strict=True)
+        for a, b, good in zip(across.coordinates(x[rows]), up.coordinates(y[rows]), is_ok[rows], strict=True)
     ]
     levels, scale = _levels(up, up.ticks(_TICKS_Y)), _scale(across, across.ticks(_TICKS_X))
-    return _svg([*levels, *points, *scale], f"{len(found)} points")
+    return _svg([*levels, *points, *scale], f"{len(rows)} points")
 
 
 def correlation_bars(rows: Sequence[tuple[str, float | None]]) -> str:
-    """Draw rank correlations, the strongest first."""
-    strongest = sorted(rows, key=lambda each: -abs(each[1] or 0.0))
+    """Draw rank correlations, strongest first."""
+    strongest = sorted(rows, key=lambda item: -abs(item[1] or 0.0))
     lines: list[str] = []
     for name, value in strongest:
-        share = 50 * abs(value or 0.0)
-        left = 50 - share if (value or 0.0) < 0 else 50
+        percent = 50 * abs(value or 0.0)
+        left = 50 - percent if (value or 0.0) < 0 else 50
         number = "constant" if value is None else f"{value:+.2f}"
-        bar = f'<span class="bar"><i style="left:{left:.1f}%;width:{share:.1f}%"></i></span>'
+        bar = f'<span class="bar"><i style="left:{left:.1f}%;width:{percent:.1f}%"></i></span>'
         lines.append(f"<tr><th>{breakable(name)}</th><td>{bar}</td><td>{number}</td></tr>")
     return f'<table class="correlations">{"".join(lines)}</table>'
 
@@ -80,35 +80,35 @@ def breakable(name: str) -> str:
     return escape(name).replace("/", "/<wbr>")
 
 
-def _bar(x: float, y: float, width: float, height: float, kind: str, said: str) -> str:
+def _bar(x: float, y: float, width: float, height: float, kind: str, tooltip: str) -> str:
     if not height:
         return ""
-    box = f'x="{x + 0.5:.1f}" y="{y:.1f}" width="{max(width - 1, 0.5):.1f}" height="{height:.1f}"'
-    return f'<rect class="{kind}" {box}>{said}</rect>'
+    attributes = f'x="{x + 0.5:.1f}" y="{y:.1f}" width="{max(width - 1, 0.5):.1f}" height="{height:.1f}"'
+    return f'<rect class="{kind}" {attributes}>{tooltip}</rect>'
 
 
 def _scale(axis: Axis, ticks: list[float]) -> list[str]:
-    """Draw the axis below."""
+    """Draw the horizontal axis."""
     y = _HEIGHT - _BOTTOM
-    places = axis.place(np.array(ticks))
+    coordinates = axis.coordinates(np.array(ticks))
     return [
         f'<line x1="{_LEFT}" y1="{y}" x2="{_WIDTH - _RIGHT}" y2="{y}"/>',
-        *(f'<line x1="{x:.1f}" y1="{y}" x2="{x:.1f}" y2="{y + 3}"/>' for x in places),
+        *(f'<line x1="{x:.1f}" y1="{y}" x2="{x:.1f}" y2="{y + 3}"/>' for x in coordinates),
         *(
             f'<text x="{x:.1f}" y="{_HEIGHT - 5}" text-anchor="middle">{text}</text>'
-            for x, text in zip(places, tick_texts(ticks), strict=True)
+            for x, text in zip(coordinates, tick_texts(ticks), strict=True)
         ),
     ]
 
 
 def _levels(axis: Axis, ticks: list[float]) -> list[str]:
-    """Draw lines across at the ticks of the axis on the left."""
-    places = axis.place(np.array(ticks))
+    """Draw horizontal lines at the ticks of the left axis."""
+    coordinates = axis.coordinates(np.array(ticks))
     return [
-        *(f'<line class="level" x1="{_LEFT}" y1="{y:.1f}" x2="{_WIDTH - _RIGHT}" y2="{y:.1f}"/>' for y in places),
+        *(f'<line class="level" x1="{_LEFT}" y1="{y:.1f}" x2="{_WIDTH - _RIGHT}" y2="{y:.1f}"/>' for y in coordinates),
         *(
             f'<text x="{_LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">{text}</text>'
-            for y, text in zip(places, tick_texts(ticks), strict=True)
+            for y, text in zip(coordinates, tick_texts(ticks), strict=True)
         ),
     ]
 

@@ -1,4 +1,4 @@
-"""Pictures of runs at their end, by Trundle's own renderer."""
+"""Pictures of runs at their end."""
 
 import base64
 import io
@@ -20,13 +20,13 @@ from .rows import Row
 
 _SIZE = (480, 320)
 _SAMPLES = 2
-"""Supersampling per axis, against jagged edges."""
+"""Supersampling per axis, for antialiasing."""
 
 
 def end_picture(plan: Plan, runner: RowRunner, row: Row) -> str | None:
-    """Run a row again and return a picture of its end as a data URI; None if there is nothing to be seen.
+    """Run a row again and return a picture of its end as a data URI; None if nothing is visible.
 
-    The view holds its start, too.
+    The view also contains its start.
     """
     try:
         with runner.start(row) as run:
@@ -46,7 +46,7 @@ def end_picture(plan: Plan, runner: RowRunner, row: Row) -> str | None:
             lens = Intrinsics(
                 width_px=width, height_px=height, horizontal_fov_rad=FIELD_OF_VIEW, near_m=0.01, far_m=1000.0
             )
-            corners = np.concatenate([scene_corners(scene, each) for each in (start, poses)])
+            corners = np.concatenate([scene_corners(scene, state) for state in (start, poses)])
             eye = three_quarter_pose(corners, lens)
             picture = renderer.render([(eye, lens)], depth=False, segmentation=False)[0]
     except TrundleError:

@@ -1,8 +1,8 @@
 """Results of a sweep on disk.
 
-A row is added to `journal.jsonl` as it comes. Rows of consecutive numbers become a row group, a Parquet file of its
-own, as soon as the last of them is there; at the end the groups become `results.parquet`. Each step leaves the folder
-so that a killed sweep goes on from it, and the final table does not depend on the order in which rows came.
+Each result is appended to `journal.jsonl`. Complete groups of consecutive rows become row groups, in a Parquet file
+each; at the end the groups become `results.parquet`. A killed sweep resumes from any state of the folder, and the final
+table does not depend on the order of the results.
 """
 
 import json
@@ -20,7 +20,7 @@ from .row_result import RowResult
 from .table import Table
 
 GROUP_ROWS = 1000
-"""Rows of a row group."""
+"""Rows per row group."""
 _JOURNAL, _GROUPS, _PLAN, RESULTS = "journal.jsonl", "groups", "plan.json", "results.parquet"
 
 
@@ -30,15 +30,15 @@ class Results:
     def __init__(
         self, folder: Path, table: Table, *, rows: int, digest: str, text: str, device: str | None = None
     ) -> None:
-        """Open a folder; what is there of the same plan counts.
+        """Open a folder, with existing results of the same plan.
 
         Args:
-            folder: made if it is not there.
-            table: its columns.
+            folder: folder, created if missing.
+            table: columns of the results.
             rows: number of rows.
-            digest: of everything that the results depend on.
-            text: of the plan, kept beside its results.
-            device: that runs the rows; None: whichever did, to read them.
+            digest: digest of all inputs of the results.
+            text: text of the plan, saved with the results.
+            device: device that runs the rows; None: any, for reading.
 
         Raises:
             UsageError: the folder has the results of another plan or device, or cannot be written.
@@ -53,7 +53,7 @@ class Results:
         self._check_plan(digest, text, device)
         self._waiting: dict[int, dict[int, RowResult]] = {}
         """Group → its rows in the journal."""
-        self._full = {int(each.stem) for each in (folder / _GROUPS).glob("*.parquet")}
+        self._full = {int(file.stem) for file in (folder / _GROUPS).glob("*.parquet")}
         self.counts: dict[str, int] = {}
         """Status → number of rows."""
         self.is_complete = (folder / RESULTS).exists()
@@ -67,20 +67,20 @@ class Results:
         self._journal: IO[bytes] | None = None
 
     def _check_plan(self, digest: str, text: str, device: str | None) -> None:
-        path, now = self.folder / _PLAN, {"digest": digest, "rows": self._rows}
+        path, expected = self.folder / _PLAN, {"digest": digest, "rows": self._rows}
         if not path.exists():
-            write_atomically(path, json.dumps({**now, "device": device, "text": text}))
+            write_atomically(path, json.dumps({**expected, "device": device, "text": text}))
             return
-        found = json.loads(path.read_text(encoding="utf-8"))
-        if {key: value for key, value in found.items() if key in now} != now:
-            what = "has the results of another plan, or the plan or its world has changed since"
-            raise UsageError(f"{self.folder} {what}; give another folder with -o, or delete this one")
-        before = found.get("device")
+        saved = json.loads(path.read_text(encoding="utf-8"))
+        if {key: value for key, value in saved.items() if key in expected} != expected:
+            reason = "has the results of another plan, or the plan or its world has changed since"
+            raise UsageError(f"{self.folder} {reason}; give another folder with -o, or delete this one")
+        before = saved.get("device")
         if None not in (before, device) and before != device:
             raise UsageError(f"{self.folder} has rows that ran on {before!r}; give another folder with -o")
 
     def _read_journal(self) -> None:
-        """Read the journal; a line that a kill cut short is left out, and its row is run again."""
+        """Read the journal; an incomplete last line is removed, and its row is run again."""
         path = self.folder / _JOURNAL
         data = path.read_bytes() if path.exists() else b""
         whole = data[: data.rfind(b"\n") + 1]
@@ -115,7 +115,7 @@ class Results:
                 yield row
 
     def add(self, result: RowResult) -> None:
-        """Add a row; once this returns a kill does not lose it."""
+        """Add a result, which from then on survives a kill."""
         if self._journal is None:
             self._journal = (self.folder / _JOURNAL).open("ab", buffering=0)
         self._journal.write(msgspec_json.encode(result) + b"\n")
@@ -125,10 +125,10 @@ class Results:
         self._write_if_full(group)
 
     def _write_if_full(self, group: int) -> None:
-        found = self._waiting[group]
-        if len(found) < min(GROUP_ROWS, self._rows - group * GROUP_ROWS):
+        rows = self._waiting[group]
+        if len(rows) < min(GROUP_ROWS, self._rows - group * GROUP_ROWS):
             return
-        self._table.write(self._group_file(group), [found[row] for row in sorted(found)])
+        self._table.write(self._group_file(group), [rows[row] for row in sorted(rows)])
         self._full.add(group)
         del self._waiting[group]
 
@@ -136,7 +136,7 @@ class Results:
         return self.folder / _GROUPS / f"{group:06}.parquet"
 
     def close(self) -> None:
-        """Close the journal; if every row is there, join the groups to the final table and remove what it replaces."""
+        """Close the journal; if all rows have results, join the groups into the final table and remove them."""
         if self._journal is not None:
             self._journal.close()
             self._journal = None
@@ -147,7 +147,7 @@ class Results:
         self._remove_parts()
 
     def _remove_parts(self) -> None:
-        """Remove what the final table replaces."""
+        """Remove the journal and the groups."""
         (self.folder / _JOURNAL).unlink(missing_ok=True)
         shutil.rmtree(self.folder / _GROUPS, ignore_errors=True)
 

@@ -1,4 +1,4 @@
-"""Outcome of one run."""
+"""Result of a run."""
 
 from typing import Literal
 
@@ -8,12 +8,12 @@ Status = Literal["ok", "failed", "error", "timeout", "memory", "lost"]
 
 
 class RowResult(Struct, frozen=True, omit_defaults=True):
-    """Outcome of a run."""
+    """Result of a run."""
 
     row: int
     status: Status = "ok"
-    """"failed": a criterion is not met; "lost": its process ended twice."""
+    """"failed": a criterion is violated; "lost": the run's process ended twice."""
     reason: str = ""
     time: float | None = None
-    """Simulation time at its end [s]."""
+    """Simulation time at the end [s]."""
     measures: dict[str, float | str | None] = field(default_factory=dict[str, "float | str | None"])

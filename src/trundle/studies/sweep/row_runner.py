@@ -1,4 +1,4 @@
-"""Runs of single rows: the row's world, its events, its result."""
+"""Runner of a world plan's rows."""
 
 import os
 from collections.abc import Callable, Mapping
@@ -30,29 +30,29 @@ from .state_names import StateExpressions
 from .topics import TopicReader, topics_of
 
 _MAX_WORLDS = 8
-"""Most worlds kept, one for each set of xacro arguments."""
+"""Maximum worlds cached, one per set of xacro arguments."""
 _RECORD_NS = NS_PER_S // 100
 """Resolution of the stamps in bags."""
 
 
-class RowOutcome(Struct, frozen=True):
-    """Result of a run, and the bag of its last seconds if it is kept."""
+class RowOutput(Struct, frozen=True):
+    """Result of a run, and the bag of its last seconds, if any."""
 
     result: RowResult
     bag: bytes | None = None
 
 
 class RowRun:
-    """Simulation of one row, in which its events happen."""
+    """Simulation of one row, with its events."""
 
     def __init__(self, simulation: LoadedSimulation, script: RunScript, recorder: StepRecorder | None) -> None:
-        """Take a simulation at time zero; the recorder of its topics is closed with it."""
+        """Wrap a simulation at time zero; the recorder of its topics is closed with it."""
         self.simulation = simulation
         self.script = script
         self._recorder = recorder
 
     def advance(self, until_ns: int) -> None:
-        """See `Simulation.advance`; the run ends where a stop condition is true."""
+        """Advance as `Simulation.advance`, at most until a stop condition is true."""
         simulation = self.simulation
         while simulation.time_ns < until_ns and not self.script.is_over:
             due_ns = self.script.next_ns
@@ -80,7 +80,7 @@ class RowRun:
 
 
 class RowRunner:
-    """Runs rows of a plan one after the other; worlds are read once and compiled models kept."""
+    """Runner of a plan's rows, one after the other; worlds and compiled models are cached."""
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
@@ -91,7 +91,7 @@ class RowRunner:
         self._compiler = Recompiler()
 
     def run(self, row: Row) -> RowResult:
-        """Run a row to its end; what goes wrong is in its result."""
+        """Run a row to its end; errors are in its result."""
         time_s: float | None = None
         try:
             with self.start(row) as run:
@@ -104,7 +104,7 @@ class RowRunner:
             return RowResult(row.number, "error", str(error), time_s)
 
     def result(self, row: Row, run: RowRun) -> RowResult:
-        """Return the result of a run that has come to its end."""
+        """Return the result of a completed run."""
         simulation = run.simulation
         time_s = simulation.time_ns / NS_PER_S
         try:
@@ -129,10 +129,10 @@ class RowRunner:
             return file.read_bytes() if file.exists() else None
 
     def check(self, row: Row) -> list[str]:
-        """Evaluate everything once at the start of a row; return warnings, of which a world has none.
+        """Check all expressions and events at the start of a row; return warnings, none for a world.
 
         Raises:
-            TrundleError: the plan cannot be run; with its line.
+            TrundleError: the plan cannot be run, with its line.
         """
         assigned = assignments_of(self._plan, row, self._expressions)
         for name in assigned.parameters:
@@ -147,12 +147,12 @@ class RowRunner:
         """Return the run of a row at time zero, with its events.
 
         Args:
-            row: its values.
-            record: bag of its topics; None: there is none.
+            row: row to run.
+            record: path of the bag of its topics; None: no bag.
             from_ns: time at which the bag begins [ns].
 
         Raises:
-            TrundleError: its world cannot be read or simulated.
+            TrundleError: the world cannot be read or simulated.
         """
         report = Diagnostics()
         loaded = self.load(row)
@@ -163,8 +163,8 @@ class RowRunner:
 
         def start_bag(loop: GraphLoop) -> None:
             if record is not None:
-                kept_out = self._plan.bag_without
-                recorder = StepRecorder(loop, record, on_failure=_leave_out, from_ns=from_ns, without_types=kept_out)
+                without_types = self._plan.bag_without
+                recorder = StepRecorder(loop, record, on_failure=_leave_out, from_ns=from_ns, without_types=without_types)
                 recorders.append(recorder)
 
         try:
@@ -180,10 +180,10 @@ class RowRunner:
         return RowRun(simulation, script, next(iter(recorders), None))
 
     def inputs(self, row: Row) -> RunInputs:
-        """Return what a row depends on.
+        """Return the inputs of a row.
 
         Raises:
-            TrundleError: its world cannot be read.
+            TrundleError: the world cannot be read.
         """
         return RunInputs(worlds=(self._assigned_base(assignments_of(self._plan, row, self._expressions)).nested,))
 
@@ -191,13 +191,13 @@ class RowRunner:
         """Return the world of a row.
 
         Raises:
-            TrundleError: it cannot be read, or has no such property.
+            TrundleError: the world cannot be read, or has no such property.
         """
         assigned = assignments_of(self._plan, row, self._expressions)
         base = self._assigned_base(assigned)
         world = base.flat
-        for each in assigned.properties:
-            world = each.assigned(world)
+        for property_ in assigned.properties:
+            world = property_.assigned(world)
         return replace(base, flat=world)
 
     def _assigned_base(self, assigned: Assignments) -> LoadedWorld:
@@ -206,23 +206,23 @@ class RowRunner:
 
     def _base(self, arguments: Mapping[str, str]) -> LoadedWorld:
         key = tuple(sorted(arguments.items()))
-        found = self._worlds.pop(key, None)
-        if found is None:
+        world = self._worlds.pop(key, None)
+        if world is None:
             packages = Packages(dict(os.environ), start=Path.cwd())
             try:
-                found = load_world(self._plan.world, packages, Diagnostics(), seed=self._plan.seed, arguments=arguments)
+                world = load_world(self._plan.world, packages, Diagnostics(), seed=self._plan.seed, arguments=arguments)
             except DescriptionError:
                 raise
             except UsageError as error:
                 raise DescriptionError(self._plan.world_at, str(error)) from None
-        self._worlds[key] = found
+        self._worlds[key] = world
         if len(self._worlds) > _MAX_WORLDS:
             del self._worlds[next(iter(self._worlds))]
-        return found
+        return world
 
 
 def _leave_out(_why: str) -> None:
-    """Leave a bag that cannot be written out; the row's result stands."""
+    """Ignore the error of a bag that cannot be written; the row's result is valid without it."""
 
 
 def runner_of(plan: Plan) -> RowRunner | LaunchRowRunner:
@@ -230,16 +230,16 @@ def runner_of(plan: Plan) -> RowRunner | LaunchRowRunner:
     return LaunchRowRunner(plan) if plan.is_launch else RowRunner(plan)
 
 
-def run_row(plan: Plan) -> Callable[[int], RowOutcome]:
-    """Return the function that runs a row of a plan by its number."""
+def run_row(plan: Plan) -> Callable[[int], RowOutput]:
+    """Return a function that runs a row of a plan by its number."""
     rows = Rows(plan)
     runner = runner_of(plan)
 
-    def run(number: int) -> RowOutcome:
+    def run(number: int) -> RowOutput:
         row = rows.row(number)
         result = runner.run(row)
         if plan.bag_s is None or result.status == "ok":
-            return RowOutcome(result)
-        return RowOutcome(result, runner.bag(row, result))
+            return RowOutput(result)
+        return RowOutput(result, runner.bag(row, result))
 
     return run

@@ -1,7 +1,7 @@
-"""Rows of a sweep: each row's values and seed, from the plan and the row's number alone.
+"""Rows of a sweep: values and seed of each row, determined by the plan and the row's number alone.
 
-Rows count the points of the grid, at each point the samples of the distributions, and of each sample its repetitions,
-which differ in their seed only.
+The rows enumerate the points of the grid, the samples of the distributions at each point, and the repetitions of each
+sample, which differ in their seed only.
 """
 
 import math
@@ -29,7 +29,7 @@ class Row(Struct, frozen=True):
 
     number: int
     values: Mapping[str, Value]
-    """Variation → its value."""
+    """Variation → value."""
     seed: int
     """Seed of the simulation."""
 
@@ -41,11 +41,11 @@ class Rows:
         """Count the rows.
 
         Raises:
-            DescriptionError: there are too many.
+            DescriptionError: too many rows.
         """
         self._plan = plan
-        self._axes = [each for each in plan.vary if each.values and each.beside is None]
-        self._random = [each for each in plan.vary if each.distribution is not None]
+        self._axes = [variation for variation in plan.vary if variation.values and variation.paired_with is None]
+        self._random = [variation for variation in plan.vary if variation.distribution is not None]
         points = math.prod(len(axis.values) for axis in self._axes)
         self._count = points * plan.samples * plan.repetitions
         if self._count > _MAX_ROWS:
@@ -62,7 +62,7 @@ class Rows:
         """Return a row.
 
         Raises:
-            UsageError: there is no such row.
+            UsageError: no such row.
         """
         if not 0 <= number < self._count:
             raise UsageError(f"there is no row {number}; the plan has rows 0 to {self._count - 1}")
@@ -73,11 +73,11 @@ class Rows:
         for axis in reversed(self._axes):
             point, chosen[axis.name] = divmod(point, len(axis.values))
         quantiles = iter(self._quantiles(case, sample))
-        for each in self._plan.vary:
-            if each.distribution is not None:
-                values[each.name] = quantile(each.distribution, next(quantiles))
+        for variation in self._plan.vary:
+            if variation.distribution is not None:
+                values[variation.name] = quantile(variation.distribution, next(quantiles))
             else:
-                values[each.name] = each.values[chosen[each.beside or each.name]]
+                values[variation.name] = variation.values[chosen[variation.paired_with or variation.name]]
         seeds = self._plan.seeds
         drawn = np.random.SeedSequence((self._plan.seed, number)).generate_state(1)[0]
         return Row(number, values, seeds[repetition] if seeds else int(drawn))

@@ -40,12 +40,12 @@ class SweepResult:
     rate: float
     """Rows per second of wall time of this call."""
     interrupted: bool
-    """True after Ctrl-C; the same sweep goes on where it was."""
+    """True after Ctrl-C; the same sweep resumes the run."""
     _results: Results
 
     @property
     def table(self) -> Any:
-        """The `pyarrow.Table` of all rows, in the order of their numbers; `.to_pandas()` makes a data frame."""
+        """`pyarrow.Table` of all rows, sorted by number; `.to_pandas()` returns a data frame."""
         return self._results.read()
 
     @property
@@ -54,14 +54,14 @@ class SweepResult:
         return sum(self.counts.values())
 
     def summary(self) -> str:
-        """Return what came out, in one line."""
-        most_first = sorted(self.counts.items(), key=lambda each: -each[1])
-        counts = ", ".join(f"{count} {status}" for status, count in most_first)
+        """Return a summary in one line."""
+        sorted_counts = sorted(self.counts.items(), key=lambda item: -item[1])
+        counts = ", ".join(f"{count} {status}" for status, count in sorted_counts)
         return f"{self.done} of {self.total} runs: {counts or 'none'}"
 
 
 def results_folder(plan: Plan, output: Path | None) -> Path:
-    """Return the folder of a plan's results: beside its file, or as asked for."""
+    """Return the folder of a plan's results: `output`, or next to its file."""
     return output or Path(plan.file).with_suffix(".sweep")
 
 
@@ -71,10 +71,10 @@ def open_results(
     """Open the results of a plan in a folder.
 
     Args:
-        plan: as read.
-        rows: its rows.
-        folder: of the results.
-        runner: of the rows.
+        plan: plan of the sweep.
+        rows: rows of the plan.
+        folder: folder of the results.
+        runner: runner of the rows.
         device: see `Results`.
 
     Raises:
@@ -88,7 +88,7 @@ def _inputs(plan: Plan, rows: Rows, runner: RowRunner | LaunchRowRunner) -> Iter
     first, *others = argument_rows(plan, rows)
     yield runner.inputs(first)
     for row in others:
-        with suppress(TrundleError):  # the row says so
+        with suppress(TrundleError):  # the row reports it
             yield runner.inputs(row)
 
 
@@ -100,18 +100,18 @@ def sweep(
     address: str | None = None,
     device: Device = "cpu",
 ) -> SweepResult:
-    """Run the rows of a plan that have no result yet.
+    """Run the rows of a plan without a result.
 
     Args:
-        plan: as read.
-        output: folder of the results; None: beside the plan.
-        workers: number of processes; None: one for each processor.
-        address: of a Ray cluster; None: this machine, without Ray.
-        device: "cuda": a GPU steps the rows in this process, in single precision; without one a line says so, and the
-            processors run them.
+        plan: plan to run.
+        output: folder of the results; None: next to the plan.
+        workers: number of processes; None: one per processor.
+        address: address of a Ray cluster; None: this machine, without Ray.
+       device: "cuda": a GPU steps the rows in this process, in single precision; without a GPU, the processors run
+            them, and a message is printed.
 
     Raises:
-        TrundleError: the plan cannot be run, or its results not be written.
+        TrundleError: the plan cannot be run, or its results cannot be written.
     """
     check_workers(workers)
     gpu = gpu_of(plan, device, workers=workers, address=address)

@@ -1,7 +1,7 @@
 """Events, stop conditions and samples of one run.
 
-They are due at the times of the events and at multiples of the sampling period only, so that the engine steps in C in
-between; a run with a page, which is paced, does the same at the same steps.
+They are due at the times of the events and at multiples of the sampling period only, so the engine steps in C in
+between; a paced run with a page performs them at the same steps.
 """
 
 import math
@@ -32,39 +32,39 @@ class RunScript:
         """Prepare a run at time zero.
 
         Raises:
-            UsageError: an event has no such number.
+            UsageError: invalid number of an event.
         """
         self._topics = topics
         self._plan = plan
         self._values = row.values
         self._simulation = simulation
         self._expressions = expressions
-        self._events = sorted((self._event(event) for event in plan.events), key=lambda each: each[0])
+        self._events = sorted((self._event(event) for event in plan.events), key=lambda measure: measure[0])
         self._next_event = 0
         self._sampled = {
-            each.name: (each, Formula(text=each.expression, at=each.at))
-            for each in plan.measures
-            if each.expression is not None
+            measure.name: (measure, Formula(text=measure.expression, at=measure.at))
+            for measure in plan.measures
+            if measure.expression is not None
         }
-        self._is_sampled = bool(plan.stop) or any(each.over != "end" for each, _ in self._sampled.values())
+        self._is_sampled = bool(plan.stop) or any(measure.over != "end" for measure, _ in self._sampled.values())
         self._every_ns = max(round(plan.every_s * NS_PER_S), simulation.step_ns)
         self._next_sample_ns = 0 if self._is_sampled else None
-        self._found: dict[str, float] = {}
+        self._values_so_far: dict[str, float] = {}
         self._counts: dict[str, int] = {}
         """Measure → number of its samples."""
         self._sampled_ns: int | None = None
         """Time of the last sample."""
         self.is_over = False
-        """True if a stop condition is true."""
+        """True once a stop condition is true."""
 
     @property
     def next_ns(self) -> int | None:
-        """Next time at which something is due [ns]; None: at the end only."""
+        """Next time of an event or sample [ns]; None: none before the end."""
         times = [time_ns for time_ns, _ in self._events[self._next_event : self._next_event + 1]]
         return min([*times, *([] if self._next_sample_ns is None else [self._next_sample_ns])], default=None)
 
     def act(self) -> None:
-        """Perform what is due now."""
+        """Perform the events and samples due now."""
         now_ns = self._simulation.time_ns
         if self._next_sample_ns is not None and self._next_sample_ns <= now_ns:
             self._sample()
@@ -75,10 +75,10 @@ class RunScript:
                 do()
 
     def restart(self) -> None:
-        """Begin again, after the simulation was reset."""
+        """Restart after a reset of the simulation."""
         self._next_event, self.is_over = 0, False
         self._next_sample_ns = 0 if self._is_sampled else None
-        self._found.clear()
+        self._values_so_far.clear()
         self._counts.clear()
         self._sampled_ns = None
 
@@ -86,7 +86,7 @@ class RunScript:
         return state_names(self._simulation, self._values, self._topics)
 
     def _event(self, event: Event) -> tuple[int, Callable[[], None]]:
-        """Return an event's time [ns] and what it does."""
+        """Return an event's time [ns] and action."""
         numbers = [self._expressions.number(formula, self._values) for formula in event.numbers]
         at_s = self._expressions.number(event.time_s, self._values)
         duration_s = None if event.duration_s is None else self._expressions.number(event.duration_s, self._values)
@@ -108,7 +108,7 @@ class RunScript:
         """Return the link or joint of an event.
 
         Raises:
-            UsageError: there is none; with the event's line.
+            UsageError: no such link or joint, with the event's line.
         """
         model, part = event.target
         try:
@@ -121,14 +121,14 @@ class RunScript:
         """Look up the targets of all events.
 
         Raises:
-            UsageError: there is no such link or joint; with the event's line.
+            UsageError: no such link or joint, with the event's line.
         """
         for event in self._plan.events:
             self._target(event)
 
     @property
     def periods_ns(self) -> list[int]:
-        """Periods of hooks that call `act` whenever something is due [ns]."""
+        """Periods of hooks that call `act` at all times of events and samples [ns]."""
         sampling = [self._every_ns] if self._is_sampled else []
         return [*sampling, *(max(time_ns, 1) for time_ns, _ in self._events)]
 
@@ -144,28 +144,28 @@ class RunScript:
                 self.is_over = self.is_over or bool(self._expressions.evaluate(formula, names))
 
     def _add_sample(self, measure: Measure, value: object, formula: Formula) -> None:
-        found, name = self._found, measure.name
+        values, name = self._values_so_far, measure.name
         if measure.over == "time":
-            if value and name not in found:
-                found[name] = self._simulation.time_ns / NS_PER_S
+            if value and name not in values:
+                values[name] = self._simulation.time_ns / NS_PER_S
             return
         number = _number(value, formula)
         self._counts[name] = self._counts.get(name, 0) + 1
         match measure.over:
             case "min":
-                found[name] = min(found.get(name, math.inf), number)
+                values[name] = min(values.get(name, math.inf), number)
             case "max":
-                found[name] = max(found.get(name, -math.inf), number)
+                values[name] = max(values.get(name, -math.inf), number)
             case "mean":
-                found[name] = found.get(name, 0.0) + number
+                values[name] = values.get(name, 0.0) + number
             case _:
-                found.setdefault(name, number)
+                values.setdefault(name, number)
 
     def measures(self) -> dict[str, float | str | None]:
-        """Return the value of each expression at the end; None without a message, or a time at which it became true.
+        """Return the value of each measure at the end; None without a message, or if a condition was never true.
 
         Raises:
-            UsageError: an expression is no finite number.
+            UsageError: an expression is not a finite number.
         """
         if self._is_sampled and self._sampled_ns != self._simulation.time_ns:
             self._sample()
@@ -177,10 +177,10 @@ class RunScript:
                     measured[name] = _number(self._expressions.evaluate(formula, names), formula)
                 except NoMessageError:
                     measured[name] = None
-            elif measure.over == "mean" and name in self._found:
-                measured[name] = self._found[name] / self._counts[name]
+            elif measure.over == "mean" and name in self._values_so_far:
+                measured[name] = self._values_so_far[name] / self._counts[name]
             else:
-                measured[name] = self._found.get(name)
+                measured[name] = self._values_so_far.get(name)
         return measured
 
 

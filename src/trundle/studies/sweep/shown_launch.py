@@ -1,4 +1,4 @@
-"""Row of a launch file on the page, in real time and in lockstep with its nodes."""
+"""Row of a launch file in the browser, in real time and in lockstep with its nodes."""
 
 from trundle.base.console import say
 from trundle.base.http.page_address import PageAddress
@@ -17,17 +17,17 @@ _POLL_S = 0.02
 
 
 def show_launch(plan: Plan, row: Row, runner: LaunchRowRunner, at: PageAddress, result: RowResult) -> None:
-    """Launch a row; time begins when a browser looks at it, and the page stays after its end, until Ctrl-C.
+    """Launch a row, start its time when a browser shows it, and serve the page until Ctrl-C.
 
     Args:
-        plan: as read.
-        row: its values.
-        runner: of the plan.
+        plan: plan of the sweep.
+        row: row to launch.
+        runner: runner of the plan.
         at: address of the page.
-        result: of the same row without a page, with which this run's is compared.
+        result: result of the same row without a page, for comparison.
 
     Raises:
-        TrundleError: the launch has no world, or the port asked for is taken.
+        TrundleError: the launch has no world, or the port is in use.
     """
     options = LaunchOptions(
         duration_s=plan.duration_s,
@@ -37,14 +37,14 @@ def show_launch(plan: Plan, row: Row, runner: LaunchRowRunner, at: PageAddress, 
         allowed=at.allowed,
         view_only=at.view_only,
     )
-    end_ns, is_begun, is_reported = round(plan.duration_s * NS_PER_S), False, False
+    end_ns, has_begun, is_reported = round(plan.duration_s * NS_PER_S), False, False
     with stop_flag() as stop, runner.session(row, options) as (session, setup):
         page = session.show_world()
         running = session.start(session.nodes, is_ending=stop.is_set, begins=False)
         while not stop.wait(_POLL_S):
             check_running(running)
-            if not is_begun and page.is_watched(POSES):
-                is_begun = True
+            if not has_begun and page.is_watched(POSES):
+                has_begun = True
                 session.begin()
             if not session.is_over:
                 continue

@@ -1,4 +1,4 @@
-"""Row of a world on the page, in real time."""
+"""Row of a world in the browser, in real time."""
 
 import sys
 
@@ -21,17 +21,17 @@ _IDLE_S = 0.02
 
 
 def show_world(plan: Plan, row: Row, runner: RowRunner, at: PageAddress, result: RowResult) -> None:
-    """Simulate a row from the moment a browser looks at it; the page stays after its end, until Ctrl-C.
+    """Simulate a row once a browser shows it, and serve the page until Ctrl-C.
 
     Args:
-        plan: as read.
-        row: its values.
-        runner: of the plan.
+        plan: plan of the sweep.
+        row: row to simulate.
+        runner: runner of the plan.
         at: address of the page.
-        result: of the same row without a page, with which this run's is compared.
+        result: result of the same row without a page, for comparison.
 
     Raises:
-        UsageError: the port asked for is taken.
+        UsageError: the port is in use.
     """
 
     def warn(text: str) -> None:

@@ -1,4 +1,4 @@
-"""Names of a simulation's state in expressions: `models.rp2w.links.chassis.z`, `models["a b"].joints.c.position`."""
+"""State of a simulation in expressions: `models.rp2w.links.chassis.z`, `models["a b"].joints.c.position`."""
 
 import math
 from collections import ChainMap
@@ -29,7 +29,7 @@ class _Handles(dict[str, object]):
 
 
 class StateExpressions:
-    """Evaluates a plan's expressions for one simulation."""
+    """Evaluator of a plan's expressions over a simulation's state."""
 
     def __init__(self) -> None:
         self._interpreter = Interpreter(dotted=_dotted)
@@ -38,7 +38,7 @@ class StateExpressions:
         """Evaluate an expression.
 
         Raises:
-            UsageError: it cannot be; with its line and the reason.
+            UsageError: evaluation failed, with its line and the reason.
         """
         self._interpreter.budget = Budget()
         try:
@@ -49,10 +49,10 @@ class StateExpressions:
             raise UsageError(f"{formula.at}: error: {formula.text}: {error}") from None
 
     def number(self, formula: Formula, names: Mapping[str, object]) -> float:
-        """Evaluate an expression whose value is a finite number.
+        """Evaluate an expression as a finite number.
 
         Raises:
-            UsageError: it is none.
+            UsageError: another value.
         """
         value = self.evaluate(formula, names)
         if not isinstance(value, int | float) or not math.isfinite(value):
@@ -61,12 +61,12 @@ class StateExpressions:
 
 
 def named_values(values: Mapping[str, Value]) -> dict[str, object]:
-    """Return the values of a row that expressions can name; a path is no name."""
+    """Return the values of a row that expressions can name, which excludes paths."""
     return {name: value for name, value in values.items() if "/" not in name}
 
 
 def state_names(simulation: Simulation, values: Mapping[str, Value], topics: TopicReader | None) -> dict[str, object]:
-    """Return the names of expressions: `models`, `topics`, the time `t` [s], and the row's values."""
+    """Return the names in expressions: `models`, `topics`, the time `t` [s], and the row's values."""
     models = _Handles((model.name, model) for model in simulation.models)
     names = {**named_values(values), "models": models, "t": simulation.time_ns / NS_PER_S}
     return names if topics is None else {**names, "topics": topics.messages()}
@@ -101,14 +101,14 @@ def _dotted(owner: object, name: str) -> object:
 
 def _field(message: object, name: str) -> object:
     """Return a field of a ROS message."""
-    there = [each.name for each in fields(message)]  # pyright: ignore[reportArgumentType]
-    if name not in there:
-        raise AttributeError(f"the message has no {name!r}; it has: {', '.join(there)}")
+    names = [field.name for field in fields(message)]  # pyright: ignore[reportArgumentType]
+    if name not in names:
+        raise AttributeError(f"the message has no {name!r}; it has: {', '.join(names)}")
     value = getattr(message, name)
     return value.tolist() if isinstance(value, np.ndarray) else value
 
 
-def _state(owner: ModelHandle | LinkHandle, name: str, there: tuple[str, ...]) -> float:
+def _state(owner: ModelHandle | LinkHandle, name: str, names: tuple[str, ...]) -> float:
     if name in _POSE:
         return _component(owner.pose, name)
     if name == "speed":
@@ -117,7 +117,7 @@ def _state(owner: ModelHandle | LinkHandle, name: str, there: tuple[str, ...]) -
         twist: Twist = owner.twist
         return float((*twist.linear, *twist.angular)[_TWIST.index(name)])
     kind = "model" if isinstance(owner, ModelHandle) else "link"
-    raise AttributeError(f"a {kind} has no {name!r}; it has: {', '.join(there)}")
+    raise AttributeError(f"a {kind} has no {name!r}; it has: {', '.join(names)}")
 
 
 def _component(pose: Pose, name: str) -> float:

@@ -1,4 +1,4 @@
-"""Table of results: its columns, and Parquet files of it."""
+"""Table of results, and its Parquet files."""
 
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -13,15 +13,15 @@ from .rows import Row, Rows, column_type
 
 
 class Table:
-    """Columns: row, status, reason, seed, time, then what varies and what is measured."""
+    """Table with the columns row, status, reason, seed, time, then varied quantities and measures."""
 
     def __init__(self, row: Callable[[int], Row], *, varied: Mapping[str, type], measured: Mapping[str, type]) -> None:
         """Declare the columns.
 
         Args:
-            row: row of a number.
-            varied: quantity that varies → bool, int, float or str; other values are written as text.
-            measured: name of a measure → the same.
+            row: returns the row of a number.
+            varied: varied quantity → bool, int, float or str; other values are written as text.
+            measured: measure → type, as for `varied`.
 
         Raises:
             UsageError: pyarrow is not installed.
@@ -48,8 +48,8 @@ class Table:
         Raises:
             UsageError: pyarrow is not installed.
         """
-        varied = {each.name: column_type(each) for each in plan.vary}
-        return cls(rows.row, varied=varied, measured=dict.fromkeys((each.name for each in plan.measures), float))
+        varied = {item.name: column_type(item) for item in plan.vary}
+        return cls(rows.row, varied=varied, measured=dict.fromkeys((item.name for item in plan.measures), float))
 
     def _table(self, results: Sequence[RowResult]) -> Any:
         rows = [self._row(result.row) for result in results]
@@ -67,25 +67,27 @@ class Table:
         return self._arrow.table(columns, schema=self._schema)
 
     def write(self, path: Path, results: Sequence[RowResult]) -> None:
-        """Write rows as one row group; the file is there whole or not at all."""
-        half = path.with_name(f".{path.name}.part")
-        self._parquet.write_table(self._table(results), half, compression="zstd", row_group_size=max(len(results), 1))
-        os.replace(half, path)
+        """Write rows as one row group, atomically."""
+        unfinished = path.with_name(f".{path.name}.part")
+        self._parquet.write_table(
+            self._table(results), unfinished, compression="zstd", row_group_size=max(len(results), 1)
+        )
+        os.replace(unfinished, path)
 
     def join(self, parts: Sequence[Path], path: Path) -> None:
-        """Write the row groups of several files to one, which is there whole or not at all."""
-        half = path.with_name(f".{path.name}.part")
-        with self._parquet.ParquetWriter(half, self._schema, compression="zstd") as writer:
+        """Write the row groups of several files to one, atomically."""
+        unfinished = path.with_name(f".{path.name}.part")
+        with self._parquet.ParquetWriter(unfinished, self._schema, compression="zstd") as writer:
             for part in parts:
                 writer.write_table(self._parquet.read_table(part, schema=self._schema))
-        os.replace(half, path)
+        os.replace(unfinished, path)
 
     def statuses(self, path: Path) -> list[str]:
         """Return the status of each row of a file."""
         return self._parquet.read_table(path, columns=["status"])["status"].to_pylist()
 
     def read(self, paths: Sequence[Path], more: Sequence[RowResult] = ()) -> Any:
-        """Return the rows of files, and further ones, as one table in the order of their numbers."""
+        """Return the rows of files, and further ones, as one table sorted by number."""
         parts = [self._parquet.read_table(path, schema=self._schema) for path in paths]
         if more or not parts:
             parts.append(self._table(more))

@@ -1,4 +1,4 @@
-"""Topics in expressions: the last message of each."""
+"""Topics in expressions, by their last message."""
 
 import re
 from functools import partial
@@ -12,18 +12,18 @@ _NAMED = re.compile(r"""\btopics\s*\[\s*(["'])([^"']+)\1\s*\]""")
 
 
 class NoMessageError(UsageError):
-    """No message on a topic so far."""
+    """Error for a topic without a message so far."""
 
 
 class SilentTopic:
-    """Topic without a message so far; none of its fields can be read."""
+    """Topic without a message so far; reading a field raises NoMessageError."""
 
     def __init__(self, topic: str) -> None:
         self.topic = topic
 
 
 class TopicReader:
-    """Subscribes to the topics that a plan names."""
+    """Subscriber of the topics that a plan names."""
 
     def __init__(self, node: Node, topics: list[str]) -> None:
         self._messages, self._topics = node.messages, topics
@@ -44,6 +44,6 @@ class TopicReader:
 
 
 def topics_of(plan: Plan) -> list[str]:
-    """Return the topics that a plan's expressions name, `topics["/odom"]`."""
-    texts = [each.expression or "" for each in plan.measures] + [each.text for each in plan.stop]
+    """Return the topics in a plan's expressions, such as `topics["/odom"]`."""
+    texts = [item.expression or "" for item in plan.measures] + [item.text for item in plan.stop]
     return sorted({match[1] for text in texts for match in _NAMED.findall(text)})

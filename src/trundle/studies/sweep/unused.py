@@ -1,4 +1,4 @@
-"""Varied quantities that change nothing."""
+"""Check for varied quantities without effect."""
 
 from collections.abc import Iterator
 
@@ -11,25 +11,27 @@ from .property_path import TIME_STEP, is_property
 
 
 def check_used(plan: Plan) -> None:
-    """Refuse a quantity that changes nothing; texts that go `with` another quantity are its labels.
+    """Refuse a quantity without effect; texts paired `with` another quantity are its labels.
 
     Raises:
-        DescriptionError: no expression names it, or `set` replaces it; with its line.
+        DescriptionError: no expression names the quantity, or `set` replaces it.
     """
     used = {name for text in _expressions(plan) for name in free_names(text)}
-    for each in plan.vary:
-        if each.name in plan.assignments:
-            raise DescriptionError(each.at, f"vary: `set` gives {each.name!r} another value; leave one of them out")
-        if not is_property(each.name) and each.name not in used and not _is_label(each):
+    for variation in plan.vary:
+        if variation.name in plan.assignments:
+            raise DescriptionError(
+                variation.at, f"vary: `set` gives {variation.name!r} another value; leave one of them out"
+            )
+        if not is_property(variation.name) and variation.name not in used and not _is_label(variation):
             unknown = used - {other.name for other in plan.vary} - MATH_NAMES.keys() - PYTHON_NAMES.keys()
-            near = nearest(each.name, {TIME_STEP, *unknown})
-            said = f"; the nearest name is {near!r}" if near else ""
-            what = "name it in `set`, `events`, `stop`, `measure` or `pass`, or vary a property, whose path has a /"
-            raise DescriptionError(each.at, f"vary: nothing uses {each.name!r}{said}; {what}")
+            closest = nearest(variation.name, {TIME_STEP, *unknown})
+            hint = f"; the nearest name is {closest!r}" if closest else ""
+            remedy = "name it in `set`, `events`, `stop`, `measure` or `pass`, or vary a property, whose path has a /"
+            raise DescriptionError(variation.at, f"vary: nothing uses {variation.name!r}{hint}; {remedy}")
 
 
 def _is_label(variation: Variation) -> bool:
-    return variation.beside is not None and all(isinstance(value, str) for value in variation.values)
+    return variation.paired_with is not None and all(isinstance(value, str) for value in variation.values)
 
 
 def _expressions(plan: Plan) -> Iterator[str]:

@@ -1,1 +1,1 @@
-"""Formats of datasets, a file each."""
+"""Writers of dataset formats."""

@@ -14,7 +14,7 @@ _FORMATS: Mapping[Format, str] = {
     "semantic_kitti": "SemanticKittiFormat",
     "yolo": "YoloFormat",
 }
-"""Name, which is also that of its module → class; imported on first use."""
+"""Format, which is also the module's name → class, imported on first use."""
 
 
 def format_of(name: Format) -> DatasetFormat:

@@ -1,7 +1,7 @@
 """COCO: detection, instance masks and key points in one JSON file.
 
-https://cocodataset.org/#format-data; masks are run lengths, boxes are around visible pixels. `amodal_bbox`, `occlusion`
-and `truncation` are further fields, which COCO's tools leave alone.
+https://cocodataset.org/#format-data; masks are run lengths, boxes enclose visible pixels. `amodal_bbox`, `occlusion`
+and `truncation` are additional fields, which COCO's tools ignore.
 """
 
 import os
@@ -16,16 +16,16 @@ from ..plan import DatasetPlan
 from .format import DatasetFormat, ReadAll
 
 _HIDDEN, _VISIBLE = 1, 2
-"""COCO's marks of key points; 0: not in the picture."""
+"""COCO's visibility flags of key points; 0: outside the picture."""
 
 
 class CocoFormat(DatasetFormat):
-    """Writes `coco.json`; `file_name` is relative to the dataset's folder."""
+    """Writer of `coco.json`; `file_name` is relative to the dataset's folder."""
 
     def finish(self, plan: DatasetPlan, folder: Path, read: ReadAll) -> None:
-        """Write the file, a picture at a time: it may be larger than memory."""
+        """Write the file picture by picture, as it may be larger than memory."""
         path = folder / "coco.json"
-        half = path.with_name(f".{path.name}.part")
+        unfinished = path.with_name(f".{path.name}.part")
         names = {name: key_point_names(plan, name) for name in plan.categories}
         numbers = {name: number for number, name in enumerate(plan.categories, 1)}
         categories = [
@@ -33,23 +33,28 @@ class CocoFormat(DatasetFormat):
             | ({"keypoints": list(names[name]), "skeleton": []} if names[name] else {})
             for name, number in numbers.items()
         ]
-        with half.open("wb") as file:
+        with unfinished.open("wb") as file:
             file.write(b'{"info":' + json.encode({"description": Path(plan.file).stem, "version": "1.0"}))
             file.write(b',"licenses":[],"categories":' + json.encode(categories))
             file.write(b',"images":[')
             for i, picture in enumerate(read()):
                 file.write((b",\n" if i else b"\n") + json.encode(_image(picture)))
             file.write(b'],"annotations":[')
-            for i, found in enumerate(_annotations(read, numbers, names)):
-                file.write((b",\n" if i else b"\n") + json.encode(found))
+            for i, annotation in enumerate(_annotations(read, numbers, names)):
+                file.write((b",\n" if i else b"\n") + json.encode(annotation))
             file.write(b"]}\n")
-        os.replace(half, path)
+        os.replace(unfinished, path)
 
 
 def key_point_names(plan: DatasetPlan, category: str) -> tuple[str, ...]:
     """Return the names of a category's key points, in the order of the plan."""
-    found = [point.name for each in plan.objects if each.category == category for point in each.key_points]
-    return tuple(dict.fromkeys(found))
+    names = [
+        point.name
+        for object_plan in plan.objects
+        if object_plan.category == category
+        for point in object_plan.key_points
+    ]
+    return tuple(dict.fromkeys(names))
 
 
 def _image(picture: PictureAnnotation) -> dict[str, object]:
@@ -66,35 +71,35 @@ def _annotations(
 ) -> Iterator[dict[str, object]]:
     id_ = 0
     for picture in read():
-        for each in picture.objects:
+        for annotated in picture.objects:
             id_ += 1
-            found: dict[str, object] = {
+            annotation: dict[str, object] = {
                 "id": id_,
                 "image_id": picture.number,
-                "category_id": numbers[each.category],
-                "bbox": _xywh(each.box),
-                "area": each.pixels,
+                "category_id": numbers[annotated.category],
+                "bbox": _xywh(annotated.box),
+                "area": annotated.pixels,
                 "iscrowd": 0,
-                "segmentation": {"size": each.mask.size, "counts": each.mask.counts},
-                "amodal_bbox": _xywh(each.amodal_box),
-                "occlusion": round(each.occlusion, 4),
-                "truncation": round(each.truncation, 4),
+                "segmentation": {"size": annotated.mask.size, "counts": annotated.mask.counts},
+                "amodal_bbox": _xywh(annotated.amodal_box),
+                "occlusion": round(annotated.occlusion, 4),
+                "truncation": round(annotated.truncation, 4),
             }
-            if names[each.category]:
-                found |= _key_points(each, names[each.category])
-            yield found
+            if names[annotated.category]:
+                annotation |= _key_points(annotated, names[annotated.category])
+            yield annotation
 
 
 def _xywh(box: Box2d) -> list[float]:
     return [round(number, 2) for number in (box.left, box.top, box.width, box.height)]
 
 
-def _key_points(each: ObjectAnnotation, names: tuple[str, ...]) -> dict[str, object]:
-    found = {point.name: point for point in each.key_points}
+def _key_points(annotated: ObjectAnnotation, names: tuple[str, ...]) -> dict[str, object]:
+    points = {point.name: point for point in annotated.key_points}
     numbers: list[float] = []
     count = 0
     for name in names:
-        point = found.get(name)
+        point = points.get(name)
         if point is None or point.pixel is None:
             numbers += [0, 0, 0]
             continue

@@ -13,10 +13,10 @@ ReadAll: TypeAlias = Callable[[], Iterable[PictureAnnotation]]
 
 
 class DatasetFormat:
-    """Writer of one format; it writes files of each picture, of the whole dataset, or both."""
+    """Writer of one format: of files per picture, of files for the whole dataset, or both."""
 
     def write(self, plan: DatasetPlan, folder: Path, picture: AnnotatedPicture) -> None:
-        """Write the files of one picture; called in any process, and again after a kill."""
+        """Write the files of one picture; called in any process, and again after an interruption."""
 
     def finish(self, plan: DatasetPlan, folder: Path, read: ReadAll) -> None:
-        """Write the files of the whole dataset, once every picture is there."""
+        """Write the files of the whole dataset, after the last picture."""

@@ -1,7 +1,7 @@
 """KITTI: labels of objects in the camera's frame, calibration, depths and lidar clouds.
 
-The object benchmark's devkit defines the frames: the camera has x to the right, y down, z ahead; a box stands on its
-`location`, and turns about the camera's y alone. A box that the camera sees tilted keeps its position and size, and its
+The object benchmark's devkit defines the frames: the camera has x to the right, y down, z ahead; `location` is the
+bottom centre of a box, which rotates about the camera's y only. A tilted box keeps its position, its size, and its
 heading in the camera's x-z plane.
 """
 
@@ -21,18 +21,18 @@ from ..plan import DatasetPlan
 from .format import DatasetFormat
 
 _DEPTH_SCALE = 256.0
-"""Depth pictures of KITTI's depth benchmark count 1/256 m."""
+"""Depths of KITTI's depth benchmark are in units of 1/256 m."""
 _FULLY, _PARTLY = 0.05, 0.5
-"""Hidden shares up to which an object counts as fully visible, and as partly occluded; beyond, largely."""
+"""Maximum hidden fractions of fully visible and of partly occluded objects."""
 _CENTRE = 0.5
-"""KITTI counts pixels from the middle of the first one."""
+"""KITTI's pixel coordinates start at the centre of the first pixel."""
 
 
 class KittiFormat(DatasetFormat):
-    """Writes `kitti/training/` with image_2, label_2, calib, depth_2 and, with a lidar, velodyne."""
+    """Writer of `kitti/training/` with image_2, label_2, calib, depth_2 and, with a lidar, velodyne."""
 
     def write(self, plan: DatasetPlan, folder: Path, picture: AnnotatedPicture) -> None:
-        """Write the files of a picture; the picture itself is the one in `images/`, as a hard link where that works."""
+        """Write the files of a picture; its image is a hard link to the one in `images/`, or a copy."""
         del plan
         number, annotation = picture.annotation.number, picture.annotation
         base = folder / "kitti" / "training"
@@ -41,7 +41,7 @@ class KittiFormat(DatasetFormat):
         _link(folder / picture_path("images", number), base / picture_path("image_2", number))
         depth = base / picture_path("depth_2", number)
         depth.write_bytes(png(depth_pixels(picture.depth, _DEPTH_SCALE)))
-        labels = "".join(label_line(each, annotation.camera) + "\n" for each in annotation.objects)
+        labels = "".join(label_line(annotated, annotation.camera) + "\n" for annotated in annotation.objects)
         (base / picture_path("label_2", number, "txt")).write_text(labels, encoding="utf-8")
         (base / picture_path("calib", number, "txt")).write_text(calibration(annotation))
         if picture.cloud is not None:
@@ -52,28 +52,30 @@ def _link(picture: Path, path: Path) -> None:
     path.unlink(missing_ok=True)
     try:
         os.link(picture, path)
-    except OSError:  # a file system without links
+    except OSError:  # a file system without hard links
         shutil.copyfile(picture, path)
 
 
-def label_line(each: ObjectAnnotation, camera: CameraAnnotation) -> str:
+def label_line(annotated: ObjectAnnotation, camera: CameraAnnotation) -> str:
     """Return the 15 columns of an object."""
     optical_from_world = pose_from_row(np.array(camera.world_from_camera)).inverse()
-    optical_from_box: Pose = optical_from_world @ pose_from_row(np.array(each.box_3d.world_from_box))
-    length, width, height = each.box_3d.size
+    optical_from_box: Pose = optical_from_world @ pose_from_row(np.array(annotated.box_3d.world_from_box))
+    length, width, height = annotated.box_3d.size
     x, y, z = optical_from_box.transform_point((0.0, 0.0, -height / 2))
     dx, _, dz = optical_from_box.transform_vector((1.0, 0.0, 0.0))
     rotation = math.atan2(-dz, dx)
     alpha = math.remainder(rotation - math.atan2(x, z), math.tau)
-    occluded = 0 if each.occlusion <= _FULLY else 1 if each.occlusion <= _PARTLY else 2
-    box = each.amodal_box
+    occluded = 0 if annotated.occlusion <= _FULLY else 1 if annotated.occlusion <= _PARTLY else 2
+    box = annotated.amodal_box
     pixels = (box.left, box.top, max(box.right - 1, box.left), max(box.bottom - 1, box.top))
     numbers = (alpha, *pixels, height, width, length, x, y, z, rotation)
-    return f"{each.category} {each.truncation:.2f} {occluded} " + " ".join(f"{number:.2f}" for number in numbers)
+    return f"{annotated.category} {annotated.truncation:.2f} {occluded} " + " ".join(
+        f"{number:.2f}" for number in numbers
+    )
 
 
 def calibration(picture: PictureAnnotation) -> str:
-    """Return a calibration file: four times the same camera, already rectified, and the lidar's pose in it."""
+    """Return a calibration file: one rectified camera for all four, and the lidar's pose in it."""
     camera = picture.camera
     projection = [
         [camera.fx, 0.0, camera.cx - _CENTRE, 0.0],
@@ -93,5 +95,5 @@ def rigid(pose: Pose) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
 
 
 def numbers_of(matrix: "np.ndarray[tuple[int, int], np.dtype[np.float64]]") -> str:
-    """Return a matrix row by row, as KITTI writes it."""
+    """Return a matrix row by row in KITTI's number format."""
     return " ".join(f"{number:.12e}" for number in matrix.reshape(-1).tolist())

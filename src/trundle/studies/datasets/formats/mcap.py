@@ -1,6 +1,6 @@
-"""MCAP shards: the messages of a camera, a lidar and a detector, as ROS 1 has them.
+"""MCAP shards with ROS 1 messages of a camera and a detector.
 
-`trundle play`, Foxglove and rosbag tools read them; `/record` has the whole record of a picture as JSON.
+`trundle play`, Foxglove and rosbag tools read them; `/record` has each picture's whole record as JSON.
 """
 
 from io import BytesIO
@@ -22,14 +22,14 @@ from .shards import missing_shards
 _PERIOD_NS = 100_000_000
 _FRAME, _WORLD = "camera_optical", "world"
 _CENTRE = 0.5
-"""ROS counts pixels from the middle of the first one."""
+"""ROS' pixel coordinates start at the centre of the first pixel."""
 
 
 class McapFormat(DatasetFormat):
-    """Writes `mcap/`."""
+    """Writer of `mcap/`."""
 
     def finish(self, plan: DatasetPlan, folder: Path, read: ReadAll) -> None:
-        """Write the shards that are not there yet."""
+        """Write the missing shards."""
         messages = _Encoder(plan.categories)
         for path, pictures in missing_shards(plan, folder / "mcap", "mcap", read):
             with replaced_bag(path, compression="lz4") as bag:
@@ -76,36 +76,39 @@ class _Encoder:
             message(
                 "/camera/detections",
                 "vision_msgs/Detection2DArray",
-                {"header": header, "detections": [self._detection_2d(each, header) for each in picture.objects]},
+                {
+                    "header": header,
+                    "detections": [self._detection_2d(annotated, header) for annotated in picture.objects],
+                },
             ),
             message(
                 "/camera/boxes",
                 "vision_msgs/Detection3DArray",
                 {
                     "header": header | {"frame_id": _WORLD},
-                    "detections": [self._detection_3d(each, header) for each in picture.objects],
+                    "detections": [self._detection_3d(annotated, header) for annotated in picture.objects],
                 },
             ),
             message("/record", "std_msgs/String", {"data": json.encode(picture).decode()}),
         ]
 
-    def _detection_2d(self, each: ObjectAnnotation, header: dict[str, object]) -> dict[str, object]:
-        box = each.box
+    def _detection_2d(self, annotated: ObjectAnnotation, header: dict[str, object]) -> dict[str, object]:
+        box = annotated.box
         centre = {"x": (box.left + box.right) / 2 - _CENTRE, "y": (box.top + box.bottom) / 2 - _CENTRE}
         return {
             "header": header,
-            "results": [{"id": self._categories.index(each.category) + 1, "score": 1.0}],
+            "results": [{"id": self._categories.index(annotated.category) + 1, "score": 1.0}],
             "bbox": {"center": centre, "size_x": box.width, "size_y": box.height},
         }
 
-    def _detection_3d(self, each: ObjectAnnotation, header: dict[str, object]) -> dict[str, object]:
-        number = self._categories.index(each.category) + 1
+    def _detection_3d(self, annotated: ObjectAnnotation, header: dict[str, object]) -> dict[str, object]:
+        number = self._categories.index(annotated.category) + 1
         return {
             "header": header | {"frame_id": _WORLD},
-            "results": [{"id": number, "score": 1.0, "pose": {"pose": _pose(each.world_from_model)}}],
+            "results": [{"id": number, "score": 1.0, "pose": {"pose": _pose(annotated.world_from_model)}}],
             "bbox": {
-                "center": _pose(each.box_3d.world_from_box),
-                "size": dict(zip("xyz", each.box_3d.size, strict=True)),
+                "center": _pose(annotated.box_3d.world_from_box),
+                "size": dict(zip("xyz", annotated.box_3d.size, strict=True)),
             },
         }
 
@@ -145,7 +148,7 @@ def _camera_info(picture: PictureAnnotation) -> dict[str, object]:
 
 
 def _image(folder: Path, kind: str, picture: PictureAnnotation) -> dict[str, object]:
-    """Return the fields of a 16-bit picture: millimetres, as REP 118 has depths, or numbers of instances."""
+    """Return the fields of a 16-bit image: depths in millimetres, as in REP 118, or instance numbers."""
     with Image.open(BytesIO((folder / picture_path(kind, picture.number)).read_bytes())) as image:
         pixels = np.asarray(image).astype("<u2")
     return {

@@ -1,4 +1,4 @@
-"""Parquet shards with the pictures in them; Hugging Face's `datasets` decodes their columns."""
+"""Parquet shards with embedded pictures, whose columns Hugging Face's `datasets` decodes."""
 
 import os
 from pathlib import Path
@@ -17,14 +17,14 @@ from .shards import missing_shards
 _KINDS = {"image": "images", "depth": "depth", "segmentation": "segmentation"}
 """Column → folder of its pictures."""
 _GROUP_PICTURES = 50
-"""Pictures of a row group: what a reader holds at once."""
+"""Pictures per row group, which a reader keeps in memory."""
 
 
 class ParquetFormat(DatasetFormat):
-    """Writes `parquet/`."""
+    """Writer of `parquet/`."""
 
     def finish(self, plan: DatasetPlan, folder: Path, read: ReadAll) -> None:
-        """Write the shards that are not there yet.
+        """Write the missing shards.
 
         Raises:
             UsageError: pyarrow is not installed.
@@ -32,12 +32,12 @@ class ParquetFormat(DatasetFormat):
         arrow, parquet = import_extra("pyarrow"), import_extra("pyarrow.parquet")
         schema = _schema(arrow)
         for path, pictures in missing_shards(plan, folder / "parquet", "parquet", read):
-            half = path.with_name(f".{path.name}.part")
-            with parquet.ParquetWriter(half, schema, compression="zstd") as writer:
+            unfinished = path.with_name(f".{path.name}.part")
+            with parquet.ParquetWriter(unfinished, schema, compression="zstd") as writer:
                 for first in range(0, len(pictures), _GROUP_PICTURES):
-                    rows = [_row(folder, each) for each in pictures[first : first + _GROUP_PICTURES]]
+                    rows = [_row(folder, picture) for picture in pictures[first : first + _GROUP_PICTURES]]
                     writer.write_table(arrow.Table.from_pylist(rows, schema=schema))
-            os.replace(half, path)
+            os.replace(unfinished, path)
 
 
 def _row(folder: Path, picture: PictureAnnotation) -> dict[str, object]:
@@ -45,18 +45,18 @@ def _row(folder: Path, picture: PictureAnnotation) -> dict[str, object]:
     for column, kind in _KINDS.items():
         path = picture_path(kind, picture.number)
         row[column] = {"bytes": (folder / path).read_bytes(), "path": path.name}
-    for each in picture.objects:
-        assert each.mask.size == (picture.height, picture.width)
+    for annotated in picture.objects:
+        assert annotated.mask.size == (picture.height, picture.width)
     return row
 
 
 def _schema(arrow: Any) -> Any:
-    """Return the columns: pictures as PNG, and the record's fields under their names."""
+    """Return the columns: pictures as PNG, and the record's fields by name."""
     real, whole, text = arrow.float64(), arrow.int64(), arrow.string()
     numbers = arrow.list_(real)
     image = arrow.struct([("bytes", arrow.binary()), ("path", text)])
     point = arrow.struct([("name", text), ("world", numbers), ("pixel", numbers), ("is_visible", arrow.bool_())])
-    each = arrow.struct(
+    object_type = arrow.struct(
         [
             ("instance", whole),
             ("model", text),
@@ -81,7 +81,7 @@ def _schema(arrow: Any) -> Any:
         ("height", whole),
         ("camera", camera),
         ("camera_from_lidar", numbers),
-        ("objects", arrow.list_(each)),
+        ("objects", arrow.list_(object_type)),
     ]
     features = {column: {"_type": "Image"} for column in _KINDS}
     metadata = {"huggingface": json.encode({"info": {"features": features}}).decode()}

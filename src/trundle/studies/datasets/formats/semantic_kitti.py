@@ -1,6 +1,6 @@
-"""SemanticKITTI: lidar clouds with class and instance at each point, and the poses that they were taken from.
+"""SemanticKITTI: lidar clouds with a class and instance per point, and the lidar's poses.
 
-A label is the class in its lower 16 bits and the instance in its upper ones, as semantic-kitti-api reads it.
+A label has the class in its lower 16 bits and the instance in its upper ones, as in semantic-kitti-api.
 """
 
 from pathlib import Path
@@ -19,11 +19,11 @@ from .format import DatasetFormat, ReadAll
 from .kitti import calibration, numbers_of, rigid
 
 _PERIOD_S = 0.1
-"""Time from scan to scan, which the format asks for."""
+"""Time between scans, which the format requires."""
 
 
 class SemanticKittiFormat(DatasetFormat):
-    """Writes `semantic_kitti/sequences/00/` and its `labels.yaml`."""
+    """Writer of `semantic_kitti/sequences/00/` and `labels.yaml`."""
 
     def write(self, plan: DatasetPlan, folder: Path, picture: AnnotatedPicture) -> None:
         """Write a cloud and its labels."""
@@ -50,8 +50,8 @@ class SemanticKittiFormat(DatasetFormat):
             lines.append(numbers_of(rigid(first.inverse() @ pose)) + "\n")
             if picture.number == 0:
                 text = calibration(picture).replace("Tr_velo_to_cam:", "Tr:")
-                kept = [line for line in text.splitlines() if line.startswith(("P", "Tr:"))]
-                write_atomically(base / "calib.txt", "\n".join(kept) + "\n")
+                used_lines = [line for line in text.splitlines() if line.startswith(("P", "Tr:"))]
+                write_atomically(base / "calib.txt", "\n".join(used_lines) + "\n")
         write_atomically(base / "poses.txt", "".join(lines))
         write_atomically(base / "times.txt", "".join(f"{_PERIOD_S * i:.6e}\n" for i in range(plan.count)))
 

@@ -13,7 +13,7 @@ SHARD_PICTURES = 500
 def missing_shards(
     plan: DatasetPlan, folder: Path, ending: str, read: ReadAll
 ) -> Iterator[tuple[Path, list[PictureAnnotation]]]:
-    """Yield the path of each shard that is not there, named by its first and last number, and its pictures."""
+    """Yield the path of each missing shard, named by its first and last number, and its pictures."""
     folder.mkdir(exist_ok=True)
     pictures: list[PictureAnnotation] = []
     for picture in read():

@@ -1,7 +1,7 @@
 """YOLO: a text file for each picture, and `data.yaml`.
 
-https://docs.ultralytics.com/datasets/detect/: class and box (centre, size) as shares of the picture, of visible pixels;
-with key points where every class has as many: https://docs.ultralytics.com/datasets/pose/.
+https://docs.ultralytics.com/datasets/detect/: class and box of visible pixels (centre, size), relative to the picture;
+with key points if every class has equally many: https://docs.ultralytics.com/datasets/pose/.
 """
 
 from pathlib import Path
@@ -21,19 +21,19 @@ _HIDDEN, _VISIBLE = 1, 2
 
 
 class YoloFormat(DatasetFormat):
-    """Writes `labels/`, which YOLO's tools find beside `images/`, and `data.yaml`."""
+    """Writer of `labels/`, which YOLO's tools find next to `images/`, and `data.yaml`."""
 
     def write(self, plan: DatasetPlan, folder: Path, picture: AnnotatedPicture) -> None:
         """Write a picture's labels."""
         annotation = picture.annotation
         path = folder / picture_path("labels", annotation.number, "txt")
         path.parent.mkdir(exist_ok=True)
-        text = "".join(_line(plan, annotation, each) + "\n" for each in annotation.objects)
+        text = "".join(_line(plan, annotation, annotated) + "\n" for annotated in annotation.objects)
         path.write_text(text, encoding="utf-8")
 
     def finish(self, plan: DatasetPlan, folder: Path, read: ReadAll) -> None:
         """Write the list of classes."""
-        del read  # they are the plan's
+        del read  # the classes are in the plan
         names = dict(enumerate(plan.categories))
         data: dict[str, object] = {"train": "images", "val": "images", "names": names}
         count = _key_point_count(plan)
@@ -46,20 +46,20 @@ class YoloFormat(DatasetFormat):
 
 
 def _key_point_count(plan: DatasetPlan) -> int:
-    """Return the number of key points of every class; 0: none, or not the same."""
+    """Return the number of key points of every class; 0 if none, or if classes differ."""
     counts = {len(key_point_names(plan, name)) for name in plan.categories}
     return counts.pop() if len(counts) == 1 else 0
 
 
-def _line(plan: DatasetPlan, picture: PictureAnnotation, each: ObjectAnnotation) -> str:
-    box, width, height = each.box, picture.width, picture.height
+def _line(plan: DatasetPlan, picture: PictureAnnotation, annotated: ObjectAnnotation) -> str:
+    box, width, height = annotated.box, picture.width, picture.height
     numbers = [(box.left + box.right) / 2 / width, (box.top + box.bottom) / 2 / height]
     numbers += [box.width / width, box.height / height]
-    parts = [str(plan.categories.index(each.category)), *(f"{number:.6f}" for number in numbers)]
+    parts = [str(plan.categories.index(annotated.category)), *(f"{number:.6f}" for number in numbers)]
     if _key_point_count(plan):
-        found = {point.name: point for point in each.key_points}
-        for name in key_point_names(plan, each.category):
-            point = found.get(name)
+        points = {point.name: point for point in annotated.key_points}
+        for name in key_point_names(plan, annotated.category):
+            point = points.get(name)
             if point is None or point.pixel is None:
                 parts += ["0", "0", "0"]
             else:

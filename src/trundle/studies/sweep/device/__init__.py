@@ -1,1 +1,1 @@
-"""Rows of a sweep that a GPU steps together."""
+"""Execution of a sweep's rows on a GPU, which steps them together."""

@@ -1,4 +1,4 @@
-"""Runs of rows on a GPU, many worlds in one process."""
+"""Batches of rows on a GPU, many worlds in one process."""
 
 from collections.abc import Callable, Iterator
 from itertools import islice
@@ -15,12 +15,12 @@ from ..row_result import RowResult
 from ..row_runner import RowRunner
 from ..rows import Rows
 from .device_row import DeviceRow
-from .row_check import why_not_beside
+from .row_check import incompatibility
 
-_TOGETHER = 1024
-"""Most worlds at once; each takes a megabyte or less of this machine's memory."""
-_MOST_STEPS = 1000
-"""Most steps between two looks at Ctrl-C."""
+_BATCH_ROWS = 1024
+"""Maximum worlds in a batch; each takes up to a megabyte of main memory."""
+_MAX_STEPS = 1000
+"""Maximum steps between two polls of `is_ending`."""
 
 
 def run_on_gpu(
@@ -32,19 +32,19 @@ def run_on_gpu(
     progress: Progress,
     is_ending: Callable[[], bool],
 ) -> None:
-    """Run rows, show their progress, and hand each result on.
+    """Run rows and show their progress.
 
     Args:
-        plan: as `check_plan` and `check_worlds` let it pass.
-        numbers: of the rows.
+        plan: plan accepted by `check_plan` and `check_worlds`.
+        numbers: row numbers.
         receive: called with each result.
-        gpu: as Warp calls it.
-        progress: of the whole; it is closed at the end.
+        gpu: Warp's name of the GPU.
+        progress: progress of the sweep, closed at the end.
         is_ending: polled; True ends the runs.
     """
     batches = _Batches(plan, gpu)
     try:
-        while not is_ending() and (some := list(islice(numbers, _TOGETHER))):
+        while not is_ending() and (some := list(islice(numbers, _BATCH_ROWS))):
             for result in batches.run(some, is_ending):
                 if result is not None:
                     progress.add(is_ok=result.status == "ok")
@@ -55,7 +55,7 @@ def run_on_gpu(
 
 
 class _Batches:
-    """Worlds like that of the plan's first row."""
+    """Batches of worlds that are compatible with the first row's."""
 
     def __init__(self, plan: Plan, gpu: str) -> None:
         self._rows, self._runner, self._gpu = Rows(plan), RowRunner(plan), gpu
@@ -63,7 +63,7 @@ class _Batches:
         self._first = self._runner.start(self._rows.row(0)).simulation
 
     def run(self, numbers: list[int], is_ending: Callable[[], bool]) -> Iterator[RowResult | None]:
-        """Yield the results of rows as they end, and None in between."""
+        """Yield the results of rows as they complete, and None in between."""
         runs: list[DeviceRow] = []
         for number in numbers:
             started = self._start(number)
@@ -80,26 +80,26 @@ class _Batches:
             run = self._runner.start(row)
         except TrundleError as error:
             return RowResult(number, "error", str(error))
-        why = why_not_beside(self._first, run.simulation)
-        if why:
-            return RowResult(number, "error", f"a GPU cannot step this run beside the first, because {why}")
+        reason = incompatibility(self._first, run.simulation)
+        if reason:
+            return RowResult(number, "error", f"a GPU cannot step this run beside the first, because {reason}")
         return DeviceRow(row, run, self._runner, until_ns=self._until_ns)
 
     def _step(self, runs: list[DeviceRow], is_ending: Callable[[], bool]) -> Iterator[RowResult | None]:
         worlds, step = GpuWorlds([run.simulation.engine for run in runs], self._gpu), 0
-        going = runs
+        running = runs
         while not is_ending():
-            for run in going:
+            for run in running:
                 run.act()
-            yield from (run.result for run in going if run.result is not None)
-            going = [run for run in going if run.result is None]
-            if not going:
+            yield from (run.result for run in running if run.result is not None)
+            running = [run for run in running if run.result is None]
+            if not running:
                 return
-            count = min(min(run.next_step for run in going) - step, _MOST_STEPS)
-            outcomes = worlds.step(count, chosen=np.array([run.result is None for run in runs]))
+            count = min(min(run.next_step for run in running) - step, _MAX_STEPS)
+            results = worlds.step(count, chosen=np.array([run.result is None for run in runs]))
             step += count
-            for run, outcome in zip(runs, outcomes, strict=True):
+            for run, result in zip(runs, results, strict=True):
                 if run.result is None:
-                    run.arrive(step, outcome)
-            yield from (run.result for run in going)
-            going = [run for run in going if run.result is None]
+                    run.arrive(step, result)
+            yield from (run.result for run in running)
+            running = [run for run in running if run.result is None]

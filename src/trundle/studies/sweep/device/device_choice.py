@@ -1,4 +1,4 @@
-"""Device that steps the rows of a sweep."""
+"""Choice of the device that steps the rows of a sweep."""
 
 import sys
 from typing import Literal, TypeAlias
@@ -15,21 +15,21 @@ DEVICES: tuple[Device, ...] = ("cpu", "cuda")
 
 
 def gpu_of(plan: Plan, device: str, *, workers: int | None, address: str | None) -> str | None:
-    """Return Warp's name of the GPU that steps a plan's rows; None: the processors run them.
+    """Return Warp's name of the GPU that steps a plan's rows; None if the processors run them.
 
-    Without a GPU a line says so.
+    A message is printed if there is no GPU.
 
     Raises:
-        UsageError: an unknown device, or options for processes.
-        DescriptionError: the plan has what no GPU does; with its line.
+        UsageError: unknown device, or options for processes.
+        DescriptionError: the plan has a feature that GPUs do not support.
     """
     if device not in DEVICES:
         raise UsageError(f"device={device!r}: rows are stepped on {' or '.join(map(repr, DEVICES))}")
     if device == "cpu":
         return None
     if workers is not None or address is not None:
-        what = "a GPU steps the rows of this process; leave out `workers` and `address`, or `device`"
-        raise UsageError(f"device={device!r}: {what}")
+        message = "a GPU steps the rows of this process; leave out `workers` and `address`, or `device`"
+        raise UsageError(f"device={device!r}: {message}")
     check_plan(plan)
     try:
         return find_gpu()

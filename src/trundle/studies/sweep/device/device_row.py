@@ -1,4 +1,4 @@
-"""Run of one row, whose physics is stepped together with others."""
+"""Run of one row, whose physics is stepped together with other rows'."""
 
 from trundle.base.diagnostics import TrundleError
 from trundle.sim.physics import StepResult
@@ -16,31 +16,31 @@ _WHY = {
 
 
 class DeviceRow:
-    """Run that acts between the steps, as `RowRun.advance` does."""
+    """Run that performs its events between steps, as `RowRun.advance`."""
 
     def __init__(self, row: Row, run: RowRun, runner: RowRunner, *, until_ns: int) -> None:
-        """Take a run at time zero.
+        """Wrap a run at time zero.
 
         Args:
-            row: its values.
-            run: with its events.
-            runner: judges it at its end.
-            until_ns: time of its end [ns].
+            row: row of the run.
+            run: run with its events.
+            runner: runner that computes the result.
+            until_ns: end time [ns].
         """
         self.simulation = run.simulation
         self.result: RowResult | None = None
-        """None: it goes on."""
+        """None while it runs."""
         self._row, self._run, self._runner, self._until_ns = row, run, runner, until_ns
 
     @property
     def next_step(self) -> int:
-        """Step at which something is due, a load ends, or the run does."""
+        """Step of the next event or sample, expiry of a load, or end of the run."""
         due_ns = self._run.script.next_ns
         stop_ns = self._until_ns if due_ns is None else min(due_ns, self._until_ns)
         return min([-(-stop_ns // self.simulation.step_ns), *self.simulation.loads.expiry_steps()])
 
     def act(self) -> None:
-        """Perform what is due now, and at the end measure."""
+        """Perform the events and samples due now; at the end, compute the result."""
         simulation, script = self.simulation, self._run.script
         try:
             while simulation.time_ns < self._until_ns and not script.is_over:
@@ -52,13 +52,13 @@ class DeviceRow:
             return
         self.result = self._runner.result(self._row, self._run)
 
-    def arrive(self, step: int, outcome: StepResult) -> None:
-        """Go on from a step up to which the physics was computed; a run that is not stable ends."""
-        if outcome is StepResult.STABLE:
+    def arrive(self, step: int, result: StepResult) -> None:
+        """Set the step that physics has reached; an unstable run ends with an error."""
+        if result is StepResult.STABLE:
             self.simulation.set_step(step)
             return
         start_s, end_s = self.simulation.time_ns / NS_PER_S, step * self.simulation.step_ns / NS_PER_S
-        self._fail(_WHY[outcome].format(f"between {start_s:g} and {end_s:g} s"))
+        self._fail(_WHY[result].format(f"between {start_s:g} and {end_s:g} s"))
 
     def _fail(self, why: str) -> None:
         self.result = RowResult(self._row.number, "error", why, self.simulation.time_ns / NS_PER_S)

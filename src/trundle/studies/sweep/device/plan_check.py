@@ -1,4 +1,4 @@
-"""Parts of a plan that no GPU does."""
+"""Check for features of a plan that GPUs do not support."""
 
 import ast
 from collections.abc import Iterator
@@ -17,30 +17,32 @@ _KEYS = {
     "memory_limit": "limits of single runs",
 }
 _TABLES = ("models", "links", "joints")
-"""Names whose attributes are names of the world's own."""
+"""Names whose attributes are names from the world."""
 
 
 def check_plan(plan: Plan) -> None:
-    """Refuse a plan with more than physics, and expressions over states.
+    """Refuse a plan with more than physics and expressions over states.
 
     Raises:
-        DescriptionError: what it is; with its line.
+        DescriptionError: unsupported feature.
     """
-    for key, what in _KEYS.items():
+    for key, feature in _KEYS.items():
         if key in plan.keys and (key != "plugins" or plan.plugins):
-            raise DescriptionError(plan.keys[key], f"a sweep on a GPU has no {what}; leave out `{key}` or the device")
+            raise DescriptionError(
+                plan.keys[key], f"a sweep on a GPU has no {feature}; leave out `{key}` or the device"
+            )
     for measure in plan.measures:
         if measure.function is not None:
-            what = f"a sweep on a GPU calls no Python functions; measure {measure.name!r} by an expression"
-            raise DescriptionError(measure.at, f"{what}, or leave out the device")
+            feature = f"a sweep on a GPU calls no Python functions; measure {measure.name!r} by an expression"
+            raise DescriptionError(measure.at, f"{feature}, or leave out the device")
     for formula in _state_expressions(plan):
         if "topics" in free_names(formula.text):
             raise DescriptionError(formula.at, "a sweep on a GPU has no topics; leave out `topics` or the device")
         if _reads_effort(formula.text):
-            what = "a sweep on a GPU has no efforts of joints; leave out `effort` or the device"
-            raise DescriptionError(formula.at, what)
-    places = [(each.name, each.at) for each in plan.vary if is_property(each.name)]
-    for path, at in [*places, *((path, each.at) for path, each in plan.assignments.items())]:
+            feature = "a sweep on a GPU has no efforts of joints; leave out `effort` or the device"
+            raise DescriptionError(formula.at, feature)
+    paths = [(variation.name, variation.at) for variation in plan.vary if is_property(variation.name)]
+    for path, at in [*paths, *((path, variation.at) for path, variation in plan.assignments.items())]:
         if "sensors" in path.split("/"):
             raise DescriptionError(at, f"{path}: a sweep on a GPU has no sensors; leave it or the device out")
 
