@@ -63,8 +63,8 @@ def test_a_package_comes_with_those_it_needs(fetcher: Fetcher, tmp_path: Path, l
     assert result.unknown == ["libusb-1.0-dev"]
     assert "me/arm: noetic-devel, commit " in log[0]
     assert ", licence BSD, " in log[0]
-    there = Packages({"ROS_PACKAGE_PATH": str(tmp_path / "got")}, start=tmp_path)
-    assert there.find_package("hand") == tmp_path / "got/me/hand"
+    fetched = Packages({"ROS_PACKAGE_PATH": str(tmp_path / "got")}, start=tmp_path)
+    assert fetched.find_package("hand") == tmp_path / "got/me/hand"
 
 
 def test_fetched_packages_are_found_without_any_path(fetcher: Fetcher, tmp_path: Path) -> None:
@@ -88,7 +88,7 @@ def test_a_branch_for_ros_2_is_left_for_the_one_of_ros_1(server: GitServer, tmp_
     assert "me/arm: noetic-devel, commit" in log[1]
 
 
-def test_a_branch_that_is_gone_gives_way_to_the_nearest(server: GitServer, tmp_path: Path, log: list[str]) -> None:
+def test_the_nearest_branch_replaces_a_missing_one(server: GitServer, tmp_path: Path, log: list[str]) -> None:
     fetcher = make([entry(f"{server.address}/me/arm", {"kinetic": "kinetic-devel"}, "arm_description")], tmp_path, log)
 
     assert fetcher.fetch(["arm_description"]).errors == []
@@ -102,7 +102,7 @@ def test_a_repository_that_fails_stops_no_other(fetcher: Fetcher, tmp_path: Path
     assert len(result.errors) == 1
     assert result.errors[0].startswith("gone: git://127.0.0.1")
     assert "was not fetched: git fetch failed: " in result.errors[0]
-    assert sorted(each.name for each in (tmp_path / "got/me").iterdir()) == ["hand"], "nothing half-fetched stays"
+    assert sorted(path.name for path in (tmp_path / "got/me").iterdir()) == ["hand"], "nothing half-fetched stays"
 
 
 def test_a_folder_that_is_there_is_not_touched(fetcher: Fetcher, server: GitServer, tmp_path: Path) -> None:

@@ -21,7 +21,7 @@ def plain(value: Any) -> Any:
         return value
     if isinstance(value, Struct):
         return {name: plain(getattr(value, name)) for name in value.__struct_fields__ if name not in _WHERE}
-    return [plain(each) for each in value] if isinstance(value, tuple) else value
+    return [plain(item) for item in value] if isinstance(value, tuple) else value
 
 
 def unlike(a: Any, b: Any, path: str = "") -> Iterator[str]:

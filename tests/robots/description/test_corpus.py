@@ -44,8 +44,8 @@ def test_sdf_files_are_read_as_by_libsdformat(corpus: Path, packages: Packages) 
     """Files that Gazebo 11 accepts are accepted; where libsdformat 9 and 12 agree, every value agrees with theirs."""
     rows = json.loads((corpus / "manifest.json").read_text())["sdf"]
     assert len(rows) > 800
-    found = {row["file"]: list(_sdf_differences(row, corpus, packages)) for row in rows}
-    assert {file: lines[:5] for file, lines in found.items() if lines and file not in EXCEPTIONS} == {}
+    found_differences = {row["file"]: list(_sdf_differences(row, corpus, packages)) for row in rows}
+    assert {file: lines[:5] for file, lines in found_differences.items() if lines and file not in EXCEPTIONS} == {}
 
 
 def _sdf_differences(row: dict[str, Any], corpus: Path, packages: Packages) -> Iterator[str]:
@@ -58,34 +58,34 @@ def _sdf_differences(row: dict[str, Any], corpus: Path, packages: Packages) -> I
         return
     if not (row["accept_libsdformat12"] and row["agree_9_12"]):
         return
-    ours = json.loads(json.dumps(description_json(loaded), allow_nan=False))
-    theirs = json.loads(gzip.decompress((corpus / row["ref"]).read_bytes()))["dump12"]
+    actual = json.loads(json.dumps(description_json(loaded), allow_nan=False))
+    expected = json.loads(gzip.decompress((corpus / row["ref"]).read_bytes()))["dump12"]
     placed = "<state" not in file.read_text(errors="replace")
-    world = theirs["worlds"][0] if theirs["worlds"] else None
-    models = world["models"] if world else theirs["models"]
+    world = expected["worlds"][0] if expected["worlds"] else None
+    models = world["models"] if world else expected["models"]
     if "<population" in file.read_text(errors="replace"):  # libsdformat leaves it to Gazebo
-        ours["models"] = [model for model in ours["models"] if "_clone_" not in model["name"]]
-    if [model["name"] for model in ours["models"]] != [model["name"] for model in models]:
-        yield f"models {[m['name'] for m in ours['models']]}, theirs {[m['name'] for m in models]}"
-    for mine, other in zip(ours["models"], models, strict=False):
+        actual["models"] = [model for model in actual["models"] if "_clone_" not in model["name"]]
+    if [model["name"] for model in actual["models"]] != [model["name"] for model in models]:
+        yield f"models {[m['name'] for m in actual['models']]}, theirs {[m['name'] for m in models]}"
+    for mine, other in zip(actual["models"], models, strict=False):
         yield from differences(mine, other, TOLERANCE, placed=placed)
     if world:
-        yield from _world_differences(ours, world, placed=placed)
+        yield from _world_differences(actual, world, placed=placed)
 
 
-def _world_differences(ours: dict[str, Any], theirs: dict[str, Any], *, placed: bool) -> Iterator[str]:
-    if ours["name"] != theirs["name"]:
-        yield f"world name {ours['name']}, theirs {theirs['name']}"
-    if not all(close(a, b, TOLERANCE) for a, b in zip(ours["gravity"], theirs["gravity"], strict=True)):
-        yield f"gravity {ours['gravity']}, theirs {theirs['gravity']}"
-    if [(x["name"], x["type"]) for x in ours["lights"]] != [(x["name"], x["type"]) for x in theirs["lights"]]:
-        yield f"lights {ours['lights']}, theirs {theirs['lights']}"
-    for mine, other in zip(ours["lights"], theirs["lights"], strict=False):
+def _world_differences(actual: dict[str, Any], expected: dict[str, Any], *, placed: bool) -> Iterator[str]:
+    if actual["name"] != expected["name"]:
+        yield f"world name {actual['name']}, theirs {expected['name']}"
+    if not all(close(a, b, TOLERANCE) for a, b in zip(actual["gravity"], expected["gravity"], strict=True)):
+        yield f"gravity {actual['gravity']}, theirs {expected['gravity']}"
+    if [(x["name"], x["type"]) for x in actual["lights"]] != [(x["name"], x["type"]) for x in expected["lights"]]:
+        yield f"lights {actual['lights']}, theirs {expected['lights']}"
+    for mine, other in zip(actual["lights"], expected["lights"], strict=False):
         if placed and not same_pose(mine["pose"], other["pose"], TOLERANCE):
             yield f"light {mine['name']} at {mine['pose']}, theirs {other['pose']}"
-    step = theirs["physics"][0]["max_step_size"]
-    if not close(ours["physics"]["max_step_size"], step, TOLERANCE):
-        yield f"step {ours['physics']['max_step_size']}, theirs {step}"
+    step = expected["physics"][0]["max_step_size"]
+    if not close(actual["physics"]["max_step_size"], step, TOLERANCE):
+        yield f"step {actual['physics']['max_step_size']}, theirs {step}"
 
 
 @pytest.mark.parametrize("stride", [5, pytest.param(1, marks=pytest.mark.slow)])
@@ -95,8 +95,10 @@ def test_robots_are_read_as_by_urdfdom_and_converted_as_by_gazebo(
     """Distinct robots, expanded, one of each `stride`; conversions are compared where libsdformat 9 and 12 agree."""
     rows = {row["sha"]: row for row in json.loads((corpus / "manifest.json").read_text())["urdf"]}
     assert len(rows) > 150
-    found = {row["file"]: list(_urdf_differences(row, corpus, packages)) for row in list(rows.values())[::stride]}
-    assert {file: lines[:5] for file, lines in found.items() if lines and file not in EXCEPTIONS} == {}
+    found_differences = {
+        row["file"]: list(_urdf_differences(row, corpus, packages)) for row in list(rows.values())[::stride]
+    }
+    assert {file: lines[:5] for file, lines in found_differences.items() if lines and file not in EXCEPTIONS} == {}
 
 
 def _urdf_differences(row: dict[str, Any], corpus: Path, packages: Packages) -> Iterator[str]:
@@ -112,38 +114,38 @@ def _urdf_differences(row: dict[str, Any], corpus: Path, packages: Packages) -> 
     if not row["accept_urdfdom"]:
         yield "accepted; urdfdom refuses it"
         return
-    ours = json.loads(json.dumps(description_json(loaded), allow_nan=False))
-    yield from _tree_differences(ours["urdf"], answers["urdfdom3"]["dump"])
+    actual = json.loads(json.dumps(description_json(loaded), allow_nan=False))
+    yield from _tree_differences(actual["urdf"], answers["urdfdom3"]["dump"])
     if row["accept_libsdformat12"] and not answers["differences_sdf9_vs_sdf12"]:
-        (theirs,) = answers["libsdformat12"]["dump"]["models"]
-        yield from differences(ours["models"][0], theirs, TOLERANCE)
-        yield from _shape_name_differences(loaded.world.models[0], theirs)
+        (expected,) = answers["libsdformat12"]["dump"]["models"]
+        yield from differences(actual["models"][0], expected, TOLERANCE)
+        yield from _shape_name_differences(loaded.world.models[0], expected)
 
 
-def _shape_name_differences(ours: Model, theirs: dict[str, Any]) -> Iterator[str]:
+def _shape_name_differences(actual: Model, expected: dict[str, Any]) -> Iterator[str]:
     """Names of collisions and visuals, and their order."""
-    links = {link["name"]: link for link in theirs["links"]}
-    for link in ours.links:
+    links = {link["name"]: link for link in expected["links"]}
+    for link in actual.links:
         for kind, shapes in (("collisions", link.collisions), ("visuals", link.visuals)):
             mine, other = [shape.name for shape in shapes], [shape["name"] for shape in links[link.name][kind]]
             if mine != other:
                 yield f"{link.name}: {kind} {mine}, theirs {other}"
 
 
-def _tree_differences(ours: dict[str, Any], theirs: dict[str, Any]) -> Iterator[str]:
-    if ours["root"] != theirs["root"]:
-        yield f"root {ours['root']}, theirs {theirs['root']}"
-    links = {link["name"]: link for link in theirs["links"]}
-    joints = {joint["name"]: joint for joint in theirs["joints"]}
-    if {link["name"] for link in ours["links"]} != links.keys():
-        yield f"links {[link['name'] for link in ours['links']]}, theirs {list(links)}"
-    if {joint["name"] for joint in ours["joints"]} != joints.keys():
-        yield f"joints {[joint['name'] for joint in ours['joints']]}, theirs {list(joints)}"
-    for link in ours["links"]:
+def _tree_differences(actual: dict[str, Any], expected: dict[str, Any]) -> Iterator[str]:
+    if actual["root"] != expected["root"]:
+        yield f"root {actual['root']}, theirs {expected['root']}"
+    links = {link["name"]: link for link in expected["links"]}
+    joints = {joint["name"]: joint for joint in expected["joints"]}
+    if {link["name"] for link in actual["links"]} != links.keys():
+        yield f"links {[link['name'] for link in actual['links']]}, theirs {list(links)}"
+    if {joint["name"] for joint in actual["joints"]} != joints.keys():
+        yield f"joints {[joint['name'] for joint in actual['joints']]}, theirs {list(joints)}"
+    for link in actual["links"]:
         other = links.get(link["name"])
         if other is not None and not same_pose(link["pose"], other["pose_model"], TOLERANCE):
             yield f"{link['name']} at {link['pose']}, theirs {other['pose_model']}"
-    for joint in ours["joints"]:
+    for joint in actual["joints"]:
         other = joints.get(joint["name"], joint)
         if any(joint[field] != other[field] for field in ("type", "parent", "child")):
             yield f"{joint}, theirs {other}"
@@ -163,7 +165,7 @@ def test_xacro_files_expand_as_xacro_expands_them(corpus: Path, monkeypatch: pyt
             monkeypatch.setenv(name, value)
         environment = {"ROS_PACKAGE_PATH": workspaces, **row["env"]}
         try:
-            ours = expand_xacro(file, {}, packages=Packages(environment, start=file), report=Diagnostics())
+            actual = expand_xacro(file, {}, packages=Packages(environment, start=file), report=Diagnostics())
         except TrundleError as error:
             if answer and row["file"] not in EXCEPTIONS:
                 differ[row["file"]] = str(error)
@@ -172,7 +174,7 @@ def test_xacro_files_expand_as_xacro_expands_them(corpus: Path, monkeypatch: pyt
             for name in row["env"]:
                 monkeypatch.delenv(name)
         if answer:
-            theirs = gzip.decompress((corpus / answer).read_bytes()).decode().replace("CORPUS", str(corpus))
-            if shape_of(parse_xml(ours, name="ours")) != shape_of(parse_xml(theirs, name="theirs")):
+            expected = gzip.decompress((corpus / answer).read_bytes()).decode().replace("CORPUS", str(corpus))
+            if shape_of(parse_xml(actual, name="ours")) != shape_of(parse_xml(expected, name="theirs")):
                 differ[row["file"]] = "expands otherwise"
     assert differ == {}

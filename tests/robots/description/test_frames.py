@@ -61,10 +61,10 @@ def model(folder: Path, body: str, report: Diagnostics | None = None) -> Model:
 def test_faults_that_gazebo_accepts_are_accepted_with_a_warning(tmp_path: Path, body: str, warning: str) -> None:
     report = Diagnostics()
 
-    found = model(tmp_path, body, report)
+    result = model(tmp_path, body, report)
 
-    assert found.link("a").model_from_link.position in ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
-    assert any(warning in each for each in report.warnings), report.warnings
+    assert result.link("a").model_from_link.position in ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+    assert any(warning in warning_text for warning_text in report.warnings), report.warnings
 
 
 def test_an_included_model_is_nested_and_its_frames_can_be_named(tmp_path: Path) -> None:
@@ -74,14 +74,14 @@ def test_an_included_model_is_nested_and_its_frames_can_be_named(tmp_path: Path)
         '<link name="hand"><pose relative_to="left::tip">0 0 1 0 0 0</pose></link>'
     )
 
-    found = model(tmp_path, body)
+    result = model(tmp_path, body)
 
-    (left,) = found.models
+    (left,) = result.models
     assert (left.name, left.world_from_model.position, left.canonical_link) == ("left", (0.0, 2.0, 0.0), "upper")
-    assert found.link("hand").model_from_link.position == pytest.approx((2, 2, 2))
-    grip = found.joint("grip")
+    assert result.link("hand").model_from_link.position == pytest.approx((2, 2, 2))
+    grip = result.joint("grip")
     assert (grip.child, grip.child_frame) == ("left::lower", "left::tip")
-    assert model_from_joint(found, grip).position == pytest.approx((2, 2, 1))
+    assert model_from_joint(result, grip).position == pytest.approx((2, 2, 1))
 
 
 def test_flattening_moves_nested_links_and_joints_to_the_outer_model(tmp_path: Path) -> None:
@@ -118,12 +118,12 @@ def test_a_merged_include_becomes_part_of_its_model(tmp_path: Path) -> None:
         '<joint name="fix" type="fixed"><parent>base</parent><child>upper</child></joint>'
     )
 
-    found = model(tmp_path, body)
+    result = model(tmp_path, body)
 
-    assert [link.name for link in found.links] == ["base", "upper", "lower"]
-    assert found.link("lower").model_from_link.position == pytest.approx((0, 1, 1))
-    assert [(f.name, f.attached_to) for f in found.frames] == [("_merged__arm__model__", "upper"), ("tip", "lower")]
-    axis = found.joint("elbow").axis
+    assert [link.name for link in result.links] == ["base", "upper", "lower"]
+    assert result.link("lower").model_from_link.position == pytest.approx((0, 1, 1))
+    assert [(f.name, f.attached_to) for f in result.frames] == [("_merged__arm__model__", "upper"), ("tip", "lower")]
+    axis = result.joint("elbow").axis
     assert axis is not None
     assert axis.direction == pytest.approx((0, 1, 0), abs=1e-12)
 
@@ -145,8 +145,8 @@ def merged_world(tmp_path: Path, more: str = "", around: str = "") -> tuple[Worl
 def test_a_model_is_merged_into_a_world(tmp_path: Path) -> None:
     world, report = merged_world(tmp_path)
 
-    places = {model.name: model.world_from_model.position for model in world.models}
-    assert places == {
+    positions = {model.name: model.world_from_model.position for model in world.models}
+    assert positions == {
         "lamp": pytest.approx((0, 5, 2)),
         "left": pytest.approx((0, 6, 0)),
         "right": pytest.approx((0, 5, 0)),
@@ -245,7 +245,7 @@ def test_a_saved_state_places_models(tmp_path: Path) -> None:
 
     assert [(m.name, m.world_from_model) for m in world.models] == [("m", Pose((1.0, 2.0, 3.0)))]
     assert world.lights[0].world_from_light == Pose((0.0, 0.0, 9.0))
-    assert any("<state> of unknown model 'nobody'" in each for each in report.warnings)
+    assert any("<state> of unknown model 'nobody'" in warning_text for warning_text in report.warnings)
 
 
 def test_a_model_that_includes_itself_is_refused(tmp_path: Path) -> None:
@@ -253,7 +253,7 @@ def test_a_model_that_includes_itself_is_refused(tmp_path: Path) -> None:
 
     read(tmp_path, '<world name="w"><include><uri>model://self</uri></include></world>', report)
 
-    assert any("includes itself" in each for each in report.warnings)
+    assert any("includes itself" in warning_text for warning_text in report.warnings)
 
 
 @pytest.mark.slow
@@ -281,10 +281,10 @@ def test_deeply_nested_elements_are_skipped_as_in_gazebo(tmp_path: Path) -> None
     report = Diagnostics()
     deep = "<a>" * 1000 + "</a>" * 1000
 
-    found = model(tmp_path, f'<link name="l"/><plugin name="p" filename="libp.so">{deep}</plugin>{deep}', report)
+    result = model(tmp_path, f'<link name="l"/><plugin name="p" filename="libp.so">{deep}</plugin>{deep}', report)
 
-    assert [link.name for link in found.links] == ["l"]
-    assert found.plugins[0].node.xml().count("<a>") == 999
+    assert [link.name for link in result.links] == ["l"]
+    assert result.plugins[0].node.xml().count("<a>") == 999
     assert report.warnings == [f"{tmp_path}/x.sdf:1: warning: <a> in <model> is not supported; it is ignored"]
 
 
@@ -350,17 +350,19 @@ def test_a_joint_between_a_model_and_its_canonical_link_is_left_out(tmp_path: Pa
 
 
 @pytest.mark.parametrize(
-    ("version", "x", "said"), [("1.6", 3.0, ""), ("1.7", 1.0, "<pose frame='a'> is ignored: SDF 1.7 calls it")]
+    ("version", "x", "message"), [("1.6", 3.0, ""), ("1.7", 1.0, "<pose frame='a'> is ignored: SDF 1.7 calls it")]
 )
-def test_the_frame_attribute_of_a_pose_is_read_until_sdf_1_6(tmp_path: Path, version: str, x: float, said: str) -> None:
+def test_the_frame_attribute_of_a_pose_is_read_until_sdf_1_6(
+    tmp_path: Path, version: str, x: float, message: str
+) -> None:
     links = '<link name="a"><pose>2 0 0 0 0 0</pose></link><link name="b"><pose frame="a">1 0 0 0 0 0</pose></link>'
     report = Diagnostics()
 
     (built,) = read(tmp_path, f'<model name="m">{links}</model>', report, version=version).models
 
     assert built.link("b").model_from_link.position[0] == x
-    assert said in "".join(report.warnings)
-    assert bool(said) == bool(report.warnings)
+    assert message in "".join(report.warnings)
+    assert bool(message) == bool(report.warnings)
 
 
 def test_the_offset_of_a_mimic_does_not_move_links_of_a_converted_urdf(tmp_path: Path) -> None:
@@ -399,8 +401,8 @@ def test_an_include_in_a_gazebo_block_nests_a_model_in_a_urdf(tmp_path: Path) ->
 
     (built,) = load(str(tmp_path / "r.urdf"), report, packages=packages).world.models
 
-    own, lamp = built.models
-    assert [link.name for link in own.links] == ["l"]
+    base_model, lamp = built.models
+    assert [link.name for link in base_model.links] == ["l"]
     assert (lamp.name, lamp.world_from_model.position) == ("lamp", (1.0, 0.0, 0.0))
-    assert [(each.parent, each.child) for each in built.joints] == [("base", "lamp::upper")]
+    assert [(warning_text.parent, warning_text.child) for warning_text in built.joints] == [("base", "lamp::upper")]
     assert report.warnings == []

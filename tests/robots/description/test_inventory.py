@@ -25,7 +25,7 @@ _COLLISION = _LINK.format(f"<collision name='c'>{_BOX}{{}}</collision>")
 _SHAPE = _LINK.format("<visual name='v'><geometry>{}</geometry></visual>")
 _JOINT = "<joint name='j' type='{}' {}><parent>l</parent><child>k</child>{}</joint>"
 _STATE = _WORLD.format(_MODEL.replace("{}", "") + "<light name='sun' type='point'/><state world_name='w'>{}</state>")
-_EACH = "<model name='each'><link name='l'/></model>"
+_PLAIN_MODEL = "<model name='each'><link name='l'/></model>"
 _FILLED = "<box><size>9 9 9</size></box>"
 _POPULATION = _WORLD.format("<population name='p' here=''>{}</population>")
 _ACTOR = "<actor name='a' here=''><skin><filename>skin.dae</filename></skin><script/></actor>"
@@ -71,7 +71,7 @@ HOSTS = {
     "gui": _WORLD.format("<gui here=''/>"),
     "spherical_coordinates": _WORLD.format("<spherical_coordinates here=''/>"),
     "road": _WORLD.format("<road name='r' here=''><point>0 0 0</point><point>9 0 0</point></road>"),
-    "population": _POPULATION.format(_EACH + _FILLED),
+    "population": _POPULATION.format(_PLAIN_MODEL + _FILLED),
     "actor": _WORLD.format(_ACTOR),
     "projector": _LINK.format("<projector name='p' here=''/>"),
     "particle_emitter": _LINK.format("<particle_emitter name='p' type='point' here=''/>"),
@@ -106,14 +106,14 @@ HOSTS = {
 """Document for each kind of element; the tested one goes into the element with the attribute `here`."""
 
 SPECIAL_HOSTS = {
-    "population/box@box": _POPULATION.format(_EACH),
-    "population/cylinder@cylinder": _POPULATION.format(_EACH),
+    "population/box@box": _POPULATION.format(_PLAIN_MODEL),
+    "population/cylinder@cylinder": _POPULATION.format(_PLAIN_MODEL),
     "population/model@model": _POPULATION.format(_FILLED),
     "population/distribution/step": _POPULATION.format(
-        _EACH + "<distribution><type>grid</type><rows>2</rows><cols>2</cols></distribution>"
+        _PLAIN_MODEL + "<distribution><type>grid</type><rows>2</rows><cols>2</cols></distribution>"
     ),
-    "population/distribution/rows": _POPULATION.format(_EACH + "<distribution><type>grid</type></distribution>"),
-    "population/distribution/cols": _POPULATION.format(_EACH + "<distribution><type>grid</type></distribution>"),
+    "population/distribution/rows": _POPULATION.format(_PLAIN_MODEL + "<distribution><type>grid</type></distribution>"),
+    "population/distribution/cols": _POPULATION.format(_PLAIN_MODEL + "<distribution><type>grid</type></distribution>"),
     "actor/joint@joint": _WORLD.format("<actor name='a' here=''><link name='l'/><link name='k'/></actor>"),
     "model/pose@pose": _WORLD.format("<model name='m' here=''><link name='l'/></model>"),
     "camera@name": _sensor("multicamera", "<camera here=''/>"),
@@ -323,10 +323,16 @@ def understood(folder: Path, text: str) -> tuple[Any, set[str]]:
 def test_an_element_is_in_the_model_or_named(entry: Entry, tmp_path: Path) -> None:
     without, with_it = documents(entry)
     assert without != with_it
-    model, said = understood(tmp_path, without)
+    model, warnings_without = understood(tmp_path, without)
 
-    changed, told = understood(tmp_path, with_it)
+    changed, warnings_with = understood(tmp_path, with_it)
 
-    more = {what for what in told ^ said if " wants " not in what and "neither true nor false" not in what}
-    left_out = {tag for what in told if _LEFT_OUT.search(what) for tag in _TAG.findall(what.split(" in <")[0])}
+    more = {
+        warning
+        for warning in warnings_with ^ warnings_without
+        if " wants " not in warning and "neither true nor false" not in warning
+    }
+    left_out = {
+        tag for warning in warnings_with if _LEFT_OUT.search(warning) for tag in _TAG.findall(warning.split(" in <")[0])
+    }
     assert changed != model or more or left_out & set(re.split("[/@]", entry.path)), with_it

@@ -32,7 +32,7 @@ def warnings_of(text: str, folder: Path) -> list[str]:
     path.write_text(SDF.format(text))
     report = Diagnostics()
     load(str(path), report, packages=Packages({"HOME": "/nobody"}, start=path))
-    return [each.removeprefix(f"{folder}/") for each in report.warnings]
+    return [warning.removeprefix(f"{folder}/") for warning in report.warnings]
 
 
 LONG = "a" * 5000
@@ -52,10 +52,10 @@ SCRIPT = "<material><script><uri>{}</uri><name>red</name></script></material>"
 )
 def test_impossible_file_names_in_an_sdf_are_reported(folder: Path, text: str, line: int) -> None:
     for uri in ("pipe.dae", "package://arm/pipe.dae"):
-        said = warnings_of(text.format(uri), folder)
+        warnings = warnings_of(text.format(uri), folder)
         named = f"{uri}: " * (uri != "pipe.dae")
         pipe = f"{named}{folder}/pipe.dae is a pipe, a device or a socket, not a file"
-        assert said[0].startswith(f"m.sdf:{line}: warning: {pipe}; ")
+        assert warnings[0].startswith(f"m.sdf:{line}: warning: {pipe}; ")
 
     for uri in (
         "a" * 5000,
@@ -65,9 +65,9 @@ def test_impossible_file_names_in_an_sdf_are_reported(folder: Path, text: str, l
         "a%00b",
         "x/" * 3000,
     ):
-        said = warnings_of(text.format(uri), folder)
-        assert said[0].startswith(f"m.sdf:{line}: warning: ")
-        assert len(said[0]) < 1000
+        warnings = warnings_of(text.format(uri), folder)
+        assert warnings[0].startswith(f"m.sdf:{line}: warning: ")
+        assert len(warnings[0]) < 1000
 
 
 def test_impossible_file_names_in_a_urdf_are_reported(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -75,7 +75,7 @@ def test_impossible_file_names_in_a_urdf_are_reported(folder: Path, capsys: pyte
     inertia = "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
     link = f"<inertial><mass value='1'/>{inertia}</inertial>{visual}"
     path = folder / "r.urdf"
-    for name, said in (
+    for name, warnings in (
         ("pipe.dae", f"{folder}/pipe.dae is a pipe"),
         (LONG, f"no such file {folder}/aaaa"),
         (f"package://{LONG}/a.dae", "package://aaaa"),
@@ -83,23 +83,23 @@ def test_impossible_file_names_in_a_urdf_are_reported(folder: Path, capsys: pyte
     ):
         path.write_text(f"<robot name='r'><link name='base'>{link.format(name)}</link></robot>")
         assert main(["check", str(path)]) == 0
-        assert f"r.urdf:2: warning: {said}" in capsys.readouterr().out
+        assert f"r.urdf:2: warning: {warnings}" in capsys.readouterr().out
 
 
 def test_an_include_with_a_bracket_in_its_host_name_is_left_out(folder: Path) -> None:
-    said = warnings_of("<world name='w'><include><uri>https://[fuel/a/b/c</uri></include></world>", folder)
+    warnings = warnings_of("<world name='w'><include><uri>https://[fuel/a/b/c</uri></include></world>", folder)
 
-    assert "nothing is fetched from the network" in said[0]
+    assert "nothing is fetched from the network" in warnings[0]
 
 
 def test_a_material_script_that_is_a_pipe_is_left_out(folder: Path) -> None:
     (folder / "scripts").mkdir()
     os.mkfifo(folder / "scripts/red.material")
 
-    said = warnings_of(LINK.format(BOX + SCRIPT.format("scripts")), folder)
+    warnings = warnings_of(LINK.format(BOX + SCRIPT.format("scripts")), folder)
 
     why = "cannot be read: it is a pipe, not a regular file"
-    assert said[0] == f"scripts/red.material: warning: {why}; this material script is left out"
+    assert warnings[0] == f"scripts/red.material: warning: {why}; this material script is left out"
 
 
 @pytest.mark.parametrize(
@@ -140,11 +140,11 @@ class TestPipeOnTheCommandLine:
         """Pipe whose writer has ended, and a box in the working directory for it to include."""
         monkeypatch.chdir(tmp_path)
         (tmp_path / "box.sdf").write_text(SDF.format("<model name='box'><link name='l'/></model>"))
-        ours, theirs = os.pipe()
-        with os.fdopen(theirs, "w") as writer:
+        read_end, write_end = os.pipe()
+        with os.fdopen(write_end, "w") as writer:
             writer.write(SDF.format("<world name='w'><include><uri>box.sdf</uri></include><oops/></world>"))
-        yield f"/dev/fd/{ours}"
-        os.close(ours)
+        yield f"/dev/fd/{read_end}"
+        os.close(read_end)
 
     def test_it_is_read_once_and_relative_uris_start_in_the_working_directory(
         self, pipe: str, capsys: pytest.CaptureFixture[str]
@@ -172,13 +172,13 @@ class TestPipeOnTheCommandLine:
         assert "cannot be read: no end of the stream within 0.01 s" in capsys.readouterr().out
 
     def test_a_xacro_is_read_from_a_pipe(self, capfd: pytest.CaptureFixture[str]) -> None:
-        ours, theirs = os.pipe()
-        with os.fdopen(theirs, "w") as writer:
+        read_end, write_end = os.pipe()
+        with os.fdopen(write_end, "w") as writer:
             writer.write(XACRO.format("<xacro:property name='x' value='7'/><link name='${x}'/>"))
 
-        assert main(["xacro", f"/dev/fd/{ours}"]) == 0
+        assert main(["xacro", f"/dev/fd/{read_end}"]) == 0
         assert '<link name="7"/>' in capfd.readouterr().out
-        os.close(ours)
+        os.close(read_end)
 
     @pytest.mark.parametrize(
         "robot",
@@ -187,7 +187,7 @@ class TestPipeOnTheCommandLine:
             "<macro name='m' params='n'><link name='${n}'/></macro><m n='l7'/>",
         ],
     )
-    def test_one_of_indigo_is_expanded_as_from_a_file(self, robot: str, tmp_path: Path) -> None:
+    def test_a_xacro_of_indigo_is_expanded_as_from_a_file(self, robot: str, tmp_path: Path) -> None:
         joint = "<joint name='j' type='fixed'><parent link='base'/><child link='l7'/></joint>"
         text, report = XACRO.format(robot + joint), Diagnostics()
         packages = Packages({}, start=tmp_path)

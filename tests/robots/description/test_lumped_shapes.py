@@ -72,26 +72,26 @@ def test_the_tags_of_a_block_change_values_of_its_surface(is_first: bool) -> Non
     tags = f"{_TAGS}<maxContacts>4</maxContacts><laserRetro>9</laserRetro>"
     report = Diagnostics()
 
-    found = collision(
+    result = collision(
         f'<gazebo reference="base">{surface if is_first else ""}{tags}{"" if is_first else surface}</gazebo>', report
     )
 
-    assert found.surface == _MERGED
-    assert (found.max_contacts, found.laser_retro) == (4, 9.0)
+    assert result.surface == _MERGED
+    assert (result.max_contacts, result.laser_retro) == (4, 9.0)
     assert report.warnings == []
 
 
 def test_a_surface_replaces_the_tags_of_earlier_blocks_and_keeps_those_of_later_ones() -> None:
     whole = "<collision><max_contacts>7</max_contacts><surface><friction><ode><mu>5</mu></ode></friction></surface>"
-    found = collision(
+    result = collision(
         f'<gazebo reference="base"><mu1>1</mu1><mu2>2</mu2></gazebo>'
         f'<gazebo reference="base">{whole}<shine/></collision></gazebo>'
         f'<gazebo reference="base"><kp value="8"/><fdir1>0 1 0</fdir1></gazebo>',
         report := Diagnostics(),
     )
 
-    assert found.surface == Surface(mu=5.0, mu2=1.0, kp=8.0, fdir1=(0.0, 1.0, 0.0))
-    assert found.max_contacts == 7
+    assert result.surface == Surface(mu=5.0, mu2=1.0, kp=8.0, fdir1=(0.0, 1.0, 0.0))
+    assert result.max_contacts == 7
     assert report.warnings == ["<stdin>:1: warning: <shine> in <collision> is not supported; it is ignored"]
 
 

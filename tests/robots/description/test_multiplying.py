@@ -56,7 +56,7 @@ _INCLUDES = [
 
 
 @pytest.mark.parametrize(("read", "suffix", "include", "document"), _INCLUDES, ids=[each[1] for each in _INCLUDES])
-@pytest.mark.parametrize(("what", "limits"), [("100 files", {"files": 100}), ("0 MiB of text", {"octets": 20_000})])
+@pytest.mark.parametrize(("message", "limits"), [("100 files", {"files": 100}), ("0 MiB of text", {"octets": 20_000})])
 def test_includes_that_double_end_with_the_chain(
     tmp_path: Path,
     limit: Callable[..., None],
@@ -64,14 +64,14 @@ def test_includes_that_double_end_with_the_chain(
     suffix: str,
     include: str,
     document: str,
-    what: str,
+    message: str,
     limits: dict[str, int],
 ) -> None:
     limit(**limits)
     top = _doubling(tmp_path, suffix, include, document)
 
     with pytest.raises(
-        ReadBudgetError, match=f"with its included files and repeated macros, takes more than {what}"
+        ReadBudgetError, match=f"with its included files and repeated macros, takes more than {message}"
     ) as ended:
         read(top)
     assert f"0{suffix}" in str(ended.value)
@@ -140,7 +140,7 @@ def test_populations_count_as_their_models(tmp_path: Path, limit: Callable[..., 
         _sdf(path)
 
 
-def test_the_clock_ends_what_the_counts_allow() -> None:
+def test_reading_is_refused_after_its_time_limit() -> None:
     budget = ReadBudget(cpu_s=-1.0)
     with pytest.raises(ReadBudgetError, match="takes more than the time that files of their size take"):
         budget.add_file("a.sdf", 10, _AT)
@@ -149,7 +149,7 @@ def test_the_clock_ends_what_the_counts_allow() -> None:
     grown.add_file("a.sdf", 0, _AT)
 
 
-def test_much_that_is_repeated_in_earnest_is_read(tmp_path: Path) -> None:
+def test_many_legitimate_repetitions_are_read(tmp_path: Path) -> None:
     """A world of a thousand includes, a robot of a thousand links."""
     (tmp_path / "tree.sdf").write_text('<sdf version="1.7"><model name="m"><link name="l"/></model></sdf>')
     includes = "".join(f"<include><uri>tree.sdf</uri><name>t{i}</name></include>" for i in range(1000))

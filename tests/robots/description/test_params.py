@@ -69,8 +69,8 @@ def test_an_impossible_change_is_reported_with_its_line(tmp_path: Path) -> None:
         '<link element_id="upper"><sensor name="s" action="remove"/></link>',
     )
 
-    told = [each.removeprefix(f"{tmp_path}/x.sdf:") for each in report.warnings]
-    assert told == [
+    warnings = [line.removeprefix(f"{tmp_path}/x.sdf:") for line in report.warnings]
+    assert warnings == [
         "3: warning: <experimental:params>: no <visual> 'upper::lost' in the included model; it is left out",
         "4: warning: <visual> without element_id in <experimental:params>; it is left out",
         "5: warning: <link>: action 'paint' is unknown; actions: add, modify, remove, replace; it is left out",

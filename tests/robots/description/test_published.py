@@ -42,12 +42,12 @@ def test_its_joints_are_where_gazebo_has_them(rp2w: LoadedDescription, shared: P
     (model,) = rp2w.world.models
 
     for joint in model.joints:
-        theirs = gazebo[f"JOINT my_robot::{joint.name}"]
+        expected = gazebo[f"JOINT my_robot::{joint.name}"]
         assert joint.axis is not None
-        assert joint.axis.direction == pytest.approx([float(v) for v in theirs["axis_global"].split()])
+        assert joint.axis.direction == pytest.approx([float(v) for v in expected["axis_global"].split()])
         anchor = model_from_joint(model, joint).position
-        assert anchor == pytest.approx([float(v) for v in theirs["anchor"].split()], abs=1e-9)
-        assert joint.axis.friction == theirs["friction"]
+        assert anchor == pytest.approx([float(v) for v in expected["anchor"].split()], abs=1e-9)
+        assert joint.axis.friction == expected["friction"]
 
 
 def test_values_are_kept_as_written(rp2w: LoadedDescription) -> None:
@@ -67,10 +67,10 @@ def test_the_smartcar_expands_as_it_did_with_its_own_xacro(smartcar_file: Path, 
     packages = Packages({"ROS_PACKAGE_PATH": str(shared / "seeds")}, start=smartcar_file)
     report = Diagnostics()
 
-    ours = parse_xml(expand_xacro(smartcar_file, {}, packages=packages, report=report), name="ours")
-    theirs = parse_xml((shared / "peers/ros_reference/smartcar_melodic.urdf").read_bytes(), name="theirs")
+    actual = parse_xml(expand_xacro(smartcar_file, {}, packages=packages, report=report), name="ours")
+    expected = parse_xml((shared / "peers/ros_reference/smartcar_melodic.urdf").read_bytes(), name="theirs")
 
-    assert list(map(shape_of, ours.children)) == list(map(shape_of, theirs.children))
+    assert list(map(shape_of, actual.children)) == list(map(shape_of, expected.children))
     assert sum("without the prefix xacro:" in warning for warning in report.warnings) == 2
 
 

@@ -36,17 +36,17 @@ def test_a_number_beyond_its_range_is_named_by_line(
     tmp_path: Path, document: str, file: str, name: str, value: str
 ) -> None:
     path = tmp_path / file
-    path.write_text(document.format(**{each: value if each == name else "1" for each in _NAMES}))
+    path.write_text(document.format(**{finding: value if finding == name else "1" for finding in _NAMES}))
 
     result = check(str(path), {"HOME": "/nobody"}, start=tmp_path)
 
-    said = [each for each in result.report.worst_first() if "within ±" in each and value in each]
+    findings = [finding for finding in result.report.worst_first() if "within ±" in finding and value in finding]
     line = 1 + next(n for n, text in enumerate(path.read_text().splitlines()) if value in text)
-    assert len(said) == 1, result.text()
-    assert said[0].startswith(f"{path}:{line}: ")
+    assert len(findings) == 1, result.text()
+    assert findings[0].startswith(f"{path}:{line}: ")
 
 
-def test_unlimited_as_sdformat_writes_it_is_no_mistake(tmp_path: Path) -> None:
+def test_unlimited_as_sdformat_writes_it_is_accepted(tmp_path: Path) -> None:
     path = tmp_path / "m.sdf"
     limit = "<limit><lower>-1.79769e+308</lower><upper>1.79769e+308</upper><effort>1e16</effort></limit>"
     ends = "<parent>world</parent><child>l</child>"

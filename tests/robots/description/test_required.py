@@ -34,9 +34,9 @@ def warnings(folder: Path, text: str, name: str = "x.sdf") -> list[str]:
 )
 def test_a_missing_attribute_is_named(tmp_path: Path, body: str, tag: str, attribute: str) -> None:
     """Each case was compared with libsdformat 9.3."""
-    said = warnings(tmp_path, f'<sdf version="1.7">{body}</sdf>')
+    messages = warnings(tmp_path, f'<sdf version="1.7">{body}</sdf>')
 
-    assert said == [f"<{tag}> without {attribute!r}; Gazebo refuses the whole file"]
+    assert messages == [f"<{tag}> without {attribute!r}; Gazebo refuses the whole file"]
 
 
 @pytest.mark.parametrize(
@@ -49,9 +49,9 @@ def test_a_missing_attribute_is_named(tmp_path: Path, body: str, tag: str, attri
 )
 def test_an_empty_attribute_is_named(tmp_path: Path, body: str, tag: str, attribute: str) -> None:
     """The rule is Param::SetFromString's of libsdformat 9.9.1: a required parameter must not be an empty string."""
-    said = warnings(tmp_path, f'<sdf version="1.7">{body}</sdf>')
+    messages = warnings(tmp_path, f'<sdf version="1.7">{body}</sdf>')
 
-    assert said == [f"<{tag}> with an empty {attribute!r}; Gazebo refuses the whole file"]
+    assert messages == [f"<{tag}> with an empty {attribute!r}; Gazebo refuses the whole file"]
 
 
 def test_elements_without_required_attributes_are_not_reported(tmp_path: Path) -> None:
@@ -78,9 +78,9 @@ def test_included_files_and_gazebo_blocks_are_checked_too(tmp_path: Path) -> Non
 
 
 def test_the_root_element_of_sdf_1_2_is_reported_as_gazebo_refuses_it(tmp_path: Path) -> None:
-    (said,) = warnings(tmp_path, f'<gazebo version="1.2"><model name="m">{LINK}</model></gazebo>')
+    (messages,) = warnings(tmp_path, f'<gazebo version="1.2"><model name="m">{LINK}</model></gazebo>')
 
-    assert said == "<gazebo> was the root element until SDF 1.2; Gazebo refuses the file: it needs <sdf>"
+    assert messages == "<gazebo> was the root element until SDF 1.2; Gazebo refuses the file: it needs <sdf>"
 
 
 def test_blank_lines_before_a_declaration_stop_xacro_and_not_gazebo(tmp_path: Path) -> None:

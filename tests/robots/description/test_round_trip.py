@@ -16,7 +16,7 @@ from trundle.robots.model import MeshFile, Model, flattened, model_from_joint
 from trundle.robots.packages import Packages
 from trundle.spatial import Pose
 
-KNOWN = {
+KNOWN_DIFFERENCES = {
     "models/joints/name": "SDF before 1.7 let a joint be called like a link; it gets `_joint` behind its name",
     "models/models/joints/name": "as above",
     "models/links/visuals/geometry/uri": "a relative URI becomes a full one, to the same file",
@@ -41,10 +41,10 @@ def through_sdf(loaded: LoadedDescription, folder: Path, packages: Packages) -> 
     report = Diagnostics()
     text = write_sdf(loaded.world, is_world=is_world, uri_of=written_uri, report=report)
     again = load_text(text, name="<stdin>", folder=folder, packages=packages, report=Diagnostics())
-    said = [w for w in report.warnings if not any(f"of a {kind} sensor are not written" in w for kind in UNSETTLED)]
+    warnings = [w for w in report.warnings if not any(f"of a {kind} sensor are not written" in w for kind in UNSETTLED)]
     assert again.kind == ("world" if is_world else "model")
-    found = {*unlike(plain(loaded.world), plain(again.world)), *(w for w in said if "texture scale" not in w)}
-    return found - KNOWN.keys()
+    differences = {*unlike(plain(loaded.world), plain(again.world)), *(w for w in warnings if "texture scale" not in w)}
+    return differences - KNOWN_DIFFERENCES.keys()
 
 
 def sdf_files(shared: Path, packages: Packages, step: int) -> Iterator[tuple[Path, LoadedDescription]]:
@@ -74,8 +74,8 @@ def same_through_sdf(files: Iterator[tuple[Path, LoadedDescription]], packages: 
     differ = Counter[str]()
     count = 0
     for path, loaded in files:
-        for each in through_sdf(loaded, path.parent, packages.around(path)):
-            differ[f"{each} of {path}"] += 1
+        for item in through_sdf(loaded, path.parent, packages.around(path)):
+            differ[f"{item} of {path}"] += 1
         count += 1
     assert differ == {}
     return count
@@ -99,22 +99,22 @@ def test_every_urdf_file_round_trips(shared: Path, packages: Packages) -> None:
     assert same_through_sdf(urdf_files(shared, packages, 1), packages) > 150
 
 
-def places(model: Model, left_out: set[str]) -> list[tuple[str, Pose]]:
+def link_poses(model: Model, left_out: set[str]) -> list[tuple[str, Pose]]:
     """Poses of every mass, visual, sensor and joint in the first link's frame, which a URDF keeps.
 
     Visuals are matched by order, as the conversion of a URDF renames them; missing ones cannot be written.
     """
-    found: list[tuple[str, Pose]] = []
+    differences: list[tuple[str, Pose]] = []
     first = model.links[0].model_from_link.inverse()
     for link in model.links:
         root_from_link = first @ link.model_from_link
-        found.append((f"{link.name} mass", root_from_link @ link.inertial.link_from_com))
+        differences.append((f"{link.name} mass", root_from_link @ link.inertial.link_from_com))
         for visual in link.visuals:
             lost = isinstance(visual.geometry, MeshFile) and visual.geometry.path is None
             if not lost and visual.name not in left_out:
-                found.append((f"{link.name} visual", root_from_link @ visual.link_from_visual))
-        found += [(f"{link.name} {each.name}", root_from_link @ each.link_from_sensor) for each in link.sensors]
-    return found + [(f"joint {joint.name}", first @ model_from_joint(model, joint)) for joint in model.joints]
+                differences.append((f"{link.name} visual", root_from_link @ visual.link_from_visual))
+        differences += [(f"{link.name} {item.name}", root_from_link @ item.link_from_sensor) for item in link.sensors]
+    return differences + [(f"joint {joint.name}", first @ model_from_joint(model, joint)) for joint in model.joints]
 
 
 def through_urdf(model: Model, folder: Path, packages: Packages) -> list[str] | None:
@@ -126,7 +126,7 @@ def through_urdf(model: Model, folder: Path, packages: Packages) -> list[str] | 
         return None
     left_out = {warning.split("'")[1] for warning in report.warnings if "it is left out" in warning}
     again = load_text(text, name="<stdin>", folder=folder, packages=packages, report=Diagnostics()).world.models[0]
-    before, after = places(model, left_out), places(again, set())
+    before, after = link_poses(model, left_out), link_poses(again, set())
     if [name for name, _ in before] != [name for name, _ in after]:
         return [f"{[name for name, _ in before]} became {[name for name, _ in after]}"]
     return [name for (name, pose), (_, now) in zip(before, after, strict=True) if list(unlike(pose, now))]
@@ -135,7 +135,7 @@ def through_urdf(model: Model, folder: Path, packages: Packages) -> list[str] | 
 @pytest.mark.slow
 def test_models_written_as_urdf_keep_their_poses(shared: Path, packages: Packages) -> None:
     """Cases: models of the database, and every converted URDF."""
-    database = (each for each in sdf_files(shared, packages, 1) if "osrf+gazebo_models" in str(each[0]))
+    database = (item for item in sdf_files(shared, packages, 1) if "osrf+gazebo_models" in str(item[0]))
     count = 0
     for path, loaded in (*database, *urdf_files(shared, packages, 1)):
         for model in flattened(loaded.world).models:

@@ -40,12 +40,12 @@ def sdf(folder: Path, version: str, body: str, report: Diagnostics | None = None
         ("1.9", ' expressed_in="a"', "", (1, 0, 0)),
     ],
 )
-def test_the_version_says_in_which_frame_an_axis_is_written(tmp_path, version, attribute, extra, axis) -> None:
+def test_the_sdf_version_determines_the_frame_of_an_axis(tmp_path, version, attribute, extra, axis) -> None:
     model = sdf(tmp_path, version, TURNED + HINGE.format(attribute, extra))
 
-    found = model.joints[0].axis
-    assert found is not None
-    assert found.direction == pytest.approx(axis, abs=1e-12)
+    read_axis = model.joints[0].axis
+    assert read_axis is not None
+    assert read_axis.direction == pytest.approx(axis, abs=1e-12)
 
 
 def test_poses_are_resolved_through_relative_to(tmp_path: Path) -> None:
@@ -69,7 +69,7 @@ def test_an_included_model_takes_the_name_and_pose_it_is_given(tmp_path: Path) -
     assert (model.name, model.static, model.world_from_model) == ("floor", True, Pose((0.0, 0.0, 1.0)))
 
 
-def test_what_is_not_supported_is_named_with_its_line(tmp_path: Path) -> None:
+def test_unsupported_elements_are_reported_with_their_line(tmp_path: Path) -> None:
     report = Diagnostics()
 
     sdf(tmp_path, "1.6", '<link name="a">\n<battery name="b"/></link>\n<gripper name="g"/>', report)
@@ -163,7 +163,7 @@ def test_provide_feedback_of_a_joint_gives_no_warning(tmp_path: Path) -> None:
     )
     sdf(tmp_path, "1.6", TURNED + joint, report)
 
-    assert not [each for each in report.findings if "<physics>" in str(each)]
+    assert not [finding for finding in report.findings if "<physics>" in str(finding)]
 
 
 def test_a_link_without_mass_is_left_out_with_its_child_links(tmp_path: Path) -> None:
@@ -429,9 +429,9 @@ def test_slip_in_a_gazebo_block_is_ignored_as_in_gazebo_with_the_place_that_coun
 
     a, b = (link.collisions[0].surface for link in world.models[0].links)
     assert (a.slip1, b.slip2) == (0.0, 0.2)
-    (said,) = (line.partition(": warning: ")[2] for line in report.warnings)
+    (message,) = (line.partition(": warning: ")[2] for line in report.warnings)
     read_instead = "<collision><surface><friction><ode><slip1> is not"
-    assert said == f"<slip1> for 'a' in <gazebo> is ignored, as in Gazebo; {read_instead}"
+    assert message == f"<slip1> for 'a' in <gazebo> is ignored, as in Gazebo; {read_instead}"
 
 
 @pytest.mark.parametrize("name", ["x.sdf", "x.urdf"])

@@ -82,7 +82,7 @@ def test_an_even_distribution_leaves_no_corner_empty() -> None:
 
 
 @pytest.mark.parametrize(
-    ("body", "said"),
+    ("body", "message"),
     [
         ("<model_count>2000000</model_count><box/>", "2000000 models; 1 to 1000 are possible"),
         ("<model_count>0</model_count><box/>", "0 models"),
@@ -93,13 +93,13 @@ def test_an_even_distribution_leaves_no_corner_empty() -> None:
         ("<distribution><type>grid</type><rows>-2</rows><cols>-2</cols></distribution>", "4 models"),
     ],
 )
-def test_an_invalid_population_is_reported(tmp_path: Path, body: str, said: str) -> None:
+def test_an_invalid_population_is_reported(tmp_path: Path, body: str, message: str) -> None:
     report = Diagnostics()
 
     assert population(tmp_path, body, report=report).models == ()
 
     (warning,) = report.warnings
-    assert f"x.world:1: warning: <population> 'p': {said}" in warning
+    assert f"x.world:1: warning: <population> 'p': {message}" in warning
 
 
 SAVED = """<model name='arm'><pose>1 0 0 0 0 0</pose><link name='base'><visual name='v'><geometry><box>
@@ -122,8 +122,8 @@ def test_a_saved_link_keeps_its_saved_and_its_written_pose(tmp_path: Path) -> No
     assert tip.model_from_link == Pose((0.0, 0.0, 1.0))
     assert tip.initial_pose is not None
     assert tip.initial_pose.position == pytest.approx((1, 0, 1))
-    told = [finding.what for finding in report.findings]
-    assert "<velocity> in <link> has no effect: everything starts at rest; it is ignored" in told
+    messages = [finding.what for finding in report.findings]
+    assert "<velocity> in <link> has no effect: everything starts at rest; it is ignored" in messages
     again = load_text(
         write_sdf(world, is_world=True, uri_of=written_uri, report=report),
         name="again.sdf",
@@ -196,7 +196,7 @@ def test_an_actor_has_its_skin_its_animations_and_its_script(tmp_path: Path) -> 
 
     assert actor.skin is not None
     assert (actor.skin.path, actor.skin.scale) == (tmp_path / "walk.dae", 2.0)
-    assert [(each.name, each.interpolate_x) for each in actor.animations] == [("walking", True)]
+    assert [(animation.name, animation.interpolate_x) for animation in actor.animations] == [("walking", True)]
     assert (actor.loop, actor.delay_start_s, actor.auto_start) == (False, 2.5, False)
     walk, dance = actor.trajectories
     assert (walk.tension, [point.time_s for point in walk.waypoints]) == (0.5, [0.0, 2.0])
@@ -231,9 +231,9 @@ def test_an_actor_and_a_road_round_trip(tmp_path: Path) -> None:
 
 def test_a_road_is_drawn_on_static_geometry(tmp_path: Path) -> None:
     ground = "<model name='g'><static>1</static><pose>5 0 1 0 0 1</pose><link name='l'/></model>"
-    way = "<road name='way'><point>0 0 0</point><point>1 0 0</point></road>"
+    road_text = "<road name='way'><point>0 0 0</point><point>1 0 0</point></road>"
     report = Diagnostics()
-    world = read(tmp_path, f"<model name='car'><link name='l'/></model>{ground}{way}")
+    world = read(tmp_path, f"<model name='car'><link name='l'/></model>{ground}{road_text}")
 
     (shape,) = scene_from_world(world, report).shapes
 
@@ -243,5 +243,5 @@ def test_a_road_is_drawn_on_static_geometry(tmp_path: Path) -> None:
     assert (model.world_from_model @ shape.body_from_shape).as_list() == pytest.approx([0.0] * 6, abs=1e-12)
     assert scene_from_world(world, report, collisions=True).shapes == ()
     assert report.findings == []
-    assert scene_from_world(read(tmp_path, way), report).shapes == ()
+    assert scene_from_world(read(tmp_path, road_text), report).shapes == ()
     assert "nothing in this world is static to lay it on; it is not drawn" in report.warnings[0]

@@ -81,8 +81,8 @@ def test_a_scanner_s_macro_builds_its_sensor(
     assert (sensor.name, sensor.plugins[0].filename) == (name, plugin)
     assert sensor.scan is not None
     assert sensor.scan.horizontal.samples == rays
-    (said,) = report.warnings
-    assert f"robot.urdf.xacro:2: warning: no package {include.partition(')')[0]!r}: a stand-in of boxes" in said
+    (message,) = report.warnings
+    assert f"robot.urdf.xacro:2: warning: no package {include.partition(')')[0]!r}: a stand-in of boxes" in message
     assert model.links[0].inertial.mass > 5.0
 
 
@@ -117,7 +117,7 @@ GENERIC = 'ros_topic="image" cam_info_topic="info" update_rate="10" res_x="320" 
 
 
 @pytest.mark.parametrize(
-    ("kind", "more", "name", "y", "size", "fov", "plugin", "said"),
+    ("kind", "more", "name", "y", "size", "fov", "plugin", "message"),
     [
         (
             "generic_camera",
@@ -150,7 +150,7 @@ def test_a_camera_s_macro_builds_its_sensor(
     size: tuple[float, ...],
     fov: float,
     plugin: str,
-    said: list[str],
+    message: list[str],
 ) -> None:
     include = f"hector_sensors_description)/urdf/{kind}.urdf.xacro"
     call = f'<xacro:{kind} name="eye" parent="base_link" {more}>{ORIGIN}</xacro:{kind}>'
@@ -164,7 +164,7 @@ def test_a_camera_s_macro_builds_its_sensor(
     assert math.degrees(camera.horizontal_fov_rad) == pytest.approx(fov)
     assert [
         sensor.plugins[0].node.string(tag) for tag in ("imageTopicName", "cameraInfoTopicName", "frameName")
-    ] == said
+    ] == message
     assert len(report.warnings) == 1
 
 

@@ -8,7 +8,7 @@ import pytest
 from trundle.app.cli import main
 from trundle.base.diagnostics import DescriptionError, Diagnostics
 from trundle.robots.description import load
-from trundle.robots.model import Model
+from trundle.robots.model import MeshFile, Model
 from trundle.robots.packages import Packages
 
 BODY = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
@@ -91,8 +91,8 @@ def test_faults_that_urdfdom_refuses_are_read_with_a_warning(
 <joint name="j" type="continuous"><parent link="base"/><child link="tip"/>{inside}</joint></robot>"""
 
     assert len(robot(tmp_path, text, report).links) == 2
-    (said,) = report.warnings
-    assert warning in said
+    (message,) = report.warnings
+    assert warning in message
 
 
 def test_a_material_without_a_name_is_a_fault_as_to_urdfdom(tmp_path: Path) -> None:
@@ -117,8 +117,8 @@ def test_shapes_of_the_world_link_are_left_out_with_a_warning(tmp_path: Path) ->
 <joint name="j" type="fixed"><parent link="world"/><child link="base"/></joint></robot>"""
 
     assert [link.name for link in robot(tmp_path, text, report).links] == ["base"]
-    (said,) = report.warnings
-    assert "link 'world' is the world itself: as in Gazebo its shapes are left out" in said
+    (message,) = report.warnings
+    assert "link 'world' is the world itself: as in Gazebo its shapes are left out" in message
 
 
 def test_missing_meshes_of_links_without_mass_are_named(tmp_path: Path) -> None:
@@ -135,8 +135,8 @@ def test_ros2_control_is_named_as_ros_2_s(tmp_path: Path) -> None:
     control = '<ros2_control name="c" type="system"><joint name="j"/></ros2_control>'
     robot(tmp_path, f'<robot name="r"><link name="base">{BODY}</link>{control}</robot>', report)
 
-    (said,) = report.warnings
-    assert "<ros2_control> is ROS 2's: nothing drives its joints; ROS 1 has <transmission>" in said
+    (message,) = report.warnings
+    assert "<ros2_control> is ROS 2's: nothing drives its joints; ROS 1 has <transmission>" in message
 
 
 def test_a_file_of_macros_alone_is_a_part_to_include(tmp_path: Path) -> None:
@@ -177,4 +177,5 @@ def test_meshes_of_sdf_1_0_are_named_by_an_attribute(tmp_path: Path) -> None:
     (model,) = load(str(tmp_path / "m.sdf"), report, packages=Packages({}, start=tmp_path)).world.models
 
     (visual,) = model.links[0].visuals
+    assert isinstance(visual.geometry, MeshFile)
     assert (visual.geometry.path, visual.geometry.scale) == (tmp_path / "arm.stl", (2.0, 2.0, 3.0))

@@ -38,10 +38,10 @@ def test_a_texture_is_found_beside_the_file_and_by_the_name_of_its_material(tmp_
 
     loaded = load(str(file), report, packages=Packages({}, start=tmp_path))
 
-    known, own, lost = (visual.material for visual in loaded.world.models[0].links[0].visuals)
-    assert known.texture == own.texture == tmp_path / "green.png"
-    assert (known.diffuse, own.diffuse) == ((1.0, 1.0, 1.0, 1.0), (0.5, 1.0, 1.0, 1.0))
-    assert lost is GREY
+    by_name, beside_file, missing = (visual.material for visual in loaded.world.models[0].links[0].visuals)
+    assert by_name.texture == beside_file.texture == tmp_path / "green.png"
+    assert (by_name.diffuse, beside_file.diffuse) == ((1.0, 1.0, 1.0, 1.0), (0.5, 1.0, 1.0, 1.0))
+    assert missing is GREY
     (warning,) = report.warnings
     assert "no package 'nowhere'" in warning
     assert warning.endswith("the texture is left out")

@@ -50,8 +50,8 @@ def test_a_link_s_visual_block_applies_to_each_of_its_own_visuals() -> None:
     report = Diagnostics()
     loaded = read(URDF, report)
 
-    own, *lumped = visuals(loaded)
-    assert [own.plugins, own.cast_shadows, own.transparency] == [(), True, 0.0]
+    first, *lumped = visuals(loaded)
+    assert [first.plugins, first.cast_shadows, first.transparency] == [(), True, 0.0]
     assert plugins(loaded) == {
         "calf_visual": [],
         "calf_fixed_joint_lump__foot_visual_1": [DRAW],

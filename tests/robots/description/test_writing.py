@@ -33,7 +33,7 @@ def sdf_of(loaded: LoadedDescription, report: Diagnostics | None = None) -> str:
 def same(a: Any, b: Any, key: str = "") -> bool:
     """Equal within 1e-9; poses are compared by quaternions, since roll and yaw are ambiguous at pitch ±90°."""
     if key in ("pose", "inertial_pose"):
-        turns = [quaternion_from_rpy(*each[3:]) for each in (a, b)]
+        turns = [quaternion_from_rpy(*collision[3:]) for collision in (a, b)]
         turned = min(math.dist(turns[0], turns[1]), math.dist(turns[0], [-v for v in turns[1]]))
         return turned < 1e-9 and math.dist(a[:3], b[:3]) <= 1e-9 * max(1.0, *map(abs, a[:3]))
     if isinstance(a, dict) and isinstance(b, dict):
@@ -195,7 +195,9 @@ def test_poses_are_kept_in_a_urdf() -> None:
         assert com(after, again).as_list() == pytest.approx(com(before, link).as_list(), abs=1e-9)
         assert again.inertial.moments == pytest.approx(link.inertial.moments)
     assert axis(after, after.joint("axle")) == pytest.approx(axis(before, before.joint("axle")), abs=1e-9)
-    assert after.joint("axle").axis.damping == 0.5
+    axle_axis = after.joint("axle").axis
+    assert axle_axis is not None
+    assert axle_axis.damping == 0.5
     assert loaded.robot is not None
     assert [joint.type for joint in loaded.robot.joints] == ["continuous", "fixed"]
     assert after.link("base").collisions[0].surface.mu == 0.2
@@ -214,16 +216,16 @@ def test_a_surface_with_more_than_urdf_expresses_is_kept_in_a_urdf() -> None:
     model = read(CART).world.models[0]
     surface = Surface(mu=0.2, kp=3e4, slip1=0.1, torsional_coefficient=0.5, patch_radius=0.02, restitution=0.7)
     base = model.link("base")
-    collisions = tuple(replace(each, surface=surface) for each in base.collisions)
+    collisions = tuple(replace(collision, surface=surface) for collision in base.collisions)
     changed = replace(model, links=tuple(replace(x, collisions=collisions) if x is base else x for x in model.links))
 
     after = read(urdf_of(changed)).world.models[0].link("base")
 
-    assert [each.surface for each in after.collisions] == [surface]
+    assert [collision.surface for collision in after.collisions] == [surface]
 
 
 @pytest.mark.parametrize(
-    ("change", "said"),
+    ("change", "message"),
     [
         (('type="fixed"', 'type="ball"'), r"<stdin>:\d+: error: joint 'weld': URDF has no ball joints; --to sdf has"),
         (("<parent>wheel</parent>", "<parent>world</parent>"), "one root link; here: 'base', 'world'"),
@@ -231,8 +233,8 @@ def test_a_surface_with_more_than_urdf_expresses_is_kept_in_a_urdf() -> None:
         (("<parent>wheel</parent>", "<parent>base</parent><child>wheel</child>"), "link 'wheel' has 2 parents"),
     ],
 )
-def test_models_that_urdf_cannot_express_are_refused_with_the_reason(change: tuple[str, str], said: str) -> None:
-    with pytest.raises(DescriptionError, match=said):
+def test_models_that_urdf_cannot_express_are_refused_with_the_reason(change: tuple[str, str], message: str) -> None:
+    with pytest.raises(DescriptionError, match=message):
         urdf_of(read(CART.replace(*change)).world.models[0])
 
 

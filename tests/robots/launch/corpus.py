@@ -50,38 +50,38 @@ def cases(root: Path) -> list[Case]:
 
 def differences(case: Case, plan: LaunchPlan) -> list[str]:
     """Differences of the plan from roslaunch's."""
-    theirs = case.reference
-    found: list[str] = []
+    expected = case.reference
+    found_differences: list[str] = []
 
-    def compare(what: str, a: object, b: object) -> None:
+    def compare(label: str, a: object, b: object) -> None:
         if a != b:
-            found.append(f"{what}: {a!r} is {b!r} in roslaunch")
+            found_differences.append(f"{label}: {a!r} is {b!r} in roslaunch")
 
     root = str(case.root)
-    compare("files", {_here(str(f), root) for f in plan.files}, {_here(f, root) for f in theirs["files"]})
-    compare("clear", sorted(plan.clear_params), sorted(n.rstrip("/") for n in theirs["clear_params"]))
-    for what, ours, refs in (
-        ("nodes", plan.nodes, theirs["nodes"]),
-        ("tests", [test.node for test in plan.tests], theirs["tests"]),
+    compare("files", {_here(str(f), root) for f in plan.files}, {_here(f, root) for f in expected["files"]})
+    compare("clear", sorted(plan.clear_params), sorted(n.rstrip("/") for n in expected["clear_params"]))
+    for label, actual, refs in (
+        ("nodes", plan.nodes, expected["nodes"]),
+        ("tests", [test.node for test in plan.tests], expected["tests"]),
     ):
-        mine = sorted((_node(node, root) for node in ours), key=repr)
-        compare(f"number of {what}", len(mine), len(refs))
+        mine = sorted((_node(node, root) for node in actual), key=repr)
+        compare(f"number of {label}", len(mine), len(refs))
         for a, b in zip(mine, sorted((_reference_node(n, root) for n in refs), key=repr), strict=False):
             for key in a:
                 compare(f"{a['full']} {key}", a[key], b[key])
     values = {_plain(p.name, root): p.value for p in plan.params}
-    wanted = {_plain(k, root): v for k, v in theirs["params"].items()}
-    compare("parameters", sorted(set(values) - set(wanted)), sorted(set(wanted) - set(values)))
-    commands = [command["argv"] for command in theirs["commands"]]
+    expected_params = {_plain(k, root): v for k, v in expected["params"].items()}
+    compare("parameters", sorted(set(values) - set(expected_params)), sorted(set(expected_params) - set(values)))
+    commands = [command["argv"] for command in expected["commands"]]
     for name, value in values.items():
         if isinstance(value, ParamCommand):
             argv = [_plain(word, root) for word in shlex.split(value.line)]
-            known = [[_plain(word, root) for word in command] for command in commands]
-            if argv not in known and argv[1:] not in [command[1:] for command in known]:
-                found.append(f"{name}: command {argv} is not one of {known}")
-        elif name in wanted and not _same(value, wanted[name], root):
-            found.append(f"{name}: {value!r} is {wanted[name]!r} in roslaunch")
-    return found
+            plain_commands = [[_plain(word, root) for word in command] for command in commands]
+            if argv not in plain_commands and argv[1:] not in [command[1:] for command in plain_commands]:
+                found_differences.append(f"{name}: command {argv} is not one of {plain_commands}")
+        elif name in expected_params and not _same(value, expected_params[name], root):
+            found_differences.append(f"{name}: {value!r} is {expected_params[name]!r} in roslaunch")
+    return found_differences
 
 
 def _node(node: LaunchNode, root: str) -> dict[str, object]:
@@ -118,12 +118,12 @@ def _reference_node(node: dict[str, Any], root: str) -> dict[str, object]:
     }
 
 
-def _same(ours: object, theirs: object, root: str) -> bool:
-    if isinstance(theirs, dict) and ("$blob" in theirs or "$other" in theirs):
+def _same(actual: object, expected: object, root: str) -> bool:
+    if isinstance(expected, dict) and ("$blob" in expected or "$other" in expected):
         return True
-    if isinstance(ours, str) and isinstance(theirs, str):
-        return _plain(ours, root) == _plain(theirs, root)
-    return ours == theirs and type(ours) is type(theirs)
+    if isinstance(actual, str) and isinstance(expected, str):
+        return _plain(actual, root) == _plain(expected, root)
+    return actual == expected and type(actual) is type(expected)
 
 
 def _here(file: str, root: str) -> str:

@@ -37,11 +37,11 @@ def test_files_that_roslaunch_accepts_give_the_same_plan(published: list[Case]) 
     wrong: dict[str, object] = {}
     for case in accepted:
         try:
-            found = differences(case, case.read(Diagnostics()))
+            found_differences = differences(case, case.read(Diagnostics()))
         except DescriptionError as error:
-            found = [str(error)]
-        if found:
-            wrong[case.row["file"]] = found
+            found_differences = [str(error)]
+        if found_differences:
+            wrong[case.row["file"]] = found_differences
 
     assert wrong == {}
 
@@ -52,19 +52,19 @@ def test_files_that_roslaunch_refuses_are_refused_for_the_same_reason(published:
     wrong: dict[str, str] = {}
     refused = [case for case in published if not case.row["accept"]]
     for case in refused:
-        theirs = case.row["error"]
+        expected = case.row["error"]
         try:
             case.read(Diagnostics())
         except DescriptionError as error:
-            if not any(re.search(a, theirs) and re.search(b, error.what) for a, b in _SAME_FAULT):
-                wrong[case.row["file"]] = f"{theirs} / {error}"
-            elif (package := _NO_PACKAGE.search(theirs)) and "no package" in error.what:
+            if not any(re.search(a, expected) and re.search(b, error.what) for a, b in _SAME_FAULT):
+                wrong[case.row["file"]] = f"{expected} / {error}"
+            elif (package := _NO_PACKAGE.search(expected)) and "no package" in error.what:
                 missing = re.search(r"no package '([\w-]+)'", error.what)
                 if missing is None or missing[1] != package[1]:
-                    wrong[case.row["file"]] = f"{theirs} / {error}"
+                    wrong[case.row["file"]] = f"{expected} / {error}"
         else:
-            if "Cannot load command parameter" not in theirs:
-                wrong[case.row["file"]] = f"accepted; roslaunch: {theirs}"
+            if "Cannot load command parameter" not in expected:
+                wrong[case.row["file"]] = f"accepted; roslaunch: {expected}"
 
     assert len(refused) == 135
     assert wrong == {}

@@ -12,7 +12,7 @@ _LOUD = {"paused": "true", "recording": "true", "verbose": "true", "physics": "b
 _ODD = {"gui": "false", "use_sim_time": "false", "debug": "true", "use_clock_frequency": "true"}
 
 
-def asked(plan: LaunchPlan) -> tuple[object, ...]:
+def essentials(plan: LaunchPlan) -> tuple[object, ...]:
     nodes = [(n.full_name, n.package, n.type, n.arguments.split(), n.output, n.required) for n in plan.nodes]
     return nodes, {param.name: param.value for param in plan.params}
 
@@ -30,18 +30,18 @@ def test_each_world_launch_file_has_the_plan_of_the_original(
     shared: Path, name: str, arguments: dict[str, str]
 ) -> None:
     originals = shared / "corpus/repos/ros-simulation+gazebo_ros_pkgs"
-    ours = Packages({}, start=Path("/nonexistent")).find_package("gazebo_ros")
-    theirs = Packages({"ROS_PACKAGE_PATH": str(originals)}, start=originals).find_package("gazebo_ros")
-    assert ours is not None
-    assert theirs is not None
-    assert theirs.is_relative_to(originals)
+    shipped = Packages({}, start=Path("/nonexistent")).find_package("gazebo_ros")
+    original = Packages({"ROS_PACKAGE_PATH": str(originals)}, start=originals).find_package("gazebo_ros")
+    assert shipped is not None
+    assert original is not None
+    assert original.is_relative_to(originals)
 
     def read(folder: Path) -> tuple[object, ...]:
         file = folder / f"launch/{name}_world.launch"
         packages = Packages({}, start=folder)
-        return asked(read_launch(file, packages=packages, report=Diagnostics(), arguments=arguments))
+        return essentials(read_launch(file, packages=packages, report=Diagnostics(), arguments=arguments))
 
-    assert read(ours) == read(theirs)
+    assert read(shipped) == read(original)
 
 
 def test_a_range_world_is_a_test_of_gazebo_plugins() -> None:

@@ -62,26 +62,31 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[str]]:
     """Line → words of the command line, with the file written."""
     folder = tmp_path_factory.mktemp("files")
-    found: dict[str, list[str]] = {}
+    files_by_case: dict[str, list[str]] = {}
     for number, line in enumerate(_LINES):
         head, _, text = line.partition(": ")
         name, *words = head.split()
         text = text.replace(r"\n", "\n").replace(r"\t", "\t")
         body = _EVAL.format(text) if name in ("eval", "wrong") else text
         body = re.sub(r"<(\w)/>", r'<node pkg="p" type="talk" name="\1"/>', body)
-        main, _, beside = name.partition("/")
-        place = folder / (main if main not in ("eval", "wrong") else f"{number}")
-        place.mkdir(exist_ok=True)
-        whole = body if "<launch" in body or beside == "t.launch" else f"<launch>{body}</launch>"
-        (place / (beside or "main.launch")).write_text(whole)
-        if not beside:
-            found[line] = [str(place / "main.launch"), *words]
-    return found
+        main, _, sibling = name.partition("/")
+        path = folder / (main if main not in ("eval", "wrong") else f"{number}")
+        path.mkdir(exist_ok=True)
+        whole = body if "<launch" in body or sibling == "t.launch" else f"<launch>{body}</launch>"
+        (path / (sibling or "main.launch")).write_text(whole)
+        if not sibling:
+            files_by_case[line] = [str(path / "main.launch"), *words]
+    return files_by_case
 
 
 def _env(package: Path) -> dict[str, str]:
-    kept = {key: value for key, value in os.environ.items() if not key.startswith("ROS_") and key != "NOPE"}
-    return {**kept, "ROS_PACKAGE_PATH": str(package.parent), "FOO": "foo", "ROS_MASTER_URI": "http://127.0.0.1:1"}
+    environment = {key: value for key, value in os.environ.items() if not key.startswith("ROS_") and key != "NOPE"}
+    return {
+        **environment,
+        "ROS_PACKAGE_PATH": str(package.parent),
+        "FOO": "foo",
+        "ROS_MASTER_URI": "http://127.0.0.1:1",
+    }
 
 
 def _read(words: list[str], env: dict[str, str]) -> list[Any] | None:
@@ -94,17 +99,17 @@ def _read(words: list[str], env: dict[str, str]) -> list[Any] | None:
     except DescriptionError:  # a sentence with file and line
         return None
 
-    def place(node: LaunchNode) -> list[Any]:
+    def path(node: LaunchNode) -> list[Any]:
         return [node.name, node.namespace.rstrip("/") + "/", node.package, node.type, node.arguments]
 
     nodes = [
         [
-            *(*place(n), [list(r) for r in n.remappings], [list(e) for e in n.env], n.output, n.respawn),
+            *(*path(n), [list(r) for r in n.remappings], [list(e) for e in n.env], n.output, n.respawn),
             *(n.respawn_delay_s, n.required, n.cwd, n.launch_prefix, n.machine),
         ]
         for n in plan.nodes
     ]
-    tests = [[*place(t.node), t.name, t.time_limit_s, t.retries] for t in plan.tests]
+    tests = [[*path(t.node), t.name, t.time_limit_s, t.retries] for t in plan.tests]
     values = {param.name: repr(param.value) for param in params}
     return [nodes, tests, values, sorted(f"{name.rstrip('/')}/" for name in plan.clear_params), bool(report.warnings)]
 
@@ -114,18 +119,18 @@ def test_each_file_is_read_as_by_roslaunch(files: dict[str, list[str]], package:
     if not Path("/usr/bin/roslaunch").exists():
         pytest.skip("Debian's roslaunch is not installed (make system)")
     env = _env(package)
-    asked = json.dumps(list(files.values()))
+    input_json = json.dumps(list(files.values()))
     done = subprocess.run(
-        [REAL_PYTHON, "-c", _REAL], input=asked, env=env, capture_output=True, text=True, check=True, timeout=100
+        [REAL_PYTHON, "-c", _REAL], input=input_json, env=env, capture_output=True, text=True, check=True, timeout=100
     )
 
     def plain(read: object) -> str:
         return _ANONYMOUS.sub("_ANON", json.dumps(read))
 
     differences = [
-        f"{line}\n  ours: {plain(ours)}\n  theirs: {plain(theirs)}"
-        for (line, words), theirs in zip(files.items(), json.loads(done.stdout), strict=True)
-        if plain(ours := _read(words, env)) != plain(theirs)
+        f"{line}\n  ours: {plain(actual)}\n  theirs: {plain(expected)}"
+        for (line, words), expected in zip(files.items(), json.loads(done.stdout), strict=True)
+        if plain(actual := _read(words, env)) != plain(expected)
     ]
     assert "\n".join(differences) == ""
 

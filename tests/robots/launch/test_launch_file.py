@@ -18,10 +18,10 @@ def read(file: Path, text: str) -> LaunchPlan:
 
 @pytest.mark.parametrize(("name", "language"), [("a.launch.py", "in Python"), ("a.launch.yaml", "in YAML")])
 def test_launch_files_in_python_or_yaml_are_reported_as_ros_2(tmp_path: Path, name: str, language: str) -> None:
-    what = f"{name}: error: a launch file {language} is one of ROS 2; only ROS 1 launch files are supported"
-    with pytest.raises(DescriptionError, match=f"{re.escape(what)}$"):
+    pattern = f"{name}: error: a launch file {language} is one of ROS 2; only ROS 1 launch files are supported"
+    with pytest.raises(DescriptionError, match=f"{re.escape(pattern)}$"):
         read(tmp_path / name, "def generate_launch_description(): ...")
-    with pytest.raises(DescriptionError, match=f"{re.escape(what)}; included at .*top.launch:1$"):
+    with pytest.raises(DescriptionError, match=f"{re.escape(pattern)}; included at .*top.launch:1$"):
         read(tmp_path / "top.launch", f'<launch><include file="$(dirname)/{name}"/></launch>')
 
 
@@ -35,20 +35,22 @@ def test_launch_files_in_python_or_yaml_are_reported_as_ros_2(tmp_path: Path, na
     ],
 )
 def test_xml_of_ros_2_is_named(tmp_path: Path, body: str, shown: str) -> None:
-    what = rf"a.launch.xml:1: error: {re.escape(shown)}: this is a launch file of ROS 2; only ROS 1 launch files are "
-    what += "supported$"
-    with pytest.raises(DescriptionError, match=what):
+    pattern = (
+        rf"a.launch.xml:1: error: {re.escape(shown)}: this is a launch file of ROS 2; only ROS 1 launch files are "
+    )
+    pattern += "supported$"
+    with pytest.raises(DescriptionError, match=pattern):
         read(tmp_path / "a.launch.xml", f"<launch>{body}</launch>")
 
 
 @pytest.mark.parametrize("name", ["a.launch.py", "a_launch.py", "launch.yml"])
-def test_commands_that_take_no_launch_file_say_the_same(
+def test_commands_that_take_no_launch_file_print_the_same_error(
     tmp_path: Path, name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / name
     file.write_text("launch: []")
     language = "in Python" if file.suffix == ".py" else "in YAML"
-    said = f"{file}: error: a launch file {language} is one of ROS 2; only ROS 1 launch files are supported\n"
+    message = f"{file}: error: a launch file {language} is one of ROS 2; only ROS 1 launch files are supported\n"
     for command in (
         ["run", str(file), "--headless"],
         ["render", str(file), "-o", str(tmp_path / "a.png")],
@@ -56,9 +58,9 @@ def test_commands_that_take_no_launch_file_say_the_same(
         ["xacro", str(file)],
     ):
         assert main(command) == 1
-        assert capsys.readouterr().err == said
+        assert capsys.readouterr().err == message
     assert main(["check", str(file)]) == 1
-    assert capsys.readouterr().out.startswith(said)
+    assert capsys.readouterr().out.startswith(message)
 
 
 def test_xml_of_ros_2_is_refused_by_run_and_from_a_pipe(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

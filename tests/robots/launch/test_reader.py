@@ -40,7 +40,8 @@ def plan_of(
 
 
 def params_of(body: str, **arguments: str) -> dict[str, object]:
-    return {param.name: param.value for param in plan_of(body, **arguments).params}
+    plan = plan_of(body, report=None, packages=None, **arguments)
+    return {param.name: param.value for param in plan.params}
 
 
 NODE = '<node pkg="p" type="t" name="n"/>'
@@ -175,7 +176,7 @@ def test_an_anonymous_name_is_the_same_within_a_file() -> None:
         ("f'{v:.2f} m'", "0.50 m"),
     ],
 )
-def test_eval_knows_what_launch_files_use(expression: str, value: object) -> None:
+def test_eval_supports_the_expressions_of_launch_files(expression: str, value: object) -> None:
     body = f'<arg name="v" default="0.5"/><param name="a" value="$(eval {expression})"/>'
     body = body.replace("> 1", "&gt; 1")
     assert params_of(body)["/a"] == value
@@ -215,16 +216,16 @@ def test_find_gives_a_packages_folder_and_xacro_needs_none(tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize(
-    ("written", "meant"),
+    ("written", "expected"),
     [
         ("$(find car)params/x.yaml", "{car}/params/x.yaml"),
         ("$(find car)/params", "{car}/params"),
         ("$(find car):$(find car) $(find car)", "{car}/:{car} {car}"),
     ],
 )
-def test_a_path_after_find_is_resolved_in_the_package(written: str, meant: str, tmp_path: Path) -> None:
+def test_a_path_after_find_is_resolved_in_the_package(written: str, expected: str, tmp_path: Path) -> None:
     plan = plan_of(f'<param name="a" value="{written}"/>', packages=Folders({"car": tmp_path}))
-    assert plan.params[0].value == meant.format(car=tmp_path)
+    assert plan.params[0].value == expected.format(car=tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -380,7 +381,7 @@ def test_missing_packages_are_named_together(tmp_path: Path) -> None:
     assert [error.at.line for error in caught.value.more] == [2, 2, 3]
 
 
-def test_what_needs_missing_packages_is_left_out_on_request(tmp_path: Path) -> None:
+def test_elements_that_need_missing_packages_are_left_out_on_request(tmp_path: Path) -> None:
     """Each with its line; arguments that no element uses do no harm."""
     write(tmp_path, "sub.launch", '<node pkg="here" type="t" name="kept"/><include file="$(find two)/c.launch"/>')
     text = """<arg name="model" default="$(find one)/m.xacro"/>
@@ -439,7 +440,7 @@ def test_a_default_machine_is_that_of_the_nodes_behind_it() -> None:
     assert {node.name: node.address for node in plan.nodes} == {"before": "", "after": "a", "own": ""}
 
 
-def test_a_machine_that_is_perhaps_the_default_is_refused() -> None:
+def test_an_invalid_default_of_a_machine_is_refused() -> None:
     with pytest.raises(DescriptionError, match="default 'maybe'; there are true, false, never"):
         plan_of('<machine name="m" address="a" default="maybe"/>')
 

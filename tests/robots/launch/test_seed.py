@@ -59,10 +59,10 @@ def flat(tree: object, name: str = "") -> dict[str, object]:
 
 def test_the_smartcars_parameters_are_those_of_the_real_roslaunch(shared: Path) -> None:
     plan, report = read_seed(shared)
-    asked: list[Path] = []
+    requested: list[Path] = []
 
     def expand(file: Path, arguments: object, /) -> str:
-        asked.append(file)
+        requested.append(file)
         return "<robot/>"
 
     got = {p.name: p.value for p in resolve_params(plan, report, expand_xacro=expand, env={})}
@@ -74,7 +74,7 @@ def test_the_smartcars_parameters_are_those_of_the_real_roslaunch(shared: Path) 
     assert got.pop("/robot_description") == "<robot/>"
     del want["/robot_description"]
     assert {k: (type(v), v) for k, v in got.items()} == {k: (type(v), v) for k, v in want.items()}
-    assert asked == [shared / "seeds/smartcar_description/urdf/smartcar.urdf.xacro"]
+    assert requested == [shared / "seeds/smartcar_description/urdf/smartcar.urdf.xacro"]
 
 
 # Files that the real tool refuses as malformed XML, and values that a parameter server cannot hold.
@@ -90,13 +90,13 @@ def test_hostile_and_broken_files_are_accepted_or_refused_as_by_roslaunch(shared
         if len(cells) > 3 and cells[1].endswith(".launch"):
             accepted[cells[1]] = cells[2] == "ok"
     assert len(accepted) > 40
-    for name, wanted in accepted.items():
+    for name, expected in accepted.items():
         try:
             read_launch(folder / name, packages=OneFolder(folder), report=Diagnostics(), env=os.environ)
             got = True
         except DescriptionError:
             got = False
-        assert got == (name in _READ_HERE or (wanted and name not in _REFUSED_HERE)), name
+        assert got == (name in _READ_HERE or (expected and name not in _REFUSED_HERE)), name
 
 
 @pytest.mark.slow
@@ -116,8 +116,8 @@ def test_the_corpus_has_the_nodes_and_parameter_names_of_the_real_loader(shared:
         """Packages of the corpus with a unique name."""
 
         def find_folder(self, name: str, /) -> Path | None:
-            found = folders.get(name, set())
-            return next(iter(found)) if len(found) == 1 else None
+            packages = folders.get(name, set())
+            return next(iter(packages)) if len(packages) == 1 else None
 
         is_lenient = False
 

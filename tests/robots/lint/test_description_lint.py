@@ -68,7 +68,7 @@ def test_bodies_that_stand_in_one_another_and_cannot_move_are_named(tmp_path, sh
     assert ("model 'b' overlaps model 'a', and both are static" in text) == overlaps
 
 
-def test_a_robot_whose_every_mesh_is_missing_cannot_be_seen_and_the_last_line_says_so(tmp_path: Path) -> None:
+def test_a_robot_with_no_mesh_found_is_reported_as_invisible_in_the_last_line(tmp_path: Path) -> None:
     lost = '<visual name="{}"><geometry><mesh><uri>lost/{}.dae</uri></mesh></geometry></visual>'
     box = '<visual name="box"><geometry><box><size>1 1 1</size></box></geometry></visual>'
 

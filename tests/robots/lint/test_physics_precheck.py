@@ -64,7 +64,7 @@ def test_a_robot_that_physics_takes_as_it_is_needs_no_engine() -> None:
          "</surface>"),
     ],
 )  # fmt: skip
-def test_what_physics_may_mend_cut_or_refuse_is_left_to_it(was: str, now: str) -> None:
+def test_values_that_physics_may_repair_clamp_or_refuse_fail_the_precheck(was: str, now: str) -> None:
     assert was in CART
     assert not physics_accepts(world(CART.replace(was, now)))
 
@@ -81,10 +81,12 @@ def test_the_principal_moments_are_those_of_the_matrix(
     (xx, yy, zz), (xy, xz, yz) = moments, products
     scale = max(map(abs, (*moments, *products)))
 
-    ours = sorted(_eigenvalues(Inertial(mass=1.0, moments=moments, products=products)))
+    actual = sorted(_eigenvalues(Inertial(mass=1.0, moments=moments, products=products)))
 
-    theirs = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    assert ours == pytest.approx(theirs.tolist(), abs=1e-6 * max(scale, 1e-3))  # acos loses half its digits at its ends
+    expected = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    assert actual == pytest.approx(
+        expected.tolist(), abs=1e-6 * max(scale, 1e-3)
+    )  # acos loses half its digits at its ends
 
 
 def test_checking_a_plain_robot_loads_no_engine(tmp_path: Path) -> None:
@@ -106,7 +108,7 @@ def test_checking_a_plain_robot_loads_no_engine(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_where_it_says_so_physics_says_nothing_of_any_published_file(shared: Path) -> None:
+def test_published_files_that_pass_the_precheck_compile_without_findings(shared: Path) -> None:
     models = shared / "corpus/repos/osrf+gazebo_models"
     count = 0
     for row in json.loads((shared / "corpus/manifest.json").read_text())["sdf"]:
@@ -124,6 +126,8 @@ def test_where_it_says_so_physics_says_nothing_of_any_published_file(shared: Pat
     assert count > 100
 
 
-def test_numbers_beyond_all_sense_are_left_to_physics() -> None:
+def test_extremely_large_values_fail_the_precheck() -> None:
     assert not physics_accepts(world(CART.replace("<mass>2", "<mass>1e12")))
-    assert math.isinf(world(CART).models[0].joints[0].axis.effort)
+    axis = world(CART).models[0].joints[0].axis
+    assert axis is not None
+    assert math.isinf(axis.effort)

@@ -2,13 +2,18 @@
 
 import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import trimesh
+import trimesh.visual
+from numpy.typing import NDArray
 from PIL import Image
 
 from trundle.robots.meshes import Mesh, cache, load, load_mesh
+
+from .exporting import exported
 
 
 @pytest.fixture
@@ -16,7 +21,7 @@ def large(tmp_path: Path) -> Path:
     """A ball in color, large enough to be kept."""
     ball = trimesh.creation.icosphere(subdivisions=5)
     path = tmp_path / "ball.obj"
-    path.write_text("mtllib ball.mtl\nusemtl red\n" + ball.export(file_type="obj", include_normals=False))
+    path.write_bytes(b"mtllib ball.mtl\nusemtl red\n" + exported(ball, "obj", include_normals=False))
     (tmp_path / "ball.mtl").write_text("newmtl red\nKd 1 0 0\n")
     return path
 
@@ -29,7 +34,7 @@ def painted(tmp_path: Path) -> Path:
     material = trimesh.visual.material.PBRMaterial(baseColorTexture=image, baseColorFactor=(0.2, 0.4, 0.6, 1.0))
     ball.visual = trimesh.visual.TextureVisuals(uv=np.asarray(ball.vertices)[:, :2], material=material)
     path = tmp_path / "ball.glb"
-    path.write_bytes(trimesh.Scene(ball).export(file_type="glb"))
+    path.write_bytes(exported(trimesh.Scene(ball), "glb"))
     return path
 
 
@@ -41,13 +46,17 @@ def read_again(path: Path) -> Mesh:
 
 def same(a: Mesh, b: Mesh) -> bool:
     arrays = ((a.vertices, b.vertices), (a.faces, b.faces), (a.uv, b.uv))
-    return all(np.array_equal(x, y) if x is not None else y is None for x, y in arrays) and a.parts == b.parts
+    return all(_same_array(x, y) for x, y in arrays) and a.parts == b.parts
 
 
-def test_what_is_kept_is_what_was_read(large: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def _same_array(a: NDArray[Any] | None, b: NDArray[Any] | None) -> bool:
+    return a is b if a is None or b is None else np.array_equal(a, b)
+
+
+def test_the_cached_mesh_equals_the_one_read(large: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     first = read_again(large)
-    (kept,) = cache_folder.iterdir()
-    assert kept.suffix == ".npz"
+    (entry,) = cache_folder.iterdir()
+    assert entry.suffix == ".npz"
 
     monkeypatch.setattr(load, "_read", lambda *_: pytest.fail("read again"))
     assert same(read_again(large), first)
@@ -87,16 +96,16 @@ def test_a_file_that_changes_is_read_again_within_a_process(tmp_path: Path) -> N
 @pytest.mark.parametrize("spoil", ["cut", "bit", "text", "empty"])
 def test_a_damaged_entry_is_thrown_away(large: Path, cache_folder: Path, spoil: str) -> None:
     first = read_again(large)
-    (kept,) = cache_folder.iterdir()
-    data = bytearray(kept.read_bytes())
+    (entry,) = cache_folder.iterdir()
+    data = bytearray(entry.read_bytes())
     data[len(data) // 2] ^= 0x40
-    kept.write_bytes({"cut": data[: len(data) // 2], "bit": data, "text": b"hello", "empty": b""}[spoil])
+    entry.write_bytes({"cut": data[: len(data) // 2], "bit": data, "text": b"hello", "empty": b""}[spoil])
 
     assert same(read_again(large), first)
-    assert kept.read_bytes() != data
+    assert entry.read_bytes() != data
 
 
-def test_a_cache_that_cannot_be_written_costs_nothing(
+def test_a_cache_that_cannot_be_written_is_no_error(
     large: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     blocked = tmp_path / "a_file"
@@ -105,7 +114,9 @@ def test_a_cache_that_cannot_be_written_costs_nothing(
     assert len(read_again(large).faces) == 20480
 
 
-def test_the_longest_unused_go_first(large: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_least_recently_used_entries_are_removed_first(
+    large: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     parts = load._read(large.read_bytes(), ".obj", large)
     size = len(cache._packed(parts))
     monkeypatch.setattr(cache, "_MAX_BYTES", 8 * size)
@@ -119,7 +130,7 @@ def test_the_longest_unused_go_first(large: Path, cache_folder: Path, monkeypatc
 
 
 @pytest.mark.parametrize("has_moved", [False, True])
-def test_what_is_interrupted_leaves_nothing_half_done_behind(
+def test_an_interrupted_save_leaves_no_partial_file(
     has_moved: bool, large: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     move = os.replace
@@ -130,7 +141,7 @@ def test_what_is_interrupted_leaves_nothing_half_done_behind(
         raise KeyboardInterrupt
 
     parts = load._read(large.read_bytes(), ".obj", large)
-    monkeypatch.setattr(cache.os, "replace", interrupt)
+    monkeypatch.setattr(os, "replace", interrupt)
     with pytest.raises(KeyboardInterrupt):
         cache.save_parts("key", parts)
     assert [path.name for path in cache_folder.iterdir()] == (["key.npz"] if has_moved else [])

@@ -11,6 +11,7 @@ from PIL import Image
 
 from trundle.robots.meshes import MeshError, load_mesh, mean_color, read_heights
 
+from .exporting import exported
 from .test_parts import MTL, OBJ, collada
 
 
@@ -25,10 +26,10 @@ TRIANGLE = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], dtype=np.float32)
 def refused(path: Path) -> str:
     with pytest.raises(MeshError) as caught:
         load_mesh(path)
-    said = str(caught.value)
-    assert said.startswith(f"{path}: ")
-    assert "\n" not in said
-    return said
+    messages = str(caught.value)
+    assert messages.startswith(f"{path}: ")
+    assert "\n" not in messages
+    return messages
 
 
 def test_a_binary_stl_may_start_with_solid(tmp_path: Path) -> None:
@@ -37,7 +38,7 @@ def test_a_binary_stl_may_start_with_solid(tmp_path: Path) -> None:
     assert load_mesh(path).vertices.shape == (3, 3)
 
 
-def test_an_stl_that_counts_more_than_it_holds(tmp_path: Path) -> None:
+def test_an_stl_that_declares_more_triangles_than_it_contains_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "a.stl"
     path.write_bytes(b"x" + stl(4_000_000_000, TRIANGLE)[1:])
     assert "declares 4000000000 triangles and contains 1" in refused(path)
@@ -58,7 +59,7 @@ def test_heights_that_are_not_finite_are_refused(tmp_path: Path, height: float) 
         read_heights(tmp_path / "h.tif")
 
 
-def test_what_pillow_warns_of_is_decoded_without_a_word(tmp_path: Path) -> None:
+def test_an_image_that_pillow_warns_of_is_decoded_without_a_warning(tmp_path: Path) -> None:
     path = tmp_path / "a.jpg"
     exif = Image.Exif()
     exif[0x010F] = "maker's name, which is long"
@@ -69,7 +70,7 @@ def test_what_pillow_warns_of_is_decoded_without_a_word(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
-def test_numbers_that_are_none(tmp_path: Path, value: float) -> None:
+def test_an_stl_with_values_that_are_not_finite_is_refused(tmp_path: Path, value: float) -> None:
     path = tmp_path / "a.stl"
     path.write_bytes(stl(1, np.where(TRIANGLE == 1, np.float32(value), TRIANGLE)))
     assert "not within" in refused(path)
@@ -120,7 +121,7 @@ def glb(tree: dict[str, object]) -> bytes:
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
-def test_a_glb_that_promises_more_than_it_holds(tmp_path: Path) -> None:
+def test_a_glb_that_declares_more_than_it_contains_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "a.glb"
     path.write_bytes(glb({"asset": {"version": "2.0"}, "accessors": [{"count": 10**12, "type": "VEC3"}]}))
     assert "declares more vertices than it has bytes" in refused(path)
@@ -137,14 +138,13 @@ def test_a_file_cut_anywhere_is_read_or_refused_in_a_sentence(tmp_path: Path, su
         whole = OBJ.encode()
         (tmp_path / "car.mtl").write_text(MTL)
     else:
-        made = trimesh.creation.box().export(file_type=suffix[1:])
-        whole = made if isinstance(made, bytes) else made.encode()
-    said: list[str] = []
+        whole = exported(trimesh.creation.box(), suffix[1:])
+    messages: list[str] = []
     for cut in range(0, len(whole), max(1, len(whole) // 40)):
         path.write_bytes(whole[:cut])
         try:
             load_mesh(path)
         except MeshError as error:
-            said.append(str(error))
-    assert said
-    assert not any("\n" in each for each in said)
+            messages.append(str(error))
+    assert messages
+    assert not any("\n" in message for message in messages)

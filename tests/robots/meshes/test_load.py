@@ -14,20 +14,23 @@ from numpy.typing import NDArray
 from trundle.robots import meshes
 from trundle.robots.meshes import Mesh, MeshError, load_mesh
 
+from .exporting import exported
+
 SIZE = (0.4, 0.6, 0.8)
 CENTRE = np.array([1.0, 2.0, 3.0])
 
 
 def block() -> trimesh.Trimesh:
     """A box away from the origin, unlike along its three axes."""
-    made = trimesh.creation.box(extents=SIZE)
-    made.apply_translation(CENTRE)
-    return made
+    box_mesh = trimesh.creation.box(extents=SIZE)
+    box_mesh.apply_translation(CENTRE)
+    return box_mesh
 
 
 def write_dae(path: Path, *, up: str = "Z_UP", metre: float = 1.0) -> None:
     """The same box as COLLADA, its numbers in units of `metre`."""
     document = collada.Collada()
+    assert document.assetInfo is not None
     document.assetInfo.upaxis = up
     document.assetInfo.unitmeter = metre
     document.assetInfo.unitname = "unit"
@@ -59,14 +62,15 @@ EXPECTED = np.array([CENTRE - np.array(SIZE) / 2, CENTRE + np.array(SIZE) / 2])
 
 
 def test_the_front_door_exports_in_order() -> None:
-    assert meshes.__all__ == sorted(meshes.__all__)
-    assert all(hasattr(meshes, name) for name in meshes.__all__)
+    names: list[str] = vars(meshes)["__all__"]
+    assert names == sorted(names)
+    assert all(hasattr(meshes, name) for name in names)
 
 
 @pytest.mark.parametrize("suffix", [".stl", ".obj", ".STL"])
 def test_a_file_without_an_up_axis_is_read_as_it_is(tmp_path: Path, suffix: str) -> None:
     path = tmp_path / f"block{suffix}"
-    path.write_bytes(_exported(suffix))
+    path.write_bytes(exported(block(), suffix[1:].lower()))
     mesh = load_mesh(path)
     assert bounds(mesh) == pytest.approx(EXPECTED, abs=1e-6)
     assert volume(mesh) == pytest.approx(0.4 * 0.6 * 0.8, rel=1e-5)
@@ -74,14 +78,9 @@ def test_a_file_without_an_up_axis_is_read_as_it_is(tmp_path: Path, suffix: str)
     assert mesh.faces.dtype == np.int32
 
 
-def _exported(suffix: str) -> bytes:
-    data = block().export(file_type=suffix[1:].lower())
-    return data if isinstance(data, bytes) else data.encode()
-
-
 def test_an_stl_in_letters_is_read_too(tmp_path: Path) -> None:
     path = tmp_path / "block.stl"
-    path.write_text(block().export(file_type="stl_ascii"))
+    path.write_bytes(exported(block(), "stl_ascii"))
     assert bounds(load_mesh(path)) == pytest.approx(EXPECTED, abs=1e-6)
     path.write_text(path.read_text().upper())  # as some old CAD programs write it
     assert bounds(load_mesh(path)) == pytest.approx(EXPECTED, abs=1e-6)
@@ -89,7 +88,7 @@ def test_an_stl_in_letters_is_read_too(tmp_path: Path) -> None:
 
 def test_gltf_is_y_up_and_stands_upright_here(tmp_path: Path) -> None:
     path = tmp_path / "block.glb"
-    path.write_bytes(trimesh.Scene(block()).export(file_type="glb"))
+    path.write_bytes(exported(trimesh.Scene(block()), "glb"))
     x, y, z = EXPECTED.T
     upright = np.array([[x[0], -z[1], y[0]], [x[1], -z[0], y[1]]])
     mesh = load_mesh(path)
@@ -98,19 +97,19 @@ def test_gltf_is_y_up_and_stands_upright_here(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("up", ["Z_UP", "Y_UP"])
-def test_collada_is_z_up_whatever_it_says_as_in_gazebo_and_rviz(tmp_path: Path, up: str) -> None:
+def test_collada_is_z_up_whatever_its_up_axis_as_in_gazebo_and_rviz(tmp_path: Path, up: str) -> None:
     write_dae(tmp_path / "block.dae", up=up)
     assert bounds(load_mesh(tmp_path / "block.dae")) == pytest.approx(EXPECTED, abs=1e-6)
 
 
-def test_collada_says_itself_how_long_its_unit_is(tmp_path: Path) -> None:
+def test_collada_gives_the_length_of_its_unit(tmp_path: Path) -> None:
     write_dae(tmp_path / "cm.dae", metre=0.01)
     assert bounds(load_mesh(tmp_path / "cm.dae")) == pytest.approx(EXPECTED * 0.01, abs=1e-7)
 
 
 def test_a_scale_stretches_along_the_axes(tmp_path: Path) -> None:
     path = tmp_path / "block.stl"
-    path.write_bytes(_exported(".stl"))
+    path.write_bytes(exported(block(), "stl"))
     mesh = load_mesh(path)
     assert bounds(mesh.scaled((2.0, 1.0, 0.5))) == pytest.approx(EXPECTED * (2.0, 1.0, 0.5), abs=1e-6)
     assert mesh.scaled((1.0, 1.0, 1.0)) is mesh
@@ -120,7 +119,7 @@ def test_a_scale_stretches_along_the_axes(tmp_path: Path) -> None:
 @pytest.mark.parametrize("scale", [(-1.0, 1.0, 1.0), (1.0, -1.0, 1.0), (-1.0, -1.0, -1.0), (-1.0, -1.0, 1.0)])
 def test_a_mirrored_mesh_keeps_its_outside_outside(tmp_path: Path, scale: tuple[float, float, float]) -> None:
     path = tmp_path / "block.stl"
-    path.write_bytes(_exported(".stl"))
+    path.write_bytes(exported(block(), "stl"))
     mirrored = load_mesh(path).scaled(scale)
     corners = EXPECTED * scale
     assert bounds(mirrored) == pytest.approx(np.array([corners.min(axis=0), corners.max(axis=0)]), abs=1e-6)
@@ -136,16 +135,12 @@ def test_a_ball_comes_with_the_normals_of_its_file(
     path = tmp_path / f"ball{suffix}"
     assert ball.vertex_normals is not None
     options = {"include_normals": True} if suffix != ".dae" else {}
-    path.write_bytes(
-        ball.export(file_type=suffix[1:], **options).encode()
-        if suffix == ".obj"
-        else ball.export(file_type=suffix[1:], **options)
-    )
+    path.write_bytes(exported(ball, suffix[1:], **options))
     mesh = load_mesh(path).scaled(scale)
     assert mesh.normals is not None
-    found = mesh.normals / np.linalg.norm(mesh.normals, axis=2, keepdims=True)
+    unit_normals = mesh.normals / np.linalg.norm(mesh.normals, axis=2, keepdims=True)
     steep = mesh.vertices[mesh.faces] / np.square(scale)  # of an ellipsoid
-    assert found == pytest.approx(steep / np.linalg.norm(steep, axis=2, keepdims=True), abs=0.02)
+    assert unit_normals == pytest.approx(steep / np.linalg.norm(steep, axis=2, keepdims=True), abs=0.02)
 
 
 def test_normals_turn_with_their_faces_where_a_mesh_is_bent() -> None:
@@ -163,7 +158,7 @@ def test_normals_turn_with_their_faces_where_a_mesh_is_bent() -> None:
 def test_files_without_normals_have_flat_faces(tmp_path: Path) -> None:
     for suffix in (".stl", ".glb", ".obj"):
         path = tmp_path / f"block{suffix}"
-        path.write_bytes(_exported(suffix))
+        path.write_bytes(exported(block(), suffix[1:].lower()))
         assert load_mesh(path).normals is None
 
 
@@ -172,7 +167,7 @@ def two_parts(path: Path) -> None:
     wheel = trimesh.creation.icosphere(subdivisions=1, radius=0.5)
     parts.add_geometry(block(), geom_name="hull", node_name="hull_node")
     parts.add_geometry(wheel, geom_name="wheel", transform=trimesh.transformations.translation_matrix([9.0, 0.0, 0.0]))
-    path.write_bytes(parts.export(file_type="glb"))
+    path.write_bytes(exported(parts, "glb"))
 
 
 def test_parts_are_joined_where_the_file_places_them(tmp_path: Path) -> None:
@@ -200,7 +195,7 @@ def test_a_part_that_is_not_there_is_answered_with_the_parts_there_are(tmp_path:
 
 
 @pytest.mark.parametrize(
-    ("name", "content", "said"),
+    ("name", "content", "message"),
     [
         ("a.stl", b"", "no triangles|not readable"),
         ("a.stl", b"\x00\xff garbage that is no mesh" * 9, r"declares \d+ triangles and contains 3"),
@@ -215,11 +210,11 @@ def test_a_part_that_is_not_there_is_answered_with_the_parts_there_are(tmp_path:
     ],
 )
 def test_a_file_that_cannot_be_used_is_one_sentence_that_names_it(
-    tmp_path: Path, name: str, content: bytes, said: str
+    tmp_path: Path, name: str, content: bytes, message: str
 ) -> None:
     path = tmp_path / name
     path.write_bytes(content)
-    with pytest.raises(MeshError, match=said) as caught:
+    with pytest.raises(MeshError, match=message) as caught:
         load_mesh(path)
     assert str(caught.value).startswith(f"{path}: ")
     assert "\n" not in str(caught.value)
@@ -230,7 +225,7 @@ def test_a_file_that_is_not_there_is_one_sentence(tmp_path: Path) -> None:
         load_mesh(tmp_path / "lost.stl")
 
 
-def test_what_the_reader_mutters_to_its_log_does_not_reach_the_user() -> None:
+def test_log_messages_of_trimesh_do_not_reach_the_user() -> None:
     # trimesh logs a traceback for each missing bump map.
     code = "import logging, trundle.robots.meshes.glb; logging.getLogger('trimesh').warning('no texture')"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120)
@@ -248,14 +243,14 @@ def test_every_published_mesh_has_the_bounds_that_trimesh_gives_it(shared: Path)
     assert len(files) > 150
     empty: list[str] = []
     for path in files:
-        theirs = trimesh.load_scene(str(path), process=False)
-        if not theirs.geometry:
+        expected = trimesh.load_scene(str(path), process=False)
+        if not expected.geometry:
             with pytest.raises(MeshError, match="no triangles"):
                 load_mesh(path)
             empty.append(path.name)
             continue
-        scale = meshes_unit(theirs.units) if path.suffix.lower() == ".dae" else 1.0
-        assert bounds(load_mesh(path)) == pytest.approx(theirs.bounds * scale, rel=1e-4, abs=1e-5), path
+        scale = meshes_unit(expected.units) if path.suffix.lower() == ".dae" else 1.0
+        assert bounds(load_mesh(path)) == pytest.approx(expected.bounds * scale, rel=1e-4, abs=1e-5), path
     assert empty == ["multi_joint_robot.dae"]
 
 

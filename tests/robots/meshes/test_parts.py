@@ -6,9 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+import trimesh.visual
 from PIL import Image
 
 from trundle.robots.meshes import MeshError, load_mesh
+
+from .exporting import exported
 
 TWO_NODES = """<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
@@ -246,7 +249,7 @@ def test_a_texture_inside_a_glb_comes_with_the_mesh(tmp_path: Path) -> None:
     box = trimesh.creation.box()
     uv = np.random.default_rng(1).random((8, 2))
     box.visual = trimesh.visual.TextureVisuals(uv=uv, material=material)
-    (tmp_path / "box.glb").write_bytes(trimesh.Scene(box).export(file_type="glb"))
+    (tmp_path / "box.glb").write_bytes(exported(trimesh.Scene(box), "glb"))
 
     mesh = load_mesh(tmp_path / "box.glb")
 
@@ -265,7 +268,7 @@ def test_a_glb_whose_image_cannot_be_decoded_names_it_and_keeps_its_shape(tmp_pa
     box = trimesh.creation.box()
     material = trimesh.visual.material.PBRMaterial(baseColorTexture=Image.new("RGB", (64, 64)), name="paint")
     box.visual = trimesh.visual.TextureVisuals(uv=np.zeros((8, 2)), material=material)
-    data = trimesh.Scene(box).export(file_type="glb")
+    data = exported(trimesh.Scene(box), "glb")
     start = data.index(b"IDAT") + 6
     (tmp_path / "box.glb").write_bytes(data[:start] + b"\xff" * 8 + data[start + 8 :])
 

@@ -33,7 +33,7 @@ def test_a_strip_is_as_wide_after_a_corner() -> None:
     assert mesh.vertices.max(axis=0) == pytest.approx([11, 10, 0])
 
 
-def test_points_on_top_of_one_another_do_no_harm() -> None:
+def test_coinciding_points_do_no_harm() -> None:
     mesh = strip_mesh([(0, 0, 0), (0, 0, 0), (1, 0, 0), (0, 0, 0)], 1.0)
 
     assert np.isfinite(mesh.vertices).all()

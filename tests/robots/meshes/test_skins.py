@@ -50,11 +50,11 @@ def test_the_upper_half_turns_about_its_bone(tmp_path: Path, time_s: float, angl
     assert_allclose(vertices[middle], (turned[middle] + rest[middle] + (along, 0, 0)) / 2, atol=1e-6)
 
 
-def test_an_animation_tells_when_it_has_come_how_far(tmp_path: Path) -> None:
+def test_an_animation_gives_the_distance_covered_over_time(tmp_path: Path) -> None:
     _, motion = read(tmp_path, bending_column(times=(0.0, 1.0, 4.0)))
 
     assert motion.length_s == 4.0
-    assert [motion.time_at(way, 1.0) for way in (0.5, 1.5, 2.5, 9.0)] == [0.5, 2.5, 0.5, 1.0]
+    assert [motion.time_at(distance, 1.0) for distance in (0.5, 1.5, 2.5, 9.0)] == [0.5, 2.5, 0.5, 1.0]
     assert motion.time_at(1.0, 2.0) == 0.5
 
 
@@ -117,15 +117,15 @@ def test_skeletons_fit_by_name_or_else_by_how_they_branch(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(
-    ("spoil", "what"),
+    ("spoil", "message"),
     [
         (("root tip</Name", "root lost</Name"), "its skin is bound to 'lost', which is not a bone in it"),
         (("<skeleton>", "<bones>"), r"line \d+: not well-formed XML: </skeleton> where <bones> "),
         (('<controller id="c">', '<controller id="d">'), "no mesh in it is bound to bones"),
     ],
 )
-def test_a_skin_that_makes_no_sense_is_refused(tmp_path: Path, spoil: tuple[str, str], what: str) -> None:
-    with pytest.raises(MeshError, match=what) as caught:
+def test_a_skin_that_makes_no_sense_is_refused(tmp_path: Path, spoil: tuple[str, str], message: str) -> None:
+    with pytest.raises(MeshError, match=message) as caught:
         read(tmp_path, bending_column().replace(*spoil))
     assert str(caught.value).count(str(tmp_path)) == 1
 
@@ -146,13 +146,13 @@ def test_a_motion_that_makes_no_sense_is_refused(tmp_path: Path, text: str) -> N
         load_motion(file)
 
 
-def test_no_byte_of_a_skin_brings_anything_down(tmp_path: Path) -> None:
+def test_a_skin_with_any_damaged_byte_is_read_or_refused(tmp_path: Path) -> None:
     text = bending_column()
     random = np.random.default_rng(4)
     file = tmp_path / "column.dae"
     read_well = 0
-    for place in random.integers(0, len(text), 300).tolist():
-        file.write_text(text[:place] + random.choice(list('9-<"e ')) + text[place + 1 :])
+    for position in random.integers(0, len(text), 300).tolist():
+        file.write_text(text[:position] + random.choice(list('9-<"e ')) + text[position + 1 :])
         try:
             skin, motion = load_skin(file), load_motion(file)
         except MeshError:

@@ -16,19 +16,19 @@ def solid(mesh: Mesh) -> trimesh.Trimesh:
 
 
 def test_a_cone_holds_a_third_of_its_cylinder() -> None:
-    made = solid(cone_mesh(0.5, 1.2))
-    assert made.is_watertight
-    assert made.volume == pytest.approx(math.pi * 0.25 * 1.2 / 3, rel=0.005)
-    assert made.bounds[:, 2] == pytest.approx([-0.6, 0.6])
+    result = solid(cone_mesh(0.5, 1.2))
+    assert result.is_watertight
+    assert result.volume == pytest.approx(math.pi * 0.25 * 1.2 / 3, rel=0.005)
+    assert result.bounds[:, 2] == pytest.approx([-0.6, 0.6])
 
 
 def test_a_prism_has_walls_outside_and_around_its_holes() -> None:
     outer = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
     hole = ((1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0))
-    made = solid(prism_mesh((outer, hole), 0.5))
-    assert made.is_watertight
-    assert made.volume == pytest.approx(15.0 * 0.5)
-    assert made.area == pytest.approx(2 * 15.0 + 0.5 * (16.0 + 4.0))
+    result = solid(prism_mesh((outer, hole), 0.5))
+    assert result.is_watertight
+    assert result.volume == pytest.approx(15.0 * 0.5)
+    assert result.area == pytest.approx(2 * 15.0 + 0.5 * (16.0 + 4.0))
 
 
 def test_a_terrain_is_as_high_as_its_image_is_white(tmp_path: Path) -> None:
@@ -66,7 +66,7 @@ def test_the_normals_of_a_terrain_and_a_cone_stand_on_their_surfaces() -> None:
         assert facing / np.linalg.norm(cone.normals[:, corner], axis=1) == pytest.approx(1.0, abs=5e-3)
 
 
-def test_what_is_no_terrain_is_refused_with_the_reason(tmp_path: Path) -> None:
+def test_an_image_that_is_not_a_heightmap_is_refused_with_the_reason(tmp_path: Path) -> None:
     (tmp_path / "text.png").write_text("no image")
     with pytest.raises(MeshError, match=r"^it is not an image$"):
         read_heights(tmp_path / "text.png")

@@ -32,7 +32,7 @@ def test_a_base_name_has_no_namespace() -> None:
 
 
 @pytest.mark.parametrize(
-    ("written", "meant"),
+    ("written", "expected"),
     [
         ("/abs", "/abs"),
         ("rel", "/ns/rel"),
@@ -42,11 +42,11 @@ def test_a_base_name_has_no_namespace() -> None:
         ("", "/ns/"),
     ],
 )
-def test_names_resolve_as_in_the_original(written: str, meant: str) -> None:
-    assert resolve_name(written, "/ns/node") == meant
+def test_names_resolve_as_in_the_original(written: str, expected: str) -> None:
+    assert resolve_name(written, "/ns/node") == expected
 
 
-def test_remapping_comes_last() -> None:
+def test_remapping_applies_to_the_resolved_name() -> None:
     assert resolve_name("scan", "/ns/node", {"/ns/scan": "/front/scan"}) == "/front/scan"
 
 
@@ -59,9 +59,17 @@ def test_namespaces_join_and_split() -> None:
 
 
 def test_a_command_line_is_sorted_into_what_ros_reads_and_the_rest() -> None:
-    given = ["-v", "scan:=/front/scan", "__name:=laser", "_rate:=[1, 2]", "__ns:=/r", "__unknown:=x", "file.yaml"]
+    command_line = [
+        "-v",
+        "scan:=/front/scan",
+        "__name:=laser",
+        "_rate:=[1, 2]",
+        "__ns:=/r",
+        "__unknown:=x",
+        "file.yaml",
+    ]
 
-    arguments = parse_arguments(given)
+    arguments = parse_arguments(command_line)
 
     assert arguments.remappings == {"scan": "/front/scan"}
     assert arguments.params == {"rate": "[1, 2]"}

@@ -65,11 +65,11 @@ def test_targets_of_a_loop_over_files_have_their_names(tmp_path: Path) -> None:
     for name in ("simulator", "keyboard"):
         (tmp_path / f"node/{name}.cpp").touch()
 
-    assert [(each.name, each.sources, each.line) for each in cmake_programs(tmp_path)] == [
+    assert [(target.name, target.sources, target.line) for target in cmake_programs(tmp_path)] == [
         ("keyboard", ("node/keyboard.cpp",), 4),
         ("simulator", ("node/simulator.cpp",), 4),
     ]
-    assert [(each.name, each.sources) for each in cmake_libraries(tmp_path)] == [
+    assert [(target.name, target.sources) for target in cmake_libraries(tmp_path)] == [
         ("left_wheel", ("src/left.cpp",)),
         ("right_wheel", ("src/right.cpp",)),
     ]

@@ -44,8 +44,8 @@ def test_programs_of_this_machine_run(tmp_path: Path) -> None:
 
 def test_another_processor_and_a_missing_library_are_named(tmp_path: Path) -> None:
     name = "ARM64" if platform.machine() != "aarch64" else "x86-64"
-    there = _other_machine(tmp_path / "a")
-    assert compiled_fault(there, {}) == f"it is compiled for {name}, not {platform.machine()}"
+    foreign = _other_machine(tmp_path / "a")
+    assert compiled_fault(foreign, {}) == f"it is compiled for {name}, not {platform.machine()}"
     lacking = _copied(tmp_path / "b", _LIBRARY, b"\0libq.so.6\0")
     assert compiled_fault(lacking, {}) == "libq.so.6 is not here"
     (tmp_path / "lib").mkdir()
@@ -68,10 +68,10 @@ def test_a_copied_devel_folder_counts_as_not_built(tmp_path: Path) -> None:
     (package / "CMakeLists.txt").write_text("add_executable(drive src/drive.cpp)\n")
     program = _other_machine(tmp_path / "devel/lib/arm/drive")
 
-    found = find_node("arm", "drive", lambda _: package, env={})
+    node = find_node("arm", "drive", lambda _: package, env={})
 
-    assert isinstance(found, MissingNode)
-    assert found.reason.startswith(f"{program} was built on another machine: it is compiled for ")
-    assert f"C++ not compiled yet: {package}/CMakeLists.txt:1 builds it from src/drive.cpp" in found.reason
+    assert isinstance(node, MissingNode)
+    assert node.reason.startswith(f"{program} was built on another machine: it is compiled for ")
+    assert f"C++ not compiled yet: {package}/CMakeLists.txt:1 builds it from src/drive.cpp" in node.reason
     _copied(program, b"", b"")
     assert find_node("arm", "drive", lambda _: package, env={}) == Executable(program)

@@ -111,8 +111,8 @@ def test_a_link_that_is_gone_while_it_is_read_is_no_package(tmp_path: Path, monk
     """With ROS_PACKAGE_PATH=/ the links of processes that end meanwhile are met."""
     wide = WideFolders({})
 
-    def gone(_path: object, **_: object) -> str:
+    def raise_missing(_path: object, **_: object) -> str:
         raise FileNotFoundError(2, "gone")
 
-    monkeypatch.setattr(os.path, "realpath", gone)
+    monkeypatch.setattr(os.path, "realpath", raise_missing)
     assert tmp_path / "link" in wide

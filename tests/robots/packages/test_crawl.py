@@ -18,7 +18,7 @@ def package(folder: Path) -> Path:
     return folder
 
 
-def found(root: Path) -> Packages:
+def packages_at(root: Path) -> Packages:
     return Packages({"ROS_PACKAGE_PATH": str(root), "HOME": "/nobody"}, start=root.parent / "elsewhere")
 
 
@@ -34,7 +34,7 @@ def workspace(tmp_path: Path) -> Path:
 
 
 def test_cyclic_and_broken_links_are_skipped(workspace: Path) -> None:
-    packages = found(workspace)
+    packages = packages_at(workspace)
 
     assert packages.find_package("z") == workspace / "z"
     assert packages.skipped_folders() == {workspace / "loop": "Too many levels of symbolic links"}
@@ -46,7 +46,7 @@ def test_two_links_upwards_cost_no_more_than_one(workspace: Path) -> None:
     for number in range(12):
         (workspace / f"up{number}").symlink_to(workspace)
 
-    assert found(workspace).find_package("z") == workspace / "z"
+    assert packages_at(workspace).find_package("z") == workspace / "z"
 
 
 def test_a_file_beside_such_links_is_checked(
@@ -67,7 +67,7 @@ def test_an_unreadable_folder_is_skipped(tmp_path: Path) -> None:
     package(tmp_path / "ws/z")
     (tmp_path / "ws/shut").mkdir(mode=0)
 
-    packages = found(tmp_path / "ws")
+    packages = packages_at(tmp_path / "ws")
 
     assert packages.find_package("z") == tmp_path / "ws/z"
     assert packages.skipped_folders() == {tmp_path / "ws/shut": "Permission denied"}
@@ -80,11 +80,11 @@ def test_ignore_files_of_ros_2_have_no_effect(tmp_path: Path, mark: str) -> None
     (arm.parent / mark).touch()
     (arm / mark).touch()
 
-    assert found(tmp_path / "ws").find_package("arm") == arm
+    assert packages_at(tmp_path / "ws").find_package("arm") == arm
 
 
 def test_a_manifest_that_is_a_pipe_does_not_block(tmp_path: Path) -> None:
     os.makedirs(tmp_path / "ws/y")
     os.mkfifo(tmp_path / "ws/y/package.xml")
 
-    assert found(tmp_path / "ws").find_package("y") == tmp_path / "ws/y"
+    assert packages_at(tmp_path / "ws").find_package("y") == tmp_path / "ws/y"

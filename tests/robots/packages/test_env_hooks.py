@@ -66,7 +66,7 @@ def test_a_launch_has_the_variables_of_hooks(package: Path, capsys: pytest.Captu
     assert main(["check", str(package / "a.launch"), "--strict"]) == 0
 
 
-def test_what_a_user_set_stays(
+def test_a_variable_that_the_user_set_is_kept(
     package: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("ROVER_BASE", "wheels")

@@ -34,10 +34,8 @@ def model(folder: Path) -> Path:
 
 
 def resolve(uri: str, start: Path, **environment: str) -> Path:
-    beside = start if start.is_dir() else start.parent
-    return Packages({"HOME": str(start.anchor) + "nobody", **environment}, start=start).resolve(
-        uri, folder=beside, at=AT
-    )
+    base = start if start.is_dir() else start.parent
+    return Packages({"HOME": str(start.anchor) + "nobody", **environment}, start=start).resolve(uri, folder=base, at=AT)
 
 
 def test_a_package_is_found_by_its_manifests_name_and_by_its_folders(tmp_path: Path) -> None:
@@ -50,7 +48,9 @@ def test_a_package_is_found_by_its_manifests_name_and_by_its_folders(tmp_path: P
     assert by_name == by_folder == tmp_path / "ws/arm-master/meshes/arm.stl"
 
 
-def test_a_path_relative_to_the_working_directory_becomes_absolute(tmp_path: Path, monkeypatch) -> None:
+def test_a_path_relative_to_the_working_directory_becomes_absolute(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The path is passed on to readers, which look for files beside it."""
     package(tmp_path / "ws" / "robot")
     monkeypatch.chdir(tmp_path)
@@ -87,19 +87,19 @@ def test_an_ignored_folder_holds_no_packages(tmp_path: Path) -> None:
 
 def test_packages_of_the_system_are_found_last(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Debian's rospack searches /usr/share, which ROS_PACKAGE_PATH does not name."""
-    share, own = tmp_path / "share", tmp_path / "ws"
+    share, workspace = tmp_path / "share", tmp_path / "ws"
     monkeypatch.setattr("trundle.robots.packages.ros_packages._INSTALLED", share)
     package(share / "hand")
     package(share / "arm")
     package(share / "gazebo_ros")
     package(share / "doc/deep")
     write(share / "leg/meshes/leg.stl")
-    write(own / "arm/meshes/arm.stl")
+    write(workspace / "arm/meshes/arm.stl")
 
-    packages = Packages({"ROS_PACKAGE_PATH": str(own)}, start=tmp_path / "elsewhere")
+    packages = Packages({"ROS_PACKAGE_PATH": str(workspace)}, start=tmp_path / "elsewhere")
 
     assert packages.find_package("hand") == packages.ros_packages()["hand"] == share / "hand"
-    assert packages.find_package("arm") == own / "arm"
+    assert packages.find_package("arm") == workspace / "arm"
     assert (packages.find_package("deep"), packages.find_package("leg")) == (None, None)
     assert packages.find_package("gazebo_ros") != share / "gazebo_ros"
 
@@ -195,7 +195,7 @@ def test_a_fuel_model_comes_from_the_cache_of_gazebos_own_tool_or_not_at_all(tmp
 
 
 @pytest.mark.parametrize(
-    ("uri", "said"),
+    ("uri", "message"),
     [
         (
             "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Ground Plane",
@@ -213,8 +213,8 @@ def test_a_fuel_model_comes_from_the_cache_of_gazebos_own_tool_or_not_at_all(tmp
         ("package://../etc/passwd", "no package '..'"),
     ],
 )
-def test_an_unresolved_uri_is_one_error_with_a_remedy(tmp_path: Path, uri: str, said: str) -> None:
-    with pytest.raises(DescriptionError, match=said) as caught:
+def test_an_unresolved_uri_is_one_error_with_a_remedy(tmp_path: Path, uri: str, message: str) -> None:
+    with pytest.raises(DescriptionError, match=message) as caught:
         resolve(uri, tmp_path)
     named = uri if "://" in uri and not uri.startswith("file:") else "no such file"
     assert str(caught.value).startswith(f"robot.urdf:7: error: {named}")
@@ -254,7 +254,7 @@ class TestReadingOutside:
         with pytest.raises(DescriptionError, match="reads only below"):
             resolve("link.stl", robot)
 
-    def test_it_can_be_allowed(self, robot: Path, tmp_path: Path) -> None:
+    def test_files_outside_can_be_allowed(self, robot: Path, tmp_path: Path) -> None:
         allowed = {room.ALLOW_OUTSIDE: "1"}
         assert resolve("../../../secret.stl", robot, **allowed).samefile(tmp_path / "secret.stl")
 
@@ -342,9 +342,11 @@ def test_a_published_name_is_no_slip_of_another(tmp_path: Path) -> None:
 def test_a_files_own_workspace_wins_over_a_package_of_the_same_name_on_the_path(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for place in ("old", "new"):
-        folder = package(tmp_path / place / "src/arm")
-        write(folder / "launch/arm.launch", f"<launch><param name='from' value='{place}'/>$(find arm)</launch>")
+    for workspace_name in ("old", "new"):
+        folder = package(tmp_path / workspace_name / "src/arm")
+        write(
+            folder / "launch/arm.launch", f"<launch><param name='from' value='{workspace_name}'/>$(find arm)</launch>"
+        )
         write(folder / "launch/go.launch", "<launch><include file='$(find arm)/launch/arm.launch'/></launch>")
     old, new = tmp_path / "old/src", tmp_path / "new/src"
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(old))
@@ -353,8 +355,8 @@ def test_a_files_own_workspace_wins_over_a_package_of_the_same_name_on_the_path(
     assert main(["launch", str(new / "arm/launch/go.launch"), "--dump-params"]) == 0
     printed = capsys.readouterr()
     assert "/from: new" in printed.out
-    said = f"of two packages 'arm' the file's own workspace wins: {new / 'arm'}, not {old / 'arm'}"
-    assert f"{new}/arm/launch/go.launch: warning: {said}" in printed.err.splitlines()
+    message = f"of two packages 'arm' the file's own workspace wins: {new / 'arm'}, not {old / 'arm'}"
+    assert f"{new}/arm/launch/go.launch: warning: {message}" in printed.err.splitlines()
 
     assert main(["launch", "arm", "go.launch", "--dump-params"]) == 0
     printed = capsys.readouterr()
@@ -385,5 +387,5 @@ def test_a_file_elsewhere_finds_the_packages_of_the_file_that_names_it(tmp_path:
 
     assert spawned.find_package("arm") == arm
     assert spawned.find_package("hand") == hand
-    beside = tmp_path / "logs/spawned"
-    assert spawned.resolve("package://arm/meshes/arm.stl", folder=beside, at=AT) == arm / "meshes/arm.stl"
+    base = tmp_path / "logs/spawned"
+    assert spawned.resolve("package://arm/meshes/arm.stl", folder=base, at=AT) == arm / "meshes/arm.stl"

@@ -147,7 +147,7 @@ def test_files_that_launch_files_take_from_stock_packages_are_there(tmp_path: Pa
     plan = read_launch(launch, packages=PACKAGES, report=Diagnostics(), arguments={}, env={})
 
     values = {param.name: param.value for param in plan.params}
-    kinds = {value for name, value in values.items() if name.endswith("_controller/type")}
+    kinds = {str(value) for name, value in values.items() if name.endswith("_controller/type")}
     assert len(kinds) == 3
     assert kinds <= set(CONTROLLERS)
     assert values["/twist_marker_server/max_positive_linear_velocity/y"] == 1
@@ -264,12 +264,12 @@ class TestModelConfig:
             model_file(tmp_path, Diagnostics())
 
 
-@pytest.mark.parametrize(("name", "made"), [("city.world.erb", "city.world"), ("arm.rsdf", "arm.sdf")])
-def test_a_template_is_refused_with_how_to_expand_it(tmp_path: Path, name: str, made: str) -> None:
+@pytest.mark.parametrize(("name", "output"), [("city.world.erb", "city.world"), ("arm.rsdf", "arm.sdf")])
+def test_a_template_is_refused_with_how_to_expand_it(tmp_path: Path, name: str, output: str) -> None:
     path = tmp_path / name
     path.write_text("<% 3.times do %>")
 
-    with pytest.raises(DescriptionError, match=rf"expand it first: erb {name} > {made}"):
+    with pytest.raises(DescriptionError, match=rf"expand it first: erb {name} > {output}"):
         load(str(path), Diagnostics(), packages=PACKAGES)
     with pytest.raises(DescriptionError):
         refuse_template(path)

@@ -83,7 +83,7 @@ def test_folders_in_the_working_folder_need_a_manifest_and_a_home_folder_is_not_
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no sticky folders")
 @pytest.mark.parametrize("left", ["launch/other.launch", "package.xml", "src/other/package.xml"])
-def test_what_lies_in_a_folder_of_temporary_files_is_not_the_robots_package(tmp_path: Path, left: str) -> None:
+def test_a_package_in_a_temporary_folder_is_not_the_robots_package(tmp_path: Path, left: str) -> None:
     """Any user may create files in /tmp: they make it neither a package nor a workspace."""
     (tmp_path / "shared" / left).parent.mkdir(parents=True)
     (tmp_path / "shared" / left).write_text("<package><name>other</name></package>")

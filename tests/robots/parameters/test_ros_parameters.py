@@ -17,13 +17,13 @@ def test_values_are_read_as_they_are_set() -> None:
     assert parameters.vector("e") == (1.0, 2.0, 3.0)
     assert parameters.texts("f") == ["x"]
     assert parameters.section("g").integer("h") == 7
-    assert [each.number("k") for each in parameters.sections("i")] == [1.0]
+    assert [section.number("k") for section in parameters.sections("i")] == [1.0]
     assert parameters.number("z", 4.0) == 4.0
     assert parameters.names() == list(tree)
 
 
 @pytest.mark.parametrize(
-    ("value", "said"),
+    ("value", "message"),
     [
         (True, "parameter /n/x: True is not a number"),
         ([1], "parameter /n/x: [1] is not a number"),
@@ -32,15 +32,15 @@ def test_values_are_read_as_they_are_set() -> None:
         (None, "parameter /n/x is not set"),
     ],
 )
-def test_a_number_of_no_use_is_an_error_whatever_the_default(value: object, said: str) -> None:
+def test_an_invalid_number_is_an_error_whatever_the_default(value: object, message: str) -> None:
     parameters = RosParameters({} if value is None else {"x": value}, "/n")
 
     with pytest.raises(ParamError) as error:
         parameters.number("x", None if value is None else 5.0, above=0.0)
-    assert str(error.value) == said
+    assert str(error.value) == message
 
 
-def test_a_list_of_no_use_is_an_error() -> None:
+def test_an_invalid_list_is_an_error() -> None:
     parameters = RosParameters({"joints": ["a", 1], "points": [1, 2]}, "/n")
 
     with pytest.raises(ParamError, match=r"/n/joints: \['a', 1\] is not a list of texts"):
@@ -49,7 +49,7 @@ def test_a_list_of_no_use_is_an_error() -> None:
         parameters.numbers("points", 3)
 
 
-def test_a_section_says_where_it_is() -> None:
+def test_an_error_in_a_section_names_its_full_path() -> None:
     parameters = RosParameters({"topics": [{"name": "a"}]}, "/mux")
 
     with pytest.raises(ParamError, match=r"^parameter /mux/topics\[0\]/timeout is not set$"):

@@ -27,7 +27,7 @@ def test_values_are_read_as_they_are_written() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("fast", "<x>: 'fast' is not a number; 5 is used"),
         ("", "<x>: '' is not a number; 5 is used"),
@@ -35,14 +35,14 @@ def test_values_are_read_as_they_are_written() -> None:
         ("-1", "<x> must be ≥ 0, got -1; 5 is used"),
     ],
 )
-def test_a_number_of_no_use_is_named_where_it_is(text: str, said: str) -> None:
+def test_an_invalid_number_is_reported_at_its_line(text: str, message: str) -> None:
     parameters = read(f"<x>{text}</x>")
 
     assert parameters.number("x", 5.0, minimum=0.0) == 5.0
-    assert parameters.report.warnings == [f"m.sdf:2: warning: {said}"]
+    assert parameters.report.warnings == [f"m.sdf:2: warning: {message}"]
 
 
-def test_other_values_of_no_use_are_named() -> None:
+def test_other_invalid_values_are_reported() -> None:
     parameters = read("<flag>maybe</flag><vector>1 2</vector><rate>0</rate>")
 
     assert parameters.flag("flag", default=True)
@@ -56,12 +56,12 @@ def test_other_values_of_no_use_are_named() -> None:
 
 
 @pytest.mark.parametrize("text", ["", "<link/>", "<link></link>"])
-def test_a_needed_parameter_that_is_absent_or_empty_is_an_error(text: str) -> None:
+def test_a_required_parameter_that_is_absent_or_empty_is_an_error(text: str) -> None:
     with pytest.raises(ParamError, match=r"^<link> is missing$"):
         read(text).text("link")
 
 
-def test_a_needed_parameter_of_no_use_is_an_error() -> None:
+def test_an_invalid_required_parameter_is_an_error() -> None:
     with pytest.raises(ParamError, match=r"^<radius> must be > 0, got -1$"):
         read("<radius>-1</radius>").number("radius", above=0.0)
 
@@ -77,7 +77,7 @@ def test_sections_have_parameters_of_their_own() -> None:
     assert "absent" not in parameters
 
 
-def test_what_nobody_read_is_named() -> None:
+def test_unread_parameters_are_reported() -> None:
     parameters = read("<a>1</a><b>2</b><c>0</c><d>3</d><e>4</e>")
     parameters.number("a")
     parameters.ignore("b")

@@ -43,17 +43,17 @@ repositories:
     ],
 )
 def test_known_packages_have_their_repository(package: str, distro: str, url: str, branch: str) -> None:
-    found = shipped_index().find(package, distro)
-    assert found is not None
-    assert found[:2] == (url, branch)
+    checkout = shipped_index().find(package, distro)
+    assert checkout is not None
+    assert checkout[:2] == (url, branch)
 
 
 def test_every_address_and_branch_of_the_index_is_accepted() -> None:
     index = shipped_index()
     for name in index.names():
-        found = index.find(name, "noetic")
-        assert found is not None
-        assert https_address(found.url) == found.url
+        checkout = index.find(name, "noetic")
+        assert checkout is not None
+        assert https_address(checkout.url) == checkout.url
 
 
 def test_an_unknown_package_is_nowhere() -> None:
@@ -70,7 +70,7 @@ def test_the_nearest_distribution_is_taken() -> None:
     ]
 
 
-def test_a_table_is_read_as_it_was_written() -> None:
+def test_a_written_table_is_read_back_unchanged() -> None:
     entries = [Entry("https://x.org/a", {"indigo": "i"}, ("a", "b")), Entry("https://x.org/c", {}, ("c",))]
     assert list(read_table(write_table(entries))) == entries
 
@@ -87,7 +87,7 @@ def test_an_index_of_the_users_is_read(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "what"),
+    ("text", "message"),
     [
         ("[]", "no index"),
         ("a: [", "not YAML"),
@@ -95,9 +95,9 @@ def test_an_index_of_the_users_is_read(tmp_path: Path) -> None:
         ("distributions: {noetic: {distribution: ['file:///etc/passwd']}}", "no such file|cannot|No such file"),
     ],
 )
-def test_a_bad_index_is_one_sentence(tmp_path: Path, text: str, what: str) -> None:
+def test_a_bad_index_is_one_sentence(tmp_path: Path, text: str, message: str) -> None:
     (tmp_path / "index.yaml").write_text(text)
-    with pytest.raises(DescriptionError, match=what):
+    with pytest.raises(DescriptionError, match=message):
         read_index(str(tmp_path / "index.yaml"), "noetic")
 
 
@@ -130,7 +130,7 @@ def test_lists_of_repositories_are_read(form: str) -> None:
 
 @pytest.mark.parametrize("form", [REPOS, ROSINSTALL])
 @pytest.mark.parametrize(
-    ("field", "value", "what"),
+    ("field", "value", "message"),
     [
         ("folder", "../arm", "folder '../arm' is refused"),
         ("folder", "/etc/cron.d", "folder '/etc/cron.d' is refused"),
@@ -140,8 +140,8 @@ def test_lists_of_repositories_are_read(form: str) -> None:
         ("kind", "hg", "only git"),
     ],
 )
-def test_lists_cannot_leave_the_workspace(form: str, field: str, value: str, what: str) -> None:
-    with pytest.raises(DescriptionError, match=what):
+def test_lists_cannot_leave_the_workspace(form: str, field: str, value: str, message: str) -> None:
+    with pytest.raises(DescriptionError, match=message):
         read_repository_list(form.format(**{**GOOD, field: value}), "a.repos")
 
 

@@ -51,14 +51,14 @@ def test_a_built_world_round_trips() -> None:
 
     built, read = world.description(), read_back(world)
 
-    for wrote, found in zip(built.models, read.models, strict=True):
-        assert [link.name for link in found.links] == [link.name for link in wrote.links]
-        for one, other in zip(wrote.links, found.links, strict=True):
+    for wrote, read_model in zip(built.models, read.models, strict=True):
+        assert [link.name for link in read_model.links] == [link.name for link in wrote.links]
+        for one, other in zip(wrote.links, read_model.links, strict=True):
             assert other.inertial.moments == pytest.approx(one.inertial.moments)
             assert replace(other.visuals[0], at=NOWHERE) == replace(one.visuals[0], at=NOWHERE)
             assert replace(other.collisions[0], at=NOWHERE) == replace(one.collisions[0], at=NOWHERE)
             assert [replace(s, at=NOWHERE) for s in other.sensors] == [replace(s, at=NOWHERE) for s in one.sensors]
-        for one, other in zip(wrote.joints, found.joints, strict=True):
+        for one, other in zip(wrote.joints, read_model.joints, strict=True):
             assert (other.name, other.type, other.parent, other.child) == (one.name, one.type, one.parent, one.child)
             assert other.axis is not None
             assert one.axis is not None
@@ -71,12 +71,12 @@ def test_a_built_world_round_trips() -> None:
 def test_the_mass_of_a_shape_is_density_times_volume() -> None:
     """Box m/12 (b² + c²), ball 2/5 m r², cylinder m r²/2 about its axis; water weighs 1000 kg/m³."""
     model = trundle.Model("m")
-    box = inertial_of(model.add_box("box", (0.4, 0.2, 0.1)))
+    box_inertial = inertial_of(model.add_box("box", (0.4, 0.2, 0.1)))
     ball = inertial_of(model.add_sphere("ball", 0.3, mass=5.0))
     rod = inertial_of(model.add_cylinder("rod", 0.1, 2.0, density=7800.0))
 
-    assert box.mass == pytest.approx(8.0)
-    assert box.moments == pytest.approx((8 / 12 * 0.05, 8 / 12 * 0.17, 8 / 12 * 0.2))
+    assert box_inertial.mass == pytest.approx(8.0)
+    assert box_inertial.moments == pytest.approx((8 / 12 * 0.05, 8 / 12 * 0.17, 8 / 12 * 0.2))
     assert ball.moments == pytest.approx([0.4 * 5 * 0.09] * 3)
     assert rod.mass == pytest.approx(7800 * math.pi * 0.02)
     assert rod.moments[2] == pytest.approx(rod.mass * 0.005)
@@ -88,10 +88,10 @@ def test_a_link_has_the_mass_of_all_its_shapes() -> None:
     link.add_sphere("left", 0.1, mass=3.0, pose=Pose((1.0, 0.5, 0.0)))
     link.add_sphere("right", 0.1, mass=3.0, pose=Pose((1.0, -0.5, 0.0)), collision=False)
 
-    own = 0.4 * 3 * 0.01
+    shape_inertia = 0.4 * 3 * 0.01
     inertial = inertial_of(link)
     assert (inertial.mass, inertial.link_from_com.position) == (6.0, (1.0, 0.0, 0.0))
-    assert inertial.moments == pytest.approx((2 * own + 1.5, 2 * own, 2 * own + 1.5))
+    assert inertial.moments == pytest.approx((2 * shape_inertia + 1.5, 2 * shape_inertia, 2 * shape_inertia + 1.5))
     assert len(link.description().collisions) == 1
     link.set_inertial(1.0, (2.0, 3.0, 4.0), center=(0.1, 0.0, 0.0))
     assert inertial_of(link) == Inertial(mass=1.0, link_from_com=Pose((0.1, 0.0, 0.0)), moments=(2.0, 3.0, 4.0))
@@ -151,7 +151,7 @@ def test_a_model_alone_stands_on_the_ground(tmp_path: Path) -> None:
     for sim in (trundle.load(model), trundle.load(tmp_path / "crate.sdf")):
         sim.run(1.0)
         assert sim["crate"].pose.position[2] == pytest.approx(0.05, abs=1e-4)
-        assert [each.name for each in sim.models] == ["crate", "ground_plane"]
+        assert [item.name for item in sim.models] == ["crate", "ground_plane"]
 
 
 def test_axes_turn_with_their_joint() -> None:
@@ -278,7 +278,9 @@ def test_built_objects_have_the_defaults_of_sdf() -> None:
 
     built = world.description()
     assert (built.name, built.physics) == (written.name, written.physics)
-    there, here = (each.models[0].links[0] for each in (written, built))
-    assert here.inertial == there.inertial
-    assert [replace(s, at=NOWHERE) for s in here.sensors] == [replace(s, at=NOWHERE) for s in there.sensors]
+    written_link, built_link = (item.models[0].links[0] for item in (written, built))
+    assert built_link.inertial == written_link.inertial
+    assert [replace(s, at=NOWHERE) for s in built_link.sensors] == [
+        replace(s, at=NOWHERE) for s in written_link.sensors
+    ]
     assert np.array_equal(built.models[0].world_from_model.position, (0, 0, 0))

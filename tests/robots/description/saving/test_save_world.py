@@ -51,8 +51,8 @@ def file(tmp_path: Path) -> Path:
 
 
 def _saved(simulation: Simulation, file: Path, *edits: EditAction) -> SavedWorld:
-    for each in edits:
-        edit(each, simulation)
+    for change in edits:
+        edit(change, simulation)
     return save_world(current_world(simulation), file=file, packages=Packages({}, start=file.parent))
 
 
@@ -61,7 +61,7 @@ def _reread(saved: SavedWorld, file: Path) -> World:
     return trundle.load(str(file)).world
 
 
-def test_nothing_changed_is_the_same_text(file: Path) -> None:
+def test_an_unchanged_world_is_saved_as_the_same_text(file: Path) -> None:
     assert _saved(trundle.load(str(file)), file).sdf.decode() == WORLD
 
 
@@ -122,7 +122,7 @@ def test_physics_light_friction_and_a_deleted_model(file: Path) -> None:
     assert saved.lost == ()
 
 
-def test_joints_stand_where_they_stood(file: Path) -> None:
+def test_a_saved_world_keeps_joint_positions(file: Path) -> None:
     simulation = trundle.load(str(file))
     simulation["arm"].joint("hinge").set_position(0.7)
     saved = _saved(simulation, file)
@@ -135,12 +135,14 @@ def test_joints_stand_where_they_stood(file: Path) -> None:
     assert again["arm"].joint("hinge").position == pytest.approx(0.7, abs=1e-9)
 
 
-def test_what_was_spawned_is_included_or_copied(file: Path, tmp_path: Path) -> None:
+def test_spawned_models_are_saved_as_an_include_or_a_copy(file: Path, tmp_path: Path) -> None:
     """A model of the path by its name, another one as it is written; a second save changes nothing more."""
-    own = tmp_path / "own.sdf"
-    own.write_text('<sdf version="1.6"><!-- outside --><model name="own"><!-- mine --><link name="l"/></model></sdf>')
+    model_file = tmp_path / "own.sdf"
+    model_file.write_text(
+        '<sdf version="1.6"><!-- outside --><model name="own"><!-- mine --><link name="l"/></model></sdf>'
+    )
     simulation = trundle.load(str(file))
-    for source, name in (("model://ball", "third"), (str(own), "own")):
+    for source, name in (("model://ball", "third"), (str(model_file), "own")):
         (model,) = (m for m in trundle.load(source).world.models if not m.added)
         simulation.spawn(replace(model, name=name))
     saved = _saved(simulation, file)

@@ -85,7 +85,9 @@ def test_a_file_missing_from_a_stand_in_is_left_out(tmp_path: Path) -> None:
     report = Diagnostics()
     expand_xacro(file, {}, packages=packages(file), report=report)
 
-    assert any(said.startswith(f"{file}:3: ") and "the include is left out" in said for said in report.warnings)
+    assert any(
+        message.startswith(f"{file}:3: ") and "the include is left out" in message for message in report.warnings
+    )
 
 
 def test_joints_to_left_out_links_and_their_child_links_are_left_out(tmp_path: Path) -> None:
@@ -100,8 +102,8 @@ def test_joints_to_left_out_links_and_their_child_links_are_left_out(tmp_path: P
 
     assert loaded.robot is not None
     assert [link.name for link in loaded.robot.links] == ["base_link", "mast"]
-    said = "joint 'base_link_front' is left out: no link 'front'"
-    assert any(said in warning for warning in report.warnings)
+    message = "joint 'base_link_front' is left out: no link 'front'"
+    assert any(message in warning for warning in report.warnings)
 
 
 @pytest.mark.parametrize("command", [["check"], ["xacro"], ["convert", "--to", "urdf"]])

@@ -81,7 +81,7 @@ def test_expressions_of_published_files_have_their_values(tmp_path: Path, expres
         ("xacro.tokenize('a' * 40, sep='x]|(a+)+$|[y')", None),
     ],
 )
-def test_mistakes_keep_xacros_words(tmp_path: Path, expression: str, words: str | None) -> None:
+def test_errors_in_expressions_have_xacros_message(tmp_path: Path, expression: str, words: str | None) -> None:
     (tmp_path / "robot.yaml").write_text("a: 1")
     body = '<xacro:property name="robot" value="${xacro.load_yaml(\'robot.yaml\')}"/>'
     body += f'<a b="{html.escape("${" + expression + "}")}"/>'
@@ -94,16 +94,16 @@ def test_mistakes_keep_xacros_words(tmp_path: Path, expression: str, words: str 
 
 
 @pytest.mark.parametrize(
-    ("text", "meant"),
+    ("text", "expected"),
     [("sorted([1])", "python.sorted"), ("range(3)", "python.range"), ("dotify(dict())", "xacro.dotify")],
 )
-def test_names_without_their_namespace_work_with_a_warning(tmp_path: Path, text: str, meant: str) -> None:
+def test_names_without_their_namespace_work_with_a_warning(tmp_path: Path, text: str, expected: str) -> None:
     file = tmp_path / "x.xacro"
     file.write_text(f'<r xmlns:xacro="http://www.ros.org/wiki/xacro"><a b="${{{text}}}"/></r>')
     report = Diagnostics()
     expand_xacro(file, {}, packages=Packages({}, start=tmp_path), report=report)
     (warning,) = report.warnings
-    assert f"is deprecated. Use {meant}() instead." in warning
+    assert f"is deprecated. Use {expected}() instead." in warning
 
 
 @pytest.mark.parametrize(

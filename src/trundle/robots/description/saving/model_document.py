@@ -18,7 +18,7 @@ _PLACEMENT = frozenset({"world_from_model", "name", "at"})
 
 
 def copy_model(model: Model, *, packages: Packages, folder: Path) -> bytes:
-    """Return a model as an SDF document: its original text with comments if unchanged, else written anew.
+    """Return a model as an SDF document: its original text with comments if unchanged, else a newly written one.
 
     Args:
         model: flat model with every joint at zero.
