@@ -8,7 +8,7 @@ from msgspec.structs import astuple
 from numpy.typing import NDArray
 
 from trundle.base.diagnostics import DescriptionError
-from trundle.spatial import Pose, matrix_from_quaternion, pose_from_row
+from trundle.spatial import matrix_from_quaternion, pose_from_row
 from trundle.studies.dataset.dataset_world import picture_maker
 from trundle.studies.datasets import AnnotatedPicture, ObjectAnnotation, read_dataset_plan
 from trundle.studies.datasets.overlay import box_corners
@@ -65,22 +65,22 @@ objects:
 )
 
 
-def test_what_is_written_lands_on_the_mask(tmp_path: Path) -> None:
+def test_annotations_agree_with_the_mask(tmp_path: Path) -> None:
     """A box's corners projected by the written camera bound its mask; its key points lie on it, at its depth."""
-    seen = 0
+    unoccluded_count = 0
     for picture in pictures(tmp_path, SEVERAL, range(8)):
-        for each in picture.annotation.objects:
-            mask = decode_mask(each.mask)
-            assert np.array_equal(mask, picture.instances == each.instance)
-            assert mask.sum() == each.pixels
-            corners = project(picture, box_corners(each.box_3d))
+        for annotation in picture.annotation.objects:
+            mask = decode_mask(annotation.mask)
+            assert np.array_equal(mask, picture.instances == annotation.instance)
+            assert mask.sum() == annotation.pixels
+            corners = project(picture, box_corners(annotation.box_3d))
             amodal = [*corners.min(axis=0), *corners.max(axis=0)]
-            if each.truncation == 0:
-                assert [*astuple(each.amodal_box)] == pytest.approx(amodal, abs=1.0)
-            if each.occlusion == 0 and each.truncation == 0:
-                assert [*astuple(each.box)] == pytest.approx(amodal, abs=1.0)
-                seen += 1
-            corner, under = each.key_points
+            if annotation.truncation == 0:
+                assert [*astuple(annotation.amodal_box)] == pytest.approx(amodal, abs=1.0)
+            if annotation.occlusion == 0 and annotation.truncation == 0:
+                assert [*astuple(annotation.box)] == pytest.approx(amodal, abs=1.0)
+                unoccluded_count += 1
+            corner, under = annotation.key_points
             assert not under.is_visible
             if corner.pixel is not None:
                 assert [*corner.pixel] == pytest.approx(project(picture, np.array([corner.world]))[0].tolist())
@@ -88,12 +88,12 @@ def test_what_is_written_lands_on_the_mask(tmp_path: Path) -> None:
                 assert corner.pixel is not None
                 column, row = (int(number) for number in corner.pixel)
                 assert mask[max(row - 1, 0) : row + 2, max(column - 1, 0) : column + 2].any()
-    assert seen >= 4
+    assert unoccluded_count >= 4
 
 
 def test_models_stand_on_the_surface_apart_from_each_other(tmp_path: Path) -> None:
     for picture in pictures(tmp_path, SEVERAL, range(8)):
-        placed = [box_corners(each.box_3d) for each in picture.annotation.objects]
+        placed = [box_corners(annotation.box_3d) for annotation in picture.annotation.objects]
         for corners in placed:
             assert corners[:, 2].min() == pytest.approx(0.051, abs=1e-6)  # a millimetre above the floor
         for i, one in enumerate(placed):
@@ -165,8 +165,8 @@ def test_settled_models_rest_on_what_is_below_them(tmp_path: Path) -> None:
     )
     for picture in pictures(tmp_path, text, range(2)):
         assert len(picture.annotation.objects) == 2
-        for each in picture.annotation.objects:
-            lowest = box_corners(each.box_3d)[:, 2].min()
+        for annotation in picture.annotation.objects:
+            lowest = box_corners(annotation.box_3d)[:, 2].min()
             assert lowest == pytest.approx(0.05, abs=0.01)
 
 
@@ -185,11 +185,11 @@ def test_key_points_follow_their_link(tmp_path: Path) -> None:
     (point,) = only(picture).key_points
 
     assert [*point.world] == pytest.approx([0, -0.5, 1], abs=1e-5)
-    assert Pose(only(picture).world_from_model[:3]) == Pose((0.0, 0.0, 1.0))
+    assert only(picture).world_from_model[:3] == pytest.approx((0.0, 0.0, 1.0))
 
 
 @pytest.mark.parametrize(
-    ("objects", "said"),
+    ("objects", "message"),
     [
         (
             "{box: {model: box.sdf, surface: table}}",
@@ -215,10 +215,10 @@ def test_key_points_follow_their_link(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_a_plan_that_names_what_is_not_there_is_refused(objects: str, said: str, tmp_path: Path) -> None:
+def test_a_plan_that_names_what_is_not_there_is_refused(objects: str, message: str, tmp_path: Path) -> None:
     with pytest.raises(DescriptionError) as caught:
         pictures(tmp_path, f"{HEAD}objects: {objects}\n")
-    assert str(caught.value).startswith(said)
+    assert str(caught.value).startswith(message)
 
 
 EYE = """<model name="rover"><pose>-2 0 0.2 0 0 0</pose><static>1</static><link name="head"><pose>0 0 0.5 0 0 0</pose>
@@ -255,14 +255,14 @@ def test_a_robot_s_own_camera_makes_the_pictures(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("changed", "by", "said"),
+    ("changed", "by", "message"),
     [
         ("rover/eye", "rover/ear", "plan.yaml:3: error: there is no camera 'rover/ear'; cameras: rover/eye"),
         ("count: 2", "count: 2\nsize: [64, 48]", "the size of the pictures is that of the camera's sensor"),
     ],
 )
-def test_a_camera_that_is_not_there_is_refused(tmp_path: Path, changed: str, by: str, said: str) -> None:
-    with pytest.raises(DescriptionError, match=said):
+def test_a_camera_that_is_not_there_is_refused(tmp_path: Path, changed: str, by: str, message: str) -> None:
+    with pytest.raises(DescriptionError, match=message):
         _rover(tmp_path, OF_THE_ROVER.replace(changed, by))
 
 
@@ -278,17 +278,17 @@ def _lit(folder: Path, more: str) -> AnnotatedPicture:
 
 
 @pytest.mark.parametrize(
-    ("more", "said"),
+    ("more", "message"),
     [
         ("lights: {sun: {position: [0, 0, 1]}}", "light sun: a directional light has no `position`; give `azimuth`"),
         ("lights: {lamp: {elevation: 1}}", "light lamp: a point light has no `elevation`; leave it out"),
         ("materials: {box_0: {colour: any}}", "materials: object 'box_0' has a look of its own; give one of them"),
     ],
 )
-def test_what_the_world_s_light_or_object_would_not_use_is_refused(tmp_path: Path, more: str, said: str) -> None:
+def test_settings_that_the_world_would_not_use_are_refused(tmp_path: Path, more: str, message: str) -> None:
     with pytest.raises(DescriptionError) as caught:
         _lit(tmp_path, more)
-    assert str(caught.value).startswith(f"plan.yaml:7: error: {said}")
+    assert str(caught.value).startswith(f"plan.yaml:7: error: {message}")
 
 
 def test_a_light_of_the_world_casts_shadows_as_the_plan_says(tmp_path: Path) -> None:

@@ -52,7 +52,7 @@ def _make(plan: Path, *options: str) -> subprocess.CompletedProcess[str]:
 
 
 def _bytes(folder: Path) -> dict[str, bytes]:
-    return {str(each.relative_to(folder)): each.read_bytes() for each in sorted(folder.rglob("*")) if each.is_file()}
+    return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
 @pytest.mark.filterwarnings("ignore:__array__ implementation:DeprecationWarning")  # in its compiled part
@@ -64,25 +64,25 @@ def test_coco_is_what_cocos_tools_read(plan: Path) -> None:
     folder = plan.with_suffix(".dataset")
     assert (done.returncode, done.stdout) == (0, f"3 of 3 pictures; {folder}\n"), done.stderr
     read = coco.COCO(str(folder / "coco.json"))
-    assert {each["name"] for each in read.loadCats(read.getCatIds())} == {"box", "ball"}
+    assert {category["name"] for category in read.loadCats(read.getCatIds())} == {"box", "ball"}
     assert len(read.getImgIds()) == 3
     assert len(read.getAnnIds()) >= 6
     for image in read.loadImgs(read.getImgIds()):
         with Image.open(folder / image["file_name"]) as picture:
             assert (picture.size, picture.mode) == ((160, 120), "RGB")
         numbers = np.array(Image.open(folder / "segmentation" / Path(image["file_name"]).name))
-        for each in read.loadAnns(read.getAnnIds(image["id"])):
-            mask = read.annToMask(each).astype(bool)
+        for annotation in read.loadAnns(read.getAnnIds(image["id"])):
+            mask = read.annToMask(annotation).astype(bool)
             (number,) = np.unique(numbers[mask])
             assert np.array_equal(numbers == number, mask), "one instance, all of it"
             rows, columns = np.nonzero(mask)
-            x, y, width, height = each["bbox"]
+            x, y, width, height = annotation["bbox"]
             assert (x, y, x + width, y + height) == (columns.min(), rows.min(), columns.max() + 1, rows.max() + 1)
-            assert each["area"] == mask.sum()
+            assert annotation["area"] == mask.sum()
 
 
 @pytest.mark.slow
-def test_what_is_there_is_not_made_again_and_the_rest_is_the_same(plan: Path) -> None:
+def test_existing_images_are_kept_and_the_rest_is_the_same(plan: Path) -> None:
     assert _make(plan, "-o", str(plan.with_name("whole"))).returncode == 0
     whole, folder = plan.with_name("whole"), plan.with_suffix(".dataset")
 
@@ -173,9 +173,9 @@ def test_records_have_masks_by_number(plan: Path) -> None:
     _make(plan, "--count", "1")
     record = json.loads((plan.with_suffix(".dataset") / "records/000000.json").read_text())
     numbers = np.array(Image.open(plan.with_suffix(".dataset") / "segmentation/000000.png"))
-    for each in record["objects"]:
-        mask = Mask(size=tuple(each["mask"]["size"]), counts=each["mask"]["counts"])
-        assert np.array_equal(decode_mask(mask), numbers == each["instance"])
+    for annotation in record["objects"]:
+        mask = Mask(size=tuple(annotation["mask"]["size"]), counts=annotation["mask"]["counts"])
+        assert np.array_equal(decode_mask(mask), numbers == annotation["instance"])
 
 
 @pytest.mark.slow
@@ -192,12 +192,12 @@ def test_a_killed_dataset_goes_on_and_its_files_are_the_same(plan: Path) -> None
         time.sleep(0.005)
     process.kill()
     process.wait()
-    there = {each: each.stat().st_mtime_ns for each in folder.glob("records/*.json")}
-    assert 7 <= len(there) < 40
+    modified_at = {path: path.stat().st_mtime_ns for path in folder.glob("records/*.json")}
+    assert 7 <= len(modified_at) < 40
     again = _make(plan)
 
     assert again.returncode == 0, again.stderr
-    assert {each: each.stat().st_mtime_ns for each in there} == there, "nothing is made twice"
+    assert {path: path.stat().st_mtime_ns for path in modified_at} == modified_at, "nothing is made twice"
     assert _bytes(folder) == _bytes(whole)
 
 

@@ -4,6 +4,7 @@ import json
 import math
 import re
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
@@ -49,7 +50,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return trundle.dataset(folder / "plan.yaml").folder
 
 
-def records(folder: Path) -> list[dict[str, object]]:
+def records(folder: Path) -> list[dict[str, Any]]:
     """Read the records."""
     return [json.loads((folder / f"records/{number:06}.json").read_text()) for number in range(3)]
 
@@ -65,19 +66,19 @@ def test_yolo_boxes_are_shares_of_the_picture(folder: Path) -> None:
     for number, record in enumerate(records(folder)):
         lines = (folder / f"labels/{number:06}.txt").read_text().splitlines()
         assert len(lines) == len(record["objects"])
-        for line, each in zip(lines, record["objects"], strict=True):
+        for line, annotation in zip(lines, record["objects"], strict=True):
             kind, x, y, width, height, px, py, mark = map(float, line.split())
-            assert data["names"][int(kind)] == each["category"]
+            assert data["names"][int(kind)] == annotation["category"]
             corners = [x - width / 2, y - height / 2, x + width / 2, y + height / 2]
-            assert np.array(corners) * (SIZE * 2) == pytest.approx(each["box"], abs=1e-3)
-            (point,) = each["key_points"]
+            assert np.array(corners) * (SIZE * 2) == pytest.approx(annotation["box"], abs=1e-3)
+            (point,) = annotation["key_points"]
             assert (px * 320, py * 240) == pytest.approx(point["pixel"], abs=1e-3)
             assert mark == (2 if point["is_visible"] else 1)
 
 
 def test_kitti_boxes_project_onto_their_pixels(folder: Path) -> None:
     """As the devkit's computeBox3D and projectToImage do it."""
-    base, seen = folder / "kitti/training", 0
+    base, visible_count = folder / "kitti/training", 0
     for number in range(3):
         calibration = _calibration(base / f"calib/{number:06}.txt")
         for line in (base / f"label_2/{number:06}.txt").read_text().splitlines():
@@ -95,9 +96,9 @@ def test_kitti_boxes_project_onto_their_pixels(folder: Path) -> None:
             if kind == "car" and truncated == 0:
                 found = [columns.min(), rows.min(), columns.max(), rows.max()]
                 assert found == pytest.approx(box, abs=1.5)
-                seen += 1
+                visible_count += 1
             assert y == pytest.approx(0.55, abs=0.02), "it stands on the floor, which the level camera has below it"
-    assert seen >= 3
+    assert visible_count >= 3
 
 
 def _calibration(path: Path) -> dict[str, NDArray[np.float64]]:
@@ -116,7 +117,7 @@ def test_lidar_points_land_on_the_pixels_of_their_instance(folder: Path) -> None
         assert len(points) == len(labels)
         kitti = (folder / f"kitti/training/velodyne/{number:06}.bin").read_bytes()
         assert kitti == points.tobytes()
-        classes = {each["instance"]: each["category"] for each in record["objects"]}
+        classes = {annotation["instance"]: annotation["category"] for annotation in record["objects"]}
         homogeneous = np.hstack([points[:, :3], np.ones((len(points), 1))])
         optical = homogeneous @ calibration["Tr"].reshape(3, 4).T
         columns, rows, depths = calibration["P2"].reshape(3, 4) @ np.hstack([optical, np.ones((len(points), 1))]).T
@@ -135,37 +136,37 @@ def test_lidar_points_land_on_the_pixels_of_their_instance(folder: Path) -> None
 
 
 def test_depths_are_in_the_unit_of_their_format(folder: Path) -> None:
-    ours = np.array(Image.open(folder / "depth/000000.png"))
+    depth = np.array(Image.open(folder / "depth/000000.png"))
     kitti = np.array(Image.open(folder / "kitti/training/depth_2/000000.png"))
-    assert ours.dtype == kitti.dtype == np.uint16
-    floor = ours[-1, 160] / 1000
+    assert depth.dtype == kitti.dtype == np.uint16
+    floor = depth[-1, 160] / 1000
     assert floor == pytest.approx(0.55 / (math.tan(0.5) * 0.75 * 239 / 240), rel=0.01)  # 0.55 m below the camera
     assert kitti[-1, 160] / 256 == pytest.approx(floor, abs=1 / 256)
-    assert ours[0, 160] == 0, "nothing above the floor"
+    assert depth[0, 160] == 0, "nothing above the floor"
 
 
 def test_an_mcap_shard_has_the_messages_of_each_picture(folder: Path) -> None:
     messages, count = Messages(), {}
     with open_bag(folder / "mcap/000000-000002.mcap") as bag:
-        for each in bag.messages():
-            found = messages.deserialize(each.data, each.connection.type)
-            topic = each.connection.topic
+        for entry in bag.messages():
+            message = messages.deserialize(entry.data, entry.connection.type)
+            topic = entry.connection.topic
             number = count.get(topic, 0)
             count[topic] = number + 1
             record = records(folder)[number]
             if topic == "/camera/depth":
-                pixels = np.frombuffer(bytes(found.data), dtype="<u2").reshape(SIZE[::-1])
+                pixels = np.frombuffer(bytes(message.data), dtype="<u2").reshape(SIZE[::-1])
                 assert np.array_equal(pixels, np.array(Image.open(folder / f"depth/{number:06}.png")))
             if topic == "/camera/image/compressed":
-                assert bytes(found.data) == (folder / f"images/{number:06}.png").read_bytes()
+                assert bytes(message.data) == (folder / f"images/{number:06}.png").read_bytes()
             if topic == "/camera/camera_info":
-                assert found.K[0] == pytest.approx(record["camera"]["fx"])
+                assert message.K[0] == pytest.approx(record["camera"]["fx"])
             if topic == "/camera/detections":
-                assert [each.bbox.size_x for each in found.detections] == [
-                    each["box"][2] - each["box"][0] for each in record["objects"]
+                assert [detection.bbox.size_x for detection in message.detections] == [
+                    annotation["box"][2] - annotation["box"][0] for annotation in record["objects"]
                 ]
             if topic == "/record":
-                assert json.loads(found.data) == record
+                assert json.loads(message.data) == record
     assert set(count.values()) == {3}
     assert len(count) == 8
 
@@ -177,7 +178,9 @@ def test_a_parquet_shard_has_pictures_and_records(folder: Path) -> None:
     for row, record in zip(table.to_pylist(), records(folder), strict=True):
         name = f"{row['number']:06}.png"
         assert row["image"] == {"bytes": (folder / "images" / name).read_bytes(), "path": name}
-        assert [each["box"] for each in row["objects"]] == [each["box"] for each in record["objects"]]
+        assert [annotation["box"] for annotation in row["objects"]] == [
+            annotation["box"] for annotation in record["objects"]
+        ]
         assert row["camera"] == record["camera"]
 
 
@@ -190,6 +193,6 @@ def test_the_contact_sheet_opens_alone(folder: Path) -> None:
     assert html.count("<figure>") == 3
     with Image.open(folder / "contact_sheet.png") as sheet:
         assert sheet.width == 3 * 406 + 6
-        colours = sheet.convert("RGB").getcolors(1 << 24)
-    assert colours is not None
-    assert category_color(0) in {colour for _, colour in colours}, "boxes are drawn"
+        colors = sheet.convert("RGB").getcolors(1 << 24)
+    assert colors is not None
+    assert category_color(0) in {color for _, color in colors}, "boxes are drawn"

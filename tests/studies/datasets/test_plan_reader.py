@@ -1,4 +1,4 @@
-"""Plans of datasets, and what is said of wrong ones."""
+"""Plans of datasets, and errors of wrong ones."""
 
 from pathlib import Path
 
@@ -27,7 +27,7 @@ lights:
 """
 
 
-def test_what_a_plan_leaves_out_has_a_default(tmp_path: Path) -> None:
+def test_keys_that_a_plan_omits_have_defaults(tmp_path: Path) -> None:
     plan = read_dataset_plan(PLAN, file="plan.yaml", folder=tmp_path)
 
     assert (plan.width_px, plan.height_px, plan.samples, plan.formats) == (640, 480, 2, ("coco",))
@@ -39,7 +39,7 @@ def test_what_a_plan_leaves_out_has_a_default(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("changed", "by", "said"),
+    ("changed", "by", "message"),
     [
         ("count: 4", "cuont: 4", "plan.yaml:2: error: a plan has no 'cuont'; it has: world, count, seed,"),
         ("count: 4", "count: 0", "plan.yaml:2: error: count must be a whole number of at least 1, not 0"),
@@ -85,11 +85,11 @@ def test_what_a_plan_leaves_out_has_a_default(tmp_path: Path) -> None:
         ("colour: any", "textures: nowhere", "plan.yaml:10: error: textures: "),
     ],
 )
-def test_a_wrong_plan_is_refused_at_its_line(changed: str, by: str, said: str, tmp_path: Path) -> None:
+def test_a_wrong_plan_is_refused_at_its_line(changed: str, by: str, message: str, tmp_path: Path) -> None:
     assert changed in PLAN
     with pytest.raises(DescriptionError) as caught:
         read_dataset_plan(PLAN.replace(changed, by, 1), file="plan.yaml", folder=tmp_path)
-    assert str(caught.value).startswith(said)
+    assert str(caught.value).startswith(message)
 
 
 def test_a_normal_distribution_is_cut_off_at_the_bounds_of_what_is_drawn(tmp_path: Path) -> None:

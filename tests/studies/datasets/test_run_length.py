@@ -23,7 +23,7 @@ def test_a_mask_by_hand() -> None:
 
 
 @given(MASKS)
-def test_a_mask_comes_back(mask: np.ndarray[tuple[int, int], np.dtype[np.bool_]]) -> None:
+def test_an_encoded_mask_is_decoded_unchanged(mask: np.ndarray[tuple[int, int], np.dtype[np.bool_]]) -> None:
     assert np.array_equal(decode_mask(_encoded(mask)), mask)
 
 

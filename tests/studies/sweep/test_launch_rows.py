@@ -61,7 +61,7 @@ def test_a_launch_is_run_with_the_values_of_each_row(plan: Path) -> None:
         assert row["params"] == 1
     with open_bag(done.folder / "bags/row_0.bag") as bag:
         assert {message.connection.topic for message in bag.messages()} >= {"/clock"}
-    assert sorted(each.name for each in (done.folder / "bags").iterdir()) == ["row_0.bag", "row_1.bag"]
+    assert sorted(path.name for path in (done.folder / "bags").iterdir()) == ["row_0.bag", "row_1.bag"]
 
 
 @pytest.mark.slow
@@ -84,25 +84,25 @@ def test_repetitions_of_a_launch_differ_by_their_seed(plan: Path) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("changed", "by", "said"),
+    ("changed", "by", "message"),
     [
         ("models/box/links", "models/bx/links", "no such model was spawned; models: 'box'"),
         ("links/body", "links/bdy", "has no 'bdy'; the nearest is 'body'; it has: body, *"),
         ("box/body, force", "box/bdy, force", "no link 'bdy'"),
     ],
 )
-def test_what_is_not_there_is_the_reason_of_an_error(plan: Path, changed: str, by: str, said: str) -> None:
+def test_a_missing_model_or_link_is_the_reason_of_an_error(plan: Path, changed: str, by: str, message: str) -> None:
     plan.write_text(PLAN.replace(changed, by))
     read = load_plan(plan)
 
     result = runner_of(read).run(Rows(read).row(0))
 
     assert result.status == "error"
-    assert said in result.reason
+    assert message in result.reason
 
 
 @pytest.mark.parametrize(
-    ("changed", "by", "said"),
+    ("changed", "by", "message"),
     [
         (
             "arguments/height",
@@ -118,11 +118,11 @@ def test_what_is_not_there_is_the_reason_of_an_error(plan: Path, changed: str, b
         ),
     ],
 )
-def test_a_name_that_the_launch_cannot_have_is_refused(plan: Path, changed: str, by: str, said: str) -> None:
+def test_a_name_that_the_launch_cannot_have_is_refused(plan: Path, changed: str, by: str, message: str) -> None:
     plan.write_text(PLAN.replace(changed, by))
     with pytest.raises(TrundleError) as caught:
         trundle.sweep(plan)
-    assert said.format(plan.parent) in str(caught.value)
+    assert message.format(plan.parent) in str(caught.value)
     assert not plan.with_suffix(".sweep").exists()
 
 

@@ -25,7 +25,7 @@ def _read(text: str):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("world: [", "plan.yaml:1: error: not YAML: line 1, column 9: expected"),
         ("", "plan.yaml:1: error: an empty file"),
@@ -59,10 +59,10 @@ def _read(text: str):
         ("world: a\nduration: 1\nsamples: 9", "plan.yaml:3: error: `samples` needs a distribution in `vary`"),
     ],
 )  # fmt: skip
-def test_a_mistake_is_named_with_its_line(text: str, said: str) -> None:
+def test_a_mistake_is_named_with_its_line(text: str, message: str) -> None:
     with pytest.raises(DescriptionError) as caught:
         _read(text)
-    assert str(caught.value).startswith(said)
+    assert str(caught.value).startswith(message)
 
 
 def test_rows_combine_grids_and_samples_and_repetitions() -> None:

@@ -5,6 +5,7 @@ import pytest
 import trundle
 from trundle.base.diagnostics import UsageError
 from trundle.robots.model import World
+from trundle.studies.plan_files.variation import Value
 from trundle.studies.sweep.property_path import with_property
 
 
@@ -21,7 +22,7 @@ def test_a_number_is_replaced_and_the_rest_is_shared(world: World) -> None:
     assert with_property(edited, "models/rp2w/links/chassis/inertial/mass", 3.0) == world
 
 
-def test_a_star_stands_for_everything_that_has_the_rest(world: World) -> None:
+def test_a_star_matches_everything_that_has_the_rest_of_the_path(world: World) -> None:
     edited = with_property(world, "models/rp2w/joints/*/axis/damping", 0.5)
     assert {joint.axis.damping for joint in edited.models[0].joints if joint.axis} == {0.5}
 
@@ -46,7 +47,7 @@ def test_short_names_and_components(world: World) -> None:
 
 
 @pytest.mark.parametrize(
-    ("path", "value", "said"),
+    ("path", "value", "message"),
     [
         (
             "models/rp/links",
@@ -68,7 +69,7 @@ def test_short_names_and_components(world: World) -> None:
         ),
     ],
 )
-def test_a_wrong_path_lists_what_is_there(world: World, path: str, value: object, said: str) -> None:
+def test_a_wrong_path_lists_what_is_there(world: World, path: str, value: Value, message: str) -> None:
     with pytest.raises(UsageError) as caught:
         with_property(world, path, value)
-    assert said in str(caught.value)
+    assert message in str(caught.value)

@@ -52,9 +52,9 @@ def test_the_table_does_not_depend_on_the_order_or_on_kills(tmp_path: Path) -> N
             with (tmp_path / "b/out/journal.jsonl").open("ab") as journal:
                 journal.write(b'{"row": 3, "stat')
 
-    files = [(tmp_path / each / "out/results.parquet").read_bytes() for each in "ab"]
+    files = [(tmp_path / name / "out/results.parquet").read_bytes() for name in "ab"]
     assert files[0] == files[1]
-    assert sorted(each.name for each in (tmp_path / "b/out").iterdir()) == ["plan.json", "results.parquet"]
+    assert sorted(path.name for path in (tmp_path / "b/out").iterdir()) == ["plan.json", "results.parquet"]
     table = _open(tmp_path / "b").read()
     assert table["row"].to_pylist() == list(range(50))
     assert table.slice(0, 2).select(["status", "reason", "time", "b", "x", "y"]).to_pylist() == [

@@ -131,7 +131,7 @@ def test_row_runs_one_again_without_a_page(plan: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("changed", "by", "said"),
+    ("changed", "by", "message"),
     [
         ("inertial/mass", "inertial/mas", "plan.yaml:5: error: models/box/links/link/inertial/mas: models/box/links/"),
         (
@@ -149,11 +149,13 @@ def test_row_runs_one_again_without_a_page(plan: Path) -> None:
         ("{models", "{parameters/gain: mu, models", "plan.yaml:7: error: parameters/gain: a world has no ROS "),
     ],
 )
-def test_a_plan_that_cannot_run_is_refused_before_the_first_run(plan: Path, changed: str, by: str, said: str) -> None:
+def test_a_plan_that_cannot_run_is_refused_before_the_first_run(
+    plan: Path, changed: str, by: str, message: str
+) -> None:
     plan.write_text(PLAN.replace(changed, by))
     with pytest.raises(TrundleError) as caught:
         trundle.sweep(plan)
-    assert said in str(caught.value)
+    assert message in str(caught.value)
     assert not plan.with_suffix(".sweep").exists()
 
 
@@ -165,8 +167,8 @@ def test_an_argument_that_the_xacro_file_does_not_have_is_refused_with_the_plan_
     with pytest.raises(TrundleError) as caught:
         trundle.sweep(plan, output=tmp_path / "out")
 
-    said = "no argument 'widht'; the nearest is 'width'; arguments here: 'mass', 'width'"
-    assert str(caught.value) == f"plan:4: error: arguments/widht: {tmp_path / 'r.xacro'}: {said}"
+    message = "no argument 'widht'; the nearest is 'width'; arguments here: 'mass', 'width'"
+    assert str(caught.value) == f"plan:4: error: arguments/widht: {tmp_path / 'r.xacro'}: {message}"
 
 
 @pytest.mark.slow
@@ -229,7 +231,7 @@ def test_twenty_kills_at_random_moments_change_nothing(plan: Path) -> None:
     assert os.listdir(tables[1].parent) == os.listdir(tables[0].parent)
 
 
-def test_the_report_opens_alone_and_shows_what_matters(plan: Path) -> None:
+def test_the_report_is_one_file_with_the_main_results(plan: Path) -> None:
     plan.write_text(PLAN.replace("samples: 8", "samples: 4"))
     visual = '<visual name="v"><geometry><box><size>0.2 0.2 0.2</size></box></geometry></visual>'
     plan.with_name("box.sdf").write_text(WORLD.replace("</inertial>", f"</inertial>{visual}"))

@@ -89,13 +89,13 @@ def test_rows_come_out_as_on_the_processors(plan: Path, monkeypatch: pytest.Monk
     assert gpu.schema == cpu.schema
     assert gpu.num_rows == 8
     assert {"ok", "failed"} == set(gpu["status"].to_pylist())
-    for ours, theirs in zip(gpu.to_pylist(), cpu.to_pylist(), strict=True):
+    for on_gpu, on_cpu in zip(gpu.to_pylist(), cpu.to_pylist(), strict=True):
         # A ball that begins to slide hops on a GPU, and while it is in the air no friction holds it back.
-        assert ours.pop("fastest") == pytest.approx(theirs.pop("fastest"), rel=0.01)
-        measured = {name: theirs.pop(name) for name in ("x", "turned", "lowest", "angle", "moved_at")}
-        assert {name: ours.pop(name) for name in measured} == pytest.approx(measured, abs=2e-3)
-        del ours["reason"], theirs["reason"]  # with six digits of x
-        assert ours == theirs
+        assert on_gpu.pop("fastest") == pytest.approx(on_cpu.pop("fastest"), rel=0.01)
+        measured = {name: on_cpu.pop(name) for name in ("x", "turned", "lowest", "angle", "moved_at")}
+        assert {name: on_gpu.pop(name) for name in measured} == pytest.approx(measured, abs=2e-3)
+        del on_gpu["reason"], on_cpu["reason"]  # with six digits of x
+        assert on_gpu == on_cpu
 
 
 @needs_warp
@@ -135,7 +135,7 @@ def _kill_after_a_row(plan: Path) -> None:
 @needs_warp
 @pytest.mark.slow
 @pytest.mark.usefixtures("stand_in")
-def test_a_row_that_cannot_go_on_says_so_and_the_others_do(plan: Path) -> None:
+def test_a_row_that_cannot_continue_is_an_error_and_the_others_continue(plan: Path) -> None:
     plan.write_text(
         "world: ball.sdf\nduration: 0.2\nsamples: 5\ndesign: latin_hypercube\nvary: {v: {uniform: [0, 1]}}\n"
         "set: {models/ball/links/l/collisions/c/friction: 0.5 if v < 0.4 or v > 0.6 else 0}\n"
@@ -195,7 +195,7 @@ def test_a_row_too_crowded_for_the_gpu_says_so_and_the_others_go_on(
         ("vary: {models/a/links/b/sensors/c/update_rate: [1, 2]}", "models/a/links/b/sensors/c/update_rate: a sweep"),
     ],
 )
-def test_what_a_gpu_lacks_is_said_with_its_line(plan: Path, line: str, sentence: str) -> None:
+def test_features_that_the_gpu_lacks_are_reported_with_their_line(plan: Path, line: str, sentence: str) -> None:
     plan.write_text(f"world: ball.sdf\nduration: 1\n{line}\n")
 
     with pytest.raises(DescriptionError) as error:

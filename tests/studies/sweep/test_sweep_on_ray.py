@@ -40,8 +40,8 @@ def test_ray_and_processes_write_the_same_table(tmp_path: Path) -> None:
 
     assert here.counts.keys() == {"ok", "failed", "error"}, "each of them is compared"
     assert sum(here.counts.values()) == 20
-    tables = [each.folder / "results.parquet" for each in (here, on_ray)]
+    tables = [sweep.folder / "results.parquet" for sweep in (here, on_ray)]
     assert tables[0].read_bytes() == tables[1].read_bytes()
-    bags = [sorted((each.folder / "bags").iterdir()) for each in (here, on_ray)]
+    bags = [sorted((sweep.folder / "bags").iterdir()) for sweep in (here, on_ray)]
     assert [bag.name for bag in bags[0]] == [bag.name for bag in bags[1]]
     assert [bag.read_bytes() for bag in bags[0]] == [bag.read_bytes() for bag in bags[1]]
