@@ -1,6 +1,6 @@
 """Runs clang-format or clang-tidy over the C++: `lint.py format [--check]`, `lint.py tidy [--changed]`.
 
-Each is taken from this Python's environment or from PATH; where it is not installed, that is said and nothing fails.
+Each tool comes from this Python's environment or from PATH; if it is not installed, a line says so and nothing fails.
 """
 
 import importlib.util
@@ -18,15 +18,15 @@ OPTIONS = ["-std=gnu++20", "-DTRUNDLE_ISA=baseline", "-Wcomma"]
 
 
 def main(command: str, *options: str) -> int:
-    """Run one of the two; returns the exit code."""
+    """Run clang-format or clang-tidy; return the exit code."""
     tool = _find(f"clang-{command}")
     if tool is None:
         print(f"clang-{command} is not installed: skipped")
         return 0
     if command == "format":
         files = [file for folder in FOLDERS for file in sorted(ROOT.glob(f"{folder}/*.[ch]*")) if _is_cpp(file)]
-        how = ["--dry-run", "--Werror"] if "--check" in options else ["-i"]
-        return subprocess.run([tool, *how, *files], check=False).returncode
+        mode = ["--dry-run", "--Werror"] if "--check" in options else ["-i"]
+        return subprocess.run([tool, *mode, *files], check=False).returncode
     return _tidy(tool, _changed() if "--changed" in options else sorted((ROOT / "cpp").glob("*/*.cc")))
 
 
@@ -61,16 +61,16 @@ def _changed() -> list[Path]:
 def _includes() -> list[str] | None:
     folders = [str(ROOT / "cpp"), sysconfig.get_paths()["include"]]
     for package in ("mujoco", "nanobind"):
-        found = importlib.util.find_spec(package)
-        if found is None or not found.submodule_search_locations:
+        spec = importlib.util.find_spec(package)
+        if spec is None or not spec.submodule_search_locations:
             return None
-        folders.append(f"{found.submodule_search_locations[0]}/include")
+        folders.append(f"{spec.submodule_search_locations[0]}/include")
     return [word for folder in folders for word in ("-isystem", folder)]
 
 
 def _find(name: str) -> str | None:
-    beside = shutil.which(name, path=str(Path(sys.executable).parent))
-    return beside or shutil.which(name)
+    local = shutil.which(name, path=str(Path(sys.executable).parent))
+    return local or shutil.which(name)
 
 
 def _is_cpp(file: Path) -> bool:

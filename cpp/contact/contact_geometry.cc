@@ -6,7 +6,7 @@ namespace trundle {
 
 namespace {
 
-constexpr double kMinTangent = 1e-6;  // smallest tangential part of a direction that counts
+constexpr double kMinTangent = 1e-6;  // smallest tangential part of a valid direction
 
 // Turn a contact's two tangential constraint rows and their velocities. MuJoCo derives the rest after its control
 // callback.
@@ -39,8 +39,8 @@ double approach_speed(const mjModel* m, const mjData* d, const mjContact& contac
     const double arm[3] = {contact.pos[0] - centre[0], contact.pos[1] - centre[1], contact.pos[2] - centre[2]};
     double turning[3];
     cross(turning, velocity, arm);
-    const double there[3] = {velocity[3] + turning[0], velocity[4] + turning[1], velocity[5] + turning[2]};
-    speeds[side] = dot(contact.frame, there);
+    const double at_contact[3] = {velocity[3] + turning[0], velocity[4] + turning[1], velocity[5] + turning[2]};
+    speeds[side] = dot(contact.frame, at_contact);
   }
   return speeds[0] - speeds[1];
 }
@@ -81,7 +81,7 @@ bool align_tangents(const mjModel* m, mjData* d, mjContact& contact, const doubl
                        along[2] - normal_part * frame[2]};
   const double length = std::sqrt(dot(tangent, tangent));
   if (!(length > kMinTangent * std::sqrt(dot(along, along)))) return false;
-  for (double& each : tangent) each /= length;
+  for (double& component : tangent) component /= length;
   const double cosine = dot(tangent, frame + 3), sine = dot(tangent, frame + 6);
   if (sine == 0 && cosine > 0) return true;
   turn_rows(m, d, contact, cosine, sine);

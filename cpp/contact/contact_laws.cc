@@ -74,7 +74,7 @@ void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
   approach_stops(m, d);
 }
 
-// For a state that is evaluated, not stepped: nothing that acts over a step.
+// For a state that is evaluated, not stepped: no law that acts over a step.
 void apply_static_laws(const LawTables& laws, const mjModel* m, mjData* d) {
   if (turn_friction(laws, m, d)) {
     rebuild_constraints(m, d);
@@ -114,7 +114,7 @@ void on_sensor(const mjModel* m, mjData* d, int stage) {
   busy = false;
 }
 
-// Install the callbacks, keeping those installed before.
+// Install the callbacks; those installed before are called first.
 void install() {
   busy = false;  // an exception may have left it set
   if (*mujoco.control != on_control) {
@@ -128,11 +128,11 @@ void install() {
 }
 
 std::vector<std::string> names() {
-  std::vector<std::string> found{"mjCOLLISIONFUNC", "mjcb_control", "mjcb_sensor", "mjcb_time"};
-#define TRUNDLE_NAME(name) found.push_back(#name);
+  std::vector<std::string> result{"mjCOLLISIONFUNC", "mjcb_control", "mjcb_sensor", "mjcb_time"};
+#define TRUNDLE_NAME(name) result.push_back(#name);
   TRUNDLE_MUJOCO_FUNCTIONS(TRUNDLE_NAME)
 #undef TRUNDLE_NAME
-  return found;
+  return result;
 }
 
 void bind(const std::vector<std::uintptr_t>& addresses) {
@@ -165,7 +165,7 @@ constexpr std::size_t kRowNumbers = sizeof(ContactRow) / sizeof(double);
 
 using Rows = nb::ndarray<const double, nb::shape<-1, kRowNumbers>, nb::c_contig, nb::device::cpu>;
 
-// An array of its own (rows, kRowNumbers).
+// New array (rows, kRowNumbers).
 nb::object array_of(const std::vector<ContactRow>& rows) {
   double* numbers = new double[rows.size() * kRowNumbers];
   if (!rows.empty()) std::memcpy(numbers, rows.data(), rows.size() * sizeof(ContactRow));
@@ -203,16 +203,16 @@ std::pair<std::vector<std::int64_t>, nb::object> take_rows(ContactRecorder& reco
 std::pair<int, bool> step(std::uintptr_t model, std::uintptr_t data, int count,
                           const std::vector<ContactRecorder*>& recorders, const std::vector<StepAction*>& actions,
                           bool acts_first, std::int64_t time_ns, std::int64_t step_ns) {
-  const EachStep each{recorders, actions, acts_first, time_ns, step_ns};
+  const StepHooks hooks{recorders, actions, acts_first, time_ns, step_ns};
   const nb::gil_scoped_release release;
-  const Stepped stepped = step_each(model_at(model), data_at(data), count, each);
+  const Stepped stepped = step_with_hooks(model_at(model), data_at(data), count, hooks);
   return {stepped.count, stepped.goes_on};
 }
 
 void bind_stepping(nb::module_& module) {
   nb::class_<ContactRecorder>(module, "ContactRecorder")
       .def(nb::init<const std::vector<int>&, int, std::size_t>(), nb::arg("geoms"), nb::arg("geom_count"),
-           nb::arg("most_steps"))
+           nb::arg("max_steps"))
       .def_prop_ro("is_stale", &ContactRecorder::is_stale)
       .def("set_sleeping", [](ContactRecorder& self, const Rows& rows) { self.set_sleeping(rows_of(rows)); })
       .def("replace_since", [](ContactRecorder& self, std::int64_t time_ns,
@@ -233,13 +233,13 @@ template <typename Value>
 using Array = nb::ndarray<Value, nb::c_contig, nb::device::cpu>;
 
 RowStepper make_row_stepper(const Addresses& workers, std::vector<int> links, double max_speed, bool always_actuated) {
-  std::vector<std::pair<mjModel*, mjData*>> found;
+  std::vector<std::pair<mjModel*, mjData*>> result;
   for (const auto [model, data] : workers) {
     LawTables laws;
     if (!LawTables::find(model_at(model), laws)) throw std::invalid_argument("this model has no laws");
-    found.emplace_back(const_cast<mjModel*>(model_at(model)), data_at(data));
+    result.emplace_back(const_cast<mjModel*>(model_at(model)), data_at(data));
   }
-  return {std::move(found), std::move(links), max_speed, always_actuated};
+  return {std::move(result), std::move(links), max_speed, always_actuated};
 }
 
 void step_rows(const RowStepper& stepper, const Array<const bool>& chosen, const Array<double>& states,

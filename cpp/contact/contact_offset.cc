@@ -18,7 +18,7 @@ constexpr double kMinRowJump = 0.02;  // [m/s] change of tangential velocity in 
 constexpr double kMinSpeed = 1e-6;    // [m/s] slower sliding lifts negligibly
 
 struct Spring {
-  double stiffness, damping;  // [1/s², 1/s] of a row, by MuJoCo's rules for solref
+  double stiffness, damping;  // of a row [1/s², 1/s], by MuJoCo's rules for solref
 };
 
 Spring spring(const mjtNum* solref, double impedance) {
@@ -30,7 +30,7 @@ Spring spring(const mjtNum* solref, double impedance) {
   return {-solref[0] / (d * d), -solref[1] / d};
 }
 
-// Height by which sliding would lift a contact [m]; accelerations: of the previous step, per constraint row.
+// Height by which sliding would lift a contact [m]; accelerations: per constraint row, of the previous step.
 //
 // A row's force is (reference − acceleration) / R. While a contact slides, its friction rows miss their reference by a
 // residual, and the dual cone offsets the normal row by μ times that.
@@ -39,23 +39,23 @@ double lift(const mjContact& contact, const mjData* d, double h, const double* a
   const Spring normal = spring(contact.solref, impedance);
   const double decay = slip_decay(contact, h);
   const double stiffness = normal.stiffness * impedance;
-  double left[6] = {};
+  double residuals[6] = {};
   for (int j = 1; j < contact.dim; ++j) {
     const int row = contact.efc_address + j;
-    left[j] = contact.friction[j - 1] * std::abs(accelerations[row] + decay * d->efc_vel[row]);
+    residuals[j] = contact.friction[j - 1] * std::abs(accelerations[row] + decay * d->efc_vel[row]);
   }
-  if (has_pyramid(contact)) {  // whose dual adds up
-    left[1] += left[2];
-    left[2] = 0;
+  if (has_pyramid(contact)) {  // its dual adds up
+    residuals[1] += residuals[2];
+    residuals[2] = 0;
   }
   double sum = 0;
-  for (const double each : left) sum += each * each;
+  for (const double residual : residuals) sum += residual * residual;
   // The normal spring is implicit, which divides its reference by the same sum as R.
   const double whole = 1 + h * normal.damping + h * h * stiffness;
   // At an impact, friction that the previous step lacked holds with up to μ times the stopping force.
-  const double most = std::max(contact.friction[0], contact.friction[1]);
+  const double max_friction = std::max(contact.friction[0], contact.friction[1]);
   const double impact = std::max(-d->efc_vel[contact.efc_address], 0.0) * normal.damping / whole;
-  return std::max(std::sqrt(sum) - most * most * impact, 0.0) * whole / stiffness;
+  return std::max(std::sqrt(sum) - max_friction * max_friction * impact, 0.0) * whole / stiffness;
 }
 
 bool is_sliding(const mjContact& contact, const mjData* d) {
@@ -103,10 +103,10 @@ class Accelerations {
       next.assign(m->nv, 0.0);
       next[jump.dof] = 1.0;
       find(next.data(), next_);
-      const double left = (jump.effort - holding_effort(m, d, next_.data())) * m->dof_invweight0[jump.dof];
-      if (left <= 0.0) continue;
+      const double residuals = (jump.effort - holding_effort(m, d, next_.data())) * m->dof_invweight0[jump.dof];
+      if (residuals <= 0.0) continue;
       if (!jumps_) now_.assign(d->qacc_warmstart, d->qacc_warmstart + m->nv);
-      now_[jump.dof] = std::clamp(jump.acceleration, -left, left);
+      now_[jump.dof] = std::clamp(jump.acceleration, -residuals, residuals);
       jumps_ = true;
     }
     if (jumps_) find(now_.data(), next_);
@@ -148,10 +148,10 @@ thread_local std::vector<double> Accelerations::now_, Accelerations::before_, Ac
 
 namespace {
 
-// Depth whose spring carries what Gazebo's ODE carries at rest at a depth. There a correction of rate · depth is capped
-// at max_vel, so points sink until the next steps correct as much: physics/compile/compliance.py, rest_depth.
+// Depth at which a spring carries the load that Gazebo's ODE carries at rest at another depth. ODE caps the correction
+// rate · depth at max_vel, so points sink until later steps correct as much: physics/compile/compliance.py, rest_depth.
 //
-// With gravity · h = w, at rest depth = x (1 + (rate x − max_vel) / w) where that exceeds the spring's own x.
+// With gravity · h = w, at rest depth = x (1 + (rate x − max_vel) / w) if that exceeds the spring's depth x.
 double carrying_depth(const ComplianceRow& row, double depth, double w) {
   if (row.rate <= 0 || row.rate * depth <= row.max_vel) return depth;
   const double linear = w - row.max_vel;
@@ -161,8 +161,9 @@ double carrying_depth(const ComplianceRow& row, double depth, double w) {
 }  // namespace
 
 double slip_decay(const mjContact& contact, double h) {
-  const bool own = contact.solreffriction[0] != 0 || contact.solreffriction[1] != 0;
-  const double damping = spring(own ? contact.solreffriction : contact.solref, contact.solimp[1]).damping;
+  const bool has_friction_solref = contact.solreffriction[0] != 0 || contact.solreffriction[1] != 0;
+  const double damping =
+      spring(has_friction_solref ? contact.solreffriction : contact.solref, contact.solimp[1]).damping;
   return damping / (1 + h * damping);
 }
 

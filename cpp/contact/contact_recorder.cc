@@ -12,21 +12,21 @@ bool is_awake(const mjModel* m, const mjData* d, int geom) { return d->body_awak
 }  // namespace
 
 ContactRow read_contact(const mjModel* m, const mjData* d, int contact) {
-  const mjContact& each = d->contact[contact];
+  const mjContact& source = d->contact[contact];
   double wrench[6];
   mujoco.mj_contactForce(m, d, contact, wrench);
   ContactRow row;
-  for (int side = 0; side < 2; ++side) row.geom[side] = each.geom[side];
+  for (int side = 0; side < 2; ++side) row.geom[side] = source.geom[side];
   for (int i = 0; i < 3; ++i) {
-    row.position[i] = each.pos[i];
-    row.normal[i] = each.frame[i];
+    row.position[i] = source.pos[i];
+    row.normal[i] = source.frame[i];
     row.force[i] = row.torque[i] = 0;
     for (int j = 0; j < 3; ++j) {
-      row.force[i] += each.frame[3 * j + i] * wrench[j];
-      row.torque[i] += each.frame[3 * j + i] * wrench[3 + j];
+      row.force[i] += source.frame[3 * j + i] * wrench[j];
+      row.torque[i] += source.frame[3 * j + i] * wrench[3 + j];
     }
   }
-  row.depth = -each.dist;
+  row.depth = -source.dist;
   return row;
 }
 
@@ -42,8 +42,8 @@ SleepKey sleep_key(const mjModel* m, const mjData* d) {
   return key;
 }
 
-ContactRecorder::ContactRecorder(const std::vector<int>& geoms, int geom_count, std::size_t most_steps)
-    : geoms_(static_cast<std::size_t>(geom_count)), most_steps_(most_steps) {
+ContactRecorder::ContactRecorder(const std::vector<int>& geoms, int geom_count, std::size_t max_steps)
+    : geoms_(static_cast<std::size_t>(geom_count)), max_steps_(max_steps) {
   for (const int geom : geoms) geoms_.at(static_cast<std::size_t>(geom)) = 1;
 }
 
@@ -79,7 +79,7 @@ void ContactRecorder::replace_since(std::int64_t time_ns, std::vector<ContactRow
 void ContactRecorder::keep(RecordedStep step) {
   if (step.rows.empty()) return;
   steps_.push_back(std::move(step));
-  if (steps_.size() > most_steps_) steps_.pop_front();
+  if (steps_.size() > max_steps_) steps_.pop_front();
 }
 
 }  // namespace trundle

@@ -1,7 +1,7 @@
 // Contacts of chosen geoms, recorded at every step while the engine steps.
 //
-// MuJoCo keeps no contacts of sleeping bodies: their rows are set from outside whenever those that sleep change, and
-// count for every step until then.
+// MuJoCo keeps no contacts of sleeping bodies: their rows are set by the caller whenever other bodies sleep, and are
+// recorded at every step until then.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct ContactRow {
 
 ContactRow read_contact(const mjModel* m, const mjData* d, int contact);
 
-// Which bodies sleep, and where; empty: none.
+// Sleeping bodies and their poses; empty: none.
 using SleepKey = std::vector<double>;
 
 SleepKey sleep_key(const mjModel* m, const mjData* d);
@@ -36,17 +36,17 @@ struct RecordedStep {
 // Copies are independent.
 class ContactRecorder {
  public:
-  // geoms: indices; most_steps: kept steps with contacts, the latest.
-  ContactRecorder(const std::vector<int>& geoms, int geom_count, std::size_t most_steps);
+  // geoms: indices; max_steps: number of the latest steps with contacts to keep.
+  ContactRecorder(const std::vector<int>& geoms, int geom_count, std::size_t max_steps);
 
-  // Record the contacts of the step that was made last.
+  // Record the contacts of the last step.
   void record(const mjModel* m, const mjData* d, std::int64_t time_ns, const SleepKey& key);
 
-  // True if other bodies sleep than those whose contacts are known; the last step then waits for `set_sleeping`.
+  // True if other bodies sleep than at the last `set_sleeping`, which must be called to complete the last step.
   bool is_stale() const { return stale_; }
   void set_sleeping(std::vector<ContactRow> rows);
 
-  // Record rows in place of whatever was recorded at that time or later.
+  // Replace the rows recorded at that time or later.
   void replace_since(std::int64_t time_ns, std::vector<ContactRow> rows);
 
   const std::deque<RecordedStep>& steps() const { return steps_; }
@@ -57,7 +57,7 @@ class ContactRecorder {
   void keep(RecordedStep step);
 
   std::vector<std::uint8_t> geoms_;
-  std::size_t most_steps_;
+  std::size_t max_steps_;
   std::deque<RecordedStep> steps_;
   SleepKey key_;
   std::vector<ContactRow> sleeping_;

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kMaxAspect = 50.0;  // longer ellipses cost the solver's precision; a creep of 1 / 50² slip remains
 constexpr double kMaxRatio =
-    500.0;  // of the coefficients: beyond, MuJoCo's own ellipse differs by less than the smaller
-constexpr double kMaxFriction = 2.0;  // beyond, what a pull takes from MuJoCo's own ellipse is little
+    500.0;  // of the coefficients: beyond, MuJoCo's ellipse differs by less than the smaller one
+constexpr double kMaxFriction = 2.0;  // beyond, MuJoCo's ellipse differs little under a pull
 constexpr double kStill = 1e-12;      // [m/s²] no slip
 
-// Acceleration that friction in a direction of a contact will lack to end the slip [m/s²]: as in the previous step, and
-// if that was more than the solver's, changed with the slip.
+// Acceleration missing in a friction direction of a contact to end the slip [m/s²]: as in the previous step, and
+// if that exceeded the solver's, scaled with the slip.
 double predict_lack(const mjModel* m, const mjData* d, const mjContact& contact, int direction) {
   const int row = contact.efc_address + 1 + direction;
   const double acceleration = row_product(m, d, row, d->qacc_warmstart), decay = slip_decay(contact, m->opt.timestep);
@@ -27,7 +27,7 @@ double predict_lack(const mjModel* m, const mjData* d, const mjContact& contact,
   return std::abs(std::abs(before) > std::abs(change) ? now : before);
 }
 
-// Make a contact's second tangent the first, to which MuJoCo gives the stiffness of a contact's friction.
+// Make a contact's second tangent the first, whose friction has the contact's stiffness in MuJoCo.
 void swap_tangents(const mjModel* m, mjData* d, mjContact& contact) {
   const double second[3] = {contact.frame[6], contact.frame[7], contact.frame[8]};
   align_tangents(m, d, contact, second);
@@ -56,8 +56,8 @@ void shape_pyramids(const LawTables& laws, const mjModel* m, mjData* d) {
       std::swap(lack[0], lack[1]);
     }
     friction[0] *= std::sqrt(1 + lack[1] / lack[0]);
-    const double most = std::max(friction[1], kMaxAspect * friction[0]);
-    friction[1] = std::min(friction[1] * std::sqrt(1 + lack[0] / lack[1]), most);
+    const double max_coefficient = std::max(friction[1], kMaxAspect * friction[0]);
+    friction[1] = std::min(friction[1] * std::sqrt(1 + lack[0] / lack[1]), max_coefficient);
   }
 }
 

@@ -27,7 +27,7 @@ struct SlippingContact {
   double force[3];       // applied [N], [N], [N·m]
 };
 
-// Contacts that slip as one: normal load, force and torsional torque of the previous step.
+// Contacts that slip together: normal load, force and torsional torque of the previous step.
 struct Group {
   double load, force[3], torque;
 };
@@ -48,31 +48,33 @@ Group* groups(const mjModel* m, mjData* d) { return reinterpret_cast<Group*>(d->
 
 // Add the slip of a moving surface, if one of the bodies has it.
 bool add_motion(const LawTables& laws, const mjModel* m, const mjData* d, const mjContact& contact,
-                ContactSlip& found) {
+                ContactSlip& contact_slip) {
   const auto [motion, second] = motion_at(laws, contact);
   if (!motion || (motion->slip[0] <= 0 && motion->slip[1] <= 0)) return false;
-  found.group = laws.body_of(contact.geom[second]);
-  found.side = 2.0 * second - 1.0;
-  const double scale = motion_kind(*motion) == MotionKind::kWheel ? std::abs(spin_of(d, found.group, *motion)) : 1.0;
-  for (int t = 0; t < 2; ++t) found.slip[t] += motion->slip[t] * scale;
+  contact_slip.group = laws.body_of(contact.geom[second]);
+  contact_slip.side = 2.0 * second - 1.0;
+  const double scale =
+      motion_kind(*motion) == MotionKind::kWheel ? std::abs(spin_of(d, contact_slip.group, *motion)) : 1.0;
+  for (int t = 0; t < 2; ++t) contact_slip.slip[t] += motion->slip[t] * scale;
   return true;
 }
 
-bool find_slip(const LawTables& laws, const mjModel* m, const mjData* d, const mjContact& contact, ContactSlip& found) {
-  found = {};
+bool find_slip(const LawTables& laws, const mjModel* m, const mjData* d, const mjContact& contact,
+               ContactSlip& contact_slip) {
+  contact_slip = {};
   if (contact.dim < 3 || contact.exclude != 0) return false;
   bool slips = false;
   if (laws.pair_groups > 0) {
     const FrictionRow* row = find_pair(laws.friction, pair_key(m, contact.geom));
     if (row && row->group >= 0) {
-      std::copy(row->slip, row->slip + 3, found.slip);
-      found.patch = row->patch;
-      found.group = m->nbody + static_cast<int>(row->group);
-      found.side = 1.0;
+      std::copy(row->slip, row->slip + 3, contact_slip.slip);
+      contact_slip.patch = row->patch;
+      contact_slip.group = m->nbody + static_cast<int>(row->group);
+      contact_slip.side = 1.0;
       slips = true;
     }
   }
-  if (laws.moves) slips |= add_motion(laws, m, d, contact, found);
+  if (laws.moves) slips |= add_motion(laws, m, d, contact, contact_slip);
   return slips;
 }
 
@@ -89,7 +91,7 @@ void find_admittance(const mjModel* m, mjData* d, double admittance[3]) {
 }
 
 // Swap the tangents: the solver needs the direction with friction first.
-void swap_tangents(mjContact& contact, SlippingContact& each) {
+void swap_tangents(mjContact& contact, SlippingContact& slider) {
   double* frame = contact.frame;
   for (int i = 0; i < 3; ++i) {
     const double first = frame[3 + i];
@@ -100,25 +102,25 @@ void swap_tangents(mjContact& contact, SlippingContact& each) {
   contact.surfacevel[0] = contact.surfacevel[1];
   contact.surfacevel[1] = -run;
   std::swap(contact.friction[0], contact.friction[1]);
-  std::swap(each.slip[0], each.slip[1]);
-  std::swap(each.admittance[0], each.admittance[1]);
+  std::swap(slider.slip[0], slider.slip[1]);
+  std::swap(slider.admittance[0], slider.admittance[1]);
 }
 
 // Switch off the friction of slipping directions; false: none slips.
-bool release_contact(const mjModel* m, mjData* d, SlippingContact& each) {
+bool release_contact(const mjModel* m, mjData* d, SlippingContact& slider) {
   thread_local ContactJacobian jacobian;
-  mjContact& contact = d->contact[each.contact];
+  mjContact& contact = d->contact[slider.contact];
   rows.resize(kRows * m->nv);
   jacobian.find(m, d, contact, rows.data(), kRows);
-  find_admittance(m, d, each.admittance);
+  find_admittance(m, d, slider.admittance);
   for (int t = 0; t < 3; ++t)
-    if (each.slip[t] < kMinSlipRatio * each.admittance[t] || t + 2 > contact.dim) each.slip[t] = 0.0;
-  if (each.slip[0] > 0.0 && each.slip[1] == 0.0) swap_tangents(contact, each);
+    if (slider.slip[t] < kMinSlipRatio * slider.admittance[t] || t + 2 > contact.dim) slider.slip[t] = 0.0;
+  if (slider.slip[0] > 0.0 && slider.slip[1] == 0.0) swap_tangents(contact, slider);
   bool any = false;
   for (int t = 0; t < 3; ++t) {
-    each.friction[t] = contact.friction[t];
-    each.speed[t] = t < 2 ? contact.surfacevel[t] : 0.0;
-    if (each.slip[t] > 0.0) {
+    slider.friction[t] = contact.friction[t];
+    slider.speed[t] = t < 2 ? contact.surfacevel[t] : 0.0;
+    if (slider.slip[t] > 0.0) {
       contact.friction[t] = kFrictionless;
       any = true;
     }
@@ -132,48 +134,48 @@ void set_torsional_friction(mjContact& contact, double patch, double load) {
   contact.friction[2] = std::max(std::sqrt(patch * load), kFrictionless);
 }
 
-// Force along one direction for which the velocity converges to slip · force, whatever other forces act.
+// Force along one direction for which the velocity converges to slip · force, for any other forces.
 //
 // -speed / slip alone is unstable where the slip is below the admittance; the previous step's force accounts for the
 // other forces.
-double force_along(const SlippingContact& each, int t, double share, double speed, double last) {
-  return (each.admittance[t] * last - speed) / (share * (each.slip[t] + each.admittance[t]));
+double force_along(const SlippingContact& slider, int t, double share, double speed, double last) {
+  return (slider.admittance[t] * last - speed) / (share * (slider.slip[t] + slider.admittance[t]));
 }
 
-void apply_force(const mjModel* m, mjData* d, SlippingContact& each, Group& group, const Group& last, double share) {
+void apply_force(const mjModel* m, mjData* d, SlippingContact& slider, Group& group, const Group& last, double share) {
   thread_local ContactJacobian jacobian;
   const int nv = m->nv;
-  const mjContact& contact = d->contact[each.contact];
+  const mjContact& contact = d->contact[slider.contact];
   rows.resize(kRows * nv);
   jacobian.find(m, d, contact, rows.data(), kRows);
   double excess[3];
-  double* force = each.force;
+  double* force = slider.force;
   for (int t = 0; t < 3; ++t) {
-    double speed = each.speed[t];
+    double speed = slider.speed[t];
     for (int i = 0; i < nv; ++i) speed += rows[(t + 1) * nv + i] * d->qvel[i];
     const double before = t < 2 ? dot(contact.frame + 3 * (t + 1), last.force) : last.torque;
-    force[t] = each.slip[t] > 0 ? force_along(each, t, share, speed, each.side * before) : 0.0;
-    excess[t] = force[t] / std::max(each.friction[t] * last.load / share, 1e-12);
+    force[t] = slider.slip[t] > 0 ? force_along(slider, t, share, speed, slider.side * before) : 0.0;
+    excess[t] = force[t] / std::max(slider.friction[t] * last.load / share, 1e-12);
   }
-  if (each.friction[0] == each.friction[1])  // a cone; else a pyramid
+  if (slider.friction[0] == slider.friction[1])  // a cone; else a pyramid
     excess[0] = excess[1] = std::sqrt(excess[0] * excess[0] + excess[1] * excess[1]);
   for (int t = 0; t < 3; ++t) {
     force[t] /= std::max(std::abs(excess[t]), 1.0);
     for (int i = 0; i < nv; ++i) d->qfrc_passive[i] += force[t] * rows[(t + 1) * nv + i];
   }
   for (int i = 0; i < 3; ++i)
-    group.force[i] += each.side * (force[0] * contact.frame[3 + i] + force[1] * contact.frame[6 + i]);
-  group.torque += each.side * force[2];
+    group.force[i] += slider.side * (force[0] * contact.frame[3 + i] + force[1] * contact.frame[6 + i]);
+  group.torque += slider.side * force[2];
 }
 
 // Write applied forces to the solver's rows, from which contact forces are read.
 void report_slip_forces(mjData* d) {
   if (slipping_in != d) return;
-  for (const SlippingContact& each : slipping) {
-    if (each.contact >= d->ncon) return;
-    const int first = d->contact[each.contact].efc_address;
+  for (const SlippingContact& slider : slipping) {
+    if (slider.contact >= d->ncon) return;
+    const int first = d->contact[slider.contact].efc_address;
     for (int t = 0; first >= 0 && t < 3; ++t)
-      if (each.slip[t] > 0.0) d->efc_force[first + 1 + t] = each.force[t];
+      if (slider.slip[t] > 0.0) d->efc_force[first + 1 + t] = slider.force[t];
   }
   slipping_in = nullptr;
 }
@@ -185,18 +187,27 @@ bool release_slipping(const LawTables& laws, const mjModel* m, mjData* d) {
   slipping_in = d;
   if (!laws.moves && laws.pair_groups == 0) return false;
   shares.assign(static_cast<std::size_t>(m->nbody + laws.pair_groups), 0.0);
-  ContactSlip found;
+  ContactSlip contact_slip;
   for (int i = 0; i < d->ncon; ++i)
-    if (find_slip(laws, m, d, d->contact[i], found)) shares[found.group] += 1.0;
+    if (find_slip(laws, m, d, d->contact[i], contact_slip)) shares[contact_slip.group] += 1.0;
   bool changed = false;
   for (int i = 0; i < d->ncon; ++i) {
-    if (!find_slip(laws, m, d, d->contact[i], found)) continue;
-    if (found.patch > 0) {
-      set_torsional_friction(d->contact[i], found.patch, groups(m, d)[found.group].load / shares[found.group]);
+    if (!find_slip(laws, m, d, d->contact[i], contact_slip)) continue;
+    if (contact_slip.patch > 0) {
+      set_torsional_friction(d->contact[i], contact_slip.patch,
+                             groups(m, d)[contact_slip.group].load / shares[contact_slip.group]);
       changed = true;
     }
-    SlippingContact each{i, found.group, found.side, {found.slip[0], found.slip[1], found.slip[2]}, {}, {}, {}, {}};
-    if (*std::max_element(each.slip, each.slip + 3) > 0.0 && release_contact(m, d, each)) slipping.push_back(each);
+    SlippingContact slider{i,
+                           contact_slip.group,
+                           contact_slip.side,
+                           {contact_slip.slip[0], contact_slip.slip[1], contact_slip.slip[2]},
+                           {},
+                           {},
+                           {},
+                           {}};
+    if (*std::max_element(slider.slip, slider.slip + 3) > 0.0 && release_contact(m, d, slider))
+      slipping.push_back(slider);
   }
   return changed || !slipping.empty();
 }
@@ -207,19 +218,19 @@ void resist_slip(const LawTables& laws, const mjModel* m, mjData* d) {
   thread_local std::vector<Group> last;
   last.assign(stored, stored + m->nbody + laws.pair_groups);
   for (std::size_t i = 0; i < last.size(); ++i) stored[i] = {last[i].load, {}, {}};
-  for (SlippingContact& each : slipping)
-    apply_force(m, d, each, stored[each.group], last[each.group], shares[each.group]);
+  for (SlippingContact& slider : slipping)
+    apply_force(m, d, slider, stored[slider.group], last[slider.group], shares[slider.group]);
 }
 
 void record_loads(const LawTables& laws, const mjModel* m, mjData* d) {
   if (!laws.moves && laws.pair_groups == 0) return;
   Group* stored = groups(m, d);
   for (int i = 0; i < m->nbody + laws.pair_groups; ++i) stored[i].load = 0.0;
-  ContactSlip found;
+  ContactSlip contact_slip;
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
-    if (contact.efc_address >= 0 && find_slip(laws, m, d, contact, found))
-      stored[found.group].load += d->efc_force[contact.efc_address];
+    if (contact.efc_address >= 0 && find_slip(laws, m, d, contact, contact_slip))
+      stored[contact_slip.group].load += d->efc_force[contact.efc_address];
   }
   report_slip_forces(d);
 }

@@ -3,7 +3,7 @@
 //
 // A slipping contact has a tangential velocity of slip · force, up to Coulomb's limit. Gazebo multiplies the slip of a
 // pair of collisions by its number of contact points, so that together they slip as one would; so do these contacts,
-// whatever their number. Along a slipping direction MuJoCo's friction is switched off and replaced by an applied force.
+// for any number. Along a slipping direction MuJoCo's friction is switched off and replaced by an applied force.
 #pragma once
 
 #include "law_tables.h"

@@ -8,7 +8,7 @@ namespace trundle {
 
 namespace {
 
-// MuJoCo is C: no exception may pass through it.
+// MuJoCo is C: no exception may propagate through it.
 thread_local std::jmp_buf escape;
 thread_local char failure[sizeof(mjLogMessage::subject)];
 

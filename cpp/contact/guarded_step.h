@@ -1,4 +1,4 @@
-// mj_step outside MuJoCo's Python binding, which alone makes exceptions of MuJoCo's errors: else they end the process.
+// mj_step that throws MuJoCo's errors: outside MuJoCo's Python binding they would end the process.
 #pragma once
 
 #include "mujoco_api.h"

@@ -18,8 +18,8 @@ void approach_stops(const mjModel* m, mjData* d) {
     if (distance < 0) continue;
     const int joint = d->efc_id[row];
     const double *solref = m->jnt_solref + 2 * joint, impedance = m->jnt_solimp[5 * joint + 1];
-    // A row of stiffness k and damping b has the reference acceleration -(b v + k position) / (1 + h b + h² k); wanted
-    // is that which leads just beyond the limit.
+    // A row of stiffness k and damping b has the reference acceleration -(b v + k position) / (1 + h b + h² k); set
+    // it so that the joint moves just beyond the limit.
     const double k = -solref[0] / impedance, b = -solref[1] / impedance;
     const double acceleration = -((distance + kBeyond) / h + d->efc_vel[row]) / h;
     distance = -(acceleration * (1 + h * b + h * h * k) + b * d->efc_vel[row]) / k;

@@ -1,4 +1,4 @@
-// Joint stops that are reached at the end of a step, not passed in it.
+// Joint stops that are reached at the end of a step, not passed within it.
 //
 // MuJoCo has no force at a limit before it is passed, so a joint overshoots by up to a step's motion. Models with laws
 // have a margin at each limit (physics/compile/law_tables.py), within which there is a constraint; here it lets the

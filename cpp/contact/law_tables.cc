@@ -15,29 +15,29 @@ std::span<const Row> table(const mjModel* m, int number) {
 
 }  // namespace
 
-bool LawTables::find(const mjModel* m, LawTables& found) {
+bool LawTables::find(const mjModel* m, LawTables& tables) {
   if (m->nnumeric != kTables) return false;
-  // Magic, on, moving surfaces, equality, chains, springs, groups, stepped data, speed at which what is thin counts,
-  // two frictions without pairs.
+  // Magic, on, moving surfaces, equality, chains, springs, groups, stepped data, threshold speed of tunnelling, two
+  // frictions without pairs.
   const double* head = m->numeric_data + m->numeric_adr[0];
   if (head[0] != kMagic) return false;
-  found = {table<RestitutionRow>(m, 1),
-           table<FrictionRow>(m, 2),
-           table<DampingRow>(m, 3),
-           table<MotionRow>(m, 4),
-           table<MotorRow>(m, 5),
-           table<ChainRow>(m, 6).first(static_cast<std::size_t>(head[4])),
-           table<SpringRow>(m, 7).first(static_cast<std::size_t>(head[5])),
-           table<ComplianceRow>(m, 8),
-           table<GeomRow>(m, 9),
-           static_cast<int>(head[6]),
-           static_cast<int>(head[3]),
-           static_cast<std::uintptr_t>(head[7]),
-           head[9] > 0.0,
-           head[8],
-           head[1] > 0.0,
-           head[1] < 0.0,
-           head[2] > 0.0};
+  tables = {table<RestitutionRow>(m, 1),
+            table<FrictionRow>(m, 2),
+            table<DampingRow>(m, 3),
+            table<MotionRow>(m, 4),
+            table<MotorRow>(m, 5),
+            table<ChainRow>(m, 6).first(static_cast<std::size_t>(head[4])),
+            table<SpringRow>(m, 7).first(static_cast<std::size_t>(head[5])),
+            table<ComplianceRow>(m, 8),
+            table<GeomRow>(m, 9),
+            static_cast<int>(head[6]),
+            static_cast<int>(head[3]),
+            static_cast<std::uintptr_t>(head[7]),
+            head[9] > 0.0,
+            head[8],
+            head[1] > 0.0,
+            head[1] < 0.0,
+            head[2] > 0.0};
   return true;
 }
 

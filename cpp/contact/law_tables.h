@@ -24,7 +24,7 @@ struct RestitutionRow {
 
 struct FrictionRow {
   double pair;
-  double geom, along[3];  // first friction direction in that geom's frame; -1: ODE's own
+  double geom, along[3];  // first friction direction in that geom's frame; -1: ODE's default
   double slip[3];         // [m/s/N] along it and across it, [rad/s/(N·m)] about the normal
   double patch;           // [m²/N] (largest torque / load)² per newton of load; 0: constant
   double group;           // index of its pair of collisions; -1: no slip, constant torsional friction
@@ -43,7 +43,7 @@ struct ComplianceRow {
 };
 
 struct GeomRow {
-  double body;         // of its link; a static link's geoms belong to the world body
+  double body;         // its link's; a static link's geoms belong to the world body
   double friction[2];  // along the first direction and across it, of a geom without pairs; 0: it has pairs
 };
 
@@ -61,7 +61,7 @@ struct MotorRow {    // indexed by tendon
   double rate;       // position gain [1/s]; 0: speed motor; < 0: kinematic
   double qpos, dof;  // of its joint
 
-  // Moves its joint regardless of load; gravity and inertia do not count as its effort.
+  // Moves its joint regardless of load; its effort does not include gravity and inertia.
   bool is_kinematic() const { return rate < 0.0; }
 };
 
@@ -108,7 +108,7 @@ struct LawTables {
   int body_of(int geom) const { return static_cast<int>(geoms[static_cast<std::size_t>(geom)].body); }
 
   // Read a model's tables; false: it has none.
-  static bool find(const mjModel* m, LawTables& found);
+  static bool find(const mjModel* m, LawTables& tables);
 };
 
 // Row of a pair by binary search; null: none. Rows are sorted by pair.

@@ -60,9 +60,9 @@ void add_half_step(const mjModel* m, mjData* d, int tree, double sign = 1.0, dou
   }
 }
 
-constexpr char kDriven = 2;  // of what holds a tree, beside 1: it touches something
+constexpr char kDriven = 2;  // tree is driven; 1: it is in contact
 
-// Spread what holds a tree to those that constraints couple to it.
+// Mark trees coupled by constraints like the trees they are coupled to.
 void spread_held(const mjModel* m, const mjData* d, std::vector<char>& held) {
   const auto tree_of = [&](int equality, int id) {
     if (id < 0) return -1;
@@ -80,7 +80,7 @@ void spread_held(const mjModel* m, const mjData* d, std::vector<char>& held) {
   }
 }
 
-// What acts on each tree beside gravity, inertia, springs, dampers and joint friction.
+// Actions on each tree other than gravity, inertia, springs, dampers and joint friction.
 const std::vector<char>& find_held(const LawTables& laws, const mjModel* m, const mjData* d) {
   thread_local std::vector<char> held;
   held = find_touching(m, d);
@@ -96,13 +96,13 @@ const std::vector<char>& find_held(const LawTables& laws, const mjModel* m, cons
     if (d->qfrc_applied[i] != 0.0) hold(m->dof_treeid[i]);
   for (int body = 1; body < m->nbody; ++body) {
     const double* wrench = d->xfrc_applied + 6 * body;
-    if (std::any_of(wrench, wrench + 6, [](double each) { return each != 0.0; })) hold(m->body_treeid[body]);
+    if (std::any_of(wrench, wrench + 6, [](double component) { return component != 0.0; })) hold(m->body_treeid[body]);
   }
   spread_held(m, d, held);
   return held;
 }
 
-// Trees with moving chains; of those in contact, only the ones that swing.
+// Trees with moving chains; of trees in contact, only swinging ones.
 void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<int>& chains) {
   chains.clear();
   if (laws.chains.empty()) return;
@@ -140,8 +140,8 @@ void update_midpoints(const LawTables& laws, const mjModel* m, mjData* d) {
     const VelocityTime time = time_of(m, d, row);
     const char holds = held[tree_of(row)];
     if (holds) set_time(m, d, row, VelocityTime::kPosition);
-    else set_time(m, d, row, time == VelocityTime::kGiven ? VelocityTime::kStepped : VelocityTime::kMidpoint);
-    // Contact laws take a velocity for that by which a body came as deep as it is.
+    else set_time(m, d, row, time == VelocityTime::kWritten ? VelocityTime::kStepped : VelocityTime::kMidpoint);
+    // For contact laws the velocity is the one that led to the current depth.
     const bool starts = !holds && time == VelocityTime::kStepped;
     const bool ends = holds == kDriven && time == VelocityTime::kMidpoint;
     if (starts) add_half_step(m, d, tree_of(row), -1.0, moved.data());

@@ -1,26 +1,26 @@
 // Second-order integration (leapfrog): positions at each step, velocities half a step before.
 //
-// MuJoCo's step is q += h v with the new v, which so is the mean velocity between two positions, that of the midpoint.
-// Velocities that are given belong to a position instead. Where a tree moves by itself they are moved to the midpoint
-// before it, and moved back when they are read; Coriolis forces, springs and dampers act at the time of the position.
-// By the velocity of half a step ago or ahead each would lose or gain energy in every step.
+// MuJoCo's step is q += h v with the new v, which is therefore the mean velocity between two positions: the midpoint's.
+// Velocities that were written belong to a position instead. For a tree without contacts and commands they are moved to
+// the midpoint before it, and moved back when they are read; Coriolis forces, springs and dampers act at the time of
+// the position. With a velocity half a step earlier or later each would lose or gain energy in every step.
 #pragma once
 
 #include "law_tables.h"
 
 namespace trundle {
 
-// What a degree of freedom's velocity is that of; in mjData.userdata, behind the motors.
+// Time of a degree of freedom's velocity; in mjData.userdata, after the motors.
 enum class VelocityTime {
-  kGiven = 0,     // the position's: it is new
+  kWritten = 0,   // the position's: it was written
   kMidpoint = 1,  // the midpoint before the position
-  kPosition = 2,  // the position's, which is half a step ahead, as ODE has it
+  kPosition = 2,  // the position's, half a step later, as in ODE
   kStepped = 3,   // the position's, after its first step
 };
 
-// Move the velocities of trees that hang from something fixed to the midpoint before this step, after a first step,
-// whose acceleration that takes; and back once a contact, motor, limit, effort or wrench acts on a tree, until its
-// velocities are given again.
+// Move the velocities of trees that hang from fixed bodies to the midpoint before this step, after a first step, whose
+// acceleration is needed; and back once a contact, motor, limit, effort or wrench acts on a tree, until its velocities
+// are written again.
 void update_midpoints(const LawTables& laws, const mjModel* m, mjData* d);
 
 // Move midpoints' velocities to the time of the positions, for reading; d is not stepped afterwards.
@@ -35,7 +35,7 @@ inline double velocity_at(const mjModel* m, const mjData* d, int dof) {
 // Evaluate Coriolis forces of chains of links at this step's mean velocity, without those of kinematic motors.
 void apply_midpoint_bias(const LawTables& laws, const mjModel* m, mjData* d);
 
-// Add the forces of soft springs, which are not in the mjModel, and the half of soft dampers that is not.
+// Add the forces of soft springs and half of soft dampers, which are not in the mjModel.
 void add_springs(const LawTables& laws, mjData* d);
 
 }  // namespace trundle

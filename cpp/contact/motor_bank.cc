@@ -9,9 +9,9 @@ namespace trundle {
 
 namespace {
 
-constexpr double kKinematic = -1.0;                      // rate that marks a kinematic drive
-constexpr double kKeepsUp = 0.05, kKeepsUpLeast = 0.01;  // relative and absolute [rad/s or m/s] speed error below which
-                                                         // a kinematic axis takes a new speed at once
+constexpr double kKinematic = -1.0;                    // rate that marks a kinematic drive
+constexpr double kRelativeLag = 0.05, kMinLag = 0.01;  // relative and absolute speed error [rad/s or m/s] below which
+                                                       // a kinematic axis takes a new speed at once
 constexpr double kHuge = 1e10;
 constexpr double kWakingSpeed = 1e-200;  // [rad/s or m/s] wakes a tree without moving it
 
@@ -43,13 +43,13 @@ void MotorBank::command_effort(int axis, double effort, bool hardware) {
 }
 
 void MotorBank::command_velocity(int axis, double velocity, double max_effort, bool hardware) {
-  const double most = std::max(std::min(std::min(max_effort, axis_at(axis).max_effort), kHuge), 0.0);
-  send(axis, {velocity, most, 0.0, 0.0}, hardware);
+  const double limit = std::max(std::min(std::min(max_effort, axis_at(axis).max_effort), kHuge), 0.0);
+  send(axis, {velocity, limit, 0.0, 0.0}, hardware);
 }
 
 void MotorBank::command_position(int axis, double position, double max_effort, double rate) {
-  const double most = std::max(std::min(std::min(max_effort, axis_at(axis).max_effort), kHuge), 0.0);
-  send(axis, {position, most, rate, 0.0}, false);
+  const double limit = std::max(std::min(std::min(max_effort, axis_at(axis).max_effort), kHuge), 0.0);
+  send(axis, {position, limit, rate, 0.0}, false);
 }
 
 void MotorBank::drive_kinematically(int axis, double velocity, bool hardware) {
@@ -58,10 +58,10 @@ void MotorBank::drive_kinematically(int axis, double velocity, bool hardware) {
   double& qvel = d_->qvel[dof_of(moved)];
   const double speed = qvel;
   const MotorState* last = actuator < 0 ? nullptr : &states_[static_cast<std::size_t>(actuator)];
-  const double now = last && last->is_known != 0.0 && last->rate == kKinematic ? last->target : speed;
-  const double most = std::min(moved.max_effort != 0.0 ? moved.max_effort : kHuge, kHuge);
-  send(axis, {velocity, most, kKinematic, 0.0}, hardware);
-  if (velocity != now && std::abs(speed - now) <= kKeepsUp * std::abs(now) + kKeepsUpLeast) qvel = velocity;
+  const double now = last && last->is_valid != 0.0 && last->rate == kKinematic ? last->target : speed;
+  const double limit = std::min(moved.max_effort != 0.0 ? moved.max_effort : kHuge, kHuge);
+  send(axis, {velocity, limit, kKinematic, 0.0}, hardware);
+  if (velocity != now && std::abs(speed - now) <= kRelativeLag * std::abs(now) + kMinLag) qvel = velocity;
 }
 
 MotorCommand MotorBank::command_of(int axis) const {
@@ -87,11 +87,11 @@ void MotorBank::send(int axis, MotorCommand command, bool hardware) {
   if (state && (hardware || state->is_shared != 0.0)) command = superpose(axis, command, hardware);
   d_->qfrc_applied[dof] = command.effort;
   if (!state) return;
-  // A repeated command, as controllers send at every cycle, wakes nothing.
-  if (state->is_known != 0.0 && state->target == command.target && state->max_effort == command.max_effort &&
+  // A repeated command, as controllers send in every cycle, wakes no tree.
+  if (state->is_valid != 0.0 && state->target == command.target && state->max_effort == command.max_effort &&
       state->rate == command.rate)
     return;
-  state->is_known = 1.0;
+  state->is_valid = 1.0;
   state->target = command.target;
   state->max_effort = command.max_effort;
   state->rate = command.rate;
@@ -118,8 +118,8 @@ MotorCommand MotorBank::superpose(int axis, const MotorCommand& command, bool ha
   if (interface_.is_drive() && direct.is_drive()) return command;
   if (interface_.is_drive() || direct.is_drive()) {
     const bool of_interface = interface_.is_drive();
-    const MotorCommand &drive = of_interface ? interface_ : direct, &beside = of_interface ? direct : interface_;
-    return {drive.target, drive.max_effort, drive.rate, below_velocity_limit(moved, beside.whole_effort())};
+    const MotorCommand &drive = of_interface ? interface_ : direct, &added = of_interface ? direct : interface_;
+    return {drive.target, drive.max_effort, drive.rate, below_velocity_limit(moved, added.whole_effort())};
   }
   return effort_command(moved, direct.whole_effort() + interface_.whole_effort());
 }

@@ -1,4 +1,4 @@
-// Commands of joint motors: effort, velocity and position within limits, direct ones beside those of hardware
+// Commands of joint motors: effort, velocity and position within limits, direct ones combined with those of hardware
 // interfaces. A motor is a velocity constraint with bounded force; see velocity_motor.h.
 #pragma once
 
@@ -12,26 +12,26 @@ namespace trundle {
 
 // Command of one axis.
 struct MotorCommand {
-  double target;      // [rad/s or m/s], or [rad or m] where there is a rate to approach it
+  double target;      // [rad/s or m/s]; with a rate [rad or m]
   double max_effort;  // of the motor [N·m or N]; 0: it is off
   double rate;        // of the approach [1/s]; 0: the target is a speed; < 0: kinematic
-  double effort;      // constant effort beside the motor [N·m or N]
+  double effort;      // constant effort in addition to the motor [N·m or N]
 
   // True if the motor keeps a speed or position; else the command is an effort.
   bool is_drive() const { return max_effort > 0.0 && effort == 0.0; }
 
-  // Commanded effort, of which a motor may give half; 0 for a drive.
+  // Commanded effort, half of it possibly by a motor; 0 for a drive.
   double whole_effort() const;
 };
 
 struct MotorAxis {
-  double dof, actuator;             // actuator -1: a ball's, which has none
+  double dof, actuator;             // actuator -1: none, for a ball joint
   double max_effort, max_velocity;  // [N·m or N], [rad/s or m/s]
 };
 
-// What a motor was commanded last; rows of an array of physics/step/motors.py.
+// Last commands of a motor; rows of an array of physics/step/motors.py.
 struct MotorState {
-  double is_known;  // 1: the next three are what the motor has
+  double is_valid;  // 1: the next three equal the motor's settings
   double target, max_effort, rate;
   double is_shared;                 // 1: a hardware interface has commanded the axis
   MotorCommand direct, interface_;  // commands of a shared axis
@@ -42,7 +42,7 @@ void wake_tree(const mjModel* m, mjData* d, int dof);
 
 class MotorBank {
  public:
-  // states: one of each actuator; they outlive the bank, as model and data do. Throws std::invalid_argument.
+  // states: one per actuator; they outlive the bank, as model and data do. Throws std::invalid_argument.
   MotorBank(mjModel* m, mjData* d, std::vector<MotorAxis> axes, std::span<MotorState> states);
 
   // Apply an effort within the axis' limits, and switch its motor off.
@@ -57,16 +57,16 @@ class MotorBank {
   // Drive to a position at a rate of approach [1/s], and hold it.
   void command_position(int axis, double position, double max_effort, double rate);
 
-  // Drive at a speed that the axis takes at once; only its child links feel a reaction.
+  // Drive at a speed that the axis reaches at once; only its child links feel a reaction.
   //
   // Its effort limit applies to obstacles, not to its own weight; no limit or zero is unlimited. An axis held back by
-  // an obstacle is accelerated by the motor alone.
+  // an obstacle is accelerated by the motor only.
   void drive_kinematically(int axis, double velocity, bool hardware);
 
-  // Give an axis a command that it had before.
+  // Set an axis' command to an earlier one.
   void repeat(int axis, const MotorCommand& command) { send(axis, command, false); }
 
-  // Direct command that an axis follows.
+  // Current direct command of an axis.
   MotorCommand command_of(int axis) const;
 
   // Number of times that a motor was switched on or off.

@@ -38,7 +38,7 @@ bool wobbles(const mjModel* m, int body) {
   return !is_round || !std::all_of(centre, centre + 3, is_zero);
 }
 
-// True if MuJoCo integrates the gyroscopic forces of some body implicitly, in the metric: that of a single free body
+// True if MuJoCo integrates the gyroscopic forces of some body implicitly, in the metric: of a single free body
 // without contact.
 bool any_flies(const mjModel* m, const mjData* d) {
   const std::vector<char>& touching = find_touching(m, d);

@@ -1,4 +1,4 @@
-// MuJoCo's discrete integrator solves in the metric M + h D + h² K, also where there is no damper or spring and the
+// MuJoCo's discrete integrator solves in the metric M + h D + h² K, also without dampers and springs, when the
 // metric is M.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace trundle {
 
-// Solve this step in M where that is equivalent; saves 1/6 of the step of a brick wall and 1/4 of flying balls.
+// Solve this step in M if that is equivalent; saves 1/6 of the step of a brick wall and 1/4 of flying balls.
 void use_plain_metric(const mjModel* m, mjData* d);
 
 }  // namespace trundle

@@ -7,7 +7,7 @@ namespace trundle {
 
 // Replace the plane-cylinder entry of MuJoCo's collision table; tilted cylinders go to the original function.
 //
-// The original finds the rim's lowest point from the axis's component in the plane. Where that is rounding noise,
+// The original finds the rim's lowest point from the axis's component in the plane. If that is rounding noise,
 // contacts are up to a radius too deep, or missing.
 void install_plane_cylinder(mjfCollision table[mjNGEOMTYPES][mjNGEOMTYPES]);
 

@@ -11,7 +11,7 @@ namespace trundle {
 namespace {
 
 constexpr int kMaxSweeps = 50;
-constexpr int kMaxRounds = 50;  // of impulses passed on within one step
+constexpr int kMaxRounds = 50;  // iterations over the impulses of one step
 
 struct Impact {
   double speed;  // [m/s] after the impact
@@ -24,7 +24,7 @@ double approach_acceleration(const mjModel* m, const mjContact& contact) {
   return dot(contact.frame, m->opt.gravity) * (moves(0) - moves(1));
 }
 
-// Speed after the impact [m/s]: e times the speed at the surface, plus what the way back to the surface costs.
+// Speed after the impact [m/s]: e times the speed at the surface, plus the loss on the way back to the surface.
 //
 // Semi-implicit Euler steps conserve v² / 2 + a x - a h v / 2 at height x above the surface with acceleration a towards
 // it.

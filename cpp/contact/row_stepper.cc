@@ -15,15 +15,15 @@ namespace {
 
 constexpr int kDiverged[] = {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC};
 
-// Give a thread's model the motors of a row.
+// Set the motors of a thread's model to a row's.
 void set_motors(mjModel* m, const LawTables& laws, const WorldRows& rows, std::size_t row, bool always) {
   const auto motors = static_cast<std::size_t>(m->ntendon);
-  const double* most = rows.max_efforts + row * motors;
-  std::copy_n(most, motors, m->tendon_frictionloss);
+  const double* efforts = rows.max_efforts + row * motors;
+  std::copy_n(efforts, motors, m->tendon_frictionloss);
   for (std::size_t i = 0; i < motors; ++i) const_cast<MotorRow&>(laws.motors[i]).rate = rows.rates[row * motors + i];
-  const bool on = always || std::any_of(most, most + motors, [](double effort) { return effort != 0.0; });
+  const bool on = always || std::any_of(efforts, efforts + motors, [](double effort) { return effort != 0.0; });
   m->opt.disableflags = on ? m->opt.disableflags & ~mjDSBL_ACTUATION : m->opt.disableflags | mjDSBL_ACTUATION;
-  if (laws.thin_speed > 0.0) m->opt.enableflags |= mjENBL_SPECULATIVE;  // until a step finds everything slow
+  if (laws.thin_speed > 0.0) m->opt.enableflags |= mjENBL_SPECULATIVE;  // until a step finds all bodies slow
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Steps many states of one world in threads, each with a model and data of its own.
+// Steps many states of one world in threads, each with its own model and data.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +24,9 @@ struct WorldRows {
 class RowStepper {
  public:
   // Args:
-  //   workers: a thread's model and data, each.
+  //   workers: model and data of each thread.
   //   links: body of each link.
-  //   max_speed: [m/s or rad/s] from which on a state is unstable.
+  //   max_speed: speed from which on a state is unstable [m/s or rad/s].
   //   always_actuated: actuation stays on without a motor.
   RowStepper(std::vector<std::pair<mjModel*, mjData*>> workers, std::vector<int> links, double max_speed,
              bool always_actuated)

@@ -17,24 +17,24 @@ bool all_sleep(const mjModel* m, const mjData* d) {
 
 }  // namespace
 
-Stepped step_each(const mjModel* m, mjData* d, int count, const EachStep& each) {
+Stepped step_with_hooks(const mjModel* m, mjData* d, int count, const StepHooks& hooks) {
   SleepKey key;
   LawTables laws;
   if (!LawTables::find(m, laws)) throw std::runtime_error("this model has no laws");
   for (int step = 0; step < count; ++step) {
-    const std::int64_t time_ns = each.time_ns + step * each.step_ns;
+    const std::int64_t time_ns = hooks.time_ns + step * hooks.step_ns;
     bool goes_on = true, is_stale = false;
-    if (step > 0 || each.acts_first)
-      for (StepAction* action : each.actions) goes_on &= action->act(time_ns, each.step_ns);
-    if (step > 0 && !key.empty() && each.actions.empty() && all_sleep(m, d)) {
-      d->time += m->opt.timestep;  // nothing else would change
+    if (step > 0 || hooks.acts_first)
+      for (StepAction* action : hooks.actions) goes_on &= action->act(time_ns, hooks.step_ns);
+    if (step > 0 && !key.empty() && hooks.actions.empty() && all_sleep(m, d)) {
+      d->time += m->opt.timestep;  // only the time changes
     } else {
       guarded_step(m, d);
-      if (!each.actions.empty() && !(m->opt.disableflags & mjDSBL_ACTUATION)) report_efforts(laws, m, d);
-      if (!each.recorders.empty()) key = sleep_key(m, d);
+      if (!hooks.actions.empty() && !(m->opt.disableflags & mjDSBL_ACTUATION)) report_efforts(laws, m, d);
+      if (!hooks.recorders.empty()) key = sleep_key(m, d);
     }
-    for (ContactRecorder* recorder : each.recorders) {
-      recorder->record(m, d, time_ns + each.step_ns, key);
+    for (ContactRecorder* recorder : hooks.recorders) {
+      recorder->record(m, d, time_ns + hooks.step_ns, key);
       is_stale |= recorder->is_stale();
     }
     if (is_stale || !goes_on) return {step + 1, goes_on};

@@ -1,4 +1,4 @@
-// Steps with what C++ does at each of them: actions before it, recording of contacts after it.
+// Steps with hooks: actions before each step, recording of contacts after it.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace trundle {
 
-struct EachStep {
+struct StepHooks {
   std::vector<ContactRecorder*> recorders;
   std::vector<StepAction*> actions;  // in this order
   bool acts_first;                   // before the first step, too
@@ -23,7 +23,7 @@ struct Stepped {
 };
 
 // Step up to `count` times, fewer if a recorder is stale or an action needs Python. Throws std::runtime_error with
-// MuJoCo's message where it fails.
-Stepped step_each(const mjModel* m, mjData* d, int count, const EachStep& each);
+// MuJoCo's message on an error.
+Stepped step_with_hooks(const mjModel* m, mjData* d, int count, const StepHooks& hooks);
 
 }  // namespace trundle

@@ -16,19 +16,19 @@ bool track_direction(const MotionRow& motion, const mjContact& contact, double s
   const double normal[3] = {side * contact.frame[0], side * contact.frame[1], side * contact.frame[2]};
   double backwards[3];
   cross(backwards, normal, motion.axis);
-  bool found = false;
+  bool is_valid = false;
   if (motion.has_centre != 0) {
     const double arm[3] = {contact.pos[0] - motion.centre[0], contact.pos[1] - motion.centre[1],
                            contact.pos[2] - motion.centre[2]};
     cross(along, normal, arm);
-    found = normalize(along) > 0;
+    is_valid = normalize(along) > 0;
   }
-  if (!found) {
+  if (!is_valid) {
     std::copy(backwards, backwards + 3, along);
-    found = normalize(along) > 0;
+    is_valid = normalize(along) > 0;
   }
   speed = motion.speed * dot(along, backwards);
-  return found;
+  return is_valid;
 }
 
 void to_world(const double* axes, const double local[3], double world[3]) {
@@ -74,7 +74,7 @@ double spin_of(const mjData* d, int body, const MotionRow& motion) {
 
 namespace {
 
-// Friction of a contact that MuJoCo's search found: the smaller of its geoms' in each direction; false: of a pair.
+// Friction of a contact of MuJoCo's collision search: the smaller of its geoms' in each direction; false: of a pair.
 bool combine_friction(const LawTables& laws, mjContact& contact) {
   const double* frictions[2];
   for (int side = 0; side < 2; ++side)

@@ -1,12 +1,12 @@
-// Continuous collision detection (MuJoCo's speculative contacts) against tunnelling through thin shapes. In every step
-// it would cost a furnished house a quarter of its speed, so it is on only while something moves fast enough.
+// Continuous collision detection (MuJoCo's speculative contacts) against tunnelling through thin shapes. At every step
+// it would cost a furnished house a quarter of its speed, so it is on only while a body moves fast enough.
 #pragma once
 
 #include "law_tables.h"
 
 namespace trundle {
 
-// Switch it for the next step, if this is the mjData that the engine steps. It stays on for others that share the
+// Switch it for the next step, if this is the mjData that the engine steps. It stays on for other users of the
 // model.
 void update_ccd(const LawTables& laws, const mjModel* m, const mjData* d);
 

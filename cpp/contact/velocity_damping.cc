@@ -26,8 +26,8 @@ void apply_damping(const LawTables& laws, const mjModel* m, mjData* d) {
     if (std::sqrt(dot(spin, spin)) > kMinSpeed) {
       for (int axis = 0; axis < 3; ++axis) {  // principal axes, the columns of ximat
         const double about = axes[axis] * spin[0] + axes[3 + axis] * spin[1] + axes[6 + axis] * spin[2];
-        const double most = -row.angular / h * m->body_inertia[3 * body + axis] * about;
-        for (int i = 0; i < 3; ++i) torque[i] += axes[3 * i + axis] * most;
+        const double max_torque = -row.angular / h * m->body_inertia[3 * body + axis] * about;
+        for (int i = 0; i < 3; ++i) torque[i] += axes[3 * i + axis] * max_torque;
       }
     }
     mujoco.mj_applyFT(m, d, force, torque, d->xipos + 3 * body, body, d->qfrc_passive);

@@ -1,8 +1,8 @@
 // Velocity motors with an effort limit, as ODE's joint motors.
 //
 // A MuJoCo tendon with friction loss is such a constraint, for speed 0. Its reference is computed after mjcb_control
-// from the row's constraint type: declared an equality with a chosen position error, it drives to any speed, and stays
-// bounded because the solver recognises friction rows by their index.
+// from the row's constraint type: declared an equality with a chosen position error, it drives to any speed. It stays
+// bounded because the solver identifies friction rows by their index.
 #pragma once
 
 #include <vector>

@@ -1,8 +1,8 @@
 // The command `trundle` on Linux and macOS: starts Python with SIGINT blocked.
 //
-// Python answers SIGINT with a traceback from its own first milliseconds to the first line of a program's own. This one
-// holds the signal and becomes `_trundle` beside it, the script that the installer wrote for its Python;
-// trundle.__main__ lets the signal through as soon as it can be answered (decision 0010).
+// Python handles SIGINT with a traceback until the first line of a program runs. This program blocks the signal and
+// executes `_trundle` next to it, the script that the installer wrote for its Python; trundle.__main__ unblocks the
+// signal as soon as it can be handled (decision 0010).
 
 #include <unistd.h>
 #include <cerrno>

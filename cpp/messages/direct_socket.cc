@@ -15,10 +15,10 @@ void DirectSocket::write(std::string_view frame) {
 #else
   const ptrdiff_t sent = ::write(fd_, frame.data(), frame.size());
 #endif
-  const size_t taken = sent > 0 ? static_cast<size_t>(sent) : 0;  // the queue meets an error again
-  bytes_sent += taken;
-  if (taken == frame.size()) return;
-  rest = frame.substr(taken);
+  const size_t sent_size = sent > 0 ? static_cast<size_t>(sent) : 0;  // the queue meets an error again
+  bytes_sent += sent_size;
+  if (sent_size == frame.size()) return;
+  rest = frame.substr(sent_size);
   is_open = false;
 }
 

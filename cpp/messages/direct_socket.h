@@ -19,7 +19,7 @@ class DirectSocket {
 
   bool is_open = false;
   uint64_t bytes_sent = 0, frames_sent = 0;
-  // What the kernel did not take of the last frame; it closes the socket, and the queue takes it.
+  // Rest of the last frame that the kernel did not accept; the socket is closed, and the queue sends the rest.
   std::string rest;
 
   void write(std::string_view frame);
@@ -42,7 +42,7 @@ class DirectSender {
   std::vector<std::shared_ptr<DirectSocket>> sockets;
 
   enum class Sent { kNothing, kWhole, kInPart };
-  // Send a message, a call's only argument; nothing if it is long, of another type or does not fit its own.
+  // Send a message, a call's only argument; nothing if it is long, of another type or invalid.
   Sent send(PyObject* arguments, PyObject* keywords);
 
  private:
@@ -52,7 +52,7 @@ class DirectSender {
   const Object type_;
   const std::shared_ptr<const MessageCodec> codec_;
   const bool has_header_;
-  bool is_long_ = false;  // messages were long, so that serializing another may be in vain
+  bool is_long_ = false;  // last messages were long: serializing the next one may be wasted
 };
 
 }  // namespace trundle::messages

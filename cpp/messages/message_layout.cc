@@ -22,10 +22,10 @@ constexpr struct {
 };
 
 Kind kind_of(const std::string& type) {
-  const auto found =
+  const auto match =
       std::find_if(std::begin(kTypes), std::end(kTypes), [&](auto& entry) { return entry.name == type; });
-  if (found == std::end(kTypes)) raise_error(PyExc_ValueError, "no field can be a %s", type.c_str());
-  return found->kind;
+  if (match == std::end(kTypes)) raise_error(PyExc_ValueError, "no field can be a %s", type.c_str());
+  return match->kind;
 }
 
 }  // namespace

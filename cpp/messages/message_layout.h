@@ -67,7 +67,7 @@ struct Layout {
 // limit their number.
 constexpr uint64_t kMaxEmpty = 1024;
 
-// What arrays of numbers are read as.
+// Python type of arrays of numbers.
 enum class Arrays : uint8_t {
   kNumpy,  // views of the bytes
   kPlain,  // as in genpy: bytes for uint8 and char, a list for bool, else a tuple
@@ -75,9 +75,9 @@ enum class Arrays : uint8_t {
 
 // Buffer that a stream is received into.
 struct ReceiveBuffer {
-  PyObject* room;  // its part that is received into
+  PyObject* room;  // free part, to receive into
   PyObject* whole;
-  Py_ssize_t filled;  // bytes before `room`, the begin of a frame
+  Py_ssize_t filled;  // bytes before `room`, the start of a frame
   uint32_t limit;     // longest content of a frame [bytes]
 };
 

@@ -1,4 +1,4 @@
-// Bytes to messages. The bytes are untrusted: every length is checked against what is left.
+// Bytes to messages. The bytes are untrusted: every length is checked against the remaining bytes.
 #include <array>
 #include <cstring>
 

@@ -14,9 +14,9 @@ namespace trundle::messages {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "numbers are written as stored in memory");
 
-// Longer arrays are cheaper to send from where they are than to copy.
+// Longer arrays are cheaper to send in place than to copy.
 constexpr Py_ssize_t kLongBytes = 32 * 1024;
 
 // Growing buffer: on the stack at first, then in the `bytes` that is returned.
@@ -121,7 +121,7 @@ class Writer {
  public:
   ByteBuffer out;
 
-  // detach: leave a long array where it is.
+  // detach: leave a long array in place.
   explicit Writer(bool detach) : detach_(detach) {}
 
   void write(const Layout& layout, PyObject* message) {

@@ -62,9 +62,9 @@ void DiffDriveLaw::count(double dt) {
   left = left / geometry_.wheel_radius * geometry_.wheel_radius;  // as the rotation of a wheel
   right = right / geometry_.wheel_radius * geometry_.wheel_radius;
   const double distance = (left + right) / 2, turn = (right - left) / geometry_.separation;
-  place_.x += distance * std::cos(place_.yaw + turn / 2);
-  place_.y += distance * std::sin(place_.yaw + turn / 2);
-  place_.yaw += turn;
+  pose_.x += distance * std::cos(pose_.yaw + turn / 2);
+  pose_.y += distance * std::sin(pose_.yaw + turn / 2);
+  pose_.yaw += turn;
   speeds_.push_back({distance / dt, turn / dt});
   if (speeds_.size() > window_) speeds_.pop_front();
 }
@@ -80,8 +80,8 @@ bool DiffDriveLaw::update(std::int64_t time, double dt) {
   const Twist target = current_command();
   const double targets[2] = {target.linear, target.angular};
   for (std::size_t i = 0; i < 2; ++i) {
-    History& each = history_[i];
-    each = {limits_[i].limit(targets[i], each.last, each.before, dt), each.last};
+    History& history = history_[i];
+    history = {limits_[i].limit(targets[i], history.last, history.before, dt), history.last};
   }
   const auto [linear, angular] = limited();
   const double half = angular * geometry_.separation / 2;

@@ -26,7 +26,7 @@ struct SpeedLimit {
 
 struct DriveGeometry {
   double wheel_radius, separation;   // [m]
-  double left_radius, right_radius;  // of the wheels as they roll [m]
+  double left_radius, right_radius;  // effective radii [m]
 };
 
 class DiffDriveLaw : public ServoLaw {
@@ -37,21 +37,21 @@ class DiffDriveLaw : public ServoLaw {
     double linear, angular;  // [m/s], [rad/s]
   };
 
-  struct Place {
+  struct Pose {
     double x, y, yaw;  // [m], [rad]
   };
 
-  // window: number of speeds that are kept. open_loop: odometry is from the commands.
+  // window: number of speeds kept. open_loop: odometry is from the commands.
   DiffDriveLaw(Joints left, Joints right, const DriveGeometry& geometry, const std::array<SpeedLimit, 2>& limits,
                std::int64_t timeout_ns, bool open_loop, std::size_t window);
 
   // Stop, and integrate odometry from the current wheel positions.
   void start();
 
-  // Drive from now on, until the command is older than the timeout.
+  // Drive until the command is older than the timeout.
   void set_command(std::int64_t stamp_ns, const Twist& twist) { command_ = {stamp_ns, twist}; }
 
-  const Place& place() const { return place_; }
+  const Pose& pose() const { return pose_; }
   const std::deque<Twist>& speeds() const { return speeds_; }
   Twist limited() const { return {history_[0].last, history_[1].last}; }
 
@@ -77,7 +77,7 @@ class DiffDriveLaw : public ServoLaw {
   std::size_t window_;
   std::optional<std::pair<std::int64_t, Twist>> command_;
   std::array<History, 2> history_;
-  Place place_{};
+  Pose pose_{};
   std::pair<double, double> wheel_angles_;
   std::deque<Twist> speeds_;
 };

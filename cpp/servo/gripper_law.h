@@ -31,13 +31,13 @@ class GripperLaw : public ServoLaw {
   // Stay at the current position.
   void hold() { target_ = joint_->position; }
 
-  // Outcome of the goal that was watched, once: true if it was reached, false if the finger stalled.
+  // Result of the watched goal, once: true if it was reached, false if the finger stalled.
   std::optional<bool> take_event();
 
   bool update(std::int64_t time, double dt) override;
   std::function<void()> checkpoint() override;
 
-  bool watches = false;  // the goal's outcome is not known so far
+  bool watches = false;  // the goal is neither reached nor stalled
 
  private:
   std::shared_ptr<ServoJoint> joint_;

@@ -20,10 +20,10 @@ class Servo : public StepAction {
   // Run these laws from now on.
   void set_laws(std::vector<std::shared_ptr<ServoLaw>> laws) { laws_ = std::move(laws); }
 
-  // Begin a period now; no later one is longer than `longest_ns` and a step more.
+  // Begin a period now; no later one is longer than `longest_ns` plus a step.
   void restart(std::int64_t time_ns) { time_ns_ = time_ns; }
 
-  // Read the joints; return the time since they were read last [s], 0 at a time when they were already.
+  // Read the joints; return the time since the last read [s], 0 if it was at this time.
   double read(std::int64_t time_ns, std::int64_t step_ns);
 
   // Run the laws; return false if Python has to be called.

@@ -38,14 +38,14 @@ void ServoJoint::read() {
   effort = (d->qfrc_applied[axis_.dof] + d->qfrc_actuator[axis_.dof]) * axis_.sign;
 }
 
-double ServoJoint::error(double wanted) const {
-  const double way = wanted - position;
-  return traits_.is_continuous ? std::remainder(way, kTurn) : way;
+double ServoJoint::error(double target) const {
+  const double difference = target - position;
+  return traits_.is_continuous ? std::remainder(difference, kTurn) : difference;
 }
 
-double ServoJoint::shortest_error(double wanted) const {
-  const double way = wanted - position;
-  return traits_.is_prismatic ? way : std::remainder(way, kTurn);
+double ServoJoint::shortest_error(double target) const {
+  const double difference = target - position;
+  return traits_.is_prismatic ? difference : std::remainder(difference, kTurn);
 }
 
 std::int64_t ServoJoint::settling_ns() const { return interface_ == Interface::kPosition && !pid_ ? kSettlingNs : 0; }
@@ -70,9 +70,9 @@ void ServoJoint::write(double dt) {
 }
 
 void ServoJoint::write_velocity(double dt) {
-  const double wanted = std::min(std::max(command, -traits_.max_speed), traits_.max_speed);
-  if (pid_) axis_.bank->command_effort(axis_.axis, pid_->command(wanted - velocity, dt), true);
-  else axis_.bank->command_velocity(axis_.axis, wanted, traits_.max_effort, true);
+  const double target = std::min(std::max(command, -traits_.max_speed), traits_.max_speed);
+  if (pid_) axis_.bank->command_effort(axis_.axis, pid_->command(target - velocity, dt), true);
+  else axis_.bank->command_velocity(axis_.axis, target, traits_.max_effort, true);
 }
 
 void ServoJoint::write_position(double dt) {

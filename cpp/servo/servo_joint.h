@@ -20,7 +20,7 @@ struct JointTraits {
   bool is_prismatic;
 };
 
-// Axis of an engine, by the addresses of its position and velocity; `sign` is that of both.
+// Axis of an engine, with the addresses of its position and velocity; `sign` is of both.
 struct ServoAxis {
   std::shared_ptr<MotorBank> bank;
   int axis, qpos, dof;
@@ -34,7 +34,7 @@ class ServoJoint {
   ServoJoint(ServoAxis axis, Interface interface, std::shared_ptr<ToolboxPid> pid, const JointTraits& traits,
              double lag_s);
 
-  // Follow another engine's axis. Throws std::invalid_argument if it has none such.
+  // Use another engine's axis. Throws std::invalid_argument if it does not exist.
   void bind(ServoAxis axis);
 
   // Read position, velocity and effort.
@@ -43,10 +43,10 @@ class ServoJoint {
   // Difference of a position to the joint's; the shorter way round if continuous.
   double error(double position) const;
 
-  // The same; the shorter way round unless prismatic, as of joint_trajectory_controller.
+  // The same; the shorter way round unless prismatic, as in joint_trajectory_controller.
   double shortest_error(double position) const;
 
-  // Time that a driven position has to settle: gazebo_ros_control sets it at once.
+  // Time for a driven position to settle: gazebo_ros_control sets it at once.
   std::int64_t settling_ns() const;
 
   // Command that holds the position read last, or zero effort or velocity.
@@ -61,7 +61,7 @@ class ServoJoint {
   // Apply the command for a control period [s].
   void write(double dt);
 
-  // Return a function that restores the joint, but for the engine.
+  // Return a function that restores the joint, without the engine.
   std::function<void()> checkpoint();
 
   const JointTraits& traits() const { return traits_; }

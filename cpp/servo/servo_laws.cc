@@ -24,8 +24,8 @@ MotionState evaluate(const std::array<double, 6>& c, double t) {
 
 MotionState sample(const PathSegment& segment, std::int64_t time_ns) {
   const std::int64_t nearest_ns = std::clamp(time_ns, segment.start_ns, segment.end_ns);
-  const MotionState found = evaluate(segment.coefficients, static_cast<double>(nearest_ns - segment.start_ns) / 1e9);
-  return nearest_ns == time_ns ? found : MotionState{found.position, 0.0, 0.0};
+  const MotionState state = evaluate(segment.coefficients, static_cast<double>(nearest_ns - segment.start_ns) / 1e9);
+  return nearest_ns == time_ns ? state : MotionState{state.position, 0.0, 0.0};
 }
 
 bool is_beyond(double tolerance, double error) { return 0.0 < tolerance && tolerance < std::abs(error); }
@@ -110,19 +110,19 @@ bool TrajectoryLaw::update(std::int64_t time, double dt) {
   if (watches && (event_ = check(segments))) watches = false;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     ServoJoint& joint = *joints_[i];
-    const MotionState& wanted = desired_[i];
+    const MotionState& desired = desired_[i];
     if (pids_.empty()) {
-      joint.command = wanted.position;
+      joint.command = desired.position;
       continue;
     }
-    const double slope = wanted.velocity - joint.velocity;
-    const double command = pids_[i]->command(joint.shortest_error(wanted.position), dt, slope);
-    joint.command = command + forward_[i] * wanted.velocity;
+    const double slope = desired.velocity - joint.velocity;
+    const double command = pids_[i]->command(joint.shortest_error(desired.position), dt, slope);
+    joint.command = command + forward_[i] * desired.velocity;
   }
   return !event_;
 }
 
-// Outcome of the goal where a joint has left its path or missed its end, or all have reached it.
+// Result of the goal once a joint has left its path or missed its end, or all have reached it.
 std::optional<TrajectoryLaw::Event> TrajectoryLaw::check(const std::vector<const PathSegment*>& segments) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const PathSegment& on = *segments[i];

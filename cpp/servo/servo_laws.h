@@ -19,7 +19,7 @@ class ServoLaw {
   ServoLaw& operator=(const ServoLaw&) = default;
   virtual ~ServoLaw() = default;
 
-  // Command the joints, which were just read, dt [s] after the last time; return false if Python has to be called.
+  // Command the joints after a read, dt [s] after the last time; return false if Python has to be called.
   virtual bool update(std::int64_t time_ns, double dt) = 0;
 
   // Return a function that restores the law.
@@ -78,7 +78,7 @@ struct MotionState {
 // Segments in order of their starts; each ends where the next one starts. At least one.
 using JointPath = std::vector<PathSegment>;
 
-// Follows a path with each joint, and watches the tolerances of an action's goal.
+// Follows a path with each joint, and checks the tolerances of an action's goal.
 class TrajectoryLaw : public ServoLaw {
  public:
   enum class Outcome { kReached = 0, kOffPath = -4, kMissed = -5 };
@@ -95,21 +95,21 @@ class TrajectoryLaw : public ServoLaw {
 
   void set_paths(std::vector<std::shared_ptr<const JointPath>> paths);
 
-  // Follow a new goal, which no joint has reached.
+  // Follow a new goal.
   void begin_goal(std::int64_t goal);
 
-  // Outcome of the goal that was watched, once.
+  // Result of the watched goal, once.
   std::optional<Event> take_event();
 
   const std::vector<MotionState>& desired() const { return desired_; }
 
-  // Take the joints' states for the desired ones.
+  // Set the desired states to the joints' states.
   void start(std::int64_t time_ns);
 
   bool update(std::int64_t time_ns, double dt) override;
   std::function<void()> checkpoint() override;
 
-  bool watches = false;  // the goal's outcome is not known so far
+  bool watches = false;  // the goal is neither reached nor failed
 
  private:
   std::optional<Event> check(const std::vector<const PathSegment*>& segments);

@@ -38,7 +38,7 @@ ServoAxis axis_of(const Axis& axis) {
   return {bank, index, qpos, dof, sign};
 }
 
-// Function that restores an object, and keeps it.
+// Function that restores an object, and holds it.
 template <typename Saved>
 nb::object checkpoint(nb::handle_t<Saved> self) {
   return nb::cpp_function([owner = nb::borrow(self), restore = nb::cast<Saved&>(self).checkpoint()] { restore(); });
@@ -71,15 +71,16 @@ std::shared_ptr<JointPath> path_of(const std::vector<Segment>& segments) {
 }
 
 void set_paths(TrajectoryLaw& law, const std::vector<std::vector<Segment>>& paths) {
-  std::vector<std::shared_ptr<const JointPath>> made;
-  for (const auto& segments : paths) made.push_back(path_of(segments));
-  law.set_paths(std::move(made));
+  std::vector<std::shared_ptr<const JointPath>> joint_paths;
+  for (const auto& segments : paths) joint_paths.push_back(path_of(segments));
+  law.set_paths(std::move(joint_paths));
 }
 
 std::vector<State> desired_of(const TrajectoryLaw& law) {
-  std::vector<State> found;
-  for (const MotionState& each : law.desired()) found.emplace_back(each.position, each.velocity, each.acceleration);
-  return found;
+  std::vector<State> states;
+  for (const MotionState& state : law.desired())
+    states.emplace_back(state.position, state.velocity, state.acceleration);
+  return states;
 }
 
 std::optional<Event> take_event(TrajectoryLaw& law) {
@@ -173,9 +174,9 @@ void make_drive(DiffDriveLaw* self, DiffDriveLaw::Joints left, DiffDriveLaw::Joi
 }
 
 std::vector<Pair> speeds_of(const DiffDriveLaw& law) {
-  std::vector<Pair> found;
-  for (const auto& [linear, angular] : law.speeds()) found.emplace_back(linear, angular);
-  return found;
+  std::vector<Pair> speeds;
+  for (const auto& [linear, angular] : law.speeds()) speeds.emplace_back(linear, angular);
+  return speeds;
 }
 
 void bind_drive(nb::module_& module) {
@@ -189,8 +190,8 @@ void bind_drive(nb::module_& module) {
             self.set_command(stamp_ns, {linear, angular});
           },
           "stamp_ns"_a, "linear"_a, "angular"_a)
-      .def_prop_ro("place",
-                   [](const DiffDriveLaw& self) { return State{self.place().x, self.place().y, self.place().yaw}; })
+      .def_prop_ro("pose",
+                   [](const DiffDriveLaw& self) { return State{self.pose().x, self.pose().y, self.pose().yaw}; })
       .def_prop_ro("speeds", speeds_of)
       .def_prop_ro("limited",
                    [](const DiffDriveLaw& self) { return Pair{self.limited().linear, self.limited().angular}; });

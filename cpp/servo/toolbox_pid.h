@@ -23,8 +23,8 @@ struct ToolboxPid {
     last = error;
     integral += error * dt;
     if (antiwindup && i != 0.0) {
-      const double most = std::abs(i_clamp / i);
-      integral = std::min(std::max(integral, -most), most);
+      const double limit = std::abs(i_clamp / i);
+      integral = std::min(std::max(integral, -limit), limit);
     }
     const double contribution = std::min(std::max(i * integral, -i_clamp), i_clamp);
     return p * error + contribution + d * rate;

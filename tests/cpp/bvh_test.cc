@@ -22,7 +22,7 @@ Mesh random_mesh(int faces, float size) {
     const float centre[3] = {place(source), place(source), place(source)};
     for (int corner = 0; corner < 3; ++corner) {
       corners.push_back(static_cast<int32_t>(vertices.size() / 3));
-      for (const float each : centre) vertices.push_back(each + offset(source));
+      for (const float coordinate : centre) vertices.push_back(coordinate + offset(source));
     }
   }
   return make_mesh(vertices, corners, {}, {});
@@ -66,12 +66,12 @@ TEST_CASE("every triangle is in one leaf, within its box") {
     walk.visit(0);
     CAPTURE(faces);
     CHECK(walk.seen.size() == static_cast<size_t>(mesh.face_count));
-    CHECK(std::all_of(walk.seen.begin(), walk.seen.end(), [](const auto& each) { return each.second == 1; }));
+    CHECK(std::all_of(walk.seen.begin(), walk.seen.end(), [](const auto& entry) { return entry.second == 1; }));
     CHECK(walk.encloses);
   }
 }
 
-TEST_CASE("triangles that no plane separates are divided all the same") {
+TEST_CASE("triangles that no plane separates are divided, too") {
   std::vector<int32_t> corners;
   for (int face = 0; face < 1000; ++face) corners.insert(corners.end(), {0, 1, 2});
   const Mesh mesh = make_mesh({0, 0, 0, 1, 0, 0, 0, 1, 0}, corners, {}, {});

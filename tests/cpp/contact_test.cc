@@ -70,7 +70,7 @@ TEST_CASE("a pair has one key in either order, and is found in a sorted table") 
   CHECK(find_pair(std::span<const RestitutionRow>(), 12) == nullptr);
 }
 
-TEST_CASE("tangents turn to a direction's part within the surface, and their rows with them") {
+TEST_CASE("tangents and their rows turn to a direction projected into the surface") {
   Sliding sliding;
   sliding.speeds = {0, 2, 1};
   sliding.data.efc_vel = sliding.speeds.data();
@@ -107,7 +107,7 @@ TEST_CASE("only coefficients that differ, within bounds, make a pyramid") {
   CHECK_FALSE(has(0.5, 0.2));
 }
 
-TEST_CASE("the ellipse of a pyramid goes through its corner, with the slip for its normal there") {
+TEST_CASE("the ellipse of a pyramid passes through its corner, with the slip as its normal") {
   LawTables laws{};
   laws.crowd = true;
   const double slips[][2] = {{1.0, 0.5}, {0.2, 1.0}, {-0.7, 0.7}};

@@ -43,7 +43,7 @@ struct Canvas {
 
   int count(int32_t number) const {
     int pixels = 0;
-    for (const int32_t each : id) pixels += each == number;
+    for (const int32_t face : id) pixels += face == number;
     return pixels;
   }
 };
@@ -90,7 +90,7 @@ TEST_CASE("pixel centres on a shared edge belong to one of its triangles") {
   CHECK(together.count(1) == first.count(1) + second.count(1));
 }
 
-TEST_CASE("what is behind the near plane is cut off, also without a gap between neighbours") {
+TEST_CASE("triangles are clipped at the near plane, without gaps between neighbours") {
   const Canvas together, first, second;
   // A floor 0.4 m below the camera, from behind it to 4 m ahead.
   const Vertex a = together.vertex(-1, 3, -0.4f), b = together.vertex(-1, -3, -0.4f), c = together.vertex(4, -3, -0.4f),
@@ -104,10 +104,10 @@ TEST_CASE("what is behind the near plane is cut off, also without a gap between 
   const int far_row = static_cast<int>(std::ceil(kHeight / 2.0f + 40.0f * 0.4f / 4.0f + 0.5f));
   for (int row = far_row; row < kHeight; ++row) CHECK(together.id[row * kWidth + kWidth / 2] == 1);
   CHECK(together.id[(far_row - 3) * kWidth + kWidth / 2] == -1);
-  for (const float each : together.inverse_depth) CHECK(each <= 1.0f / 0.5f);
+  for (const float inverse_depth : together.inverse_depth) CHECK(inverse_depth <= 1.0f / 0.5f);
 }
 
-TEST_CASE("the nearer triangle is seen, of two at one depth that with the lower number") {
+TEST_CASE("the nearer triangle is drawn, at equal depth the one with the lower number") {
   const Canvas canvas;
   const auto draw = [&](float x, int32_t number) {
     canvas.draw(canvas.vertex(x, 9, -9), canvas.vertex(x, -9, -9), canvas.vertex(x, -9, 9), number);

@@ -34,14 +34,14 @@ std::vector<double> random_directions(int count) {
   for (int i = 0; i < count; ++i) {
     const Vec3 v = {number(source), number(source), number(source)};
     const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    for (const double each : v) directions.push_back(each / length);
+    for (const double component : v) directions.push_back(component / length);
   }
   return directions;
 }
 
 }  // namespace
 
-TEST_CASE("a mesh's ranges are those of its triangles one by one") {
+TEST_CASE("a mesh's ranges equal its triangles' one by one") {
   std::mt19937 source(11);
   std::uniform_real_distribution<float> place(-5.0f, 5.0f), offset(-0.8f, 0.8f);
   std::vector<float> vertices;
@@ -50,7 +50,7 @@ TEST_CASE("a mesh's ranges are those of its triangles one by one") {
     const float centre[3] = {place(source), place(source), place(source)};
     for (int corner = 0; corner < 3; ++corner) {
       faces.push_back(static_cast<int32_t>(faces.size()));
-      for (const float each : centre) vertices.push_back(each + offset(source));
+      for (const float coordinate : centre) vertices.push_back(coordinate + offset(source));
     }
   }
   SceneSpec scene;
@@ -83,7 +83,7 @@ TEST_CASE("a mesh's ranges are those of its triangles one by one") {
   CHECK(differing <= 2);
 }
 
-TEST_CASE("a sphere's ranges are exact, and those beyond the limit are none") {
+TEST_CASE("a sphere's ranges are exact, and infinite beyond the limit") {
   SceneSpec scene;
   scene.bodies = 1;
   ShapeSpec shape;

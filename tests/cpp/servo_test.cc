@@ -8,7 +8,7 @@
 
 using namespace trundle;
 
-TEST_CASE("a PID adds its three terms, with the slope of the error where it is given") {
+TEST_CASE("a PID adds its three terms, with the slope of the error if it is passed") {
   ToolboxPid pid;
   pid.p = 2;
   pid.i = 1;
@@ -22,7 +22,7 @@ TEST_CASE("a PID adds its three terms, with the slope of the error where it is g
   CHECK(pid.integral == 0);
 }
 
-TEST_CASE("without antiwindup the contribution is clamped, and the integral goes on") {
+TEST_CASE("without antiwindup the contribution is clamped, and the integral keeps growing") {
   ToolboxPid pid;
   pid.i = 2;
   pid.i_clamp = 1;

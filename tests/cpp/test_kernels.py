@@ -19,7 +19,7 @@ HEADER = next((path for path in ("/usr/include", "/usr/local/include", "/opt/hom
 @pytest.mark.skipif(bool(MISSING), reason=f"{' and '.join(MISSING)} not installed")
 @pytest.mark.skipif(HEADER is None, reason="doctest's header is not installed (`make system` does)")
 def test_the_kernels_pass_their_tests() -> None:
-    """Built in `build`, so that the next run compiles what changed only."""
+    """Built in `build`, so that the next run compiles only changed files."""
     configure = ["cmake", "-S", str(ROOT), "-B", str(BUILT), "-D", "TRUNDLE_TESTS=ON", "-D", "CMAKE_BUILD_TYPE=Debug"]
     for command in (
         [*configure, "-D", f"Python_EXECUTABLE={sys.executable}"],

@@ -24,10 +24,10 @@ TEST_CASE("a transform times its inverse is the identity") {
   const Transform world_from_a = *Transform::from_pose(pose);
   const Transform identity = world_from_a * world_from_a.inverse();
   for (int i = 0; i < 9; ++i) CHECK(identity.rotation[i] == doctest::Approx(i % 4 == 0 ? 1.0 : 0.0));
-  for (const double each : identity.position) CHECK(each == doctest::Approx(0.0));
+  for (const double coordinate : identity.position) CHECK(coordinate == doctest::Approx(0.0));
 }
 
-TEST_CASE("a quaternion of any length turns alike, and none of length zero or with a NaN") {
+TEST_CASE("a quaternion of any length gives the same rotation, and none of length zero or with a NaN") {
   const double longer[7] = {0, 0, 0, 2.0, 0, 0, 2.0}, unit[7] = {0, 0, 0, std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
   const Vec3 turned = Transform::from_pose(longer)->rotate({1, 0, 0});
   const Vec3 expected = Transform::from_pose(unit)->rotate({1, 0, 0});
@@ -49,14 +49,14 @@ TEST_CASE("a box ahead covers the projections of its corners") {
   CHECK(bounds.right < 100);
 }
 
-TEST_CASE("a box across the near plane covers what is before it") {
+TEST_CASE("a box across the near plane covers its part in front") {
   const Rectangle bounds = screen_bounds(kView, at(0.0, 0.05, 0.0), {-1, -0.01, -0.01}, {1, 0.01, 0.01});
   CHECK(contains(bounds, 50 - 60 * 0.05 / 0.1, 40));  // its nearest visible part
   CHECK(contains(bounds, 50 - 60 * 0.05 / 1.0, 40));  // its far end
   CHECK(bounds.left > 0);
 }
 
-TEST_CASE("a box behind the camera covers nothing, and one with a NaN the whole image") {
+TEST_CASE("a box behind the camera covers no pixels, and one with a NaN the whole image") {
   CHECK(screen_bounds(kView, at(-5.0, 0.0, 0.0), {-1, -1, -1}, {1, 1, 1}).empty());
   const Rectangle bounds = screen_bounds(kView, at(5.0, NAN, 0.0), {-1, -1, -1}, {1, 1, 1});
   CHECK((bounds.empty() || (bounds.left == 0 && bounds.right == 100)));

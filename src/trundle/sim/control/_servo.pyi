@@ -31,7 +31,7 @@ class ToolboxPid:
 
         Args:
             error: desired − actual.
-            dt: since the last command.
+            dt: time since the last command [s].
             slope: derivative of the error [1/s]; None: from the last error, which is 0 before the first.
         """
 
@@ -62,13 +62,13 @@ class ServoJoint:
         """Command zero.
 
         Args:
-            axis: of the engine.
+            axis: engine's axis.
             interface: meaning of commands: effort 0, velocity 1, position 2.
             pid: efforts from position or velocity errors; None: position or velocity is driven directly.
             lag_s: time constant of driven positions [s].
             range: limits of positions [rad or m].
-            max_effort: of a driven velocity [N·m or N].
-            max_speed: of velocities and driven positions [rad/s or m/s].
+            max_effort: effort limit of a driven velocity [N·m or N].
+            max_speed: limit of velocities and driven positions [rad/s or m/s].
             is_continuous: True for a revolute joint without limits.
             is_prismatic: True for a prismatic joint.
         """
@@ -98,7 +98,7 @@ class ServoJoint:
 
     @property
     def settling_ns(self) -> int:
-        """Time that a driven position has to settle [ns]: gazebo_ros_control sets it at once."""
+        """Time for a driven position to settle [ns]: gazebo_ros_control sets it at once."""
 
     @property
     def resting_command(self) -> float:
@@ -111,7 +111,7 @@ class ServoJoint:
         """Return the difference of a position to the joint's [rad or m]; the shorter way round if continuous."""
 
     def shortest_error(self, position: float) -> float:
-        """Return the difference of a position to the joint's [rad or m]; the shorter way round unless prismatic, as of
+        """Return the difference of a position to the joint's [rad or m]; the shorter way round unless prismatic, as in
         joint_trajectory_controller.
         """
 
@@ -136,10 +136,10 @@ class ServoLaw:
 
     @property
     def period_ns(self) -> int:
-        """Control period of the last update [ns]; 0: there was none since the start."""
+        """Control period of the last update [ns]; 0 before the first."""
 
     def update(self, time_ns: int, dt: float) -> bool:
-        """Command the joints, which were just read, dt [s] after the last time; return False if an event came."""
+        """Command the joints after a `read`, dt [s] after the last time; return False at an event."""
 
     def checkpoint(self) -> Callable[[], None]:
         """Save the law's state; return a function that restores it."""
@@ -162,17 +162,17 @@ class PidLoop(ServoLaw):
         """Number of updates."""
 
 class TrajectoryLaw(ServoLaw):
-    """Follows a path with each joint, and watches the tolerances of an action's goal."""
+    """Follows a path with each joint, and checks the tolerances of an action's goal."""
 
     watches: bool
-    """True while the goal's outcome is not known."""
+    """True while the goal is neither reached nor failed."""
 
     def __init__(self, joints: Sequence[ServoJoint], pids: Sequence[ToolboxPid], forward: Sequence[float]) -> None:
-        """Follow no path so far; `set_paths` must come before the first update.
+        """Create without paths; call `set_paths` before the first update.
 
         Args:
-            joints: of the controller.
-            pids: of each joint; empty: their positions are commanded.
+            joints: controller's joints.
+            pids: PID controller of each joint; empty: positions are commanded.
             forward: gains of the desired velocities.
         """
 
@@ -185,17 +185,17 @@ class TrajectoryLaw(ServoLaw):
         """
 
     def begin_goal(self, goal: int) -> None:
-        """Follow the goal of a number, which no joint has reached."""
+        """Start the goal of a number, not reached by any joint yet."""
 
     def take_event(self) -> tuple[int, int, float] | None:
-        """Return the outcome of the watched goal once: error code, joint and its position error [rad or m]."""
+        """Return the result of the watched goal once: error code, joint and its position error [rad or m]."""
 
     @property
     def desired(self) -> list[_State]:
         """Position, velocity and acceleration of each joint at the last update."""
 
     def start(self, time_ns: int) -> None:
-        """Take the joints' states for the desired ones."""
+        """Set the desired states to the joints' current states."""
 
 class DiffDriveLaw(ServoLaw):
     """Wheel speeds of diff_drive_controller from a body twist, and odometry from wheel positions."""
@@ -213,28 +213,28 @@ class DiffDriveLaw(ServoLaw):
         open_loop: bool,
         window: int,
     ) -> None:
-        """Stand at the origin of the odometry.
+        """Start at the origin of the odometry.
 
         Args:
             left: wheels.
             right: wheels.
-            wheel_radius: nominal one [m].
-            separation: of the wheels [m].
-            radii: of left and right wheels as they roll [m].
-            limits: least and largest velocity, acceleration and jerk, forwards and of turning.
+            wheel_radius: nominal radius [m].
+            separation: distance between the wheels [m].
+            radii: effective radii of left and right wheels [m].
+            limits: smallest and largest velocity, acceleration and jerk, for forward motion and for turning.
             timeout_ns: age from which on a command is zero [ns].
             open_loop: True if the odometry is from the commands.
-            window: number of speeds that are kept.
+            window: number of speeds kept.
         """
 
     def start(self) -> None:
         """Stop, and integrate odometry from the current wheel positions."""
 
     def set_command(self, stamp_ns: int, linear: float, angular: float) -> None:
-        """Drive with a speed [m/s] and yaw rate [rad/s], of a time [ns]."""
+        """Drive with a speed [m/s] and yaw rate [rad/s], commanded at a time [ns]."""
 
     @property
-    def place(self) -> _State:
+    def pose(self) -> _State:
         """x, y [m] and yaw [rad] of the odometry."""
 
     @property
@@ -249,7 +249,7 @@ class GripperLaw(ServoLaw):
     """Moves a finger until it arrives or stalls."""
 
     watches: bool
-    """True while the goal's outcome is not known."""
+    """True while the goal is neither reached nor failed."""
 
     def __init__(
         self, joint: ServoJoint, pid: ToolboxPid | None, *, tolerance: float, min_speed: float, stall_ns: int
@@ -257,7 +257,7 @@ class GripperLaw(ServoLaw):
         """Stand still.
 
         Args:
-            joint: of the finger.
+            joint: finger's joint.
             pid: efforts from the position's error; None: the position is commanded.
             tolerance: error below which the goal is reached [rad or m].
             min_speed: speed below which the finger does not move [rad/s or m/s].
@@ -274,13 +274,13 @@ class GripperLaw(ServoLaw):
         """Stay at the current position."""
 
     def take_event(self) -> bool | None:
-        """Return the outcome of the watched goal once: True if it was reached, False if the finger stalled."""
+        """Return the result of the watched goal once: True if it was reached, False if the finger stalled."""
 
 class Servo(StepAction):
     """Joints of a robot, with the laws that command them; acts before each step."""
 
     longest_ns: int
-    """Longest control period, but for a step [ns]."""
+    """Longest control period, within a step [ns]."""
 
     def __init__(self, joints: Sequence[ServoJoint]) -> None: ...
     def set_laws(self, laws: Sequence[ServoLaw]) -> None:
@@ -290,10 +290,10 @@ class Servo(StepAction):
         """Begin a control period now."""
 
     def read(self, time_ns: int, step_ns: int) -> float:
-        """Read the joints; return the time since they were read last [s], or 0 if they were at this time."""
+        """Read the joints; return the time since the last read [s], 0 if it was at this time."""
 
     def update(self, dt: float) -> bool:
-        """Run the laws, dt [s] after the last time; return False if an event came."""
+        """Run the laws, dt [s] after the last time; return False at an event."""
 
     def write(self, dt: float) -> None:
         """Apply all commands."""
@@ -319,11 +319,11 @@ class MimicAction(StepAction):
         """Hold follower = multiplier · leader + offset.
 
         Args:
-            leader: axis that is followed.
-            follower: axis that follows.
-            multiplier: of the leader's position.
-            offset: [rad or m]
+            leader: leading axis.
+            follower: following axis.
+            multiplier: factor of the leader's position.
+            offset: offset [rad or m].
             min_error: smaller errors are ignored [rad or m].
-            max_effort: of the motor [N·m or N].
+            max_effort: motor's effort limit [N·m or N].
             lag_steps: number of steps in which an error is corrected.
         """

@@ -218,7 +218,7 @@ class PythonDiffDrive:
         self._command = stamp_ns, linear, angular
 
     @property
-    def place(self) -> tuple[float, float, float]:
+    def pose(self) -> tuple[float, float, float]:
         return self._odometry.x, self._odometry.y, self._odometry.yaw
 
     @property

@@ -98,13 +98,13 @@ def test_random_commands_give_the_same_bytes_as_in_python(tmp_path: Path, seed: 
         steps = random_.choice((1, 15, 90))
         cpp_sim.step(steps)
         python_sim.step(steps)
-        assert (cpp_law.place, cpp_law.limited, cpp_law.speeds) == (
-            python_law.place,
+        assert (cpp_law.pose, cpp_law.limited, cpp_law.speeds) == (
+            python_law.pose,
             python_law.limited,
             python_law.speeds,
         )
         assert cpp_sim["m"].pose == python_sim["m"].pose
-    assert math.dist(cpp_law.place, (0.0, 0.0, 0.0)) > 0.001
+    assert math.dist(cpp_law.pose, (0.0, 0.0, 0.0)) > 0.001
     (hook,) = cpp_sim.hooks
     assert isinstance(hook, _InStep)
     assert hook.calls <= 12

@@ -97,7 +97,7 @@ class DiffDriveController(InStepController):
         if self._odometry.due(time_ns, dt):
             speeds = self._law.speeds
             linear, angular = (sum(speed[i] for speed in speeds) / max(1, len(speeds)) for i in (0, 1))
-            self._odometry.publish(time_ns, self._law.place, (linear, 0.0, angular))
+            self._odometry.publish(time_ns, self._law.pose, (linear, 0.0, angular))
         if self._limited_topic is not None and self._limited_has_subscribers:
             linear, angular = self._law.limited
             header = {"stamp": time_ns, "frame_id": self._odometry.base}
