@@ -179,7 +179,7 @@ class JointHandle(Handle):
     def commands(self) -> "tuple[TimedCommand, ...]":
         """Last direct command of each axis, and its remaining duration [s]; None: until the next one."""
         simulation = self._simulation
-        remaining_s = [simulation.loads.effort_remaining_s(self, axis) for axis in range(len(self.axes))]
+        remaining_s = [simulation.loads.effort_left_s(self, axis) for axis in range(len(self.axes))]
         commands = map(simulation.engine.motors.command_of, self.axes)
         return tuple(zip(commands, remaining_s, strict=True))
 
