@@ -29,8 +29,8 @@ count: 1000
 camera:
   orbit: {center: [0, 0, 0.75], distance: {uniform: [0.8, 1.6]}, elevation: {uniform: [0.2, 1.0]}}
 objects:
-  cup: {model: cup.sdf, count: {uniform: [1, 6]}, surface: table, colour: any, key_points: {rim: [0.04, 0, 0.05]}}
-distractors: {count: {uniform: [0, 6]}, size: {uniform: [0.04, 0.15]}, surface: table, colour: any, textures: any}
+  cup: {model: cup.sdf, count: {uniform: [1, 6]}, surface: table, color: any, key_points: {rim: [0.04, 0, 0.05]}}
+distractors: {count: {uniform: [0, 6]}, size: {uniform: [0.04, 0.15]}, surface: table, color: any, textures: any}
 lights: {sun: {elevation: {uniform: [0.6, 1.4]}}}
 materials: {table: {textures: any}, ground_plane: {textures: any}}
 """

@@ -86,7 +86,7 @@ def test_a_hidden_model_is_not_drawn_and_a_selected_one_has_an_outline(cubes: Wo
     cubes.page.evaluate("world.hidden.value = new Set(['red'])")
     plain = cubes.picture()
     assert _columns(plain, _RED) is None
-    cubes.page.evaluate("outlined.value = [{ thin: [], broad: [8], colour: '--accent' }]")
+    cubes.page.evaluate("outlined.value = [{ thin: [], broad: [8], color: '--accent' }]")
     outlined = cubes.picture()
     first, last = _columns(plain, _BLUE) or (0, 0)
     row = outlined[180].astype(int)

@@ -31,7 +31,7 @@ def picture(*shapes: Shape, lights: tuple[SceneLight, ...] = (SUN,), **scene: ob
 
 
 def at(rgb: NDArray[np.uint8], x: float, y: float) -> list[int]:
-    """Colour of the ground at a point."""
+    """Color of the ground at a point."""
     return rgb[int(100 - 20 * x), int(100 - 20 * y)].tolist()
 
 

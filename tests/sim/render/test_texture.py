@@ -38,7 +38,7 @@ def rendered(geometry: ShapeGeometry, texture: Path | bytes, view: Pose, **chang
 
 
 def corners(rgb: NDArray[np.uint8], away: int = 30) -> list[list[int]]:
-    """Colours to the upper left, upper right, lower left and lower right of the middle."""
+    """Colors to the upper left, upper right, lower left and lower right of the middle."""
     low, high = 100 - away, 100 + away
     return [rgb[row, column].tolist() for row in (low, high) for column in (low, high)]
 

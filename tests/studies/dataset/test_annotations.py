@@ -206,7 +206,7 @@ def test_key_points_follow_their_link(tmp_path: Path) -> None:
             "plan.yaml:6: error: key point 'a': no link 'l'; links: body",
         ),
         (
-            "{box: {model: box.sdf, surface: floor}}\nmaterials: {wall: {colour: any}}",
+            "{box: {model: box.sdf, surface: floor}}\nmaterials: {wall: {color: any}}",
             "plan.yaml:7: error: there is no model 'wall' with a visual; models: floor, box_0",
         ),
         (
@@ -268,7 +268,7 @@ def test_a_camera_that_is_not_there_is_refused(tmp_path: Path, changed: str, by:
 
 LIGHTS = """<light name="sun" type="directional"><direction>0.6 0 -0.8</direction></light>
 <light name="lamp" type="point"><pose>0 0 3 0 0 0</pose></light>"""
-LIT = HEAD + "objects: {box: {model: box.sdf, position: [0, 0, 0.5], colour: any}}\n"
+LIT = HEAD + "objects: {box: {model: box.sdf, position: [0, 0, 0.5], color: any}}\n"
 
 
 def _lit(folder: Path, more: str) -> AnnotatedPicture:
@@ -282,7 +282,7 @@ def _lit(folder: Path, more: str) -> AnnotatedPicture:
     [
         ("lights: {sun: {position: [0, 0, 1]}}", "light sun: a directional light has no `position`; give `azimuth`"),
         ("lights: {lamp: {elevation: 1}}", "light lamp: a point light has no `elevation`; leave it out"),
-        ("materials: {box_0: {colour: any}}", "materials: object 'box_0' has a look of its own; give one of them"),
+        ("materials: {box_0: {color: any}}", "materials: object 'box_0' has a look of its own; give one of them"),
     ],
 )
 def test_settings_that_the_world_would_not_use_are_refused(tmp_path: Path, more: str, message: str) -> None:

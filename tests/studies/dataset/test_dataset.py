@@ -31,9 +31,9 @@ seed: 5
 size: [160, 120]
 camera: {orbit: {distance: {uniform: [2, 3]}, elevation: {uniform: [0.4, 1.2]}}}
 objects:
-  box: {model: box.sdf, surface: floor, within: {x: [-1, 1], y: [-1, 1]}, key_points: {top: [0, 0, 0.2]}, colour: any}
+  box: {model: box.sdf, surface: floor, within: {x: [-1, 1], y: [-1, 1]}, key_points: {top: [0, 0, 0.2]}, color: any}
   ball: {model: ball.sdf, count: [1, 2], surface: floor, within: {x: [-1, 1], y: [-1, 1]}}
-distractors: {count: {uniform: [0, 3]}, size: {uniform: [0.1, 0.3]}, surface: floor, colour: any}
+distractors: {count: {uniform: [0, 3]}, size: {uniform: [0.1, 0.3]}, surface: floor, color: any}
 """
 
 

@@ -18,7 +18,7 @@ objects:
     model: cup.sdf
     surface: table
     count: {uniform: [1, 3]}
-    colour: any
+    color: any
     key_points: {rim: [0, 0, 0.1]}
   robot: {joints: any}
 distractors: {count: [0, 2], size: 0.1, surface: table}
@@ -54,7 +54,7 @@ def test_keys_that_a_plan_omits_have_defaults(tmp_path: Path) -> None:
             "plan.yaml:7: error: object cup has no 'moddel'; it has: model, category,",
         ),
         ("    model: cup.sdf\n", "", "plan.yaml:8: error: object cup: `count` is of what `model: FILE` adds;"),
-        ("colour: any", "colour: [1, 2, 0]", "plan.yaml:10: error: colour must be any, [red, green, blue] of 0 to 1,"),
+        ("color: any", "color: [1, 2, 0]", "plan.yaml:10: error: color must be any, [red, green, blue] of 0 to 1,"),
         ("rim: [0, 0, 0.1]", "rim: [0, 0]", "plan.yaml:11: error: key point rim must be a list of three numbers"),
         (", surface: table}", "}", "plan.yaml:13: error: distractors need `surface: MODEL` or `position: [x, y, z]`"),
         ("[0, 2]", "{normal: [1, 1]}", "plan.yaml:13: error: count may be 200 at most"),
@@ -70,8 +70,8 @@ def test_keys_that_a_plan_omits_have_defaults(tmp_path: Path) -> None:
             "plan.yaml:15: error: light sun: a point light has no `elevation`; leave it out",
         ),
         ("joints: any", "rotation: any", "plan.yaml:12: error: `rotation` turns what is placed; add `surface: MODEL`"),
-        ("colour: any", "repeat: 2", "plan.yaml:10: error: `repeat` is that of an image; add `textures: …`"),
-        ("lights:", "materials:\n  table: {}\nlights:", "plan.yaml:15: error: materials of table need `colour: …` or"),
+        ("color: any", "repeat: 2", "plan.yaml:10: error: `repeat` is that of an image; add `textures: …`"),
+        ("lights:", "materials:\n  table: {}\nlights:", "plan.yaml:15: error: materials of table need `color: …` or"),
         ("{uniform: [0.5, 1]}", "{values: [1, bright]}", "plan.yaml:15: error: intensity must be a number, a list of"),
         ("{uniform: [0.5, 1]}", "{values: [1, 2], with: a}", "plan.yaml:15: error: intensity: `with` pairs values of"),
         ("intensity", "brightness", "plan.yaml:15: error: light sun has no 'brightness'; it has: type, intensity,"),
@@ -82,7 +82,7 @@ def test_keys_that_a_plan_omits_have_defaults(tmp_path: Path) -> None:
             "count: 4\nlidar: {}",
             "plan.yaml:3: error: clouds of a lidar are written by kitti and semantic_ki",
         ),
-        ("colour: any", "textures: nowhere", "plan.yaml:10: error: textures: "),
+        ("color: any", "textures: nowhere", "plan.yaml:10: error: textures: "),
     ],
 )
 def test_a_wrong_plan_is_refused_at_its_line(changed: str, by: str, message: str, tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from .quantity import Quantity, constant
 from .value_reader import read_color, read_count, read_numbers, read_pair, read_quantity, read_vector
 
 _PLACEMENT = ("surface", "within", "position", "rotation")
-_PAINT = ("colour", "textures", "repeat")
+_PAINT = ("color", "textures", "repeat")
 _OBJECT = ("model", "category", "count", *_PLACEMENT, *_PAINT, "joints", "key_points")
 _IMAGES = (".bmp", ".jpeg", ".jpg", ".png", ".webp")
 _ANY = "any"
@@ -91,8 +91,8 @@ def read_paint(node: YamlNode, folder: Path, label: str) -> Paint:
         DescriptionError: the look is invalid.
     """
     fields = node.check_keys(label, *_PAINT)
-    if not {"colour", "textures"} & fields.keys():
-        node.fail(f"{label} need `colour: …` or `textures: …`")
+    if not {"color", "textures"} & fields.keys():
+        node.fail(f"{label} need `color: …` or `textures: …`")
     return _paint(node, fields, folder)
 
 
@@ -139,7 +139,7 @@ def _paint(node: YamlNode, fields: dict[str, YamlNode], folder: Path) -> Paint:
     )
     return Paint(
         at=node.at,
-        color=read_color(fields["colour"], "colour") if "colour" in fields else None,
+        color=read_color(fields["color"], "color") if "color" in fields else None,
         textures=textures,
         repeat=read_quantity(fields["repeat"], "repeat", minimum=0.01, maximum=1000)
         if "repeat" in fields

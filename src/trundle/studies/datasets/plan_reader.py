@@ -20,7 +20,7 @@ _KEYS = (
     "ambient", "background", "lidar", "apart", "settle",
 )  # fmt: skip
 _CAMERA = ("orbit", "position", "look_at", "roll", "fov", "near", "far", "noise")
-_LIGHT = ("type", "intensity", "colour", "azimuth", "elevation", "position", "shadows")
+_LIGHT = ("type", "intensity", "color", "azimuth", "elevation", "position", "shadows")
 _LIDAR = ("beams", "columns", "vertical", "horizontal", "range", "pose")
 FORMATS: tuple[Format, ...] = get_args(Format)
 _MAX_COUNT, _MAX_SIDE_PX, _MAX_SAMPLES, _MAX_PX = 100_000_000, 8192, 4, 1 << 25
@@ -214,7 +214,7 @@ def _light(name: str, node: YamlNode) -> LightPlan:
         intensity=read_quantity(fields["intensity"], "intensity", minimum=0, maximum=100)
         if "intensity" in fields
         else constant(1.0),
-        color=read_color(fields["colour"], "colour") if "colour" in fields else None,
+        color=read_color(fields["color"], "color") if "color" in fields else None,
         azimuth=read_quantity(fields["azimuth"], "azimuth") if "azimuth" in fields else TURN,
         elevation=read_quantity(fields["elevation"], "elevation", minimum=-1.58, maximum=1.58)
         if "elevation" in fields

@@ -164,7 +164,9 @@ class RowRunner:
         def start_bag(loop: GraphLoop) -> None:
             if record is not None:
                 without_types = self._plan.bag_without
-                recorder = StepRecorder(loop, record, on_failure=_leave_out, from_ns=from_ns, without_types=without_types)
+                recorder = StepRecorder(
+                    loop, record, on_failure=_leave_out, from_ns=from_ns, without_types=without_types
+                )
                 recorders.append(recorder)
 
         try:
