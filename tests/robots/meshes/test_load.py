@@ -202,7 +202,7 @@ def test_a_part_that_is_not_there_is_answered_with_the_parts_there_are(tmp_path:
         ("a.obj", b"v 0 0 0\nv 1 0 0\n", "no triangles|not readable"),
         ("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "not readable"),
         ("a.obj", b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "vertex 1 is at|not readable"),
-        ("a.dae", b"<COLLADA>\n", "line 2: not well-formed XML: it ends where <COLLADA> of line 1"),
+        ("a.dae", b"<COLLADA>\n", "line 2: not well-formed XML: <COLLADA> of line 1 is not closed"),
         ("a.dae", b"", "line 1: the file is empty"),
         ("a.glb", b"glTF\x02\x00\x00\x00", "not a binary glTF, or truncated"),
         ("a.ply", b"ply", r"\.ply meshes are not supported; formats: \.dae, \.glb, \.obj, \.stl"),

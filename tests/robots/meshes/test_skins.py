@@ -120,7 +120,7 @@ def test_skeletons_fit_by_name_or_else_by_how_they_branch(tmp_path: Path) -> Non
     ("spoil", "message"),
     [
         (("root tip</Name", "root lost</Name"), "its skin is bound to 'lost', which is not a bone in it"),
-        (("<skeleton>", "<bones>"), r"line \d+: not well-formed XML: </skeleton> where <bones> "),
+        (("<skeleton>", "<bones>"), r"line \d+: not well-formed XML: </skeleton> does not match <bones> "),
         (('<controller id="c">', '<controller id="d">'), "no mesh in it is bound to bones"),
     ],
 )
@@ -135,7 +135,7 @@ def test_an_animation_that_is_not_well_formed_is_named_once(tmp_path: Path) -> N
     file.write_text("<COLLADA>\n<a></COLLADA>")
     with pytest.raises(MeshError) as caught:
         load_motion(file)
-    assert str(caught.value).startswith(f"{file}: line 2: not well-formed XML: </COLLADA> where <a> ")
+    assert str(caught.value).startswith(f"{file}: line 2: not well-formed XML: </COLLADA> does not match <a> ")
 
 
 @pytest.mark.parametrize("text", ["", "HIERARCHY ROOT a {", "HIERARCHY } MOTION", BVH.replace("90", "x"), BVH[:-30]])

@@ -132,7 +132,7 @@ def test_scripts_that_open_terminals_run_without_a_display(shell, tmp_path: Path
     done = shell("sh home_service.sh", DISPLAY="", WAYLAND_DISPLAY="")
 
     assert done.stdout.splitlines() == ["POSE=-x 1", "two  words", "1"], done.stderr
-    assert "xterm: no window can open here, so this terminal has: export POSE='-x 1' && " in done.stderr
+    assert "xterm: no window can open here; running in this terminal: export POSE='-x 1' && " in done.stderr
     assert "xterm needs a display, and there is none here" in done.stderr
 
 
