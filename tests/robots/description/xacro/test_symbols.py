@@ -168,7 +168,9 @@ def test_an_error_in_a_macro_of_another_file_names_that_file(tmp_path: Path) -> 
 
 def test_a_file_that_is_not_well_formed_is_named_with_the_line(tmp_path: Path) -> None:
     (tmp_path / "m.xacro").write_text("\n<r>\n<a></r>")
-    with pytest.raises(DescriptionError, match=r"m\.xacro:3: error: not well-formed XML: </r> does not match <a> of line 3"):
+    with pytest.raises(
+        DescriptionError, match=r"m\.xacro:3: error: not well-formed XML: </r> does not match <a> of line 3"
+    ):
         expand(tmp_path, '<xacro:include filename="m.xacro"/>')
 
 
