@@ -21,5 +21,10 @@ export default defineConfig({
   },
   worker: { format: "es", plugins: () => [worker] },
   // Tests leave nothing behind; a process for each file would double their time.
-  test: { isolate: false, include: ["test/**/*.test.ts", "test/**/*.test.tsx"] },
+  test: {
+    isolate: false,
+    include: ["test/**/*.test.ts", "test/**/*.test.tsx"],
+    testTimeout: 120_000, // a slow machine is no failure
+    hookTimeout: 120_000,
+  },
 });

@@ -24,7 +24,7 @@ class Run:
         loaded = load_world(str(folder), Packages({}, start=folder), report)
         self.sim = Simulation(loaded.flat, report)
         self.robot = self.sim.models[0]
-        self.plugin: Any = load_plugins(self.sim, None, {}, say=lambda _: None)[0]
+        self.plugin: Any = load_plugins(self.sim, None, {}, log=lambda _: None)[0]
 
 
 def with_the_published_model(folder: Path, shared: Path) -> Path:
@@ -112,7 +112,7 @@ def test_the_demo_world_loads_its_plugin_without_warnings(tmp_path: Path, monkey
         loaded = load_world("rp2w_at_home.world", Packages({}, start=tmp_path), report)
         sim = Simulation(loaded.flat, report)
 
-        loaded = load_plugins(sim, graph.node, {}, say=lambda _: None)
+        loaded = load_plugins(sim, graph.node, {}, log=lambda _: None)
         sim.run(0.2)
 
     assert [type(plugin).__name__ for plugin in loaded] == ["Rp2w"]

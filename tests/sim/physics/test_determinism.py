@@ -88,8 +88,8 @@ from trundle.gazebo.model_plugins import load_plugins, load_world_plugins
 from trundle.spatial import Pose, Wrench
 
 sim = trundle.load(sys.argv[1])
-load_plugins(sim, None, {}, say=lambda _: None)
-load_world_plugins(sim, None, {}, say=lambda _: None)
+load_plugins(sim, None, {}, log=lambda _: None)
+load_world_plugins(sim, None, {}, log=lambda _: None)
 for _ in range(2):
     sim.run(7.0)
     extra = replace(sim["b1"].model, name="extra", world_from_model=Pose((0.05, 0.0, 2.5)), plugins=())
