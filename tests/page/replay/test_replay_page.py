@@ -79,4 +79,4 @@ def test_only_recordings_are_converted_to_replays(
     assert main(("convert", str(log), "--to", "sdf")) == 1
     assert "is a recording; it is converted to glb or html" in capsys.readouterr().err
     assert main(("convert", str(log.parent / "w.sdf"), "--to", "html")) == 1
-    assert "an HTML replay is made of one by trundle run --record" in capsys.readouterr().err
+    assert "for an HTML replay, record one with trundle run --record" in capsys.readouterr().err

@@ -81,7 +81,7 @@ class PictureRenderer:
         loaded = load_world(file, packages, report)
         self._content = options.content
         self.empty_reason = empty_reason(loaded.flat)
-        """Why the picture is empty or drawn from the URDF without physics; None: neither."""
+        """Reason why the picture is empty or drawn from the URDF without physics; None: neither."""
         self.simulation = Simulation(loaded.flat, report)
         scene = scene_from_world(loaded.flat, report)
         self._static_poses: NDArray[np.float64] = np.zeros((0, 7))

@@ -41,13 +41,13 @@ class Terminal:
     def __init__(self) -> None:
         self.columns, self.rows = 80, 24
         self.ended: str | None = None
-        """How its program ended; None: it runs."""
+        """End of the program; None: it runs."""
         self.changes = 0
         """Number of changes of the displayed state."""
         self._output = bytearray()
         self._first = 0
         self._descriptor: int | None = None
-        """This process's side of the pseudo-terminal; None: there is none."""
+        """File of this process at the pseudo-terminal; None: there is none."""
         self._keys = bytearray()
         self._listener: Callable[[str], None] | None = None
 

@@ -49,7 +49,7 @@ class GazeboStepper:
         self.is_held = True
         """True until all services are registered."""
         self.stop_reason: str | None = None
-        """Why the simulation had to stop; None: it runs."""
+        """Reason why the simulation had to stop; None: it runs."""
 
     @property
     def is_lockstep(self) -> bool:

@@ -186,7 +186,7 @@ class GazeboWorld:
 
     @property
     def stop_reason(self) -> str | None:
-        """Why the simulation had to stop; None: it runs."""
+        """Reason why the simulation had to stop; None: it runs."""
         return self._stepper.stop_reason
 
     def set_paused(self, paused: bool) -> None:

@@ -26,7 +26,7 @@ class LaunchPrefix:
     needs_terminal: bool = False
     """True: the program reads keys, or draws on a screen."""
     fault: str | None = None
-    """Why words of the prefix are left out; None: all are used."""
+    """Reason why words of the prefix are left out; None: all are used."""
     program_fault: str | None = None
     """The same, for programs that are no terminals."""
 

@@ -47,7 +47,7 @@ class LaunchedNode:
     job: Job | None = None
     log_files: str = ""
     terminal: Terminal | None = None
-    """Its terminal on the page; None: it has none."""
+    """Terminal on the page; None: the node has none."""
 
     def failed(self) -> "LaunchedNode":
         """Copy of this, marked as not started."""

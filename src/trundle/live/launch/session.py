@@ -256,7 +256,7 @@ class LaunchSession:
 
     @property
     def stop_reason(self) -> str | None:
-        """Why its world had to stop; None: it runs."""
+        """Reason why the world had to stop; None: it runs."""
         return None if self._gazebo is None else self._gazebo.stop_reason
 
     @property

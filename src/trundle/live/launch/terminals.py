@@ -46,7 +46,7 @@ class NodeTerminals:
         return "inherited"
 
     def reason_for_none(self, node: LaunchNode) -> str:
-        """Why a node has no terminal, and what to do, for messages."""
+        """Reason why a node has no terminal, and what to do, for messages."""
         reason = "there is no terminal to read keys from; without --headless the page has one"
         if self.page is not None:
             reason = "Windows has no pseudo-terminals"

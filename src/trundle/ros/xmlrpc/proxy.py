@@ -16,7 +16,7 @@ class MasterProxy:
     """Blocking calls to the master, the parameter server or a node's slave API."""
 
     def __init__(self, uri: str | None = None, caller_id: str = "/trundle", *, timeout_s: float | None = None) -> None:
-        """Create; each call connects anew.
+        """Create; each call opens a connection.
 
         Args:
             uri: URI of the server; ROS_MASTER_URI by default.

@@ -70,7 +70,7 @@ class Frame:
             return Frame(self.M * other.M, self.M * other.p + self.p)
         if isinstance(other, Vector):
             return self.M * other + self.p
-        return other._moved(self) if hasattr(other, "_moved") else NotImplemented
+        return other._moved(self.M, self.p) if hasattr(other, "_moved") else NotImplemented
 
     def Inverse(self, argument: "Any" = None) -> "Any":
         """Inverse; or the inverse times a Vector, Twist or Wrench."""

@@ -10,8 +10,6 @@ TYPE_CHECKING = False  # not from `typing`, whose import takes longer than this 
 if TYPE_CHECKING:
     from typing import Any, Self
 
-    from .frame import Frame
-
 
 def _part(start: int) -> property:
     def read(self: "_Screw") -> "Part":
@@ -86,10 +84,10 @@ class Twist(_Screw):
         vel, rot = self._vectors()
         return Twist(vel + rot * v_base_AB, rot)
 
-    def _moved(self, frame: "Frame") -> "Twist":
-        """In the frame's parent, at the parent's origin."""
-        vel, rot = self._rotated(frame.M)._vectors()
-        return Twist(vel + frame.p * rot, rot)
+    def _moved(self, rotation: Rotation, origin: Vector) -> "Twist":
+        """In a frame's parent, at the parent's origin."""
+        vel, rot = self._rotated(rotation)._vectors()
+        return Twist(vel + origin * rot, rot)
 
 
 class Wrench(_Screw):
@@ -104,7 +102,7 @@ class Wrench(_Screw):
         force, torque = self._vectors()
         return Wrench(force, torque + force * v_base_AB)
 
-    def _moved(self, frame: "Frame") -> "Wrench":
-        """In the frame's parent, at the parent's origin."""
-        force, torque = self._rotated(frame.M)._vectors()
-        return Wrench(force, torque + frame.p * force)
+    def _moved(self, rotation: Rotation, origin: Vector) -> "Wrench":
+        """In a frame's parent, at the parent's origin."""
+        force, torque = self._rotated(rotation)._vectors()
+        return Wrench(force, torque + origin * force)
