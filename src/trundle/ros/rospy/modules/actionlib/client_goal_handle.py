@@ -1,15 +1,12 @@
 """Client's handle of a sent goal."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from actionlib_msgs.msg import GoalID, GoalStatus
 
 import rospy
 
 from .comm_state import CommState
-
-if TYPE_CHECKING:
-    from .comm_state_machine import CommStateMachine
 
 _TERMINAL = (
     GoalStatus.PREEMPTED,
@@ -24,7 +21,7 @@ _TERMINAL = (
 class ClientGoalHandle:
     """Reads the state of one goal, and cancels it. The client forgets the goal with its last handle."""
 
-    def __init__(self, comm_state_machine: "CommStateMachine") -> None:
+    def __init__(self, comm_state_machine: Any) -> None:
         self.comm_state_machine = comm_state_machine
 
     def __eq__(self, o: Any) -> bool:

@@ -1,18 +1,17 @@
 """Expiry of a goal after its last handle."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import rospy
 
 if TYPE_CHECKING:
-    from .action_server import ActionServer
     from .status_tracker import StatusTracker
 
 
 class HandleTrackerDeleter:
     """Callable that starts the timeout after which the server forgets a goal."""
 
-    def __init__(self, action_server: "ActionServer", status_tracker: "StatusTracker") -> None:
+    def __init__(self, action_server: Any, status_tracker: "StatusTracker") -> None:
         self.action_server = action_server
         self.status_tracker = status_tracker
 

@@ -8,7 +8,6 @@ from actionlib_msgs.msg import GoalID, GoalStatus
 import rospy
 
 if TYPE_CHECKING:
-    from .action_server import ActionServer
     from .handle_tracker_deleter import HandleTrackerDeleter
     from .status_tracker import StatusTracker
 
@@ -22,7 +21,7 @@ class ServerGoalHandle:
     def __init__(
         self,
         status_tracker: "StatusTracker | None" = None,
-        action_server: "ActionServer | None" = None,
+        action_server: Any = None,
         handle_tracker: "HandleTrackerDeleter | None" = None,
     ) -> None:
         self.status_tracker: Any = status_tracker

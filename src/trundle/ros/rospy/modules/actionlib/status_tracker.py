@@ -1,15 +1,12 @@
 """Status of one goal at its server."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from actionlib_msgs.msg import GoalStatus
 
 import rospy
 
 from .goal_id_generator import GoalIDGenerator
-
-if TYPE_CHECKING:
-    from .handle_tracker_deleter import HandleTrackerDeleter
 
 
 class StatusTracker:
@@ -18,7 +15,7 @@ class StatusTracker:
     def __init__(self, goal_id: Any = None, status: int | None = None, goal: Any = None) -> None:
         """Track a goal, or a cancel request (goal_id, status) whose goal has not arrived yet."""
         self.goal = goal
-        self.handle_tracker: HandleTrackerDeleter | None = None
+        self.handle_tracker: Any = None
         self.handle_destruction_time = rospy.Time()
         """Time when the last handle was deleted, or the goal ended; 0 before."""
         self.status = GoalStatus()

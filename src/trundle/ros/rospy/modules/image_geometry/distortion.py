@@ -1,19 +1,28 @@
 """Lens distortion by the plumb bob and rational models (D. C. Brown, 1966; OpenCV's camera calibration)."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from .cameramodels import PinholeCameraModel
-
     _Array = NDArray[np.float64]
 
 _ROUNDS = 20
 """Fixed-point iterations of the inverse; a few suffice for usual lenses."""
+
+
+class Camera(Protocol):
+    """Calibrated camera, as PinholeCameraModel."""
+
+    K: Any
+    D: Any
+    R: Any
+    P: Any
+    width: Any
+    height: Any
 
 
 def distort(x: "_Array", y: "_Array", coefficients: Sequence[float]) -> "tuple[_Array, _Array]":
@@ -46,7 +55,7 @@ def undistort_point(
     return np.array([u / w, v / w])
 
 
-def rectify_maps(model: "PinholeCameraModel") -> "tuple[NDArray[np.float32], NDArray[np.float32]]":
+def rectify_maps(model: Camera) -> "tuple[NDArray[np.float32], NDArray[np.float32]]":
     """Raw pixel x and y, each (height, width), of every rectified pixel."""
     k, r, p = (np.asarray(matrix, dtype=float) for matrix in (model.K, model.R, model.P))
     v, u = np.mgrid[0 : model.height, 0 : model.width].astype(float)
@@ -60,7 +69,7 @@ def rectify_maps(model: "PinholeCameraModel") -> "tuple[NDArray[np.float32], NDA
 
 
 def rectify_image(
-    model: "PinholeCameraModel", raw: "NDArray[Any]", rectified: "NDArray[Any]"
+    model: Camera, raw: "NDArray[Any]", rectified: "NDArray[Any]"
 ) -> "tuple[NDArray[np.float32], NDArray[np.float32]]":
     """Write the rectified image; returns the maps. Bicubic with OpenCV, else bilinear; black outside."""
     map_x, map_y = rectify_maps(model)
