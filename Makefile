@@ -83,7 +83,7 @@ lint: $(READY)
 	$(NPM) run --silent check
 
 types: $(READY)
-	PYRIGHT_PYTHON_IGNORE_WARNINGS=1 $(BIN)/pyright  # which else asks the net for its newest version
+	PYRIGHT_PYTHON_IGNORE_WARNINGS=1 $(BIN)/pyright --threads 2  # which else asks the net for its newest version
 
 tidy: $(READY)  ## clang-tidy over all of cpp/ (installs it, 46 MB)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt clang-tidy nanobind
