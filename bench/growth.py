@@ -1,4 +1,4 @@
-"""What grows with a world: its robots, its bodies, the faces of a mesh.
+"""Cost of large worlds: hundreds of robots, thousands of boxes, meshes of a million faces.
 
 A row of larger worlds divides by their size, and its peer is the smallest: 1 is linear. Times are of this process' CPU.
 """
@@ -19,7 +19,7 @@ from trundle.sim.simulation import Simulation
 _ROBOTS = (100, 400, 1_000)
 _BOXES = 3_000
 _SUBDIVISIONS = (6, 7, 8)
-"""Of icospheres: 20 × 4^n faces, 82 thousand to 1.3 million."""
+"""Subdivisions of icospheres, which have 20 × 4^n faces: 82 thousand to 1.3 million."""
 _PAIRS = 5
 _STEPS = 20
 _FLOOR = """<model name="floor"><static>1</static><link name="l"><collision name="c"><geometry><plane/></geometry>
