@@ -1,6 +1,7 @@
 """Bags: files of messages."""
 
 from .bag import Bag, Compression
+from .bag_tuples import BagMessage, BagMessageWithConnectionHeader
 from .exceptions import (
     ROSBagEncryptException,
     ROSBagEncryptNotSupportedException,
@@ -8,7 +9,6 @@ from .exceptions import (
     ROSBagFormatException,
     ROSBagUnindexedException,
 )
-from .tuples import BagMessage, BagMessageWithConnectionHeader
 
 TYPE_CHECKING = False  # not from `typing`, whose import takes longer than this package's
 if TYPE_CHECKING:

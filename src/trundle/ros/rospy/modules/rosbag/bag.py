@@ -13,11 +13,7 @@ import roslib.names
 import rospy
 from trundle.ros import BagConnection, BagSummary, byte_text
 
-from .exceptions import ROSBagEncryptNotSupportedException, ROSBagException
-from .message_class import message_class
-from .read_file import ReadFile
-from .streams import SpooledStream
-from .tuples import (
+from .bag_tuples import (
     BagMessage,
     BagMessageWithConnectionHeader,
     CompressionTuple,
@@ -25,6 +21,10 @@ from .tuples import (
     TypesAndTopicsTuple,
     median_frequency,
 )
+from .exceptions import ROSBagEncryptNotSupportedException, ROSBagException
+from .message_class import message_class
+from .read_file import ReadFile
+from .streams import SpooledStream
 from .write_file import WriteFile
 
 
