@@ -15,7 +15,7 @@ import { Layout } from "./layout";
 import { Notices } from "./notices/notices";
 import type { OpenMenu } from "./object_menu/open_menu";
 import type { Page } from "../page/page";
-import { recallSplit } from "./panes/recalled_split";
+import { recallSplit } from "./panes/remembered_split";
 import { isBoolean, recall, remember } from "../page/storage";
 import { Videos } from "./video/videos";
 

@@ -11,7 +11,7 @@ import { NOT_PICKED } from "../scene/picking";
 import { BaseTool, type ToolContext } from "./base_tool";
 import type { Request } from "../protocol/connection";
 import type { Drawn, HandleTarget } from "./handles/handle_target";
-import { copyOf, targetOf } from "./handles/target_of_selection";
+import { copyOf, targetOf } from "./handles/selection_target";
 import { LatestRequest } from "./handles/latest_request";
 import { SelectionHandles, type Handle } from "./handles/selection_handles";
 import { selectionOf } from "./picked";

@@ -6,7 +6,7 @@ import { lookThrough, toggleFirstPerson } from "../views/first_person";
 import { isFollowing, toggleFollowing } from "../views/following";
 import { frameSelection } from "../views/framing";
 import type { Shell } from "../shell";
-import { chooseSplit } from "./recalled_split";
+import { chooseSplit } from "./remembered_split";
 
 const SIDES = ["top", "front", "right", "bottom", "back", "left"] as const;
 

@@ -6,7 +6,7 @@ import { PANE_LAYOUTS, type PaneLayout } from "../../scene/panes/pane_layout";
 import { MenuButton } from "../../theme/menu";
 import type { Command } from "../../page/page";
 import type { Shell } from "../shell";
-import { chooseSplit } from "./recalled_split";
+import { chooseSplit } from "./remembered_split";
 
 const TITLES: Readonly<Record<PaneLayout, string>> = {
   one: "One view",
