@@ -35,6 +35,8 @@ def test_nodes_go_on_without_their_master_and_register_again(capfd: pytest.Captu
             listener.subscribe("/a", STRING, lambda message: got.append(message.data))
             listening.run(listener.params.watch("/rate", lambda _, value: changes.append(value)), PATIENCE_S)
             until(lambda: publisher.has_subscribers)
+            talking.run(talker.wait_registered(), PATIENCE_S)
+            listening.run(listener.wait_registered(), PATIENCE_S)
             mastering.run(core.stop(), PATIENCE_S)
         output = ""
 
