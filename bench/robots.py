@@ -1,7 +1,7 @@
 """One, ten and fifty RP2Ws: simulation of the SDF against a hand-written MuJoCo model with MuJoCo's defaults.
 
 Times are of this process' CPU, which depends least on other programs. The cost of a robot must not grow with the
-number of robots: rows for one of several robots divide the cost by their number.
+number of robots: rows "one of N" give the cost per robot, against that of one robot alone.
 """
 
 import resource

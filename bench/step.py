@@ -1,6 +1,6 @@
 """Stepping the RP2W: cost of the simulation against the engine's bare loop on the same compiled model.
 
-Times are of all threads of this process, which depend least on other programs.
+Times are CPU times of all threads of this process, which vary least with other programs' load.
 """
 
 import contextlib
@@ -21,7 +21,7 @@ ROBOT = Path(__file__).parents[1] / "examples/rp2w"
 PUBLISHED = ROBOT.parents[2] / "shared/seeds/rp2w"
 _STEPS = 20_000
 _COMMAND_STEPS = 10 * _STEPS
-"""More steps, because the subtracted start time varies."""
+"""Steps of a `trundle run`: more, because the start time that `command_rate` subtracts varies."""
 _PAIRS = 7
 
 

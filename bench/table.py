@@ -15,7 +15,7 @@ class Row:
     against: str
     """Peer and its options, measured in the same run; empty: none."""
     ratio: float | None
-    """Median over pairs of the value over the peer's value."""
+    """Median of value / peer's value in all pairs; None: no peer."""
 
 
 def print_table(rows: Sequence[Row]) -> None:

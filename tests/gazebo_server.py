@@ -72,14 +72,14 @@ class Gazebo:
         """Wait until a simulation time [s]."""
         until(lambda: self.time_s >= seconds)
 
-    def hear(self, topic: str, kind: str) -> list[Message]:
+    def subscribe(self, topic: str, kind: str) -> list[Message]:
         """Collect a topic's messages from now on; return once a publisher is connected."""
-        heard: list[Message] = []
-        subscription = self.client.subscribe(topic, kind, heard.append, queue_size=None)
+        messages: list[Message] = []
+        subscription = self.client.subscribe(topic, kind, messages.append, queue_size=None)
         until(lambda: subscription.publishers)
-        return heard
+        return messages
 
-    def speak(self, topic: str, kind: str) -> Callable[[dict[str, Any]], None]:
+    def advertise(self, topic: str, kind: str) -> Callable[[dict[str, Any]], None]:
         """Return a function that publishes on a topic, once a subscriber is connected."""
         publisher = self.client.advertise(topic, kind, queue_size=None)
         until(lambda: publisher.has_subscribers)

@@ -14,8 +14,10 @@ namespace trundle {
 
 namespace {
 
-constexpr double kMinRowJump = 0.02;  // [m/s] change of tangential velocity in one step; less lifts by under 0.1 mm
-constexpr double kMinSpeed = 1e-6;    // [m/s] slower sliding lifts negligibly
+// Change of tangential velocity in one step [m/s]; smaller ones lift a contact by under 0.1 mm.
+constexpr double kMinRowJump = 0.02;
+// Speed [m/s]; slower sliding lifts negligibly.
+constexpr double kMinSpeed = 1e-6;
 
 struct Spring {
   double stiffness, damping;  // of a row [1/s², 1/s], by MuJoCo's rules for solref
@@ -30,7 +32,8 @@ Spring spring(const mjtNum* solref, double impedance) {
   return {-solref[0] / (d * d), -solref[1] / d};
 }
 
-// Height by which sliding would lift a contact [m]; accelerations: per constraint row, of the previous step.
+// Height by which sliding would lift a contact [m]; accelerations: per constraint row, of the previous step, or of
+// this one after a jump of a motor's command.
 //
 // A row's force is (reference − acceleration) / R. While a contact slides, its friction rows miss their reference by a
 // residual, and the dual cone offsets the normal row by μ times that.
@@ -44,18 +47,18 @@ double lift(const mjContact& contact, const mjData* d, double h, const double* a
     const int row = contact.efc_address + j;
     residuals[j] = contact.friction[j - 1] * std::abs(accelerations[row] + decay * d->efc_vel[row]);
   }
-  if (has_pyramid(contact)) {  // its dual adds up
+  if (has_pyramid(contact)) {  // the dual norm of a pyramid is the sum of both
     residuals[1] += residuals[2];
     residuals[2] = 0;
   }
   double sum = 0;
   for (const double residual : residuals) sum += residual * residual;
-  // The normal spring is implicit, which divides its reference by the same sum as R.
-  const double whole = 1 + h * normal.damping + h * h * stiffness;
-  // At an impact, friction that the previous step lacked holds with up to μ times the stopping force.
+  // MuJoCo integrates the normal spring implicitly: its reference and R are divided by this factor.
+  const double implicit_factor = 1 + h * normal.damping + h * h * stiffness;
+  // At an impact the stopping force allows up to μ times as much friction, which the previous step did not have.
   const double max_friction = std::max(contact.friction[0], contact.friction[1]);
-  const double impact = std::max(-d->efc_vel[contact.efc_address], 0.0) * normal.damping / whole;
-  return std::max(std::sqrt(sum) - max_friction * max_friction * impact, 0.0) * whole / stiffness;
+  const double impact = std::max(-d->efc_vel[contact.efc_address], 0.0) * normal.damping / implicit_factor;
+  return std::max(std::sqrt(sum) - max_friction * max_friction * impact, 0.0) * implicit_factor / stiffness;
 }
 
 bool is_sliding(const mjContact& contact, const mjData* d) {
@@ -72,8 +75,8 @@ std::pair<int, int> trees(const mjModel* m, const mjContact& contact) {
   return std::minmax(m->body_treeid[m->geom_bodyid[contact.geom[0]]], m->body_treeid[m->geom_bodyid[contact.geom[1]]]);
 }
 
-// Twice the effort by which friction holds a degree of freedom [N·m or N], if the lighter of two trees rests on all of
-// their contacts; column: of the constraint Jacobian.
+// Effort by which friction holds a degree of freedom [N·m or N], with a safety factor of 2. Each contact of two trees
+// is assumed to carry an equal share of the lighter tree. column: the degree of freedom's, of the constraint Jacobian.
 double holding_effort(const mjModel* m, const mjData* d, const double* column) {
   double sum = 0;
   for (int i = 0; i < d->ncon; ++i) {
@@ -85,9 +88,9 @@ double holding_effort(const mjModel* m, const mjData* d, const double* column) {
     double mass = mjMAXVAL;
     for (const int tree : {both.first, both.second})
       if (tree >= 0) mass = std::min(mass, m->body_subtreemass[m->tree_bodyadr[tree]]);
-    const double* across = column + contact.efc_address + 1;
+    const double* tangential = column + contact.efc_address + 1;
     const double load = 2.0 * std::sqrt(dot(m->opt.gravity, m->opt.gravity)) * mass / static_cast<double>(points);
-    sum += load * std::hypot(contact.friction[0] * across[0], contact.friction[1] * across[1]);
+    sum += load * std::hypot(contact.friction[0] * tangential[0], contact.friction[1] * tangential[1]);
   }
   return sum;
 }
@@ -97,24 +100,24 @@ class Accelerations {
  public:
   Accelerations(const LawTables& laws, const mjModel* m, mjData* d) : m_(m), d_(d) {
     thread_local std::vector<Jump> jumps;
-    thread_local std::vector<double> next;
+    thread_local std::vector<double> unit;
     find_jumps(laws, m, d, jumps);
     for (const Jump& jump : jumps) {
-      next.assign(m->nv, 0.0);
-      next[jump.dof] = 1.0;
-      find(next.data(), next_);
-      const double residuals = (jump.effort - holding_effort(m, d, next_.data())) * m->dof_invweight0[jump.dof];
-      if (residuals <= 0.0) continue;
+      unit.assign(m->nv, 0.0);
+      unit[jump.dof] = 1.0;
+      find_row_accelerations(unit.data(), after_);
+      const double max_acceleration = (jump.effort - holding_effort(m, d, after_.data())) * m->dof_invweight0[jump.dof];
+      if (max_acceleration <= 0.0) continue;
       if (!jumps_) now_.assign(d->qacc_warmstart, d->qacc_warmstart + m->nv);
-      now_[jump.dof] = std::clamp(jump.acceleration, -residuals, residuals);
+      now_[jump.dof] = std::clamp(jump.acceleration, -max_acceleration, max_acceleration);
       jumps_ = true;
     }
-    if (jumps_) find(now_.data(), next_);
+    if (jumps_) find_row_accelerations(now_.data(), after_);
   }
 
   // Constraint-row accelerations of the previous step.
   const double* before() {
-    if (!known_) find(d_->qacc_warmstart, before_);
+    if (!known_) find_row_accelerations(d_->qacc_warmstart, before_);
     known_ = true;
     return before_.data();
   }
@@ -124,14 +127,14 @@ class Accelerations {
     if (!jumps_) return nullptr;
     double sum = 0;
     for (int row = contact.efc_address + 1; row < contact.efc_address + contact.dim; ++row) {
-      const double change = m_->opt.timestep * (next_[row] - before()[row]);
+      const double change = m_->opt.timestep * (after_[row] - before()[row]);
       sum += change * change;
     }
-    return sum > kMinRowJump * kMinRowJump ? next_.data() : nullptr;
+    return sum > kMinRowJump * kMinRowJump ? after_.data() : nullptr;
   }
 
  private:
-  void find(const double* accelerations, std::vector<double>& rows) {
+  void find_row_accelerations(const double* accelerations, std::vector<double>& rows) {
     rows.resize(d_->nefc);
     mujoco.mj_mulJacVec(m_, d_, rows.data(), accelerations);
   }
@@ -139,19 +142,16 @@ class Accelerations {
   const mjModel* m_;
   mjData* d_;
   bool jumps_ = false, known_ = false;
-  static thread_local std::vector<double> now_, before_, next_;  // reused between steps
+  static thread_local std::vector<double> now_, before_, after_;  // reused between steps
 };
 
-thread_local std::vector<double> Accelerations::now_, Accelerations::before_, Accelerations::next_;
+thread_local std::vector<double> Accelerations::now_, Accelerations::before_, Accelerations::after_;
 
-}  // namespace
-
-namespace {
-
-// Depth at which a spring carries the load that Gazebo's ODE carries at rest at another depth. ODE caps the correction
-// rate · depth at max_vel, so points sink until later steps correct as much: physics/compile/compliance.py, rest_depth.
+// Depth x at which our spring carries the load that Gazebo's ODE carries when resting at `depth`. ODE caps the
+// correction rate · depth at max_vel, so points sink until later steps correct as much: physics/compile/compliance.py,
+// rest_depth.
 //
-// With gravity · h = w, at rest depth = x (1 + (rate x − max_vel) / w) if that exceeds the spring's depth x.
+// With w = gravity · h, ODE rests at depth = x (1 + (rate x − max_vel) / w) if that exceeds x; solved here for x.
 double carrying_depth(const ComplianceRow& row, double depth, double w) {
   if (row.rate <= 0 || row.rate * depth <= row.max_vel) return depth;
   const double linear = w - row.max_vel;
@@ -169,7 +169,7 @@ double slip_decay(const mjContact& contact, double h) {
 
 void apply_compliance(const LawTables& laws, const mjModel* m, mjData* d) {
   if (laws.compliance.empty()) return;
-  const double fall = std::sqrt(dot(m->opt.gravity, m->opt.gravity)) * m->opt.timestep;
+  const double gravity_step = std::sqrt(dot(m->opt.gravity, m->opt.gravity)) * m->opt.timestep;
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
     if (contact.efc_address < 0) continue;
@@ -177,7 +177,7 @@ void apply_compliance(const LawTables& laws, const mjModel* m, mjData* d) {
     if (!row) continue;
     double& margin = d->efc_margin[contact.efc_address];
     if (row->depth > 0) margin = std::max(contact.dist, -row->depth);
-    margin = contact.dist + row->factor * carrying_depth(*row, margin - contact.dist, fall);
+    margin = contact.dist + row->factor * carrying_depth(*row, margin - contact.dist, gravity_step);
   }
 }
 

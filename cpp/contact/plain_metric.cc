@@ -9,7 +9,7 @@ namespace {
 
 bool is_zero(double value) { return value == 0.0; }
 
-// True if dampers, springs, tendons or a fluid contribute to the metric; motors have no gains and do not contribute.
+// True if dampers, springs, tendons or a fluid contribute to the metric; our actuators have no gains and do not.
 bool has_terms(const mjModel* m, const mjData* d) {
   if (d->efm_active != 1 || d->nefmT > 0) return true;
   if (m->opt.density != 0.0 || m->opt.viscosity != 0.0) return true;
@@ -31,22 +31,22 @@ const std::vector<char>& find_touching(const mjModel* m, const mjData* d) {
 }
 
 // True if a free body can have gyroscopic torques: its inertia is not spherical about its origin.
-bool wobbles(const mjModel* m, int body) {
+bool has_gyroscopic_torque(const mjModel* m, int body) {
   const double* inertia = m->body_inertia + 3 * body;
   const double* centre = m->body_ipos + 3 * body;
   const bool is_round = inertia[0] == inertia[1] && inertia[1] == inertia[2];
   return !is_round || !std::all_of(centre, centre + 3, is_zero);
 }
 
-// True if MuJoCo integrates the gyroscopic forces of some body implicitly, in the metric: of a single free body
-// without contact.
-bool any_flies(const mjModel* m, const mjData* d) {
+// True if gyroscopic forces of some body are in the metric, where MuJoCo integrates them implicitly. It does so only
+// for free bodies that are alone in their tree and not in contact.
+bool has_implicit_gyroscopic_body(const mjModel* m, const mjData* d) {
   const std::vector<char>& touching = find_touching(m, d);
   for (int joint = 0; joint < m->njnt; ++joint) {
     if (m->jnt_type[joint] != mjJNT_FREE) continue;
     const int body = m->jnt_bodyid[joint], tree = m->body_treeid[body];
     const bool moves = d->tree_asleep[tree] < 0;
-    if (m->tree_dofnum[tree] == 6 && moves && !touching[tree] && wobbles(m, body)) return true;
+    if (m->tree_dofnum[tree] == 6 && moves && !touching[tree] && has_gyroscopic_torque(m, body)) return true;
   }
   return false;
 }
@@ -54,7 +54,7 @@ bool any_flies(const mjModel* m, const mjData* d) {
 }  // namespace
 
 void use_plain_metric(const mjModel* m, mjData* d) {
-  if (m->opt.integrator != mjINT_DISCRETE || has_terms(m, d) || any_flies(m, d)) return;
+  if (m->opt.integrator != mjINT_DISCRETE || has_terms(m, d) || has_implicit_gyroscopic_body(m, d)) return;
   d->efm_active = 0;
   // MuJoCo does not update efm_sdiag while the metric is off, and its solver would add the stale values.
   d->efm_diag = d->efm_sdiag = nullptr;

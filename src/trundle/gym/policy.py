@@ -22,7 +22,7 @@ _PARTS = ("mean", "deviation", "low", "high")
 
 
 class MlpPolicy(Struct, frozen=True, eq=False):
-    """Multilayer perceptron from normalized observations to actions in −1 … 1."""
+    """Multilayer perceptron with normalized observations, whose outputs −1 … 1 are scaled to low … high."""
 
     parameters: tuple[_Array, ...]
     """Weights and bias of each layer; see `networks.evaluate`."""

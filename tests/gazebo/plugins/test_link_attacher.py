@@ -58,7 +58,7 @@ def test_attached_models_move_together_until_detached(bare_gazebo: Gazebo) -> No
 def test_an_invalid_attachment_is_refused_and_logged(bare_gazebo: Gazebo) -> None:
     gazebo = bare_gazebo
     gazebo.start(world=_world(_model("a"), _model("b", 1.0)))
-    log = gazebo.hear("/rosout_agg", "rosgraph_msgs/Log")
+    log = gazebo.subscribe("/rosout_agg", "rosgraph_msgs/Log")
     assert not _call_service(gazebo, "attach", "a", "c")
     assert not _call_service(gazebo, "attach", "a", "b", link="nose")
     assert not _call_service(gazebo, "attach", "a", "a")

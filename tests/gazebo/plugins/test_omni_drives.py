@@ -1,4 +1,4 @@
-"""Plugins that drive in the plane, with random parameters, against the motion of a body with the commanded twist."""
+"""Planar drive plugins with random parameters, compared with the exact motion of a body with the commanded twist."""
 
 import math
 from pathlib import Path
@@ -26,26 +26,26 @@ def _driven(folder: Path, rng: np.random.Generator, plugin: str) -> tuple[Simula
     node: Any = FakeNode()
     node.clock = SimpleNamespace(now_ns=lambda: sim.time_ns)
     sim = load(folder, f"{body}{inertial}</link>{plugin}", node=node)
-    x, y, turn = (float(value) for value in rng.uniform((-2, -2, -3), (2, 2, 3)))
-    node.receive("/cmd_vel", linear={"x": x, "y": y}, angular={"z": turn})
+    x, y, yaw_rate = (float(value) for value in rng.uniform((-2, -2, -3), (2, 2, 3)))
+    node.receive("/cmd_vel", linear={"x": x, "y": y}, angular={"z": yaw_rate})
     sim.run(SECONDS)
-    return sim, (x, y, turn)
+    return sim, (x, y, yaw_rate)
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_planar_move_drives_arcs(tmp_path: Path, seed: int) -> None:
     rng = np.random.default_rng(seed)
-    sim, (x, y, turn) = _driven(tmp_path, rng, '<plugin name="p" filename="libgazebo_ros_planar_move.so"/>')
+    sim, (x, y, yaw_rate) = _driven(tmp_path, rng, '<plugin name="p" filename="libgazebo_ros_planar_move.so"/>')
     start, end_pose = sim.world.models[0].world_from_model, sim["m"].pose
-    along, across = math.sin(turn * SECONDS) / turn, (1.0 - math.cos(turn * SECONDS)) / turn
+    along, across = math.sin(yaw_rate * SECONDS) / yaw_rate, (1.0 - math.cos(yaw_rate * SECONDS)) / yaw_rate
     end = start.transform_point((along * x - across * y, across * x + along * y, 0.0))
     assert end_pose.position == pytest.approx(end, abs=2e-3 * math.hypot(x, y) * SECONDS)
-    assert math.remainder(end_pose.rpy[2] - start.rpy[2] - turn * SECONDS, math.tau) == pytest.approx(0.0, abs=1e-4)
+    assert math.remainder(end_pose.rpy[2] - start.rpy[2] - yaw_rate * SECONDS, math.tau) == pytest.approx(0.0, abs=1e-4)
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_force_based_move_follows_the_command_with_its_gains(tmp_path: Path, seed: int) -> None:
-    """m (v' + ω × v) = gain (command − v), for gains up to a third of what a step can follow."""
+    """m (v' + ω × v) = gain (command − v), for gains up to a third of the stability limit of the time step."""
     rng = np.random.default_rng(seed)
     state = rng.bit_generator.state
     mass, moment = 10 ** rng.uniform(0, 2.5), 10 ** rng.uniform(-1, 1)
@@ -61,10 +61,10 @@ def test_force_based_move_follows_the_command_with_its_gains(tmp_path: Path, see
     start, end_pose = sim.world.models[0].world_from_model, sim["m"].pose
 
     def motion(_time: float, state: Any) -> Any:
-        yaw, vx, vy, turn = state[2:]
-        ax, ay, aw = rates * (np.array(command) - (vx, vy, turn))
+        yaw, vx, vy, yaw_rate = state[2:]
+        ax, ay, aw = rates * (np.array(command) - (vx, vy, yaw_rate))
         forward, left = math.cos(yaw) * vx - math.sin(yaw) * vy, math.sin(yaw) * vx + math.cos(yaw) * vy
-        return forward, left, turn, ax + turn * vy, ay - turn * vx, aw
+        return forward, left, yaw_rate, ax + yaw_rate * vy, ay - yaw_rate * vx, aw
 
     truth = solve_ivp(motion, (0.0, SECONDS), np.zeros(6), method="DOP853", rtol=1e-9, atol=1e-10).y[:, -1]
     end = start.transform_point((float(truth[0]), float(truth[1]), 0.0))

@@ -1,4 +1,4 @@
-"""Hollow meshes are cut in the background while their hulls stand in."""
+"""Concave meshes are decomposed in the background; until then they collide as their convex hulls."""
 
 import threading
 from collections.abc import Generator, Sequence
@@ -60,7 +60,7 @@ def test_a_model_is_spawned_at_once_and_its_meshes_are_cut_later(
     may_cut.set()
     until(lambda: any("meshes are cut" in line for line in gazebo.lines))
 
-    assert _shapes(gazebo) >= count + 3 * _COUNT  # two pieces of each, and the hull that it stands on a plane with
+    assert _shapes(gazebo) >= count + 3 * _COUNT  # at least two pieces each, and the hull that meets planes
     assert (gazebo.state("m").pose.position.z, gazebo.time_s) == (height, time_s)
     assert gazebo.lines[-2:] == [
         f"hulls stand in for {_COUNT} hollow meshes until they are cut into convex pieces",

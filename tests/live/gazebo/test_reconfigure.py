@@ -60,7 +60,7 @@ def test_a_camera_takes_pictures_at_the_rate_it_is_set_to(gazebo: Gazebo) -> Non
     assert gazebo.spawn(CAMERA, "mast").success
     assert options(gazebo, "/r/front")["imager_rate"].value == pytest.approx(50.0)
     change(gazebo, "/r/front", imager_rate=200)
-    images = gazebo.hear("/r/front/image_raw", "sensor_msgs/Image")
+    images = gazebo.subscribe("/r/front/image_raw", "sensor_msgs/Image")
     gazebo.call("unpause_physics")
 
     def shortest() -> int:  # a busy machine drops pictures
@@ -83,8 +83,10 @@ def test_multicamera_images_stay_synchronized_at_a_new_rate(gazebo: Gazebo) -> N
     service_ready = gazebo.client.wait_for_service("/r/front/left/set_parameters", PATIENCE_S)
     gazebo.loop.run(service_ready, timeout_s=PATIENCE_S)
     change(gazebo, "/r/front/left", imager_rate=200)
-    images = {side: gazebo.hear(f"/r/front/{side}/image_raw", "sensor_msgs/Image") for side in ("left", "right")}
-    infos = {side: gazebo.hear(f"/r/front/{side}/camera_info", "sensor_msgs/CameraInfo") for side in ("left", "right")}
+    images = {side: gazebo.subscribe(f"/r/front/{side}/image_raw", "sensor_msgs/Image") for side in ("left", "right")}
+    infos = {
+        side: gazebo.subscribe(f"/r/front/{side}/camera_info", "sensor_msgs/CameraInfo") for side in ("left", "right")
+    }
     gazebo.call("unpause_physics")
 
     def gaps(side: str) -> set[int]:  # a busy machine drops pictures

@@ -39,7 +39,7 @@ def test_replay_repeats_services_and_messages(gazebo: Gazebo) -> None:
     gazebo.spawn(_CART, "cart")
     gazebo.spawn(_BALL, "ball")
     _on_simulation_thread(gazebo, lambda: gazebo.world.live.keep_timeline(100_000_000))
-    drive = gazebo.speak("/go", "geometry_msgs/Twist")
+    drive = gazebo.advertise("/go", "geometry_msgs/Twist")
     gazebo.call("unpause_physics")
     gazebo.until_s(0.5)
     drive({"linear": {"x": 1.0}})
@@ -93,7 +93,7 @@ def test_loading_a_controller_restarts_the_timeline_and_replay_repeats_its_drive
     gazebo.call("unpause_physics")
     gazebo.until_s(0.2)
     with driving(gazebo, BIKE, ACKERMANN):
-        drive = gazebo.speak("/base/cmd_vel", "geometry_msgs/Twist")
+        drive = gazebo.advertise("/base/cmd_vel", "geometry_msgs/Twist")
 
         def has_driven(metres: float) -> bool:
             drive({"linear": {"x": 0.5}})

@@ -158,8 +158,8 @@ def test_published_states_equal_those_of_the_services(gazebo: Gazebo) -> None:
     turning = {"position": {"x": 1.0, "z": 3.0}, "orientation": {"z": 1.0}}
     target = {"model_name": "off", "pose": turning, "twist": {"linear": {"x": 0.25}, "angular": {"z": 0.5}}}
     assert gazebo.call("set_model_state", "gazebo_msgs/SetModelState", model_state=target).success
-    models = gazebo.hear("/gazebo/model_states", "gazebo_msgs/ModelStates")
-    links = gazebo.hear("/gazebo/link_states", "gazebo_msgs/LinkStates")
+    models = gazebo.subscribe("/gazebo/model_states", "gazebo_msgs/ModelStates")
+    links = gazebo.subscribe("/gazebo/link_states", "gazebo_msgs/LinkStates")
     until(lambda: models and links)
 
     row = list(models[-1].name).index("off")
@@ -183,7 +183,7 @@ def test_clock_has_every_step_for_subscribers_without_a_queue_limit(gazebo: Gaze
     until(lambda: len(stamps) > 20)
     assert {stamp % 10_000_000 for stamp in stamps} == {0}
 
-    gazebo.hear("/clock", "rosgraph_msgs/Clock")
+    gazebo.subscribe("/clock", "rosgraph_msgs/Clock")
     until(lambda: any(b - a == 1_000_000 for a, b in pairwise(stamps)))
 
 
@@ -361,7 +361,7 @@ def test_topics_end_with_their_model_unless_another_model_shares_them(gazebo: Ga
     gazebo.call("delete_model", "gazebo_msgs/DeleteModel", model_name="one")
     until(lambda: topics() == {"/both"})
 
-    messages = gazebo.hear("/both", "sensor_msgs/Imu")
+    messages = gazebo.subscribe("/both", "sensor_msgs/Imu")
     gazebo.call("unpause_physics")
     until(lambda: messages)
 
@@ -375,7 +375,7 @@ def test_performance_metrics_hold_the_sensors_rates(gazebo: Gazebo) -> None:
     gazebo.spawn(
         f"<sdf version='1.6'><model name='m'><static>1</static><link name='l'>{sensors}</link></model></sdf>", "m"
     )
-    messages = gazebo.hear("/gazebo/performance_metrics", "gazebo_msgs/PerformanceMetrics")
+    messages = gazebo.subscribe("/gazebo/performance_metrics", "gazebo_msgs/PerformanceMetrics")
     gazebo.call("unpause_physics")
     until(lambda: len(messages) > 1)
 

@@ -77,5 +77,5 @@ def test_a_shortage_of_descriptors_is_reported_once_and_accepting_resumes(*, cli
     assert process.returncode == 0
     assert output == (
         "this process has as many files open as it may (30; ulimit -n): close some, or raise the limit; "
-        "connections are accepted again then\n"
+        "after that, new connections are accepted again\n"
     )

@@ -22,9 +22,9 @@ SPOT = SceneLight(
 
 
 def torus(rings: int = 24, sides: int = 12) -> Mesh:
-    """Torus of 0.4 m and 0.15 m, textured."""
+    """Torus with radii of 0.4 m and 0.15 m."""
     around, along = np.meshgrid(np.arange(rings), np.arange(sides), indexing="ij")
-    # Powers of one rotation: the sines of different C libraries differ in their last bits.
+    # Rounded: the sines of different C libraries differ in their last bits.
     a = np.round(np.exp(2j * math.pi * around / rings), 6)
     b = np.round(np.exp(2j * math.pi * along / sides), 6)
     radius = 0.4 + 0.15 * b.real

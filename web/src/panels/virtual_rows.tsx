@@ -14,26 +14,26 @@ interface VirtualRowsProps<T> {
   readonly onKey?: (event: KeyboardEvent) => void;
 }
 
-const BEYOND = 4;
+const OVERSCAN = 4;
 
 export function VirtualRows<T>({ label, items, height, follow, row, onKey }: VirtualRowsProps<T>): JSX.Element {
   const box = useRef<HTMLDivElement>(null);
   const isAtEnd = useRef(true);
   const [top, setTop] = useState(0);
-  const [room, setRoom] = useState(0);
+  const [viewportHeight, setViewportHeight] = useState(0);
   useLayoutEffect(() => {
     const element = box.current;
     if (element === null) return;
-    const observer = new ResizeObserver(() => setRoom(element.clientHeight));
+    const observer = new ResizeObserver(() => setViewportHeight(element.clientHeight));
     observer.observe(element);
     return () => observer.disconnect();
   }, []);
   useLayoutEffect(() => {
     const element = box.current;
     if (element !== null && follow && isAtEnd.current) element.scrollTop = element.scrollHeight;
-  }, [items, follow, room]);
-  const first = Math.max(0, Math.floor(top / height) - BEYOND);
-  const last = Math.min(items.length, Math.ceil((top + room) / height) + BEYOND);
+  }, [items, follow, viewportHeight]);
+  const first = Math.max(0, Math.floor(top / height) - OVERSCAN);
+  const last = Math.min(items.length, Math.ceil((top + viewportHeight) / height) + OVERSCAN);
   return (
     <div
       ref={box}

@@ -5,10 +5,10 @@ import { parseJson, type Json } from "./json";
 /** The page cannot read a message; the text is a sentence for a person. */
 export class MessageFault extends Error {}
 
-/** Returns a value, which is a T; throws a `Mismatch` where it is none. */
+/** Returns the value as a T; throws a `Mismatch` if it is none. */
 export type Check<T> = (value: unknown) => T;
 
-/** Mismatch of a value with its type; `path` leads to it from the checked value, empty: the value itself. */
+/** Mismatch of a value with its type; `path` is the field or item at fault, such as `links[2].name`; empty: the value itself. */
 class Mismatch extends Error {
   constructor(
     readonly reason: string,
@@ -135,7 +135,7 @@ export function tagged<T>(tag: string, structs: () => Readonly<Record<string, Ch
     const kind = checkField(mapping(value)[tag], text, tag);
     checks ??= structs();
     const check = Object.hasOwn(checks, kind) ? checks[kind] : undefined;
-    if (check === undefined) throw new Mismatch(`is the unknown '${kind}'`, tag);
+    if (check === undefined) throw new Mismatch(`has the unknown value '${kind}'`, tag);
     return check(value);
   };
 }

@@ -14,18 +14,18 @@ export class Select extends BaseTool {
   readonly shortcut = "s";
   readonly icon = "box";
   private start: PointerInput | null = null;
-  private readonly frame = document.createElement("div");
+  private readonly rubberBand = document.createElement("div");
 
   activate(): void {
     this.hint.value = "Click, or drag a box.";
     const style =
       "position: absolute; pointer-events: none; border: 1px dashed var(--accent); background: var(--accent-soft)";
-    this.frame.setAttribute("style", style);
+    this.rubberBand.setAttribute("style", style);
   }
 
   deactivate(): void {
     this.start = null;
-    this.frame.remove();
+    this.rubberBand.remove();
   }
 
   pointer(input: PointerInput): boolean {
@@ -39,7 +39,7 @@ export class Select extends BaseTool {
     else {
       if (input.kind === "up") this.select(this.start, input);
       this.start = null;
-      this.frame.remove();
+      this.rubberBand.remove();
     }
     return true;
   }
@@ -53,13 +53,13 @@ export class Select extends BaseTool {
 
   private draw(from: PointerInput, to: PointerInput): void {
     const { left, top, right, bottom } = boxOf(from, to);
-    Object.assign(this.frame.style, {
+    Object.assign(this.rubberBand.style, {
       left: `${left}px`,
       top: `${top}px`,
       width: `${right - left}px`,
       height: `${bottom - top}px`,
     });
-    if (this.frame.parentElement === null) this.context.scene.element.parentElement?.append(this.frame);
+    if (this.rubberBand.parentElement === null) this.context.scene.element.parentElement?.append(this.rubberBand);
   }
 }
 

@@ -30,8 +30,8 @@ function send(topic: string, message: unknown): void {
 test.each([
   ["a text that is not JSON", "{", "a message: it is not JSON"],
   ["a text without an object", "[]", "a message: it is not an object"],
-  ["an unknown message", '{"op": "dance"}', "a message: 'op' is the unknown 'dance'"],
-  ["an operation of Object's", '{"op": "constructor"}', "a message: 'op' is the unknown 'constructor'"],
+  ["an unknown message", '{"op": "dance"}', "a message: 'op' has the unknown value 'dance'"],
+  ["an operation of Object's", '{"op": "constructor"}', "a message: 'op' has the unknown value 'constructor'"],
   ["a message without a field", '{"op": "status", "level": 1}', "a message: 'message' is missing"],
   ["a field of another type", '{"op": "removeStatus", "statusIds": [7]}', "a message: 'statusIds[0]' is not a text"],
 ])("%s ends in a notice", (_, text, reason) => {

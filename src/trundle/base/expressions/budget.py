@@ -1,8 +1,8 @@
 """Budget of time and memory for the expressions of one document.
 
 Every operation is charged for its worst case before it runs, so that no single one is long; a clock bounds their
-sum. Hashes of text are randomized per process, but a file can choose other keys so that their hashes collide: the
-lookup of such a key is charged a fraction of a comparison with every key of the dictionary.
+sum. A file can choose numbers and tuples as keys whose hashes all collide, so looking one up is charged a fraction of a
+comparison with every key of the dictionary. Text is exempt: its hashes are randomized per process.
 """
 
 import math
@@ -22,7 +22,7 @@ _MAX_CPU_S = 1.5
 """Processor time of all expressions of one document; the PR2's take some 10 ms."""
 _STEPS_BETWEEN_CHECKS = 2000
 _STEPS_PER_CHARGE = 20
-"""Steps that each charge adds to the count until the next check of the clock."""
+"""Steps that one call of `spend` counts in addition, toward the next check of the clock only."""
 _MAX_DEPTH = 100
 """Nesting depth of iterators."""
 
@@ -34,7 +34,7 @@ _GROUPS = (list, tuple, type({}.values()), *_KEYED)
 _SMALL = 1 << 61
 """Bound below which an integer is its own hash."""
 _FLOAT_LENGTH = 8
-"""Usual length; writing one takes as long as traversing three values."""
+"""Usual characters of a float as text. Writing a float takes as long as traversing three values."""
 
 
 class ExpressionError(ValueError):
@@ -54,11 +54,11 @@ class Budget:
 
     @property
     def spent(self) -> tuple[int, int]:
-        """Steps and octets used."""
+        """Steps and bytes used."""
         return self._max_steps - self._steps, self._max_octets - self._octets
 
     def spend(self, steps: int) -> None:
-        """Use steps.
+        """Charge for steps.
 
         Raises:
             ExpressionError: the budget of steps or of time is exhausted.
@@ -90,7 +90,7 @@ class Budget:
             self._cpu_s, self._deadline_s = self._deadline_s - time.thread_time(), math.inf
 
     def allocate(self, octets: int) -> None:
-        """Use memory, which is never returned, because a property may keep any value.
+        """Charge for memory. It is never refunded, because an xacro property may keep any value.
 
         Raises:
             ExpressionError: the budget is exhausted.
@@ -102,7 +102,7 @@ class Budget:
             )
 
     def allocate_generator(self) -> None:
-        """Use the steps and memory of a generator object."""
+        """Charge for the steps and memory of a generator object."""
         self.spend(20)
         self.allocate(800)
 
@@ -112,7 +112,7 @@ class Budget:
         return LazyIterator(self, items)
 
     def allocate_text(self, text: str) -> str:
-        """Use the memory of a text that was just created."""
+        """Charge for the memory of a text that was just created."""
         self.allocate(50 + (len(text) if text.isascii() else 4 * len(text)))
         return text
 
@@ -133,7 +133,7 @@ class Budget:
         return collected
 
     def spend_traversal(self, value: object) -> int:
-        """Use the steps of traversing a value, counting shared parts each time; return its length as text.
+        """Charge for traversing a value, counting shared parts each time; return its length as text.
 
         Raises:
             ExpressionError: it exceeds the maximum length, or is infinite.
@@ -170,13 +170,13 @@ class Budget:
         return size
 
     def spend_lookup(self, key: _Item, size: int) -> _Item:
-        """Use the steps of looking up a key in a dictionary or set of `size` keys."""
+        """Charge for looking up a key in a dictionary or set of `size` keys."""
         if key.__class__ is not str:
             self.spend(size * self._weigh(key) >> 5)
         return key
 
     def spend_keys(self, *groups: Collection[object]) -> None:
-        """Use the steps of looking up all keys of dictionaries and sets in one another."""
+        """Charge for combining or comparing dictionaries or sets, by looking up all keys of each in the others."""
         chosen = [key for keys in groups for key in keys if key.__class__ is not str]
         self.spend(sum(map(len, groups)) >> 2)
         self.spend(len(chosen) * sum(map(self._weigh, chosen)) >> 5)

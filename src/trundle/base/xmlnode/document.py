@@ -145,7 +145,7 @@ class XmlElement:
         return child
 
     def insert(self, child: "XmlElement", *, at: int | None = None) -> "XmlElement":
-        """Insert and return an element before the child with an index, counting comments; None: at the end."""
+        """Insert an element before child number `at` (comments count; None: at the end), and return it."""
         parent, new = self.raw, child.raw
         depth = 1 + sum(1 for _ in parent.iterancestors())
         outer, inner = f"\n{_INDENT * (depth - 1)}", f"\n{_INDENT * depth}"

@@ -27,8 +27,8 @@ from ..world.manifest import (
     ModelInfo,
     PhysicsSettings,
     PluginInfo,
+    PoseNumbers,
     SensorInfo,
-    SixNumbers,
 )
 from .body_numbers import BodyNumbers
 from .handling import is_held
@@ -261,7 +261,7 @@ def _camera(camera: CameraSensor, bodies: BodyNumbers) -> CameraInfo:
     )
 
 
-def _six(pose: Pose) -> SixNumbers:
+def _six(pose: Pose) -> PoseNumbers:
     return (*pose.position, *rpy_from_quaternion(pose.quaternion))
 
 

@@ -7,8 +7,10 @@ from msgspec import Struct
 from .draft_info import DraftInfo, FileUrl
 
 Triple: TypeAlias = tuple[float, float, float]
-SixNumbers: TypeAlias = tuple[float, float, float, float, float, float]
+PoseNumbers: TypeAlias = tuple[float, float, float, float, float, float]
 """Pose as x y z [m], roll pitch yaw [rad]."""
+InertiaNumbers: TypeAlias = tuple[float, float, float, float, float, float]
+"""ixx iyy izz ixy ixz iyz [kg·m²]."""
 
 
 class Fog(Struct, frozen=True, kw_only=True):
@@ -80,9 +82,8 @@ class LinkInfo(Struct, frozen=True, kw_only=True):
     """Body number: row in `trundle/poses`."""
     mass: float
     """[kg]"""
-    inertia: SixNumbers
-    """ixx iyy izz ixy ixz iyz [kg·m²]."""
-    inertial_pose: SixNumbers
+    inertia: InertiaNumbers
+    inertial_pose: PoseNumbers
     friction: tuple[float, float] | None
     """mu and mu2; None: no collisions."""
     source: str | None
@@ -101,7 +102,7 @@ class JointInfo(Struct, frozen=True, kw_only=True):
     """[rad or m]; None: no limit."""
     upper: float | None
     """[rad or m]; None: no limit."""
-    pose: SixNumbers
+    pose: PoseNumbers
     """Pose of the joint's frame in the child's."""
     axes: tuple[Triple, ...]
     """Directions in the child's frame."""
@@ -127,13 +128,13 @@ class ModelInfo(Struct, frozen=True, kw_only=True):
 
 
 class LightInfo(Struct, frozen=True, kw_only=True):
-    """Light of the world, or of a link with the name `model::link::name`."""
+    """Light of the world, or of a link (then named `model::link::light`)."""
 
     name: str
     type: str
     body: int | None
     """Body in whose frame the pose is; None: the world frame."""
-    pose: SixNumbers
+    pose: PoseNumbers
     direction: Triple
     """Direction in the light's frame."""
     diffuse: Triple
@@ -148,7 +149,7 @@ class CameraInfo(Struct, frozen=True, kw_only=True):
     topic: str
     body: int
     """Body in whose frame the pose is."""
-    pose: SixNumbers
+    pose: PoseNumbers
     horizontal_fov: float
     """[rad]"""
     width: int

@@ -37,7 +37,7 @@ class LocalPublisher(Protocol):
 
     @property
     def is_outside(self) -> bool:
-        """True if its node is outside the simulation: its messages do not recur when simulated time is repeated."""
+        """True if its node runs outside the simulation, and repeats no messages when simulated time is repeated."""
         ...
 
     @property

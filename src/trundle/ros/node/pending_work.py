@@ -24,7 +24,7 @@ class WorkItem:
 
 
 class PendingWork:
-    """Tracks work that ends without time passing: master calls, service calls, connecting; thread-safe."""
+    """Tracks work that can end while simulated time stands still, such as master and service calls; thread-safe."""
 
     def __init__(self) -> None:
         self._items: set[WorkItem] = set()

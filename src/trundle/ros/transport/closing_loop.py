@@ -71,7 +71,7 @@ class ClosingLoop(asyncio.SelectorEventLoop):
         error = context.get("exception")
         if (reason := shortage(error)) is not None:
             if self.time() > self._shortage_s + _SAME_SHORTAGE_S:
-                suffix = "; connections are accepted again then" if "socket" in context else ""
+                suffix = "; after that, new connections are accepted again" if "socket" in context else ""
                 _log.error("%s%s", reason, suffix)
             self._shortage_s = self.time()
         elif not (isinstance(error, ValueError) and "_start_serving" in context["message"]):
@@ -107,7 +107,7 @@ class ClosingLoop(asyncio.SelectorEventLoop):
             await close_server(self._servers.pop())
 
     def _other_tasks(self) -> "set[asyncio.Task[Any]]":
-        """Tasks except the current one and those that create servers, which could then not be closed."""
+        """Tasks except the current one and those that create servers, which cannot be closed if it is cancelled."""
         return asyncio.all_tasks() - self._opening - {asyncio.current_task()}
 
     def _open_transports(self) -> list[asyncio.Transport]:

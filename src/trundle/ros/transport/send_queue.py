@@ -118,7 +118,7 @@ class SendQueue:
         """
         with self._lock:
             if self._ring is None:
-                raise WireError("a note about memory that is not shared")
+                raise WireError("an acknowledgement of shared memory on a connection that has none")
             self._ring.receive_note(note)
             if self._is_full or not self.is_congested:
                 return
@@ -161,7 +161,7 @@ class SendQueue:
             self._discard_sent(sent)
 
     def _next(self) -> list[bytes | memoryview]:
-        """Pieces to write next; empty while a long frame waits for room in the ring."""
+        """Pieces to write next; empty while the first frame is to go through the ring, and the ring is full."""
         if self.is_local:
             self._share_frames()
         pieces = [*self._rest]

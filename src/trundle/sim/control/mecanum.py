@@ -27,7 +27,7 @@ class MecanumDrive(Struct, frozen=True, kw_only=True):
         )
 
     def twist(self, speeds: Wheels) -> tuple[float, float, float]:
-        """Return the twist of wheel speeds [rad/s], the least-squares one if wheels slip: see `wheel_speeds`."""
+        """Return the twist of wheel speeds [rad/s], as in `wheel_speeds`; the least-squares fit if wheels slip."""
         front_left, front_right, rear_left, rear_right = (speed * self.radius / 4.0 for speed in speeds)
         return (
             front_left + front_right + rear_left + rear_right,

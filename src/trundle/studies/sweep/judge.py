@@ -75,7 +75,7 @@ class Judge:
             row: row of the run.
             time_s: simulation time at the end [s].
             measures: name → measured value; None: not measured.
-            note: reason of an ok result.
+            note: remark on a result that meets all criteria, such as the run's warnings; may be empty.
 
         Raises:
             UsageError: a criterion cannot be evaluated, with its line.

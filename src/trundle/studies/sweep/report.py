@@ -42,7 +42,7 @@ def write_report(plan: Plan, *, output: Path | None = None) -> Path:
     with lock_folder(folder):
         table = open_results(plan, rows, folder, runner_of(plan)).read()
     if not table.num_rows:
-        raise UsageError(f"{folder}: no run has ended yet; `trundle sweep {plan.file}` goes on")
+        raise UsageError(f"{folder}: no run has finished yet; run `trundle sweep {plan.file}` to continue")
     path = folder / "report.html"
     write_atomically(path, _Report(plan, rows, table).html())
     return path
@@ -107,7 +107,10 @@ class _Report:
             sections.append(f"<figure><figcaption>{escape(target)}</figcaption>{bars}{drawn}</figure>")
         if not sections:
             return ""
-        intro = "Rank correlation of each varied value with each measure: ±1 decides it alone, 0 does not matter."
+        intro = (
+            "Spearman rank correlation of each varied value with each measure. "
+            "±1: the measure only ever rises or falls with the value; 0: no trend."
+        )
         return f'<h2>What matters</h2><p>{intro}</p><div class="grid">{"".join(sections)}</div>'
 
     def _drawn_over(self, varied: str, target: str, values: NDArray[np.float64]) -> str:

@@ -96,7 +96,7 @@ class Rows:
         plan, width = self._plan, len(self._random)
         if plan.design == "latin_hypercube":
             return qmc.LatinHypercube(width, rng=plan.seed).random(plan.samples)
-        # Sobol' points are balanced in powers of two only; the first of the next power are used.
+        # Only 2ⁿ points of a Sobol' sequence are balanced: take the next 2ⁿ, and the first `samples` of these.
         return qmc.Sobol(width, rng=plan.seed).random_base2(max(plan.samples - 1, 1).bit_length())[: plan.samples]
 
 

@@ -1,4 +1,4 @@
-"""Row of a launch file in the browser, in real time and in lockstep with its nodes."""
+"""A row of a sweep over a launch file, shown in the browser in real time and in lockstep with its nodes."""
 
 from trundle.base.console import say
 from trundle.base.http.page_address import PageAddress

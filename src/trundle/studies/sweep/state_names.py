@@ -52,7 +52,7 @@ class StateExpressions:
         """Evaluate an expression as a finite number.
 
         Raises:
-            UsageError: another value.
+            UsageError: the value is not a finite number.
         """
         value = self.evaluate(formula, names)
         if not isinstance(value, int | float) or not math.isfinite(value):
@@ -61,7 +61,7 @@ class StateExpressions:
 
 
 def named_values(values: Mapping[str, Value]) -> dict[str, object]:
-    """Return the values of a row that expressions can name, which excludes paths."""
+    """Return a row's values that expressions can name: those varied by an element path (with `/`) have no such name."""
     return {name: value for name, value in values.items() if "/" not in name}
 
 

@@ -164,7 +164,7 @@ def test_the_clock_is_published_at_its_frequency_parameter(
     if rate is not None:
         gazebo.loop.run(gazebo.client.params.set("/gazebo/pub_clock_frequency", rate))
     gazebo.start(distro)
-    messages = gazebo.hear("/clock", "rosgraph_msgs/Clock")
+    messages = gazebo.subscribe("/clock", "rosgraph_msgs/Clock")
     gazebo.call("unpause_physics")
 
     def closest() -> float:

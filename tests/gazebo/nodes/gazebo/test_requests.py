@@ -61,7 +61,7 @@ def test_a_namespace_applies_to_plugins_without_one(gazebo: Gazebo) -> None:
     ):
         model = _ARM.replace("</model>", f"{plugin}{written}</plugin></model>")
         assert gazebo.spawn(model, f"arm{number}", x=3.0 * number, robot_namespace=namespace).success
-        messages = gazebo.hear(topic, "sensor_msgs/JointState")
+        messages = gazebo.subscribe(topic, "sensor_msgs/JointState")
         gazebo.call("unpause_physics")
         until(lambda messages=messages: messages)
         assert list(messages[0].name) == ["turn"]

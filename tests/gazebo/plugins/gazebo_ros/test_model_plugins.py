@@ -51,10 +51,10 @@ def test_a_differential_drive_drives_and_publishes_odometry(gazebo: Gazebo, sour
     parameters = f"{_DIFF}<odometrySource>{source}</odometrySource>"
     assert gazebo.spawn(_car(_plugin("diff_drive", parameters), _TWO), "car").success
     gazebo.call("unpause_physics")
-    odometry = gazebo.hear("/r/odom", ODOMETRY)
-    frames = gazebo.hear("/tf", "tf2_msgs/TFMessage")
-    states = gazebo.hear("/r/joint_states", "sensor_msgs/JointState")
-    drive = gazebo.speak("/r/cmd_vel", TWIST)
+    odometry = gazebo.subscribe("/r/odom", ODOMETRY)
+    frames = gazebo.subscribe("/tf", "tf2_msgs/TFMessage")
+    states = gazebo.subscribe("/r/joint_states", "sensor_msgs/JointState")
+    drive = gazebo.advertise("/r/cmd_vel", TWIST)
     drive({"linear": {"x": 0.5}})
     until(lambda: odometry and odometry[-1].pose.pose.position.x > 0.4)
     drive({"linear": {"x": 0.5}, "angular": {"z": 0.5}})
@@ -80,8 +80,8 @@ def test_old_packages_mirror_the_turn(gazebo: Gazebo, distro: str, legacy: str, 
     gazebo.server.profile = DISTROS[distro]
     gazebo.spawn(_car(_plugin("diff_drive", f"{_DIFF}{legacy}"), _TWO), "car")
     gazebo.call("unpause_physics")
-    odometry = gazebo.hear("/r/odom", ODOMETRY)
-    gazebo.speak("/r/cmd_vel", TWIST)({"angular": {"z": 0.5}})
+    odometry = gazebo.subscribe("/r/odom", ODOMETRY)
+    gazebo.advertise("/r/cmd_vel", TWIST)({"angular": {"z": 0.5}})
     until(lambda: odometry and sign * _yaw(odometry[-1]) > 0.2)
 
 
@@ -94,9 +94,9 @@ def test_four_wheels_drive(gazebo: Gazebo) -> None:
     parameters = "<wheelDiameter>0.2</wheelDiameter><broadcastTF>true</broadcastTF><covariance_x>0.5</covariance_x>"
     assert gazebo.spawn(_car(_plugin("skid_steer_drive", parameters), wheels), "car").success
     gazebo.call("unpause_physics")
-    odometry = gazebo.hear("/odom", ODOMETRY)
-    frames = gazebo.hear("/tf", "tf2_msgs/TFMessage")
-    gazebo.speak("/cmd_vel", TWIST)({"linear": {"x": 0.5}})
+    odometry = gazebo.subscribe("/odom", ODOMETRY)
+    frames = gazebo.subscribe("/tf", "tf2_msgs/TFMessage")
+    gazebo.advertise("/cmd_vel", TWIST)({"linear": {"x": 0.5}})
     until(lambda: odometry and odometry[-1].pose.pose.position.x > 0.4)
     assert odometry[-1].pose.covariance[0] == 0.5
     assert frames
@@ -121,9 +121,9 @@ def test_a_tricycle_turns_about_the_intersection_of_its_axles(gazebo: Gazebo, so
     car = _car(_plugin("tricycle_drive", parameters), _STEERED)
     assert gazebo.spawn(car.replace(feet, '<collision name="unused"><pose>0 0 9 0 0 0</pose>', 1), "car").success
     gazebo.call("unpause_physics")
-    odometry = gazebo.hear("/odom", ODOMETRY)
-    states = gazebo.hear("/joint_states", "sensor_msgs/JointState")
-    gazebo.speak("/cmd_vel", TWIST)({"linear": {"x": 0.3}, "angular": {"z": 0.4}})
+    odometry = gazebo.subscribe("/odom", ODOMETRY)
+    states = gazebo.subscribe("/joint_states", "sensor_msgs/JointState")
+    gazebo.advertise("/cmd_vel", TWIST)({"linear": {"x": 0.3}, "angular": {"z": 0.4}})
     until(lambda: odometry and _yaw(odometry[-1]) > 0.5)
 
     assert odometry[-1].twist.twist.angular.z == pytest.approx(0.3 * math.sin(0.4) / 0.5, rel=0.1)
@@ -139,8 +139,8 @@ def test_planar_move_follows_commands_without_falling(gazebo: Gazebo) -> None:
     parameters = "<robotNamespace>box</robotNamespace><cmdTimeout>0.3</cmdTimeout>"
     gazebo.spawn(_BOX.format(plugin=_plugin("planar_move", parameters)), "box")
     gazebo.call("unpause_physics")
-    odometry = gazebo.hear("/box/odom", ODOMETRY)
-    drive = gazebo.speak("/box/cmd_vel", TWIST)
+    odometry = gazebo.subscribe("/box/odom", ODOMETRY)
+    drive = gazebo.advertise("/box/cmd_vel", TWIST)
 
     def moved() -> bool:
         drive({"linear": {"x": 0.5, "y": 0.25}})
@@ -156,8 +156,8 @@ def test_planar_move_follows_commands_without_falling(gazebo: Gazebo) -> None:
 def test_planar_move_without_the_y_axis_moves_only_forward(gazebo: Gazebo) -> None:
     gazebo.spawn(_BOX.format(plugin=_plugin("planar_move", "<enableYAxis>false</enableYAxis>")), "box")
     gazebo.call("unpause_physics")
-    odometry = gazebo.hear("/odom", ODOMETRY)
-    gazebo.speak("/cmd_vel", TWIST)({"linear": {"x": 0.5, "y": 0.25}})
+    odometry = gazebo.subscribe("/odom", ODOMETRY)
+    gazebo.advertise("/cmd_vel", TWIST)({"linear": {"x": 0.5, "y": 0.25}})
     until(lambda: odometry and odometry[-1].pose.pose.position.x > 0.2)
 
     assert odometry[-1].pose.pose.position.y == pytest.approx(0.0, abs=1e-6)
@@ -175,9 +175,9 @@ def test_joints_take_the_positions_of_a_trajectory_and_are_published(gazebo: Gaz
     plugins = _plugin("joint_state_publisher", "<jointName>turn</jointName>").replace('"p"', '"q"')
     gazebo.spawn(_ARM.format(plugin=plugins + _plugin("joint_pose_trajectory")), "arm")
     gazebo.call("unpause_physics")
-    states = gazebo.hear("/joint_states", "sensor_msgs/JointState")
+    states = gazebo.subscribe("/joint_states", "sensor_msgs/JointState")
     points = [{"positions": [1.0]}, {"positions": [0.5], "time_from_start": {"nanosec": 200_000_000}}]
-    publish = gazebo.speak("/set_joint_trajectory", "trajectory_msgs/JointTrajectory")
+    publish = gazebo.advertise("/set_joint_trajectory", "trajectory_msgs/JointTrajectory")
     publish({"joint_names": ["turn"], "points": points})
     until(lambda: any(m.position[0] == pytest.approx(1.0, abs=1e-6) for m in states))
     until(lambda: states[-1].position[0] == pytest.approx(0.5, abs=1e-6))
@@ -197,8 +197,8 @@ def test_a_mimic_joint_follows_its_leader(gazebo: Gazebo) -> None:
     publisher = _plugin("joint_state_publisher", "<jointName>turn tip</jointName>").replace('"p"', '"q"')
     gazebo.spawn(_ARM.format(plugin=tip + mimic + publisher + _plugin("joint_pose_trajectory")), "arm")
     gazebo.call("unpause_physics")
-    states = gazebo.hear("/joint_states", "sensor_msgs/JointState")
-    publish = gazebo.speak("/set_joint_trajectory", "trajectory_msgs/JointTrajectory")
+    states = gazebo.subscribe("/joint_states", "sensor_msgs/JointState")
+    publish = gazebo.advertise("/set_joint_trajectory", "trajectory_msgs/JointTrajectory")
     publish({"joint_names": ["turn"], "points": [{"positions": [0.5]}]})
 
     def follows() -> bool:
@@ -214,7 +214,7 @@ def test_p3d_publishes_the_true_pose_of_a_link(gazebo: Gazebo) -> None:
     plugins = _plugin("p3d", parameters) + _plugin("p3d", relative).replace('"p"', '"q"')
     assert gazebo.spawn(_ARM.format(plugin=plugins), "arm", x=1.0).success
     gazebo.call("unpause_physics")
-    truth, relative_truth = gazebo.hear("/truth", ODOMETRY), gazebo.hear("/arm_truth", ODOMETRY)
+    truth, relative_truth = gazebo.subscribe("/truth", ODOMETRY), gazebo.subscribe("/arm_truth", ODOMETRY)
     until(lambda: truth and relative_truth)
 
     position = truth[-1].pose.pose.position
@@ -228,7 +228,7 @@ def test_plugins_with_one_name_all_publish(gazebo: Gazebo) -> None:
     parameters = [f"<bodyName>body</bodyName><topicName>truth{i}</topicName>" for i in range(3)]
     gazebo.spawn(_BOX.format(plugin="".join(_plugin("p3d", parameter) for parameter in parameters)), "box")
     gazebo.call("unpause_physics")
-    topics = [gazebo.hear(f"/truth{i}", ODOMETRY) for i in range(3)]
+    topics = [gazebo.subscribe(f"/truth{i}", ODOMETRY) for i in range(3)]
 
     def all_publish_for_a_second() -> bool:
         return all(
@@ -242,7 +242,7 @@ def test_plugins_with_one_name_all_publish(gazebo: Gazebo) -> None:
 def test_a_wrench_from_a_topic_pushes(gazebo: Gazebo) -> None:
     parameters = "<bodyName>body</bodyName><topicName>push</topicName>"
     gazebo.spawn(_BOX.format(plugin=_plugin("force", parameters)), "box")
-    gazebo.speak("/push", "geometry_msgs/Wrench")({"force": {"x": 1.0, "z": 2 * 9.8}})
+    gazebo.advertise("/push", "geometry_msgs/Wrench")({"force": {"x": 1.0, "z": 2 * 9.8}})
     gazebo.call("unpause_physics")
     until(lambda: gazebo.state("box").twist.linear.x > 0.3)
     assert gazebo.state("box").pose.position.z == pytest.approx(2.0, abs=0.05)
@@ -252,8 +252,8 @@ def test_the_applied_wrench_of_a_link_is_published(gazebo: Gazebo) -> None:
     plugins = _plugin("force", "<bodyName>body</bodyName><topicName>push</topicName>")
     plugins += _plugin("f3d", "<bodyName>body</bodyName><topicName>felt</topicName>").replace('"p"', '"q"')
     gazebo.spawn(_BOX.format(plugin=plugins), "box")
-    wrenches = gazebo.hear("/felt", "geometry_msgs/WrenchStamped")
-    gazebo.speak("/push", "geometry_msgs/Wrench")({"force": {"x": 1.5}, "torque": {"z": 0.25}})
+    wrenches = gazebo.subscribe("/felt", "geometry_msgs/WrenchStamped")
+    gazebo.advertise("/push", "geometry_msgs/Wrench")({"force": {"x": 1.5}, "torque": {"z": 0.25}})
     gazebo.call("unpause_physics")
     until(lambda: wrenches and wrenches[-1].wrench.force.x == 1.5)
     assert (wrenches[-1].wrench.force.z, wrenches[-1].wrench.torque.z) == (0.0, 0.25)

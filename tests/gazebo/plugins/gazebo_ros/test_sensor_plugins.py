@@ -38,7 +38,7 @@ def _spawn_sensors(gazebo: Gazebo, sensors: str, plugin: str = "") -> None:
 
 
 def _first_message(gazebo: Gazebo, topic: str, kind: str) -> Any:
-    messages = gazebo.hear(topic, kind)
+    messages = gazebo.subscribe(topic, kind)
     until(lambda: messages)
     return messages[-1]
 
@@ -128,8 +128,8 @@ def test_a_triggered_camera_waits_for_its_trigger(
         eye = _sensor("camera", sensor, "triggered_camera", "<cameraName>front</cameraName>")
     _spawn_sensors(gazebo, eye + f'<sensor name="other" type="camera"><update_rate>50</update_rate>{_CAMERA}</sensor>')
     trigger_publisher = gazebo.client.advertise(trigger, f"std_msgs/{kind}")
-    messages = gazebo.hear(image_topic or "/mast/head/eye/image_raw", "sensor_msgs/Image")
-    other_messages = gazebo.hear("/mast/head/other/image_raw", "sensor_msgs/Image")
+    messages = gazebo.subscribe(image_topic or "/mast/head/eye/image_raw", "sensor_msgs/Image")
+    other_messages = gazebo.subscribe("/mast/head/other/image_raw", "sensor_msgs/Image")
     until(lambda: trigger_publisher.has_subscribers and len(other_messages) > 5)
     assert not messages
     trigger_publisher.publish({"data": True} if kind == "Bool" else {})
@@ -172,7 +172,7 @@ def test_an_imu_measures_gravity_at_the_rate_of_its_plugin(gazebo: Gazebo) -> No
     parameters += "<gaussianNoise>0.01</gaussianNoise><xyzOffset>0 0 0</xyzOffset><rpyOffset>0 0 1</rpyOffset>"
     parameters += "<robotNamespace>/</robotNamespace>"
     _spawn_sensors(gazebo, _sensor("imu", "", "imu_sensor", parameters))
-    messages = gazebo.hear("/imu", "sensor_msgs/Imu")
+    messages = gazebo.subscribe("/imu", "sensor_msgs/Imu")
     until(lambda: len(messages) > 5)
 
     stamps = [m.header.stamp.sec + m.header.stamp.nanosec * 1e-9 for m in messages]
@@ -193,7 +193,7 @@ def test_a_bumper_publishes_its_contacts(gazebo: Gazebo) -> None:
 </geometry></collision>{bumper}</link></model></sdf>"""
     assert gazebo.spawn(ball, "ball").success
     gazebo.call("unpause_physics")
-    messages = gazebo.hear("/bumps", "gazebo_msgs/ContactsState")
+    messages = gazebo.subscribe("/bumps", "gazebo_msgs/ContactsState")
     until(lambda: any(message.states for message in messages))
     state = next(message for message in messages if message.states).states[0]
     assert "ball" in state.collision1_name
@@ -220,7 +220,7 @@ def test_a_bumper_on_a_lumped_link_publishes_gazebos_collision_name(gazebo: Gaze
     response = gazebo.spawn(robot, "plover")
     assert response.success, response.status_message
     gazebo.call("unpause_physics")
-    messages = gazebo.hear("/bumps", "gazebo_msgs/ContactsState")
+    messages = gazebo.subscribe("/bumps", "gazebo_msgs/ContactsState")
     until(lambda: any(message.states for message in messages))
 
     names = {state.collision1_name for message in messages for state in message.states}
@@ -243,7 +243,7 @@ def test_sensors_survive_a_spawn_and_unknown_plugins_are_reported(gazebo: Gazebo
     sensors += _sensor("ray", _RAYS, "sparkle", "", name="other")
     sensors += _sensor("imu", "", "laser", "", name="wrong")
     _spawn_sensors(gazebo, sensors)
-    messages = gazebo.hear("/scan", "sensor_msgs/LaserScan")
+    messages = gazebo.subscribe("/scan", "sensor_msgs/LaserScan")
     until(lambda: messages)
     gazebo.spawn(_WALL.replace("2.5 0 1", "1.5 0 1"), "nearer")
     until(lambda: messages[-1].ranges[2] == pytest.approx(1.0, abs=1e-3))

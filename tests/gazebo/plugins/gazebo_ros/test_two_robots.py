@@ -56,11 +56,11 @@ def _spawn_both(gazebo: Gazebo) -> None:
 
 def _frames(gazebo: Gazebo) -> tuple[set[tuple[str, str]], dict[str, str]]:
     """Return the edges on /tf, and the header's frame of each topic."""
-    messages: dict[str, list[Any]] = {"tf": gazebo.hear("/tf", "tf2_msgs/TFMessage")}
+    messages: dict[str, list[Any]] = {"tf": gazebo.subscribe("/tf", "tf2_msgs/TFMessage")}
     kinds = {"odom": "nav_msgs/Odometry", "scan": "sensor_msgs/LaserScan", "imu": "sensor_msgs/Imu"}
     kinds["cam/camera_info"] = "sensor_msgs/CameraInfo"
     for number in (1, 2):
-        messages |= {f"/r{number}/{name}": gazebo.hear(f"/r{number}/{name}", kind) for name, kind in kinds.items()}
+        messages |= {f"/r{number}/{name}": gazebo.subscribe(f"/r{number}/{name}", kind) for name, kind in kinds.items()}
     until(lambda: all(messages.values()) and len(messages["tf"]) > 10)
     edges = {
         (transform.header.frame_id, transform.child_frame_id)
@@ -103,10 +103,10 @@ def test_frames_have_the_tf_prefix_of_their_namespace(
 
 def test_a_command_moves_only_the_robot_of_its_namespace(gazebo: Gazebo) -> None:
     _spawn_both(gazebo)
-    first, second = gazebo.hear("/r1/odom", "nav_msgs/Odometry"), gazebo.hear("/r2/odom", "nav_msgs/Odometry")
+    first, second = gazebo.subscribe("/r1/odom", "nav_msgs/Odometry"), gazebo.subscribe("/r2/odom", "nav_msgs/Odometry")
     start = gazebo.state("beta").pose.position.x
 
-    gazebo.speak("/r1/cmd_vel", "geometry_msgs/Twist")({"linear": {"x": 0.5}})
+    gazebo.advertise("/r1/cmd_vel", "geometry_msgs/Twist")({"linear": {"x": 0.5}})
     until(lambda: first and first[-1].pose.pose.position.x > 0.3 and second)
 
     assert gazebo.state("beta").pose.position.x == pytest.approx(start, abs=0.01)
@@ -133,7 +133,7 @@ def test_the_imu_reference_is_the_world_from_noetic_on(bare_gazebo: Gazebo, dist
 
     assert gazebo.spawn(model, "post").success
     gazebo.call("unpause_physics")
-    messages = gazebo.hear("/post/imu_data", "sensor_msgs/Imu")
+    messages = gazebo.subscribe("/post/imu_data", "sensor_msgs/Imu")
     until(lambda: messages)
 
     orientation = messages[-1].orientation

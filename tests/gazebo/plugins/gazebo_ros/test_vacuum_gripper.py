@@ -24,7 +24,7 @@ def test_a_nearby_link_is_held_while_the_gripper_is_on(gazebo: Gazebo) -> None:
     assert gazebo.spawn(_ARM.format(more=""), "arm").success
     assert gazebo.spawn(_BALL.format(z=0.97), "ball").success
     assert gazebo.spawn(_BALL.format(z=0.9), "other").success
-    messages = gazebo.hear("/arm/grasping", "std_msgs/Bool")
+    messages = gazebo.subscribe("/arm/grasping", "std_msgs/Bool")
     _switch(gazebo, "on")
     gazebo.call("unpause_physics")
     gazebo.until_s(0.5)

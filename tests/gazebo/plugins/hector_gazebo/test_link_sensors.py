@@ -19,7 +19,7 @@ def _model_sdf(filename: str, parameters: str, *, pose: str = "0 0 2 0 0 0") -> 
 
 def _push(gazebo: Gazebo, **force: float) -> None:
     """Apply a force plus the force that balances the weight."""
-    gazebo.speak("/push", "geometry_msgs/Wrench")({"force": {**force, "z": 2 * 9.8 + force.get("z", 0.0)}})
+    gazebo.advertise("/push", "geometry_msgs/Wrench")({"force": {**force, "z": 2 * 9.8 + force.get("z", 0.0)}})
     gazebo.call("unpause_physics")
 
 
@@ -45,7 +45,7 @@ def test_an_imu_on_a_link_measures_acceleration_in_its_axes(
     """With a yaw of 90°, a force along the world's x is along −y; only hector's includes gravity."""
     parameters += "<updateRate>50</updateRate>"
     assert gazebo.spawn(_model_sdf(filename, parameters, pose=f"0 0 2 0 0 {math.pi / 2}"), "box").success
-    messages = gazebo.hear(topic, "sensor_msgs/Imu")
+    messages = gazebo.subscribe(topic, "sensor_msgs/Imu")
     _push(gazebo, x=1.0)
     until(lambda: messages and messages[-1].linear_acceleration.y < -0.4)
 
@@ -60,7 +60,7 @@ def test_hectors_imu_has_the_errors_of_its_parameters(gazebo: Gazebo) -> None:
 <rateDrift>0.1 0.1 0.1</rateDrift>
 <headingOffset>0.3</headingOffset><updateRate>100</updateRate><frameId>imu_link</frameId>"""
     assert gazebo.spawn(_model_sdf("hector_gazebo_ros_imu", parameters), "box").success
-    messages = gazebo.hear("/imu", "sensor_msgs/Imu")
+    messages = gazebo.subscribe("/imu", "sensor_msgs/Imu")
     _push(gazebo)
     until(lambda: len(messages) > 100)
 
@@ -80,8 +80,8 @@ def test_hectors_gps_publishes_position_and_velocity(gazebo: Gazebo) -> None:
 <referenceLongitude>8.9</referenceLongitude><referenceHeading>180</referenceHeading><updateRate>50</updateRate>
 <frameId>base_link</frameId><gaussianNoise>0 0 0</gaussianNoise>"""
     assert gazebo.spawn(_model_sdf("hector_gazebo_ros_gps", parameters, pose="100 0 2 0 0 0"), "box").success
-    fixes = gazebo.hear("/fix", "sensor_msgs/NavSatFix")
-    speeds = gazebo.hear("/fix_velocity", "geometry_msgs/Vector3Stamped")
+    fixes = gazebo.subscribe("/fix", "sensor_msgs/NavSatFix")
+    speeds = gazebo.subscribe("/fix_velocity", "geometry_msgs/Vector3Stamped")
     _push(gazebo, x=2.0)
     until(lambda: speeds and speeds[-1].vector.x < -0.2)
 
@@ -94,13 +94,13 @@ def test_hectors_gps_publishes_position_and_velocity(gazebo: Gazebo) -> None:
 
 @pytest.mark.parametrize("with_field", [False, True])
 def test_hectors_magnetometer_measures_north_and_down(gazebo: Gazebo, with_field: bool) -> None:
-    """The box faces west, x points north: north is on its right."""
+    """The world's x axis points north, and the box, turned by 90°, faces west: north is on its right."""
     parameters = f"""<referenceHeading>0</referenceHeading><inclination>30</inclination><magnitude>2</magnitude>
 <useMagneticFieldMsgs>{str(with_field).lower()}</useMagneticFieldMsgs><updateRate>50</updateRate>"""
     model = _model_sdf("hector_gazebo_ros_magnetic", parameters, pose=f"0 0 2 0 0 {math.pi / 2}")
     assert gazebo.spawn(model, "box").success
     kind = "sensor_msgs/MagneticField" if with_field else "geometry_msgs/Vector3Stamped"
-    messages = gazebo.hear("/magnetic", kind)
+    messages = gazebo.subscribe("/magnetic", kind)
     _push(gazebo)
     until(lambda: messages)
 
@@ -109,11 +109,11 @@ def test_hectors_magnetometer_measures_north_and_down(gazebo: Gazebo, with_field
 
 
 def test_hectors_barometer_measures_height_and_pressure(gazebo: Gazebo) -> None:
-    """By the barometric formula a pressure falls by 12 Pa for each of the first metres."""
+    """Near the sea level the pressure falls by about 12 Pa per metre."""
     parameters = "<elevation>100</elevation><qnh>1000</qnh><frameId>baro_link</frameId><offset>0.5</offset>"
     assert gazebo.spawn(_model_sdf("hector_gazebo_ros_baro", parameters), "box").success
-    heights = gazebo.hear("/pressure_height", "geometry_msgs/PointStamped")
-    messages = gazebo.hear("/altimeter", "hector_uav_msgs/Altimeter")
+    heights = gazebo.subscribe("/pressure_height", "geometry_msgs/PointStamped")
+    messages = gazebo.subscribe("/altimeter", "hector_uav_msgs/Altimeter")
     _push(gazebo)
     until(lambda: messages and heights)
 

@@ -25,7 +25,7 @@ def _first_message(gazebo: Gazebo, sensor: str, topic: str, kind: str) -> Any:
     assert gazebo.spawn(_WALL, "wall").success
     assert gazebo.spawn(model, "mast").success
     gazebo.call("unpause_physics")
-    messages = gazebo.hear(topic, kind)
+    messages = gazebo.subscribe(topic, kind)
     until(lambda: messages)
     return messages[-1]
 

@@ -66,11 +66,11 @@ def kobuki(gazebo: Gazebo) -> Gazebo:
 
 def test_the_base_drives_until_its_bumper_touches_a_wall(kobuki: Gazebo) -> None:
     kobuki.spawn(_WALL, "wall")
-    odometry = kobuki.hear("/odom", "nav_msgs/Odometry")
-    bumps = kobuki.hear(f"{_BASE}/events/bumper", "kobuki_msgs/BumperEvent")
-    core = kobuki.hear(f"{_BASE}/sensors/core", "kobuki_msgs/SensorState")
-    states = kobuki.hear("/joint_states", "sensor_msgs/JointState")
-    drive = kobuki.speak(f"{_BASE}/commands/velocity", "geometry_msgs/Twist")
+    odometry = kobuki.subscribe("/odom", "nav_msgs/Odometry")
+    bumps = kobuki.subscribe(f"{_BASE}/events/bumper", "kobuki_msgs/BumperEvent")
+    core = kobuki.subscribe(f"{_BASE}/sensors/core", "kobuki_msgs/SensorState")
+    states = kobuki.subscribe("/joint_states", "sensor_msgs/JointState")
+    drive = kobuki.advertise(f"{_BASE}/commands/velocity", "geometry_msgs/Twist")
 
     def driving() -> bool:
         drive({"linear": {"x": 0.3}})
@@ -88,9 +88,9 @@ def test_the_base_drives_until_its_bumper_touches_a_wall(kobuki: Gazebo) -> None
 
 
 def test_odometry_takes_yaw_from_the_gyro_and_commands_expire(kobuki: Gazebo) -> None:
-    odometry = kobuki.hear("/odom", "nav_msgs/Odometry")
-    imu = kobuki.hear(f"{_BASE}/sensors/imu_data", "sensor_msgs/Imu")
-    drive = kobuki.speak(f"{_BASE}/commands/velocity", "geometry_msgs/Twist")
+    odometry = kobuki.subscribe("/odom", "nav_msgs/Odometry")
+    imu = kobuki.subscribe(f"{_BASE}/sensors/imu_data", "sensor_msgs/Imu")
+    drive = kobuki.advertise(f"{_BASE}/commands/velocity", "geometry_msgs/Twist")
 
     def turning() -> bool:
         drive({"angular": {"z": 0.8}})
@@ -106,14 +106,14 @@ def test_odometry_takes_yaw_from_the_gyro_and_commands_expire(kobuki: Gazebo) ->
     assert math.atan2(orientation.z, orientation.w) == pytest.approx(
         math.atan2(true_orientation.z, true_orientation.w), abs=0.05
     )
-    kobuki.speak(f"{_BASE}/commands/reset_odometry", "std_msgs/Empty")({})
+    kobuki.advertise(f"{_BASE}/commands/reset_odometry", "std_msgs/Empty")({})
     until(lambda: abs(odometry[-1].pose.pose.orientation.z) < 0.01)
 
 
 def test_a_lifted_base_reports_cliffs_and_stops_without_power(kobuki: Gazebo) -> None:
-    cliffs = kobuki.hear(f"{_BASE}/events/cliff", "kobuki_msgs/CliffEvent")
-    drops = kobuki.hear(f"{_BASE}/events/wheel_drop", "kobuki_msgs/WheelDropEvent")
-    core = kobuki.hear(f"{_BASE}/sensors/core", "kobuki_msgs/SensorState")
+    cliffs = kobuki.subscribe(f"{_BASE}/events/cliff", "kobuki_msgs/CliffEvent")
+    drops = kobuki.subscribe(f"{_BASE}/events/wheel_drop", "kobuki_msgs/WheelDropEvent")
+    core = kobuki.subscribe(f"{_BASE}/sensors/core", "kobuki_msgs/SensorState")
     until(lambda: core and core[-1].cliff == 0 and core[-1].wheel_drop == 0)
     lifted = {"model_name": "mobile_base", "pose": {"position": {"z": 30.0}, "orientation": {"w": 1.0}}}
     kobuki.call("set_model_state", "gazebo_msgs/SetModelState", model_state=lifted)
@@ -121,15 +121,15 @@ def test_a_lifted_base_reports_cliffs_and_stops_without_power(kobuki: Gazebo) ->
     until(lambda: {event.wheel for event in drops if event.state == 1} == {0, 1})
     until(lambda: core[-1].cliff == 7 and core[-1].wheel_drop == 3)
 
-    states = kobuki.hear("/joint_states", "sensor_msgs/JointState")
-    drive = kobuki.speak(f"{_BASE}/commands/velocity", "geometry_msgs/Twist")
+    states = kobuki.subscribe("/joint_states", "sensor_msgs/JointState")
+    drive = kobuki.advertise(f"{_BASE}/commands/velocity", "geometry_msgs/Twist")
 
     def spinning() -> bool:
         drive({"linear": {"x": 0.3}})
         return bool(states) and states[-1].velocity[0] > 5.0
 
     until(spinning)
-    kobuki.speak(f"{_BASE}/commands/motor_power", "kobuki_msgs/MotorPower")({"state": 0})
+    kobuki.advertise(f"{_BASE}/commands/motor_power", "kobuki_msgs/MotorPower")({"state": 0})
 
     def stopped() -> bool:
         drive({"linear": {"x": 0.3}})

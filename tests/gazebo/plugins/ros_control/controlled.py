@@ -70,7 +70,7 @@ class Robot:
 
     def command(self, controller: str, value: float) -> None:
         """Publish a controller's command."""
-        self.gazebo.speak(f"/r/{controller}/command", "std_msgs/Float64")({"data": value})
+        self.gazebo.advertise(f"/r/{controller}/command", "std_msgs/Float64")({"data": value})
 
     def joint(self, name: str) -> Message:
         """Return the properties of a joint."""

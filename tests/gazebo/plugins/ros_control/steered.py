@@ -1,4 +1,4 @@
-"""Robots with steered wheels behind ros_control, on the ground."""
+"""Robots with steered wheels that ros_control drives, on the ground."""
 
 import math
 
@@ -36,9 +36,15 @@ def knuckle(name: str, x: float, y: float) -> str:
 {_driven(f"{name}_joint", "PositionJointInterface")}"""
 
 
-def robot(parts: str, *, com: str = "0 0 0", feet: str = "") -> str:
-    """Return a base with the given parts and centre of mass, under ros_control in the root namespace."""
-    return f"""<robot name="car"><link name="base_link">{inertial(5, 0.2, com=com)}{feet}</link>{parts}
+def robot(parts: str, *, com: str = "0 0 0", skids: str = "") -> str:
+    """Return a base with the given parts and centre of mass, under ros_control in the root namespace.
+
+    Args:
+        parts: links and joints, as URDF.
+        com: centre of mass in the base's frame [m].
+        skids: collisions of the base, without friction.
+    """
+    return f"""<robot name="car"><link name="base_link">{inertial(5, 0.2, com=com)}{skids}</link>{parts}
 <gazebo reference="base_link"><mu1>0</mu1><mu2>0</mu2></gazebo>
 <gazebo><plugin name="control" filename="libgazebo_ros_control.so"><robotNamespace>/</robotNamespace></plugin></gazebo>
 </robot>"""

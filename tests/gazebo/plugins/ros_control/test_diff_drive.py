@@ -69,9 +69,9 @@ def _yaw(message: Message) -> float:
 
 
 def test_a_command_drives_and_odometry_follows_the_wheels(car: Gazebo) -> None:
-    odometry = car.hear("/base/odom", "nav_msgs/Odometry")
-    frames = car.hear("/tf", "tf2_msgs/TFMessage")
-    drive = car.speak("/base/cmd_vel", "geometry_msgs/Twist")
+    odometry = car.subscribe("/base/odom", "nav_msgs/Odometry")
+    frames = car.subscribe("/tf", "tf2_msgs/TFMessage")
+    drive = car.advertise("/base/cmd_vel", "geometry_msgs/Twist")
 
     def arrived() -> bool:
         drive({"linear": {"x": 5.0}})  # limited to 0.5 m/s
@@ -93,8 +93,8 @@ def test_a_command_drives_and_odometry_follows_the_wheels(car: Gazebo) -> None:
 
 
 def test_a_positive_yaw_rate_turns_left(car: Gazebo) -> None:
-    odometry = car.hear("/base/odom", "nav_msgs/Odometry")
-    drive = car.speak("/base/cmd_vel", "geometry_msgs/Twist")
+    odometry = car.subscribe("/base/odom", "nav_msgs/Odometry")
+    drive = car.advertise("/base/cmd_vel", "geometry_msgs/Twist")
 
     def turned() -> bool:
         drive({"angular": {"z": 1.0}})

@@ -24,9 +24,9 @@ MECANUM: dict[str, Any] = {
 def test_wheels_and_odometry_have_the_commanded_twist_within_limits(gazebo: Gazebo) -> None:
     """At 0.3 m/s forward, 0.2 m/s left and 0.4 rad/s, a wheel at (0.3, 0.2) m of radius 0.1 m turns at -1 rad/s."""
     with driving(gazebo, ROBOT, MECANUM):
-        odometry = gazebo.hear("/base/odom", "nav_msgs/Odometry")
-        frames = gazebo.hear("/tf", "tf2_msgs/TFMessage")
-        drive = gazebo.speak("/base/cmd_vel", "geometry_msgs/Twist")
+        odometry = gazebo.subscribe("/base/odom", "nav_msgs/Odometry")
+        frames = gazebo.subscribe("/tf", "tf2_msgs/TFMessage")
+        drive = gazebo.advertise("/base/cmd_vel", "geometry_msgs/Twist")
         command = {"linear": {"x": 0.3, "y": 5.0}, "angular": {"z": 0.4}}
         repeat_until(drive, command, lambda: odometry and odometry[-1].pose.pose.position.x > 0.1)
 
@@ -46,7 +46,7 @@ def test_wheels_and_odometry_have_the_commanded_twist_within_limits(gazebo: Gaze
 
 def test_a_robot_stops_when_commands_end(gazebo: Gazebo) -> None:
     with driving(gazebo, ROBOT, MECANUM):
-        odometry = gazebo.hear("/base/odom", "nav_msgs/Odometry")
-        drive = gazebo.speak("/base/cmd_vel", "geometry_msgs/Twist")
+        odometry = gazebo.subscribe("/base/odom", "nav_msgs/Odometry")
+        drive = gazebo.advertise("/base/cmd_vel", "geometry_msgs/Twist")
         repeat_until(drive, {"linear": {"x": 0.3}}, lambda: odometry and odometry[-1].twist.twist.linear.x > 0.25)
         repeat_until(lambda _: None, {}, lambda: abs(odometry[-1].twist.twist.linear.x) < 1e-3)

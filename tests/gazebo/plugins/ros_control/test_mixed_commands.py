@@ -230,7 +230,7 @@ def test_wheels_without_a_controller_roll_only_with_effort_interfaces(
     assert spawned.success, spawned.status_message
     gazebo.call("unpause_physics")
     gazebo.loop.run(gazebo.client.wait_for_service("/cart/controller_manager/list_controllers", 60.0))
-    gazebo.speak("/cmd_vel", "geometry_msgs/Twist")({"linear": {"x": 0.3}})
+    gazebo.advertise("/cmd_vel", "geometry_msgs/Twist")({"linear": {"x": 0.3}})
     gazebo.until_s(gazebo.time_s + 0.5)
     start_s, start = gazebo.time_s, gazebo.state("cart").pose.position.x
     gazebo.until_s(start_s + 1.0)
@@ -259,14 +259,16 @@ def robot(gazebo: Gazebo) -> Iterator[Robot]:
 
 
 def test_an_emergency_stop_holds_positions_and_restarts_the_controllers_afterwards(robot: Robot) -> None:
-    results = robot.gazebo.hear("/r/a/follow_joint_trajectory/result", "control_msgs/FollowJointTrajectoryActionResult")
+    results = robot.gazebo.subscribe(
+        "/r/a/follow_joint_trajectory/result", "control_msgs/FollowJointTrajectoryActionResult"
+    )
     point = {"positions": [3.0], "time_from_start": {"sec": 10}}
     goal = {"goal": {"trajectory": {"joint_names": ["a"], "points": [point]}}}
-    robot.gazebo.speak("/r/a/follow_joint_trajectory/goal", "control_msgs/FollowJointTrajectoryActionGoal")(goal)
+    robot.gazebo.advertise("/r/a/follow_joint_trajectory/goal", "control_msgs/FollowJointTrajectoryActionGoal")(goal)
     robot.command("b", 1.0)
     robot.command("c", 0.01)
     until(lambda: all(robot.joint(name).rate[0] > 0.01 for name in "abc"))
-    stop = robot.gazebo.speak("/r/stop", "std_msgs/Bool")
+    stop = robot.gazebo.advertise("/r/stop", "std_msgs/Bool")
     stop({"data": True})
     until(lambda: abs(robot.joint("a").rate[0]) < 1e-3 and abs(robot.joint("b").rate[0]) < 1e-3)
     positions = {name: robot.joint(name).position[0] for name in "ab"}

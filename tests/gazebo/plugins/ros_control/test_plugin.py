@@ -59,7 +59,7 @@ def test_commands_move_joints_through_their_interfaces(robot: Robot) -> None:
 
 def test_joint_states_are_published_in_the_order_of_names(robot: Robot) -> None:
     robot.spawn("states")
-    messages = robot.gazebo.hear("/r/joint_states", "sensor_msgs/JointState")
+    messages = robot.gazebo.subscribe("/r/joint_states", "sensor_msgs/JointState")
     until(lambda: len(messages) > 3)
 
     assert list(messages[0].name) == ["lift", "spin", "turn"]
@@ -168,7 +168,7 @@ def test_a_sensor_controller_does_not_load_without_its_hardware_interface(
     robot: Robot, name: str, interface: str
 ) -> None:
     robot.list()
-    log = robot.gazebo.hear("/rosout_agg", "rosgraph_msgs/Log")
+    log = robot.gazebo.subscribe("/rosout_agg", "rosgraph_msgs/Log")
     assert not robot.call("load_controller", "LoadController", name=name).ok
     error = f"/r/{name} requires a hardware interface of type 'hardware_interface::{interface}Interface'"
     until(lambda: any(error in str(line.msg) for line in log))

@@ -13,11 +13,11 @@ from trundle.gazebo.nodes import NodeHost
 from trundle.gazebo.nodes.controller_manager import Spawner
 from trundle.ros import Message, Node
 
-_FOOT = '<collision><origin xyz="{} {} -0.048"/><geometry><sphere radius="0.05"/></geometry></collision>'
+_SKID = '<collision><origin xyz="{} {} -0.048"/><geometry><sphere radius="0.05"/></geometry></collision>'
 BIKE = robot(
     wheel("rear", "base_link", 0.0, 0.0) + knuckle("fork", 0.5, 0.0) + wheel("front", "fork", 0.0, 0.0, driven=False),
     com="0.25 0 0",
-    feet=_FOOT.format(0.25, 0.2) + _FOOT.format(0.25, -0.2),
+    skids=_SKID.format(0.25, 0.2) + _SKID.format(0.25, -0.2),
 )
 ACKERMANN: dict[str, Any] = {
     "type": "ackermann_steering_controller/AckermannSteeringController",
@@ -89,9 +89,9 @@ def _assert_odometry_matches(gazebo: Gazebo, odometry: list[Message], *, toleran
 def test_ackermann_steering_turns_by_its_steering_angle(gazebo: Gazebo) -> None:
     """angular.z is the steering angle: at 0.5 m/s, 0.5 m between the wheels and 0.4 rad it turns at tan 0.4 rad/s."""
     with driving(gazebo, BIKE, ACKERMANN):
-        odometry = gazebo.hear("/base/odom", "nav_msgs/Odometry")
-        frames = gazebo.hear("/tf", "tf2_msgs/TFMessage")
-        drive = gazebo.speak("/base/cmd_vel", "geometry_msgs/Twist")
+        odometry = gazebo.subscribe("/base/odom", "nav_msgs/Odometry")
+        frames = gazebo.subscribe("/tf", "tf2_msgs/TFMessage")
+        drive = gazebo.advertise("/base/cmd_vel", "geometry_msgs/Twist")
         command = {"linear": {"x": 5.0}, "angular": {"z": 0.4}}
         repeat_until(drive, command, lambda: odometry and _yaw(odometry[-1].pose.pose) > 1.0)
 
@@ -105,9 +105,9 @@ def test_ackermann_steering_turns_by_its_steering_angle(gazebo: Gazebo) -> None:
 
 def test_a_second_command_publisher_is_refused_if_not_allowed(gazebo: Gazebo) -> None:
     with driving(gazebo, BIKE, {**ACKERMANN, "allow_multiple_cmd_vel_publishers": False}):
-        log = gazebo.hear("/rosout_agg", "rosgraph_msgs/Log")
-        odometry = gazebo.hear("/base/odom", "nav_msgs/Odometry")
-        drive = gazebo.speak("/base/cmd_vel", "geometry_msgs/Twist")
+        log = gazebo.subscribe("/rosout_agg", "rosgraph_msgs/Log")
+        odometry = gazebo.subscribe("/base/odom", "nav_msgs/Odometry")
+        drive = gazebo.advertise("/base/cmd_vel", "geometry_msgs/Twist")
         until(lambda: odometry)
         other = Node("/other", loop=gazebo.loop, master_uri=gazebo.client.master_uri)
         other_publisher = other.advertise("/base/cmd_vel", "geometry_msgs/Twist")
@@ -120,8 +120,8 @@ def test_a_second_command_publisher_is_refused_if_not_allowed(gazebo: Gazebo) ->
 
 def test_four_wheel_steering_follows_a_twist(gazebo: Gazebo) -> None:
     with driving(gazebo, ROVER, FOUR):
-        odometry = gazebo.hear("/base/odom", "nav_msgs/Odometry")
-        drive = gazebo.speak("/base/cmd_vel", "geometry_msgs/Twist")
+        odometry = gazebo.subscribe("/base/odom", "nav_msgs/Odometry")
+        drive = gazebo.advertise("/base/cmd_vel", "geometry_msgs/Twist")
         command = {"linear": {"x": 0.5}, "angular": {"z": 0.6}}
         repeat_until(drive, command, lambda: odometry and _yaw(odometry[-1].pose.pose) > 1.0)
 
@@ -133,9 +133,9 @@ def test_four_wheel_steering_follows_a_twist(gazebo: Gazebo) -> None:
 
 def test_equally_steered_axles_drive_sideways(gazebo: Gazebo) -> None:
     with driving(gazebo, ROVER, FOUR):
-        odometry = gazebo.hear("/base/odom", "nav_msgs/Odometry")
-        messages = gazebo.hear("/base/odom_steer", "four_wheel_steering_msgs/FourWheelSteeringStamped")
-        steer = gazebo.speak("/base/cmd_four_wheel_steering", "four_wheel_steering_msgs/FourWheelSteering")
+        odometry = gazebo.subscribe("/base/odom", "nav_msgs/Odometry")
+        messages = gazebo.subscribe("/base/odom_steer", "four_wheel_steering_msgs/FourWheelSteeringStamped")
+        steer = gazebo.advertise("/base/cmd_four_wheel_steering", "four_wheel_steering_msgs/FourWheelSteering")
         command = {"speed": 0.5, "front_steering_angle": 0.5, "rear_steering_angle": 0.5}
         repeat_until(steer, command, lambda: odometry and odometry[-1].pose.pose.position.y > 0.3)
 
@@ -148,7 +148,7 @@ def test_equally_steered_axles_drive_sideways(gazebo: Gazebo) -> None:
 
 def test_a_single_joint_for_an_axle_is_refused(gazebo: Gazebo) -> None:
     with driving(gazebo, ROVER, {**FOUR, "front_wheel": "fl_joint"}):
-        log = gazebo.hear("/rosout_agg", "rosgraph_msgs/Log")
+        log = gazebo.subscribe("/rosout_agg", "rosgraph_msgs/Log")
         error = "Could not load controller 'base': parameter /base/front_wheel must be a left and a right joint"
         call = ("/controller_manager/load_controller", "controller_manager_msgs/LoadController", {"name": "base"})
         gazebo.loop.run(gazebo.client.wait_for_service(call[0], PATIENCE_S))

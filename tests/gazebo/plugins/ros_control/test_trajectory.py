@@ -81,8 +81,8 @@ def send_goal(
 ) -> list[Message]:
     """Send a goal; return the list of the action's results."""
     name = f"/r/{controller}/{'gripper_cmd' if kind != FOLLOW else 'follow_joint_trajectory'}"
-    results = robot.gazebo.hear(f"{name}/result", f"{kind}ActionResult")
-    robot.gazebo.speak(f"{name}/goal", f"{kind}ActionGoal")({"goal_id": {"id": key}, "goal": goal})
+    results = robot.gazebo.subscribe(f"{name}/result", f"{kind}ActionResult")
+    robot.gazebo.advertise(f"{name}/goal", f"{kind}ActionGoal")({"goal_id": {"id": key}, "goal": goal})
     return results
 
 
@@ -124,11 +124,11 @@ def test_an_invalid_goal_is_refused(robot: Robot, goal: dict[str, Any], code: in
 
 
 def test_a_controller_that_does_not_run_refuses_goals_topics_and_queries(robot: Robot) -> None:
-    log = robot.gazebo.hear("/rosout_agg", "rosgraph_msgs/Log")
+    log = robot.gazebo.subscribe("/rosout_agg", "rosgraph_msgs/Log")
     assert robot.call("switch_controller", "SwitchController", stop_controllers=["arm"], strictness=2).ok
     goal = trajectory(["a", "b"], point(1.0, 1.0, at_s=1.0))
     results = send_goal(robot, "arm", goal)
-    robot.gazebo.speak("/r/arm/command", "trajectory_msgs/JointTrajectory")(goal["trajectory"])
+    robot.gazebo.advertise("/r/arm/command", "trajectory_msgs/JointTrajectory")(goal["trajectory"])
     until(lambda: results)
     assert (results[0].status.status, results[0].result.error_code) == (REJECTED, -1)
     until(lambda: any("Can't accept new commands. Controller is not running." in str(line.msg) for line in log))
@@ -154,7 +154,7 @@ def test_a_goal_without_points_stops_and_succeeds(robot: Robot) -> None:
 
 
 def test_a_stop_has_its_duration_and_a_partial_goal_keeps_other_joints_moving(robot: Robot) -> None:
-    states = robot.gazebo.hear("/r/ramp/state", "control_msgs/JointTrajectoryControllerState")
+    states = robot.gazebo.subscribe("/r/ramp/state", "control_msgs/JointTrajectoryControllerState")
     results = send_goal(robot, "ramp", trajectory(["e", "f"], point(100.0, 100.0, at_s=100.0)), key="both")
     until(lambda: states and states[-1].desired.velocities[0] == pytest.approx(1.0))
     send_goal(robot, "ramp", trajectory(["f"], point(0.0, at_s=0.3)), key="one")
@@ -164,7 +164,7 @@ def test_a_stop_has_its_duration_and_a_partial_goal_keeps_other_joints_moving(ro
     assert states[-1].desired.velocities[0] == pytest.approx(1.0)
     assert len(results) == 1  # e still is on its way
     start, count = states[-1].desired.positions[0], len(states)
-    robot.gazebo.speak("/r/ramp/follow_joint_trajectory/cancel", "actionlib_msgs/GoalID")({})
+    robot.gazebo.advertise("/r/ramp/follow_joint_trajectory/cancel", "actionlib_msgs/GoalID")({})
     until(lambda: states[-1].desired.velocities[0] == 0.0)
     assert (results[1].status.goal_id.id, results[1].status.status) == ("one", PREEMPTED)
     speeds = [state.desired.velocities[0] for state in states[count:]]
@@ -176,7 +176,7 @@ def test_a_stop_has_its_duration_and_a_partial_goal_keeps_other_joints_moving(ro
 
 def test_a_refused_goal_does_not_stop_the_running_goal(robot: Robot) -> None:
     results = send_goal(robot, "arm", trajectory(["a", "b"], point(1.0, 1.0, at_s=1.0)), key="good")
-    states = robot.gazebo.hear("/r/arm/follow_joint_trajectory/status", "actionlib_msgs/GoalStatusArray")
+    states = robot.gazebo.subscribe("/r/arm/follow_joint_trajectory/status", "actionlib_msgs/GoalStatusArray")
     until(lambda: robot.joint("a").position[0] > 0.0)
     send_goal(robot, "arm", trajectory(["a"], point(1.0, at_s=1.0)), key="bad")
     until(lambda: len(results) == 2)
@@ -217,7 +217,7 @@ def test_an_unreachable_goal_is_aborted(robot: Robot) -> None:
 def test_a_missed_goal_is_aborted_after_its_goal_time_tolerance(robot: Robot) -> None:
     tolerances = {"goal_time_tolerance": {"sec": -1, "nanosec": 0}, "goal_tolerance": [{"name": "c", "position": 1e-6}]}
     results = send_goal(robot, "pushed", {**trajectory(["c"], point(1.0, at_s=0.1)), **tolerances})
-    feedback = robot.gazebo.hear(
+    feedback = robot.gazebo.subscribe(
         "/r/pushed/follow_joint_trajectory/feedback", "control_msgs/FollowJointTrajectoryActionFeedback"
     )
     until(lambda: results)
@@ -241,14 +241,14 @@ def test_a_new_goal_and_a_cancel_preempt(robot: Robot) -> None:
     send_goal(robot, "arm", slow, key="second")
     until(lambda: len(results) == 1)
     assert (results[0].status.goal_id.id, results[0].status.status) == ("first", PREEMPTED)
-    robot.gazebo.speak("/r/arm/follow_joint_trajectory/cancel", "actionlib_msgs/GoalID")({})
+    robot.gazebo.advertise("/r/arm/follow_joint_trajectory/cancel", "actionlib_msgs/GoalID")({})
     until(lambda: len(results) == 2)
     assert (results[1].status.goal_id.id, results[1].status.status) == ("second", PREEMPTED)
 
 
 def test_the_topic_moves_the_joints_and_states_are_published(robot: Robot) -> None:
-    states = robot.gazebo.hear("/r/arm/state", "control_msgs/JointTrajectoryControllerState")
-    command = robot.gazebo.speak("/r/arm/command", "trajectory_msgs/JointTrajectory")
+    states = robot.gazebo.subscribe("/r/arm/state", "control_msgs/JointTrajectoryControllerState")
+    command = robot.gazebo.advertise("/r/arm/command", "trajectory_msgs/JointTrajectory")
     command(trajectory(["a", "b"], point(0.4, 2.0 + 6.283185307, at_s=0.3))["trajectory"])  # b takes the shorter way
 
     def has_arrived() -> bool:

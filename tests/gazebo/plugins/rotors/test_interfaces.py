@@ -16,10 +16,10 @@ def test_a_controller_flies_a_quadrotor_through_its_topics(gazebo: Gazebo) -> No
     plugins = "".join(PLUGIN.format(name, parameters) for name, parameters in _PLUGINS.items())
     model = f'<sdf version="1.6"><model name="quad">{quadrotor(plugins)}</model></sdf>'
     assert gazebo.spawn(model, "quad").success
-    odometry = gazebo.hear("/quad/odometry_sensor1/odometry", "nav_msgs/Odometry")
-    imu_messages = gazebo.hear("/quad/imu", "sensor_msgs/Imu")
-    speeds = gazebo.hear("/quad/motor_speed", "mav_msgs/Actuators")
-    fly = gazebo.speak("/quad/command/motor_speed", "mav_msgs/Actuators")
+    odometry = gazebo.subscribe("/quad/odometry_sensor1/odometry", "nav_msgs/Odometry")
+    imu_messages = gazebo.subscribe("/quad/imu", "sensor_msgs/Imu")
+    speeds = gazebo.subscribe("/quad/motor_speed", "mav_msgs/Actuators")
+    fly = gazebo.advertise("/quad/command/motor_speed", "mav_msgs/Actuators")
     fly({"angular_velocities": [1.1 * HOVER] * 4})
     gazebo.call("unpause_physics")
 

@@ -41,7 +41,7 @@ function numbersOf(value: DraftField["value"]): readonly number[] | null {
   return Array.isArray(value) ? (value as readonly number[]) : null;
 }
 
-/** Values that change one number of several; null keeps a number. */
+/** Array that sets one of several numbers; null leaves a number as it is. */
 function only(length: number, index: number, value: number): readonly (number | null)[] {
   return Array.from({ length }, (_, i) => (i === index ? value : null));
 }

@@ -1,6 +1,7 @@
 /** Points of a curve: the newest ones, kept contiguous. */
 
-const RESET = 1; // s: messages overtake each other by less
+/** Step back in time that means a reset [s]; messages out of order differ by less. */
+const RESET = 1;
 
 /**
  * Keeps at least the newest `capacity` points, x ascending. Arrays of twice the size let a view be a plain subarray:

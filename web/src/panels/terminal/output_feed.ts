@@ -11,7 +11,7 @@ export interface Screen {
 }
 
 export class OutputFeed {
-  /** Number of the byte that comes next; null: whatever comes is the whole. */
+  /** Offset of the next expected byte in all output; null: unknown, so the next output replaces the screen. */
   private next: number | null = null;
   private waiting: Uint8Array[] = [];
   private waitingBytes = 0;
@@ -20,12 +20,12 @@ export class OutputFeed {
 
   constructor(private readonly screen: Screen) {}
 
-  /** Start again with the next output, as of another server. */
+  /** Let the next output replace the screen: it is another server's. */
   restart(): void {
     this.next = null;
   }
 
-  /** Output from byte `first` on, of all that were printed. */
+  /** Add output; `first` is the offset of its first byte in all output so far. */
   receive(first: number, data: Uint8Array): void {
     const known = this.next === null ? -1 : this.next - first;
     if (known < 0 || known > data.length) this.discard();

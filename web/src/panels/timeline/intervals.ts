@@ -5,7 +5,7 @@ export interface Span {
   /** [s] */
   readonly start: number;
   readonly end: number;
-  /** End of the known time; later times are the future of a simulation. */
+  /** Latest simulated or recorded time; a running simulation's timeline extends beyond it. */
   readonly known: number;
   /** True if one can go to a time. */
   readonly isSeekable: boolean;

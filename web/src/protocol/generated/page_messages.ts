@@ -299,7 +299,6 @@ export interface LinkInfo {
   readonly body: number;
   /** [kg] */
   readonly mass: number;
-  /** ixx iyy izz ixy ixz iyz [kg·m²]. */
   readonly inertia: readonly [number, number, number, number, number, number];
   readonly inertial_pose: readonly [number, number, number, number, number, number];
   /** mu and mu2; null: no collisions. */
@@ -354,7 +353,7 @@ export interface JointInfo {
   readonly source: string | null;
 }
 
-/** Light of the world, or of a link with the name `model::link::name`. */
+/** Light of the world, or of a link (then named `model::link::light`). */
 export interface LightInfo {
   readonly name: string;
   readonly type: string;

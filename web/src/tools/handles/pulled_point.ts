@@ -1,4 +1,4 @@
-/** A point of a link that the pointer pulls by a spring, as in MuJoCo's viewer, with the line between. */
+/** Pulls a point of a link toward the pointer by a spring, as in MuJoCo's viewer, and draws a line between them. */
 
 import { BufferAttribute, BufferGeometry, Line, LineBasicMaterial, Plane, Vector3, type Matrix4 } from "three";
 
@@ -10,7 +10,7 @@ import type { WorldEditor } from "../../page/world_editor";
 import { LatestRequest } from "./latest_request";
 import { findModel } from "../../page/selection_lookup";
 
-/** Time after which a resting pull is sent again [ms]; after a second the server releases it. */
+/** Period at which a pull is sent again, even if the pointer rests [ms]; after a second without it the server lets go. */
 const RENEWAL = 300;
 
 interface Pulled {

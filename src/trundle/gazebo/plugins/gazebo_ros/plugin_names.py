@@ -26,15 +26,18 @@ class NameRule(NamedTuple):
     empty_is_model: bool = False
     """An empty <robotNamespace> means the model's name; else the root."""
     prefix: Literal["tf_prefix", "else_namespace", "namespace"] = "tf_prefix"
-    """Prefix of frames: `tf_prefix`: the parameter; `else_namespace`: the parameter, up to Melodic else the namespace;
-    `namespace`: the namespace, else the parameter.
+    """Prefix of frames.
+
+    - `tf_prefix`: the parameter tf_prefix.
+    - `else_namespace`: the same; if it is unset, the namespace up to Melodic.
+    - `namespace`: the namespace; if it is empty, the parameter tf_prefix.
     """
 
 
 _MODEL = NameRule(missing_is_model=True, empty_is_model=True, prefix="else_namespace")
-"""The constructor of gazebo_ros_utils' class GazeboRos for a model."""
+"""Rule of the constructor of gazebo_ros_utils' class GazeboRos for a model."""
 _SENSOR = NameRule(empty_is_model=True, prefix="else_namespace")
-"""GetRobotNamespace of gazebo_ros_utils."""
+"""Rule of gazebo_ros_utils' GetRobotNamespace."""
 _VELODYNE = NameRule(prefix="namespace")
 _RULES: dict[str, NameRule] = {
     "libgazebo_ros_camera.so": _SENSOR,
@@ -112,7 +115,7 @@ class PluginNames:
         self._model, self._models = model, models
 
     def topics(self, *names: str) -> list[str]:
-        """Return the global names of one topic that has several names."""
+        """Return a topic's global names: each name in the namespace and, if no other model claims it, at the root."""
         topics = [join_topic(self.namespace, name) for name in names]
         if self._is_also_at_root:
             topics += [join_topic("", name) for name in names]
@@ -123,7 +126,7 @@ class PluginNames:
         return join_topic(self.namespace, name)
 
     def advertise(self, kind: str, *names: str, queue_size: int = 1) -> TopicPublisher:
-        """Advertise a topic that has several names."""
+        """Advertise a topic under all its names; see `topics`."""
         publishers = [self.node.advertise(topic, kind, queue_size=queue_size) for topic in self.topics(*names)]
         return publishers[0] if len(publishers) == 1 else _PublisherGroup(publishers)
 

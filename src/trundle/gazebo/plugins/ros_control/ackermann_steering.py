@@ -19,13 +19,19 @@ _STRAIGHT_RAD = 1e-6
 class AckermannSteering:
     """Drives by `~cmd_vel`: linear.x is a speed, and angular.z the steering angle [rad], as in the original.
 
-    Parameters, with the original's defaults: rear_wheel rear_wheel_joint (velocity), front_steer front_steer_joint
-    (position), wheel_separation_h (between the two joints along x) and wheel_radius (the model's), their
-    wheel_separation_h_multiplier, wheel_radius_multiplier and steer_pos_multiplier 1 (of odometry alone), publish_rate
-    50, open_loop false (then angular.z counts as a rate), velocity_rolling_window_size 10, cmd_vel_timeout 0.5,
-    allow_multiple_cmd_vel_publishers true, base_frame_id base_link, odom_frame_id odom, enable_odom_tf true, linear/x
-    and angular/z with has_, max_ and min_ velocity_limits, acceleration_limits and jerk_limits, pose_ and
-    twist_covariance_diagonal.
+    Parameters, with the original's defaults:
+
+    - rear_wheel (rear_wheel_joint): joint driven by velocity.
+    - front_steer (front_steer_joint): joint steered by position.
+    - wheel_separation_h: wheelbase [m]; by default the joints' distance along x.
+    - wheel_radius [m]: by default the model's.
+    - wheel_separation_h_multiplier, wheel_radius_multiplier, steer_pos_multiplier (1): factors for odometry alone.
+    - open_loop (false): true integrates the command for odometry, with angular.z as a yaw rate.
+    - publish_rate (50), velocity_rolling_window_size (10), cmd_vel_timeout (0.5).
+    - allow_multiple_cmd_vel_publishers (true).
+    - base_frame_id (base_link), odom_frame_id (odom), enable_odom_tf (true).
+    - linear/x and angular/z: has_, max_ and min_ velocity_limits, acceleration_limits and jerk_limits.
+    - pose_covariance_diagonal, twist_covariance_diagonal.
     """
 
     def __init__(self, context: ControllerContext) -> None:
@@ -35,10 +41,10 @@ class AckermannSteering:
         self._steer = context.joint(settings.text("front_steer", "front_steer_joint"), "PositionJointInterface")
         self.claims: dict[Interface | str, list[str]] = {j.interface: [j.name] for j in (self._wheel, self._steer)}
         distance = abs(origin(context, self._wheel)[0] - origin(context, self._steer)[0])
-        base = length(context, "wheel_separation_h", distance or None)
+        wheelbase = length(context, "wheel_separation_h", distance or None)
         self._radius = wheel_radius(context, self._wheel)
-        self._rolled_radius = self._radius * settings.number("wheel_radius_multiplier", 1.0)
-        self._base = base * settings.number("wheel_separation_h_multiplier", 1.0)
+        self._odometry_radius = self._radius * settings.number("wheel_radius_multiplier", 1.0)
+        self._wheelbase = wheelbase * settings.number("wheel_separation_h_multiplier", 1.0)
         self._steer_multiplier = settings.number("steer_pos_multiplier", 1.0)
         self._timeout_ns = round(settings.number("cmd_vel_timeout", 0.5) * 1e9)
         self._open_loop = settings.flag("open_loop", default=False)
@@ -56,7 +62,7 @@ class AckermannSteering:
         self._pose = (0.0, 0.0, 0.0)
         """x, y [m] and yaw [rad]."""
         self._history = [(0.0, 0.0), (0.0, 0.0)]
-        """(last, last but one) command: linear, angular."""
+        """Linear and angular command, each as (last, second to last)."""
 
     @classmethod
     def create(cls, context: ControllerContext) -> Self:
@@ -121,8 +127,8 @@ class AckermannSteering:
             distance, turn = (last * dt for last, _ in self._history)
         else:
             rotation, self._last_position = self._wheel.position - self._last_position, self._wheel.position
-            distance = rotation * self._rolled_radius
-            turn = math.tan(self._steer.position * self._steer_multiplier) * distance / self._base
+            distance = rotation * self._odometry_radius
+            turn = math.tan(self._steer.position * self._steer_multiplier) * distance / self._wheelbase
         self._pose = arc(self._pose, distance, turn)
         if dt > 0.0:
             self._speeds.append((distance / dt, turn / dt))

@@ -20,14 +20,15 @@ _PACKAGE = "four_wheel_steering_msgs"
 
 
 class FourWheelDrive:
-    """Drives by the later of `~cmd_vel` (axles steered oppositely) and `~cmd_four_wheel_steering` (angle of each).
+    """Drives by the later of `~cmd_vel` (axles steered oppositely) and `~cmd_four_wheel_steering` (an angle per axle).
 
     Parameters, with the original's defaults: front_wheel, rear_wheel (velocity), front_steering and rear_steering
-    (position), each a left and a right joint (required); track and wheel_base (between front wheels, and axles) and
-    wheel_radius (those of the model), publish_rate 50, velocity_rolling_window_size 10, cmd_vel_timeout 0.5,
-    base_frame_id base_link, enable_odom_tf true, linear/x and angular/z with has_, max_ and min_ velocity_limits and
-    acceleration_limits, pose_ and twist_covariance_diagonal. Odometry is in the frame odom, and as
-    angles with their rates on `~odom_steer`; the original's rates have the wrong sign, and its wheel offset is wrong.
+    (position), each a left and a right joint (required); track (between the front wheels), wheel_base (between the
+    axles) and wheel_radius, by default the model's; publish_rate 50, velocity_rolling_window_size 10, cmd_vel_timeout
+    0.5, base_frame_id base_link, enable_odom_tf true; linear/x and angular/z, each with has_X_limits, max_X and min_X
+    for X velocity, acceleration and jerk; pose_ and twist_covariance_diagonal. Odometry is published in the frame odom,
+    and as speed and steering angles with their rates on `~odom_steer`. The original's rates have the wrong sign, and
+    its wheel offset is wrong; here both are right.
     """
 
     def __init__(self, context: ControllerContext) -> None:

@@ -26,7 +26,8 @@ class JointHardware(ServoJoint):
             handle: simulation's joint; it has an axis.
             interface: meaning of commands.
             pid: efforts from position or velocity errors; None: position or velocity is driven directly.
-            lag_s: time constant of driven positions [s]; gazebo_ros_control sets them at once, through obstacles.
+            lag_s: time constant with which a directly driven position follows its command [s]. The original sets the
+                position in one step, through obstacles.
         """
         axis, kind = handle.joint.axis, handle.joint.type
         assert axis is not None, f"{handle.name} has no axis"

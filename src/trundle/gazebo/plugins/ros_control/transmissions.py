@@ -87,7 +87,7 @@ def _read_driven_joint(transmission: XmlNode, joint: XmlNode, report: Diagnostic
         report.warn(joint.at, f"{subject} has {len(texts)} <hardwareInterface> elements; the first one is used")
     interface = texts[0].removeprefix(_PACKAGE)
     if interface not in INTERFACES:
-        problem = f"{subject}: no hardware interface {texts[0]!r}; interfaces: {', '.join(INTERFACES)}; it is left out"
+        problem = f"{subject}: unknown hardware interface {texts[0]!r}; known: {', '.join(INTERFACES)}; it is left out"
         report.warn(joint.at, problem)
         return None
     return DrivenJoint(name, interface)

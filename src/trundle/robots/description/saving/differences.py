@@ -13,7 +13,7 @@ from trundle.spatial import Pose
 TOLERANCE = 1e-7
 """Relative difference of numbers that count as equal."""
 _IGNORED = frozenset({"at", "uri", "node", "added", "sdf_version", "plugins", "canonical_link", "frames"})
-"""Fields that are no part of the state, or that stay in the XML anyway."""
+"""Fields not compared: no part of the state, or copied unchanged from the original XML."""
 
 
 def poses_differ(one: Pose, other: Pose) -> bool:

@@ -44,7 +44,9 @@ def is_python2_file(path: str | os.PathLike[str], *, in_package: bool = False) -
 
 
 def translated_code(path: str | os.PathLike[str], *, in_package: bool = False) -> CodeType:
-    """Code of a Python 2 file, with its name and lines; the first file of a process is named on standard error.
+    """Return the code of a Python 2 file's translation, which keeps file name and lines for tracebacks.
+
+    For the first file of a process, a notice goes to standard error.
 
     Args:
         path: file's path.

@@ -19,7 +19,9 @@ def python2_builtins() -> dict[str, Any]:
     functions = (apply, cmp, execfile, filter, input, map, ord, reload, round, sorted, unicode, zip, range)
     helpers = (python2_divide, python2_divide_in_place, python2_divisor, python2_string_exception)
     names = {**vars(builtins), **{function.__name__: function for function in (*functions, *helpers)}}
-    names.update(python2_by=cmp_to_key, basestring=str, long=int, unichr=chr, xrange=builtins.range, reduce=reduce)
+    names.update(
+        python2_cmp_to_key=cmp_to_key, basestring=str, long=int, unichr=chr, xrange=builtins.range, reduce=reduce
+    )
     names.update(raw_input=builtins.input, file=builtins.open, intern=sys.intern, buffer=memoryview)
     return {**names, "StandardError": Exception}
 
@@ -68,8 +70,8 @@ def python2_divide_in_place(left: Any, right: Any) -> Any:
     return left
 
 
-class python2_divisor:  # noqa: N801 – a name of translated programs, which are in lower case
-    """Right side of `/=` whose target is evaluated once."""
+class python2_divisor:  # noqa: N801 – names in translated programs are in lower case
+    """Divisor of a translated `a /= b`, which divides as in Python 2 while Python evaluates `a` only once."""
 
     __array_ufunc__ = None
 
@@ -82,7 +84,7 @@ class python2_divisor:  # noqa: N801 – a name of translated programs, which ar
 
 @cache
 def python2_string_exception(text: str) -> type[Exception]:
-    """Class of an exception that is a string."""
+    """Return the exception class of a Python 2 string exception, `raise "text"`."""
     return type(text.replace("\0", ""), (Exception,), {"__module__": "builtins"})
 
 
@@ -101,7 +103,7 @@ class _TextClass(type):
 
 
 class unicode(metaclass=_TextClass):  # noqa: N801
-    """Text; a str stays unchanged, whatever its encoding."""
+    """Python 2's `unicode`; the encoding is of bytes and is ignored for a str."""
 
 
 def apply(function: Callable[..., Any], args: Iterable[Any] = (), kwargs: dict[str, Any] | None = None) -> Any:

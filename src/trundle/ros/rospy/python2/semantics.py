@@ -78,14 +78,14 @@ def _replace_augmented_division(node: Any) -> None:
 
 
 def _sort_by_key(node: Any) -> None:
-    """`.sort(f)` and `.sort(cmp=f)` → `.sort(key=python2_by(f))`; a number is an axis of numpy's."""
+    """`.sort(f)` and `.sort(cmp=f)` → `.sort(key=python2_cmp_to_key(f))`; a number is an axis of numpy's."""
     for name, call in pairwise(node.children):
         if str(name) != ".sort" or len(getattr(call, "children", ())) != 3:
             continue
         text = str(call.children[1]).removeprefix("cmp=")
         is_keyword = "=" in text and not text.startswith("lambda")
         if not is_keyword and "," not in text.partition("lambda")[0] and not text.strip("-").isdigit():
-            call.children[1].replace(_leaf(f"key=python2_by({text})", ""))
+            call.children[1].replace(_leaf(f"key=python2_cmp_to_key({text})", ""))
 
 
 def _is_float(text: str) -> bool:

@@ -139,12 +139,12 @@ class ActionServer(ActionTypes):
     def publish_status(self) -> None:
         """Send the status of all goals, and forget those that ended over `status_list_timeout` ago."""
         with self.lock:
-            oldest = rospy.Time.now()
+            now = rospy.Time.now()
             self.status_list = [
                 tracker
                 for tracker in self.status_list
                 if tracker.handle_destruction_time == rospy.Time()
-                or tracker.handle_destruction_time + self.status_list_timeout >= oldest
+                or tracker.handle_destruction_time + self.status_list_timeout >= now
             ]
             self._publish(
                 self.status_pub, GoalStatusArray(status_list=[tracker.status for tracker in self.status_list])
