@@ -8,7 +8,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from tests.graphs import PATIENCE_S
+from tests.graphs import PATIENCE_S, until
+from tests.system.conftest import Running
 
 from trundle.base.supervisor import HAS_PSEUDO_TERMINALS
 from trundle.base.supervisor.terminal import LEADER
@@ -18,7 +19,6 @@ pytestmark = [
     pytest.mark.skipif(not HAS_PSEUDO_TERMINALS, reason="Windows has no pseudo-terminals"),
 ]
 
-Launch = Callable[..., subprocess.CompletedProcess[str]]
 MANIFEST = """<package><name>p</name><version>1.0.0</version><description>d</description>
 <maintainer email="a@b.c">m</maintainer><license>x</license></package>"""
 RAW_KEY = """#!/usr/bin/env python3
@@ -111,7 +111,7 @@ def test_the_first_node_with_an_xterm_prefix_gets_the_launchs_terminal(env: dict
         "there is no xterm here, and another node has the only terminal; without --headless each has one on the page"
     )
     assert (
-        f"node /b: launch-prefix 'xterm -e' is left out: {reason};  or run it by itself: trundle exec p line.py"
+        f"node /b: launch-prefix 'xterm -e' is left out: {reason}; or run it by itself: trundle exec p line.py"
         in errors
     )
     assert not user.is_raw()
@@ -127,7 +127,7 @@ def test_a_node_without_a_prefix_reads_the_terminal_of_the_launch(env: dict[str,
     user.end()
 
 
-def test_a_missing_terminal_is_explained(trundle: Launch, package: Path) -> None:
+def test_a_missing_terminal_is_explained(start: Callable[..., Running], package: Path) -> None:
     xterm = 'launch-prefix="xterm -e"'
     file = write_launch(
         package,
@@ -135,13 +135,15 @@ def test_a_missing_terminal_is_explained(trundle: Launch, package: Path) -> None
         'pkg="p" type="line.py" name="b"',
         f'pkg="turtlesim" type="turtle_teleop_key" name="c" {xterm}',
     )
-    done = trundle(
-        "launch", "--headless", "--duration", "5", str(file), ROS_PACKAGE_PATH=str(package.parent), DISPLAY=""
-    )
-
+    launch = start("launch", "--headless", str(file), ROS_PACKAGE_PATH=str(package.parent), DISPLAY="")
     none = "there is no terminal to read keys from; without --headless the page has one; or run it by itself"
-    assert f"'xterm -e' is left out: there is no xterm here, and {none}: trundle exec p raw_key.py" in done.stderr
-    assert f"'xterm -e' is left out: {none}: trundle exec turtlesim turtle_teleop_key" in done.stderr
-    for name, program in (("a-1", "raw_key.py"), ("b-2", "line.py")):
-        advice = f'[{name}] it reads keys, and has no terminal: launch-prefix="xterm -e" gives it one on the page'
-        assert f"{advice}; or run it by itself: trundle exec p {program}" in done.stdout
+    advice = 'it reads keys, and has no terminal: launch-prefix="xterm -e" gives it one on the page'
+
+    for line in (
+        f"'xterm -e' is left out: there is no xterm here, and {none}: trundle exec p raw_key.py",
+        f"'xterm -e' is left out: {none}: trundle exec turtlesim turtle_teleop_key",
+        f"[a-1] {advice}; or run it by itself: trundle exec p raw_key.py",
+        f"[b-2] {advice}; or run it by itself: trundle exec p line.py",
+    ):
+        until(lambda line=line: line in launch.output())
+    launch.interrupt()

@@ -52,7 +52,7 @@ class NodeTerminals:
             reason = "Windows has no pseudo-terminals"
         elif self._is_assigned:
             reason = "another node has the only terminal; without --headless each has one on the page"
-        return f"{reason};  or run it by itself: {exec_command(node)}"
+        return f"{reason}; or run it by itself: {exec_command(node)}"
 
     def recover(self) -> None:
         """Let Ctrl-C end the launch again after a node disabled that; to be called when a node ends."""
