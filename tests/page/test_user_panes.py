@@ -179,7 +179,7 @@ def test_a_pane_looks_through_a_camera(user: PaneUser) -> None:
 
 def test_a_link_restores_all_panes(chromium: Any, url: str, user: PaneUser) -> None:
     """The user who follows it has their own layout again at the page's address."""
-    user.run("Link to this view")
+    user.run("Share")
     link = user.field("Link").input_value()
     user.page.keyboard.press("Escape")
     other = PaneUser(chromium, link)

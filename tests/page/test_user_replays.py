@@ -140,7 +140,7 @@ def test_a_replay_looks_like_the_page(log: Path, chromium: Any, tmp_path: Path) 
         head.press("End")
         user.until(lambda: float(head.get_attribute("aria-valuenow")) == pytest.approx(1.0), what="for the end")
         at_end = pictured(user, tmp_path)
-        choose(user, "Link to this view")
+        choose(user, "Share")
         view = user.page.get_by_role("textbox", name="Link").input_value().partition("#")[2]
         user.close()
     assert main(("convert", str(log), "--to", "html", "-o", str(tmp_path / "run.html"))) == 0

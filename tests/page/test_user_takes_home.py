@@ -138,7 +138,7 @@ def _stopped(user: SceneUser, folder: Path) -> Path:
 def test_a_link_shows_the_same_view(user: SceneUser, chromium: Any) -> None:
     _drag_view(user, 100, -50)
     user.until(lambda: user.sees_at((1.0, 0.5)) and not user.sees_at((0.0, 0.0)), what="for the square at its side")
-    _choose(user, "Link to this view")
+    _choose(user, "Share")
     link = user.page.get_by_role("textbox", name="Link").input_value()
 
     other = SceneUser(chromium, link)

@@ -41,6 +41,7 @@ export const SESSION: PageSession = {
   view_only: false,
   token: "control",
   view_token: "look",
+  network_urls: [],
   node: "/trundle_page_1",
 };
 

@@ -193,6 +193,7 @@ class Page:
             view_only=is_view_only,
             token=None if is_view_only else served.url.partition("?token=")[2],
             view_token=served.view_url.partition("?token=")[2],
+            network_urls=served.network_urls,
         )
         return msgspec.json.encode(page_session)
 

@@ -15,7 +15,7 @@ from concurrent.futures import Future
 from pathlib import Path
 
 from trundle.base.http.access import Access
-from trundle.base.http.page_address import AllowedNames, PageAddress
+from trundle.base.http.page_address import AllowedNames, PageAddress, network_addresses
 from trundle.ros import GraphLoop
 
 from .clients.assets import Assets
@@ -83,6 +83,7 @@ async def _serve(start: Start, loop: GraphLoop, listening: socket.socket, at: Pa
         url=access.url(reachable, port),
         foxglove_url=f"ws://{authority}/?token={access.token}",
         view_url=access.view_url(reachable, port),
+        network_urls=tuple(access.base_url(address, port) for address in network_addresses(at.host)),
     )
     await HttpServer(page, access, ClientFiles()).start(listening)
     loop.spawn(page.run()).add_done_callback(_end)

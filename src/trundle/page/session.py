@@ -79,3 +79,5 @@ class PageSession(Session, frozen=True, kw_only=True):
     """Token of links with full access; None: this client is view-only."""
     view_token: str
     """Token of view-only links."""
+    network_urls: tuple[str, ...]
+    """URLs of the page for other machines, without a path; empty: the page listens on loopback only."""

@@ -136,6 +136,8 @@ class Served(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     foxglove_url: str
     view_url: str
     """View-only link."""
+    network_urls: tuple[str, ...] = ()
+    """See `PageSession.network_urls`."""
 
     @property
     def port(self) -> int | None:

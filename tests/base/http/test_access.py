@@ -6,7 +6,7 @@ import pytest
 
 from trundle.base.diagnostics import UsageError
 from trundle.base.http.access import Access, PageRequest, without_tokens
-from trundle.base.http.page_address import AllowedNames, is_loopback
+from trundle.base.http.page_address import AllowedNames, is_loopback, network_addresses
 
 HERE = "localhost:8080"
 EVIL = "http://evil.example"
@@ -175,6 +175,20 @@ def test_tokens_are_long_and_random() -> None:
 )
 def test_loopback_is_an_address_or_localhost(host: str, loopback: bool) -> None:
     assert is_loopback(host) is loopback
+
+
+@pytest.mark.parametrize(
+    ("host", "addresses"),
+    [("127.0.0.1", ()), ("localhost", ()), ("::1", ()), ("192.168.7.1", ("192.168.7.1",)), ("box", ("box",))],
+)
+def test_other_machines_use_the_host_that_is_bound(host: str, addresses: tuple[str, ...]) -> None:
+    assert network_addresses(host) == addresses
+
+
+def test_a_server_at_all_addresses_is_reached_at_those_of_this_machine() -> None:
+    for address in network_addresses("0.0.0.0"):
+        with socket.create_server((address, 0)):  # it is one of this machine
+            assert not is_loopback(address)
 
 
 @pytest.mark.parametrize("origin", ["robot.example", "*", "https://a b", "https://a;script-src *", "file://", "null"])

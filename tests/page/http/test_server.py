@@ -51,6 +51,7 @@ def test_session_json_holds_the_session(page: PageServer) -> None:
         "joystick": False, "foxglove": page.foxglove_url, "node": None, "namespace": "/", "remappings": {},
         "terminals": [], "view_only": False, "token": page.url.partition("?token=")[2],
         "view_token": page.view_url.partition("?token=")[2],
+        "network_urls": [],
     }  # fmt: skip
     page.set_session(Session(title="other", kind="graph"))
     with ProtocolClient(page.url) as client:

@@ -136,9 +136,12 @@ class Access:
         """True if requests need a token."""
         return self.needs_token or not is_loopback(self.host)
 
+    def base_url(self, address: str, port: int) -> str:
+        """Return the URL of the server at an address, without a path."""
+        return f"http://{f'[{address}]' if ':' in address else address}:{port}"
+
     def _url(self, address: str, port: int, token: str | None) -> str:
-        query = "" if token is None else f"/?token={token}"
-        return f"http://{f'[{address}]' if ':' in address else address}:{port}{query}"
+        return f"{self.base_url(address, port)}{'' if token is None else f'/?token={token}'}"
 
     @property
     def _tokens(self) -> "dict[Right, str]":

@@ -1,12 +1,17 @@
 """Address and allowed names of a page; the rules are in `access`."""
 
+import contextlib
 import ipaddress
 import re
+import socket
 from dataclasses import dataclass
 
 from ..diagnostics import UsageError
 
 _ORIGIN = re.compile(r"https?://[^][:/@;,'\s]+(?::\d{1,5})?/?")
+_ALL_ADDRESSES = ("", "0.0.0.0", "::")
+_DOCUMENTATION_ADDRESS = ("192.0.2.1", 9)
+"""Address that no machine has (RFC 5737)."""
 AUTHORITY = re.compile(r"(\[[0-9a-f:.%]+\]|[^][:/@\s]+)(?::\d{1,5})?")
 """Host and optional port of a URL in lower case; the host is the first group."""
 
@@ -56,6 +61,23 @@ def is_loopback(host: str) -> bool:
     if is_address(host):
         return ipaddress.ip_address(host).is_loopback
     return host.lower() == "localhost"
+
+
+def network_addresses(host: str) -> tuple[str, ...]:
+    """Return the addresses at which other machines reach a server bound to a host; empty: none does.
+
+    For a server bound to all addresses, the first one is that of the default route.
+    """
+    if host not in _ALL_ADDRESSES:
+        return () if is_loopback(host) else (host,)
+    addresses: list[str] = []
+    with contextlib.suppress(OSError), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.connect(_DOCUMENTATION_ADDRESS)  # sends nothing, and chooses the address of this machine
+        addresses.append(str(probe.getsockname()[0]))
+    with contextlib.suppress(OSError):
+        entries = socket.getaddrinfo(socket.gethostname(), None, socket.AF_INET, socket.SOCK_STREAM)
+        addresses += [str(address[0]) for *_, address in entries]
+    return tuple(address for address in dict.fromkeys(addresses) if not is_loopback(address))
 
 
 def is_address(name: str) -> bool:

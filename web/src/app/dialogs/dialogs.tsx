@@ -11,10 +11,10 @@ import { Palette } from "./palette";
 import { PictureDialog } from "./picture_dialog";
 import { SaveRviz } from "./save_rviz";
 import { SaveWorld } from "./save_world";
+import { ShareDialog } from "./share_dialog";
 import type { Shell } from "../shell";
 import { TimeDialog } from "./time_dialog";
 import { UploadDialog } from "./upload_dialog";
-import { LinkDialog } from "./view_link_dialog";
 
 export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const dialog = shell.dialog.value;
@@ -25,7 +25,7 @@ export function Dialogs({ shell }: { readonly shell: Shell }): JSX.Element | nul
   if (dialog === "palette") return <Palette shell={shell} />;
   if (dialog === "help") return <Help shell={shell} />;
   if (dialog === "picture") return <PictureDialog shell={shell} />;
-  if (dialog === "link") return <LinkDialog shell={shell} />;
+  if (dialog === "share") return <ShareDialog shell={shell} />;
   if (dialog === "upload") return <UploadDialog shell={shell} />;
   if (dialog === "time") return <TimeDialog shell={shell} />;
   if (dialog === "save") return <SaveRviz shell={shell} />;

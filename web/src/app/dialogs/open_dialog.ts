@@ -7,7 +7,7 @@ export type OpenDialog =
   | "save_world"
   | "save_model"
   | "picture"
-  | "link"
+  | "share"
   | "upload"
   | "time"
   | null;

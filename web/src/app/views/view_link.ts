@@ -27,6 +27,15 @@ export function linkTo(
   return `${url.href}${KEY}${encodeURIComponent(JSON.stringify(shownViews(views), short))}`;
 }
 
+/** Origins at which other devices reach the page, the best first: that of this browser, if it is not loopback's. */
+export function shareableOrigins(
+  { origin, hostname }: Pick<Location, "origin" | "hostname">,
+  networkUrls: readonly string[],
+): readonly string[] {
+  const isLocal = hostname === "localhost" || hostname === "[::1]" || hostname.startsWith("127.");
+  return [...new Set([...(isLocal ? [] : [origin]), ...networkUrls])];
+}
+
 /** View in a link's fragment, as in an .rviz file; null: no readable view. */
 export function linkedView(hash: string): YamlMapping | null {
   if (!hash.startsWith(KEY) || hash.length > LONGEST) return null;

@@ -142,6 +142,7 @@ export const pageSession: is.Check<page.PageSession> = is.struct(() => ({
   view_only: is.flag,
   token: is.nullable(is.text),
   view_token: is.text,
+  network_urls: is.list(is.text),
 }));
 
 export const rvizFile: is.Check<page.RvizFile> = is.struct(() => ({

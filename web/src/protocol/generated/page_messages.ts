@@ -182,6 +182,8 @@ export interface PageSession {
   readonly token: string | null;
   /** Token of view-only links. */
   readonly view_token: string;
+  /** URLs of the page for other machines, without a path; empty: the page listens on loopback only. */
+  readonly network_urls: readonly string[];
 }
 
 /** The .rviz file that the page was started with, or that was saved last. */

@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
 import { expect, test } from "vitest";
 
-import { linkedView, linkTo, showLinkedView } from "../../../src/app/views/view_link";
+import { linkedView, linkTo, shareableOrigins, showLinkedView } from "../../../src/app/views/view_link";
 import type { PaneLayout } from "../../../src/scene/panes/pane_layout";
 import { Orbit } from "../../../src/scene/views/orbit";
 import { fakePane, FakeViews } from "../../fake_page";
@@ -58,4 +58,17 @@ test("a link of several panes restores each one's view", () => {
   expect(split.value).toBe("beside");
   expect(shown.map((view) => view.distance.value.value)).toEqual([10, 7]);
   expect(views.active.value).toBe(views.panes.value[1]);
+});
+
+const NETWORK = ["http://192.168.7.1:8080", "http://10.0.0.3:8080"];
+
+test.each([
+  ["localhost", NETWORK, NETWORK],
+  ["127.0.0.1", NETWORK, NETWORK],
+  ["[::1]", NETWORK, NETWORK],
+  ["localhost", [], []],
+  ["192.168.7.1", NETWORK, NETWORK],
+  ["robot.example", NETWORK, ["http://robot.example:8080", ...NETWORK]],
+])("a browser at %s shares the addresses that other devices reach", (hostname, urls, expected) => {
+  expect(shareableOrigins({ hostname, origin: `http://${hostname}:8080` }, urls)).toEqual(expected);
 });
