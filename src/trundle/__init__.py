@@ -11,7 +11,6 @@ TYPE_CHECKING = False  # not from `typing`: its import is half of a light comman
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from os import PathLike
-    from typing import Literal
 
     from trundle.live.loaded_simulation import LoadedSimulation
     from trundle.robots.description import Model, World
@@ -51,7 +50,6 @@ def sweep(
     output: "str | PathLike[str] | None" = None,
     workers: int | None = None,
     address: str | None = None,
-    device: 'Literal["cpu", "cuda"]' = "cpu",
 ) -> "SweepResult":
     """Run a world many times with different values; needs the extra `sweep`.
 
@@ -63,8 +61,6 @@ def sweep(
         workers: number of processes; None: one for each processor.
         address: address of a Ray cluster, "auto" for this machine's cluster, "local" for a new one; None: processes of
             this machine, without Ray.
-        device: "cuda" steps many rows at once on an NVIDIA GPU, in single precision; without a GPU a message is
-            printed, and the CPU steps them.
 
     Raises:
         TrundleError: one sentence with file and line.
@@ -75,7 +71,7 @@ def sweep(
     from trundle.studies.sweep.run_sweep import sweep_plan
 
     folder = None if output is None else Path(output)
-    return sweep_plan(plan, output=folder, workers=workers, address=address, device=device)
+    return sweep_plan(plan, output=folder, workers=workers, address=address)
 
 
 def dataset(

@@ -10,7 +10,6 @@ from .quiet_imports import quiet_imports
 EXAMPLES = """
   trundle sweep plan.yaml                             every run of the plan; the same command goes on after a stop
   trundle sweep plan.yaml -o results --workers 4      results in another folder, four processes
-  trundle sweep plan.yaml --device cuda               many runs at once on an NVIDIA GPU
   trundle sweep plan.yaml --row 4711                  one run again, in the browser
   trundle sweep report plan.yaml                      distributions, what matters, the worst runs: one HTML file
 """
@@ -29,8 +28,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--workers", type=int, metavar="N", help="number of processes (one for each processor)")
     address = "Ray cluster that runs them: HOST:PORT, `auto` for the one of this machine, `local` for a new one"
     parser.add_argument("--address", metavar="ADDR", help=address)
-    device = "what steps the rows: cpu, or cuda: an NVIDIA GPU, many rows at once, in single precision (cpu)"
-    parser.add_argument("--device", choices=("cpu", "cuda"), default="cpu", help=device)
     parser.add_argument("--row", type=int, metavar="N", help="run row N again, in the browser; nothing is written")
     parser.add_argument("--headless", action="store_true", help="with --row: no browser page, print its result")
     parser.add_argument("--port", type=int, metavar="N", help="with --row: the page's port (8080, or a free one)")
@@ -44,9 +41,6 @@ def main(args: argparse.Namespace) -> int:
     words: list[str] = args.words
     with quiet_imports():
         from trundle.studies.sweep.plan_reader import load_plan
-    if args.device != "cpu" and (args.row is not None or words[0] == _REPORT):
-        print("trundle sweep: --row and report use the processors; leave out --device", file=sys.stderr)
-        return 2
     if words[0] == _REPORT and len(words) == 2:
         from trundle.studies.sweep.report import write_report
 
@@ -64,7 +58,7 @@ def main(args: argparse.Namespace) -> int:
         return replay(plan, args.row, None if args.headless else at)
     from trundle.studies.sweep.run_sweep import sweep
 
-    result = sweep(plan, output=args.output, workers=args.workers, address=args.address, device=args.device)
+    result = sweep(plan, output=args.output, workers=args.workers, address=args.address)
     print(f"{result.summary()}; {result.folder}")
     if result.interrupted:
         print(f"stopped; `trundle sweep {words[0]}` goes on", file=sys.stderr)

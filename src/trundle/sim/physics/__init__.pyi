@@ -26,7 +26,4 @@ from .step.surface_motion import (
     WheelGrip as WheelGrip,
 )
 from .step.warp.device import NoGpuError as NoGpuError, find_gpu as find_gpu
-from .step.warp.gpu_states import StepResult as StepResult
-from .step.warp.gpu_worlds import GpuWorlds as GpuWorlds
 from .step.warp.limits import gpu_limits as gpu_limits
-from .step.warp.varied_numbers import gpu_differences as gpu_differences

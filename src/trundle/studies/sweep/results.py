@@ -27,9 +27,7 @@ _JOURNAL, _GROUPS, _PLAN, RESULTS = "journal.jsonl", "groups", "plan.json", "res
 class Results:
     """Results of one plan in a folder."""
 
-    def __init__(
-        self, folder: Path, table: Table, *, rows: int, digest: str, text: str, device: str | None = None
-    ) -> None:
+    def __init__(self, folder: Path, table: Table, *, rows: int, digest: str, text: str) -> None:
         """Open a folder, with existing results of the same plan.
 
         Args:
@@ -38,10 +36,9 @@ class Results:
             rows: number of rows.
             digest: digest of all inputs of the results.
             text: text of the plan, saved with the results.
-            device: device that runs the rows; None: any, for reading.
 
         Raises:
-            UsageError: the folder has the results of another plan or device, or cannot be written.
+            UsageError: the folder has the results of another plan, or cannot be written.
         """
         self.folder = folder
         self._table = table
@@ -50,7 +47,7 @@ class Results:
             (folder / _GROUPS).mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise UsageError(f"{folder}: {error.strerror}; give another folder with -o") from None
-        self._check_plan(digest, text, device)
+        self._check_plan(digest, text)
         self._waiting: dict[int, dict[int, RowResult]] = {}
         """Group → its rows in the journal."""
         self._full = {int(file.stem) for file in (folder / _GROUPS).glob("*.parquet")}
@@ -66,18 +63,15 @@ class Results:
             self._read_journal()
         self._journal: IO[bytes] | None = None
 
-    def _check_plan(self, digest: str, text: str, device: str | None) -> None:
+    def _check_plan(self, digest: str, text: str) -> None:
         path, expected = self.folder / _PLAN, {"digest": digest, "rows": self._rows}
         if not path.exists():
-            write_atomically(path, json.dumps({**expected, "device": device, "text": text}))
+            write_atomically(path, json.dumps({**expected, "text": text}))
             return
         saved = json.loads(path.read_text(encoding="utf-8"))
         if {key: value for key, value in saved.items() if key in expected} != expected:
             reason = "has the results of another plan, or the plan or its world has changed since"
             raise UsageError(f"{self.folder} {reason}; give another folder with -o, or delete this one")
-        before = saved.get("device")
-        if None not in (before, device) and before != device:
-            raise UsageError(f"{self.folder} has rows that ran on {before!r}; give another folder with -o")
 
     def _read_journal(self) -> None:
         """Read the journal; an incomplete last line is removed, and its row is run again."""

@@ -15,8 +15,6 @@ from trundle.base.workers import Progress, check_workers
 from trundle.studies.plan_files.lock import lock_folder
 
 from .argument_rows import argument_rows
-from .device.device_choice import Device, gpu_of
-from .device.row_check import check_worlds
 from .launch_row_runner import LaunchRowRunner
 from .plan import Plan
 from .plan_digest import RunInputs, plan_digest
@@ -65,9 +63,7 @@ def results_folder(plan: Plan, output: Path | None) -> Path:
     return output or Path(plan.file).with_suffix(".sweep")
 
 
-def open_results(
-    plan: Plan, rows: Rows, folder: Path, runner: RowRunner | LaunchRowRunner, *, device: Device | None = None
-) -> Results:
+def open_results(plan: Plan, rows: Rows, folder: Path, runner: RowRunner | LaunchRowRunner) -> Results:
     """Open the results of a plan in a folder.
 
     Args:
@@ -75,13 +71,12 @@ def open_results(
         rows: rows of the plan.
         folder: folder of the results.
         runner: runner of the rows.
-        device: see `Results`.
 
     Raises:
-        UsageError: the folder has the results of another plan or device, or cannot be written.
+        UsageError: the folder has the results of another plan, or cannot be written.
     """
     digest = plan_digest(plan, _inputs(plan, rows, runner))
-    return Results(folder, Table.of_plan(plan, rows), rows=len(rows), digest=digest, text=plan.text, device=device)
+    return Results(folder, Table.of_plan(plan, rows), rows=len(rows), digest=digest, text=plan.text)
 
 
 def _inputs(plan: Plan, rows: Rows, runner: RowRunner | LaunchRowRunner) -> Iterator[RunInputs]:
@@ -98,7 +93,6 @@ def sweep(
     output: Path | None = None,
     workers: int | None = None,
     address: str | None = None,
-    device: Device = "cpu",
 ) -> SweepResult:
     """Run the rows of a plan without a result.
 
@@ -107,32 +101,20 @@ def sweep(
         output: folder of the results; None: next to the plan.
         workers: number of processes; None: one per processor.
         address: address of a Ray cluster; None: this machine, without Ray.
-       device: "cuda": a GPU steps the rows in this process, in single precision; without a GPU, the processors run
-            them, and a message is printed.
 
     Raises:
         TrundleError: the plan cannot be run, or its results cannot be written.
     """
     check_workers(workers)
-    gpu = gpu_of(plan, device, workers=workers, address=address)
     rows, runner = Rows(plan), runner_of(plan)
     for warning in runner.check(rows.row(0)):
         say(warning, sys.stderr)
-    if gpu is not None:
-        assert isinstance(runner, RowRunner)
-        check_worlds(plan, rows.row(0), runner)
     folder = results_folder(plan, output)
     with lock_folder(folder), stop_flag() as stop:
-        results = open_results(plan, rows, folder, runner, device="cpu" if gpu is None else device)
+        results = open_results(plan, rows, folder, runner)
         progress = Progress(len(rows), results.done)
         with closing(results):
-            if gpu is None:
-                run_in_processes(plan, results, progress, workers=workers, address=address, is_ending=stop.is_set)
-            else:
-                from .device.batches import run_on_gpu  # Warp takes seconds to load
-
-                missing = results.missing()
-                run_on_gpu(plan, missing, results.add, gpu=gpu, progress=progress, is_ending=stop.is_set)
+            run_in_processes(plan, results, progress, workers=workers, address=address, is_ending=stop.is_set)
         return SweepResult(folder, results.counts, len(rows), progress.rate, stop.is_set(), results)
 
 
@@ -142,10 +124,9 @@ def sweep_plan(
     output: Path | None,
     workers: int | None,
     address: str | None,
-    device: Device,
 ) -> SweepResult:
     """See `trundle.sweep`."""
-    result = sweep(load_plan(plan), output=output, workers=workers, address=address, device=device)
+    result = sweep(load_plan(plan), output=output, workers=workers, address=address)
     if result.interrupted:
         raise KeyboardInterrupt
     return result

@@ -1,7 +1,6 @@
 """Stepper: states of one world on a GPU."""
 
 import copy
-from collections.abc import Mapping
 
 import mujoco
 import mujoco_warp
@@ -16,7 +15,6 @@ from ...compile.law_tables import find_table
 from .kernels import drive
 from .limits import gpu_limits, gpu_model
 from .sliding import Sliding
-from .varied_numbers import GRAVITY
 
 _Array = NDArray[np.float64]
 _CONTACTS_PER_PAIR, _MAX_CONTACTS = 8, 256
@@ -35,7 +33,6 @@ class GpuStepper:
         model: mujoco.MjModel,
         worlds: int,
         device: str,
-        numbers: Mapping[str, _Array] | None = None,
     ) -> None:
         """Copy a model to the GPU, and compile the kernels, which takes minutes the first time on a machine.
 
@@ -44,7 +41,6 @@ class GpuStepper:
             model: copy of its model, in which nothing sleeps.
             worlds: number of states.
             device: Warp's name of the GPU.
-            numbers: field of the model → (worlds, …) values; None: each world has the model's own.
 
         Raises:
             UsageError: the GPU does not support a law of the world, or a part of its model.
@@ -52,8 +48,6 @@ class GpuStepper:
         limits = gpu_limits(compiled)
         if limits:
             raise UsageError("\n".join(["a GPU cannot step this world; use device='cpu':", *limits]))
-        numbers = numbers or {}
-        sizes = dict.fromkeys(["tendon_frictionloss", *(name for name in numbers if name != GRAVITY)], worlds)
         model = copy.copy(model)
         gpu_model(model)
         contacts = min(_CONTACTS_PER_PAIR * max(model.npair, model.ngeom), _MAX_CONTACTS)
@@ -63,11 +57,10 @@ class GpuStepper:
         wp.config.log_level = wp.LOG_WARNING
         with wp.ScopedDevice(device):
             try:
-                self._model = mujoco_warp.put_model(model, batch_sizes=sizes)
+                self._model = mujoco_warp.put_model(model, batch_sizes={"tendon_frictionloss": worlds})
             except (NotImplementedError, ValueError) as error:
                 raise UsageError(f"a GPU cannot step this world; use device='cpu': {error}") from None
             self._model.opt.warn_overflow = 0
-            self._write(numbers)
             self._data = mujoco_warp.make_data(model, nworld=worlds, naconmax=max_contacts, njmax=rows)
             self._motors = wp.array(find_table(model, "motors")[:, [0, 2]].astype(np.int32), dtype=int, ndim=2)
             self._stops = wp.array(_stops(model).astype(np.float32), dtype=float, ndim=2)
@@ -79,13 +72,6 @@ class GpuStepper:
             with wp.ScopedCapture() as capture:
                 mujoco_warp.step(self._model, self._data)
             self._graph = capture.graph
-
-    def _write(self, numbers: Mapping[str, _Array]) -> None:
-        for name, values in numbers.items():
-            if name == GRAVITY:
-                self._model.opt.gravity = wp.array(values.astype(np.float32), dtype=wp.vec3)
-            else:
-                getattr(self._model, name).assign(values.astype(np.float32))
 
     def _drive(self, _model: object, data: "mujoco_warp.Data") -> None:
         self._sliding.launch()

@@ -1,1 +1,0 @@
-"""Execution of a sweep's rows on a GPU, which steps them together."""
