@@ -2,7 +2,8 @@
 
 import os
 import signal
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from typing import Any
 from urllib.parse import urlsplit
@@ -25,6 +26,11 @@ FAKE_PAD = """window.pad = {
 navigator.getGamepads = () => [window.pad, null];
 const tell = (kind) => dispatchEvent(Object.assign(new Event(kind), { gamepad: window.pad }));"""
 STOPPED = (0.0, 0.0)
+BLOCK = """window.busy = setInterval(() => {
+  const end = performance.now() + 500;
+  while (performance.now() < end);
+}, 1000)"""
+"""Blocks the page's thread for half of each second."""
 
 
 @pytest.fixture(scope="module")
@@ -71,7 +77,7 @@ def user(chromium: Any, server: PageServer) -> Iterator[PanelUser]:
 def _push(user: PanelUser, x: float, y: float) -> None:
     """Move the left stick, and wait until the page has read it."""
     user.page.evaluate(f"window.pad.axes = [{x}, {y}, 0, 0]")
-    user.page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    user.page.wait_for_timeout(150)
 
 
 @pytest.mark.slow
@@ -98,6 +104,78 @@ def test_a_gamepad_drives_within_the_limits_and_stops(graph: Graph, robot: Robot
     user.until_still(lambda: len(robot.received))
 
     assert (STOPPED, STOPPED) not in pairwise(robot.velocities)  # stops are sent only once
+
+
+def _hold(user: PanelUser, control: str) -> Callable[[], object]:
+    """Hold a control; return what lets it go."""
+    if control == "pad":
+        user.page.evaluate(FAKE_PAD + 'tell("gamepadconnected")')
+        _push(user, 0, 0)
+        _push(user, 0, -1)
+        return lambda: user.page.evaluate("window.pad.axes = [0, 0, 0, 0]")
+    if control == "disc":
+        box = user.page.locator(".disc").bounding_box()
+        user.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+        user.page.mouse.down()
+        user.page.mouse.move(box["x"] + box["width"] / 2, box["y"])
+        return user.page.mouse.up
+    user.page.keyboard.down("w")
+    return lambda: user.page.keyboard.up("w")
+
+
+@pytest.mark.parametrize(
+    ("control", "held_s"), [("key", 3), *(pytest.param(c, 20, marks=pytest.mark.slow) for c in ("key", "disc", "pad"))]
+)
+def test_a_busy_page_drives_without_a_stop(
+    graph: Graph, robot: Robot, user: PanelUser, control: str, held_s: int
+) -> None:
+    user.page.locator(".disc").focus()
+    user.page.evaluate(BLOCK)
+    robot.received.clear()
+    release = _hold(user, control)
+    graph.until(lambda: robot.velocities and robot.velocities[-1] != STOPPED)
+    robot.received.clear()  # a press on the disc is a velocity of zero, before it is dragged
+    graph.until(lambda: robot.received)
+    time.sleep(held_s)  # the page's own clock is as busy as the page
+    held = robot.velocities
+    user.page.evaluate("clearInterval(window.busy)")
+    released_s = time.monotonic()
+    release()
+    graph.until(lambda: robot.velocities[-1] == STOPPED)
+    print(f"{len(held) / held_s:.1f} Hz while held; zero {robot.received[-1][0] - released_s:.3f} s after the release")
+
+    assert STOPPED not in held
+    assert len(held) > held_s  # far above what a stop and a new start would need
+    assert robot.velocities.count(STOPPED) == 1
+
+
+def test_a_page_that_hangs_stops_the_robot_until_it_goes_on(graph: Graph, robot: Robot, user: PanelUser) -> None:
+    user.page.locator(".disc").focus()
+    robot.received.clear()
+    user.page.keyboard.down("w")
+    graph.until(lambda: robot.received)
+    user.page.evaluate("const end = performance.now() + 3000; setTimeout(() => { while (performance.now() < end); })")
+    graph.until(lambda: robot.velocities[-1] == STOPPED)
+    graph.until(lambda: robot.velocities[-1] != STOPPED)
+    user.page.keyboard.up("w")
+    graph.until(lambda: robot.velocities[-1] == STOPPED)
+
+
+def test_late_commands_are_shown(graph: Graph, robot: Robot, server: PageServer, user: PanelUser) -> None:
+    user.page.locator(".disc").focus()
+    user.page.keyboard.down("w")
+    graph.until(lambda: robot.velocities and robot.velocities[-1] != STOPPED)
+    os.kill(server.process_id, signal.SIGSTOP)
+    try:
+        late = user.page.locator(".disc:has(.ring.late)")
+        late.get_by_text(" s late").wait_for()
+        user.page.locator(".driven").get_by_text("Commands ").wait_for()
+    finally:
+        os.kill(server.process_id, signal.SIGCONT)
+    user.page.locator(".driven").get_by_text("Let go to stop").wait_for()
+    late.wait_for(state="detached")
+    user.page.keyboard.up("w")
+    graph.until(lambda: robot.velocities[-1] == STOPPED)
 
 
 def test_a_lost_connection_is_shown_stops_the_robot_and_is_restored(

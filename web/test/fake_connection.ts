@@ -48,7 +48,9 @@ export class FakeConnection implements Connection {
   readonly requests: { readonly name: RequestName; readonly fields: Readonly<Record<string, unknown>> }[] = [];
   readonly calls: { readonly name: string; readonly request: RosMessage }[] = [];
   readonly driven: { readonly topic: string; readonly linear: number; readonly angular: number }[] = [];
-  readonly released: string[] = [];
+  released = 0;
+  readonly driveDelay = signal(0);
+  isReadyToDrive = false;
   /** What the others were shown of the selection. */
   readonly presented: (SharedSelection | null)[] = [];
   /** Texts of types' definitions. */
@@ -165,8 +167,11 @@ export class FakeConnection implements Connection {
     this.driven.push({ topic, linear, angular });
   }
 
-  release(topic: string): void {
-    this.released.push(topic);
+  prepareDriving(): void {
+    this.isReadyToDrive = true;
+  }
+  release(): void {
+    this.released += 1;
   }
   readonly typed: {
     readonly number: number;

@@ -23,6 +23,8 @@ from .clients.protocol import (
     CAPABILITIES,
     ERROR,
     GRAPH_CAPABILITIES,
+    TRUNDLE,
+    TRUNDLE_DRIVE,
     ClientOperation,
     FetchAsset,
     PageRequest,
@@ -234,9 +236,16 @@ class Page:
 
     # -- for clients
 
-    def join(self, outbox: Outbox, *, speaks_trundle: bool, is_view_only: bool) -> Connection:
-        """Add a client."""
-        client = Connection(outbox, self.hub, speaks_trundle=speaks_trundle, is_view_only=is_view_only)
+    def join(self, outbox: Outbox, *, protocol: str, is_view_only: bool) -> Connection:
+        """Add a client that speaks a subprotocol."""
+        only_drives = protocol == TRUNDLE_DRIVE
+        client = Connection(
+            outbox,
+            self.hub,
+            speaks_trundle=only_drives or protocol == TRUNDLE,
+            is_view_only=is_view_only,
+            only_drives=only_drives,
+        )
         self.hub.add_client(client)
         if self._graph is not None:
             self._graph.join(client)

@@ -1,4 +1,4 @@
-"""Refusals to view-only clients: only the operations listed here are allowed."""
+"""Refusals to view-only clients and to those that only drive: only the operations listed here are allowed."""
 
 from .clients.connection import Connection
 from .clients.protocol import (
@@ -6,10 +6,12 @@ from .clients.protocol import (
     ERROR,
     SERVICE_HEADER,
     ClientOperation,
+    Drive,
     FetchAsset,
     GetParameters,
     PageRequest,
     Presence,
+    Release,
     Subscribe,
     SubscribeConnectionGraph,
     SubscribeParameterUpdates,
@@ -22,6 +24,7 @@ from .owner import respond
 from .requests.request import Definition, PlotSeries
 
 REFUSAL = "this link is view-only"
+_DRIVE_REFUSAL = "a socket of trundle.drive.v1 only drives"
 _READ_ONLY = (
     Subscribe, Unsubscribe, GetParameters, SubscribeParameterUpdates, UnsubscribeParameterUpdates,
     SubscribeConnectionGraph, UnsubscribeConnectionGraph, FetchAsset, Presence, PageRequest,
@@ -31,6 +34,9 @@ _READ_ONLY = (
 
 def allows(client: Connection, operation: ClientOperation) -> bool:
     """Return True if a client may do an operation; otherwise send it a status message."""
+    if client.only_drives and not isinstance(operation, Drive | Release):
+        client.send_status(ERROR, _DRIVE_REFUSAL)
+        return False
     if not client.is_view_only or isinstance(operation, _READ_ONLY):
         return True
     client.send_status(ERROR, REFUSAL)
@@ -47,6 +53,9 @@ def allows_request(client: Connection, client_id: int | str, action: object) -> 
 
 def allows_binary(client: Connection, message: bytes) -> bool:
     """Return True if a client may publish and call services; otherwise answer with a refusal."""
+    if client.only_drives:
+        client.send_status(ERROR, _DRIVE_REFUSAL)
+        return False
     if not client.is_view_only:
         return True
     if message[:1] == bytes((CLIENT_SERVICE_CALL,)) and len(message) >= SERVICE_HEADER.size:

@@ -13,6 +13,7 @@ from tests.page_client import ProtocolClient
 
 from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
+from trundle.page.clients.protocol import TRUNDLE, TRUNDLE_DRIVE as DRIVE
 from trundle.ros import Node
 
 STOP_S = 0.5
@@ -104,8 +105,44 @@ def test_silence_stops(drive_page: PageServer, robot: Robot) -> None:
         _assert_one_stop(robot)
 
 
-def test_a_closed_socket_stops(drive_page: PageServer, robot: Robot) -> None:
-    with ProtocolClient(drive_page.url) as client:
+def test_a_velocity_is_repeated_for_its_lease(drive_page: PageServer, robot: Robot) -> None:
+    """A client that is held up for less than its lease does not stop the robot."""
+    with ProtocolClient(drive_page.url, protocol=DRIVE) as client:
+        _drive(client, robot)
+        robot.received.clear()
+        sent = time.monotonic()
+        client.send("trundle/drive", topic="/cmd_vel", linear=0.5, angular=-0.25, lease=1.0, number=7)
+        client.until(lambda: {"op": "trundle/driven", "number": 7} in client.jsons)
+        stopped = _until_stopped(robot)
+        print(f"{len(robot.received) - 1} velocities in {stopped - sent:.2f} s")
+        assert stopped - sent > 0.95
+        assert robot.velocities.count((0.5, -0.25)) > 2
+        _assert_one_stop(robot)
+
+
+def test_a_driving_socket_only_drives(drive_page: PageServer) -> None:
+    with ProtocolClient(drive_page.url, protocol=DRIVE) as client:
+        client.send("subscribe", subscriptions=[{"id": 1, "channelId": 1}])
+        client.until(lambda: client.statuses)
+        client.socket.send(b"\x01\0\0\0\0")
+        client.until(lambda: len(client.statuses) == 2)
+        assert {status["message"] for status in client.statuses} == {"a socket of trundle.drive.v1 only drives"}
+        assert (client.channels, client.services, client.times) == ({}, {}, [])
+
+
+def test_a_view_only_link_does_not_drive(drive_page: PageServer, robot: Robot) -> None:
+    with ProtocolClient(drive_page.view_url, protocol=DRIVE) as viewer, ProtocolClient(drive_page.url) as driver:
+        for _ in range(5):
+            viewer.send("trundle/drive", topic="/cmd_vel", linear=2.0, angular=0.0)
+            _drive(driver, robot)
+        viewer.until(lambda: len(viewer.statuses) >= 5)
+        assert {status["message"] for status in viewer.statuses} == {"this link is view-only"}
+        assert (2.0, 0.0) not in robot.velocities
+
+
+@pytest.mark.parametrize("protocol", [TRUNDLE, DRIVE])
+def test_a_closed_socket_stops(drive_page: PageServer, robot: Robot, protocol: str) -> None:
+    with ProtocolClient(drive_page.url, protocol=protocol) as client:
         _drive(client, robot)
         client.socket.socket.shutdown(2)
         _assert_one_stop(robot)

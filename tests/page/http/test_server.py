@@ -223,6 +223,18 @@ def test_workers_must_not_open_connections() -> None:
     assert policy["default-src"] == ["'none'"]
 
 
+def test_the_worker_that_drives_connects_to_the_pages_server_alone() -> None:
+    access = Access(host="127.0.0.1", port=80)
+    request = PageRequest(target="/assets/drive_worker-1a2b.js", host="127.0.0.1:80")
+    policy = _policy(response_fields(access, request, path=request.target))
+
+    assert {source for source in policy["connect-src"] if ":" in source and not source.endswith(":")} == {
+        "ws://127.0.0.1:80",
+        "wss://127.0.0.1:80",
+    }
+    assert policy["default-src"] == ["'none'"]
+
+
 @needs_client
 @pytest.mark.parametrize("encoding", ["gzip, deflate", "identity"])
 def test_scripts_are_sent_compressed_to_browsers_that_accept_it(page: PageServer, encoding: str) -> None:
@@ -266,6 +278,7 @@ def test_clients_beyond_the_limit_are_refused_until_one_leaves(page: PageServer)
         with pytest.raises(InvalidStatus) as refused:
             ProtocolClient(page.url)
         assert refused.value.response.status_code == 503
+        stack.enter_context(ProtocolClient(page.url, protocol="trundle.drive.v1"))  # of a page that is connected
         clients[0].socket.close()
         end = time.monotonic() + PATIENCE_S
         while time.monotonic() < end:

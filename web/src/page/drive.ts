@@ -1,4 +1,4 @@
-/** Driving with a dead man's switch: commands are sent at 10 Hz while a control is held, then one release. */
+/** Driving with a dead man's switch: commands are renewed at 10 Hz while a control is held, then released. */
 
 import { computed, effect, signal } from "@preact/signals";
 
@@ -56,12 +56,18 @@ export class Drive {
     return { linear: sum("linear") * this.linearLimit.value, angular: sum("angular") * this.angularLimit.value };
   });
 
+  /** Delay of the commands [s]; 0: they arrive in time. */
+  readonly delay = computed(() => (this.command.value === null ? 0 : this.page.connection.driveDelay.value));
+
   constructor(private readonly page: { readonly connection: Connection; readonly session: PageSession }) {
     const key = page.session.robot ?? page.session.title;
     this.linearLimit = signal(recall(`drive.${key}.linear`, 0.5, isNumber));
     this.angularLimit = signal(recall(`drive.${key}.angular`, 1, isNumber));
     effect(() => remember(`drive.${key}.linear`, this.linearLimit.value));
     effect(() => remember(`drive.${key}.angular`, this.angularLimit.value));
+    effect(() => {
+      if (this.topic.value !== null) page.connection.prepareDriving();
+    });
     effect(() => {
       if (page.connection.state.value.kind !== "connected") this.releaseAll();
     });
@@ -75,11 +81,13 @@ export class Drive {
   /** Hold a key, the disc or a stick; ignored without a connection or topic. */
   hold(source: string, linear: number, angular: number): void {
     if (this.topic.peek() === null || this.page.connection.state.peek().kind !== "connected") return;
+    const isNew = !this.inputs.peek().has(source);
     this.inputs.value = new Map(this.inputs.peek()).set(source, { linear: clamp(linear), angular: clamp(angular) });
-    if (this.driven !== null) return;
-    this.driven = this.topic.peek();
-    this.timer = setInterval(() => this.send(), PERIOD);
-    this.send();
+    if (this.driven === null) {
+      this.driven = this.topic.peek();
+      this.timer = setInterval(() => this.send(), PERIOD);
+    }
+    if (isNew) this.send(); // what moves with the pointer is sent at 10 Hz
   }
 
   release(source: string): void {
@@ -88,6 +96,7 @@ export class Drive {
     inputs.delete(source);
     this.inputs.value = inputs;
     if (inputs.size === 0) this.stop();
+    else this.send();
   }
 
   releaseAll(): void {
@@ -103,7 +112,7 @@ export class Drive {
 
   private stop(): void {
     clearInterval(this.timer);
-    if (this.driven !== null) this.page.connection.release(this.driven);
+    if (this.driven !== null) this.page.connection.release();
     this.driven = null;
   }
 }

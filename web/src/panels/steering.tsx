@@ -14,6 +14,7 @@ import type { Panel, PanelProps } from "./panel";
 function Steering({ page: { drive, session } }: PanelProps): JSX.Element {
   const topic = drive.topic.value;
   const isDriving = drive.command.value !== null;
+  const delay = drive.delay.value;
   return (
     <div class="scroll">
       <div class="steering">
@@ -29,7 +30,7 @@ function Steering({ page: { drive, session } }: PanelProps): JSX.Element {
         <Axis drive={drive} component="linear" name="Forward, v" unit="m/s" />
         <Axis drive={drive} component="angular" name="Turning, w" unit="rad/s" />
         <div class={isDriving ? "sm held" : "sm t2"} role="status">
-          {isDriving && `Driving ${topic ?? ""}. Let go to stop.`}
+          {isDriving && `Driving ${topic ?? ""}${delay > 0 ? `, ${fixed(delay, 1)} s late` : ""}. Let go to stop.`}
           {!isDriving &&
             (!canControl({ session })
               ? LOOKS_ONLY

@@ -78,6 +78,8 @@ export interface Connection {
   /** Parameters whose numbers are floating-point even where they are whole; setting one keeps it so. */
   readonly floatParameters: ReadonlySignal<ReadonlySet<string>>;
   readonly graph: ReadonlySignal<GraphInfo>;
+  /** Delay of velocity commands [s]; 0: they arrive in time. */
+  readonly driveDelay: ReadonlySignal<number>;
   /** Messages of the server about itself, newest last; one with an id takes the place of the earlier one with it. */
   readonly notices: ReadonlySignal<
     readonly { readonly level: "info" | "warning" | "error"; readonly text: string; readonly id?: string | undefined }[]
@@ -113,8 +115,11 @@ export interface Connection {
   fetchAsset(uri: string): Promise<ArrayBuffer>;
   /** A request to what started the page; rejects with a sentence. */
   request<N extends RequestName>(name: N, fields: Fields<N>): Promise<Answer<N>>;
+  /** Connect for driving, so that the first command is not late. */
+  prepareDriving(): void;
+  /** Drive at velocities [m/s, rad/s] for a second, or until `release`. */
   drive(topic: string, linear: number, angular: number): void;
-  release(topic: string): void;
+  release(): void;
   /** Type into a node's terminal, and set its size (columns, rows). */
   useTerminal(number: number, text: string, size?: readonly [number, number]): void;
   /** Show the selection to the other people. */

@@ -13,6 +13,7 @@ import type {
 } from "./connection";
 import { Calls } from "./calls";
 import { Decoder, type DecodePort } from "./decoder";
+import { DriveLink, type DrivePort } from "./drive_link";
 import { channels, serverOperation } from "./generated/page_checks";
 import type { Channels, SharedSelection } from "./generated/page_messages";
 import { Notices } from "./notices";
@@ -29,16 +30,22 @@ export class FoxgloveConnection implements Connection {
   readonly #calls: Calls;
   readonly #publications: Publications;
   readonly #system: SystemState;
+  readonly #drive: DriveLink;
   readonly #notices = new Notices();
   /** Last time from the server [ns]; null: the wall clock is used. */
   #time: bigint | null = null;
 
-  constructor(open: () => Socket, decodePort: DecodePort) {
+  constructor(
+    open: () => Socket,
+    decodePort: DecodePort,
+    drive: { readonly url: string; readonly open: () => DrivePort },
+  ) {
     const send = (frame: ClientFrame): boolean => this.#socket.send(frame);
     this.#subscriptions = new Subscriptions(send, new Decoder(decodePort));
     this.#calls = new Calls(send);
     this.#publications = new Publications(send, (type) => this.definition(type));
     this.#system = new SystemState(send);
+    this.#drive = new DriveLink(drive.url, drive.open, (text) => this.#notices.add("error", text, text));
     this.subscribeJson("trundle/drops", (drops) => this.#subscriptions.setServerDrops(drops));
     this.#socket = new ReconnectingSocket(
       open,
@@ -64,6 +71,9 @@ export class FoxgloveConnection implements Connection {
   }
   get graph(): Connection["graph"] {
     return this.#system.graph;
+  }
+  get driveDelay(): Connection["driveDelay"] {
+    return this.#drive.delay;
   }
   get notices(): Connection["notices"] {
     return this.#notices.list;
@@ -125,12 +135,16 @@ export class FoxgloveConnection implements Connection {
     return this.#calls.request(name, fields);
   }
 
-  drive(topic: string, linear: number, angular: number): void {
-    this.#socket.send({ op: "trundle/drive", topic, linear, angular });
+  prepareDriving(): void {
+    this.#drive.open();
   }
 
-  release(topic: string): void {
-    this.#socket.send({ op: "trundle/release", topic });
+  drive(topic: string, linear: number, angular: number): void {
+    this.#drive.drive(topic, linear, angular);
+  }
+
+  release(): void {
+    this.#drive.release();
   }
 
   useTerminal(number: number, text: string, size?: readonly [number, number]): void {
@@ -225,5 +239,6 @@ export function connect(address: string): FoxgloveConnection {
     socket.binaryType = "arraybuffer";
     return socket;
   };
-  return new FoxgloveConnection(open, worker);
+  const openDrive = (): Worker => new Worker(new URL("./drive_worker.ts", import.meta.url), { type: "module" });
+  return new FoxgloveConnection(open, worker, { url: url.href, open: openDrive });
 }

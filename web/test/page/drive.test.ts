@@ -27,18 +27,18 @@ describe("driving", () => {
     vi.useRealTimers();
   });
 
-  it("sends at 10 Hz while a key is held, and releases once at its end", () => {
+  it("sends at each key and at 10 Hz while one is held, and releases once at the end", () => {
     const { connection } = setUp();
     press("w");
     press("a");
     vi.advanceTimersByTime(300);
-    expect(connection.driven.length).toBe(4);
+    expect(connection.driven.length).toBe(5);
     expect(connection.driven.at(-1)).toEqual({ topic: "/cmd_vel", linear: 0.5, angular: 1 });
     press("w", document.body, "keyup");
-    expect(connection.released).toEqual([]);
+    expect(connection.released).toBe(0);
     press("a", document.body, "keyup");
     vi.advanceTimersByTime(1000);
-    expect([connection.driven.length, connection.released]).toEqual([4, ["/cmd_vel"]]);
+    expect([connection.driven.length, connection.released]).toEqual([6, 1]);
   });
 
   it.each(["blur", "pagehide"])("releases at %s", (event) => {
@@ -46,7 +46,7 @@ describe("driving", () => {
     press("s");
     expect(drive.command.value?.linear).toBe(-0.5);
     dispatchEvent(new Event(event));
-    expect([connection.released, drive.command.value]).toEqual([["/cmd_vel"], null]);
+    expect([connection.released, drive.command.value]).toEqual([1, null]);
   });
 
   it("releases when a field takes the focus, and ignores keys in the field", () => {
@@ -55,7 +55,7 @@ describe("driving", () => {
     press("w");
     field.focus();
     field.dispatchEvent(new FocusEvent("focusin", { bubbles: true }));
-    expect(connection.released).toEqual(["/cmd_vel"]);
+    expect(connection.released).toBe(1);
     expect(press("d", field)).toBe(true);
     expect(connection.driven.length).toBe(1);
     field.remove();
@@ -65,7 +65,7 @@ describe("driving", () => {
     const { drive, connection } = setUp();
     drive.hold("disc", 0.5, 0);
     connection.state.value = { kind: "lost", retryInSeconds: 3 };
-    expect(connection.released).toEqual(["/cmd_vel"]);
+    expect(connection.released).toBe(1);
     drive.hold("disc", 0.5, 0);
     expect(drive.command.value).toBeNull();
   });
@@ -112,7 +112,7 @@ describe("driving", () => {
     connection.listen("/turtle1/cmd_vel", "geometry_msgs/Twist");
     drive.hold("disc", 1, 0);
     drive.choose("/turtle1/cmd_vel");
-    expect(connection.released).toEqual(["/cmd_vel"]);
+    expect(connection.released).toBe(1);
     drive.hold("disc", 1, 0);
     expect(connection.driven.at(-1)?.topic).toBe("/turtle1/cmd_vel");
   });

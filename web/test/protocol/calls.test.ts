@@ -113,12 +113,21 @@ test("a failed publication becomes a notice", async () => {
   ]);
 });
 
-test("drives and releases", () => {
-  greeted().connection.drive("/cmd_vel", 0.5, -1);
-  server.connection.release("/cmd_vel");
+test("drives by a worker, whose refusals are notices", () => {
+  const { connection } = greeted();
+  connection.prepareDriving();
+  connection.drive("/cmd_vel", 0.5, -1);
+  connection.release();
 
-  expect(server.socket.sent).toEqual([
-    { op: "trundle/drive", topic: "/cmd_vel", linear: 0.5, angular: -1 },
-    { op: "trundle/release", topic: "/cmd_vel" },
+  expect(server.driveRequests).toEqual([
+    { kind: "open", url: "ws://here/" },
+    { kind: "drive", command: { topic: "/cmd_vel", linear: 0.5, angular: -1 } },
+    { kind: "release" },
   ]);
+  expect(server.socket.sent).toEqual([]);
+
+  server.reportDriving({ kind: "delay", delay: 0.4 });
+  server.reportDriving({ kind: "fault", text: "/cmd_vel cannot be driven" });
+  expect(connection.driveDelay.value).toBe(0.4);
+  expect(connection.notices.value).toMatchObject([{ level: "error", text: "/cmd_vel cannot be driven" }]);
 });

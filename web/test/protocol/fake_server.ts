@@ -1,6 +1,8 @@
 /** The server's end of a connection, and a decoder with a MessageChannel in place of a worker. */
 
 import { DecodeService, type DecodeRequest } from "../../src/protocol/decode_service";
+import type { DrivePort } from "../../src/protocol/drive_link";
+import type { DriveReport, DriveRequest } from "../../src/protocol/drive_service";
 import { FoxgloveConnection } from "../../src/protocol/foxglove_connection";
 import type { ServerOperation } from "../../src/protocol/generated/page_messages";
 import type { Socket } from "../../src/protocol/reconnecting_socket";
@@ -77,6 +79,9 @@ export class FakeSocket implements Socket {
 export class FakeServer {
   readonly sockets: FakeSocket[] = [];
   readonly connection: FoxgloveConnection;
+  /** Requests to the worker that drives. */
+  readonly driveRequests: DriveRequest[] = [];
+  readonly drivePort: DrivePort = { onmessage: null, postMessage: (request) => void this.driveRequests.push(request) };
   readonly #ports: MessagePort[];
 
   constructor() {
@@ -84,17 +89,25 @@ export class FakeServer {
     this.#ports = [port1, port2];
     const service = new DecodeService((response, transfer) => port2.postMessage(response, transfer));
     port2.onmessage = (event: MessageEvent<DecodeRequest>) => service.handle(event.data);
-    this.connection = new FoxgloveConnection(() => {
-      const socket = new FakeSocket();
-      this.sockets.push(socket);
-      return socket;
-    }, port1);
+    this.connection = new FoxgloveConnection(
+      () => {
+        const socket = new FakeSocket();
+        this.sockets.push(socket);
+        return socket;
+      },
+      port1,
+      { url: "ws://here/", open: () => this.drivePort },
+    );
   }
 
   get socket(): FakeSocket {
     const last = this.sockets.at(-1);
     if (last === undefined) throw new Error("nobody connected");
     return last;
+  }
+
+  reportDriving(report: DriveReport): void {
+    this.drivePort.onmessage?.(new MessageEvent("message", { data: report }));
   }
 
   close(): void {

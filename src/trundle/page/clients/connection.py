@@ -27,7 +27,13 @@ class Connection:
     """Client of the protocol; used on the loop only."""
 
     def __init__(
-        self, outbox: Outbox, channels: ChannelTable, *, speaks_trundle: bool, is_view_only: bool = False
+        self,
+        outbox: Outbox,
+        channels: ChannelTable,
+        *,
+        speaks_trundle: bool,
+        is_view_only: bool = False,
+        only_drives: bool = False,
     ) -> None:
         """Create it.
 
@@ -36,10 +42,12 @@ class Connection:
             channels: channels that the client may subscribe to.
             speaks_trundle: True if the client speaks `trundle.v1`.
             is_view_only: True if the client must not change anything.
+            only_drives: True if the client may only drive.
         """
         self.outbox = outbox
         self.speaks_trundle = speaks_trundle
         self.is_view_only = is_view_only
+        self.only_drives = only_drives
         self.drops: dict[str, int] = {}
         """Messages dropped so far, by topic."""
         self.drops_changed = False

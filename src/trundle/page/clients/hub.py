@@ -50,6 +50,9 @@ class Hub:
             simulated_time_ns: returns the simulated time [ns]; None: wall time is used.
         """
         self.clients: set[Connection] = set()
+        """Clients with channels."""
+        self._connected: set[Connection] = set()
+        """These and those that only drive."""
         self.polled: list[Polled] = []
         self._session_id = session_id
         self._capabilities = capabilities
@@ -87,9 +90,12 @@ class Hub:
     # -- clients
 
     def add_client(self, client: Connection) -> None:
-        """Add a client, and send it the server's capabilities, channels and conditions."""
-        self.clients.add(client)
+        """Add a client; unless it only drives, send it the server's capabilities, channels and conditions."""
+        self._connected.add(client)
         self._has_clients.set()
+        if client.only_drives:
+            return
+        self.clients.add(client)
         refused = CONTROL_CAPABILITIES if client.is_view_only else ()
         capabilities = tuple(capability for capability in self._capabilities if capability not in refused)
         client.send(ServerInfo(capabilities=capabilities, session_id=self._session_id))
@@ -99,9 +105,10 @@ class Hub:
 
     def remove_client(self, client: Connection) -> None:
         """Remove a client that has disconnected."""
+        self._connected.discard(client)
         self.clients.discard(client)
         client.end_subscriptions()
-        if not self.clients:
+        if not self._connected:
             self._has_clients.clear()
 
     def set_condition(self, status_id: str, message: str | None) -> None:

@@ -10,7 +10,9 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 FOXGLOVE, FOXGLOVE_SDK, TRUNDLE = "foxglove.websocket.v1", "foxglove.sdk.v1", "trundle.v1"
-SUBPROTOCOLS = (TRUNDLE, FOXGLOVE_SDK, FOXGLOVE)
+TRUNDLE_DRIVE = "trundle.drive.v1"
+"""Only drives: no channels, services or times delay its messages."""
+SUBPROTOCOLS = (TRUNDLE, TRUNDLE_DRIVE, FOXGLOVE_SDK, FOXGLOVE)
 ENCODING = "ros1"
 SCHEMA_ENCODING = "ros1msg"
 CAPABILITIES = ("assets", "time")
@@ -129,13 +131,17 @@ class FetchAsset(Operation, frozen=True, tag="fetchAsset"):
 
 
 class Drive(Operation, frozen=True, tag="trundle/drive"):
-    """Drive at a velocity until 0.3 s after the latest such message."""
+    """Drive at a velocity, which the server repeats at 10 Hz until the lease of the latest such message ends."""
 
     topic: Name
     linear: Velocity
     """Forward [m/s]."""
     angular: Velocity
     """To the left [rad/s]."""
+    lease: Annotated[float, msgspec.Meta(gt=0, le=1)] = 0.3
+    """Time from the message's arrival [s]."""
+    number: U32 | None = None
+    """Number of the receipt that answers the message; None: no answer."""
 
 
 class Release(Operation, frozen=True, tag="trundle/release"):

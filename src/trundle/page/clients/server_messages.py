@@ -155,6 +155,12 @@ class Response(ServerMessage, frozen=True, tag="trundle/response"):
     """Reason for a failure."""
 
 
+class DriveReceipt(ServerMessage, frozen=True, tag="trundle/driven"):
+    """Receipt of a velocity command."""
+
+    number: int
+
+
 ServerOperation: TypeAlias = (
     ServerInfo
     | Status
@@ -167,4 +173,5 @@ ServerOperation: TypeAlias = (
     | ParameterValues
     | ConnectionGraphUpdate
     | Response
+    | DriveReceipt
 )

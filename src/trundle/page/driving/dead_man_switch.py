@@ -1,34 +1,46 @@
-"""Driving with a dead man's switch: a robot is stopped when commands cease, for whatever reason."""
+"""Driving with a dead man's switch: a robot is stopped when a driver's lease ends, for whatever reason."""
 
+import asyncio
 import math
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 from trundle.robots.names import is_legal_name
 from trundle.ros import MessageError, Node, Publisher
 
 from ..clients.connection import Connection
 from ..clients.protocol import ERROR, Drive
+from ..clients.server_messages import DriveReceipt
 from .twist import TWIST, TWIST_STAMPED, publish_twist
 
-SILENCE_S = 0.3
-"""Time without a command after which the robot is stopped."""
+PERIOD_S = 0.1
+"""Period of the velocities while a driver's lease lives."""
 _MAX_TOPICS = 64
-_REPORT_S = 0.1
-"""Period of reports to the owner while a robot is driven; without them, it stops the robot."""
+
+
+@dataclass(slots=True)
+class _Held:
+    """Velocity that a driver holds, with monotonic times [s]."""
+
+    command: Drive
+    end_s: float
+    """Lease's end."""
+    due_s: float = 0.0
+    """Time of the next publication."""
 
 
 class Driving:
-    """Driving clients, and a publisher for each topic that has been driven."""
+    """Driving clients, and a publisher for each topic that has been driven; used on the loop only."""
 
     def __init__(self, report: Callable[[dict[str, str]], None]) -> None:
         """Create it; `report` is called with the driven topics and their types, repeatedly while there are any."""
         self._report = report
-        self._reported_s = 0.0
         self._node: Node | None = None
         self._publishers: dict[str, Publisher] = {}
-        self._drivers: dict[tuple[Connection, str], float] = {}
-        """Client and topic → time of the last command [s]."""
+        self._drivers: dict[tuple[Connection, str], _Held] = {}
+        """Client and topic → what the client commands."""
+        self._timer: asyncio.TimerHandle | None = None
 
     @property
     def topics(self) -> set[str]:
@@ -44,7 +56,9 @@ class Driving:
         self._node = node
 
     def drive(self, client: Connection, command: Drive, types: Mapping[str, str]) -> None:
-        """Publish a velocity with the topic's type on the graph."""
+        """Hold a velocity; publish it at once if it is new, with the topic's type on the graph."""
+        if command.number is not None:
+            client.send(DriveReceipt(command.number))
         node = self._node
         if node is None or not is_legal_name(command.topic) or not command.topic:
             client.send_status(ERROR, f"{command.topic[:100]!r} cannot be driven")
@@ -54,16 +68,18 @@ class Driving:
             return
         topic = node.resolve(command.topic)
         try:
-            publisher = self._publishers.get(topic) or self._add_topic(node, topic, types.get(topic, "*"))
+            if topic not in self._publishers:
+                self._add_topic(node, topic, types.get(topic, "*"))
         except MessageError as error:
             client.send_status(ERROR, f"{topic} cannot be driven: {error}")
             return
-        is_new = (client, topic) not in self._drivers
-        now_s = self._drivers[client, topic] = time.monotonic()
-        # Before the velocity: the owner may have stopped the robot while this process was suspended.
-        if is_new or now_s - self._reported_s > _REPORT_S:
-            self._report_driven()
-        publish_twist(node, publisher, command.linear, command.angular)
+        end_s = time.monotonic() + command.lease
+        held = self._drivers.get((client, topic))
+        if held is not None and (held.command.linear, held.command.angular) == (command.linear, command.angular):
+            held.command, held.end_s = command, end_s
+        else:
+            self._drivers[client, topic] = _Held(command, end_s)
+        self._publish_due()
 
     def release(self, client: Connection, topic: str) -> None:
         """Stop the robot, unless another client drives it, too."""
@@ -81,17 +97,28 @@ class Driving:
         for client, topic in list(self._drivers):
             self._end(client, topic)
 
-    def poll(self, now_s: float, time_ns: int) -> bool:
-        """Stop robots whose clients are silent; return False, as nothing comes from the owner."""
-        del time_ns
-        if self._drivers and now_s - self._reported_s > _REPORT_S:
-            self._report_driven()
-        for (client, topic), last_s in list(self._drivers.items()):
-            if now_s - last_s > SILENCE_S:
+    def _publish_due(self) -> None:
+        """Stop robots whose drivers' leases have ended, publish the velocities that are due, and set the timer."""
+        now_s = time.monotonic()
+        for (client, topic), held in list(self._drivers.items()):
+            if now_s >= held.end_s:
                 self._end(client, topic)
-        return False
+        due = [(topic, held) for (_, topic), held in self._drivers.items() if now_s >= held.due_s]
+        if due:
+            # Before the velocities: the owner may have stopped the robot while this process was suspended.
+            self._report_driven()
+        for topic, held in due:
+            held.due_s = now_s + PERIOD_S
+            assert self._node is not None, "set_node must be called first"
+            publish_twist(self._node, self._publishers[topic], held.command.linear, held.command.angular)
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+        if self._drivers:
+            wait_s = min(min(held.due_s, held.end_s) for held in self._drivers.values()) - now_s
+            self._timer = asyncio.get_running_loop().call_later(wait_s, self._publish_due)
 
-    def _add_topic(self, node: Node, topic: str, type_name: str) -> Publisher:
+    def _add_topic(self, node: Node, topic: str, type_name: str) -> None:
         """Advertise a topic.
 
         Raises:
@@ -101,9 +128,7 @@ class Driving:
             raise MessageError(f"its type is {type_name}, not {TWIST} or {TWIST_STAMPED}")
         if len(self._publishers) >= _MAX_TOPICS:
             raise MessageError(f"more than {_MAX_TOPICS} topics")
-        publisher = _advertise(node, topic, TWIST if type_name == "*" else type_name)
-        self._publishers[topic] = publisher
-        return publisher
+        self._publishers[topic] = _advertise(node, topic, TWIST if type_name == "*" else type_name)
 
     def _is_driven(self, topic: str) -> bool:
         return any(driven == topic for _, driven in self._drivers)
@@ -119,7 +144,6 @@ class Driving:
         )  # after the zero is sent: until then, the owner stops the robot if this process dies
 
     def _report_driven(self) -> None:
-        self._reported_s = time.monotonic()
         self._report({topic: self._publishers[topic].type for _, topic in self._drivers})
 
 

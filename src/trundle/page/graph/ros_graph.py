@@ -70,7 +70,6 @@ class RosGraph:
         self._parameters = ParameterService(hub)
         self._driving = Driving(owner.set_driven)
         self._publishers = ClientPublishers(is_shared=lambda topic: topic in self._driving.topics)
-        hub.polled.append(self._driving)
         self._graph_clients: set[Connection] = set()
         self._tasks: dict[Connection, set[asyncio.Task[None]]] = {}
         self._refresh_now = asyncio.Event()
@@ -194,7 +193,8 @@ class RosGraph:
 
     def join(self, client: Connection) -> None:
         """Advertise services to a new client, and read the graph's state at once."""
-        self._services.offer(client)
+        if not client.only_drives:
+            self._services.offer(client)
         self._refresh_now.set()
 
     def leave(self, client: Connection) -> None:

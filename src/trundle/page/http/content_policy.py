@@ -9,14 +9,15 @@ def response_fields(access: Access, request: PageRequest, *, path: str) -> dict[
     """Return the header fields of a response.
 
     The document runs only the client's own scripts; `blob:` is for textures of glTF files. Workers decode untrusted
-    messages and must not open connections.
+    messages and must not open connections, except for the one that drives, which decodes none.
     """
     fields = access.response_fields(request)
     directives = fields["Content-Security-Policy"].split("; ")
     framers = next(directive for directive in directives if directive.startswith("frame-ancestors"))
     connect = next(directive for directive in directives if directive.startswith("connect-src"))
     if is_worker(path):
-        policy = f"default-src 'none'; script-src 'self'; connect-src 'none'; {framers}; {_COMMON}"
+        allowed = connect if _name(path).startswith("drive_worker") else "connect-src 'none'"
+        policy = f"default-src 'none'; script-src 'self'; {allowed}; {framers}; {_COMMON}"
     else:
         policy = (
             "default-src 'self'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
@@ -27,5 +28,9 @@ def response_fields(access: Access, request: PageRequest, *, path: str) -> dict[
 
 def is_worker(path: str) -> bool:
     """True for the script of a worker: Vite keeps `worker` in its file name."""
-    name = path.rpartition("/")[2]
+    name = _name(path)
     return name.endswith(".js") and "worker" in name
+
+
+def _name(path: str) -> str:
+    return path.rpartition("/")[2]

@@ -17,7 +17,7 @@ from trundle.base.http.guard import Guard
 
 from ..clients.connection import Connection
 from ..clients.outbox import CLOSE, PONG, Outbox
-from ..clients.protocol import SUBPROTOCOLS, TRUNDLE
+from ..clients.protocol import SUBPROTOCOLS, TRUNDLE_DRIVE
 from ..owner import PictureError
 from ..requests.request import RenderView
 from ..requests.world import RenderModel
@@ -61,8 +61,8 @@ class Page(Protocol):
         """Receive a model and return the names of the models that can now be inserted; raises UsageError."""
         ...
 
-    def join(self, outbox: Outbox, *, speaks_trundle: bool, is_view_only: bool) -> Connection:
-        """Add a client."""
+    def join(self, outbox: Outbox, *, protocol: str, is_view_only: bool) -> Connection:
+        """Add a client that speaks a subprotocol."""
         ...
 
     def receive(self, client: Connection, message: bytes, *, is_text: bool) -> None:
@@ -82,6 +82,8 @@ class HttpServer:
         self._access = access
         self._files = files
         self._slots = ClientSlots()
+        self._driving_slots = ClientSlots()
+        """Slots of sockets that only drive: each page opens one besides its own."""
         self._view_only_pictures = 0
         self._guard = Guard(access, is_page=True)
 
@@ -203,13 +205,15 @@ class HttpServer:
     async def _web_socket(self, request: web.Request) -> web.StreamResponse:
         """Serve one client of the protocol."""
         offered = [name.strip() for name in request.headers.get("Sec-WebSocket-Protocol", "").split(",")]
-        if not any(name in SUBPROTOCOLS for name in offered):
+        protocol = next((name for name in offered if name in SUBPROTOCOLS), None)
+        if protocol is None:
             raise web.HTTPBadRequest(reason=f"use a subprotocol of: {', '.join(SUBPROTOCOLS)}")
         is_view_only = self._is_view_only(request)
-        if not self._slots.has_room(is_view_only=is_view_only):
+        slots = self._driving_slots if protocol == TRUNDLE_DRIVE else self._slots
+        if not slots.has_room(is_view_only=is_view_only):
             raise web.HTTPServiceUnavailable(reason=f"{MAX_CONTROLLING} clients are connected already")
         web_socket = web.WebSocketResponse(
-            protocols=SUBPROTOCOLS, compress=False, autoping=False, autoclose=False, max_msg_size=_MAX_MESSAGE_BYTES,
+            protocols=(protocol,), compress=False, autoping=False, autoclose=False, max_msg_size=_MAX_MESSAGE_BYTES,
             decode_text=False,
         )  # fmt: skip
         await web_socket.prepare(request)
@@ -219,11 +223,11 @@ class HttpServer:
         duplicate: socket.socket = transport.get_extra_info("socket").dup()
         client = self._page.join(
             Outbox(duplicate, broken=lambda _: transport.abort(), dropped=lambda stream: client.count_drop(stream)),
-            speaks_trundle=web_socket.ws_protocol == TRUNDLE,
+            protocol=protocol,
             is_view_only=is_view_only,
         )
         try:
-            with self._slots.occupied(transport.abort, is_view_only=is_view_only):
+            with slots.occupied(transport.abort, is_view_only=is_view_only):
                 while await self._receive(client, await web_socket.receive()):
                     pass
         except Exception:

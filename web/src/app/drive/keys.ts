@@ -78,9 +78,11 @@ function driveKey(event: KeyboardEvent): DriveInput | undefined {
   return event.shiftKey ? undefined : (WASD[latin] ?? (onDisc ? TELEOP[latin] : undefined));
 }
 
-/** The left stick of any gamepad; it must have been at rest once, so that a stuck one does not drive. */
+const PAD_PERIOD = 50; // ms
+
+/** The left stick of any gamepad, read by a timer, as slow pictures would hold up its release; it must have been at rest once, so that a stuck one does not drive. */
 function listenToGamepads(drive: Drive): () => void {
-  let frame = 0;
+  let timer: ReturnType<typeof setInterval> | undefined;
   const rested = new Set<number>();
   const poll = (): void => {
     const pads = navigator.getGamepads().filter((pad) => pad !== null);
@@ -91,10 +93,14 @@ function listenToGamepads(drive: Drive): () => void {
       if (moved && rested.has(pad.index) && document.hasFocus()) drive.hold(`pad ${pad.index}`, -y, -x);
       else drive.release(`pad ${pad.index}`);
     }
-    frame = pads.length > 0 ? requestAnimationFrame(poll) : 0;
+    if (pads.length === 0) stop();
+  };
+  const stop = (): void => {
+    clearInterval(timer);
+    timer = undefined;
   };
   const connected = (): void => {
-    if (frame === 0) frame = requestAnimationFrame(poll);
+    timer ??= setInterval(poll, PAD_PERIOD);
   };
   const onDisconnected = (event: GamepadEvent): void => {
     rested.delete(event.gamepad.index);
@@ -103,7 +109,7 @@ function listenToGamepads(drive: Drive): () => void {
   addEventListener("gamepadconnected", connected);
   addEventListener("gamepaddisconnected", onDisconnected);
   return () => {
-    cancelAnimationFrame(frame);
+    stop();
     removeEventListener("gamepadconnected", connected);
     removeEventListener("gamepaddisconnected", onDisconnected);
   };

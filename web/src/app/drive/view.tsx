@@ -41,10 +41,15 @@ export function DriveView({ shell }: { readonly shell: Shell }): JSX.Element | n
           unit="rad/s"
         />
         <Keys drive={drive} />
-        {command === null ? <Topic drive={drive} topic={topic} /> : <span class="cap">Let go to stop</span>}
+        {command === null ? <Topic drive={drive} topic={topic} /> : <span class="cap">{heldText(drive)}</span>}
       </div>
     </div>
   );
+}
+
+function heldText(drive: Drive): string {
+  const delay = drive.delay.value;
+  return delay > 0 ? `Commands ${fixed(delay, 1)} s late` : "Let go to stop";
 }
 
 function Topic({ drive, topic }: { readonly drive: Drive; readonly topic: string }): JSX.Element {

@@ -121,6 +121,11 @@ export const response: is.Check<page.Response> = is.struct(() => ({
   error: is.optional(is.text),
 }));
 
+export const driveReceipt: is.Check<page.DriveReceipt> = is.struct(() => ({
+  op: is.literal("trundle/driven"),
+  number: is.number,
+}));
+
 export const pageSession: is.Check<page.PageSession> = is.struct(() => ({
   title: is.text,
   kind: is.literal("bag", "graph", "log", "simulation"),
@@ -479,6 +484,7 @@ export const serverOperation: is.Check<page.ServerOperation> = is.tagged("op", (
   parameterValues: parameterValues,
   connectionGraphUpdate: connectionGraphUpdate,
   "trundle/response": response,
+  "trundle/driven": driveReceipt,
 }));
 
 export const answers: { readonly [N in keyof page.Requests]: is.Check<page.Requests[N]["answer"]> } = {

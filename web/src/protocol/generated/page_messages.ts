@@ -146,6 +146,12 @@ export interface Response {
   readonly error?: string;
 }
 
+/** Receipt of a velocity command. */
+export interface DriveReceipt {
+  readonly op: "trundle/driven";
+  readonly number: number;
+}
+
 /** Session for a client, which reloads the page when `kind` or `version` changes. */
 export interface PageSession {
   readonly title: string;
@@ -1148,7 +1154,7 @@ export interface FetchAsset {
   readonly requestId: number;
 }
 
-/** Drive at a velocity until 0.3 s after the latest such message. */
+/** Drive at a velocity, which the server repeats at 10 Hz until the lease of the latest such message ends. */
 export interface Drive {
   readonly op: "trundle/drive";
   readonly topic: string;
@@ -1156,6 +1162,10 @@ export interface Drive {
   readonly linear: number;
   /** To the left [rad/s]. */
   readonly angular: number;
+  /** Time from the message's arrival [s]. */
+  readonly lease?: number;
+  /** Number of the receipt that answers the message; null: no answer. */
+  readonly number?: number | null;
 }
 
 /** Stop driving. */
@@ -1197,7 +1207,8 @@ export type ServerOperation =
   | ServiceCallFailure
   | ParameterValues
   | ConnectionGraphUpdate
-  | Response;
+  | Response
+  | DriveReceipt;
 
 export type ClientOperation =
   | Subscribe
