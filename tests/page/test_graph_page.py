@@ -143,6 +143,22 @@ def test_sliders_and_joysticks_call_their_nodes(shown: Shown) -> None:
     assert (refused["ok"], refused["error"]) == (False, "no slider for joint 'tilt'")
 
 
+def test_a_joystick_that_is_not_renewed_returns_to_rest(shown: Shown) -> None:
+    """As of a browser that was killed, or a page that hangs."""
+    sticks: list[tuple[list[float], list[int]]] = []
+    shown.page.offer_joystick(lambda axes, buttons: sticks.append((list(axes), list(buttons))))
+    shown.start()
+
+    for _ in range(3):
+        assert shown.request(request="joystick", axes=[0.5, -1.0], buttons=[1])["ok"] is True
+    assert len(sticks) == 3
+
+    _wait(lambda: len(sticks) == 4)
+    assert sticks[-1] == ([0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0], [0] * 11)
+    shown.page.close()
+    assert len(sticks) == 4
+
+
 def test_the_configuration_is_saved_to_its_file(shown: Shown) -> None:
     shown.start()
 

@@ -2,6 +2,7 @@
 
 import asyncio
 import os
+import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -27,6 +28,9 @@ from .shared_page import CMD_VEL, SharedPage
 from .terminals import PageTerminals
 
 _PERIOD_S = 1 / 50
+_AT_REST = MoveJoystick(axes=(0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0), buttons=(0,) * 11)
+"""As the page's joystick rests: triggers are at 1."""
+_JOYSTICK_LEASE_S = 1.0
 _MAX_CONFIG_BYTES = 4_000_000
 
 MoveJoint = Callable[[str, float], None]
@@ -53,6 +57,8 @@ class GraphPage:
         self._owner: Node | None = None
         self._move_slider: MoveJoint | None = None
         self._joysticks: list[MoveAxes] = []
+        self._joystick_end_s: float | None = None
+        """Monotonic time at which the joysticks return to rest [s]; None: they are at rest."""
         self.terminals = PageTerminals(page)
 
     @property
@@ -144,11 +150,15 @@ class GraphPage:
         try:
             while server.alive and not node.closed.is_set():
                 self._handle_requests(server)
+                if self._joystick_end_s is not None and time.monotonic() > self._joystick_end_s:
+                    self._move_joysticks(_AT_REST)
                 self.terminals.update(server)
                 if self.report is not None:
                     self._page.show_findings(self.report)
                 await asyncio.sleep(_PERIOD_S)
         finally:
+            if self._joystick_end_s is not None:
+                self._move_joysticks(_AT_REST)
             self._page.release()
 
     def close(self) -> None:
@@ -170,9 +180,8 @@ class GraphPage:
                 if joint not in {slider.name for slider in self._session.sliders}:
                     raise UsageError(f"no slider for joint '{joint}'")
                 self._move_slider(joint, position)
-            case MoveJoystick(axes, buttons) if self._joysticks:
-                for move in self._joysticks:
-                    move(axes, buttons)
+            case MoveJoystick() if self._joysticks:
+                self._move_joysticks(action)
             case SaveRviz(text) if self._config is not None:
                 write_atomically(self._config, text)
                 self._page.change(rviz=read_rviz_file(self._config))
@@ -182,6 +191,11 @@ class GraphPage:
                 raise UsageError(
                     "this page shows a ROS graph: it has no simulation, recording or file for this request"
                 )
+
+    def _move_joysticks(self, to: MoveJoystick) -> None:
+        self._joystick_end_s = None if to == _AT_REST else time.monotonic() + _JOYSTICK_LEASE_S
+        for move in self._joysticks:
+            move(to.axes, to.buttons)
 
 
 def _with(names: tuple[str, ...], *more: str) -> tuple[str, ...]:

@@ -74,7 +74,7 @@ class MoveSlider(Action, frozen=True, tag="slider"):
 
 
 class MoveJoystick(Action, frozen=True, tag="joystick"):
-    """Set a joystick's axes, −1 to 1, and buttons, 0 or 1, in joy's order."""
+    """Set a joystick's axes, −1 to 1, and buttons, 0 or 1, in joy's order; renewed within a second, else it rests."""
 
     axes: Values
     buttons: Annotated[tuple[Literal[0, 1], ...], msgspec.Meta(max_length=64)]

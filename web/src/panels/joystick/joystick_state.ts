@@ -8,18 +8,23 @@ import { sentence } from "../use";
 import { AT_REST, joyFromGamepad, type JoyState } from "./gamepad_axes";
 
 const PERIOD = 50; // ms, joy's 20 Hz
+/** Period of what does not change [ms]: a joystick that is not renewed for a second returns to rest. */
+const RENEWAL = 250;
+
+const REST = JSON.stringify([AT_REST.axes, AT_REST.buttons]);
 
 export class JoystickState {
   readonly joy = signal<JoyState>(AT_REST);
   /** Name of the gamepad that moves it; null: the page does. */
   readonly gamepad = signal<string | null>(null);
   readonly fault = signal("");
-  private sent = "";
+  private sent = REST;
+  private sentAt = 0;
   private timer: ReturnType<typeof setInterval> | undefined;
 
   constructor(private readonly connection: Connection) {}
 
-  /** Read gamepads and send what changed, until `stop`. */
+  /** Read gamepads, send what changed and renew what is held, until `stop`. */
   start(): void {
     this.timer ??= setInterval(() => this.poll(), PERIOD);
   }
@@ -62,8 +67,11 @@ export class JoystickState {
   private send(): void {
     const { axes, buttons } = this.joy.peek();
     const text = JSON.stringify([axes, buttons]);
-    if (text === this.sent || (this.sent === "" && this.joy.peek() === AT_REST)) return;
+    const now = performance.now();
+    const isDue = text !== REST && now - this.sentAt >= RENEWAL;
+    if (text === this.sent && !isDue) return;
     this.sent = text;
+    this.sentAt = now;
     this.connection.request("joystick", { axes, buttons }).then(
       () => void (this.fault.value = ""),
       (error: unknown) => void (this.fault.value = sentence(error)),

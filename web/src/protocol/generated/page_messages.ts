@@ -1012,7 +1012,7 @@ export interface MoveSlider {
   readonly position: number;
 }
 
-/** Set a joystick's axes, −1 to 1, and buttons, 0 or 1, in joy's order. */
+/** Set a joystick's axes, −1 to 1, and buttons, 0 or 1, in joy's order; renewed within a second, else it rests. */
 export interface MoveJoystick {
   readonly axes: readonly number[];
   readonly buttons: readonly (0 | 1)[];
