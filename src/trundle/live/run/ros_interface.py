@@ -69,7 +69,10 @@ class RosInterface:
         return self._graph
 
     def make_node(self, name: str) -> Node:
-        """Make a node on simulation time; its callbacks run on the simulation's thread between two steps."""
+        """Make a node on simulation time; its callbacks run on the simulation's thread between two steps.
+
+        Services answer while the simulation is paused, too.
+        """
         simulation = self._simulation
         node = Node(
             name,
@@ -77,6 +80,7 @@ class RosInterface:
             master_uri=self._graph.master_uri,
             clock=self.clock,
             deliver=simulation.inputs.post_callback,
+            deliver_call=simulation.inputs.post_call,
             host=self._graph.host,
         )
         self._nodes.append(node)

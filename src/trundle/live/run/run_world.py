@@ -141,6 +141,7 @@ def _simulate(
                 paused = page.handle_requests(pacer, paused=paused)
                 page.update(pacer, paused=paused)
             if paused:
+                world.simulation.inputs.run_calls()
                 stop.wait(0.02)
                 pacer.restart()
                 continue

@@ -84,7 +84,7 @@ class ReconfigureServer:
     async def _set(self, request: "dynamic_reconfigure.ReconfigureRequest") -> dict[str, Any]:
         requested = {**self._values, **self._read(request.config)}
         node = self._node
-        self._values = await run_on_callback_thread(node.deliver, node.loop, lambda: self._apply(requested))
+        self._values = await run_on_callback_thread(node.deliver_call, node.loop, lambda: self._apply(requested))
         await self._write(self._values)
         self._updates.publish(config_message(self._values))
         return {"config": config_message(self._values)}

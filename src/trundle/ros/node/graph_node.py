@@ -55,6 +55,7 @@ class Node:
         params: Mapping[str, object] | None = None,
         clock: Clock | None = None,
         deliver: Deliver | None = None,
+        deliver_call: Deliver | None = None,
         rosout: bool = True,
         host: str | None = None,
         ports: tuple[int, int] = (0, 0),
@@ -72,6 +73,7 @@ class Node:
             clock: ROS time; wall time by default.
             deliver: called on the loop with a function per message and request, which must be called later, in any
                 thread; must not block. By default, callbacks run on the loop.
+            deliver_call: called so with the functions of requests; by default `deliver` is.
             rosout: True: publish /rosout and advertise the logger services.
             host: address to bind; loopback by default.
             ports: ports of the slave API and of TCPROS; 0: any free port.
@@ -82,6 +84,7 @@ class Node:
         self.master_uri = master_uri or master_uri_from_env()
         self.clock: Clock = clock or WallClock()
         self.deliver = deliver
+        self._deliver_call = deliver_call
         self.profile = NOETIC
         """Distribution of the graph."""
         self.closed = asyncio.Event()
@@ -129,6 +132,11 @@ class Node:
     def remappings(self) -> Mapping[str, str]:
         """Global name → remapped global name."""
         return self._remappings
+
+    @property
+    def deliver_call(self) -> Deliver | None:
+        """Schedules callbacks of requests."""
+        return self._deliver_call or self.deliver
 
     def resolve(self, name: str) -> str:
         """Resolve and remap a name to a global name."""
@@ -367,5 +375,6 @@ class Node:
         if self.name != "/rosout":  # /rosout would aggregate its own messages endlessly
             rosout = self.advertise("/rosout", "rosgraph_msgs/Log", queue_size=100)
             self.log.publish_on(rosout, lambda: [publisher.topic for publisher in self.endpoints.publishers])
+        # Coroutines, which the loop answers: they concern the node, not what its callbacks act on.
         self.advertise_service("~get_loggers", "roscpp/GetLoggers", self.log.get_loggers)
         self.advertise_service("~set_logger_level", "roscpp/SetLoggerLevel", self.log.set_logger_level)

@@ -62,6 +62,11 @@ class NodeContext(Protocol):
         ...
 
     @property
+    def deliver_call(self) -> Deliver | None:
+        """Schedules callbacks of requests, for whose result somebody waits."""
+        ...
+
+    @property
     def written_remappings(self) -> Mapping[str, str]:
         """Remappings as written, unresolved."""
         ...

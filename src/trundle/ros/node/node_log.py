@@ -69,12 +69,12 @@ class NodeLog:
         """Publish later messages on /rosout; `topics` returns the node's published topics."""
         self._rosout, self._topics = rosout, topics
 
-    def get_loggers(self, request: "roscpp.GetLoggersRequest") -> dict[str, object]:
+    async def get_loggers(self, request: "roscpp.GetLoggersRequest") -> dict[str, object]:
         """Handle roscpp/GetLoggers."""
         del request
         return {"loggers": [{"name": name, "level": level} for name, level in self.loggers.levels()]}
 
-    def set_logger_level(self, request: "roscpp.SetLoggerLevelRequest") -> dict[str, object]:
+    async def set_logger_level(self, request: "roscpp.SetLoggerLevelRequest") -> dict[str, object]:
         """Handle roscpp/SetLoggerLevel."""
         try:
             self.loggers.set(request.logger, request.level.lower())

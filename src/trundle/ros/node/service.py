@@ -121,5 +121,5 @@ class Service:
         node = self._node
         if inspect.iscoroutinefunction(self._handler):
             return await self._handler(request)
-        result = await run_on_callback_thread(node.deliver, node.loop, lambda: self._handler(request))
+        result = await run_on_callback_thread(node.deliver_call, node.loop, lambda: self._handler(request))
         return await result if inspect.isawaitable(result) else result

@@ -15,13 +15,14 @@ class Inputs(Generic[Owner]):
     def __init__(self, owner: Owner) -> None:
         """Create an empty queue; commands are called with the owner."""
         self._owner = owner
-        self._waiting: deque[Callable[[Owner], object]] = deque()
+        self._waiting: deque[tuple[Callable[[Owner], object], bool]] = deque()
+        """(command, True if somebody waits for its result)."""
         self.record: Callable[[Repeat], None] | None = None
         """Receives a function that repeats each input from outside."""
 
     def post(self, command: Callable[[Owner], object]) -> None:
         """Queue a command."""
-        self._waiting.append(command)
+        self._waiting.append((command, False))
 
     def post_callback(self, callback: Callable[[], Repeat | None]) -> None:
         """Queue a callback that may come from outside the simulation, such as a message's.
@@ -30,6 +31,10 @@ class Inputs(Generic[Owner]):
             callback: returns a function that repeats it; None: a repeated simulation calls it again by itself.
         """
         self.post(lambda _: self.call(callback))
+
+    def post_call(self, callback: Callable[[], Repeat | None]) -> None:
+        """Queue a callback as `post_callback`, for whose result somebody waits: `run_calls` calls it, too."""
+        self._waiting.append((lambda _: self.call(callback), True))
 
     def call(self, callback: Callable[[], Repeat | None]) -> None:
         """Call a callback at once; see `post_callback`."""
@@ -41,5 +46,13 @@ class Inputs(Generic[Owner]):
         """Call the commands queued before; return True if there were any."""
         count = len(self._waiting)
         for _ in range(count):
-            self._waiting.popleft()(self._owner)
+            self._waiting.popleft()[0](self._owner)
         return count > 0
+
+    def run_calls(self) -> None:
+        """Call only what `post_call` has queued, while no step comes; the rest keeps its order."""
+        queued = [self._waiting.popleft() for _ in range(len(self._waiting))]
+        self._waiting.extendleft(reversed([entry for entry in queued if not entry[1]]))
+        for command, is_call in queued:
+            if is_call:
+                command(self._owner)
