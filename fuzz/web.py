@@ -73,6 +73,7 @@ def _page(feed: Callable[[_Server, bytes], object], *, joins_graph: bool = True)
             start = Start(
                 host="127.0.0.1", port=0, hosts=(), origins=(), session=Session(title="t", kind="simulation"),
                 graph=GraphAddress(master_uri=uri) if joins_graph else None, source=bytes(folder),
+                token="control", view_token="view",
             )  # fmt: skip
             address = PageAddress(port=0)
             owner, listening = _Owner(loop), listen(address)

@@ -1,7 +1,5 @@
 """Axe finds nothing serious on any page of the client, in any of its states."""
 
-import os
-import signal
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -118,7 +116,7 @@ def test_the_sheet_of_a_phone_and_a_lost_connection(chromium: Any, server: PageS
     for page in ("World", "Displays", "Inspector", "Plots", "Log"):
         tab.get_by_role("navigation").get_by_role("button", name=page, exact=True).click()
         _check(tab, f"{page} on a phone")
-    os.kill(server.process_id, signal.SIGKILL)
+    server.close()
     tab.get_by_label("Connection lost").first.wait_for()
     _check(tab, "a lost connection")
     tab.close()

@@ -11,7 +11,8 @@ PERIOD_S = 10.0
 """Time between two notices of one wait [s]."""
 
 
-def _print(line: str) -> None:
+def print_line(line: str) -> None:
+    """Print a line on standard error, if there is one."""
     if sys.stderr is not None:
         print(line, file=sys.stderr, flush=True)
 
@@ -19,7 +20,7 @@ def _print(line: str) -> None:
 class WaitNotice:
     """Prints every few seconds what a wait is for, and its duration; to be polled while waiting."""
 
-    def __init__(self, what: str, say: Callable[[str], object] = _print) -> None:
+    def __init__(self, what: str, say: Callable[[str], object] = print_line) -> None:
         """Start the wait.
 
         Args:

@@ -91,12 +91,16 @@ class Page:
         self._has_graph = start.graph is not None
         self._messages = loop.messages
         self._assets = assets
-        self._owner = Owner(send)
+        self._owner = Owner(send, last_request=start.last_request)
         self._plotted: dict[Connection, frozenset[str]] = {}
         self._tasks: dict[bool, set[asyncio.Task[None]]] = {False: set(), True: set()}
         """Tasks of clients with full access (False) and of view-only clients (True)."""
         self._model_pictures = asyncio.Semaphore(1)
-        self._uploads = Uploads(lambda folder: send(Uploaded(str(folder))), os.environ)
+        self._uploads = Uploads(
+            lambda folder: send(Uploaded(str(folder))),
+            os.environ,
+            folder=None if start.uploads is None else Path(start.uploads),
+        )
         self._session_channel = SessionChannel(self.session_json)
         self._people = PeopleChannel()
         self._world = WorldChannel()

@@ -20,10 +20,15 @@ _PICTURE_TIMEOUT_S = 10.0
 class Owner:
     """Pending requests to the owner, and the state sent last; used on the loop only."""
 
-    def __init__(self, send: Callable[[FromServer], None]) -> None:
-        """Create it; `send` writes a message to the owner."""
+    def __init__(self, send: Callable[[FromServer], None], *, last_request: int = 0) -> None:
+        """Create it.
+
+        Args:
+            send: writes a message to the owner.
+            last_request: id of the last request of an earlier server, which the owner may still answer.
+        """
         self.send = send
-        self._last_id = 0
+        self._last_id = last_request
         self._pending: dict[int, tuple[Connection, int | str]] = {}
         self._pictures: dict[int, asyncio.Future[Respond]] = {}
         self._watched: frozenset[str] = frozenset()

@@ -3,12 +3,10 @@
 import contextlib
 import os
 import queue
+import secrets
 import shutil
-import subprocess
-import sys
-import threading
 from collections import deque
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Self, TypeVar
 
@@ -18,7 +16,7 @@ from numpy.typing import NDArray
 
 from trundle.base.diagnostics import UsageError
 from trundle.base.http.page_address import PageAddress
-from trundle.base.waiting import PERIOD_S, WaitNotice
+from trundle.base.waiting import PERIOD_S, WaitNotice, print_line
 
 from .driving.stop import DriveStop
 from .errors import PageError
@@ -26,11 +24,13 @@ from .link_file import write_link_file
 from .mailbox import Mailbox, Piece
 from .requests.answers import DONE, Answer
 from .requests.request import GraphAction, Request
+from .server_process import ServerProcess
 from .session import Session
 from .wire import (
     AddFile,
     BagFile,
     Driven,
+    FromServer,
     GraphAddress,
     OpenMailbox,
     Plotted,
@@ -46,9 +46,6 @@ from .wire import (
     Uploaded,
     Watched,
     encode_json,
-    frame,
-    from_server_decoder,
-    read_frame,
 )  # fmt: skip
 from .world.streams import (
     ARRAY_HEADER,
@@ -75,7 +72,6 @@ if TYPE_CHECKING:
     from .world.manifest import Manifest
     from .world.profile import Profile
 
-_STOP_TIMEOUT_S = 1.5
 _MAX_REQUESTS = 1000
 _MIN_MAILBOX_BYTES = 4096
 _Item = TypeVar("_Item")
@@ -87,11 +83,8 @@ class PageServer:
     One thread owns it. No method but `start` and `close` waits for the page, however slow the browser.
     """
 
-    def __init__(self, process: "subprocess.Popen[bytes]", stop: DriveStop | None) -> None:
-        self._process = process
-        self._stop = stop
-        self._outgoing: queue.SimpleQueue[Start | ToServer | None] = queue.SimpleQueue()
-        self._replies: queue.SimpleQueue[Served | Refused | None] = queue.SimpleQueue()
+    def __init__(self, start: Start, node: "Node | None", say: Callable[[str], None]) -> None:
+        self._stop = None if node is None else DriveStop(node)
         self._requests: dict[bool, deque[Request]] = {kind: deque(maxlen=_MAX_REQUESTS) for kind in (False, True)}
         """Requests to the simulation or recording (False) and to nodes of the graph (True)."""
         self._terminal_inputs: deque[TerminalInput] = deque(maxlen=_MAX_REQUESTS)
@@ -102,11 +95,7 @@ class PageServer:
         self._generation = 0
         self._addresses = Served(url="", foxglove_url="", view_url="")
         self._link_file: Path | None = None
-        self._threads = [
-            threading.Thread(target=run, name="trundle-page", daemon=True) for run in (self._receive, self._send_all)
-        ]
-        for thread in self._threads:
-            thread.start()
+        self._process = ServerProcess(start, receive=self._receive, on_end=self._ended, say=say)
 
     @classmethod
     def start(
@@ -118,8 +107,9 @@ class PageServer:
         node: "Node | None" = None,
         bag: BagFile | None = None,
         source: Path | None = None,
+        say: Callable[[str], None] = print_line,
     ) -> Self:
-        """Start the server and wait until it answers.
+        """Start the server and wait until it answers; if it ends, it is started again with the same links.
 
         Args:
             session: title, panels and topics of the page.
@@ -129,32 +119,27 @@ class PageServer:
                 package paths. None: the working directory.
             bag: bag to play; None: the page shows its owner's data or the graph.
             node: node of this process that publishes a zero velocity if the server dies while a robot is driven.
+            say: prints a line when the server has ended.
 
         Raises:
             UsageError: the requested host or port cannot be bound.
             PageError: the server's process did not start.
         """
         at = at or PageAddress()
-        process = subprocess.Popen(
-            [sys.executable, "-P", "-m", "trundle.page.server"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            # Ctrl-C signals every process of the terminal's group; the server ends at the end of its input.
-            start_new_session=True,
-        )
-        server = cls(process, None if node is None else DriveStop(node))
         start = Start(
             host=at.host,
             port=at.port,
             reserved_ports=at.reserved_ports,
             hosts=at.allowed.hosts,
             origins=at.allowed.origins,
+            token=secrets.token_urlsafe(16),
+            view_token=secrets.token_urlsafe(16),
             session=session,
             graph=graph,
             bag=bag,
             source=os.fsencode((source or Path.cwd()).absolute()),
         )
-        server._outgoing.put(start)
+        server = cls(start, node, say)
         try:
             server._addresses = server._await_served()
             server._link_file = write_link_file(server._addresses, os.environ)
@@ -180,13 +165,13 @@ class PageServer:
 
     @property
     def alive(self) -> bool:
-        """True while the server's process runs; afterwards all data is dropped."""
-        return self._process.poll() is None
+        """True while the server runs or is being started again; afterwards all data is dropped."""
+        return self._process.alive
 
     @property
     def process_id(self) -> int:
         """Id of the server's process."""
-        return self._process.pid
+        return self._process.id
 
     @property
     def generation(self) -> int:
@@ -318,14 +303,7 @@ class PageServer:
 
     def close(self) -> None:
         """End the server and wait until its process has ended and the port is free. May be called twice."""
-        self._outgoing.put(None)
-        try:
-            self._process.wait(_STOP_TIMEOUT_S)
-        except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
-        for thread in self._threads:
-            thread.join()
+        self._process.close()
         mailboxes, self._mailboxes = self._mailboxes, {}  # first: two threads may close
         for mailbox in mailboxes.values():
             mailbox.unlink()
@@ -360,47 +338,38 @@ class PageServer:
         mailbox.put(pieces)
 
     def _send(self, message: ToServer) -> None:
-        self._outgoing.put(message)
+        self._process.send(message)
 
-    def _send_all(self) -> None:
-        """Write messages until the end, in a thread, as a full pipe blocks."""
-        assert self._process.stdin is not None
-        with contextlib.suppress(OSError), self._process.stdin as pipe:
-            while (message := self._outgoing.get()) is not None:
-                pipe.write(frame(message))
-                pipe.flush()
+    def _receive(self, message: FromServer) -> None:
+        """Handle a message of the server, in its process' thread."""
+        match message:
+            case Request() as request:
+                self._requests[isinstance(request.action, GraphAction)].append(request)
+            case Watched(streams):
+                self._watched = streams
+            case Plotted(series):
+                self._plotted = series
+            case Uploaded(folder):
+                self._uploads = Path(folder)
+            case TerminalInput() as typed:
+                self._terminal_inputs.append(typed)
+            case Driven(topics):
+                if self._stop is not None:
+                    self._stop.follow(topics)
+            case _:  # replies to the start
+                pass
 
-    def _receive(self) -> None:
-        """Receive the server's messages until it ends."""
-        assert self._process.stdout is not None
-        with contextlib.suppress(EOFError, OSError, msgspec.DecodeError), self._process.stdout as pipe:
-            while True:
-                match from_server_decoder.decode(read_frame(pipe)):
-                    case Request() as request:
-                        self._requests[isinstance(request.action, GraphAction)].append(request)
-                    case Watched(streams):
-                        self._watched = streams
-                    case Plotted(series):
-                        self._plotted = series
-                    case Uploaded(folder):
-                        self._uploads = Path(folder)
-                    case TerminalInput() as typed:
-                        self._terminal_inputs.append(typed)
-                    case Driven(topics):
-                        if self._stop is not None:
-                            self._stop.follow(topics)
-                    case reply:
-                        self._replies.put(reply)
+    def _ended(self) -> None:
+        """Stop driven robots, after the server has ended; its clients are gone."""
         self._watched, self._plotted = frozenset(), ()
         if self._stop is not None:
-            self._stop.end()
-        self._replies.put(None)
+            self._stop = self._stop.replace()
 
     def _await_served(self) -> Served:
         notice = WaitNotice("the page's server to start")
         while True:
             try:
-                reply = self._replies.get(timeout=PERIOD_S)
+                reply = self._process.replies.get(timeout=PERIOD_S)
                 break
             except queue.Empty:
                 notice.poll()
@@ -408,7 +377,7 @@ class PageServer:
             return reply
         if isinstance(reply, Refused):
             raise UsageError(reply.reason)
-        raise PageError(f"the page's server ended at its start with exit code {self._process.wait()}")
+        raise PageError("the page's server ended at each start; what it printed says why")
 
 
 def _drain(pending: deque[_Item]) -> list[_Item]:

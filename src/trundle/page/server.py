@@ -7,7 +7,6 @@ Only `PageServer.start` runs it, as `python -m trundle.page.server`. Standard in
 import contextlib
 import logging
 import os
-import secrets
 import signal
 import socket
 import sys
@@ -75,7 +74,14 @@ def main() -> None:
 async def _serve(start: Start, loop: GraphLoop, listening: socket.socket, at: PageAddress, pipe: OwnerPipe) -> Page:
     """Serve the page and send its addresses to the owner."""
     port = int(listening.getsockname()[1])
-    access = Access(host=at.host, port=port, allowed=at.allowed, needs_token=True, view_token=secrets.token_urlsafe(16))
+    access = Access(
+        host=at.host,
+        port=port,
+        allowed=at.allowed,
+        needs_token=True,
+        token=start.token,
+        view_token=start.view_token,
+    )
     page = Page(start, loop=loop, assets=Assets(os.environ, Path(os.fsdecode(start.source))), send=pipe.send)
     reachable = "127.0.0.1" if at.host in ("0.0.0.0", "") else at.host
     authority = f"[{reachable}]:{port}" if ":" in reachable else f"{reachable}:{port}"

@@ -114,7 +114,7 @@ class SharedPage:
 
     def _start(self, node: Node | None, source: Path | None) -> PageServer:
         started = self._session
-        server = PageServer.start(started, at=self._at, graph=self._graph, node=node, source=source)
+        server = PageServer.start(started, at=self._at, graph=self._graph, node=node, source=source, say=self._say)
         with self._lock:
             if self._is_over:
                 server.close()

@@ -29,7 +29,9 @@ class GraphAddress(msgspec.Struct, frozen=True, kw_only=True):
     host: str | None = None
     """Address that the node binds; None: loopback."""
     name: str = "trundle_page"
-    """Base name; the server appends its process id, so that names of several pages differ."""
+    """Base name; the server appends a number, so that names of several pages differ."""
+    number: int | None = None
+    """None: the server's process id."""
 
 
 class BagFile(msgspec.Struct, frozen=True, kw_only=True):
@@ -56,6 +58,8 @@ class Start(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     reserved_ports: tuple[int, ...] = ()
     hosts: tuple[str, ...]
     origins: tuple[str, ...]
+    token: str
+    view_token: str
     session: Session
     graph: GraphAddress | None
     """None: no graph."""
@@ -63,6 +67,10 @@ class Start(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     """None: the page shows the owner's data or the graph."""
     source: bytes
     """File or folder, in the system's encoding; clients may fetch files around it."""
+    last_request: int = 0
+    """Id of the last request of an earlier server."""
+    uploads: str | None = None
+    """Folder of an earlier server's uploaded models; None: there is none."""
 
 
 class SetSession(msgspec.Struct, frozen=True, tag=True):

@@ -54,6 +54,11 @@ class DriveStop:
             self._has_ended = True
             self._changed.notify()
 
+    def replace(self) -> "DriveStop":
+        """End, and return the stop for the next server."""
+        self.end()
+        return DriveStop(self._node)
+
     def _watch_reports(self) -> None:
         """Stop driven robots when reports cease."""
         with self._changed:

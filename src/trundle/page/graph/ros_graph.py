@@ -163,7 +163,7 @@ class RosGraph:
 
     def _new_node(self) -> Node:
         node = Node(
-            f"{self._address.name}_{os.getpid()}",
+            f"{self._address.name}_{self._address.number or os.getpid()}",
             loop=self._loop,
             master_uri=self._address.master_uri,
             host=self._address.host,

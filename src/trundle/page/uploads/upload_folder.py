@@ -34,15 +34,18 @@ class UploadedModels(msgspec.Struct, frozen=True):
 class Uploads:
     """Receives one upload at a time; used on the loop only."""
 
-    def __init__(self, on_created: Callable[[Path], None], environment: Mapping[str, str]) -> None:
-        """Create it, without a folder.
+    def __init__(
+        self, on_created: Callable[[Path], None], environment: Mapping[str, str], *, folder: Path | None = None
+    ) -> None:
+        """Create it.
 
         Args:
             on_created: called with the folder after its creation; each of its folders is a model.
             environment: variables with the model path, whose models cannot be replaced by uploads.
+            folder: folder of an earlier server; None: the first upload creates one.
         """
         self._on_created, self._environment = on_created, environment
-        self._folder: Path | None = None
+        self._folder = folder
         self._is_busy = False
 
     async def receive(self, parts: MultipartReader) -> list[str]:
