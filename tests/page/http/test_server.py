@@ -14,6 +14,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from tests.graphs import until
 from tests.manifests import empty_manifest
 from tests.page.built_client import needs_client
 from tests.page_client import PATIENCE_S, ProtocolClient, page_url
@@ -312,6 +313,7 @@ def test_pictures_for_view_only_clients_do_not_delay_others(page: PageServer) ->
         done = pool.submit(_get, control)
         while len(requests) < 3 and time.monotonic() < end:
             requests += page.requests()
+        until(lambda: sum(answer.done() for answer in looking) == 4)  # before the answers free places for them
         for request in requests:
             page.respond(request.id, "no renderer here")
         assert "no renderer here" in done.result()[1]
