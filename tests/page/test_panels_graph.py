@@ -161,12 +161,15 @@ def test_the_log_shows_levels_and_sources(graph: Graph, node: Node, user: PanelU
 
 @pytest.mark.slow
 def test_nodes_and_the_graph_are_drawn(graph: Graph, node: Node, user: PanelUser) -> None:
-    publisher = node.advertise("/chain", "std_msgs/String")
+    command = graph.node("rostopic_4711")  # as `rostopic pub` names itself
+    command.advertise("/chain", "std_msgs/String")
     listener = graph.node("listener")
     listener.subscribe("/chain", "std_msgs/String", lambda _message: None)
     user.open("Graph")
     drawing = user.page.get_by_role("group", name="Graph of nodes and topics")
     drawing.get_by_role("img", name="topic /chain: 1 in, 1 out").wait_for()
+    drawing.get_by_role("img", name="node /rostopic_4711: 0 in, 1 out").wait_for()
+    assert int(user.page.get_by_text(" hidden", exact=False).inner_text().split()[0]) >= 2  # /rosout and this page
     with user.page.expect_download() as download:
         user.button("SVG").click()
     text = download.value.path().read_text()
@@ -177,7 +180,7 @@ def test_nodes_and_the_graph_are_drawn(graph: Graph, node: Node, user: PanelUser
     user.page.get_by_role("region", name="Subscriptions").get_by_text("/chain").wait_for()
     user.button("Close").click()
     graph.loop.run(listener.shutdown())
-    publisher.unregister()
+    graph.loop.run(command.shutdown())
 
 
 @pytest.mark.slow

@@ -84,6 +84,7 @@ function arrows(drawing: Drawing): readonly DrawnArrow[] {
 
 function Actions({ page }: PanelProps): JSX.Element {
   const state = graphState(page);
+  const { hidden } = state.drawing.value;
   return (
     <>
       <Select
@@ -98,6 +99,7 @@ function Actions({ page }: PanelProps): JSX.Element {
       <Button small on={state.hideDebug.value} onClick={() => void (state.hideDebug.value = !state.hideDebug.value)}>
         Hide debug
       </Button>
+      {hidden > 0 && <span class="xs dim">{hidden} hidden</span>}
       <FilterButton on={state.isFiltering} text={state.filter} />
       <Button small icon="focus" label="Fit" onClick={() => state.panZoom.fit()} />
       <Button small icon="download" onClick={() => state.save()}>

@@ -50,6 +50,38 @@ test("debug nodes and topics are shown on request", () => {
   );
 });
 
+test("a command's node is shown, and rqt_graph's debug nodes and topics are counted", () => {
+  const commanded = {
+    ...graph,
+    publishers: new Map([
+      ["/cmd_vel", ["/rostopic_4711_1795900000"]],
+      ["/clock", ["/sim"]],
+      ["/wheels/monitor", ["/sim"]],
+      ["/rosout", ["/sim"]],
+    ]),
+    subscribers: new Map([
+      ["/cmd_vel", ["/arbotix", "/record_1"]],
+      ["/clock", ["/arbotix"]],
+      ["/wheels/monitor", ["/arbotix"]],
+      ["/rosout", ["/rosout", "/trundle_page_1"]],
+    ]),
+  };
+  const drawing = graphDrawing(commanded, { view: "Nodes/Topics (active)", hideDebug: true, text: "" });
+  expect(drawing.vertices.map(({ name }) => name).sort()).toEqual([
+    "/arbotix",
+    "/cmd_vel",
+    "/idle",
+    "/record_1",
+    "/rostopic_4711_1795900000",
+    "/sim",
+  ]);
+  expect(drawing.hidden).toBe(5); // /clock, /wheels/monitor, /rosout twice, the page
+  const nodes = graphDrawing(commanded, { view: "Nodes only", hideDebug: true, text: "" });
+  expect(nodes.edges).toContainEqual({ from: "node /sim", to: "node /arbotix", topics: ["/wheels/monitor"] });
+  expect(nodes.hidden).toBe(2);
+  expect(graphDrawing(commanded, { view: "Nodes only", hideDebug: false, text: "" }).hidden).toBe(0);
+});
+
 test("a filter keeps matches and their neighbours", () => {
   expect(names("Nodes/Topics (all)", true, "LASER")).toEqual([
     "node /laser",

@@ -1,8 +1,6 @@
 /** The graph of nodes and topics, as rqt_graph filters it. */
 
 import type { GraphInfo } from "../../protocol/connection";
-import { isWatcher } from "../../protocol/watchers";
-
 /** rqt_graph's three views. */
 export type GraphView = "Nodes only" | "Nodes/Topics (active)" | "Nodes/Topics (all)";
 export const GRAPH_VIEWS: readonly GraphView[] = ["Nodes only", "Nodes/Topics (active)", "Nodes/Topics (all)"];
@@ -23,26 +21,55 @@ interface Edge {
 export interface Drawing {
   readonly vertices: readonly Vertex[];
   readonly edges: readonly Edge[];
+  /** Number of nodes and topics of this view that `hideDebug` leaves out. */
+  readonly hidden: number;
 }
 
 export interface GraphFilter {
   readonly view: GraphView;
-  /** Hide watchers: rqt's nodes, rosout, recorders, and this page. */
+  /** Hide debug nodes and topics, as rqt_graph does. */
   readonly hideDebug: boolean;
   /** Part of a name; a node or topic that has it, and its neighbours, remain. */
   readonly text: string;
 }
 
-const DEBUG_TOPICS = /^\/(rosout|rosout_agg|statistics)$/;
+/** Parts of the names of rqt_graph's debug nodes and topics (QUIET_NAMES), and of pages, which are our rqt. */
+const DEBUG_NAMES = [
+  "/diag_agg",
+  "/runtime_logger",
+  "/pr2_dashboard",
+  "/rviz",
+  "/rosout",
+  "/cpu_monitor",
+  "/monitor",
+  "/hd_monitor",
+  "/rxloggerlevel",
+  "/clock",
+  "/rqt",
+  "/statistics",
+  "/trundle_page_",
+];
+/** Topics that make no arrow between nodes. */
+const DEBUG_TOPICS = ["/time", "/clock", "/rosout", "/statistics"];
+
+function isDebug(name: string): boolean {
+  return DEBUG_NAMES.some((part) => name.includes(part));
+}
 
 /** Nodes and topics to draw, with arrows from publishers to subscribers. */
 export function graphDrawing(graph: GraphInfo, filter: GraphFilter): Drawing {
-  const isShown = (node: string): boolean => !filter.hideDebug || !isWatcher(node);
+  const drawing = drawn(graph, filter.view, filter.hideDebug);
+  const all = filter.hideDebug ? drawn(graph, filter.view, false) : drawing;
+  return matching({ ...drawing, hidden: all.vertices.length - drawing.vertices.length }, filter.text);
+}
+
+function drawn(graph: GraphInfo, view: GraphView, hideDebug: boolean): Omit<Drawing, "hidden"> {
+  const isShown = (node: string): boolean => !hideDebug || !isDebug(node);
+  const isShownTopic = (topic: string): boolean =>
+    !hideDebug || !(DEBUG_TOPICS.includes(topic) || (view !== "Nodes only" && isDebug(topic)));
   const ends = (of: ReadonlyMap<string, readonly string[]>, topic: string): readonly string[] =>
     (of.get(topic) ?? []).filter(isShown);
-  const topics = [...new Set([...graph.publishers.keys(), ...graph.subscribers.keys()])]
-    .filter((topic) => !filter.hideDebug || !DEBUG_TOPICS.test(topic))
-    .sort();
+  const topics = [...new Set([...graph.publishers.keys(), ...graph.subscribers.keys()])].filter(isShownTopic).sort();
   const vertices = new Map<string, Vertex>();
   const edges = new Map<string, Edge>();
   const addNode = (name: string): string => add(vertices, { id: `node ${name}`, kind: "node", name });
@@ -50,15 +77,15 @@ export function graphDrawing(graph: GraphInfo, filter: GraphFilter): Drawing {
   for (const topic of topics) {
     const from = ends(graph.publishers, topic);
     const to = ends(graph.subscribers, topic);
-    if (filter.view === "Nodes only") {
+    if (view === "Nodes only") {
       for (const one of from) for (const other of to) connect(edges, addNode(one), addNode(other), topic);
-    } else if (filter.view === "Nodes/Topics (all)" ? from.length + to.length > 0 : from.length > 0 && to.length > 0) {
+    } else if (view === "Nodes/Topics (all)" ? from.length + to.length > 0 : from.length > 0 && to.length > 0) {
       const id = add(vertices, { id: `topic ${topic}`, kind: "topic", name: topic });
       for (const one of from) connect(edges, addNode(one), id, topic);
       for (const other of to) connect(edges, id, addNode(other), topic);
     }
   }
-  return matching({ vertices: [...vertices.values()], edges: [...edges.values()] }, filter.text);
+  return { vertices: [...vertices.values()], edges: [...edges.values()] };
 }
 
 /** Names of all nodes, sorted. */
@@ -94,6 +121,7 @@ function matching(drawing: Drawing, text: string): Drawing {
   const hits = drawing.vertices.filter((vertex) => vertex.name.toLowerCase().includes(part));
   const ids = new Set(hits.flatMap((vertex) => [...neighbourhood(drawing, vertex.id)]));
   return {
+    ...drawing,
     vertices: drawing.vertices.filter((vertex) => ids.has(vertex.id)),
     edges: drawing.edges.filter((edge) => ids.has(edge.from) && ids.has(edge.to)),
   };
