@@ -232,5 +232,10 @@ def test_a_recording_is_played_and_scrubbed(owner: Owner, user: PanelUser) -> No
     ruler = user.page.locator(".headarea").bounding_box()
     user.page.mouse.click(ruler["x"] + ruler["width"] / 2, ruler["y"] + 10)
     assert abs(owner.next("seek")["time_ns"] / 1e9 - 5.0) < 0.1
+    marks = user.page.get_by_role("group", name="Marks").bounding_box()
+    user.page.mouse.move(marks["x"] + 0.3 * marks["width"], marks["y"] + 12)
+    assert user.page.locator(".pointed").inner_text().startswith(("0:02.9", "0:03.0"))
+    user.page.mouse.click(marks["x"] + 0.7 * marks["width"], marks["y"] + 12)
+    assert abs(owner.next("seek")["time_ns"] / 1e9 - 7.0) < 0.1
     user.page.locator(".dockhost").get_by_role("button", name="Play", exact=True).click()
     assert owner.next("play") == {}

@@ -195,6 +195,18 @@ def test_the_timeline_seeks_back_and_runs_on(user: SceneUser, heights: Heights) 
     earlier = dict(heights[:count])
     assert heights[-1][1] == earlier[heights[-1][0]]
 
+    past = user.page.get_by_role("status").filter(has_text="past, ")
+    past.get_by_text("past, 1.0 s ago").wait_for()
+    user.button("Back to now").click()
+    past.wait_for(state="detached")
+    user.until(lambda: float(head.get_attribute("aria-valuenow")) == pytest.approx(before / 1e9, abs=0.01))
+    head.press("ArrowLeft")
+    count = len(heights)
+    user.button("Resume here").click()
+    user.until(lambda: heights[-1][0] > before)
+    assert heights[count][0] < before
+    _bar(user, "Pause").click()
+
 
 @pytest.mark.slow
 def test_the_worlds_tree_finds_shows_and_hides(user: SceneUser) -> None:

@@ -12,7 +12,8 @@ import { TextField } from "../theme/text_field";
 import { logState } from "./log/log_state";
 import { timeText } from "./messages/format";
 import type { Panel, PanelProps } from "./panel";
-import { Bands, ContactLanes, Lane, type ShareProps } from "./timeline/lane";
+import { Head } from "./timeline/head";
+import { Bands, Lane, LaneGroup, type GroupedLane, type ShareProps } from "./timeline/lane";
 import { rulerTimes, timelineState, type Mark, type TimelineState } from "./timeline/timeline_state";
 import { useShown, useTick } from "./use";
 
@@ -62,6 +63,18 @@ function Timeline({ page }: PanelProps): JSX.Element {
           <div class="lanename ruler" />
           <Ruler span={span} share={share} />
           <Head state={state} span={span} share={share} />
+          <Lane name="Log" pinned="second">
+            {entries.map(({ id, level, time, text }) => (
+              <i key={id} class="event" title={text} style={{ left: share(time ?? 0) }}>
+                <StatusShape level={level === "Warn" ? "warn" : "error"} label={text} />
+              </i>
+            ))}
+          </Lane>
+          <Lane name="Marks" pinned="third">
+            {state.marks.value.map((mark) => (
+              <MarkFlag key={mark.id} state={state} mark={mark} left={share(mark.time)} />
+            ))}
+          </Lane>
           {kind !== "bag" && (
             <Lane name={!span.isSeekable ? "Simulated" : kind === "simulation" ? "Kept" : "Recorded"}>
               <Bands bands={[[span.start, span.known]]} span={span} share={share} />
@@ -75,30 +88,37 @@ function Timeline({ page }: PanelProps): JSX.Element {
               <Lane name="Drive">
                 <Bands weak bands={state.drives.bands} span={span} share={share} />
               </Lane>
-              <ContactLanes lanes={state.contacts.all} span={span} share={share} />
+              <LaneGroup name="Contacts" lanes={contactLanes(state)} folds={state.folds} span={span} share={share} />
             </>
           )}
-          <Lane name="Log">
-            {entries.map(({ id, level, time, text }) => (
-              <i key={id} class="event" title={text} style={{ left: share(time ?? 0) }}>
-                <StatusShape level={level === "Warn" ? "warn" : "error"} label={text} />
-              </i>
-            ))}
-          </Lane>
-          <Lane name="Marks">
-            {state.marks.value.map((mark) => (
-              <MarkFlag key={mark.id} state={state} mark={mark} left={share(mark.time)} />
-            ))}
-          </Lane>
-          {state.topics.all.map(({ topic, count, bands }) => (
-            <Lane key={topic} name={topic} title={count === null ? topic : `${topic}: ${messages(count, "message")}`}>
-              <Bands weak bands={bands} span={span} share={share} />
-            </Lane>
-          ))}
+          <LaneGroup
+            name="Topics"
+            lanes={topicLanes(state)}
+            folds={state.folds}
+            isOpen={kind === "bag"}
+            span={span}
+            share={share}
+          />
         </div>
       </div>
     </div>
   );
+}
+
+function contactLanes(state: TimelineState): readonly GroupedLane[] {
+  return state.contacts.all.map(({ pair, bands }) => ({
+    name: pair,
+    title: `Contacts of ${pair.replace(" · ", " and ")}`,
+    bands,
+  }));
+}
+
+function topicLanes(state: TimelineState): readonly GroupedLane[] {
+  return state.topics.all.map(({ topic, count, bands }) => ({
+    name: topic,
+    title: count === null ? topic : `${topic}: ${messages(count, "message")}`,
+    bands,
+  }));
 }
 
 function Ruler({ span, share }: ShareProps): JSX.Element {
@@ -111,67 +131,6 @@ function Ruler({ span, share }: ShareProps): JSX.Element {
           {timeText(time, decimals)}
         </span>
       ))}
-    </div>
-  );
-}
-
-/** The line at the time that is shown; dragged, or moved by the arrow keys. */
-function Head({ state, span, share }: ShareProps & { readonly state: TimelineState }): JSX.Element {
-  const area = useRef<HTMLDivElement>(null);
-  const now = Math.min(span.end, Math.max(span.start, state.now()));
-  const go = (time: number): void => {
-    const within = Math.min(span.end, Math.max(span.start, time));
-    state.seek(within);
-    if (state.scrub.peek() !== null) state.scrub.value = within;
-  };
-  const drag = (event: PointerEvent): void => {
-    const box = area.current?.getBoundingClientRect();
-    if (state.scrub.peek() === null || box === undefined) return;
-    go(span.start + ((event.clientX - box.left) / box.width) * (span.end - span.start));
-  };
-  const keys: Readonly<Record<string, number>> = {
-    ArrowLeft: now - 1,
-    ArrowRight: now + 1,
-    PageDown: now - 10,
-    PageUp: now + 10,
-    Home: span.start,
-    End: span.end,
-  };
-  return (
-    <div
-      ref={area}
-      class={state.canSeek() ? "headarea" : "headarea fixed"}
-      onPointerDown={(event) => {
-        if (!state.canSeek()) return;
-        event.currentTarget.setPointerCapture(event.pointerId);
-        state.scrub.value = now;
-        drag(event);
-      }}
-      onPointerMove={drag}
-      onPointerUp={() => void (state.scrub.value = null)}
-      onPointerCancel={() => void (state.scrub.value = null)}
-    >
-      {span.known < span.end && <div class="future" style={{ left: share(span.known) }} />}
-      <div
-        class="playhead"
-        role="slider"
-        aria-label="Time"
-        aria-valuemin={span.start}
-        aria-valuemax={span.end}
-        aria-valuenow={now}
-        aria-valuetext={timeText(now)}
-        aria-disabled={!state.canSeek()}
-        tabIndex={0}
-        style={{ left: share(now), "--at": share(now) }}
-        onKeyDown={(event) => {
-          const to = keys[event.key];
-          if (to === undefined || !state.canSeek()) return;
-          event.preventDefault();
-          go(to);
-        }}
-      >
-        <span>{timeText(now)}</span>
-      </div>
     </div>
   );
 }
@@ -203,6 +162,7 @@ function Actions({ page }: PanelProps): JSX.Element | null {
   if (state.span() === null) return null;
   const world = page.world.state.value;
   const isPaused = world?.paused ?? true;
+  const past = state.past();
   const speed =
     Object.entries(SPEEDS).find(([, factor]) => factor === (world?.speed ?? null))?.[0] ?? `${world?.speed ?? 1}×`;
   return (
@@ -247,10 +207,20 @@ function Actions({ page }: PanelProps): JSX.Element | null {
       <Button small icon="plus" disabled={world === null} onClick={() => state.mark()}>
         Mark
       </Button>
-      {world?.timeline !== undefined && canControl(page) && (
-        <Button small onClick={() => state.seek((world.timeline?.end_ns ?? 0) / 1e9)}>
-          To the end
-        </Button>
+      {past !== null && (
+        <span class="past" role="status">
+          past, {past < 60 ? `${past.toFixed(past < 10 ? 1 : 0)} s` : timeText(past, 0)} ago
+        </span>
+      )}
+      {past !== null && canControl(page) && (
+        <>
+          <Button small onClick={() => state.do("play", {})}>
+            Resume here
+          </Button>
+          <Button small onClick={() => state.seek(state.span()?.end ?? 0)}>
+            Back to now
+          </Button>
+        </>
       )}
     </>
   );

@@ -1,3 +1,4 @@
+// @vitest-environment jsdom
 /** Lanes of the timeline. */
 
 import { describe, expect, it } from "vitest";
@@ -5,9 +6,11 @@ import { describe, expect, it } from "vitest";
 import type { Lanes } from "../../src/protocol/generated/page_messages";
 import { requestTo } from "../../src/app/dialogs/time_dialog";
 import { ContactTimes, touchingPairs } from "../../src/panels/timeline/contact_times";
-import { Intervals } from "../../src/panels/timeline/intervals";
+import { Intervals, united } from "../../src/panels/timeline/intervals";
 import { stretchesOf, TopicTimes } from "../../src/panels/timeline/topic_times";
+import { TimelineState } from "../../src/panels/timeline/timeline_state";
 import { FakeConnection } from "../fake_connection";
+import { fakePage } from "../fake_page";
 
 const BAG: Lanes = {
   start_ns: 100e9,
@@ -102,6 +105,39 @@ describe("intervals", () => {
     ] as const)
       intervals.note(isOn, time);
     expect(intervals.bands).toEqual([[1, 3]]);
+  });
+});
+
+it("unites the intervals of many lanes", () => {
+  expect(united([])).toEqual([]);
+  expect(
+    united([
+      [5, 6],
+      [1, 2],
+      [1.5, 3],
+      [3, 4],
+      [5.2, 5.4],
+    ]),
+  ).toEqual([
+    [1, 4],
+    [5, 6],
+  ]);
+});
+
+describe("the past", () => {
+  it("is shown while a simulation is paused before its newest moment", () => {
+    const page = fakePage();
+    const state = new TimelineState(page);
+    const set = (time: number, paused: boolean): void => {
+      const clock = { time_ns: time * 1e9, paused, real_time_factor: null, speed: 1, recording: null };
+      page.world.state.value = { ...clock, timeline: { start_ns: 0, end_ns: 100e9 } };
+    };
+    set(21, true);
+    expect(state.past()).toBe(79);
+    set(21, false);
+    expect(state.past()).toBeNull();
+    set(100, true);
+    expect(state.past()).toBeNull();
   });
 });
 

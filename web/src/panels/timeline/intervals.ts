@@ -11,6 +11,17 @@ export interface Span {
   readonly isSeekable: boolean;
 }
 
+/** Intervals that are in any of the given ones, in order, as few as possible. */
+export function united(intervals: readonly (readonly [number, number])[]): readonly (readonly [number, number])[] {
+  const whole: [number, number][] = [];
+  for (const [start, end] of intervals.toSorted(([one], [other]) => one - other)) {
+    const last = whole.at(-1);
+    if (last !== undefined && start <= last[1]) last[1] = Math.max(last[1], end);
+    else whole.push([start, end]);
+  }
+  return whole;
+}
+
 /** Largest number of intervals; the oldest are dropped. */
 const MAX_INTERVALS = 200;
 

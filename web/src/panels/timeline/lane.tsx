@@ -1,9 +1,9 @@
 /** Row of the timeline, with its intervals. */
 
+import type { Signal } from "@preact/signals";
 import type { JSX } from "preact";
 
-import type { PairStretches } from "./contact_times";
-import type { Span } from "./intervals";
+import { united, type Span } from "./intervals";
 
 export interface ShareProps {
   readonly span: Span;
@@ -36,36 +36,66 @@ export function Bands({ weak = false, bands, span, share }: BandsProps): JSX.Ele
 interface LaneProps {
   readonly name: string;
   readonly title?: string;
+  /** Row below the ruler that stays in view. */
+  readonly pinned?: "second" | "third";
+  /** In place of the name. */
+  readonly label?: JSX.Element;
   readonly children: JSX.Element | readonly JSX.Element[];
 }
 
-export function Lane({ name, title = name, children }: LaneProps): JSX.Element {
+export function Lane({ name, title = name, pinned, label, children }: LaneProps): JSX.Element {
+  const place = pinned === undefined ? "" : ` pinned ${pinned}`;
   return (
     <>
-      <div class="lanename" title={title}>
-        {name}
+      <div class={`lanename${place}`} title={title}>
+        {label ?? name}
       </div>
-      <div class="lane" role="group" aria-label={name}>
+      <div class={`lane${place}`} role="group" aria-label={name}>
         {children}
       </div>
     </>
   );
 }
 
-/** Lanes of the pairs of models that touched. */
-export function ContactLanes({
-  lanes,
-  span,
-  share,
-}: ShareProps & { readonly lanes: readonly PairStretches[] }): JSX.Element {
-  if (lanes.length === 0) return <Lane name="Contacts">{[]}</Lane>;
+export interface GroupedLane {
+  readonly name: string;
+  readonly title: string;
+  readonly bands: readonly (readonly [number, number])[];
+}
+
+interface LaneGroupProps extends ShareProps {
+  readonly name: string;
+  readonly lanes: readonly GroupedLane[];
+  readonly folds: Signal<ReadonlyMap<string, boolean>>;
+  /** True: its lanes are shown until a person folds them. */
+  readonly isOpen?: boolean;
+}
+
+/** Lanes of one kind below one that has the intervals of all; several are folded at first. */
+export function LaneGroup({ name, lanes, folds, isOpen = false, span, share }: LaneGroupProps): JSX.Element {
+  const rows = lanes.map(({ name: row, title, bands }) => (
+    <Lane key={row} name={row} title={title}>
+      <Bands weak bands={bands} span={span} share={share} />
+    </Lane>
+  ));
+  if (lanes.length < 2) return rows[0] ?? <Lane name={name}>{[]}</Lane>;
+  const isFolded = folds.value.get(name) ?? !isOpen;
+  const label = (
+    <button
+      type="button"
+      class="fold"
+      aria-expanded={!isFolded}
+      onClick={() => void (folds.value = new Map(folds.peek()).set(name, !isFolded))}
+    >
+      {name} <span class="dim">{lanes.length}</span>
+    </button>
+  );
   return (
     <>
-      {lanes.map(({ pair, bands }) => (
-        <Lane key={pair} name={pair} title={`Contacts of ${pair.replace(" · ", " and ")}`}>
-          <Bands weak bands={bands} span={span} share={share} />
-        </Lane>
-      ))}
+      <Lane name={name} label={label}>
+        {isFolded ? <Bands weak bands={united(lanes.flatMap(({ bands }) => bands))} span={span} share={share} /> : []}
+      </Lane>
+      {!isFolded && rows}
     </>
   );
 }

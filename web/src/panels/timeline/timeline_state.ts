@@ -22,6 +22,7 @@ export interface Mark {
 const FUTURE = 1.2;
 const PERIOD = 200; // ms between updates
 const NS = 1e9;
+const SHORTEST_PAST = 0.05; // s
 
 export class TimelineState {
   readonly marks = signal<readonly Mark[]>([]);
@@ -38,6 +39,8 @@ export class TimelineState {
     return new Map(models.flatMap((model) => bodiesOf(model).map((body) => [body, model.name] as const)));
   });
   private contactSubscription: Subscription | null = null;
+  /** Kinds of lanes that a person has folded (true) or unfolded. */
+  readonly folds = signal<ReadonlyMap<string, boolean>>(new Map());
   private markCount = 0;
   private requestedTime: number | null = null;
   private isSeeking = false;
@@ -76,6 +79,14 @@ export class TimelineState {
   /** Time of the head [s]. */
   now(): number {
     return this.scrub.value ?? (this.page.world.state.value?.time_ns ?? 0) / NS;
+  }
+
+  /** Time by which a paused simulation is before its newest moment [s]; null: it shows that moment, or plays. */
+  past(): number | null {
+    const state = this.page.world.state.value;
+    if (state?.timeline === undefined || !state.paused || this.page.session.kind !== "simulation") return null;
+    const seconds = (state.timeline.end_ns - state.time_ns) / NS;
+    return seconds < SHORTEST_PAST ? null : seconds;
   }
 
   /** Go to a time; while a request is pending, only the newest time is kept. */
