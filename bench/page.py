@@ -27,6 +27,9 @@ from trundle.ros import Core, GraphLoop
 _POINTS, _POINT_BYTES = 1_000_000, (16, 32)
 _RATE_HZ, _MESSAGES, _PAIRS = 5.0, 15, 3
 _ROBOTS, _LINKS, _POSE_BYTES, _POSES_HZ, _POSES = 50, 12, 32, 30.0, 300
+_PART, _MARK = 0x80, 0x82
+"""First bytes of parts of messages and of marks."""
+_HEAD_BYTES = 13
 _KEY = "AAAAAAAAAAAAAAAAAAAAAA=="
 
 
@@ -145,25 +148,37 @@ def subscribe(url: str, topic: str, min_size: int) -> Callable[[int], None]:
         pass
     number = int(text[: text.index(topic_field)].rpartition(b'"id":')[2].partition(b",")[0])
     body = b'{"op":"subscribe","subscriptions":[{"id":1,"channelId":%d}]}' % number
-    sock.sendall(struct.pack("!BBI", 0x81, 0x80 | len(body), 0) + body)  # masked with zeros
+    _send(sock, body)
 
     def receive(count: int) -> None:
-        while count and (size := _skip_message(stream)):
+        while count and (size := _skip_message(stream, sock)):
             count -= size > min_size
 
     return receive
+
+
+def _send(sock: socket.socket, text: bytes) -> None:
+    sock.sendall(struct.pack("!BBI", 0x81, 0x80 | len(text), 0) + text)  # masked with zeros
 
 
 def _read_message(stream: io.BufferedReader) -> bytes:
     return stream.read(_read_size(stream))
 
 
-def _skip_message(stream: io.BufferedReader) -> int:
-    """Read a message; return its length, or 0 at the stream's end."""
-    size = left = _read_size(stream)
-    while left and (part := stream.read1(min(left, 1 << 20))):
-        left -= len(part)
-    return size
+def _skip_message(stream: io.BufferedReader, sock: socket.socket) -> int:
+    """Read a message in all its parts, and echo marks; return its length, or 0 at the stream's end."""
+    whole = 0
+    while size := _read_size(stream):
+        head = stream.read(min(size, _HEAD_BYTES))
+        if head[0] == _MARK:
+            _send(sock, b'{"op":"trundle/echo","mark":%d}' % struct.unpack_from("<I", head, 1))
+        left = size - len(head)
+        while left and (piece := stream.read1(min(left, 1 << 20))):
+            left -= len(piece)
+        whole += size
+        if head[0] != _PART or head[5]:
+            return whole
+    return 0
 
 
 def _read_size(stream: io.BufferedReader) -> int:

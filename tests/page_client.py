@@ -50,6 +50,7 @@ class ProtocolClient:
         """Other binary messages, except for the time."""
         self.times: list[int] = []
         self._subscribed: dict[int, str] = {}
+        self._parts: dict[int, bytes] = {}
         self._numbers = itertools.count(100)
 
     def send(self, op: str, **fields: Any) -> None:
@@ -72,16 +73,32 @@ class ProtocolClient:
             data = self.socket.recv(timeout=timeout_s)
         except TimeoutError:
             return False
+        self._receive(data)
+        return True
+
+    def _join(self, part: bytes) -> None:
+        """Join the parts of a message."""
+        flow, is_last, is_text = struct.unpack_from("<IBB", part, 1)
+        self._parts[flow] = self._parts.get(flow, b"") + part[7:]
+        if is_last:
+            whole = self._parts.pop(flow)
+            self._receive(whole.decode() if is_text else whole)
+
+    def _receive(self, data: str | bytes) -> None:
         if isinstance(data, str):
             self._read_json(json.loads(data))
-        elif data[0] == 1:
+        elif data[0] in (1, 0x81):
             number, stamp = struct.unpack_from("<IQ", data, 1)
-            self.messages.append((self._subscribed.get(number, ""), stamp, data[13:]))
+            payload = data[13 if data[0] == 1 else 21 :]
+            self.messages.append((self._subscribed.get(number, ""), stamp, payload))
+        elif data[0] == 0x82:
+            self.send("trundle/echo", mark=struct.unpack_from("<I", data, 1)[0])
+        elif data[0] == 0x80:
+            self._join(data)
         elif data[0] == 2:
             self.times.append(struct.unpack_from("<Q", data, 1)[0])
         else:
             self.binaries.append(data)
-        return True
 
     def until(self, condition: Callable[[], object]) -> None:
         """Read until a condition is true."""

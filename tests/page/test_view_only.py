@@ -21,6 +21,7 @@ REFUSAL = "this link is view-only"
 READ_ONLY = {
     "subscribe", "unsubscribe", "getParameters", "subscribeParameterUpdates", "unsubscribeParameterUpdates",
     "subscribeConnectionGraph", "unsubscribeConnectionGraph", "fetchAsset", "trundle/presence", "trundle/request",
+    "trundle/echo",
 }  # fmt: skip
 """Operations that change nothing; requests are listed separately."""
 _MORE: dict[str, dict[str, Any]] = {"joint": {"position": 1.0}}

@@ -9,6 +9,7 @@ import type {
   ConnectionState,
   Fields,
   GraphInfo,
+  Lag,
   ParameterValue,
   Received,
   RequestName,
@@ -28,6 +29,7 @@ interface Subscriber {
 
 export class FakeConnection implements Connection {
   readonly state = signal<ConnectionState>({ kind: "connected" });
+  readonly lag = signal<Lag | null>(null);
   readonly topics = signal<ReadonlyMap<string, TopicInfo>>(new Map());
   readonly services = signal<ReadonlyMap<string, ServiceInfo>>(new Map());
   readonly parameters = signal<ReadonlyMap<string, ParameterValue>>(new Map());

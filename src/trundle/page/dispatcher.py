@@ -26,6 +26,7 @@ from .clients.protocol import (
     TRUNDLE,
     TRUNDLE_DRIVE,
     ClientOperation,
+    Echo,
     FetchAsset,
     PageRequest,
     Presence,
@@ -288,6 +289,8 @@ class Page:
             case Unsubscribe():
                 client.unsubscribe(operation)
                 self._update_watched()
+            case Echo():
+                client.echo(operation)
             case FetchAsset():
                 self._assets.fetch(client, operation)
             case Presence(selection):

@@ -7,6 +7,7 @@ from .clients.protocol import (
     SERVICE_HEADER,
     ClientOperation,
     Drive,
+    Echo,
     FetchAsset,
     GetParameters,
     PageRequest,
@@ -27,7 +28,7 @@ REFUSAL = "this link is view-only"
 _DRIVE_REFUSAL = "a socket of trundle.drive.v1 only drives"
 _READ_ONLY = (
     Subscribe, Unsubscribe, GetParameters, SubscribeParameterUpdates, UnsubscribeParameterUpdates,
-    SubscribeConnectionGraph, UnsubscribeConnectionGraph, FetchAsset, Presence, PageRequest,
+    SubscribeConnectionGraph, UnsubscribeConnectionGraph, FetchAsset, Presence, PageRequest, Echo,
 )  # fmt: skip
 """Operations that change nothing; `allows_request` checks requests."""
 

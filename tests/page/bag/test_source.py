@@ -107,11 +107,13 @@ def test_topics_are_advertised_with_their_types(client: ProtocolClient) -> None:
 def test_the_state_at_the_new_time_is_sent_after_a_jump(client: ProtocolClient) -> None:
     for topic in ("/text", "/rare", "/map", "/tf", "/tf_static", "trundle/state"):
         client.subscribe(topic)
-    client.until(lambda: times(client, "/text"))
+    client.until(lambda: times(client, "/text") and len(times(client, "/tf_static")) == 2)
     client.messages.clear()
 
     assert ask(client, 1, request="seek", time_ns=START + 55 * S // 10)["ok"]
     client.until(lambda: times(client, "/text") and times(client, "trundle/state"))
+    client.until(lambda: len(times(client, "/tf")) == 2 and times(client, "/rare") and times(client, "/map"))
+    client.until(lambda: len(times(client, "/tf_static")) == 2)
 
     assert times(client, "/text") == [5.5]
     assert times(client, "/rare") == [0.5]

@@ -2,14 +2,13 @@
 
 import type { JSX } from "preact";
 
-import type { ConnectionState } from "../protocol/connection";
 import { Button } from "../theme/button";
 import { clock, count } from "../theme/format";
 import { Icon } from "../theme/icons";
 import { MenuButton } from "../theme/menu";
 import type { MenuItem } from "../theme/menu_list";
-import { StatusShape } from "../theme/status_shape";
 import { Clock } from "./clock";
+import { ConnectionChip } from "./connection_chip";
 import { canControl, LOOKS_ONLY } from "../page/looking";
 import { colorOf, nameOf } from "../page/people";
 import { simulates } from "./simulation_commands";
@@ -32,7 +31,7 @@ export function Bar({ shell }: { readonly shell: Shell }): JSX.Element {
       {!phone && <Button icon="timeline" label="Timeline" onClick={() => shell.dock.open("timeline")} />}
       {!phone && <span class="sep" />}
       <PeopleHere shell={shell} />
-      <Connected shell={shell} />
+      <ConnectionChip shell={shell} />
       {phone ? <More shell={shell} /> : <Corner shell={shell} />}
     </header>
   );
@@ -174,29 +173,6 @@ function Record({ shell }: { readonly shell: Shell }): JSX.Element | null {
       <span class="dot" />
       {text}
     </button>
-  );
-}
-
-/** The connection's state in words. */
-function connectionText(state: ConnectionState, nodes: number): string {
-  if (state.kind === "connecting") return "Connecting";
-  if (state.kind === "lost")
-    return `Connection lost, trying again${state.retryInSeconds > 0 ? ` in ${state.retryInSeconds} s` : ""}`;
-  return nodes > 0 ? `Connected · ${count(nodes, "node")}` : "Connected";
-}
-
-function Connected({ shell }: { readonly shell: Shell }): JSX.Element {
-  const { connection, session } = shell.page;
-  const state = connection.state.value;
-  const { publishers, subscribers, services } = connection.graph.value;
-  const nodes = new Set([publishers, subscribers, services].flatMap((map) => [...map.values()].flat()));
-  const text = connectionText(state, session.kind === "graph" ? nodes.size : 0);
-  const level = state.kind === "connected" ? "ok" : state.kind === "connecting" ? "none" : "error";
-  return (
-    <span class="connection" role="status">
-      <StatusShape level={level} label={text} />
-      {!shell.layout.isPhone.value && <span aria-hidden="true">{text}</span>}
-    </span>
   );
 }
 

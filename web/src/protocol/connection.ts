@@ -11,6 +11,13 @@ export type ConnectionState =
   | { readonly kind: "connected" }
   | { readonly kind: "lost"; readonly retryInSeconds: number };
 
+/** How late the page is. */
+export interface Lag {
+  readonly seconds: number;
+  /** When it began, as `Date.now()` [ms]. */
+  readonly since: number;
+}
+
 export interface TopicInfo {
   readonly name: string;
   /** Datatype, as `sensor_msgs/LaserScan`. */
@@ -40,7 +47,7 @@ export interface TopicStatistics {
   readonly rate: number | null;
   /** Bytes per second. */
   readonly bandwidth: number;
-  /** Wall time of the last message, as `performance.now()` [ms]; null: none came. */
+  /** Wall time at which the server had the last message, as `performance.now()` [ms]; null: none came. */
   readonly lastAt: number | null;
   readonly count: number;
   readonly dropped: number;
@@ -72,6 +79,8 @@ export type Request = { [N in RequestName]: { readonly request: N; readonly fiel
 
 export interface Connection {
   readonly state: ReadonlySignal<ConnectionState>;
+  /** Null: the page is up to date. */
+  readonly lag: ReadonlySignal<Lag | null>;
   readonly topics: ReadonlySignal<ReadonlyMap<string, TopicInfo>>;
   readonly services: ReadonlySignal<ReadonlyMap<string, ServiceInfo>>;
   readonly parameters: ReadonlySignal<ReadonlyMap<string, ParameterValue>>;

@@ -16,10 +16,12 @@ import { Decoder, type DecodePort } from "./decoder";
 import { DriveLink, type DrivePort } from "./drive_link";
 import { channels, serverOperation } from "./generated/page_checks";
 import type { Channels, SharedSelection } from "./generated/page_messages";
+import { MessageParts } from "./message_parts";
 import { Notices } from "./notices";
 import { Publications } from "./publications";
 import { ReconnectingSocket, type Socket } from "./reconnecting_socket";
 import type { RosMessage } from "./ros_types";
+import { ServerClock } from "./server_clock";
 import { Subscriptions } from "./subscriptions";
 import { SystemState } from "./system_state";
 import { readBinary, SUBPROTOCOLS, type ClientFrame } from "./wire";
@@ -32,6 +34,8 @@ export class FoxgloveConnection implements Connection {
   readonly #system: SystemState;
   readonly #drive: DriveLink;
   readonly #notices = new Notices();
+  readonly #clock = new ServerClock();
+  readonly #parts = new MessageParts();
   /** Last time from the server [ns]; null: the wall clock is used. */
   #time: bigint | null = null;
 
@@ -50,12 +54,15 @@ export class FoxgloveConnection implements Connection {
     this.#socket = new ReconnectingSocket(
       open,
       (data) => this.#receive(data),
-      () => this.#calls.lost(),
+      () => this.#lost(),
     );
   }
 
   get state(): Connection["state"] {
     return this.#socket.state;
+  }
+  get lag(): Connection["lag"] {
+    return this.#clock.lag;
   }
   get topics(): Connection["topics"] {
     return this.#subscriptions.topics;
@@ -158,8 +165,9 @@ export class FoxgloveConnection implements Connection {
   /** Handle a frame; a notice reports one that cannot be read. */
   #receive(data: string | ArrayBuffer): void {
     try {
-      if (typeof data === "string") this.#receiveText(data);
-      else this.#receiveBinary(data);
+      const message = typeof data === "string" ? data : this.#parts.join(data);
+      if (typeof message === "string") this.#receiveText(message);
+      else if (message !== null) this.#receiveBinary(message);
     } catch (error) {
       if (!(error instanceof MessageFault)) throw error;
       this.#notices.add("error", error.message, error.message);
@@ -210,15 +218,25 @@ export class FoxgloveConnection implements Connection {
     if (frame.op === "message") {
       // the server tells the time at 20 Hz, and messages in between are newer
       if (this.#time !== null && frame.time > this.#time) this.#time = frame.time;
-      this.#subscriptions.receive(frame);
+      this.#subscriptions.receive(frame, this.#clock.sentAt(frame.serverTime));
+    } else if (frame.op === "mark") {
+      this.#clock.sentAt(frame.serverTime);
+      this.#socket.send({ op: "trundle/echo", mark: frame.mark });
     } else if (frame.op === "time") this.#time = frame.time;
     else if (frame.op === "serviceResponse") this.#calls.callAnswered(frame);
     else this.#calls.receiveAsset(frame);
   }
 
+  #lost(): void {
+    this.#clock.stop();
+    this.#parts.clear();
+    this.#calls.lost();
+  }
+
   /** Start with a server that has just greeted. */
   #greeted(capabilities: readonly string[]): void {
     this.#time = null;
+    this.#clock.start();
     this.#notices.clear();
     this.#subscriptions.restart();
     this.#calls.restart();

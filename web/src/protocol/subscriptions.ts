@@ -90,11 +90,12 @@ export class Subscriptions {
     };
   }
 
-  receive(frame: Extract<ServerBinary, { op: "message" }>): void {
+  /** Deliver a message; `sentAt` is when the server had it, by `performance.now()` [ms]. */
+  receive(frame: Extract<ServerBinary, { op: "message" }>, sentAt: number): void {
     const topic = this.#bySubscription.get(frame.subscription);
     if (topic === undefined) return;
     const payload = frame.payload as DataView<ArrayBuffer>;
-    topic.statistics.add(performance.now(), payload.byteLength);
+    topic.statistics.add(sentAt, payload.byteLength);
     for (const onPayload of topic.raw) onPayload(payload);
     topic.decoding?.queue.push({ payload, time: frame.time });
   }

@@ -12,14 +12,15 @@ export class ArrivalStatistics {
   /** Messages dropped here, and by the server in this connection. */
   dropped = 0;
   serverDropped = 0;
-  /** Arrivals [ms] and sizes [bytes], in rings; made at the first message. */
+  /** Times [ms] and sizes [bytes] of messages, in rings; made at the first one. */
   #times: Float64Array | null = null;
   #sizes: Float64Array | null = null;
 
-  add(now: number, bytes: number): void {
+  /** Count a message; `time`: when the server had it, as `performance.now()` [ms]. */
+  add(time: number, bytes: number): void {
     this.#times ??= new Float64Array(SAMPLES);
     this.#sizes ??= new Float64Array(SAMPLES);
-    this.#times[this.count % SAMPLES] = now;
+    this.#times[this.count % SAMPLES] = time;
     this.#sizes[this.count % SAMPLES] = bytes;
     this.count += 1;
   }

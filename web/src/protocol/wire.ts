@@ -7,7 +7,16 @@ export const SUBPROTOCOLS = ["trundle.v1", "foxglove.websocket.v1"];
 
 /** Binary frames of the server. */
 export type ServerBinary =
-  | { readonly op: "message"; readonly subscription: number; readonly time: bigint; readonly payload: DataView }
+  | {
+      readonly op: "message";
+      readonly subscription: number;
+      readonly time: bigint;
+      /** Wall time of the server when it had the message [ms]. */
+      readonly serverTime: number;
+      readonly payload: DataView;
+    }
+  /** What came before is echoed to have been handled. */
+  | { readonly op: "mark"; readonly mark: number; readonly serverTime: number }
   | { readonly op: "time"; readonly time: bigint }
   | { readonly op: "serviceResponse"; readonly call: number; readonly payload: DataView }
   | { readonly op: "asset"; readonly request: number; readonly error: string | null; readonly data: ArrayBuffer };
@@ -29,13 +38,16 @@ export function readBinary(frame: ArrayBuffer): ServerBinary {
 
 function binaryOf(frame: ArrayBuffer, view: DataView): ServerBinary {
   switch (view.getUint8(0)) {
-    case 1:
+    case 0x81:
       return {
         op: "message",
         subscription: view.getUint32(1, true),
         time: view.getBigUint64(5, true),
-        payload: new DataView(frame, 13),
+        serverTime: milliseconds(view, 13),
+        payload: new DataView(frame, 21),
       };
+    case 0x82:
+      return { op: "mark", mark: view.getUint32(1, true), serverTime: milliseconds(view, 5) };
     case 2:
       return { op: "time", time: view.getBigUint64(1, true) };
     case 3: {
@@ -51,6 +63,11 @@ function binaryOf(frame: ArrayBuffer, view: DataView): ServerBinary {
     default:
       throw fault("a binary message", `its opcode is the unknown ${view.getUint8(0)}`);
   }
+}
+
+/** Nanoseconds at an offset, in milliseconds. */
+function milliseconds(view: DataView, offset: number): number {
+  return Number(view.getBigUint64(offset, true) / 1000n) / 1000;
 }
 
 /** Client Message Data. */

@@ -40,8 +40,18 @@ export class FakeSocket implements Socket {
   }
 
   /** Message Data. */
-  message(subscription: number, payload: Uint8Array | readonly number[], time = 0n): void {
-    this.binary([1], u32(subscription), u64(time), payload);
+  message(subscription: number, payload: Uint8Array | readonly number[], time = 0n, serverTime = 0): void {
+    this.binary(messageBytes(subscription, payload, time, serverTime));
+  }
+
+  /** Message Data in parts, the last of them with `last`. */
+  part(stream: number, payload: Uint8Array, last: boolean, text = false): void {
+    this.binary([0x80], u32(stream), [Number(last), Number(text)], payload);
+  }
+
+  /** A mark, sent at the server's time [ms]. */
+  mark(number: number, serverTime: number): void {
+    this.binary([0x82], u32(number), u64(BigInt(Math.round(serverTime * 1e6))));
   }
 
   greet(capabilities = ["parameters", "parametersSubscribe", "connectionGraph"]): void {
@@ -113,6 +123,17 @@ export class FakeServer {
   close(): void {
     for (const port of this.#ports) port.close();
   }
+}
+
+/** Frame of a message that the server had at its time [ms]. */
+export function messageBytes(
+  subscription: number,
+  payload: Uint8Array | readonly number[],
+  time = 0n,
+  serverTime = 0,
+): Uint8Array {
+  const stamp = u64(BigInt(Math.round(serverTime * 1e6)));
+  return new Uint8Array([0x81, ...u32(subscription), ...u64(time), ...stamp, ...payload]);
 }
 
 export function u32(value: number): Uint8Array {

@@ -2,7 +2,7 @@ import { effect } from "@preact/signals";
 import { afterEach, beforeEach, describe, expect, test, vi } from "vitest";
 
 import type { Received } from "../../src/protocol/connection";
-import { FakeServer } from "./fake_server";
+import { FakeServer, messageBytes } from "./fake_server";
 
 let server: FakeServer;
 beforeEach(() => {
@@ -218,5 +218,58 @@ describe("topics", () => {
     server.socket.greet();
     drop(2);
     expect(server.connection.statistics("/a").dropped).toBe(7);
+  });
+});
+
+describe("a slow connection", () => {
+  test("marks are echoed after what came before them", () => {
+    greeted();
+    server.socket.mark(7, 1000);
+    expect(server.socket.ops("trundle/echo")).toEqual([{ op: "trundle/echo", mark: 7 }]);
+  });
+
+  test("parts of a long message arrive whole, with others between them", () => {
+    greeted();
+    server.socket.advertise(1, "/long", "test/Long", "uint8[] data");
+    server.socket.advertise(2, "/short", "test/Short", "uint8 data");
+    const payloads: Record<string, number[][]> = { "/long": [], "/short": [] };
+    for (const [topic, all] of Object.entries(payloads))
+      server.connection.subscribeRaw(topic, (payload) =>
+        all.push([...new Uint8Array(payload.buffer, payload.byteOffset)]),
+      );
+    const bytes = messageBytes(server.socket.subscription(1), [5, 6, 7, 8, 9]);
+    server.socket.part(4, bytes.slice(0, 10), false);
+    server.socket.message(server.socket.subscription(2), [1]);
+    server.socket.part(4, bytes.slice(10, 24), false);
+    expect(payloads).toEqual({ "/long": [], "/short": [[1]] });
+
+    server.socket.part(4, bytes.slice(24), true);
+    expect(payloads["/long"]).toEqual([[5, 6, 7, 8, 9]]);
+  });
+
+  test("text comes in parts, too", () => {
+    greeted();
+    const text = new TextEncoder().encode(JSON.stringify({ op: "status", level: 1, message: "it is hot" }));
+    server.socket.part(9, text.slice(0, 8), false, true);
+    server.socket.part(9, text.slice(8), true, true);
+    expect(server.connection.notices.value.map((notice) => notice.text)).toEqual(["it is hot"]);
+  });
+
+  test("rate and age are by the server's time", () => {
+    vi.useFakeTimers();
+    greeted();
+    server.socket.advertise(1, "/a", "test/A", "uint8 data");
+    server.connection.subscribeRaw("/a", () => undefined);
+    const send = (at: number): void => server.socket.message(server.socket.subscription(1), [1], 0n, at);
+    for (let at = 0; at <= 1000; at += 100) {
+      send(at);
+      vi.advanceTimersByTime(at < 1000 ? 100 : 900);
+    }
+    for (let at = 1100; at <= 2000; at += 100) send(at - 100); // late, all at once
+
+    const { rate, lastAt } = server.connection.statistics("/a");
+    expect(rate).toBeGreaterThan(9);
+    expect(rate).toBeLessThan(12);
+    expect(performance.now() - (lastAt ?? 0)).toBeCloseTo(0, 0);
   });
 });

@@ -12,6 +12,7 @@ from trundle.ros import BagConnection, BagMessage, BagReader
 
 from ..clients.channel import Channel, Client
 from ..clients.hub import Hub
+from ..clients.message_keys import MessageKeys
 from ..clients.topic_channel import is_droppable
 from ..playback import Playback
 from ..requests.request import PageAction, Reset, Seek, Step
@@ -141,7 +142,8 @@ class BagSource:
         for message in messages:
             channel = self._topics[message.connection.topic]
             if message.connection.md5sum == channel.md5sum:
-                channel.publish(message.stamp_ns, (message.data,))
+                keys = MessageKeys(channel.schema_name, "", message.data)
+                channel.publish(message.stamp_ns, (message.data,), keys)
 
     async def _read(
         self, topics: frozenset[str], stale: frozenset[str], after_ns: int, until_ns: int

@@ -22,6 +22,7 @@ _KINDS = frozenset(
 """Suffixes of meshes, textures, materials and robots: view-only clients must not read the code next to them."""
 _DRAIN_S = 60.0
 _MAX_BYTES = 128 * 1024 * 1024
+_STREAM = "assets"
 MAX_IN_FLIGHT = 64
 """Limit of a client's pending requests."""
 
@@ -64,7 +65,7 @@ class Assets:
             except (DescriptionError, OSError, ValueError) as error:
                 client.send_binary((asset_header(request.request_id, _reason(error)),))
             else:
-                client.send_binary((asset_header(request.request_id, None), content))
+                client.send_binary((asset_header(request.request_id, None), content), _STREAM)
                 await client.outbox.drain(_DRAIN_S)
             if client in self._waiting:
                 self._waiting[client] -= 1

@@ -6,8 +6,9 @@ from typing import Protocol
 
 from msgspec import UNSET
 
-from .outbox import Buffer
+from .frames import Buffer
 from .protocol import ENCODING, SCHEMA_ENCODING
+from .send_flow import NEWEST, Keys
 from .server_messages import ChannelOffer
 
 _ids = itertools.count(1)
@@ -21,13 +22,14 @@ class Client(Protocol):
         """True if the client must not change anything."""
         ...
 
-    def send_message(self, channel: "Channel", time_ns: int, pieces: Sequence[Buffer]) -> None:
+    def send_message(self, channel: "Channel", time_ns: int, pieces: Sequence[Buffer], keys: Keys = NEWEST) -> None:
         """Send a message of a channel that the client subscribes to.
 
         Args:
             channel: subscribed channel.
             time_ns: time of the message [ns].
             pieces: buffers of the payload, which must not change afterwards.
+            keys: returns the parts of a state that the message holds; see `Outbox.send`.
         """
         ...
 
@@ -92,7 +94,7 @@ class Channel:
         """Remove a client."""
         self.clients.discard(client)
 
-    def publish(self, time_ns: int, pieces: Sequence[Buffer]) -> None:
-        """Send a message to every subscribed client."""
+    def publish(self, time_ns: int, pieces: Sequence[Buffer], keys: Keys = NEWEST) -> None:
+        """Send a message to every subscribed client; `keys` as in `Outbox.send`."""
         for client in self.clients:
-            client.send_message(self, time_ns, pieces)
+            client.send_message(self, time_ns, pieces, keys)

@@ -1,5 +1,6 @@
 """One client: its subscriptions, requests and send queue."""
 
+import time
 from collections.abc import Hashable, Mapping, Sequence
 from typing import Protocol
 
@@ -7,8 +8,10 @@ import msgspec
 from msgspec import UNSET
 
 from .channel import Channel
-from .outbox import BINARY, TEXT, Buffer, Outbox
-from .protocol import ERROR, Subscribe, Unsubscribe, message_header
+from .frames import BINARY, TEXT, Buffer, frame_header
+from .outbox import Outbox
+from .protocol import ERROR, Echo, Subscribe, Unsubscribe, mark_message, message_header, stamped_header
+from .send_flow import KEPT, NEWEST, Keys
 from .server_messages import AdvertiseChannels, Response, ServerOperation, Status, UnadvertiseChannels
 
 _STATUS = "status"
@@ -51,6 +54,8 @@ class Connection:
         self.drops: dict[str, int] = {}
         """Messages dropped so far, by topic."""
         self.drops_changed = False
+        if speaks_trundle:
+            outbox.splits, outbox.mark_frame = True, _mark
         self._channels = channels
         self._subscriptions: dict[int, Channel] = {}
         self._numbers: dict[Channel, int] = {}
@@ -58,10 +63,14 @@ class Connection:
 
     # -- to the client
 
-    def send_message(self, channel: Channel, time_ns: int, pieces: Sequence[Buffer]) -> None:
+    def send_message(self, channel: Channel, time_ns: int, pieces: Sequence[Buffer], keys: Keys = NEWEST) -> None:
         """Send a message of a channel that the client subscribes to."""
-        header = message_header(self._numbers[channel], time_ns)
-        self.outbox.send(BINARY, (header, *pieces), channel if channel.is_droppable else None)
+        number = self._numbers[channel]
+        if self.speaks_trundle:
+            header = stamped_header(number, time_ns, time.time_ns())
+        else:
+            header = message_header(number, time_ns)
+        self.outbox.send(BINARY, (header, *pieces), channel, keys if channel.is_droppable else KEPT)
 
     def send(self, message: ServerOperation) -> None:
         """Send a text message that is never dropped."""
@@ -72,14 +81,15 @@ class Connection:
         fields = msgspec.json.decode(answer, type=dict[str, msgspec.Raw])
         self.outbox.send(TEXT, (msgspec.json.encode(msgspec.to_builtins(response) | fields),))
 
-    def send_binary(self, pieces: Sequence[Buffer], stream: Hashable = None) -> None:
-        """Send a binary message; messages of a stream may be dropped."""
-        self.outbox.send(BINARY, pieces, stream)
+    def send_binary(self, pieces: Sequence[Buffer], stream: Hashable = None, keys: Keys = KEPT) -> None:
+        """Send a binary message; one with keys may be dropped."""
+        self.outbox.send(BINARY, pieces, stream, keys)
 
     def send_status(self, level: int, message: str, status_id: str | None = None) -> None:
         """Send a status message; it replaces the earlier one with the same id."""
         status = Status(level, message, UNSET if status_id is None else status_id)
-        self.outbox.send(TEXT, (msgspec.json.encode(status),), _STATUS)
+        key = frozenset((message if status_id is None else status_id,))
+        self.outbox.send(TEXT, (msgspec.json.encode(status),), _STATUS, lambda: key)
 
     def send_drops(self, channel: Channel, time_ns: int) -> None:
         """Send the counts of dropped messages if they have changed."""
@@ -139,6 +149,10 @@ class Connection:
             else:
                 self.send_status(ERROR, f"no subscription {number}")
 
+    def echo(self, operation: Echo) -> None:
+        """Receive the echo of a mark."""
+        self.outbox.echo(operation.mark)
+
     def subscribed_channels(self) -> Mapping[int, Channel]:
         """Return the subscribed channels by subscription id."""
         return self._subscriptions
@@ -152,3 +166,10 @@ class Connection:
         channel = self._subscriptions.pop(number)
         del self._numbers[channel]
         channel.unsubscribe(self)
+        self.outbox.forget(channel)
+
+
+def _mark(number: int) -> Sequence[Buffer]:
+    """Return the frame of a mark that the page echoes."""
+    message = mark_message(number, time.time_ns())
+    return frame_header(BINARY, len(message)), message

@@ -9,10 +9,11 @@ from .channel import Channel
 from .connection import Connection
 from .poll_timing import PollTiming
 from .protocol import CONTROL_CAPABILITIES, WARNING, time_message
+from .send_flow import NEWEST
 from .server_messages import RemoveStatus, ServerInfo
 
 _TIME_PERIOD_S = 0.05
-_DROPS_PERIOD_S = 1.0
+_BEAT_PERIOD_S = 1.0
 _TIME = "time"
 
 
@@ -63,7 +64,7 @@ class Hub:
         self._drops = DropsChannel()
         self.add_channels([self._drops])
         self._time_ns: int | None = None
-        self._time_due_s = self._drops_due_s = 0.0
+        self._time_due_s = self._beat_due_s = 0.0
         self._has_clients = asyncio.Event()
 
     # -- channels
@@ -148,7 +149,7 @@ class Hub:
             started = time.monotonic()
             is_new = [part.poll(started, self.now_ns()) for part in self.polled]
             self._send_time(started)
-            self._send_drops(started)
+            self._send_beats(started)
             wait_s = timing.wait_s(started, is_new=any(is_new))
             await asyncio.sleep(max(0.0, started + wait_s - time.monotonic()))
 
@@ -160,13 +161,14 @@ class Hub:
         self._time_ns = now_ns
         message = (time_message(now_ns),)
         for client in self.clients:
-            if not client.outbox.has_waiting(_TIME):
-                client.send_binary(message, _TIME)
+            client.send_binary(message, _TIME, NEWEST)
 
-    def _send_drops(self, now_s: float) -> None:
-        if now_s < self._drops_due_s:
+    def _send_beats(self, now_s: float) -> None:
+        """Send counts of dropped messages, and marks."""
+        if now_s < self._beat_due_s:
             return
-        self._drops_due_s = now_s + _DROPS_PERIOD_S
-        for client in self.clients:
+        self._beat_due_s = now_s + _BEAT_PERIOD_S
+        for client in list(self.clients):
+            client.outbox.beat()
             if client in self._drops.clients:
                 client.send_drops(self._drops, self.now_ns())

@@ -195,6 +195,12 @@ class UseTerminal(Operation, frozen=True, tag="trundle/terminal"):
     """Columns and rows; None: unchanged."""
 
 
+class Echo(Operation, frozen=True, tag="trundle/echo"):
+    """Echo of a mark, after everything before it was handled."""
+
+    mark: U32
+
+
 class PageRequest(Operation, frozen=True, tag="trundle/request"):
     """Request to the page's owner; `trundle.page.requests.request` reads its fields."""
 
@@ -218,6 +224,7 @@ ClientOperation: TypeAlias = (
     | Release
     | Presence
     | UseTerminal
+    | Echo
     | PageRequest
 )
 operation_decoder = msgspec.json.Decoder(ClientOperation)
@@ -228,6 +235,9 @@ CLIENT_MESSAGE_HEADER = struct.Struct("<BI")
 SERVICE_HEADER = struct.Struct("<BIII")
 """Opcode, service id, call id, length of the encoding's name; for requests and responses."""
 _MESSAGE_HEADER = struct.Struct("<BIQ")
+_STAMPED_HEADER = struct.Struct("<BIQQ")
+_MARK = struct.Struct("<BIQ")
+_PART_HEADER = struct.Struct("<BIBB")
 _TIME = struct.Struct("<BQ")
 _ASSET_HEADER = struct.Struct("<BIBI")
 _U64 = 2**64 - 1
@@ -238,6 +248,21 @@ INFO, WARNING, ERROR = 0, 1, 2
 def message_header(subscription_id: int, time_ns: int) -> bytes:
     """Return the header of a message on a channel."""
     return _MESSAGE_HEADER.pack(1, subscription_id, time_ns & _U64)
+
+
+def stamped_header(subscription_id: int, time_ns: int, wall_ns: int) -> bytes:
+    """Return the header of a message on a channel of `trundle.v1`, with the wall time at which the server had it."""
+    return _STAMPED_HEADER.pack(0x81, subscription_id, time_ns & _U64, wall_ns)
+
+
+def mark_message(number: int, wall_ns: int) -> bytes:
+    """Return a mark that a client of `trundle.v1` echoes, with the wall time at which it was sent."""
+    return _MARK.pack(0x82, number, wall_ns)
+
+
+def part_header(flow: int, *, is_last: bool, is_text: bool) -> bytes:
+    """Return the header of a part of a message of `trundle.v1`; parts of several flows alternate."""
+    return _PART_HEADER.pack(0x80, flow, is_last, is_text)
 
 
 def time_message(time_ns: int) -> bytes:

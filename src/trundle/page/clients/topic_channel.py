@@ -6,10 +6,11 @@ from collections.abc import Callable, Collection
 from trundle.ros import Node, RawMessage, Subscription
 
 from .channel import Channel, Client
-from .outbox import Buffer
+from .frames import Buffer
+from .message_keys import MessageKeys
 
-_NEVER_DROPPED = ("visualization_msgs/", "map_msgs/", "nav_msgs/OccupancyGrid")
-"""Types whose messages depend on earlier ones: markers and maps."""
+_NEVER_DROPPED = ("visualization_msgs/", "map_msgs/", "nav_msgs/OccupancyGrid", "rosgraph_msgs/Log")
+"""Types whose messages depend on earlier ones, markers and maps, and lines of logs."""
 _LINGER_S = 1.0
 """Time that a subscription outlives its last client, which may resubscribe: a new connection would lose messages."""
 
@@ -107,4 +108,4 @@ class TopicChannel(Channel):
         if message.latching:
             self.is_droppable = False
             self._latched[message.caller] = now_ns, message.data
-        self.publish(now_ns, (message.data,))
+        self.publish(now_ns, (message.data,), MessageKeys(self.schema_name, message.caller, message.data))

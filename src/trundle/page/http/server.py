@@ -16,7 +16,8 @@ from trundle.base.http.access import Access
 from trundle.base.http.guard import Guard
 
 from ..clients.connection import Connection
-from ..clients.outbox import CLOSE, PONG, Outbox
+from ..clients.frames import CLOSE, PONG
+from ..clients.outbox import Outbox, pong_number
 from ..clients.protocol import SUBPROTOCOLS, TRUNDLE_DRIVE
 from ..owner import PictureError
 from ..requests.request import RenderView
@@ -248,7 +249,7 @@ class HttpServer:
             case WSMsgType.PING:
                 client.outbox.send(PONG, (bytes(message.data),))
             case WSMsgType.PONG:
-                pass
+                client.outbox.echo(pong_number(message.data))
             case WSMsgType.CLOSE:
                 client.outbox.send(CLOSE, ((message.data or 1000).to_bytes(2, "big"),))
                 return False

@@ -3,7 +3,7 @@
 import struct
 from collections.abc import Sequence
 
-from ..clients.outbox import Buffer
+from ..clients.frames import Buffer
 from .channels import StreamChannel
 from .streams import IMAGE_HEADER
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..clients.channel import Channel, Client
-from ..clients.outbox import Buffer
+from ..clients.frames import Buffer
 from ..clients.protocol import ENCODING
 from ..mailbox import Mailbox
 from .streams import ARRAY_HEADER, CONTACTS, JOINTS, LINES, PERFORMANCE, POSES, RANGES, SERIES, STATE, WORLD

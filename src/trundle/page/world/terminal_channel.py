@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from ..clients.outbox import Buffer
+from ..clients.frames import Buffer
 from .channels import StreamChannel
 from .streams import TERMINAL, TERMINAL_HEADER
 

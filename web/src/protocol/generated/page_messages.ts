@@ -1189,6 +1189,12 @@ export interface UseTerminal {
   readonly size?: readonly [number, number] | null;
 }
 
+/** Echo of a mark, after everything before it was handled. */
+export interface Echo {
+  readonly op: "trundle/echo";
+  readonly mark: number;
+}
+
 /** Request to the page's owner; `trundle.page.requests.request` reads its fields. */
 export interface PageRequest {
   readonly op: "trundle/request";
@@ -1226,6 +1232,7 @@ export type ClientOperation =
   | Release
   | Presence
   | UseTerminal
+  | Echo
   | PageRequest;
 
 export type SharedSelection = SelectedModel | SelectedLink | SelectedJoint | SelectedLight;

@@ -1,0 +1,274 @@
+"""Pace of sending to one client, so that little waits on the way: in the kernel, the network and the client.
+
+What waits there can neither be replaced by something newer nor overtaken. So marks are sent between the messages, and
+the client echoes each: our page once it has handled what came before, any other client as RFC 6455 has it answer a
+ping. Delays beyond the shortest mean that data wait; the smallest of a while tells a queue from a client that handles
+messages now and then, as CoDel does (RFC 8289).
+"""
+
+import heapq
+import math
+from collections import deque
+from typing import NamedTuple
+
+_FIRST_BYTES = 24 * 1024
+"""Bytes sent before the first echo."""
+_PATIENCE_S = 5.0
+"""Time after which a client that never echoed is taken to echo nothing; it is not paced."""
+_MIN_RATE, _FIRST_RATE = 8e3, 64e3
+"""Least rate, and rate assumed at first."""
+_TARGET_S = 0.05
+"""Wait on the way above which the pace is reduced."""
+_MIN_HOLD_S, _MAX_HOLD_S = 0.1, 0.8
+"""Bounds of the time without an echo after which nothing more is sent."""
+_MARK_S, _LIMITED_MARK_S = 0.1, 0.02
+"""Period of marks; the shorter one while data wait for the pace."""
+_BURST_S = 0.02
+_MIN_BURST = 2048
+_FIRST_GROWTH, _SLOW_GROWTH, _MAX_GROWTH = 2.0, 1.02, 1.2
+"""Growth of the pace: until the first reduction, after a reduction, and later."""
+_GROWTH_S = 0.25
+_MAX_LEAP = 2.5
+"""Limit of the pace as a multiple of the highest rate at which data have arrived."""
+_MIN_PAUSE_S = 0.05
+"""Pause between echoes that is remembered."""
+_MIN_SAMPLE, _MIN_SAMPLE_S, _MAX_SAMPLE_S = 16 * 1024, 0.01, 0.2
+"""Bytes whose arrival proves a rate, and time between two proofs: a busy client echoes many marks at once."""
+_MEMORY_S = 5.0
+"""Time after which the shortest delay and pauses are forgotten."""
+
+
+class _Mark(NamedTuple):
+    number: int
+    sent_s: float
+    total: int
+    """All bytes sent before it."""
+
+
+class _Echo(NamedTuple):
+    time_s: float
+    delay_s: float
+    total: int
+
+
+class _Extreme:
+    """Largest value of the last seconds."""
+
+    def __init__(self) -> None:
+        self._older = self._newer = -math.inf
+        self._turn_s = 0.0
+
+    def add(self, value: float, now_s: float) -> None:
+        if now_s >= self._turn_s:
+            self._older, self._newer = self._newer, -math.inf
+            self._turn_s = now_s + _MEMORY_S
+        self._newer = max(self._newer, value)
+
+    @property
+    def value(self) -> float:
+        """Largest value; minus infinity before the first."""
+        return max(self._older, self._newer)
+
+
+class Pace:
+    """Decides when bytes may be sent. All times are monotonic [s]."""
+
+    def __init__(self) -> None:
+        self.rate = _FIRST_RATE
+        """Bytes per second."""
+        self._budget = float(_FIRST_BYTES)
+        """Bytes that may be sent now; negative after a long message."""
+        self._budget_s = 0.0
+        self._total = self._marked = 0
+        self._number = 0
+        self._marked_s = -math.inf
+        self._marks: deque[_Mark] = deque()
+        """Marks without an echo."""
+        self._echoes: deque[_Echo] = deque()
+        """Echoes of the last while, since the last reduction."""
+        self._last = self._anchor = _Echo(0.0, 0.0, 0)
+        """Echo before this one, and echo from which the arrival of data is measured."""
+        self._burst_s = -math.inf
+        """Time of the first echo of those that came together."""
+        self._began_s = math.inf
+        """Time at which the first data after the anchor were sent, or the anchor came."""
+        self._shortest, self._proven = _Extreme(), _Extreme()
+        """Negative shortest delay, and highest rate at which data have arrived."""
+        self._pauses: deque[tuple[float, float]] = deque()
+        """Times of long pauses between echoes, and their lengths."""
+        self._reduced_s = self._grown_s = -math.inf
+        self._growth, self._max_growth = _FIRST_GROWTH, _FIRST_GROWTH
+        self._is_limited = False
+        self._echoes_nothing = False
+
+    @property
+    def is_known(self) -> bool:
+        """True after the first echo."""
+        return self._last.time_s > 0.0
+
+    @property
+    def awaits_echo(self) -> bool:
+        """True if a mark has no echo yet."""
+        return bool(self._marks)
+
+    @property
+    def sent(self) -> int:
+        """Number of all bytes sent."""
+        return self._total
+
+    @property
+    def arrived(self) -> int:
+        """Number of bytes known to have arrived."""
+        return self._last.total
+
+    def transfer_s(self, size: int) -> float:
+        """Return the time in which that many bytes arrive [s], by what has arrived in the last seconds."""
+        if self._echoes_nothing:
+            return 0.0
+        return size / (min(self.rate, self._proven.value) if self.is_known else self.rate)
+
+    def wait_s(self, now_s: float) -> float:
+        """Return the time until data may be sent [s]; infinite: until an echo. Call only if data wait."""
+        if self._echoes_nothing:
+            return 0.0
+        if not self.is_known:
+            self._echoes_nothing = bool(self._marks) and now_s - self._marks[0].sent_s > _PATIENCE_S
+            return 0.0 if self._budget > 0 or self._echoes_nothing else math.inf
+        wait_s = 0.0 if self.budget(now_s) > 0 else max(-self._budget / self.rate, 1e-3)
+        if self._marks and now_s - self._marks[0].sent_s > self._base_s + self._hold_s:
+            wait_s = math.inf
+        self._is_limited |= wait_s > 0.0
+        return wait_s
+
+    def budget(self, now_s: float) -> float:
+        """Return the number of bytes that may be sent now."""
+        if self._echoes_nothing:
+            return math.inf
+        if self.is_known:
+            burst = max(self.rate * _BURST_S, _MIN_BURST)
+            self._budget = min(burst, self._budget + self.rate * (now_s - self._budget_s))
+            self._budget_s = now_s
+        return self._budget
+
+    def add(self, size: int) -> None:
+        """Count bytes that are sent."""
+        self._budget -= size
+        self._total += size
+
+    def mark(self, now_s: float, *, is_limited: bool) -> int | None:
+        """Return the number of a mark to send after the bytes counted so far, if one is due.
+
+        Args:
+            now_s: time.
+            is_limited: True if more data wait.
+        """
+        if self._total == self._marked or self._echoes_nothing:
+            return None
+        period_s = _MARK_S if self.is_known and not is_limited else _LIMITED_MARK_S
+        if self._marks and now_s - self._marked_s < period_s:
+            return None
+        return self.mark_now(now_s)
+
+    def mark_now(self, now_s: float) -> int:
+        """Return the number of a mark to send."""
+        self._number += 1
+        self._marked, self._marked_s = self._total, now_s
+        self._marks.append(_Mark(self._number, now_s, self._total))
+        return self._number
+
+    def echo(self, number: int, now_s: float) -> None:
+        """Receive the echo of a mark, and so of all before it; unknown ones are ignored."""
+        if not self._marks or not self._marks[0].number <= number <= self._number:
+            return
+        first = mark = self._marks.popleft()
+        while self._marks and self._marks[0].number <= number:
+            mark = self._marks.popleft()
+        echo = _Echo(now_s, now_s - mark.sent_s, mark.total)
+        if self.is_known:
+            self._add_pause(now_s - max(self._last.time_s, first.sent_s), now_s)
+        self._shortest.add(-echo.delay_s, now_s)
+        self._raise(echo, first.sent_s)
+        self._last = echo
+        self._echoes_nothing = False
+        if echo.total == self._total:
+            self._budget = max(self._budget, 0.0)  # all has arrived
+        if mark.sent_s >= self._reduced_s:
+            self._adjust(echo)
+
+    def _add_pause(self, pause_s: float, now_s: float) -> None:
+        while self._pauses and self._pauses[0][0] < now_s - _MEMORY_S:
+            self._pauses.popleft()
+        if pause_s > _MIN_PAUSE_S:
+            self._pauses.append((now_s, pause_s))
+
+    def _raise(self, echo: _Echo, sent_s: float) -> None:
+        """Raise the rate to one at which data have arrived; `sent_s`: the first mark without an echo was sent."""
+        if not self.is_known:
+            self._budget_s, self._anchor = echo.time_s, echo
+            self._proven.add(_FIRST_RATE, echo.time_s)
+            return
+        if echo.time_s - self._burst_s >= _MIN_SAMPLE_S:
+            self._burst_s = echo.time_s
+            if self._is_sample(self._last):
+                self._anchor, self._began_s = self._last, math.inf
+            self._began_s = min(self._began_s, max(self._anchor.time_s, sent_s))
+        if self._is_sample(echo):
+            size = echo.total - self._anchor.total
+            rate = size / max(echo.time_s - self._began_s, 1e-4)
+            self._proven.add(rate, echo.time_s)
+            if size >= _MIN_SAMPLE:
+                self.rate = max(self.rate, rate)
+
+    def _is_sample(self, echo: _Echo) -> bool:
+        """True if enough has arrived since the anchor to tell a rate."""
+        return (
+            echo.total - self._anchor.total >= _MIN_SAMPLE or echo.time_s - self._anchor.time_s > _MAX_SAMPLE_S
+        ) and self._began_s < echo.time_s
+
+    def _adjust(self, echo: _Echo) -> None:
+        """Reduce the rate if data wait on the way; raise it if they wait here only."""
+        now_s = echo.time_s
+        if self._echoes and now_s - self._echoes[-1].time_s < _MIN_SAMPLE_S:
+            self._echoes[-1] = echo._replace(delay_s=min(echo.delay_s, self._echoes[-1].delay_s))
+        else:
+            self._echoes.append(echo)
+        while len(self._echoes) > 2 and self._echoes[1].time_s <= now_s - self._while_s:
+            self._echoes.popleft()
+        first = self._echoes[0]
+        wait_s = min(e.delay_s for e in self._echoes) - self._base_s
+        span_s = now_s - first.time_s
+        if wait_s > _TARGET_S and span_s >= self._while_s:
+            arrived = (echo.total - first.total) / span_s
+            self.rate = max(min(self.rate, 0.95 * arrived), _MIN_RATE)
+            self._budget = float(echo.total - self._total)  # nothing until that has arrived
+            self._budget_s = self._reduced_s = now_s
+            self._echoes.clear()
+            self._growth, self._max_growth, self._is_limited = _SLOW_GROWTH, _MAX_GROWTH, False
+        elif (
+            self._is_limited
+            and self._echoes[-1].delay_s - self._base_s < _TARGET_S / 2
+            and now_s >= self._grown_s + min(_GROWTH_S, 2 * echo.delay_s + 0.01)
+        ):
+            self._grown_s, self._is_limited = now_s, False
+            self.rate = max(self.rate, min(self._growth * self.rate, _MAX_LEAP * self._proven.value))
+            self._growth = min(self._growth**2, self._max_growth)
+
+    @property
+    def _base_s(self) -> float:
+        """Shortest delay of the last seconds."""
+        return -self._shortest.value
+
+    @property
+    def _pause_s(self) -> float:
+        """Longest pause between echoes that was not the only one of its kind."""
+        longest = heapq.nlargest(2, (pause_s for _, pause_s in self._pauses))
+        return longest[1] if len(longest) == 2 else 0.0
+
+    @property
+    def _while_s(self) -> float:
+        """Time within which a client that handles messages now and then echoes at least one promptly."""
+        return min(max(1.2 * self._pause_s, 0.1), _MAX_HOLD_S)
+
+    @property
+    def _hold_s(self) -> float:
+        return min(max(1.5 * self._pause_s, _MIN_HOLD_S), _MAX_HOLD_S)
