@@ -6,6 +6,8 @@ import type { Plugin } from "vite";
 
 const FILE = "licenses.txt";
 const OWN = readFileSync(new URL("../LICENSE", import.meta.url), "utf8");
+/** License of the page's font. */
+const FONT_LICENSE = new URL("src/theme/fonts/inter.txt", import.meta.url);
 const RULE = `\n${"=".repeat(100)}\n`;
 
 /** Packages bundled inside others without their licence. */
@@ -35,9 +37,11 @@ export function licenses(): { readonly page: Plugin; readonly worker: Plugin } {
   return {
     page: {
       name: "licenses",
-      generateBundle() {
+      generateBundle(_options, bundle) {
         collect(this.getModuleIds());
-        const sections = [`Trundle\n\n${OWN}`, ...[...folders].sort().flatMap(sectionsOf)];
+        const hasFont = Object.keys(bundle).some((name) => name.endsWith(".woff2"));
+        const font = hasFont ? [`Inter\n\n${readFileSync(FONT_LICENSE, "utf8")}`] : [];
+        const sections = [`Trundle\n\n${OWN}`, ...font, ...[...folders].sort().flatMap(sectionsOf)];
         this.emitFile({ type: "asset", fileName: FILE, source: sections.join(RULE) });
       },
     },

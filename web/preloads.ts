@@ -1,4 +1,4 @@
-/** Adds preload links for the scripts that the document's script imports later, so that they load in parallel. */
+/** Adds preload links for the font and the scripts that the document's script imports later, so that they load in parallel. */
 
 import type { HtmlTagDescriptor, Plugin, Rolldown } from "vite";
 
@@ -9,16 +9,18 @@ export function preloads(): Plugin {
       order: "post",
       handler(_html, { bundle, chunk }) {
         if (bundle === undefined || chunk === undefined) return [];
-        return [...laterScripts(bundle, chunk)].map(
-          (name): HtmlTagDescriptor => ({
-            tag: "link",
-            injectTo: "head",
-            attrs: { rel: "modulepreload", crossorigin: true, href: `./${name}` },
-          }),
-        );
+        const fonts = Object.keys(bundle).filter((name) => name.endsWith(".woff2"));
+        return [
+          ...fonts.map((name) => link(name, { rel: "preload", as: "font", type: "font/woff2" })),
+          ...[...laterScripts(bundle, chunk)].map((name) => link(name, { rel: "modulepreload" })),
+        ];
       },
     },
   };
+}
+
+function link(name: string, attrs: Readonly<Record<string, string>>): HtmlTagDescriptor {
+  return { tag: "link", injectTo: "head", attrs: { ...attrs, crossorigin: true, href: `./${name}` } };
 }
 
 /** True for a library that is imported by itself, since few pages use it. */

@@ -1,5 +1,6 @@
 /** First script of the document: small, so that session, WebGL and the rest of the page load in parallel. */
 
+import "./theme/font.css";
 import "./theme/tokens.css";
 import "./theme/base.css";
 

@@ -32,7 +32,7 @@ async function bundle(options: Parameters<typeof build>[0]): Promise<Rolldown.Ro
 }
 
 test(
-  "every package in the page's bundle has its licence in licenses.txt",
+  "every package in the page's bundle has its licence in licenses.txt, and so has its one font, which is small",
   async () => {
     const modules = new Set<string>();
     const collect: Plugin = {
@@ -48,7 +48,9 @@ test(
     const packages = packageNames(modules);
     const licensed = headings(output);
     expect(packages).toContain("preact");
-    expect([...packages].filter((name) => !licensed.has(name))).toEqual([]);
+    expect([...packages, "Inter"].filter((name) => !licensed.has(name))).toEqual([]);
+    const fonts = output.filter(({ fileName }) => fileName.endsWith(".woff2"));
+    expect(fonts.map((font) => (font.type === "asset" ? font.source.length : Infinity) < 60_000)).toEqual([true]);
     expectFewFirst(output);
   },
   SLOW,
