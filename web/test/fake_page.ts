@@ -200,7 +200,7 @@ const TOOLS: readonly (readonly [string, string, string, string])[] = [
   ["rviz/FocusCamera", "Focus Camera", "c", "focus"],
   ["rviz/Measure", "Measure", "n", "measure"],
   ["rviz/SetInitialPose", "2D Pose Estimate", "p", "pose"],
-  ["rviz/SetGoal", "2D Nav Goal", "g", "pose"],
+  ["rviz/SetGoal", "2D Nav Goal", "g", "goal"],
   ["rviz/PublishPoint", "Publish Point", "u", "point"],
 ];
 
@@ -213,6 +213,7 @@ class FakeTools implements ToolBox {
     properties: [],
     cursor: "default",
     acts: false,
+    isHeard: signal(true),
     hint: signal(""),
     activate: () => undefined,
     deactivate: () => undefined,

@@ -1,13 +1,16 @@
 /** The bar on top: the clock and its controls, recording, the connection. */
 
 import type { JSX } from "preact";
+import { useRef } from "preact/hooks";
 
 import { Button } from "../theme/button";
+import { FittingPart, More, useFittingRow, type GivenItem } from "../theme/fitting_row";
 import { clock, count } from "../theme/format";
 import { Icon } from "../theme/icons";
 import { MenuButton } from "../theme/menu";
 import type { MenuItem } from "../theme/menu_list";
-import { Clock } from "./clock";
+import { Name } from "../theme/name";
+import { Clock, speedItems } from "./clock";
 import { ConnectionChip } from "./connection_chip";
 import { canControl, LOOKS_ONLY } from "../page/looking";
 import { colorOf, nameOf } from "../page/people";
@@ -16,23 +19,54 @@ import type { Shell } from "./shell";
 import { switchTheme } from "./theme";
 
 export function Bar({ shell }: { readonly shell: Shell }): JSX.Element {
-  const { page, layout } = shell;
-  const phone = layout.isPhone.value;
+  return shell.layout.isPhone.value ? <PhoneBar shell={shell} /> : <WideBar shell={shell} />;
+}
+
+function PhoneBar({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { page } = shell;
+  const row = useRef<HTMLElement>(null);
+  useFittingRow(row);
   return (
-    <header class="bar" aria-label="Trundle">
-      <Mark />
-      {!phone && <Title shell={shell} />}
-      {!canControl(page) && <LookingOnly isShort={phone} />}
-      {simulates(page) ? canControl(page) && <SimulationControls shell={shell} /> : <Freeze shell={shell} />}
-      {!phone && <span class="sep" />}
+    <header ref={row} class="bar" aria-label="Trundle">
+      <FittingPart rank={1}>
+        <Mark />
+      </FittingPart>
+      {!canControl(page) && <LookingOnly isShort />}
+      {simulates(page) ? canControl(page) && <PlayPause shell={shell} /> : <Freeze shell={shell} />}
       <Clock shell={shell} />
       <span class="sp" />
-      {!phone && <Record shell={shell} />}
-      {!phone && <Button icon="timeline" label="Timeline" onClick={() => shell.dock.open("timeline")} />}
-      {!phone && <span class="sep" />}
       <PeopleHere shell={shell} />
       <ConnectionChip shell={shell} />
-      {phone ? <More shell={shell} /> : <Corner shell={shell} />}
+      <MenuButton icon="dots" label="More" items={() => phoneItems(shell)} />
+    </header>
+  );
+}
+
+/** The bar of a wide page; in a narrow window its words give way, and then its rarer controls, into a menu. */
+function WideBar({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { page } = shell;
+  const row = useRef<HTMLElement>(null);
+  useFittingRow(row);
+  return (
+    <header ref={row} class="bar" aria-label="Trundle">
+      <Mark />
+      <Title shell={shell} />
+      {!canControl(page) && <LookingOnly isShort={false} />}
+      {simulates(page) ? canControl(page) && <SimulationControls shell={shell} /> : <Freeze shell={shell} />}
+      <span class="sep" />
+      <Clock shell={shell} />
+      <span class="sp" />
+      <FittingPart rank={11} part="record">
+        <Record shell={shell} />
+      </FittingPart>
+      <FittingPart rank={4} part="timeline">
+        <Button icon="timeline" label="Timeline" onClick={() => shell.dock.open("timeline")} />
+      </FittingPart>
+      <span class="sep" />
+      <PeopleHere shell={shell} />
+      <ConnectionChip shell={shell} />
+      <Corner shell={shell} />
+      <More row={row} label="More" items={() => givenItems(shell)} />
     </header>
   );
 }
@@ -64,52 +98,71 @@ function Title({ shell }: { readonly shell: Shell }): JSX.Element {
   const name = kind === "graph" ? (robot ?? title) : title;
   return (
     <>
-      <h1>{name}</h1>
-      {of !== null && of !== name && <span class="of wide">· {of}</span>}
+      <h1 data-tip={name} style={{ minWidth: `min(20ch, ${name.length}ch)` }}>
+        <Name text={name} />
+      </h1>
+      {of !== null && of !== name && (
+        <FittingPart rank={1}>
+          <span class="of">· {of}</span>
+        </FittingPart>
+      )}
       <span class="sep" />
     </>
   );
 }
 
 function SimulationControls({ shell }: { readonly shell: Shell }): JSX.Element {
-  const { commands, layout, page } = shell;
-  const paused = page.world.state.value?.paused ?? true;
-  const name = paused ? "Play" : "Pause";
-  const isTight = layout.isPhone.value && page.people.value.people.length > 1; // who is there takes its place
-  const run = (id: string): void =>
-    commands.all
-      .peek()
-      .find((command) => command.id === id)
-      ?.run();
-  const resets = commands.all.value.filter((command) => command.id.startsWith("reset.") || command.id === "reload");
-  const isRecorded = page.session.kind !== "simulation";
+  const isRecorded = shell.page.session.kind !== "simulation";
   return (
     <>
-      <button
-        type="button"
-        class={isTight ? "b pri ic" : "b pri"}
-        aria-label={name}
-        data-tip={`${name} (Space)`}
-        onClick={() => run("play_pause")}
-      >
-        <PlayShape paused={paused} />
-        {!isTight && name}
-      </button>
-      {!layout.isPhone.value && !isRecorded && (
+      <PlayPause shell={shell} />
+      {!isRecorded && (
         <>
-          <Button icon="step" label="Step 1" keys="." onClick={() => run("step")}>
-            Step 1
-          </Button>
-          <MenuButton
-            icon="reset"
-            items={() => resets.map(({ title, keys, run: act }): MenuItem => ({ title, keys, run: act }))}
-          >
-            Reset
-          </MenuButton>
+          <FittingPart rank={7} part="step">
+            <Button icon="step" label="Step 1" keys="." onClick={() => runCommand(shell, "step")}>
+              Step 1
+            </Button>
+          </FittingPart>
+          <FittingPart rank={9} part="reset">
+            <MenuButton icon="reset" items={() => resetItems(shell)}>
+              Reset
+            </MenuButton>
+          </FittingPart>
         </>
       )}
     </>
   );
+}
+
+function PlayPause({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { layout, page } = shell;
+  const paused = page.world.state.value?.paused ?? true;
+  const name = paused ? "Play" : "Pause";
+  const isTight = layout.isPhone.value && page.people.value.people.length > 1; // who is there takes its place
+  return (
+    <button
+      type="button"
+      class={isTight ? "b pri ic" : "b pri"}
+      aria-label={name}
+      data-tip={`${name} (Space)`}
+      onClick={() => runCommand(shell, "play_pause")}
+    >
+      <PlayShape paused={paused} />
+      {!isTight && <FittingPart rank={20}>{name}</FittingPart>}
+    </button>
+  );
+}
+
+function runCommand({ commands }: Shell, id: string): void {
+  commands.all
+    .peek()
+    .find((command) => command.id === id)
+    ?.run();
+}
+
+function resetItems({ commands }: Shell): readonly MenuItem[] {
+  const resets = commands.all.peek().filter(({ id }) => id.startsWith("reset.") || id === "reload");
+  return resets.map(({ title, keys, run }) => ({ title, keys, run }));
 }
 
 function LookingOnly({ isShort }: { readonly isShort: boolean }): JSX.Element {
@@ -162,52 +215,86 @@ function Freeze({ shell }: { readonly shell: Shell }): JSX.Element {
 }
 
 function Record({ shell }: { readonly shell: Shell }): JSX.Element | null {
-  const state = shell.page.world.state.value;
-  if (state?.recording === undefined || !canControl(shell.page)) return null;
-  const since = state.recording?.since_ns;
-  const running = since !== undefined;
-  const text = running ? `Recording ${clock((state.time_ns - since) / 1e9, 0)}` : "Record";
-  const toggle = (): void => shell.request("Record", "record", { on: !running });
+  const recording = recordingOf(shell);
+  if (recording === null) return null;
   return (
-    <button type="button" class={running ? "b rec run" : "b rec"} aria-pressed={running} onClick={toggle}>
+    <button
+      type="button"
+      class={recording.isRunning ? "b rec run" : "b rec"}
+      aria-pressed={recording.isRunning}
+      onClick={recording.toggle}
+    >
       <span class="dot" />
-      {text}
+      {recording.text}
     </button>
   );
 }
 
+/** The recording that a person can start and stop; null: there is none. */
+function recordingOf(shell: Shell): { text: string; isRunning: boolean; toggle: () => void } | null {
+  const state = shell.page.world.state.value;
+  if (state?.recording === undefined || !canControl(shell.page)) return null;
+  const since = state.recording?.since_ns;
+  const isRunning = since !== undefined;
+  const text = isRunning ? `Recording ${clock((state.time_ns - since) / 1e9, 0)}` : "Record";
+  return { text, isRunning, toggle: () => shell.request("Record", "record", { on: !isRunning }) };
+}
+
 function Corner({ shell }: { readonly shell: Shell }): JSX.Element {
-  const { theme } = shell.page;
-  const dark = theme.value === "dark";
+  const theme = themeItem(shell);
   return (
     <>
-      <Button
-        icon={dark ? "sun" : "moon"}
-        label={dark ? "Light theme" : "Dark theme"}
-        onClick={() => switchTheme(theme)}
-      />
-      <Button icon="find" label="Search commands, Ctrl K" onClick={() => (shell.dialog.value = "palette")}>
-        <kbd>Ctrl K</kbd>
-      </Button>
-      <Button label="Help" keys="?" class="ic strong" onClick={() => (shell.dialog.value = "help")}>
-        ?
-      </Button>
+      <FittingPart rank={6} part="theme">
+        <Button icon={shell.page.theme.value === "dark" ? "sun" : "moon"} label={theme.title} onClick={theme.run} />
+      </FittingPart>
+      <FittingPart rank={8} part="find">
+        <Button icon="find" label="Search commands, Ctrl K" onClick={() => (shell.dialog.value = "palette")}>
+          <FittingPart rank={3}>
+            <kbd>Ctrl K</kbd>
+          </FittingPart>
+        </Button>
+      </FittingPart>
+      <FittingPart rank={6} part="help">
+        <Button label="Help" keys="?" class="ic strong" onClick={() => (shell.dialog.value = "help")}>
+          ?
+        </Button>
+      </FittingPart>
     </>
   );
 }
 
+function themeItem({ page: { theme } }: Shell): { readonly title: string; readonly run: () => void } {
+  return { title: theme.value === "dark" ? "Light theme" : "Dark theme", run: () => switchTheme(theme) };
+}
+
+/** Controls of the wide bar that gave way. */
+function givenItems(shell: Shell): readonly GivenItem[] {
+  const { dialog, page } = shell;
+  const recording = recordingOf(shell);
+  const speed = page.world.state.peek()?.speed ?? null;
+  return [
+    { part: "step", title: "Step 1", keys: ".", run: () => runCommand(shell, "step") },
+    { part: "reset", title: "Reset", items: () => resetItems(shell) },
+    { part: "speed", title: "Speed", items: () => speedItems(shell, speed) },
+    ...(recording === null ? [] : [{ part: "record", title: recording.text, run: recording.toggle }]),
+    { part: "timeline", title: "Timeline", run: () => shell.dock.open("timeline") },
+    { part: "share", title: "Share", run: () => (dialog.value = "share") },
+    { part: "theme", ...themeItem(shell) },
+    { part: "find", title: "Search commands", keys: "Ctrl K", run: () => (dialog.value = "palette") },
+    { part: "help", title: "Help", keys: "?", run: () => (dialog.value = "help") },
+  ];
+}
+
 /** Phone menu with the controls that do not fit into the bar. */
-function More({ shell }: { readonly shell: Shell }): JSX.Element {
+function phoneItems(shell: Shell): readonly MenuItem[] {
   const { commands, page } = shell;
-  const items = (): readonly MenuItem[] => {
-    const shown = commands.all
-      .peek()
-      .filter(({ id, group }) => group === "Simulation" && id !== "play_pause" && canControl(page));
-    return [
-      ...shown.map(({ title, run, enabled }) => ({ title, run, disabled: !(enabled?.() ?? true) })),
-      { title: page.theme.peek() === "dark" ? "Light theme" : "Dark theme", run: () => switchTheme(page.theme) },
-      { title: "Search commands", run: () => (shell.dialog.value = "palette") },
-    ];
-  };
-  return <MenuButton icon="dots" label="More" items={items} />;
+  const shown = commands.all
+    .peek()
+    .filter(({ id, group }) => group === "Simulation" && id !== "play_pause" && canControl(page));
+  return [
+    ...shown.map(({ title, run, enabled }) => ({ title, run, disabled: !(enabled?.() ?? true) })),
+    { title: "Share", run: () => (shell.dialog.value = "share") },
+    themeItem(shell),
+    { title: "Search commands", run: () => (shell.dialog.value = "palette") },
+  ];
 }

@@ -3,8 +3,10 @@
 import type { JSX } from "preact";
 import { useEffect, useState } from "preact/hooks";
 
+import { FittingPart } from "../theme/fitting_row";
 import { fixed, rosTime } from "../theme/format";
 import { MenuButton } from "../theme/menu";
+import type { MenuItem } from "../theme/menu_list";
 import { StatusShape } from "../theme/status_shape";
 import { canControl } from "../page/looking";
 import { simulates } from "./simulation_commands";
@@ -23,11 +25,13 @@ export function Clock({ shell }: { readonly shell: Shell }): JSX.Element {
     <>
       <span class="read">
         <b>{state === null ? "—" : rosTime(BigInt(state.time_ns))}</b>
-        <span class="of">{session.kind === "bag" ? "ROS time" : "sim time"}</span>
+        <Unit text={session.kind === "bag" ? "ROS time" : "sim time"} />
       </span>
       <Factor factor={factor} speed={state?.speed ?? null} />
       {!shell.layout.isPhone.value && state !== null && canControl(shell.page) && (
-        <Speed shell={shell} speed={state.speed} />
+        <FittingPart rank={10} part="speed">
+          <MenuButton items={() => speedItems(shell, state.speed)}>{speedText(state.speed, "Speed ")}</MenuButton>
+        </FittingPart>
       )}
     </>
   );
@@ -40,24 +44,30 @@ function Factor({ factor, speed }: { readonly factor: number | null; readonly sp
     <span class={slow ? "read rtf slow" : "read rtf"}>
       {slow && <StatusShape level="warn" label="Slower than the requested speed" />}
       <b>{factor === null ? "—" : `${fixed(factor, 2)}×`}</b>
-      <span class="of">real time</span>
+      <Unit text="real time" />
     </span>
   );
 }
 
-function speedText(speed: number | null): string {
-  return speed === null ? "As fast as possible" : `${speed}×`;
+/** What a number of the bar is; it gives way first. */
+function Unit({ text }: { readonly text: string }): JSX.Element {
+  return (
+    <FittingPart rank={2}>
+      <span class="of">{text}</span>
+    </FittingPart>
+  );
 }
 
-function Speed({ shell, speed }: { readonly shell: Shell; readonly speed: number | null }): JSX.Element {
-  const items = SPEEDS.map((factor) => ({
+function speedText(speed: number | null, prefix = ""): string {
+  return speed === null ? "As fast as possible" : `${prefix}${speed}×`;
+}
+
+export function speedItems(shell: Shell, speed: number | null): readonly MenuItem[] {
+  return SPEEDS.map((factor) => ({
     title: speedText(factor),
     checked: factor === speed,
     run: () => shell.request("Speed", "speed", { factor }),
   }));
-  return (
-    <MenuButton items={() => items}>{speed === null ? "As fast as possible" : `Speed ${speedText(speed)}`}</MenuButton>
-  );
 }
 
 function RosTime({ shell }: { readonly shell: Shell }): JSX.Element {
@@ -72,7 +82,7 @@ function RosTime({ shell }: { readonly shell: Shell }): JSX.Element {
   return (
     <span class="read">
       <b>{rosTime(now)}</b>
-      <span class="of">ROS time</span>
+      <Unit text="ROS time" />
     </span>
   );
 }

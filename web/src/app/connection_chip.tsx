@@ -15,11 +15,20 @@ export function ConnectionChip({ shell }: { readonly shell: Shell }): JSX.Elemen
   const { publishers, subscribers, services } = connection.graph.value;
   const nodes = new Set([publishers, subscribers, services].flatMap((map) => [...map.values()].flat()));
   const text = connectionText(state, lag, session.kind === "graph" ? nodes.size : 0);
+  const isWell = state.kind === "connected" && lag === null;
   const shown = shell.layout.isPhone.value && lag === null ? null : text;
   return (
     <span class="connection" role="status" {...(lag === null ? {} : { "data-tip": lagTip(lag) })}>
       <StatusShape level={levelOf(state, lag)} label={text} />
-      {shown !== null && <span aria-hidden="true">{shown}</span>}
+      {shown !== null && (
+        <span
+          class={isWell ? "fits" : ""}
+          data-rank={isWell ? 5 : undefined}
+          aria-hidden="true"
+        >
+          {shown}
+        </span>
+      )}
     </span>
   );
 }

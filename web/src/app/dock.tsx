@@ -1,6 +1,7 @@
 /** The dock below the scene: panels in tabs that can be split, moved and closed. */
 
-import { render, type JSX } from "preact";
+import { render, type ComponentChildren, type JSX } from "preact";
+import { useEffect, useRef, useState } from "preact/hooks";
 import {
   createDockview,
   type DockviewApi,
@@ -179,7 +180,11 @@ export class Dock {
       const isLast = this.api?.groups.at(-1)?.id === group || this.api === null;
       render(
         <>
-          {Actions !== undefined && <Actions page={this.page} />}
+          {Actions !== undefined && (
+            <PanelActions key={active()}>
+              <Actions page={this.page} />
+            </PanelActions>
+          )}
           {isLast && <Collapse layout={this.layout} />}
         </>,
         element,
@@ -198,6 +203,32 @@ export class Dock {
       },
     };
   }
+}
+
+/** Controls of a panel: in the row of tabs, or, where that is narrow, below a button. */
+function PanelActions({ children }: { readonly children: ComponentChildren }): JSX.Element {
+  const [isOpen, setOpen] = useState(false);
+  const root = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const outside = ({ target }: PointerEvent): void => {
+      if (target instanceof Node && root.current?.contains(target) !== true) setOpen(false);
+    };
+    addEventListener("pointerdown", outside, true);
+    return () => removeEventListener("pointerdown", outside, true);
+  }, []);
+  return (
+    <div ref={root} class="actions" onKeyDown={({ key }) => key === "Escape" && setOpen(false)}>
+      <div class={isOpen ? "acts open" : "acts"}>{children}</div>
+      <Button
+        icon="dots"
+        label="Controls of the panel"
+        class="unfold"
+        small
+        on={isOpen}
+        onClick={() => setOpen(!isOpen)}
+      />
+    </div>
+  );
 }
 
 function Collapse({ layout }: { readonly layout: Layout }): JSX.Element {

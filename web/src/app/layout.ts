@@ -13,11 +13,15 @@ export type SheetHeight = "closed" | "half" | "full";
 
 const PHONE = 641; // px: narrower is the phone's page
 const ONE_SIDE = 1280; // px: narrower has one side panel at a time
+const RAILS = 1000; // px: narrower begins with rails on both sides
 const RAIL = 32;
 const GAPS = 32; // left and right of each side panel
 /** Widths of a side panel [px]. */
 export const SIDE = { min: 240, max: 288 };
 const DOCK = { min: 120, rail: 32 };
+/** Shortest page on which the dock begins open, and height that an open dock leaves: bar, tools, notice and camera tiles [px]. */
+const DOCK_OPENS = 560;
+const ABOVE_DOCK = 304;
 /** Heights of the overlays at the foot of the scene, with their gap: the tiles' pictures are 4 : 3. */
 const FOOT = { tiles: 166, drive: 138, phoneDrive: 160 };
 /** On a phone the notice and the tile below it lie at the head. */
@@ -28,7 +32,7 @@ const MIN_SCENE_HEIGHT = 240;
 /** Widths [px] of the side panels that are open; null: a rail. Together at most 40 % of the window. */
 export function sideWidths(window: number, left: number | null, right: number | null): [number, number] {
   const room = window * 0.4 - GAPS;
-  const clamp = (width: number): number => Math.min(SIDE.max, Math.max(SIDE.min, width));
+  const clamp = (width: number): number => Math.min(SIDE.max, Math.max(SIDE.min, Math.min(width, room)));
   if (left === null || right === null)
     return [left === null ? RAIL : clamp(left), right === null ? RAIL : clamp(right)];
   const first = Math.min(clamp(left), Math.max(SIDE.min, room - SIDE.min));
@@ -42,18 +46,26 @@ class Side {
   readonly isOpen: Signal<boolean>;
   readonly width: Signal<number>;
 
+  /** `open`: in windows of a width [px] and more it is as the person left it; narrower ones begin with a rail. */
   constructor(
     private readonly name: SideName,
     first: SidePage,
     readonly pages: readonly SidePage[],
     kind: string,
-    isOpen: boolean,
+    open: { readonly key: string; readonly first: boolean; readonly from: number; readonly in: Signal<number> },
     width: number,
   ) {
     this.page = signal(recall(`${name}.page.${kind}`, first, isOneOf(...pages)));
-    this.isOpen = signal(isOpen);
+    this.isOpen = signal(false);
     this.width = signal(recall(`${name}.width`, width, isNumber));
     effect(() => remember(`${name}.page.${kind}`, this.page.value));
+    const isWide = computed(() => open.in.value >= open.from);
+    effect(() => {
+      this.isOpen.value = isWide.value && recall(open.key, open.first, isBoolean);
+    });
+    effect(() => {
+      if (isWide.peek()) remember(open.key, this.isOpen.value);
+    });
   }
 
   resize(width: number): void {
@@ -67,7 +79,7 @@ export class Layout {
   readonly height = signal(innerHeight);
   readonly left: Side;
   readonly right: Side;
-  readonly dockOpen = signal(recall("dock.open", true, isBoolean));
+  readonly dockOpen = signal(innerHeight >= DOCK_OPENS && recall("dock.open", true, isBoolean));
   readonly dockHeight = signal(recall("dock.height", 200, isNumber));
   /** Page of the phone's sheet: "world", "displays", "inspector" or a panel's id. */
   readonly sheetPage = signal("world");
@@ -83,33 +95,17 @@ export class Layout {
     ),
   );
   readonly dock = computed(() =>
-    this.dockOpen.value ? Math.max(DOCK.min, Math.min(this.dockHeight.value, this.height.value / 2)) : DOCK.rail,
+    this.dockOpen.value ? Math.max(DOCK.min, Math.min(this.dockHeight.value, this.tallestDock)) : DOCK.rail,
   );
 
   constructor(kind: "simulation" | "graph" | "log" | "bag") {
     const simulates = kind === "simulation" || kind === "log";
-    const isWide = this.width.peek() >= ONE_SIDE;
-    this.left = new Side(
-      "left",
-      simulates ? "world" : "displays",
-      LEFT,
-      kind,
-      recall("left.open", true, isBoolean),
-      272,
-    );
-    this.right = new Side(
-      "right",
-      "inspector",
-      RIGHT,
-      kind,
-      isWide && recall(`right.open.${kind}`, simulates, isBoolean),
-      280,
-    );
-    effect(() => remember("left.open", this.left.isOpen.value));
+    const open = (key: string, first: boolean, from: number) => ({ key, first, from, in: this.width });
+    this.left = new Side("left", simulates ? "world" : "displays", LEFT, kind, open("left.open", true, RAILS), 272);
+    this.right = new Side("right", "inspector", RIGHT, kind, open(`right.open.${kind}`, simulates, ONE_SIDE), 280);
     effect(() => {
-      if (this.width.value >= ONE_SIDE) remember(`right.open.${kind}`, this.right.isOpen.value);
+      if (this.height.peek() >= DOCK_OPENS) remember("dock.open", this.dockOpen.value);
     });
-    effect(() => remember("dock.open", this.dockOpen.value));
     effect(() => this.writeVariables());
   }
 
@@ -120,6 +116,10 @@ export class Layout {
     };
     addEventListener("resize", resize);
     return () => removeEventListener("resize", resize);
+  }
+
+  private get tallestDock(): number {
+    return Math.min(this.height.value / 2, this.height.value - ABOVE_DOCK);
   }
 
   /** Height of the phone's sheet and the disc above it [px]; a full sheet hides the scene. */
@@ -147,6 +147,12 @@ export class Layout {
     return this.widthOf(side) === RAIL;
   }
 
+  /** Open a side panel, or close it. */
+  toggle(side: SideName): void {
+    if (this.isRail(side)) this.open(this[side].page.peek());
+    else this[side].isOpen.value = false;
+  }
+
   /** Show a page of a side panel, or of the phone's sheet. */
   open(page: SidePage): void {
     const isLeft = this.left.pages.includes(page);
@@ -164,7 +170,7 @@ export class Layout {
 
   resizeDock(height: number): void {
     this.dockOpen.value = height >= DOCK.min / 2;
-    this.dockHeight.value = Math.max(DOCK.min, Math.min(height, this.height.peek() / 2));
+    this.dockHeight.value = Math.max(DOCK.min, Math.min(height, this.tallestDock));
     remember("dock.height", this.dockHeight.peek());
   }
 

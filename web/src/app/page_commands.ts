@@ -55,8 +55,8 @@ export function pageCommands(shell: Shell): readonly Command[] {
     ...[...sidePages(shell, "left"), ...sidePages(shell, "right")].map(({ id, title }) =>
       command(`side.${id}`, "Panels", `Open ${title}`, () => layout.open(id)),
     ),
-    command("left.toggle", "Panels", "Show or hide the left panel", toggle(layout.left.isOpen), "["),
-    command("right.toggle", "Panels", "Show or hide the right panel", toggle(layout.right.isOpen), "]"),
+    command("left.toggle", "Panels", "Show or hide the left panel", () => layout.toggle("left"), "["),
+    command("right.toggle", "Panels", "Show or hide the right panel", () => layout.toggle("right"), "]"),
     command("dock.toggle", "Panels", "Show or hide the dock", toggle(layout.dockOpen), "\\"),
     { ...command("undo", "Page", "Undo", () => undo.undo(), "Ctrl Z"), enabled: () => undo.undoTitle.peek() !== null },
     {

@@ -6,9 +6,8 @@ import { CameraTiles } from "./cameras/tiles";
 import { DriveView } from "./drive/view";
 import { NoticeLine } from "./notices/line";
 import { SceneNotes } from "./notices/scene_notes";
-import { SplitMenu } from "./panes/split_menu";
 import type { Shell } from "./shell";
-import { ToolBar } from "./tool_bar";
+import { ToolBar, ToolHint } from "./tool_bar";
 import { VideoNotes } from "./video/video_note";
 import { ViewMenu } from "./views/view_menu";
 
@@ -17,11 +16,15 @@ export function SceneOverlay({ shell }: { readonly shell: Shell }): JSX.Element 
   return (
     <section class="scene-overlay" aria-label="On the scene">
       <div class="top">
-        {hasTools && <ToolBar shell={shell} />}
-        {hasTools && <ViewMenu shell={shell} />}
-        {hasTools && <SplitMenu shell={shell} />}
+        {hasTools && (
+          <div class="bars">
+            <ToolBar shell={shell} />
+            <ViewMenu shell={shell} />
+          </div>
+        )}
         <NoticeLine shell={shell} />
         <VideoNotes shell={shell} />
+        {hasTools && <ToolHint shell={shell} />}
       </div>
       <SceneNotes shell={shell} />
       <CameraTiles shell={shell} />

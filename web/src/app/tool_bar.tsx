@@ -1,9 +1,13 @@
-/** The tool bar: icons in a simulation, rviz's names in a ROS graph. */
+/** The tool bar: six icons and a menu in a simulation, rviz's tools by name in a ROS graph. */
 
-import type { JSX } from "preact";
+import type { JSX, RefObject } from "preact";
+import { useRef } from "preact/hooks";
 
 import { Button } from "../theme/button";
-import { isIcon } from "../theme/icons";
+import { FittingPart, useFittingRow } from "../theme/fitting_row";
+import { isIcon, type IconName } from "../theme/icons";
+import { MenuButton } from "../theme/menu";
+import type { MenuItem } from "../theme/menu_list";
 import type { Tool } from "../page/tool";
 import { canControl } from "../page/looking";
 import type { Command } from "../page/page";
@@ -11,43 +15,114 @@ import type { Shell } from "./shell";
 
 /** rviz's names, shortened where the icon says the rest. */
 const SHORT: Readonly<Record<string, string>> = { "Move Camera": "Move camera", "Focus Camera": "Focus" };
+/** Tools in the bar of a simulation; others are in its menu. */
+const OF_SIMULATION = [
+  "rviz/Interact",
+  "trundle/Move",
+  "trundle/Rotate",
+  "trundle/Push",
+  "rviz/Measure",
+  "trundle/Insert",
+];
+
+export function ToolBar({ shell }: { readonly shell: Shell }): JSX.Element {
+  const { page } = shell;
+  const row = useRef<HTMLDivElement>(null);
+  useFittingRow(row);
+  const current = page.tools.current.value;
+  const simulates = page.session.kind === "simulation";
+  const useful = offeredTools(shell).filter((tool) => tool.isHeard.value || tool === current);
+  const shown = simulates ? useful.filter(({ className }) => OF_SIMULATION.includes(className)) : useful;
+  return (
+    <div ref={row} class="tools float" role="toolbar" aria-label="Tools">
+      {shown.map((tool, index) => (
+        <FittingPart key={tool.className} rank={shown.length - index + 1} part={tool.className}>
+          <ToolButton shell={shell} tool={tool} isNamed={!simulates} />
+        </FittingPart>
+      ))}
+      <MoreTools shell={shell} row={row} others={useful.filter((tool) => !shown.includes(tool))} current={current} />
+    </div>
+  );
+}
+
+interface ToolButtonProps {
+  readonly shell: Shell;
+  readonly tool: Tool;
+  readonly isNamed: boolean;
+}
+
+function ToolButton({ shell, tool, isNamed }: ToolButtonProps): JSX.Element {
+  const { tools } = shell.page;
+  const name = nameOf(tool);
+  const common = {
+    icon: iconOf(tool),
+    label: name,
+    keys: keyOf(shell, tool.shortcut),
+    on: tool === tools.current.value,
+    onClick: () => tools.use(tool.className),
+  };
+  return isNamed ? (
+    <Button {...common}>
+      <FittingPart rank={1}>{name}</FittingPart>
+    </Button>
+  ) : (
+    <Button {...common} />
+  );
+}
+
+interface MoreToolsProps {
+  readonly shell: Shell;
+  readonly row: RefObject<HTMLElement | null>;
+  /** Tools that are never in the bar. */
+  readonly others: readonly Tool[];
+  readonly current: Tool;
+}
+
+/** Menu of the tools that are not in the bar; it has the icon of the one that is on. */
+function MoreTools({ shell, row, others, current }: MoreToolsProps): JSX.Element {
+  const isGiven = ({ className }: Tool): boolean =>
+    row.current?.querySelector(`[data-given][data-part="${className}"]`) !== null;
+  const items = (): readonly MenuItem[] =>
+    offeredTools(shell)
+      .filter((tool) => others.includes(tool) || isGiven(tool))
+      .map((tool) => ({
+        title: nameOf(tool),
+        icon: iconOf(tool),
+        keys: keyOf(shell, tool.shortcut),
+        checked: tool === current,
+        run: () => shell.page.tools.use(tool.className),
+      }));
+  const isOn = others.includes(current);
+  return (
+    <MenuButton
+      class={`${others.length > 0 ? "" : "more"} ${isOn ? "on" : ""}`}
+      icon={isOn ? iconOf(current) : "dots"}
+      label={isOn ? `More tools, now ${nameOf(current)}` : "More tools"}
+      items={items}
+    />
+  );
+}
+
+function nameOf({ name }: Tool): string {
+  return SHORT[name] ?? name;
+}
+
+function iconOf({ icon }: Tool): IconName {
+  return isIcon(icon) ? icon : "select";
+}
 
 /** Tools without a hint: their use is what a person tries first. */
 const MOVES_THE_VIEW = ["rviz/Interact", "rviz/MoveCamera"];
 
-export function ToolBar({ shell }: { readonly shell: Shell }): JSX.Element {
-  const { tools, session } = shell.page;
-  const current = tools.current.value;
-  const named = session.kind !== "simulation" && shell.layout.width.value >= 1100;
-  const hint = MOVES_THE_VIEW.includes(current.className) ? "" : current.hint.value;
+/** What the current tool waits for, as a line after everything that would have to move for it; null: nothing. */
+export function ToolHint({ shell }: { readonly shell: Shell }): JSX.Element | null {
+  const { current } = shell.page.tools;
+  const { className, hint } = current.value;
+  if (hint.value === "" || MOVES_THE_VIEW.includes(className)) return null;
   return (
-    <>
-      <div class="tools float" role="toolbar" aria-label="Tools">
-        {offeredTools(shell).map((tool) => {
-          const name = SHORT[tool.name] ?? tool.name;
-          const icon = isIcon(tool.icon) ? tool.icon : "select";
-          const common = {
-            icon,
-            label: name,
-            keys: keyOf(shell, tool.shortcut),
-            on: tool === current,
-            onClick: () => tools.use(tool.className),
-          };
-          return named ? (
-            <Button key={tool.className} {...common}>
-              {name}
-            </Button>
-          ) : (
-            <Button key={tool.className} {...common} />
-          );
-        })}
-      </div>
-      {hint !== "" && (
-        <div class="notice float" role="status">
-          <span class="said">{hint}</span>
-        </div>
-      )}
-    </>
+    <div class="notice float" role="status">
+      <span class="said">{hint.value}</span>
+    </div>
   );
 }
 

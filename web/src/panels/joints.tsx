@@ -5,6 +5,7 @@ import type { JSX } from "preact";
 import { canControl, Controls } from "../page/looking";
 import { Button } from "../theme/button";
 import { fixed } from "../theme/format";
+import { Name } from "../theme/name";
 import { NumberField } from "../theme/number_field";
 import { Slider } from "../theme/slider";
 import { jointsState, shownUnit, type JointSlider } from "./joints/joint_sliders";
@@ -48,7 +49,7 @@ function JointRow({ slider, isDegrees }: { readonly slider: JointSlider; readonl
   return (
     <div class="joint">
       <div class="w">
-        <span class="n">{slider.name}</span>
+        <Name text={slider.name} />
         <span class="sp" />
         <span class="narrow">
           <NumberField

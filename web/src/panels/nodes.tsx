@@ -5,6 +5,7 @@ import type { JSX } from "preact";
 
 import type { GraphInfo } from "../protocol/connection";
 import { Button } from "../theme/button";
+import { Name } from "../theme/name";
 import { nodeNames } from "./graph/graph_model";
 import type { Panel, PanelProps } from "./panel";
 import { FilterButton, FilterField, Split } from "./parts";
@@ -101,7 +102,7 @@ function Detail({ page, graph, node, onClose }: DetailProps): JSX.Element {
             </h4>
             {names.map((name) => (
               <div key={name} class="row" style={{ "--d": 1 }}>
-                <span class="n">{name}</span>
+                <Name text={name} />
                 <span class="r">{type(name) ?? ""}</span>
               </div>
             ))}

@@ -1,9 +1,10 @@
 /** Base of the tools that set a pose on the ground: press for the place, drag for the yaw. */
 
+import { computed } from "@preact/signals";
 import { Vector3 } from "three";
 
 import { Arrow } from "../shapes/arrow";
-import type { Rgb } from "../rviz/properties";
+import type { Rgb, TopicProperty } from "../rviz/properties";
 import type { RosMessage } from "../protocol/ros_types";
 import { NOT_PICKED } from "../scene/picking";
 import { BaseTool } from "./base_tool";
@@ -17,6 +18,11 @@ const LENGTH = 0.12;
 export abstract class PoseTool extends BaseTool {
   override readonly acts = true;
   protected abstract readonly color: Rgb;
+  abstract readonly topic: TopicProperty;
+  override readonly isHeard = computed(() => {
+    const { connection, names } = this.context;
+    return (connection.graph.value.subscribers.get(names.resolve(this.topic.value.value)) ?? []).length > 0;
+  });
   private start: Vector3 | null = null;
   private yaw = 0;
   private readonly arrow = new Arrow(PROPORTIONS);

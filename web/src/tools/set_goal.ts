@@ -11,7 +11,7 @@ export class SetGoal extends PoseTool {
   readonly className = "rviz/SetGoal";
   readonly name = "2D Nav Goal";
   readonly shortcut = "g";
-  readonly icon = "pose";
+  readonly icon = "goal";
   protected override readonly color: Rgb = [255, 0, 255];
   readonly topic = this.add(new TopicProperty("Topic", "/move_base_simple/goal", [TYPE]));
 

@@ -1,14 +1,17 @@
-/** The shell with a fake page; the address picks a state: `#view=rviz&theme=light&rtf=0.84`. */
+/** The shell with a fake page; the address picks a state: `#view=rviz&theme=light&rtf=0.84&names=long&cameras=12`. */
+
+import "../../src/theme/font.css";
 
 import { mount } from "../../src/app/mount";
-import type { Panel } from "../../src/panels/panel";
+import { panels } from "../../src/panels";
 import { fakePage, type FakePage } from "../fake_page";
+import { nameIn, showCrowd } from "./crowd";
 import { MANIFEST } from "./manifest";
 
 const state = new URLSearchParams(location.hash.slice(1));
 
-function panel(id: string, title: string): Panel {
-  return { id, title, programs: [], component: () => <p class="empty">{title}</p> };
+function number(name: string, fallback: number): number {
+  return Number(state.get(name) ?? fallback);
 }
 
 function showGraph(page: FakePage): void {
@@ -62,7 +65,7 @@ function showSimulation(page: FakePage): void {
   }));
   page.selection.value = { kind: "link", model: "rp2w", link: "chassis" };
   page.world.hidden.value = new Set(["ground_plane"]);
-  const factor = Number(state.get("rtf") ?? "1");
+  const factor = number("rtf", 1);
   const paused = state.get("run") === "0";
   page.world.state.value = { time_ns: 12.48e9, paused, real_time_factor: factor, speed: 1, recording: { since_ns: 0 } };
   if (state.get("notices") !== null)
@@ -70,18 +73,25 @@ function showSimulation(page: FakePage): void {
 }
 
 const graph = state.get("view") === "rviz";
-const page = fakePage(graph ? { title: "turtlebot", kind: "graph", robot: null } : {});
+const script = state.get("names");
+const page = fakePage({
+  ...(graph ? { title: "turtlebot", kind: "graph", robot: null } : {}),
+  ...(script === null ? {} : { title: nameIn(script, 0), robot: nameIn(script, 1) }),
+});
 if (graph) showGraph(page);
 else showSimulation(page);
+if (script !== null) showCrowd(page, script, number("models", 4), number("cameras", 2), number("topics", 4));
+if (state.get("loading") !== null) page.world.progress.value = 0.4;
 if (state.get("connection") === "lost") page.connection.state.value = { kind: "lost", retryInSeconds: 3 };
 if (state.get("theme") === "light") page.theme.value = "light";
 document.documentElement.dataset["theme"] = page.theme.value;
-page.scene.element.style.background = page.theme.value === "light" ? "#b9bdc0" : "#2a2d31";
+Object.assign(page.scene.element.style, {
+  width: "100%",
+  height: "100%",
+  background: page.theme.value === "light" ? "#b9bdc0" : "#2a2d31",
+});
 const host = document.createElement("div");
 host.append(page.scene.element);
-const panels = ["Plots", "Topics", "Log", "Graph", "Timeline", "Parameters", "Services"].map((title) =>
-  panel(title.toLowerCase(), title),
-);
 const root = document.getElementById("app");
 if (root !== null) mount(root, { page, panels: Promise.resolve(panels), commands: page.commands, sceneHost: host });
 Object.assign(window, { page });

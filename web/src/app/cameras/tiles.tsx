@@ -8,6 +8,7 @@ import type { PictureDisplay } from "../../displays/pictures/picture_display";
 import { drawPicture, PictureStream, type PictureSource } from "../../displays/pictures/picture_stream";
 import { Button } from "../../theme/button";
 import { fixed } from "../../theme/format";
+import { Name } from "../../theme/name";
 import { CameraSamples } from "./samples";
 import { streamedTopic, tileKey, type CameraTopic } from "./topics";
 import type { Shell } from "../shell";
@@ -94,7 +95,7 @@ function Tile({ shell, camera, isLarge, onPress }: TileProps): JSX.Element {
       {fault !== null && <span class="said fault">{fault}</span>}
       {fault === null && !wasDrawn.value && <span class="said t2 sm">No picture yet</span>}
       <figcaption class="cap">
-        <span class="n">{camera.name}</span>
+        <Name text={camera.name} />
         <span class="r">{hertz === null || hertz < 0.5 ? "" : `${fixed(hertz, 0)} Hz`}</span>
         <VideoButton shell={shell} topic={topic} name={camera.name} />
         <Button

@@ -8,6 +8,7 @@ import { ColorProperty } from "../../rviz/properties";
 import { Checkbox } from "../../theme/checkbox";
 import { fixed } from "../../theme/format";
 import { Icon } from "../../theme/icons";
+import { Name } from "../../theme/name";
 import { StatusShape } from "../../theme/status_shape";
 import { TextField } from "../../theme/text_field";
 import type { TreeRow } from "../../theme/tree";
@@ -113,7 +114,7 @@ function DisplayRow({ display, rows }: { readonly display: Display; readonly row
       {rows.renaming === display ? (
         <Rename name={display.name.value} onCommit={rename} onLeave={rows.onRenamed} />
       ) : (
-        <span class="n">{display.name.value}</span>
+        <Name text={display.name.value} />
       )}
       <span class="r">{rateText(page, display)}</span>
       {color !== undefined && <span class="sw" style={{ background: hex(color.value.value as readonly number[]) }} />}

@@ -10,6 +10,7 @@ import { canEdit } from "../world/edits";
 import { Button } from "../../theme/button";
 import { count, fixed } from "../../theme/format";
 import { Icon } from "../../theme/icons";
+import { Name } from "../../theme/name";
 import { StatusShape } from "../../theme/status_shape";
 import { Tree, type TreeRow } from "../../theme/tree";
 import type { PartPath } from "../../scene/draft";
@@ -125,7 +126,7 @@ function rows(draft: DraftInfo, shut: ReadonlySet<string>, selected: string | nu
       content: (
         <>
           <Icon name={iconOf(part)} />
-          <span class="n">{part.name}</span>
+          <Name text={part.name} />
           <span class="r">{part.mass === null ? part.detail : `${fixed(part.mass, part.mass < 0.1 ? 3 : 2)} kg`}</span>
           <Worst part={part} />
         </>

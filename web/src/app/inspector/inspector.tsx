@@ -6,6 +6,7 @@ import { PartForm } from "../editor/part_form";
 import { NoTransform } from "../../frames/transform";
 import { Button } from "../../theme/button";
 import { Icon, type IconName } from "../../theme/icons";
+import { Name } from "../../theme/name";
 import { frameSelection } from "../views/framing";
 import { JointSection, ModelJoints } from "./joint_sliders";
 import { LinkSections, ModelSections } from "./link_sections";
@@ -139,7 +140,7 @@ function Title({ shell, selection }: SelectionProps): JSX.Element {
     <div class="ti">
       <h2>
         <Icon name={icon} />
-        <span class="n">{name}</span>
+        <Name text={name} />
       </h2>
       {selection.kind !== "picked" && (
         <Button

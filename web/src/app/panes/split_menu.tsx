@@ -22,11 +22,7 @@ export function SplitMenu({ shell }: { readonly shell: Shell }): JSX.Element {
       checked: shell.split.value === layout,
       run: () => chooseSplit(shell.split, layout),
     }));
-  return (
-    <div class="tools float">
-      <MenuButton icon="panes" label="Split the view" items={items} />
-    </div>
-  );
+  return <MenuButton icon="panes" label="Split the view" items={items} />;
 }
 
 export function splitCommands({ page, split, layout }: Shell): readonly Command[] {

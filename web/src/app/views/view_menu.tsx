@@ -1,4 +1,4 @@
-/** Menu of the parts shown of all models and of the world, and of a video of the view. */
+/** Menu of the parts shown of all models and of the world, of its panes, and of a video of the view. */
 
 import type { JSX } from "preact";
 
@@ -8,16 +8,18 @@ import { MenuButton } from "../../theme/menu";
 import type { MenuItem } from "../../theme/menu_list";
 import type { Command, Page } from "../../page/page";
 import { isWorldPartShown, PART_NAMES, partsOf, WORLD_PART_NAMES } from "./shown_parts";
+import { SplitMenu } from "../panes/split_menu";
 import type { Shell } from "../shell";
 
 export function ViewMenu({ shell }: { readonly shell: Shell }): JSX.Element {
   const { page, videos } = shell;
   const isRecorded = videos.has("");
   return (
-    <div class="tools float">
+    <div class="tools float" role="group" aria-label="View">
       {page.world.manifest.value !== null && (
         <MenuButton icon="eye" label="Show in the view" items={() => shownItems(page)} />
       )}
+      <SplitMenu shell={shell} />
       <Button
         icon="camera"
         label={isRecorded ? "Stop and save the video" : "Record a video of the view"}

@@ -7,6 +7,7 @@ import { useEffect, useRef } from "preact/hooks";
 import type { Manifest } from "../../protocol/generated/page_messages";
 import { DraftTree } from "../editor/draft_tree";
 import { Icon } from "../../theme/icons";
+import { Name } from "../../theme/name";
 import { Tree, type TreeRow } from "../../theme/tree";
 import { frameSelection } from "../views/framing";
 import { jointValue } from "../inspector/joint_values";
@@ -117,7 +118,7 @@ function makeRow(shell: Shell, { node, depth, isOpen }: VisibleNode, selected: b
     content: (
       <>
         {node.icon !== null && <Icon name={node.icon} />}
-        <span class={`${node.icon === null ? "n g" : "n"}${hidden ? " hid" : ""}`}>{node.label}</span>
+        <Name class={`${node.icon === null ? "n g" : "n"}${hidden ? " hid" : ""}`} text={node.label} />
         <span class="r">
           {typeof node.detail === "string" ? node.detail : <JointValue shell={shell} node={node} />}
         </span>

@@ -7,6 +7,7 @@ import { drawPicture, PictureStream } from "../../displays/pictures/picture_stre
 import type { Connection } from "../../protocol/connection";
 import type { CompressedImage, Image } from "../../protocol/generated/ros_messages";
 import { Button } from "../../theme/button";
+import { Name } from "../../theme/name";
 import { Select } from "../../theme/select";
 import { exact } from "../messages/format";
 import { saveFile } from "../use";
@@ -79,7 +80,7 @@ export function ImageTile({ connection, topic, isEnlarged, onEnlarge, onClose }:
         />
       </div>
       <figcaption class="toolrow">
-        <span class="n">{topic}</span>
+        <Name text={topic} />
         <span class="dim sm n">{pixel === null ? size : pixelText(newest.current.message, canvas.current, pixel)}</span>
         <span class="sp" />
         <Select label={`Zoom of ${topic}`} value={zoom} choices={Object.keys(ZOOMS)} onChange={setZoom} />

@@ -5,6 +5,7 @@ import type { JSX } from "preact";
 import { MenuButton } from "../../theme/menu";
 import type { MenuItem } from "../../theme/menu_list";
 import { fixed } from "../../theme/format";
+import { Name } from "../../theme/name";
 import { significant } from "../messages/format";
 import { useTick } from "../use";
 import type { Curve } from "./curve";
@@ -30,7 +31,7 @@ export function Legend({ state, plot }: { readonly state: PlotsState; readonly p
             style={{ "--c": `var(${COLORS[index % COLORS.length] ?? ""})` }}
           >
             <span class="n" title={curve.path}>
-              {curve.name}
+              <Name text={curve.name} />
             </span>
             <span class="num">
               <b>{value === null ? "—" : legendText(value, largest(curve, state))}</b>{" "}

@@ -4,6 +4,7 @@ import type { JSX } from "preact";
 
 import type { Connection, TopicInfo } from "../../protocol/connection";
 import { fixed } from "../../theme/format";
+import { Name } from "../../theme/name";
 import { StatusShape } from "../../theme/status_shape";
 import { age, bytes } from "../messages/format";
 import { topicLevel, type TopicsState } from "./topics_state";
@@ -63,12 +64,14 @@ function Row({
         <span class="w">
           <StatusShape level={topicLevel(statistics, now)} />
           <button type="button" class="cell" aria-expanded={isSelected} onClick={select}>
-            {name}
+            <Name text={name} />
           </button>
           {isPublishing && <span class="badge">publishing</span>}
         </span>
       </td>
-      <td class="t2">{type}</td>
+      <td class="t2 type">
+        <Name text={type} />
+      </td>
       {lastAt === null && !state.isMeasured(topic) ? (
         <td class="num" colSpan={3}>
           <button type="button" class="cell link" onClick={measure}>

@@ -1,0 +1,33 @@
+/** Names that are cut in their middle where they have no room: names of one kind begin alike, and differ at the end. */
+
+import type { JSX } from "preact";
+
+/** Characters that stay at the end, and length up to which a name is cut at its end. */
+const TAIL = 8;
+const SHORT = 14;
+/** Scripts whose letters join, and would be torn apart within a word. */
+const JOINED = /[\p{Script=Arabic}\p{Script=Syriac}\p{Script=Mongolian}\p{Script=Devanagari}\p{Script=Bengali}]/u;
+
+export function Name({ text, class: extra = "n" }: { readonly text: string; readonly class?: string }): JSX.Element {
+  const at = cutAt(text);
+  if (at === text.length)
+    return (
+      <span class={extra} dir="auto">
+        {text}
+      </span>
+    );
+  return (
+    <span class={`${extra} cut`} dir="auto">
+      <span class="head">{text.slice(0, at)}</span>
+      <span class="tail">{text.slice(at)}</span>
+    </span>
+  );
+}
+
+/** Index at which the end begins that stays; the text's length: there is none. */
+export function cutAt(text: string): number {
+  if (text.length <= SHORT) return text.length;
+  if (JOINED.test(text)) return /[\s_./:-][\p{N}\p{P}]*$/u.exec(text)?.index ?? text.length;
+  const starts = [...new Intl.Segmenter().segment(text)].map(({ index }) => index);
+  return starts.length <= SHORT ? text.length : (starts.at(-TAIL) ?? text.length);
+}

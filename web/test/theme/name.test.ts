@@ -1,0 +1,20 @@
+import { expect, test } from "vitest";
+
+import { cutAt } from "../../src/theme/name";
+
+const tail = (text: string): string => text.slice(cutAt(text));
+
+test("the end of a long name stays, with what tells it from others", () => {
+  expect(tail("warehouse_base_front_left_000017")).toBe("t_000017");
+  expect(tail("倉庫の北側にある自律移動ロボットの車輪17号機")).toBe("トの車輪17号機");
+});
+
+test("a short name has no end that stays", () => {
+  expect(tail("netbook_webcam")).toBe("");
+});
+
+test("no character is torn apart: neither one of several code points nor letters that join", () => {
+  expect(tail(`${"x".repeat(20)}${"👩‍🚀".repeat(8)}`)).toBe("👩‍🚀".repeat(8));
+  expect(tail("العجلة_الأمامية_اليسرى_12")).toBe("_12");
+  expect(tail("العجلة الأمامية اليسرى")).toBe("");
+});
