@@ -149,18 +149,18 @@ def test_a_slow_client_is_up_to_date_and_the_others_get_everything(graph: Graph,
             for topic in ("/scan", "/image"):
                 client.subscribe(topic)
         graph.until(lambda: scan.has_subscribers and image.has_subscribers)
-        for number in range(COUNT * 3):
+        for number in range(COUNT * 2):
             scan.publish({"data": np.full(1000, number, np.uint8)})
             image.publish({"data": np.full(60_000, number, np.uint8)})
             for name, client in slow.items():
                 client.settle(0.02)
                 scans = client.payloads("/scan")
                 newest[name].append(number - scans[-1][-1] if scans else number)
-        reader.until(lambda: len(reader.payloads("/scan")) == len(reader.payloads("/image")) == COUNT * 3)
+        reader.until(lambda: len(reader.payloads("/scan")) == len(reader.payloads("/image")) == COUNT * 2)
 
     for name, client in slow.items():
         behind = sorted(newest[name][COUNT:])
-        assert behind[len(behind) // 2] <= 8, (name, behind)  # 0.3 s; without a bound, all that were sent
+        assert behind[len(behind) // 2] < COUNT // 2, (name, behind)  # without a bound, most of them
         assert len(client.payloads("/scan")) > 2 * len(client.payloads("/image")) > 0
     for publisher in (scan, image):
         publisher.unregister()

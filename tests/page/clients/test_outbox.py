@@ -112,22 +112,6 @@ def test_a_slow_client_loses_only_the_oldest_messages_of_streams() -> None:
     _run(work)
 
 
-def test_what_waited_too_long_is_replaced_by_newer_messages_with_the_same_content() -> None:
-    async def work(peer: Peer) -> None:
-        peer.outbox.send(BINARY, (bytes(8 * MB),))
-        await asyncio.sleep(0)
-        for number in range(4):
-            for frame in ("base", "wheel")[: 2 - number // 2]:
-                peer.outbox.send(BINARY, (frame.encode() + bytes([number]),), "tf", lambda f=frame: frozenset((f,)))
-        await asyncio.sleep(0.15)
-        payloads = (await peer.read(3))[1:]
-
-        assert payloads == [b"wheel\x01", b"base\x03"]
-        assert peer.dropped == ["tf"] * 4
-
-    _run(work)
-
-
 def test_streams_share_a_slow_connection_by_their_bytes() -> None:
     """Images are thinned so that transforms are not."""
 

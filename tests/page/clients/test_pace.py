@@ -38,7 +38,7 @@ class Figures:
     bytes_per_s: float
 
 
-def _simulate(client: Client, *, demand: float, message: int = 2000, seconds: float = 30.0) -> Figures:
+def _simulate(client: Client, *, demand: float, message: int = 2000, seconds: float = 20.0) -> Figures:
     """Send a stream whose messages replace unsent ones; `demand` is what it has [bytes/s]."""
     pace = Pace()
     way: deque[tuple[int, float, int | None]] = deque()
@@ -115,10 +115,18 @@ def test_a_busy_client_has_fresh_messages_whenever_it_reads(busy_s: float) -> No
     assert figures.bytes_per_s > 0.8 * 400e3
 
 
-def test_a_connection_that_becomes_slow_is_fresh_again_soon_and_fast_again_later() -> None:
-    slow = Client(lambda now: 100e3 if 10.0 < now < 25.0 else 2e6)
+def test_what_a_slow_and_busy_client_reads_is_fresh() -> None:
+    """Also, a browser whose few free moments do not suffice for all messages."""
+    figures = _simulate(Client(lambda _: 100e3, busy_s=0.45), demand=400e3)
 
-    figures = _simulate(slow, demand=1e6, seconds=60.0)
+    assert figures.newest[len(figures.newest) // 2] < 0.3
+    assert figures.bytes_per_s > 0.7 * 100e3
+
+
+def test_a_connection_that_becomes_slow_is_fresh_again_soon_and_fast_again_later() -> None:
+    slow = Client(lambda now: 100e3 if 10.0 < now < 20.0 else 2e6)
+
+    figures = _simulate(slow, demand=1e6, seconds=40.0)
 
     late = [lag for lag in figures.lags if lag > 0.3]
     assert len(late) < 0.02 * len(figures.lags)

@@ -224,9 +224,10 @@ def test_workers_must_not_open_connections() -> None:
     assert policy["default-src"] == ["'none'"]
 
 
-def test_the_worker_that_drives_connects_to_the_pages_server_alone() -> None:
+@pytest.mark.parametrize("name", ["drive_worker", "socket_worker"])
+def test_workers_with_a_socket_connect_to_the_pages_server_alone(name: str) -> None:
     access = Access(host="127.0.0.1", port=80)
-    request = PageRequest(target="/assets/drive_worker-1a2b.js", host="127.0.0.1:80")
+    request = PageRequest(target=f"/assets/{name}-1a2b.js", host="127.0.0.1:80")
     policy = _policy(response_fields(access, request, path=request.target))
 
     assert {source for source in policy["connect-src"] if ":" in source and not source.endswith(":")} == {

@@ -25,6 +25,7 @@ import { ServerClock } from "./server_clock";
 import { Subscriptions } from "./subscriptions";
 import { SystemState } from "./system_state";
 import { readBinary, SUBPROTOCOLS, type ClientFrame } from "./wire";
+import { WorkerSockets } from "./worker_sockets";
 
 export class FoxgloveConnection implements Connection {
   readonly #socket: ReconnectingSocket;
@@ -251,12 +252,8 @@ export function connect(address: string): FoxgloveConnection {
   const url = new URL(address);
   url.protocol = url.protocol.replace("http", "ws");
   url.hash = "";
-  const worker = new Worker(new URL("./decode_worker.ts", import.meta.url), { type: "module" });
-  const open = (): WebSocket => {
-    const socket = new WebSocket(url, SUBPROTOCOLS);
-    socket.binaryType = "arraybuffer";
-    return socket;
-  };
+  const sockets = new WorkerSockets(new Worker(new URL("./socket_worker.ts", import.meta.url), { type: "module" }));
+  const decoder = new Worker(new URL("./decode_worker.ts", import.meta.url), { type: "module" });
   const openDrive = (): Worker => new Worker(new URL("./drive_worker.ts", import.meta.url), { type: "module" });
-  return new FoxgloveConnection(open, worker, { url: url.href, open: openDrive });
+  return new FoxgloveConnection(() => sockets.open(url.href, SUBPROTOCOLS), decoder, { url: url.href, open: openDrive });
 }

@@ -22,18 +22,21 @@ _TARGET_S = 0.05
 _MIN_HOLD_S, _MAX_HOLD_S = 0.1, 0.8
 """Bounds of the time without an echo after which nothing more is sent."""
 _MARK_S, _LIMITED_MARK_S = 0.1, 0.02
-"""Period of marks; the shorter one while data wait for the pace."""
+"""Period of marks; the shorter one for many data, and while data wait for the pace."""
 _BURST_S = 0.02
 _MIN_BURST = 2048
 _FIRST_GROWTH, _SLOW_GROWTH, _MAX_GROWTH = 2.0, 1.02, 1.2
 """Growth of the pace: until the first reduction, after a reduction, and later."""
 _GROWTH_S = 0.25
-_MAX_LEAP = 2.5
-"""Limit of the pace as a multiple of the highest rate at which data have arrived."""
+_FIRST_LEAP, _LEAP = 2.5, 1.3
+"""Limit of the pace as a multiple of the highest rate at which data have arrived, before the first reduction and later.
+"""
 _MIN_PAUSE_S = 0.05
 """Pause between echoes that is remembered."""
-_MIN_SAMPLE, _MIN_SAMPLE_S, _MAX_SAMPLE_S = 16 * 1024, 0.01, 0.2
-"""Bytes whose arrival proves a rate, and time between two proofs: a busy client echoes many marks at once."""
+_MIN_SAMPLE = 16 * 1024
+"""Bytes whose arrival together proves a rate."""
+_TOGETHER_S = 0.01
+"""Time within which echoes count as one: a busy client sends many at once."""
 _MEMORY_S = 5.0
 """Time after which the shortest delay and pauses are forgotten."""
 
@@ -43,6 +46,10 @@ class _Mark(NamedTuple):
     sent_s: float
     total: int
     """All bytes sent before it."""
+    arrived: int
+    """Bytes known to have arrived when it was sent."""
+    arrived_s: float
+    """Time at which this was known; if nothing else was on its way, the mark's own."""
 
 
 class _Echo(NamedTuple):
@@ -86,18 +93,14 @@ class Pace:
         """Marks without an echo."""
         self._echoes: deque[_Echo] = deque()
         """Echoes of the last while, since the last reduction."""
-        self._last = self._anchor = _Echo(0.0, 0.0, 0)
-        """Echo before this one, and echo from which the arrival of data is measured."""
-        self._burst_s = -math.inf
-        """Time of the first echo of those that came together."""
-        self._began_s = math.inf
-        """Time at which the first data after the anchor were sent, or the anchor came."""
+        self._last = self._averaged = _Echo(0.0, 0.0, 0)
+        """Newest echo, and the one from which the average rate of arrival is taken."""
         self._shortest, self._proven = _Extreme(), _Extreme()
         """Negative shortest delay, and highest rate at which data have arrived."""
         self._pauses: deque[tuple[float, float]] = deque()
         """Times of long pauses between echoes, and their lengths."""
         self._reduced_s = self._grown_s = -math.inf
-        self._growth, self._max_growth = _FIRST_GROWTH, _FIRST_GROWTH
+        self._growth, self._max_growth, self._leap = _FIRST_GROWTH, _FIRST_GROWTH, _FIRST_LEAP
         self._is_limited = False
         self._echoes_nothing = False
 
@@ -164,7 +167,8 @@ class Pace:
         """
         if self._total == self._marked or self._echoes_nothing:
             return None
-        period_s = _MARK_S if self.is_known and not is_limited else _LIMITED_MARK_S
+        is_busy = is_limited or not self.is_known or self._total - self._marked > _MIN_SAMPLE
+        period_s = _LIMITED_MARK_S if is_busy else _MARK_S
         if self._marks and now_s - self._marked_s < period_s:
             return None
         return self.mark_now(now_s)
@@ -173,7 +177,8 @@ class Pace:
         """Return the number of a mark to send."""
         self._number += 1
         self._marked, self._marked_s = self._total, now_s
-        self._marks.append(_Mark(self._number, now_s, self._total))
+        arrived_s = self._last.time_s if self._marks else now_s
+        self._marks.append(_Mark(self._number, now_s, self._total, self._last.total, arrived_s))
         return self._number
 
     def echo(self, number: int, now_s: float) -> None:
@@ -186,8 +191,11 @@ class Pace:
         echo = _Echo(now_s, now_s - mark.sent_s, mark.total)
         if self.is_known:
             self._add_pause(now_s - max(self._last.time_s, first.sent_s), now_s)
+        else:
+            self._budget_s = now_s
+            self._proven.add(_FIRST_RATE, now_s)
         self._shortest.add(-echo.delay_s, now_s)
-        self._raise(echo, first.sent_s)
+        self._raise(echo, mark)
         self._last = echo
         self._echoes_nothing = False
         if echo.total == self._total:
@@ -201,34 +209,22 @@ class Pace:
         if pause_s > _MIN_PAUSE_S:
             self._pauses.append((now_s, pause_s))
 
-    def _raise(self, echo: _Echo, sent_s: float) -> None:
-        """Raise the rate to one at which data have arrived; `sent_s`: the first mark without an echo was sent."""
-        if not self.is_known:
-            self._budget_s, self._anchor = echo.time_s, echo
-            self._proven.add(_FIRST_RATE, echo.time_s)
-            return
-        if echo.time_s - self._burst_s >= _MIN_SAMPLE_S:
-            self._burst_s = echo.time_s
-            if self._is_sample(self._last):
-                self._anchor, self._began_s = self._last, math.inf
-            self._began_s = min(self._began_s, max(self._anchor.time_s, sent_s))
-        if self._is_sample(echo):
-            size = echo.total - self._anchor.total
-            rate = size / max(echo.time_s - self._began_s, 1e-4)
+    def _raise(self, echo: _Echo, mark: _Mark) -> None:
+        """Raise the rate to the one at which data have arrived since the last echo before the mark was sent."""
+        span_s, size = echo.time_s - mark.arrived_s, echo.total - mark.arrived
+        if size >= _MIN_SAMPLE:
+            rate = size / max(span_s, 1e-4)
             self._proven.add(rate, echo.time_s)
-            if size >= _MIN_SAMPLE:
-                self.rate = max(self.rate, rate)
-
-    def _is_sample(self, echo: _Echo) -> bool:
-        """True if enough has arrived since the anchor to tell a rate."""
-        return (
-            echo.total - self._anchor.total >= _MIN_SAMPLE or echo.time_s - self._anchor.time_s > _MAX_SAMPLE_S
-        ) and self._began_s < echo.time_s
+            self.rate = max(self.rate, rate)
+        average_s = echo.time_s - self._averaged.time_s
+        if average_s >= self._while_s:
+            self._proven.add((echo.total - self._averaged.total) / average_s, echo.time_s)
+            self._averaged = echo
 
     def _adjust(self, echo: _Echo) -> None:
         """Reduce the rate if data wait on the way; raise it if they wait here only."""
         now_s = echo.time_s
-        if self._echoes and now_s - self._echoes[-1].time_s < _MIN_SAMPLE_S:
+        if self._echoes and now_s - self._echoes[-1].time_s < _TOGETHER_S:
             self._echoes[-1] = echo._replace(delay_s=min(echo.delay_s, self._echoes[-1].delay_s))
         else:
             self._echoes.append(echo)
@@ -243,14 +239,17 @@ class Pace:
             self._budget = float(echo.total - self._total)  # nothing until that has arrived
             self._budget_s = self._reduced_s = now_s
             self._echoes.clear()
-            self._growth, self._max_growth, self._is_limited = _SLOW_GROWTH, _MAX_GROWTH, False
+            self._growth, self._max_growth, self._leap = _SLOW_GROWTH, _MAX_GROWTH, _LEAP
+            self._is_limited = False
+            self._proven = _Extreme()
+            self._proven.add(self.rate, now_s)
         elif (
             self._is_limited
             and self._echoes[-1].delay_s - self._base_s < _TARGET_S / 2
             and now_s >= self._grown_s + min(_GROWTH_S, 2 * echo.delay_s + 0.01)
         ):
             self._grown_s, self._is_limited = now_s, False
-            self.rate = max(self.rate, min(self._growth * self.rate, _MAX_LEAP * self._proven.value))
+            self.rate = max(self.rate, min(self._growth * self.rate, self._leap * self._proven.value))
             self._growth = min(self._growth**2, self._max_growth)
 
     @property

@@ -1,0 +1,6 @@
+/** Worker that holds the page's socket: a browser stops to receive while the thread of a socket is busy drawing. */
+
+import { SocketService, type SocketRequest } from "./socket_service";
+
+const service = new SocketService((event, transfer) => self.postMessage(event, { transfer }));
+self.onmessage = (event: MessageEvent<SocketRequest>) => service.handle(event.data);
