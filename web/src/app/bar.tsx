@@ -244,6 +244,9 @@ function Corner({ shell }: { readonly shell: Shell }): JSX.Element {
   const theme = themeItem(shell);
   return (
     <>
+      <FittingPart rank={5} part="share">
+        <Button icon="share" label="Share" onClick={() => (shell.dialog.value = "share")} />
+      </FittingPart>
       <FittingPart rank={6} part="theme">
         <Button icon={shell.page.theme.value === "dark" ? "sun" : "moon"} label={theme.title} onClick={theme.run} />
       </FittingPart>
