@@ -21,11 +21,7 @@ export function ConnectionChip({ shell }: { readonly shell: Shell }): JSX.Elemen
     <span class="connection" role="status" {...(lag === null ? {} : { "data-tip": lagTip(lag) })}>
       <StatusShape level={levelOf(state, lag)} label={text} />
       {shown !== null && (
-        <span
-          class={isWell ? "fits" : ""}
-          data-rank={isWell ? 5 : undefined}
-          aria-hidden="true"
-        >
+        <span class={isWell ? "fits" : ""} data-rank={isWell ? 5 : undefined} aria-hidden="true">
           {shown}
         </span>
       )}

@@ -255,5 +255,8 @@ export function connect(address: string): FoxgloveConnection {
   const sockets = new WorkerSockets(new Worker(new URL("./socket_worker.ts", import.meta.url), { type: "module" }));
   const decoder = new Worker(new URL("./decode_worker.ts", import.meta.url), { type: "module" });
   const openDrive = (): Worker => new Worker(new URL("./drive_worker.ts", import.meta.url), { type: "module" });
-  return new FoxgloveConnection(() => sockets.open(url.href, SUBPROTOCOLS), decoder, { url: url.href, open: openDrive });
+  return new FoxgloveConnection(() => sockets.open(url.href, SUBPROTOCOLS), decoder, {
+    url: url.href,
+    open: openDrive,
+  });
 }
