@@ -63,14 +63,14 @@ function Timeline({ page }: PanelProps): JSX.Element {
           <div class="lanename ruler" />
           <Ruler span={span} share={share} />
           <Head state={state} span={span} share={share} />
-          <Lane name="Log" pinned="second">
+          <Lane name="Log" pinned="log">
             {entries.map(({ id, level, time, text }) => (
               <i key={id} class="event" title={text} style={{ left: share(time ?? 0) }}>
                 <StatusShape level={level === "Warn" ? "warn" : "error"} label={text} />
               </i>
             ))}
           </Lane>
-          <Lane name="Marks" pinned="third">
+          <Lane name="Marks" pinned="marks">
             {state.marks.value.map((mark) => (
               <MarkFlag key={mark.id} state={state} mark={mark} left={share(mark.time)} />
             ))}

@@ -37,14 +37,14 @@ interface LaneProps {
   readonly name: string;
   readonly title?: string;
   /** Row below the ruler that stays in view. */
-  readonly pinned?: "second" | "third";
+  readonly pinned?: "log" | "marks";
   /** In place of the name. */
   readonly label?: JSX.Element;
   readonly children: JSX.Element | readonly JSX.Element[];
 }
 
 export function Lane({ name, title = name, pinned, label, children }: LaneProps): JSX.Element {
-  const place = pinned === undefined ? "" : ` pinned ${pinned}`;
+  const place = pinned === undefined ? "" : ` pinned ${pinned}-row`;
   return (
     <>
       <div class={`lanename${place}`} title={title}>
