@@ -98,6 +98,11 @@ def test_a_box_is_chosen_and_placed_by_a_click(user: WorldUser) -> None:
     user.until(lambda: user.model("box_0") is None)
     user.button("Redo: Insert box_0").click()
     user.until(lambda: _is_at(user, "box_0", (1.5, 0.0, 0.5)))
+    user.side("World")
+    user.pick("box_0")
+    user.page.get_by_role("heading", name="box_0", exact=True).wait_for()
+    user.page.get_by_text("free", exact=True).wait_for()
+    assert user.page.locator(".ti .src").count() == 0  # it comes from no file
     for name in ("box_0", "box"):
         user.button(f"Undo: Insert {name}").click()
         user.until(lambda name=name: user.model(name) is None)

@@ -103,7 +103,7 @@ export class TransformTree implements FrameTree {
 
   #unknown(name: string): string {
     const names = this.frames.peek();
-    if (names.length === 0) return `nothing publishes ${name}. There is no frame here: nothing publishes transforms`;
+    if (names.length === 0) return `nothing publishes ${name}, nor any other transform`;
     const rest = names.length > MAX_NAMES ? ` and ${String(names.length - MAX_NAMES)} more` : "";
     return `nothing publishes ${name}. Frames here: ${names.slice(0, MAX_NAMES).join(", ")}${rest}`;
   }

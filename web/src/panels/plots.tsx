@@ -27,8 +27,13 @@ function Plots({ page }: PanelProps): JSX.Element {
           <Button small tone="line" icon="plus" onClick={() => void (state.isAdding.value = true)}>
             Add curve
           </Button>
-          {suggestions(page).map(({ title, paths }) => (
-            <Button key={title} small tone="line" onClick={() => paths.forEach((path) => state.add(path))}>
+          {suggestions(page).map(({ title, curves }) => (
+            <Button
+              key={title}
+              small
+              tone="line"
+              onClick={() => curves.forEach(([path, name]) => state.add(path, name))}
+            >
               {title}
             </Button>
           ))}

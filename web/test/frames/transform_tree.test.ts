@@ -143,7 +143,7 @@ describe("errors", () => {
       "No transform from [laser] to [map]: nothing publishes laser. Frames here: base, map",
     );
     expect(x(new TransformTree().lookup("map", "laser", 0n))).toBe(
-      "No transform from [laser] to [map]: nothing publishes laser. There is no frame here: nothing publishes transforms",
+      "No transform from [laser] to [map]: nothing publishes laser, nor any other transform",
     );
     const many = new TransformTree();
     many.add(

@@ -17,15 +17,18 @@ function page(topics: Readonly<Record<string, string>>, driven: string | null, i
 describe("curves for an empty plot", () => {
   it("are velocities of a driven robot with odometry", () => {
     const topics = { "/r1/odom": "nav_msgs/Odometry", "/r1/cmd_vel": "geometry_msgs/Twist" };
-    expect(suggestions(page(topics, "/r1/cmd_vel", false)).map(({ paths }) => paths)).toEqual([
-      ["/r1/odom/twist/twist/linear/x", "/r1/cmd_vel/linear/x"],
+    expect(suggestions(page(topics, "/r1/cmd_vel", false)).map(({ curves }) => curves)).toEqual([
+      [
+        ["/r1/odom/twist/twist/linear/x", "measured"],
+        ["/r1/cmd_vel/linear/x", "commanded"],
+      ],
     ]);
     expect(suggestions(page(topics, null, false))).toEqual([]);
   });
 
   it("are a simulated robot's position", () => {
     expect(suggestions(page({}, null, true))).toEqual([
-      { title: "Position of rp2w", paths: ["rp2w.pose.x", "rp2w.pose.y"] },
+      { title: "Position of rp2w", curves: [["rp2w.pose.x"], ["rp2w.pose.y"]] },
     ]);
   });
 });

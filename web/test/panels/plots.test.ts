@@ -144,6 +144,12 @@ describe("plots", () => {
     expect(state.curves.map((curve) => curve.path)).toEqual(["/pose/x", "/pose/y", "/speed/data"]);
   });
 
+  test("a suggested curve has its own name", () => {
+    const state = new PlotsState(fakePage());
+    state.add("/cmd_vel/linear/x", "commanded");
+    expect(state.curves.map(({ name, caption }) => [name, caption])).toEqual([["commanded", "/cmd_vel/linear/x"]]);
+  });
+
   test("a curve moves into a plot of its own, and back; empty plots are removed", () => {
     const state = new PlotsState(fakePage({ plots: ["/a.x", "/b.x"] }));
     const [, second] = state.curves;

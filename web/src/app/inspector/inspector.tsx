@@ -153,7 +153,7 @@ function Title({ shell, selection }: SelectionProps): JSX.Element {
       )}
       <span class="sm t2">
         {of}
-        {source !== null && (
+        {source !== null && !source.startsWith("<") && (
           <>
             {of === "" ? "" : " · "}
             <span class="src" data-tip={source}>

@@ -60,7 +60,7 @@ export function ModelSections({ shell, name, model }: ModelProps): JSX.Element {
         <h3>Model</h3>
         {!model.static && <KeyValue name="Mass" value={fixed(mass, 3)} unit="kg" />}
         <KeyValue name="Links" value={count(model.links.length, "link")} />
-        <KeyValue name="Moves" value={model.static ? "no, it is static" : model.held ? "no, it is held" : "yes"} />
+        <KeyValue name="Base" value={model.static ? "static" : model.held ? "held in the air" : "free"} />
         {canEdit(shell) && <ModelButtons shell={shell} name={name} model={model} />}
       </section>
     </>

@@ -52,9 +52,9 @@ export class Notices {
     this.all = computed(() =>
       bySeverity([
         ...this.reports.value,
-        ...server.value,
-        ...files.value,
-        ...drawn.value,
+        ...equalOnce(server.value),
+        ...equalOnce(files.value),
+        ...equalOnce(drawn.value),
         ...faults.value,
         ...unsupported.value,
       ]),
@@ -87,6 +87,27 @@ export class Notices {
 /** True if no data has come yet, which is not a fault. */
 export function isSilence({ level, text }: Pick<Notice, "level" | "text">): boolean {
   return level === "none" || (level === "warn" && /^No \w+ received$/.test(text));
+}
+
+/** Place at the beginning of a warning: `cart.sdf:3: `. */
+const PLACE = /^(\S+:\d+): /;
+const MAX_PLACES = 8;
+
+/** One notice for those that are equal but for their places, with their number and the other places. */
+function equalOnce(notices: readonly Notice[]): readonly Notice[] {
+  const equal = new Map<string, Notice[]>();
+  for (const notice of notices) {
+    const key = `${notice.level} ${notice.text.replace(PLACE, "")}`;
+    equal.set(key, [...(equal.get(key) ?? []), notice]);
+  }
+  return [...equal.values()].flatMap(([first, ...others]) => {
+    if (first === undefined) return [];
+    if (others.length === 0) return [first];
+    const places = others.map(({ text }) => PLACE.exec(text)?.[1]).filter((place) => place !== undefined);
+    const more = places.length > MAX_PLACES ? " …" : "";
+    const where = places.length === 0 ? "" : `: also at ${places.slice(0, MAX_PLACES).join(", ")}${more}`;
+    return [{ ...first, advice: `${others.length + 1} times${where}` }];
+  });
 }
 
 const RANK: Readonly<Record<StatusLevel, number>> = { error: 0, warn: 1, none: 2, ok: 3 };

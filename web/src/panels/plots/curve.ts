@@ -37,6 +37,7 @@ export class Curve {
     private readonly page: Page,
     /** Path as typed. */
     readonly path: string,
+    private readonly givenName?: string,
   ) {
     let last = "";
     this.dispose = effect(() => {
@@ -61,8 +62,9 @@ export class Curve {
     });
   }
 
-  /** Last two steps, or a joint without its model, for the legend. */
+  /** Given name, last two steps, or a joint without its model, for the legend. */
   get name(): string {
+    if (this.givenName !== undefined) return this.givenName;
     const { steps } = this.split();
     return steps.length === 0
       ? this.path.slice(this.modelEnd > 0 ? this.modelEnd + 2 : 0)
@@ -71,6 +73,7 @@ export class Curve {
 
   /** Part of the path that the name omits. */
   get caption(): string {
+    if (this.givenName !== undefined) return this.path;
     const { topic, steps } = this.split();
     return steps.length === 0
       ? this.path.slice(0, Math.max(0, this.modelEnd))

@@ -40,15 +40,16 @@ export class PlotsState {
     return this.plots.value.flatMap((plot) => plot.curves);
   }
 
-  /** Add curves to a plot; `/pose/x:y` is two of them, as for rqt_plot. */
-  add(text: string, plot = this.plots.peek().at(-1)?.id): void {
+  /** Add curves to the last plot; `/pose/x:y` is two of them, as for rqt_plot. Without a name, it is of the path. */
+  add(text: string, name?: string): void {
+    const plot = this.plots.peek().at(-1)?.id;
     const [first = "", ...others] = text
       .trim()
       .split(":")
       .filter((part) => part !== "");
     const paths = text.includes("::")
       ? [text.trim()]
-      : [first, ...others.map((name) => first.replace(/[^./]+$/, name))];
+      : [first, ...others.map((field) => first.replace(/[^./]+$/, field))];
     const known =
       this.plots
         .peek()
@@ -56,7 +57,7 @@ export class PlotsState {
         ?.curves.map((curve) => curve.path) ?? [];
     const fresh = paths
       .filter((path) => path !== "" && !known.includes(path))
-      .map((path) => new Curve(this.page, path));
+      .map((path) => new Curve(this.page, path, name));
     this.change(plot, (curves) => [...curves, ...fresh]);
   }
 

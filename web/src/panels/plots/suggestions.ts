@@ -5,8 +5,8 @@ import { robotOf } from "../../page/world_nodes";
 
 export interface Suggestion {
   readonly title: string;
-  /** Paths for `PlotsState.add`. */
-  readonly paths: readonly string[];
+  /** Paths for `PlotsState.add`, and names of their curves. */
+  readonly curves: readonly (readonly [path: string, name?: string])[];
 }
 
 /** Suggestions: commanded and measured velocity of the robot, and its position. */
@@ -17,8 +17,18 @@ export function suggestions(page: Pick<Page, "connection" | "drive" | "world">):
   const robot = robotOf(page.world.manifest.value)?.name;
   return [
     ...(isTwist && odometry !== undefined
-      ? [{ title: "Speed, commanded and measured", paths: [`${odometry}/twist/twist/linear/x`, `${command}/linear/x`] }]
+      ? [
+          {
+            title: "Speed, commanded and measured",
+            curves: [
+              [`${odometry}/twist/twist/linear/x`, "measured"],
+              [`${command}/linear/x`, "commanded"],
+            ] as const,
+          },
+        ]
       : []),
-    ...(robot === undefined ? [] : [{ title: `Position of ${robot}`, paths: [`${robot}.pose.x`, `${robot}.pose.y`] }]),
+    ...(robot === undefined
+      ? []
+      : [{ title: `Position of ${robot}`, curves: [[`${robot}.pose.x`], [`${robot}.pose.y`]] as const }]),
   ];
 }

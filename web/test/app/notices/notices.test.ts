@@ -42,7 +42,7 @@ it("counts missing meshes, not the displays that use them", () => {
   expect(notices.line.value.text).toBe("2 meshes are missing");
 });
 
-it("counts warnings about files, and lists each with its line", () => {
+it("counts warnings about files, and lists equal ones once with their lines", () => {
   const page = fakePage();
   const notices = new Notices(page);
   const warning = (line: number): { level: "warning"; text: string; id: string } => ({
@@ -54,7 +54,8 @@ it("counts warnings about files, and lists each with its line", () => {
   expect(notices.line.value).toEqual({ level: "warn", text: "cart.sdf:3: mass must be > 0 kg" });
   page.connection.notices.value = [warning(3), warning(7), { level: "warning", text: "38 meshes are missing" }];
   expect(notices.line.value.text).toBe("38 meshes are missing · 2 warnings about the files");
-  expect(notices.all.value.map(({ title, text }) => `${title} ${text}`)).toContain(
-    "File cart.sdf:7: mass must be > 0 kg",
-  );
+  expect(notices.all.value).toEqual([
+    { level: "warn", title: "Server", text: "38 meshes are missing" },
+    { level: "warn", title: "File", text: "cart.sdf:3: mass must be > 0 kg", advice: "2 times: also at cart.sdf:7" },
+  ]);
 });
