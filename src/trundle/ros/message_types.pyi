@@ -268,6 +268,14 @@ class geometry_msgs:
         position: geometry_msgs.Point
         orientation: geometry_msgs.Quaternion
 
+    class PoseWithCovariance(TypedMessage, Protocol):
+        pose: geometry_msgs.Pose
+        covariance: NDArray[np.float64]
+
+    class PoseWithCovarianceStamped(TypedMessage, Protocol):
+        header: std_msgs.Header
+        pose: geometry_msgs.PoseWithCovariance
+
     class Quaternion(TypedMessage, Protocol):
         x: float
         y: float
@@ -286,6 +294,10 @@ class geometry_msgs:
     class Twist(TypedMessage, Protocol):
         linear: geometry_msgs.Vector3
         angular: geometry_msgs.Vector3
+
+    class TwistWithCovariance(TypedMessage, Protocol):
+        twist: geometry_msgs.Twist
+        covariance: NDArray[np.float64]
 
     class Vector3(TypedMessage, Protocol):
         x: float
@@ -330,6 +342,12 @@ class nav_msgs:
         header: std_msgs.Header
         info: nav_msgs.MapMetaData
         data: NDArray[np.int8]
+
+    class Odometry(TypedMessage, Protocol):
+        header: std_msgs.Header
+        child_frame_id: str
+        pose: geometry_msgs.PoseWithCovariance
+        twist: geometry_msgs.TwistWithCovariance
 
 class roscpp:
     class GetLoggersRequest(TypedMessage, Protocol): ...

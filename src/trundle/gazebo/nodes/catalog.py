@@ -18,6 +18,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ): "trundle.gazebo.nodes.depthimage_to_laserscan:DepthImageToLaserScan",
     ("dynamic_reconfigure", "dynparam"): "trundle.gazebo.nodes.dynparam:Dynparam",
     ("dynamic_reconfigure", "reconfigure_gui"): "trundle.gazebo.nodes.rqt_windows:RqtReconfigure",
+    ("fake_localization", "fake_localization"): "trundle.navigation.localization:FakeLocalization",
     ("gazebo_ros", "debug"): "trundle.gazebo.nodes.gazebo:GazeboServer",
     ("gazebo_ros", "gazebo"): "trundle.gazebo.nodes.gazebo:Gazebo",
     ("gazebo_ros", "gdbrun"): "trundle.gazebo.nodes.gazebo:GazeboServer",

@@ -1,5 +1,6 @@
 """tf broadcasters, and a listener that fills a buffer. Quaternions are xyzw in messages only."""
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ..messages.raw_message import Message
@@ -51,14 +52,18 @@ class StaticTransformBroadcaster:
 class TransformListener:
     """Fills a buffer from /tf and /tf_static."""
 
-    def __init__(self, node: Node, buffer: TransformBuffer | None = None) -> None:
+    def __init__(
+        self, node: Node, buffer: TransformBuffer | None = None, *, on_change: Callable[[], None] | None = None
+    ) -> None:
         """Subscribe.
 
         Args:
             node: node that subscribes; the buffer is used on its loop only.
             buffer: buffer to fill, a new one by default; cleared when simulated time jumps back.
+            on_change: called on the loop after each message.
         """
         self.buffer = buffer or TransformBuffer()
+        self._on_change = on_change
         node.subscribe("/tf", _TYPE, lambda m: self._on_message(m, static=False), queue_size=_QUEUE, on_loop=True)
         node.subscribe("/tf_static", _TYPE, lambda m: self._on_message(m, static=True), queue_size=_QUEUE, on_loop=True)
         if isinstance(node.clock, SimClock):
@@ -67,6 +72,8 @@ class TransformListener:
     def _on_message(self, message: "tf2_msgs.TFMessage", *, static: bool) -> None:
         for transform in read_transforms(message):
             self.buffer.set_transform(transform, static=static)
+        if self._on_change is not None:
+            self._on_change()
 
 
 def transform_message(node: Node, transforms: tuple[Transform, ...]) -> Message:

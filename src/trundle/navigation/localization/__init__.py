@@ -1,0 +1,5 @@
+"""Localization in a map: amcl, and fake_localization, which knows the true pose."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,1 @@
+from .fake_localization import FakeLocalization as FakeLocalization

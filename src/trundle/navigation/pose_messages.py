@@ -1,0 +1,39 @@
+"""Poses in messages."""
+
+import math
+from typing import Any
+
+from trundle.spatial import Pose, Vector3
+
+PlanarPose = tuple[float, float, float]
+"""x, y [m], yaw [rad]."""
+
+
+def read_pose(message: Any) -> Pose:
+    """Convert a geometry_msgs/Pose.
+
+    Raises:
+        ValueError: a number is not finite, or the orientation is all zeros.
+    """
+    position: Vector3 = (message.position.x, message.position.y, message.position.z)
+    q = message.orientation
+    norm = math.hypot(q.w, q.x, q.y, q.z)
+    if not math.isfinite(norm + sum(position)) or norm == 0.0:
+        raise ValueError("the pose has numbers that are not finite, or an orientation of zeros")
+    return Pose(position, (q.w / norm, q.x / norm, q.y / norm, q.z / norm))
+
+
+def pose_fields(pose: Pose) -> dict[str, Any]:
+    """Return the fields of a geometry_msgs/Pose."""
+    (x, y, z), (qw, qx, qy, qz) = pose.position, pose.quaternion
+    return {"position": {"x": x, "y": y, "z": z}, "orientation": {"w": qw, "x": qx, "y": qy, "z": qz}}
+
+
+def planar(pose: Pose) -> PlanarPose:
+    """Project a pose onto the ground."""
+    return pose.position[0], pose.position[1], pose.rpy[2]
+
+
+def from_planar(x: float, y: float, yaw: float) -> Pose:
+    """Return the pose on the ground."""
+    return Pose((x, y, 0.0), (math.cos(yaw / 2.0), 0.0, 0.0, math.sin(yaw / 2.0)))
