@@ -268,6 +268,10 @@ class geometry_msgs:
         position: geometry_msgs.Point
         orientation: geometry_msgs.Quaternion
 
+    class PoseStamped(TypedMessage, Protocol):
+        header: std_msgs.Header
+        pose: geometry_msgs.Pose
+
     class PoseWithCovariance(TypedMessage, Protocol):
         pose: geometry_msgs.Pose
         covariance: NDArray[np.float64]
@@ -318,6 +322,15 @@ class kobuki_msgs:
         OFF: int
         ON: int
 
+class map_msgs:
+    class OccupancyGridUpdate(TypedMessage, Protocol):
+        header: std_msgs.Header
+        x: int
+        y: int
+        width: int
+        height: int
+        data: NDArray[np.int8]
+
 class mav_msgs:
     class Actuators(TypedMessage, Protocol):
         header: std_msgs.Header
@@ -327,6 +340,11 @@ class mav_msgs:
 
 class nav_msgs:
     class GetMapRequest(TypedMessage, Protocol): ...
+
+    class GetPlanRequest(TypedMessage, Protocol):
+        start: geometry_msgs.PoseStamped
+        goal: geometry_msgs.PoseStamped
+        tolerance: float
 
     class LoadMapRequest(TypedMessage, Protocol):
         map_url: str
@@ -420,6 +438,18 @@ class sensor_msgs:
         header: std_msgs.Header
         axes: NDArray[np.float32]
         buttons: NDArray[np.int32]
+
+    class LaserScan(TypedMessage, Protocol):
+        header: std_msgs.Header
+        angle_min: float
+        angle_max: float
+        angle_increment: float
+        time_increment: float
+        scan_time: float
+        range_min: float
+        range_max: float
+        ranges: NDArray[np.float32]
+        intensities: NDArray[np.float32]
 
     class PointCloud2(TypedMessage, Protocol):
         header: std_msgs.Header

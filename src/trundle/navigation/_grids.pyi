@@ -1,0 +1,125 @@
+"""Loops over the cells of costmaps, in C++; none holds the GIL. Grids are (height, width), row 0 at the smallest y."""
+
+from collections.abc import Sequence
+from typing import Any, TypeAlias
+
+from numpy import float32, float64, uint8
+from numpy.typing import NDArray
+
+UNREACHED: float
+"""Potential of cells that no way reaches."""
+_Triple: TypeAlias = tuple[float, float, float]
+
+def inflate(
+    cells: NDArray[uint8], window: tuple[int, int, int, int], costs: Sequence[int], *, inflate_unknown: bool
+) -> None:
+    """Raise the costs in a window by the exact distance to the nearest lethal cell, also of those beyond it.
+
+    Args:
+        cells: costs, changed in place.
+        window: x0, y0, x1, y1 in cells; x1 and y1 are past the end.
+        costs: cost for each squared distance in cells, from 0 up to the squared radius.
+        inflate_unknown: True: any cost replaces unknown cells; False: only inscribed and lethal ones.
+    """
+
+def clear_rays(cells: NDArray[uint8], sensor: tuple[float, float], ends: NDArray[float64], *, range: float) -> None:
+    """Free the cells along rays, as far as `range`.
+
+    Args:
+        cells: costs, changed in place.
+        sensor: x, y in cells; (0, 0) is the outer corner of the first one.
+        ends: (n, 2) in cells.
+        range: in cells.
+
+    Raises:
+        ValueError: the sensor is outside the grid.
+    """
+
+def wave_front(
+    costs: NDArray[float32], seeds: Sequence[tuple[int, int]], *, stop: tuple[int, int] = (-1, -1)
+) -> NDArray[float32]:
+    """Return the least cost of a way from any seed to each cell, by the eikonal equation.
+
+    Args:
+        costs: cost of crossing a cell; not positive or ≥ UNREACHED: impassable.
+        seeds: cells (x, y) of potential 0; those outside are left out.
+        stop: the front ends once it has passed this cell; outside the grid: it reaches every cell.
+    """
+
+def descend(potential: NDArray[float32], start: tuple[int, int], end: tuple[int, int]) -> NDArray[float64]:
+    """Return the steepest descent (n, 2) from a cell to a seed, in cells, where (0, 0) is a center; empty if none."""
+
+class RolloutSettings:
+    """How trajectories are simulated, and where they are measured."""
+
+    def __init__(
+        self,
+        *,
+        sim_time: float,
+        granularity: float,
+        angular_granularity: float,
+        forward_point: float = 0.0,
+        acceleration: _Triple = (0.0, 0.0, 0.0),
+        accelerates: bool = False,
+        sums_costs: bool = False,
+    ) -> None:
+        """Take the settings of a planner.
+
+        Args:
+            sim_time: length of a trajectory [s].
+            granularity: distance of two points [m].
+            angular_granularity: angle between two points [rad].
+            forward_point: point ahead of the center, where the alignment is measured [m].
+            acceleration: limits of x, y [m/s²] and yaw [rad/s²].
+            accelerates: True: the velocity changes all the way from the present one to the sample.
+            sums_costs: True: costs of obstacles add up along the way; False: the highest counts.
+        """
+
+class RolloutMaps:
+    """Grids that trajectories are scored in; they must not change while it is used."""
+
+    def __init__(
+        self,
+        *,
+        costs: NDArray[uint8],
+        path: NDArray[float32],
+        goal: NDArray[float32],
+        front: NDArray[float32],
+        origin: tuple[float, float],
+        resolution: float,
+    ) -> None:
+        """Take grids of one shape: costs, and distances in cells to the path, its end, and a point beyond its end."""
+
+def score_rollouts(
+    settings: RolloutSettings,
+    maps: RolloutMaps,
+    footprint: NDArray[float64],
+    pose: _Triple,
+    velocity: _Triple,
+    targets: NDArray[float64],
+) -> NDArray[float64]:
+    """Return the terms (n, 6) of trajectories: obstacles, path, goal, front, alignment, number of points.
+
+    Obstacles: a cost of costmap_2d, −1 in a collision, −2 off the map or in unknown space; the others in cells, at the
+    trajectory's end.
+
+    Args:
+        settings: see `RolloutSettings`.
+        maps: see `RolloutMaps`.
+        footprint: (n, 2) polygon around the robot's origin [m]; under three points: the center alone.
+        pose: x, y [m] and yaw [rad] now.
+        velocity: velocity now, in the robot's frame [m/s], [rad/s].
+        targets: (n, 3) velocities of the samples.
+    """
+
+def roll_out(settings: RolloutSettings, pose: _Triple, velocity: _Triple, target: _Triple) -> list[Any]:
+    """Return the poses of one trajectory."""
+
+def footprint_cost(
+    costs: NDArray[uint8],
+    origin: tuple[float, float],
+    resolution: float,
+    footprint: NDArray[float64],
+    pose: _Triple,
+) -> float:
+    """Return the highest cost under a footprint's edges and its center; negative as in `score_rollouts`."""

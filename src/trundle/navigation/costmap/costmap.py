@@ -1,0 +1,111 @@
+"""A grid of costs in the plane of a frame."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+FREE_SPACE, INSCRIBED, LETHAL, NO_INFORMATION = 0, 253, 254, 255
+"""Costs of costmap_2d: between free and inscribed, the center of the robot may be there."""
+MAX_CELLS = 100_000_000
+"""Most cells of one grid."""
+
+
+@dataclass(slots=True)
+class Costmap:
+    """Costs of cells; row 0 is at the smallest y."""
+
+    width: int
+    height: int
+    resolution_m: float
+    origin: tuple[float, float]
+    """Outer corner of the first cell [m]."""
+    default: int = FREE_SPACE
+    """Cost of cells that nothing was observed of."""
+    cells: NDArray[np.uint8] = field(init=False)
+    """(height, width)"""
+
+    def __post_init__(self) -> None:
+        self.clear()
+
+    def clear(self) -> None:
+        """Give every cell the default cost."""
+        self.cells = np.full((self.height, self.width), self.default, dtype=np.uint8)
+
+    @property
+    def geometry(self) -> tuple[int, int, float, tuple[float, float]]:
+        """Size in cells, resolution [m] and origin [m]."""
+        return self.width, self.height, self.resolution_m, self.origin
+
+    def cell(self, x: float, y: float) -> tuple[int, int] | None:
+        """Return the column and row of a point [m]; None outside."""
+        column = (x - self.origin[0]) / self.resolution_m
+        row = (y - self.origin[1]) / self.resolution_m
+        return (int(column), int(row)) if 0.0 <= column < self.width and 0.0 <= row < self.height else None
+
+    def in_cells(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Convert points (n, 2) [m] to cells; the first cell reaches from 0 to 1."""
+        return (points - np.array(self.origin)) / self.resolution_m
+
+    def center(self, column: float, row: float) -> tuple[float, float]:
+        """Return the center of a cell [m]."""
+        return (
+            self.origin[0] + (column + 0.5) * self.resolution_m,
+            self.origin[1] + (row + 0.5) * self.resolution_m,
+        )
+
+    def shift_to(self, x: float, y: float) -> None:
+        """Move the origin to the grid's cell at a point [m]; costs stay where they are in the frame."""
+        columns = math.floor((x - self.origin[0]) / self.resolution_m)
+        rows = math.floor((y - self.origin[1]) / self.resolution_m)
+        if columns == rows == 0:
+            return
+        old = self.cells
+        self.clear()
+        self.origin = (
+            self.origin[0] + columns * self.resolution_m,
+            self.origin[1] + rows * self.resolution_m,
+        )
+        if abs(columns) < self.width and abs(rows) < self.height:
+            kept = old[max(rows, 0) : self.height + min(rows, 0), max(columns, 0) : self.width + min(columns, 0)]
+            top, left = max(-rows, 0), max(-columns, 0)
+            self.cells[top : top + kept.shape[0], left : left + kept.shape[1]] = kept
+
+
+@dataclass(slots=True)
+class Bounds:
+    """The part of a costmap that an update may change [m]; empty at first."""
+
+    min_x: float = math.inf
+    min_y: float = math.inf
+    max_x: float = -math.inf
+    max_y: float = -math.inf
+
+    def touch(self, points: NDArray[np.float64]) -> None:
+        """Extend to points (n, 2) [m]."""
+        if len(points):
+            (low_x, low_y), (high_x, high_y) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+            self.join(Bounds(low_x, low_y, high_x, high_y))
+
+    def join(self, other: "Bounds", margin: float = 0.0) -> None:
+        """Extend to other bounds, and a margin around them [m]."""
+        self.min_x, self.min_y = min(self.min_x, other.min_x - margin), min(self.min_y, other.min_y - margin)
+        self.max_x, self.max_y = max(self.max_x, other.max_x + margin), max(self.max_y, other.max_y + margin)
+
+    def touch_all(self, costmap: Costmap) -> None:
+        """Extend to a whole costmap."""
+        x, y = costmap.origin
+        across, along = costmap.width * costmap.resolution_m, costmap.height * costmap.resolution_m
+        self.join(Bounds(x, y, x + across, y + along))
+
+    def window(self, costmap: Costmap) -> tuple[int, int, int, int]:
+        """Return the cells x0, y0, x1, y1 within the costmap; x1 and y1 are past the end."""
+        if self.min_x > self.max_x:
+            return 0, 0, 0, 0
+        low = costmap.in_cells(np.array([[self.min_x, self.min_y]]))[0]
+        high = costmap.in_cells(np.array([[self.max_x, self.max_y]]))[0]
+        size = (costmap.width, costmap.height)
+        x0, y0 = (int(min(max(math.floor(value), 0), limit)) for value, limit in zip(low, size, strict=True))
+        x1, y1 = (int(min(max(math.floor(value) + 1, 0), limit)) for value, limit in zip(high, size, strict=True))
+        return x0, y0, max(x1, x0), max(y1, y0)
