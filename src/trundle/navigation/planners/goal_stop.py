@@ -1,0 +1,99 @@
+"""The end of the way: stop, and turn to the goal's direction; base_local_planner's LatchedStopRotateController."""
+
+import math
+from collections.abc import Callable
+from typing import Protocol
+
+from trundle.ros import Node
+
+from .interfaces import Pose2D
+from .motion import angle_between, approach, turning_speed
+
+
+class StopLimits(Protocol):
+    """Parameters of the end of the way."""
+
+    xy_goal_tolerance: float
+    yaw_goal_tolerance: float
+    latch_xy_goal_tolerance: bool
+    acc_lim_x: float
+    acc_lim_y: float
+    acc_lim_theta: float
+
+
+Velocity = tuple[float, float, float]
+
+
+class GoalStop:
+    """Stops within the tolerance of the goal, then turns on the spot."""
+
+    def __init__(self, node: Node, limits: StopLimits, *, stopped_speed: float, stopped_turn: float) -> None:
+        """Take the limits.
+
+        Args:
+            node: node that logs.
+            limits: tolerances and accelerations.
+            stopped_speed: greatest speed of a robot that stands [m/s].
+            stopped_turn: greatest turning speed of a robot that stands [rad/s].
+        """
+        self._node = node
+        self._limits = limits
+        self._stopped_speed = stopped_speed
+        self._stopped_turn = stopped_turn
+        self._is_latched = False
+        self._is_turning = False
+
+    def reset(self, *, is_new_goal: bool) -> None:
+        """Begin a plan."""
+        self._is_turning = False
+        if is_new_goal or not self._limits.latch_xy_goal_tolerance:
+            self._is_latched = False
+
+    def is_at_position(self, pose: Pose2D, goal: Pose2D) -> bool:
+        """True within the tolerance of the goal's position, or with a latch once it was."""
+        is_near = math.hypot(goal.x - pose.x, goal.y - pose.y) <= self._limits.xy_goal_tolerance
+        if is_near and self._limits.latch_xy_goal_tolerance:
+            self._is_latched = True
+        return is_near or self._is_latched
+
+    def is_reached(self, pose: Pose2D, goal: Pose2D, velocity: Velocity) -> bool:
+        """True if the robot stands at the goal."""
+        angle = angle_between(pose.yaw, goal.yaw)
+        is_there = self.is_at_position(pose, goal) and abs(angle) <= self._limits.yaw_goal_tolerance
+        return is_there and self._stands(velocity)
+
+    def _stands(self, velocity: Velocity) -> bool:
+        x, y, turn = velocity
+        return abs(turn) <= self._stopped_turn and abs(x) <= self._stopped_speed and abs(y) <= self._stopped_speed
+
+    def command(
+        self,
+        pose: Pose2D,
+        goal: Pose2D,
+        velocity: Velocity,
+        *,
+        least_turn: float,
+        most_turn: float,
+        period_s: float,
+        is_free: Callable[[Velocity], bool],
+    ) -> Velocity | None:
+        """Return the velocity that stops or turns; None if the footprint would collide."""
+        limits = self._limits
+        angle = angle_between(pose.yaw, goal.yaw)
+        if abs(angle) <= limits.yaw_goal_tolerance:
+            self._is_turning = False
+            return 0.0, 0.0, 0.0
+        x, y, turn = velocity
+        if not self._is_turning and not self._stands(velocity):
+            stop = (
+                approach(x, 0.0, limits.acc_lim_x * period_s),
+                approach(y, 0.0, limits.acc_lim_y * period_s),
+                approach(turn, 0.0, limits.acc_lim_theta * period_s),
+            )
+            return stop if is_free(stop) else None
+        self._is_turning = True
+        speed = turning_speed(
+            angle, turn, least=least_turn, most=most_turn, acceleration=limits.acc_lim_theta, period_s=period_s
+        )
+        rotation = (0.0, 0.0, speed)
+        return rotation if is_free(rotation) else None
