@@ -42,6 +42,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("joy", "joy_node"): "trundle.gazebo.nodes.joy_node:JoyNode",
     ("map_server", "map_saver"): "trundle.gazebo.nodes.map_server:MapSaver",
     ("map_server", "map_server"): "trundle.gazebo.nodes.map_server:MapServer",
+    ("move_base", "move_base"): "trundle.navigation.move_base:MoveBase",
     ("nodelet", "nodelet"): "trundle.gazebo.nodes.nodelet:Nodelet",
     (
         "pointcloud_to_laserscan",

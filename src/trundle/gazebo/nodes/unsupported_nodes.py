@@ -19,7 +19,6 @@ ALTERNATIVES: dict[str, str] = {
     "hector_mapping": _NAVIGATION,
     "karto_slam": _NAVIGATION,
     "slam_karto": _NAVIGATION,
-    "move_base": _NAVIGATION,
     "moveit_ros_move_group": _NAVIGATION,
     "moveit_ros_visualization": _NAVIGATION,
     "moveit_ros_benchmarks": _NAVIGATION,
