@@ -367,6 +367,10 @@ class nav_msgs:
         pose: geometry_msgs.PoseWithCovariance
         twist: geometry_msgs.TwistWithCovariance
 
+    class SetMapRequest(TypedMessage, Protocol):
+        map: nav_msgs.OccupancyGrid
+        initial_pose: geometry_msgs.PoseWithCovarianceStamped
+
 class roscpp:
     class GetLoggersRequest(TypedMessage, Protocol): ...
 

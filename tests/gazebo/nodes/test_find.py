@@ -33,24 +33,24 @@ def test_a_program_of_the_package_is_preferred_to_a_stand_in(tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("sources", "built"),
     [
-        ("share/amcl", "lib/amcl"),  # /opt/ros/noetic
-        ("ws/src/navigation/amcl", "ws/devel/lib/amcl"),
-        ("ws/src/amcl", "ws/install/lib/amcl"),
-        ("ws/src/amcl", "ws/install/amcl/lib/amcl"),  # colcon
-        ("elsewhere/amcl", "prefix/lib/amcl"),
+        ("share/moveit_servo", "lib/moveit_servo"),  # /opt/ros/noetic
+        ("ws/src/navigation/moveit_servo", "ws/devel/lib/moveit_servo"),
+        ("ws/src/moveit_servo", "ws/install/lib/moveit_servo"),
+        ("ws/src/moveit_servo", "ws/install/moveit_servo/lib/moveit_servo"),  # colcon
+        ("elsewhere/moveit_servo", "prefix/lib/moveit_servo"),
     ],
 )
 def test_a_built_program_runs_if_there_is_no_stand_in(tmp_path: Path, sources: str, built: str) -> None:
     """roslaunch and rosrun search there too; most installed ROS programs are not scripts in a package's folder."""
     folder = tmp_path / sources
     folder.mkdir(parents=True)
-    path = program(tmp_path / built / "amcl")
+    path = program(tmp_path / built / "moveit_servo")
     env = {"CMAKE_PREFIX_PATH": f"{tmp_path / 'none'}:{tmp_path / 'prefix'}"}
-    assert find_node("amcl", "amcl", lambda _: folder, env=env) == Executable(path)
-    assert program_names("amcl", folder, env=env) == {"amcl"}
+    assert find_node("moveit_servo", "moveit_servo", lambda _: folder, env=env) == Executable(path)
+    assert program_names("moveit_servo", folder, env=env) == {"moveit_servo"}
 
-    script = program(folder / "scripts/amcl")
-    assert find_node("amcl", "amcl", lambda _: folder, env=env) == Executable(script)
+    script = program(folder / "scripts/moveit_servo")
+    assert find_node("moveit_servo", "moveit_servo", lambda _: folder, env=env) == Executable(script)
 
 
 def test_a_stand_in_is_preferred_to_an_installed_program(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """Catalog of built-in replacements for stock executables, imported on use."""
 
 BUILTIN_NODES: dict[tuple[str, str], str] = {
+    ("amcl", "amcl"): "trundle.navigation.localization:Amcl",
     ("arbotix_controllers", "gripper_controller"): "trundle.gazebo.nodes.arbotix:GripperController",
     ("arbotix_controllers", "gripper_controller.py"): "trundle.gazebo.nodes.arbotix:GripperController",
     ("arbotix_python", "arbotix_driver"): "trundle.gazebo.nodes.arbotix:ArbotixDriver",

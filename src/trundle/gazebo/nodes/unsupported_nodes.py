@@ -9,7 +9,6 @@ _ROSSERIAL = (
 )
 
 ALTERNATIVES: dict[str, str] = {
-    "amcl": _NAVIGATION,
     "cartographer_ros": _NAVIGATION,
     "costmap_2d": _NAVIGATION,
     "explore_lite": _NAVIGATION,

@@ -20,10 +20,10 @@ _NODES = """
     tf2_web_republisher topic_tools turtlesim twist_mux
 """
 _NODES_WITH_FILES = """
-    cv_camera depthimage_to_laserscan fake_localization gscam image_view joy move_base
-    pointcloud_to_laserscan robot_localization
-    robot_pose_publisher sound_play teleop_twist_joy teleop_twist_keyboard turtlebot3_teleop turtlebot_teleop usb_cam
-    web_video_server
+    amcl cv_camera depthimage_to_laserscan fake_localization gscam image_view joy move_base
+    pointcloud_to_laserscan
+    robot_localization robot_pose_publisher sound_play teleop_twist_joy teleop_twist_keyboard turtlebot3_teleop
+    turtlebot_teleop usb_cam web_video_server
 """
 _PLUGINS = """
     gazebo_grasp_plugin gazebo_plugins gazebo_ros_control gazebo_ros_link_attacher hector_gazebo_plugins

@@ -1,0 +1,184 @@
+#include "laser_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trundle::navigation {
+
+// End points of the beams in the robot's frame, in cells.
+struct LaserModel::Beams {
+  std::vector<float> x, y;
+};
+
+LaserModel::LaserModel(const LaserOptions& options, std::shared_ptr<const OccupancyMap> map)
+    : options_(options), map_(std::move(map)) {
+  if (options_.kind != LaserKind::kBeam) distances_ = distances_to_occupied(*map_, options_.max_distance);
+}
+
+namespace {
+
+std::size_t beam_step(const LaserScan& scan, int max_beams) {
+  if (scan.ranges.empty() || max_beams < 2) return std::max<std::size_t>(1, scan.ranges.size());
+  return std::max<std::size_t>(1, (scan.ranges.size() - 1) / static_cast<std::size_t>(max_beams - 1));
+}
+
+double cube(double value) { return value * value * value; }
+
+}  // namespace
+
+LaserModel::Beams LaserModel::used_beams(const LaserScan& scan) const {
+  Beams beams;
+  const double scale = 1.0 / map_->resolution;
+  for (std::size_t i = 0; i < scan.ranges.size(); i += beam_step(scan, options_.max_beams)) {
+    if (!(scan.ranges[i] < scan.range_max)) continue;  // nothing was hit; NaN too
+    beams.x.push_back(static_cast<float>(scale * (scan.x + scan.ranges[i] * std::cos(scan.bearings[i]))));
+    beams.y.push_back(static_cast<float>(scale * (scan.y + scan.ranges[i] * std::sin(scan.bearings[i]))));
+  }
+  return beams;
+}
+
+// Terms of a beam's end by the cell in which it lies; outside the map, as far from obstacles as possible.
+void LaserModel::fill_table(double range_max) {
+  if (range_max == table_range_max_) return;
+  table_range_max_ = range_max;
+  const double random = options_.z_rand / range_max, denominator = 2.0 * options_.sigma_hit * options_.sigma_hit;
+  const auto term = [&](double distance) {
+    const double p = options_.z_hit * std::exp(-distance * distance / denominator) + random;
+    return static_cast<float>(options_.kind == LaserKind::kLikelihoodField ? cube(p) : std::log(p));
+  };
+  const auto width = static_cast<std::size_t>(map_->width), height = static_cast<std::size_t>(map_->height);
+  table_.assign((width + 2) * (height + 2), term(options_.max_distance));
+  for (std::size_t row = 0; row < height; ++row)
+    for (std::size_t column = 0; column < width; ++column)
+      table_[(row + 1) * (width + 2) + column + 1] = term(distances_[row * width + column]);
+}
+
+double LaserModel::weigh(std::vector<Particle>& particles, const LaserScan& scan, bool has_converged) {
+  if (options_.kind == LaserKind::kBeam) {
+    weigh_by_rays(particles, scan);
+    return 0.0;
+  }
+  fill_table(scan.range_max);
+  const Beams beams = used_beams(scan);
+  const bool may_skip = options_.kind == LaserKind::kLikelihoodFieldProb && options_.do_beamskip && has_converged;
+  return weigh_by_table(particles, beams,
+                        may_skip ? agreed_beams(particles, beams) : std::vector<char>(beams.x.size(), 1));
+}
+
+namespace {
+
+// Place of a particle in the table, whose cells' centers have whole coordinates.
+struct Placement {
+  float x, y, c, s;
+
+  Placement(const PlanarPose& pose, const OccupancyMap& map)
+      : x(static_cast<float>((pose.x - map.origin_x) / map.resolution + 0.5)),
+        y(static_cast<float>((pose.y - map.origin_y) / map.resolution + 0.5)),
+        c(static_cast<float>(std::cos(pose.yaw))),
+        s(static_cast<float>(std::sin(pose.yaw))) {}
+};
+
+// Table with the bounds of its cells' centers, read at the ends of beams.
+class Table {
+ public:
+  Table(const std::vector<float>& values, const OccupancyMap& map, std::size_t beams)
+      : values_(values.data()),
+        width_(map.width + 2),
+        max_x_(std::nextafter(static_cast<float>(map.width + 1), 0.0f)),
+        max_y_(std::nextafter(static_cast<float>(map.height + 1), 0.0f)),
+        cells_(beams),
+        u_(beams),
+        v_(beams) {}
+
+  // Calls `use` with the number of each beam and its term, bilinear between the centers of four cells.
+  template <typename Use>
+  void read(const PlanarPose& pose, const OccupancyMap& map, const std::vector<float>& beams_x,
+            const std::vector<float>& beams_y, Use use) {
+    const Placement place(pose, map);
+    const std::size_t count = beams_x.size();
+    for (std::size_t i = 0; i < count; ++i) {  // vectorized; NaN becomes 0
+      const float x = std::min(std::max(0.0f, place.x + place.c * beams_x[i] - place.s * beams_y[i]), max_x_);
+      const float y = std::min(std::max(0.0f, place.y + place.s * beams_x[i] + place.c * beams_y[i]), max_y_);
+      const int column = static_cast<int>(x), row = static_cast<int>(y);
+      u_[i] = x - static_cast<float>(column);
+      v_[i] = y - static_cast<float>(row);
+      cells_[i] = row * width_ + column;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* cell = values_ + cells_[i];
+      const float below = cell[0] + u_[i] * (cell[1] - cell[0]);
+      const float above = cell[width_] + u_[i] * (cell[width_ + 1] - cell[width_]);
+      use(i, below + v_[i] * (above - below));
+    }
+  }
+
+ private:
+  const float* values_;
+  int width_;
+  float max_x_, max_y_;
+  std::vector<int> cells_;
+  std::vector<float> u_, v_;
+};
+
+}  // namespace
+
+double LaserModel::weigh_by_table(std::vector<Particle>& particles, const Beams& beams,
+                                  const std::vector<char>& is_used) const {
+  Table table(table_, *map_, beams.x.size());
+  std::vector<double> sums;
+  for (const Particle& particle : particles) {
+    float sum = 0.0f;
+    table.read(particle.pose, *map_, beams.x, beams.y,
+               [&](std::size_t i, float term) { sum += is_used[i] ? term : 0.0f; });
+    sums.push_back(double{sum});
+  }
+  if (options_.kind == LaserKind::kLikelihoodField) {
+    for (std::size_t p = 0; p < particles.size(); ++p) particles[p].weight *= 1.0 + sums[p];
+    return 0.0;
+  }
+  // Only ratios matter: the best particle's likelihood is kept from becoming zero.
+  const double best = sums.empty() ? 0.0 : *std::max_element(sums.begin(), sums.end());
+  for (std::size_t p = 0; p < particles.size(); ++p) particles[p].weight *= std::exp(sums[p] - best);
+  return best;
+}
+
+// Leaves out the beams that few particles explain; all are used if that were nearly all.
+std::vector<char> LaserModel::agreed_beams(const std::vector<Particle>& particles, const Beams& beams) const {
+  const std::size_t count = beams.x.size();
+  // Terms fall with the distance, so that a distance is compared by its term.
+  const double random = options_.z_rand / table_range_max_, denominator = 2.0 * options_.sigma_hit * options_.sigma_hit;
+  const double skip_square = options_.beam_skip_distance * options_.beam_skip_distance;
+  const auto near_term = static_cast<float>(std::log(options_.z_hit * std::exp(-skip_square / denominator) + random));
+  std::vector<std::size_t> agreeing(count, 0);
+  Table table(table_, *map_, count);
+  for (const Particle& particle : particles)
+    table.read(particle.pose, *map_, beams.x, beams.y,
+               [&](std::size_t i, float term) { agreeing[i] += term > near_term; });
+  std::vector<char> is_used(count, 0);
+  const double needed = options_.beam_skip_threshold * static_cast<double>(particles.size());
+  for (std::size_t i = 0; i < count; ++i) is_used[i] = static_cast<double>(agreeing[i]) > needed;
+  const auto skipped = static_cast<double>(std::count(is_used.begin(), is_used.end(), 0));
+  if (skipped >= options_.beam_skip_error_threshold * static_cast<double>(count)) is_used.assign(count, 1);
+  return is_used;
+}
+
+void LaserModel::weigh_by_rays(std::vector<Particle>& particles, const LaserScan& scan) const {
+  const double denominator = 2.0 * options_.sigma_hit * options_.sigma_hit;
+  const std::size_t step = beam_step(scan, options_.max_beams);
+  for (auto& [pose, weight] : particles) {
+    const PlanarPose laser = compose(pose, {scan.x, scan.y, 0.0});
+    double sum = 1.0;
+    for (std::size_t i = 0; i < scan.ranges.size(); i += step) {
+      if (std::isnan(scan.ranges[i])) continue;
+      const double measured = std::min(scan.ranges[i], scan.range_max);
+      const double error = measured - cast_ray(*map_, laser.x, laser.y, pose.yaw + scan.bearings[i], scan.range_max);
+      double p = options_.z_hit * std::exp(-error * error / denominator);
+      if (error < 0.0) p += options_.z_short * options_.lambda_short * std::exp(-options_.lambda_short * measured);
+      p += measured == scan.range_max ? options_.z_max : options_.z_rand / scan.range_max;
+      sum += cube(p);
+    }
+    weight *= sum;
+  }
+}
+
+}  // namespace trundle::navigation

@@ -1,0 +1,58 @@
+// Likelihood of a laser scan at a pose in a known map: the models of Thrun, Burgard and Fox, "Probabilistic Robotics"
+// (2005), chapter 6, combined over the beams as amcl does.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "occupancy_map.h"
+#include "particle.h"
+
+namespace trundle::navigation {
+
+enum class LaserKind { kBeam, kLikelihoodField, kLikelihoodFieldProb };
+
+struct LaserOptions {
+  LaserKind kind = LaserKind::kLikelihoodField;
+  int max_beams = 30;
+  double z_hit = 0.95, z_short = 0.1, z_max = 0.05, z_rand = 0.05;
+  double sigma_hit = 0.2;     // [m]
+  double lambda_short = 0.1;  // [1/m]
+  double max_distance = 2.0;  // laser_likelihood_max_dist [m]
+  bool do_beamskip = false;
+  double beam_skip_distance = 0.5;  // [m]
+  double beam_skip_threshold = 0.3, beam_skip_error_threshold = 0.9;
+};
+
+struct LaserScan {
+  double x = 0.0, y = 0.0;               // of the laser on the robot [m]
+  double range_max = 0.0;                // [m]; longer ranges hit nothing
+  std::vector<double> ranges, bearings;  // [m], [rad] on the robot
+};
+
+class LaserModel {
+ public:
+  LaserModel(const LaserOptions& options, std::shared_ptr<const OccupancyMap> map);
+
+  // Multiplies the weights by the likelihoods, and returns the logarithm of the factor that they all still lack.
+  //
+  // has_converged: the particles are close together, so that beams which most of them do not explain may be skipped.
+  double weigh(std::vector<Particle>& particles, const LaserScan& scan, bool has_converged);
+
+ private:
+  struct Beams;
+
+  Beams used_beams(const LaserScan& scan) const;
+  void fill_table(double range_max);
+  void weigh_by_rays(std::vector<Particle>& particles, const LaserScan& scan) const;
+  double weigh_by_table(std::vector<Particle>& particles, const Beams& beams, const std::vector<char>& is_used) const;
+  std::vector<char> agreed_beams(const std::vector<Particle>& particles, const Beams& beams) const;
+
+  LaserOptions options_;
+  std::shared_ptr<const OccupancyMap> map_;
+  std::vector<float> distances_;  // [m]
+  std::vector<float> table_;      // of each cell, within a border of one: the beam's term
+  double table_range_max_ = -1.0;
+};
+
+}  // namespace trundle::navigation

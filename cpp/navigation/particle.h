@@ -1,0 +1,13 @@
+// One hypothesis of the robot's pose.
+#pragma once
+
+#include "planar_pose.h"
+
+namespace trundle::navigation {
+
+struct Particle {
+  PlanarPose pose;  // of the robot in the map
+  double weight = 0.0;
+};
+
+}  // namespace trundle::navigation

@@ -1,0 +1,184 @@
+#include "particle_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "pose_bins.h"
+
+namespace trundle::navigation {
+
+namespace {
+
+constexpr double kConvergedDistance = 0.5;  // [m]; amcl's
+constexpr double kGoldenRatio = 0.6180339887498949;
+
+// Lower triangular root of a covariance; directions without variance have none.
+std::array<double, 9> cholesky(const std::array<double, 9>& covariance) {
+  std::array<double, 9> root{};
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column <= row; ++column) {
+      double rest = covariance[3 * row + column];
+      for (std::size_t k = 0; k < column; ++k) rest -= root[3 * row + k] * root[3 * column + k];
+      const double diagonal = root[3 * column + column];
+      if (row == column) root[3 * row + column] = std::sqrt(std::max(0.0, rest));
+      else root[3 * row + column] = diagonal > 0.0 ? rest / diagonal : 0.0;
+    }
+  return root;
+}
+
+// Number of particles so that, with probability kld_z, the divergence is below kld_err. amcl takes kld_z itself for
+// the quantile of the normal distribution.
+int needed_particles(const FilterOptions& options, int bins) {
+  if (bins <= 1) return options.max_particles;
+  const double b = 2.0 / (9.0 * (bins - 1));
+  const double x = 1.0 - b + std::sqrt(b) * options.kld_z;
+  const double count = std::ceil((bins - 1) / (2.0 * options.kld_err) * x * x * x);
+  return static_cast<int>(
+      std::clamp(count, static_cast<double>(options.min_particles), static_cast<double>(options.max_particles)));
+}
+
+// Weighted sums of poses.
+struct Moments {
+  double weight = 0.0, x = 0.0, y = 0.0, c = 0.0, s = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+
+  void add(const Particle& particle) {
+    const auto& [pose, w] = particle;
+    weight += w;
+    x += w * pose.x;
+    y += w * pose.y;
+    c += w * std::cos(pose.yaw);
+    s += w * std::sin(pose.yaw);
+    xx += w * pose.x * pose.x;
+    xy += w * pose.x * pose.y;
+    yy += w * pose.y * pose.y;
+  }
+
+  PlanarPose mean() const { return {x / weight, y / weight, std::atan2(s, c)}; }
+
+  std::array<double, 9> covariance() const {
+    const double mean_x = x / weight, mean_y = y / weight;
+    const double length = std::clamp(std::hypot(c, s) / weight, std::numeric_limits<double>::min(), 1.0);
+    const double across = xy / weight - mean_x * mean_y;
+    return {std::max(0.0, xx / weight - mean_x * mean_x),
+            across,
+            0.0,
+            across,
+            std::max(0.0, yy / weight - mean_y * mean_y),
+            0.0,
+            0.0,
+            0.0,
+            -2.0 * std::log(length)};
+  }
+};
+
+}  // namespace
+
+ParticleFilter::ParticleFilter(const FilterOptions& options, std::shared_ptr<const OccupancyMap> map,
+                               std::uint64_t seed)
+    : options_(options), map_(std::move(map)), random_(seed) {
+  for (std::size_t cell = 0; cell < map_->cells.size(); ++cell)
+    if (map_->cells[cell] == 0) free_cells_.push_back(static_cast<std::int32_t>(cell));
+}
+
+void ParticleFilter::spread(const PlanarPose& mean, const std::array<double, 9>& covariance) {
+  const auto root = cholesky(covariance);
+  slow_average_ = fast_average_ = 0.0;
+  particles_.clear();
+  for (int i = 0; i < options_.max_particles; ++i) {
+    const std::array<double, 3> normal{random_.gaussian(1.0), random_.gaussian(1.0), random_.gaussian(1.0)};
+    const PlanarPose pose{mean.x + root[0] * normal[0], mean.y + root[3] * normal[0] + root[4] * normal[1],
+                          mean.yaw + root[6] * normal[0] + root[7] * normal[1] + root[8] * normal[2]};
+    particles_.push_back({{pose.x, pose.y, normalized_angle(pose.yaw)}, 1.0 / options_.max_particles});
+  }
+}
+
+void ParticleFilter::spread_over_map() {
+  slow_average_ = fast_average_ = 0.0;
+  particles_.clear();
+  for (int i = 0; i < options_.max_particles; ++i) particles_.push_back({random_pose(), 1.0 / options_.max_particles});
+}
+
+PlanarPose ParticleFilter::random_pose() {
+  const double yaw = (2.0 * random_.uniform() - 1.0) * std::numbers::pi;
+  if (free_cells_.empty()) return {map_->origin_x, map_->origin_y, yaw};
+  const auto index = static_cast<std::size_t>(random_.uniform() * static_cast<double>(free_cells_.size()));
+  const int column = free_cells_[index] % map_->width, row = free_cells_[index] / map_->width;
+  return {map_->origin_x + (column + 0.5) * map_->resolution, map_->origin_y + (row + 0.5) * map_->resolution, yaw};
+}
+
+bool ParticleFilter::has_converged() const {
+  double x = 0.0, y = 0.0;
+  for (const auto& particle : particles_) {
+    x += particle.pose.x / static_cast<double>(particles_.size());
+    y += particle.pose.y / static_cast<double>(particles_.size());
+  }
+  return std::all_of(particles_.begin(), particles_.end(), [x, y](const Particle& particle) {
+    return std::abs(particle.pose.x - x) <= kConvergedDistance && std::abs(particle.pose.y - y) <= kConvergedDistance;
+  });
+}
+
+void ParticleFilter::weigh(LaserModel& model, const LaserScan& scan) {
+  const double log_scale = model.weigh(particles_, scan, has_converged());
+  double total = 0.0;
+  for (const auto& particle : particles_) total += particle.weight;
+  if (!(total > 0.0)) {
+    for (auto& particle : particles_) particle.weight = 1.0 / static_cast<double>(particles_.size());
+    return;
+  }
+  for (auto& particle : particles_) particle.weight /= total;
+  const double likelihood = total * std::exp(log_scale);
+  slow_average_ =
+      slow_average_ == 0.0 ? likelihood : slow_average_ + options_.alpha_slow * (likelihood - slow_average_);
+  fast_average_ =
+      fast_average_ == 0.0 ? likelihood : fast_average_ + options_.alpha_fast * (likelihood - fast_average_);
+}
+
+void ParticleFilter::resample() {
+  double squares = 0.0;
+  for (const auto& particle : particles_) squares += particle.weight * particle.weight;
+  if (options_.selective_resampling && squares * static_cast<double>(particles_.size()) < 2.0) return;
+  std::vector<double> sums{0.0};
+  for (const auto& particle : particles_) sums.push_back(sums.back() + particle.weight);
+  const double random_share = slow_average_ > 0.0 ? std::max(0.0, 1.0 - fast_average_ / slow_average_) : 0.0;
+  std::vector<Particle> drawn;
+  PoseBins bins;
+  // Every beginning of this sequence is evenly distributed over [0, 1), however many particles are drawn.
+  double place = random_.uniform();
+  while (static_cast<int>(drawn.size()) < options_.max_particles) {
+    PlanarPose pose;
+    if (random_share > 0.0 && random_.uniform() < random_share) {
+      pose = random_pose();
+    } else {
+      place += kGoldenRatio;
+      if (place >= 1.0) place -= 1.0;
+      const auto above = std::upper_bound(sums.begin() + 1, sums.end() - 1, place * sums.back());
+      pose = particles_[static_cast<std::size_t>(above - sums.begin() - 1)].pose;
+    }
+    drawn.push_back({pose, 0.0});
+    bins.add(pose);
+    if (static_cast<int>(drawn.size()) >= needed_particles(options_, bins.count())) break;
+  }
+  for (auto& particle : drawn) particle.weight = 1.0 / static_cast<double>(drawn.size());
+  particles_ = std::move(drawn);
+  if (random_share > 0.0) slow_average_ = fast_average_ = 0.0;  // else ever more random ones would follow
+}
+
+Estimate ParticleFilter::estimate() const {
+  PoseBins bins;
+  std::vector<std::size_t> numbers;
+  for (const auto& particle : particles_) numbers.push_back(static_cast<std::size_t>(bins.add(particle.pose)));
+  const std::vector<int> clusters = bins.clusters();
+  std::vector<Moments> moments(clusters.size());
+  Moments all;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    moments[static_cast<std::size_t>(clusters[numbers[i]])].add(particles_[i]);
+    all.add(particles_[i]);
+  }
+  const auto heaviest = std::max_element(moments.begin(), moments.end(),
+                                         [](const Moments& a, const Moments& b) { return a.weight < b.weight; });
+  return {heaviest->mean(), all.covariance()};
+}
+
+}  // namespace trundle::navigation

@@ -1,0 +1,197 @@
+"""amcl's particle filter: its parts against mathematics, and localization in a small house."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, strategies as st
+from scipy.ndimage import distance_transform_edt
+from tests.navigation.house import RANGE_MAX, RESOLUTION, bearings, house_cells, house_map, ranges_at
+
+from trundle.navigation.localization._localization import (
+    FilterOptions,
+    LaserModel,
+    LaserOptions,
+    OccupancyMap,
+    OdometryModel,
+    ParticleFilter,
+)
+
+NO_SPREAD = (0.0,) * 9
+BEAM, FIELD, PROB = range(3)
+DIFF, OMNI, DIFF_CORRECTED, OMNI_CORRECTED = range(4)
+
+
+def options(*, count: int = 500, **more: Any) -> FilterOptions:
+    defaults = {"kld_err": 0.01, "kld_z": 0.99, "alpha_slow": 0.0, "alpha_fast": 0.0}
+    return FilterOptions(**{"min_particles": count, "max_particles": count, **defaults, **more})
+
+
+def laser(kind: int = FIELD, **more: Any) -> LaserModel:
+    laser_options = LaserOptions()
+    laser_options.kind = kind
+    for name, value in more.items():
+        setattr(laser_options, name, value)
+    return LaserModel(laser_options, house_map())
+
+
+def weigh(particles: ParticleFilter, model: LaserModel, ranges: Any) -> None:
+    particles.weigh(model, ranges, bearings(), range_max=RANGE_MAX, x=0.0, y=0.0)
+
+
+@given(st.integers(1, 12), st.integers(1, 12), st.integers(0, 2**32 - 1))
+def test_distances_are_those_of_the_euclidean_transform(width: int, height: int, seed: int) -> None:
+    cells = np.random.default_rng(seed).choice(
+        np.array([0, 100, -1], dtype=np.int8), (height, width), p=[0.7, 0.2, 0.1]
+    )
+    distances = OccupancyMap(cells, resolution=0.5, x=0.0, y=0.0).distances(2.0)
+
+    expected = np.full(cells.shape, 2.0)
+    if (cells == 100).any():
+        expected = np.minimum(2.0, 0.5 * np.asarray(distance_transform_edt(cells != 100)))
+    assert distances == pytest.approx(expected, abs=1e-5)
+
+
+def test_rays_end_at_the_face_of_the_first_cell_that_is_not_free() -> None:
+    world = house_map()
+    assert world.cast_ray(2.0, 1.0, 0.0, 8.0) == pytest.approx(1.5)
+    assert world.cast_ray(2.0, 1.0, math.pi, 8.0) == pytest.approx(2.0 - RESOLUTION)
+    assert world.cast_ray(2.0, 1.0, 0.0, 1.0) == 1.0
+    assert world.cast_ray(2.0, 1.0, math.atan2(1.0, 1.5), 8.0) == pytest.approx(math.hypot(1.0, 1.5), abs=1e-9)
+    assert world.cast_ray(-1.0, 1.0, 0.0, 8.0) == 8.0
+
+
+@pytest.mark.parametrize("kind", [DIFF, OMNI, DIFF_CORRECTED, OMNI_CORRECTED])
+def test_odometry_without_noise_moves_particles_exactly(kind: int) -> None:
+    """Half a metre ahead in a turn of 30°, as seen from another frame."""
+    particles = ParticleFilter(options(count=3), house_map(), seed=1)
+    particles.spread((1.0, 2.0, math.pi / 2), NO_SPREAD)
+    particles.move(OdometryModel(kind, (0.0, 0.0, 0.0, 0.0, 0.0)), (0.0, 0.0, 0.0), (0.5, 0.1, 0.5))
+
+    assert particles.particles()[:, :3] == pytest.approx(np.tile([0.9, 2.5, math.pi / 2 + 0.5], (3, 1)))
+
+
+@pytest.mark.parametrize(("kind", "sigma"), [(DIFF_CORRECTED, math.sqrt(0.2)), (DIFF, 0.2), (OMNI_CORRECTED, 0.447)])
+def test_noise_of_the_distance_has_the_models_deviation(kind: int, sigma: float) -> None:
+    """odom_alpha3 alone; the plain models take the variance for the deviation."""
+    particles = ParticleFilter(options(count=20000), house_map(), seed=1)
+    particles.spread((0.0, 0.0, 0.0), NO_SPREAD)
+    particles.move(OdometryModel(kind, (0.0, 0.0, 0.2, 0.0, 0.0)), (0.0, 0.0, 0.0), (1.0, 0.0, 0.0))
+
+    assert particles.particles()[:, 0].mean() == pytest.approx(1.0, abs=0.02)
+    assert particles.particles()[:, 0].std() == pytest.approx(sigma, rel=0.03)
+    assert particles.particles()[:, 1].std() == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_spread_has_the_requested_covariance() -> None:
+    covariance = np.array([[0.3, 0.1, 0.0], [0.1, 0.2, 0.0], [0.0, 0.0, 0.05]])
+    particles = ParticleFilter(options(count=20000), house_map(), seed=1)
+    particles.spread((3.0, 2.0, 0.0), tuple(covariance.ravel()))
+
+    assert np.cov(particles.particles()[:, :3].T) == pytest.approx(covariance, abs=0.01)
+    _, estimated = particles.estimate()
+    assert np.array(estimated).reshape(3, 3) == pytest.approx(covariance, abs=0.01)
+
+
+@pytest.mark.parametrize("kind", [BEAM, FIELD, PROB])
+@pytest.mark.parametrize("has_skipping", [False, True])
+def test_the_true_pose_weighs_most(kind: int, has_skipping: bool) -> None:
+    world, true = house_map(), (1.0, 1.0, 0.3)
+    particles = ParticleFilter(options(count=2000), world, seed=1)
+    particles.spread(true, (0.04, 0.0, 0.0, 0.0, 0.04, 0.0, 0.0, 0.0, 0.02))
+    weigh(particles, laser(kind, do_beamskip=has_skipping), ranges_at(world, true))
+
+    rows = particles.particles()
+    best = rows[rows[:, 3].argmax()]
+    assert np.hypot(*(best[:2] - true[:2])) < 0.05
+    assert best[2] == pytest.approx(0.3, abs=0.06)
+    assert rows[:, 3].sum() == pytest.approx(1.0)
+
+
+def test_beams_that_few_particles_explain_are_skipped() -> None:
+    """People around the robot: half of the beams end at 0.4 m."""
+    world, true = house_map(), (1.0, 1.0, 0.3)
+    ranges = ranges_at(world, true)
+    ranges[:180] = 0.4
+    found: list[float] = []
+    for has_skipping in (False, True):
+        particles = ParticleFilter(options(count=2000), world, seed=1)
+        particles.spread(true, (0.01, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.01))
+        skipping = {"do_beamskip": has_skipping, "beam_skip_distance": 0.3}
+        weigh(particles, laser(PROB, **skipping), ranges)
+        rows = particles.particles()
+        best = rows[rows[:, 3].argmax()]
+        found.append(float(np.hypot(*(best[:2] - true[:2]))))
+    assert found[1] < 0.05 < found[0]
+
+
+def test_fewer_particles_suffice_when_they_are_close_together() -> None:
+    """As many as bins of 0.5 m and 10° need."""
+    particles = ParticleFilter(options(min_particles=100, max_particles=5000), house_map(), seed=1)
+    particles.spread_over_map()
+    particles.resample()
+    scattered = len(particles.particles())
+    particles.spread((2.3, 2.3, 0.05), (1e-4, 0.0, 0.0, 0.0, 1e-4, 0.0, 0.0, 0.0, 0.01))
+    particles.resample()
+
+    assert scattered == 5000
+    assert len(particles.particles()) < 500
+
+
+def test_resampling_draws_in_proportion_to_the_weights() -> None:
+    world = house_map()
+    particles = ParticleFilter(options(count=2000), world, seed=1)
+    particles.spread((1.0, 1.0, 0.0), (0.04, 0.0, 0.0, 0.0, 0.04, 0.0, 0.0, 0.0, 0.02))
+    weigh(particles, laser(), ranges_at(world, (1.0, 1.0, 0.0)))
+    rows = particles.particles()
+    particles.resample()
+
+    drawn = particles.particles()
+    assert drawn[:, :3].mean(axis=0) == pytest.approx(rows[:, 3] @ rows[:, :3], abs=6e-3)
+
+
+def test_random_particles_come_when_scans_become_unlikely() -> None:
+    """Adaptive recovery after the robot was carried into the other room."""
+    world = house_map()
+    particles = ParticleFilter(options(count=1000, alpha_slow=0.01, alpha_fast=0.9), world, seed=1)
+    particles.spread((1.0, 1.0, 0.0), (1e-4, 0.0, 0.0, 0.0, 1e-4, 0.0, 0.0, 0.0, 1e-4))
+    model = laser()
+    for _ in range(3):
+        weigh(particles, model, ranges_at(world, (1.0, 1.0, 0.0)))
+    particles.resample()
+    assert particles.particles()[:, 0].max() < 1.5
+
+    for _ in range(3):
+        weigh(particles, model, ranges_at(world, (5.0, 1.0, 2.0)))
+    particles.resample()
+    assert (particles.particles()[:, 0] > 3.6).sum() > 50
+
+
+def test_same_seeds_draw_the_same_particles() -> None:
+    def run() -> bytes:
+        particles = ParticleFilter(options(), house_map(), seed=7)
+        particles.spread_over_map()
+        weigh(particles, laser(), ranges_at(house_map(), (1.0, 1.0, 0.0)))
+        particles.resample()
+        return particles.particles().tobytes()
+
+    assert run() == run()
+
+
+def test_hostile_inputs_are_refused_or_leave_the_weights_finite() -> None:
+    with pytest.raises(ValueError, match="resolution"):
+        OccupancyMap(house_cells(), resolution=math.nan, x=0.0, y=0.0)
+    empty = OccupancyMap(np.zeros((0, 0), dtype=np.int8), resolution=0.05, x=0.0, y=0.0)
+    for world in (empty, house_map(), OccupancyMap(house_cells(), resolution=0.05, x=math.nan, y=math.inf)):
+        particles = ParticleFilter(options(count=10), world, seed=1)
+        particles.spread((math.nan, 1e300, -math.inf), (1e300,) * 9)
+        laser_options = LaserOptions()
+        for kind in (BEAM, FIELD, PROB):
+            laser_options.kind = kind
+            ranges = np.array([math.nan, math.inf, -math.inf, 1e300, 1.0])
+            model = LaserModel(laser_options, world)
+            particles.weigh(model, ranges, np.full(5, math.nan), range_max=8.0, x=math.nan, y=0.0)
+            particles.estimate()
+            particles.resample()
+            assert np.isfinite(particles.particles()[:, 3]).all()
