@@ -36,6 +36,7 @@ BENCHES = {
     "launches": "launch files to their first message",
     "page": "CPU time of the page's server",
     "page_start": "a page's start in Chromium",
+    "page_slow": "a slow page beside another one",
     "page_pointer": "pointer events in large worlds",
 }
 """Module name → measurement."""
