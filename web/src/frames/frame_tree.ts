@@ -16,6 +16,14 @@ export interface FrameInfo {
   readonly publisher: string | null;
 }
 
+/** Frames that are drawn at one time with the simulated world. */
+export interface DrawnFrames extends FrameTree {
+  /** Time at which a frame is looked up where its newest pose is asked for, if that is later [ns]; null: the newest. */
+  drawnAt: bigint | null;
+  /** Newest common time of two frames [ns]; 0n: nothing moves between them, or they are not connected. */
+  newestTime(target: string, source: string): bigint;
+}
+
 export interface FrameTree {
   /** Names of all frames, sorted; changes only when a frame appears, is forgotten or gets another parent. */
   readonly frames: ReadonlySignal<readonly string[]>;

@@ -5,7 +5,7 @@ import { Quaternion, Vector3 } from "three";
 
 import type { TransformStamped } from "../protocol/generated/ros_messages";
 import { nanoseconds } from "../protocol/ros_types";
-import type { FrameInfo, FrameTree } from "./frame_tree";
+import type { DrawnFrames, FrameInfo } from "./frame_tree";
 import { NoTransform, type Transform } from "./transform";
 import { TransformHistory, type Sample } from "./transform_history";
 
@@ -18,7 +18,11 @@ const MAX_NAMES = 12;
 
 const LOOP = "The tf tree is invalid because it contains a loop";
 
-export class TransformTree implements FrameTree {
+/** Time before the newest pose within which a frame is drawn in the past [ns]: an older time is another run's. */
+const MAX_PAST = 1_000_000_000n;
+
+export class TransformTree implements DrawnFrames {
+  drawnAt: bigint | null = null;
   readonly frames = signal<readonly string[]>([]);
   readonly #moving = new Map<string, TransformHistory>();
   readonly #static = new Map<string, Sample>();
@@ -75,6 +79,13 @@ export class TransformTree implements FrameTree {
     return typeof result === "string" ? new NoTransform(`No transform from [${from}] to [${to}]`, result) : result;
   }
 
+  newestTime(target: string, source: string): bigint {
+    const up = this.#ancestors(bareName(source));
+    const down = this.#ancestors(bareName(target));
+    const common = down === null ? undefined : up?.find((name) => down.includes(name));
+    return common === undefined ? 0n : this.#commonTime(up ?? [], down ?? [], common);
+  }
+
   #parent(name: string): string | null {
     return (this.#static.get(name) ?? this.#moving.get(name)?.newest)?.parent ?? null;
   }
@@ -92,7 +103,18 @@ export class TransformTree implements FrameTree {
         "Tf has two or more unconnected trees"
       );
     }
-    const stamp = time === 0n ? this.#commonTime(up, down, common) : time;
+    if (time !== 0n) return this.#between(to, from, common, time);
+    const newest = this.#commonTime(up, down, common);
+    const { drawnAt } = this;
+    if (drawnAt !== null && drawnAt < newest && newest - drawnAt < MAX_PAST) {
+      const drawn = this.#between(to, from, common, drawnAt);
+      if (typeof drawn !== "string") return drawn;
+    }
+    return this.#between(to, from, common, newest);
+  }
+
+  /** Pose of `from` in `to` at a time, by their common ancestor. */
+  #between(to: string, from: string, common: string, stamp: bigint): Transform | string {
     const fromPose = this.#compose(from, common, stamp);
     const toPose = this.#compose(to, common, stamp);
     for (const pose of [fromPose, toPose]) {

@@ -16,7 +16,13 @@ const host = document.getElementById("host");
 if (host === null) throw new Error("no host");
 const connection = new FakeConnection();
 const scene = new ThreeScene(host);
-const frames = { frames: signal([]), describe: () => [], lookup: () => new NoTransform("", "") };
+const frames = {
+  frames: signal([]),
+  describe: () => [],
+  lookup: () => new NoTransform("", ""),
+  drawnAt: null,
+  newestTime: () => 0n,
+};
 const world = new WorldFeed(connection, scene, frames, signal("world"));
 const outlined = signal<readonly Outlined[]>([]);
 new SelectionOutline(scene, world, () => outlined.value);

@@ -1,11 +1,12 @@
 import "../../src/scene/conventions";
 
 import { BufferGeometry, Group, Quaternion, Vector3 } from "three";
-import { expect, test } from "vitest";
+import { describe, expect, test } from "vitest";
 
 import type { Manifest } from "../../src/protocol/generated/page_messages";
-import type { FrameTree } from "../../src/frames/frame_tree";
+import type { DrawnFrames } from "../../src/frames/frame_tree";
 import { NoTransform, type Transform } from "../../src/frames/transform";
+import { TransformTree } from "../../src/frames/transform_tree";
 import { BodyPoses } from "../../src/scene/world/body_poses";
 import { readJoints } from "../../src/scene/world/joint_states";
 import { WorldPlacement } from "../../src/scene/world/placement";
@@ -133,22 +134,22 @@ const MANIFEST = {
 } as unknown as Manifest;
 
 /** The robot drives at 1 m/s from x = 10; odom began there, and tf is 0.1 s late. */
-function drivingRobot(poses: BodyPoses, time: bigint): FrameTree {
+function drivingRobot(poses: BodyPoses, time: bigint): DrawnFrames {
   poses.apply(poseMessage(time, 1, [[0, 10 + Number(time) * 1e-9, 0, 0, 0, 0, 0, 1]]), 1);
   const lookup = (target: string, source: string, query: bigint): Transform | NoTransform =>
     target === "odom" && source === "base_link" && query <= time - 100_000_000n
       ? at(Number(query) * 1e-9)
       : new NoTransform("", "");
-  return { lookup } as unknown as FrameTree;
+  return { lookup } as unknown as DrawnFrames;
 }
 
 test("the world stays fixed in odom while the robot drives and tf is late", () => {
   const poses = new BodyPoses();
   const world = new Group();
   let now = 0n;
-  const frames: FrameTree = {
+  const frames: DrawnFrames = {
     lookup: (...query: [string, string, bigint]) => drivingRobot(poses, now).lookup(...query),
-  } as unknown as FrameTree;
+  } as unknown as DrawnFrames;
   const placement = new WorldPlacement(world, poses, frames);
   const moved: boolean[] = [];
   for (let i = 0; i <= 20; i += 1) {
@@ -164,7 +165,7 @@ test("the world stays fixed in odom while the robot drives and tf is late", () =
 test("in the robot's own frame the world moves around it; in world it stays", () => {
   const poses = new BodyPoses();
   const world = new Group();
-  const frames = { lookup: () => new NoTransform("", "") } as unknown as FrameTree;
+  const frames = { lookup: () => new NoTransform("", "") } as unknown as DrawnFrames;
   const placement = new WorldPlacement(world, poses, frames);
   poses.apply(poseMessage(0n, 1, [[0, 4, 0, 0, 0, 0, 0, 1]]), 1);
   placement.remember(MANIFEST);
@@ -172,4 +173,76 @@ test("in the robot's own frame the world moves around it; in world it stays", ()
   expect(world.position.x).toBeCloseTo(-4);
   placement.update(MANIFEST, "world");
   expect(world.position.x).toBeCloseTo(0);
+});
+
+describe("one time for bodies and frames", () => {
+  const MS = 1_000_000n;
+
+  /** A robot that drives at 1 m/s, its poses at 50 ms and 100 ms, tf at the given times [ms]. */
+  function driving(times: readonly bigint[]) {
+    const poses = new BodyPoses();
+    const frames = new TransformTree();
+    const placement = new WorldPlacement(new Group(), poses, frames);
+    const robot = new Group();
+    poses.attach(0, robot);
+    for (const time of [50n, 100n]) {
+      poses.apply(poseMessage(time * MS, 1, [[0, Number(time) / 1000, 0, 0, 0, 0, 0, 1]]), 1);
+      placement.remember(MANIFEST);
+    }
+    for (const time of times) {
+      const header = { seq: 0, stamp: { sec: 0, nsec: Number(time * MS) }, frame_id: "odom" };
+      const rotation = { x: 0, y: 0, z: 0, w: 1 };
+      const transform = { translation: { x: Number(time) / 1000, y: 0, z: 0 }, rotation };
+      frames.add([{ header, child_frame_id: "base_link", transform }], false);
+    }
+    const frameX = (): number => (frames.lookup("odom", "base_link", 0n) as Transform).position.x;
+    return { poses, placement, robot, frameX };
+  }
+
+  test("the world is drawn at tf's newest time if its poses are newer", () => {
+    const { placement, robot, frameX } = driving([40n, 80n]);
+
+    expect(placement.synchronize("odom", false)).toBe(true);
+
+    expect(robot.position.x).toBeCloseTo(0.08);
+    expect(frameX()).toBeCloseTo(0.08);
+    expect(placement.synchronize("odom", false)).toBe(false);
+  });
+
+  test("frames are drawn at the poses' time if tf is newer", () => {
+    const { placement, robot, frameX } = driving([80n, 120n]);
+
+    placement.synchronize("odom", false);
+
+    expect(robot.position.x).toBeCloseTo(0.1);
+    expect(frameX()).toBeCloseTo(0.1);
+  });
+
+  test("a world that stands still is drawn as it is", () => {
+    const { placement, robot, frameX } = driving([40n, 80n]);
+    placement.synchronize("odom", false);
+
+    expect(placement.synchronize("odom", true)).toBe(true);
+
+    expect(robot.position.x).toBeCloseTo(0.1);
+    expect(frameX()).toBeCloseTo(0.08);
+  });
+
+  test("a world does not wait for a tf that has stopped", () => {
+    const { poses, placement, robot } = driving([20n]);
+    poses.apply(poseMessage(400n * MS, 1, [[0, 0.4, 0, 0, 0, 0, 0, 1]]), 1);
+
+    placement.synchronize("odom", false);
+
+    expect(robot.position.x).toBeCloseTo(0.4);
+  });
+
+  test("what is moved while time stands still is drawn at once", () => {
+    const { poses, placement, robot } = driving([40n, 80n]);
+    poses.apply(poseMessage(100n * MS, 1, [[0, 7, 0, 0, 0, 0, 0, 1]]), 1);
+
+    placement.synchronize("odom", false);
+
+    expect(robot.position.x).toBeCloseTo(7);
+  });
 });

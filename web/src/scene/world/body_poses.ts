@@ -6,6 +6,19 @@ import type { Transform } from "../../frames/transform";
 
 const HEADER = 16;
 const NUMBERS = 7;
+/** Largest number of past poses that are kept, and their age [ns]. */
+const MAX_PAST = 16;
+const MAX_AGE = 500_000_000n;
+/** Numbers while interpolating. */
+const POSITION = new Vector3();
+const TURN = new Quaternion();
+
+/** Poses of all bodies at a time, and the bodies that the message moved. */
+interface Past {
+  readonly time: bigint;
+  readonly numbers: Float32Array;
+  readonly moved: readonly number[];
+}
 
 /** Numbers of a pose: x y z [m], quaternion x y z w; the newest of each body. */
 export class BodyPoses {
@@ -14,6 +27,9 @@ export class BodyPoses {
   private numbers = new Float32Array(0);
   private isKnown = new Uint8Array(0);
   private readonly objects: (Object3D | undefined)[] = [];
+  /** Newest poses and those before them, oldest first. */
+  private past: Past[] = [];
+  private drawnAt = 0n;
 
   /** Attach the object that follows a body. */
   attach(body: number, object: Object3D): void {
@@ -33,6 +49,7 @@ export class BodyPoses {
 
   forgetPoses(): void {
     this.isKnown.fill(0);
+    this.past = [];
   }
 
   pose(body: number): Transform | null {
@@ -44,22 +61,66 @@ export class BodyPoses {
     };
   }
 
+  /** Pose in which a body is drawn; null before the first. */
+  drawn(body: number): Transform | null {
+    const object = this.objects[body];
+    if (object === undefined || this.isKnown[body] !== 1) return this.pose(body);
+    return { position: object.position.clone(), orientation: object.quaternion.clone() };
+  }
+
   /** Apply a message's poses; false: it is of another generation of the world, or truncated. */
   apply(message: DataView, generation: number): boolean {
     if (message.byteLength < HEADER || message.getUint32(8, true) !== generation) return false;
     const count = message.getUint32(12, true);
     let at = HEADER + 4 * count;
     if (message.byteLength < at + 4 * NUMBERS * count) return false;
-    this.time = message.getBigUint64(0, true);
+    const time = message.getBigUint64(0, true);
+    if (time <= this.time) this.past = []; // time stands still or goes back: what was moved is shown at once
+    this.time = time;
+    const moved: number[] = [];
     for (let i = 0; i < count; i += 1) {
       const body = message.getUint32(HEADER + 4 * i, true);
       if (body >= this.isKnown.length) this.grow(body + 1);
       for (let j = body * NUMBERS; j < (body + 1) * NUMBERS; j += 1, at += 4)
         this.numbers[j] = message.getFloat32(at, true);
       this.isKnown[body] = 1;
+      moved.push(body);
       this.place(body);
     }
+    this.past.push({ time, numbers: this.numbers.slice(), moved });
+    while (this.past.length > MAX_PAST || (this.past[0]?.time ?? time) < time - MAX_AGE) this.past.shift();
+    this.drawnAt = time;
     return true;
+  }
+
+  /** Place the objects as their bodies were at a time [ns], interpolated; true: some may have moved. */
+  draw(time: bigint): boolean {
+    if (time === this.drawnAt) return false;
+    this.drawnAt = time;
+    const after = Math.max(
+      this.past.findIndex((past) => past.time > time),
+      0,
+    );
+    const [from, to] = [this.past[Math.max(after - 1, 0)], this.past[after]];
+    if (from === undefined || to === undefined || time >= this.time) {
+      for (const { moved } of this.past) for (const body of moved) this.place(body);
+      return true;
+    }
+    const share = from === to ? 1 : Number(time - from.time) / Number(to.time - from.time);
+    const moved = new Set<number>();
+    for (const past of this.past) for (const body of past.moved) moved.add(body);
+    for (const body of moved) this.interpolate(body, from.numbers, to.numbers, share);
+    return true;
+  }
+
+  private interpolate(body: number, from: Float32Array, to: Float32Array, share: number): void {
+    const object = this.objects[body];
+    const at = body * NUMBERS;
+    if (object === undefined || at >= to.length) return;
+    const start = at < from.length ? from : to;
+    object.position.fromArray(start, at);
+    object.position.lerp(POSITION.fromArray(to, at), share);
+    object.quaternion.fromArray(start, at + 3).slerp(TURN.fromArray(to, at + 3), share);
   }
 
   private place(body: number): void {

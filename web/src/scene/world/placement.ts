@@ -8,12 +8,14 @@
 import { Matrix4, Quaternion, Vector3, type Group } from "three";
 
 import type { Manifest } from "../../protocol/generated/page_messages";
-import type { FrameTree } from "../../frames/frame_tree";
+import type { DrawnFrames } from "../../frames/frame_tree";
 import { NoTransform, type Transform } from "../../frames/transform";
 import type { BodyPoses } from "./body_poses";
 
 /** Largest number of poses kept until tf has caught up. */
 const MAX_PAST = 64;
+/** Largest time that the world is drawn in the past so that it matches tf [ns]; slower frames lag behind it. */
+const MAX_LAG = 250_000_000n;
 /** Smaller changes are rounding [m]. */
 const STILL = 1e-4;
 const ONE = new Vector3(1, 1, 1);
@@ -27,7 +29,7 @@ export class WorldPlacement {
   constructor(
     private readonly group: Group,
     private readonly poses: BodyPoses,
-    private readonly frames: FrameTree,
+    private readonly frames: DrawnFrames,
   ) {}
 
   /** Store the anchor's pose of new poses. */
@@ -39,6 +41,19 @@ export class WorldPlacement {
     if (pose === null || this.poses.time === this.past[this.past.length - 1]?.time) return;
     this.past.push({ time: this.poses.time, pose });
     if (this.past.length > MAX_PAST) this.past.shift();
+  }
+
+  /**
+   * Draw bodies and frames at one time, the newest that both poses and tf have; true if bodies moved.
+   * While time stands still, both are drawn as they are now.
+   */
+  synchronize(fixedFrame: string, isPaused: boolean): boolean {
+    const { poses, frames, anchor } = this;
+    const newest = anchor === null || isPaused ? 0n : frames.newestTime(fixedFrame, anchor.frame);
+    const isBehind = newest !== 0n && newest < poses.time && poses.time - newest < MAX_LAG;
+    const time = isBehind ? newest : poses.time;
+    frames.drawnAt = isPaused ? null : time;
+    return poses.draw(time);
   }
 
   /** Move the world to its place; true if it moved. */
@@ -59,7 +74,7 @@ export class WorldPlacement {
 
   private find(manifest: Manifest, fixedFrame: string): Matrix4 | null {
     const carried = manifest.frames.find(({ frame }) => frame === fixedFrame);
-    const body = carried === undefined ? null : this.poses.pose(carried.body);
+    const body = carried === undefined ? null : this.poses.drawn(carried.body);
     if (body !== null) return this.set(this.matrix, body).invert();
     if (this.anchor === null || fixedFrame === "world") return this.matrix.identity();
     for (let i = this.past.length - 1; i >= 0; i -= 1) {

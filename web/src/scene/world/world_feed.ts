@@ -4,7 +4,7 @@ import { batch, effect, signal, untracked, type ReadonlySignal } from "@preact/s
 import { Box3, type Object3D } from "three";
 
 import type { ClockState, Manifest } from "../../protocol/generated/page_messages";
-import type { FrameTree } from "../../frames/frame_tree";
+import type { DrawnFrames } from "../../frames/frame_tree";
 import type { Transform } from "../../frames/transform";
 import type { Connection } from "../../protocol/connection";
 import { ShownParts } from "../overlays/shown_parts";
@@ -39,7 +39,7 @@ export class WorldFeed implements SimulatedWorld {
   constructor(
     private readonly connection: Connection,
     private readonly scene: ThreeScene,
-    frames: FrameTree,
+    frames: DrawnFrames,
     private readonly fixedFrame: ReadonlySignal<string>,
   ) {
     this.files = new WorldFiles(scene.world, this.lighting, (added, removed) => this.onFiles(added, removed));
@@ -169,6 +169,7 @@ export class WorldFeed implements SimulatedWorld {
     const manifest = this.manifest.peek();
     if (manifest === null || !this.poses.apply(payload, manifest.generation)) return;
     this.placement.remember(manifest);
+    this.synchronize();
     for (const call of this.poseListeners) call(Number(this.poses.time) / 1e9);
     this.lighting.invalidate();
     this.scene.invalidate();
@@ -185,9 +186,15 @@ export class WorldFeed implements SimulatedWorld {
 
   private place(): void {
     const manifest = this.manifest.peek();
-    if (manifest === null || !this.placement.update(manifest, this.fixedFrame.peek())) return;
+    if (manifest === null) return;
+    const moved = this.synchronize();
+    if (!this.placement.update(manifest, this.fixedFrame.peek()) && !moved) return;
     this.lighting.invalidate();
     this.scene.invalidate();
+  }
+
+  private synchronize(): boolean {
+    return this.placement.synchronize(this.fixedFrame.peek(), this.state.peek()?.paused ?? true);
   }
 
   private hide(hidden: ReadonlySet<string>): void {
