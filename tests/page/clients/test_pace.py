@@ -166,6 +166,17 @@ def test_a_client_that_echoes_nothing_is_not_paced() -> None:
     assert pace.budget(6.0) == float("inf")
 
 
+def test_an_idle_connection_is_not_taken_for_a_slow_one() -> None:
+    pace = Pace()
+    pace.add(100)
+    for second in range(60):
+        mark = pace.mark_now(float(second))
+        pace.echo(mark, second + 0.001)
+
+    assert pace.transfer_s(64_000) == 1.0
+    assert pace.wait_s(60.0) == 0.0
+
+
 @pytest.mark.parametrize("number", [0, -1, 2, 10**9])
 def test_echoes_of_marks_that_were_not_sent_are_ignored(number: int) -> None:
     pace = Pace()

@@ -29,7 +29,7 @@ _PAUSES = 19
 _PART_S = 0.03
 """Transfer time of a part of a message [s]."""
 _MIN_PART_BYTES = 2048
-_UNSENT_BYTES = 64 * 1024
+_UNSENT_BYTES = 256 * 1024
 """Unsent bytes in the kernel, which nothing can overtake or replace."""
 
 
@@ -311,7 +311,7 @@ def _limit_unsent(sock: socket.socket) -> None:
         if option is not None:
             sock.setsockopt(socket.IPPROTO_TCP, option, _UNSENT_BYTES)
         else:
-            sock.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 4 * _UNSENT_BYTES)
+            sock.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, _UNSENT_BYTES)
 
 
 def send_pieces(sock: socket.socket, pieces: Sequence[Buffer]) -> int:

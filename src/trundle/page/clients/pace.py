@@ -128,7 +128,7 @@ class Pace:
         """Return the time in which that many bytes arrive [s], by what has arrived in the last seconds."""
         if self._echoes_nothing:
             return 0.0
-        return size / (min(self.rate, self._proven.value) if self.is_known else self.rate)
+        return size / min(self.rate, self._proven_rate)
 
     def wait_s(self, now_s: float) -> float:
         """Return the time until data may be sent [s]; infinite: until an echo. Call only if data wait."""
@@ -249,8 +249,13 @@ class Pace:
             and now_s >= self._grown_s + min(_GROWTH_S, 2 * echo.delay_s + 0.01)
         ):
             self._grown_s, self._is_limited = now_s, False
-            self.rate = max(self.rate, min(self._growth * self.rate, self._leap * self._proven.value))
+            self.rate = max(self.rate, min(self._growth * self.rate, self._leap * self._proven_rate))
             self._growth = min(self._growth**2, self._max_growth)
+
+    @property
+    def _proven_rate(self) -> float:
+        """Highest rate at which data have arrived in the last seconds; with few data it would be too low."""
+        return max(self._proven.value, min(self.rate, _FIRST_RATE))
 
     @property
     def _base_s(self) -> float:
