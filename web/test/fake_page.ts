@@ -68,12 +68,21 @@ class FakeWorld implements SimulatedWorld {
       orientation: new Quaternion(0, 0, Math.sin(0.0035), 1).normalize(),
     };
   }
-  object(): null {
-    return null;
+  private readonly body = new Object3D();
+  /** Move all bodies to a point [m]. */
+  place(at: Vector3): void {
+    this.body.position.copy(at);
+    this.body.updateMatrixWorld();
   }
-  extent = new Box3(new Vector3(-1, -1, 0), new Vector3(1, 1, 1));
+  object(): Object3D {
+    return this.body;
+  }
+  box = new Box3(new Vector3(-1, -1, 0), new Vector3(1, 1, 1));
   bounds(): Box3 {
-    return this.extent;
+    return this.box;
+  }
+  extent(): Box3 {
+    return this.box;
   }
 }
 
@@ -121,7 +130,7 @@ export class FakeScene implements SceneView {
     return new Ray();
   }
   addLabel(anchor: Object3D, text: string): ReturnType<SceneView["addLabel"]> {
-    return { anchor, text, detail: "", remove: () => undefined };
+    return { anchor, text, detail: "", full: "", rank: null, isQuiet: false, reach: 0, remove: () => undefined };
   }
 }
 
@@ -213,7 +222,7 @@ class FakeTools implements ToolBox {
     properties: [],
     cursor: "default",
     acts: false,
-    isHeard: signal(true),
+    navigates: signal(className === "rviz/SetGoal" ? "/goal" : null),
     hint: signal(""),
     activate: () => undefined,
     deactivate: () => undefined,

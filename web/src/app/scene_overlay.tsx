@@ -9,6 +9,7 @@ import { SceneNotes } from "./notices/scene_notes";
 import type { Shell } from "./shell";
 import { ToolBar, ToolHint } from "./tool_bar";
 import { VideoNotes } from "./video/video_note";
+import { FollowOffer } from "./views/follow_offer";
 import { ViewMenu } from "./views/view_menu";
 
 export function SceneOverlay({ shell }: { readonly shell: Shell }): JSX.Element {
@@ -24,6 +25,7 @@ export function SceneOverlay({ shell }: { readonly shell: Shell }): JSX.Element 
         )}
         <NoticeLine shell={shell} />
         <VideoNotes shell={shell} />
+        {shell.isDrawn.value && <FollowOffer shell={shell} />}
         {hasTools && <ToolHint shell={shell} />}
       </div>
       <SceneNotes shell={shell} />

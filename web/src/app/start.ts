@@ -4,13 +4,14 @@ import { computed, effect, untracked } from "@preact/signals";
 import { Box3, Sphere } from "three";
 
 import type { Rgb, Yaml } from "../rviz/properties";
-import { differs, robotBox, simulatedRobot } from "./views/framing";
+import { differs, firstBox, robotBox, simulatedRobot } from "./views/framing";
 import type { Shell } from "./shell";
 import { linkedView, showLinkedView } from "./views/view_link";
 import { bodiesOf } from "../page/world_nodes";
 
-/** Wall seconds in which more of a robot may appear. */
+/** Wall seconds in which more of a robot may appear, and in which one may come into a world. */
 const SETTLING = 3;
+const COMING = 120;
 /** Marker Scale of a robot's frames per radius [1/m]: axes are a sixth of the radius long. */
 const AXES_SHARE = 0.8;
 /** First view of a robot: from the front right, at a standing person's height [rad]. */
@@ -25,6 +26,7 @@ export function startDisplays(shell: Shell): void {
   } else {
     if (session.kind === "simulation" || session.kind === "log") {
       disable(shell, "rviz/Grid"); // the world has its own
+      loadTf(shell, "Show Names", false); // a person asks for them, or points at a frame
       showRobotsFrames(shell);
     }
     loadTf(shell, "Show Arrows", false);
@@ -134,14 +136,19 @@ export function startView(shell: Shell): void {
       ? session.kind === "simulation" || session.kind === "log"
       : world.progress.peek() < 1;
   const stop = scene.onTick((elapsed) => {
-    const box = isLoading() ? new Box3() : robotBox(page);
+    settling += elapsed;
+    const isWorld = world.manifest.peek() !== null;
+    const hasRobot = simulatedRobot(page) !== undefined;
+    if (settling > (isWorld ? COMING : SETTLING) && !framed.isEmpty()) leave();
+    if (isLoading() || (isWorld && !hasRobot && !framed.isEmpty())) return;
+    const box = firstBox(page);
     if (box.isEmpty()) return;
     if (differs(box, framed)) {
       views.frameInAll(framed.copy(box));
-      loadTf(shell, "Marker Scale", Number((AXES_SHARE * box.getBoundingSphere(new Sphere()).radius).toPrecision(1)));
+      const { radius } = robotBox(page).getBoundingSphere(new Sphere());
+      loadTf(shell, "Marker Scale", Number((AXES_SHARE * radius).toPrecision(1)));
     }
-    settling += elapsed;
-    if (world.manifest.peek() !== null || settling > SETTLING) leave();
+    if (hasRobot) leave();
   });
   const leave = (): void => {
     stop();

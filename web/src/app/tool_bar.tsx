@@ -9,6 +9,7 @@ import { isIcon, type IconName } from "../theme/icons";
 import { MenuButton } from "../theme/menu";
 import type { MenuItem } from "../theme/menu_list";
 import type { Tool } from "../page/tool";
+import { isWatcher } from "../protocol/watchers";
 import { canControl } from "../page/looking";
 import type { Command } from "../page/page";
 import type { Shell } from "./shell";
@@ -31,7 +32,7 @@ export function ToolBar({ shell }: { readonly shell: Shell }): JSX.Element {
   useFittingRow(row);
   const current = page.tools.current.value;
   const simulates = page.session.kind === "simulation";
-  const useful = offeredTools(shell).filter((tool) => tool.isHeard.value || tool === current);
+  const useful = offeredTools(shell).filter((tool) => isHeard(shell, tool) || tool === current);
   const shown = simulates ? useful.filter(({ className }) => OF_SIMULATION.includes(className)) : useful;
   return (
     <div ref={row} class="tools float" role="toolbar" aria-label="Tools">
@@ -101,6 +102,13 @@ function MoreTools({ shell, row, others, current }: MoreToolsProps): JSX.Element
       items={items}
     />
   );
+}
+
+/** True if something besides the page subscribes to what a tool publishes for navigation. */
+function isHeard({ page }: Shell, { navigates }: Tool): boolean {
+  if (navigates.value === null) return true;
+  const nodes = page.connection.graph.value.subscribers.get(navigates.value) ?? [];
+  return nodes.some((node) => node !== page.session.node && !isWatcher(node));
 }
 
 function nameOf({ name }: Tool): string {

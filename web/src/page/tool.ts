@@ -19,8 +19,8 @@ export interface Tool {
   readonly cursor: string;
   /** True: it publishes. */
   readonly acts: boolean;
-  /** False: nothing subscribes to what it publishes for navigation. */
-  readonly isHeard: ReadonlySignal<boolean>;
+  /** Topic on which it publishes for navigation; null: none. */
+  readonly navigates: ReadonlySignal<string | null>;
   /** Next action of the person, shown as a hint. */
   readonly hint: ReadonlySignal<string>;
   activate(): void;

@@ -42,4 +42,6 @@ export interface SimulatedWorld {
   pose(body: number): Transform | null;
   object(body: number): Object3D | null;
   bounds(bodies: readonly number[]): Box3;
+  /** Extent of bodies' visible surfaces in the axes of one of them, so that it is the same wherever they stand. */
+  extent(bodies: readonly number[], of: number): Box3;
 }

@@ -15,7 +15,7 @@ import type { WorldEditor } from "../page/world_editor";
 
 /** Parts of the page that tools use. */
 export interface ToolContext {
-  readonly connection: Pick<Connection, "publish" | "now" | "graph">;
+  readonly connection: Pick<Connection, "publish" | "now">;
   readonly names: GraphNames;
   readonly scene: SceneView;
   readonly views: Pick<Views, "focus">;
@@ -35,7 +35,7 @@ export abstract class BaseTool implements Tool {
   abstract readonly icon: string;
   readonly cursor: string = "crosshair";
   readonly acts: boolean = false;
-  readonly isHeard: ReadonlySignal<boolean> = signal(true);
+  readonly navigates: ReadonlySignal<string | null> = signal(null);
   readonly properties: Property<unknown>[] = [];
   readonly hint = signal("");
   /** Keys of the file that are not ours, kept as they were. */

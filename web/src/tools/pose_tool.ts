@@ -19,10 +19,7 @@ export abstract class PoseTool extends BaseTool {
   override readonly acts = true;
   protected abstract readonly color: Rgb;
   abstract readonly topic: TopicProperty;
-  override readonly isHeard = computed(() => {
-    const { connection, names } = this.context;
-    return (connection.graph.value.subscribers.get(names.resolve(this.topic.value.value)) ?? []).length > 0;
-  });
+  override readonly navigates = computed(() => this.context.names.resolve(this.topic.value.value));
   private start: Vector3 | null = null;
   private yaw = 0;
   private readonly arrow = new Arrow(PROPORTIONS);

@@ -1,6 +1,6 @@
 // @vitest-environment jsdom
 import { signal } from "@preact/signals";
-import { Box3 } from "three";
+import { Box3, Sphere, Vector3 } from "three";
 import { beforeEach, describe, expect, it } from "vitest";
 
 import { Shell } from "../../src/app/shell";
@@ -15,16 +15,46 @@ beforeEach(() => localStorage.clear());
 describe("the first view of a page", () => {
   it("frames the robot once, as soon as it is visible", () => {
     const page = fakePage();
-    const { extent } = page.world;
-    page.world.extent = new Box3();
+    const { box } = page.world;
+    page.world.box = new Box3();
     page.world.manifest.value = MANIFEST;
     startView(shellOf(page));
     page.scene.tick();
     expect(page.views.framed).toEqual([]);
-    page.world.extent = extent;
+    page.world.box = box;
     page.scene.tick();
     page.scene.tick();
-    expect(page.views.framed).toEqual([extent]);
+    expect(page.views.framed).toHaveLength(1);
+  });
+
+  it("has the robot's feet in the lower third, at the same distance wherever it stands", () => {
+    const framed = [0, 5].map((x) => {
+      const page = fakePage();
+      page.world.place(new Vector3(x, 0, 1));
+      page.world.manifest.value = MANIFEST;
+      startView(shellOf(page));
+      page.scene.tick();
+      return page.views.framed[0] ?? new Box3();
+    });
+    const [near, far] = framed.map((box) => box.getBoundingSphere(new Sphere()));
+    expect(far?.radius).toBeCloseTo(near?.radius ?? 0);
+    expect(far?.center.x).toBeCloseTo(5);
+    const feet = ((near?.center.z ?? 0) - 1) / (near?.radius ?? 1);
+    expect(feet).toBeGreaterThan(1 / 3);
+    expect(feet).toBeLessThan(1);
+  });
+
+  it("frames a robot as soon as it comes into a world", () => {
+    const page = fakePage();
+    startView(shellOf(page));
+    page.world.manifest.value = { ...MANIFEST, robot: null };
+    page.scene.tick();
+    page.scene.tick();
+    expect(page.views.framed).toHaveLength(1);
+    page.world.manifest.value = MANIFEST;
+    page.scene.tick();
+    page.scene.tick();
+    expect(page.views.framed).toHaveLength(2);
   });
 
   it("is unchanged if a person has moved the camera, or a file has a view", () => {

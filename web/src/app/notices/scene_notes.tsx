@@ -3,6 +3,7 @@
 import type { JSX } from "preact";
 
 import { fixed } from "../../theme/format";
+import { Name } from "../../theme/name";
 import type { Shell } from "../shell";
 import { Pictures } from "./pictures";
 
@@ -27,15 +28,14 @@ function Loading({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const manifest = world.manifest.value;
   const progress = world.progress.value;
   if (session.kind === "graph" || session.kind === "bag" || connection.state.value.kind !== "connected") return null;
-  if (manifest === null) return <Note text="Waiting for the world." />;
-  if (manifest.models.length === 0) return <Note text="The world is empty." />;
-  if (progress >= 1) return null;
-  const percent = fixed(progress * 100, 0);
+  if (manifest?.models.length === 0) return <Note text="The world is empty." />;
+  if (manifest !== null && progress >= 1) return null;
+  const name = manifest === null || manifest.name === "default" ? session.title : manifest.name;
   return (
-    <div class="scene-note float">
-      <span>Loading {manifest.name}</span>
-      <span class="t2">{percent} %</span>
-      <progress aria-label="Loading the world" value={progress} />
+    <div class="scene-note float loading" role="status">
+      <Name text={`Loading ${name}`} />
+      <span class="t2">{manifest === null ? "" : `${fixed(progress * 100, 0)} %`}</span>
+      <progress aria-label="Loading the world" value={manifest === null ? undefined : progress} />
     </div>
   );
 }

@@ -19,6 +19,40 @@ export function frameSelection(page: Page, selection: Selection | null): void {
   page.views.frame(chosen.length > 0 ? page.world.bounds(chosen) : robotBox(page));
 }
 
+/**
+ * Box that is framed at first: the robot stands in the lower third of the view, at a distance that depends on its size
+ * alone, or all else is in the middle; empty: nothing to see yet.
+ */
+export function firstBox(page: Page): Box3 {
+  const robot = simulatedRobot(page);
+  const box = robotBox(page);
+  if (page.world.manifest.peek() === null) return box.isEmpty() ? box : standing(box, box.getCenter(new Vector3()));
+  const [root] = robot === undefined ? [] : bodiesOf(robot.model);
+  const object = root === undefined ? null : page.world.object(root);
+  if (robot === undefined || root === undefined || object === null) return box;
+  const own = page.world.extent(bodiesOf(robot.model), root);
+  return own.isEmpty() ? own : standing(own, object.localToWorld(own.getCenter(new Vector3())));
+}
+
+/** Half the height of the view, per height of a robot that stands in it, and per radius on the ground. */
+const PER_HEIGHT = 0.75;
+const PER_RADIUS = 3;
+/** Share of half the view by which the robot's feet are below the middle. */
+const BELOW = 0.5;
+
+/** Cube around a robot of an extent whose centre is at a point, with room above it and around. */
+function standing(extent: Box3, centre: Vector3): Box3 {
+  const { x, y, z: height } = extent.getSize(new Vector3());
+  const half = Math.max(PER_HEIGHT * height, (PER_RADIUS * Math.hypot(x, y)) / 2, SMALLEST);
+  const middle = centre.clone().setZ(centre.z - height / 2 + BELOW * half);
+  return new Box3().setFromCenterAndSize(middle, new Vector3().setScalar((2 * FRAMED * half) / Math.sqrt(3)));
+}
+
+/** Radius of a framed sphere per half of the view's height. */
+const FRAMED = 0.9;
+/** Smallest half of the view [m]. */
+const SMALLEST = 0.1;
+
 /** The simulated world's robot. */
 export function simulatedRobot(page: Page): ScopedModel | undefined {
   return robotOf(page.world.manifest.peek());

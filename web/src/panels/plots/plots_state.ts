@@ -1,6 +1,6 @@
 /** Plots with their curves, and their common window, zoom, pause and cursor. */
 
-import { signal } from "@preact/signals";
+import { effect, signal, untracked } from "@preact/signals";
 
 import type { Page } from "../../page/page";
 import { forEachNew } from "../../page/session";
@@ -8,6 +8,7 @@ import { perPage } from "../per_page";
 import { Curve } from "./curve";
 import { csvText, type CsvColumn } from "./csv";
 import type { Plot, Range } from "./plot";
+import { speedOf } from "./suggestions";
 import { svgText } from "./svg";
 
 export const WINDOWS = [5, 10, 30, 60, 120] as const; // s
@@ -34,6 +35,18 @@ export class PlotsState {
       () => page.session.plots,
       (path) => this.add(path),
     );
+    this.drawSpeed();
+  }
+
+  /** Draw the robot's commanded and measured speed once they are known, unless a person or a launch was first. */
+  private drawSpeed(): void {
+    const stop = effect(() => {
+      const isEmpty = this.plots.value.every(({ curves }) => curves.length === 0);
+      const speed = isEmpty ? speedOf(this.page) : null;
+      if (isEmpty && speed === null) return;
+      queueMicrotask(() => stop()); // also if it is known already
+      untracked(() => speed?.curves.forEach(([path, name]) => this.add(path, name)));
+    });
   }
 
   get curves(): readonly Curve[] {

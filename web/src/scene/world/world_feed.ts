@@ -1,7 +1,7 @@
 /** The simulated world as the server's channels describe it, drawn in the scene. */
 
 import { batch, effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
-import { Box3, type Object3D } from "three";
+import { Box3, Matrix4, Vector3, type Mesh, type Object3D } from "three";
 
 import type { ClockState, Manifest } from "../../protocol/generated/page_messages";
 import type { DrawnFrames } from "../../frames/frame_tree";
@@ -12,6 +12,7 @@ import type { JointStates, SimulatedWorld } from "../simulated_world";
 import type { ThreeScene } from "../three_scene";
 import { BodyPoses } from "./body_poses";
 import { modelOf, type GlbModel } from "./glb_model";
+import { whenLoaded } from "./first_sight";
 import { readJoints } from "./joint_states";
 import { WorldPlacement } from "./placement";
 import { Sky } from "./sky";
@@ -25,6 +26,8 @@ export class WorldFeed implements SimulatedWorld {
   readonly joints: ReadonlySignal<JointStates>;
   readonly shown = new ShownParts();
   readonly hidden = signal<ReadonlySet<string>>(new Set());
+  /** True once the first world is drawn: before, a grid alone would look like an empty one. */
+  private readonly hasLoaded = signal(false);
   private readonly lighting = new WorldLighting();
   private readonly files: WorldFiles;
   private readonly poses = new BodyPoses();
@@ -81,6 +84,16 @@ export class WorldFeed implements SimulatedWorld {
     return box;
   }
 
+  extent(bodies: readonly number[], of: number): Box3 {
+    const box = new Box3();
+    this.scene.world.updateWorldMatrix(true, true);
+    const toAxes = this.object(of)?.matrixWorld.clone().invert();
+    for (const body of toAxes === undefined ? [] : bodies) {
+      this.object(body)?.traverseVisible((object) => addVertices(box, object, toAxes));
+    }
+    return box;
+  }
+
   dispose(): void {
     for (const stop of this.stops) stop();
     this.files.show([]);
@@ -113,6 +126,9 @@ export class WorldFeed implements SimulatedWorld {
       effect(() => {
         this.hide(this.hidden.value);
       }),
+      whenLoaded(this, () => {
+        this.hasLoaded.value = true;
+      }),
       effect(() => {
         const url = this.manifest.value?.collisions ?? null;
         this.setCollisions(this.shown.any("collisions") ? url : null);
@@ -121,7 +137,8 @@ export class WorldFeed implements SimulatedWorld {
       this.shown.models.subscribe(() => this.showParts()),
       effect(() => {
         const manifest = this.manifest.value;
-        if (manifest !== null) scene.grid.value = this.shown.world.value.get("grid") ?? manifest.scene.grid;
+        const isGrid = this.shown.world.value.get("grid") ?? manifest?.scene.grid ?? false;
+        if (manifest !== null) scene.grid.value = isGrid && this.hasLoaded.value;
       }),
       effect(() => {
         if (connection.state.value.kind === "connected") return;
@@ -253,6 +270,16 @@ export class WorldFeed implements SimulatedWorld {
           if (!abort.signal.aborted) this.files.fault("Collisions", error);
         },
       );
+  }
+}
+
+function addVertices(box: Box3, object: Object3D, toAxes: Matrix4 | undefined): void {
+  const position = (object as Partial<Mesh>).geometry?.getAttribute("position");
+  if (position === undefined || toAxes === undefined) return;
+  const matrix = new Matrix4().multiplyMatrices(toAxes, object.matrixWorld);
+  const point = new Vector3();
+  for (let i = 0; i < position.count; i += 1) {
+    box.expandByPoint(point.fromBufferAttribute(position, i).applyMatrix4(matrix));
   }
 }
 
