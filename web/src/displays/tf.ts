@@ -90,7 +90,7 @@ export class Tf extends Display {
         view.row.orientation.value.value = pose.orientation.toArray().map(short).join("; ");
       }
     }
-    view.showName(this.names.value.peek() && view.isShown);
+    view.setLabel(view.isShown, this.names.value.peek(), this.style.scale);
     return moved;
   }
 
@@ -110,6 +110,7 @@ export class Tf extends Display {
     }
     for (const info of infos.values()) {
       const view = this.views.get(info.name) ?? this.appear(info.name);
+      view.depth = depthOf(info, infos);
       const age = view.setStamp(commonStamp(info, infos), now);
       changed = view.setKin(info.parent, fadeOf(age, this.timeout.value.peek())) || changed;
       view.row.parent.value.value = info.parent ?? "";
@@ -167,6 +168,13 @@ function commonStamp(info: FrameInfo, infos: ReadonlyMap<string, FrameInfo>): bi
     frame = frame.parent === null ? undefined : infos.get(frame.parent);
   }
   return oldest;
+}
+
+/** Number of frames above a frame. */
+function depthOf(info: FrameInfo, infos: ReadonlyMap<string, FrameInfo>): number {
+  let depth = 0;
+  for (let at = info.parent; at !== null && depth <= infos.size; depth++) at = infos.get(at)?.parent ?? null;
+  return depth;
 }
 
 /** True if a name matches a regular expression, or contains the text if it is no valid expression. */

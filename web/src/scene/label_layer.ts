@@ -2,6 +2,7 @@
 
 import { Vector3, type Camera, type Object3D } from "three";
 
+import type { Area } from "./free_area";
 import { BAND, layoutLabels, type LabelRequest } from "./label_layout";
 import { toPicture, type PictureSize } from "./picking";
 import type { Label } from "./scene_view";
@@ -11,8 +12,15 @@ const NEAR = 14;
 const SIZE = 12;
 const PADDING = 8;
 
+/** Rest after a look at what covers an anchor [ms]. */
+const LOOK_AGAIN = 300;
+
 class SceneLabel implements Label {
   detail = "";
+  full = "";
+  rank: number | null = null;
+  isQuiet = false;
+  reach = 0;
   private shown: string;
 
   constructor(
@@ -46,13 +54,22 @@ interface VisibleLabel extends LabelRequest {
   measured: string;
   measuredDetail: string;
   isMeasuredBoxed: boolean;
+  /** True if something stood before its anchor at the last look, and the time of that [ms]. */
+  isCovered: boolean;
+  lookedAt: number;
 }
+
+/** Tells if something stands between a camera and a point, nearer to it than the point by more than a distance [m]. */
+export type IsCovered = (point: Vector3, camera: Camera, reach: number) => boolean;
 
 export class LabelSet {
   readonly labels = new Set<SceneLabel>();
 
   /** `onChange`: the picture is to be drawn again. */
-  constructor(readonly onChange: () => void) {}
+  constructor(
+    readonly onChange: () => void,
+    readonly isCovered: IsCovered = () => false,
+  ) {}
 
   add(anchor: Object3D, text: string, color?: string): Label {
     const label = new SceneLabel(anchor, text, this, color);
@@ -96,14 +113,14 @@ export class LabelLayer {
     this.set.onChange();
   }
 
-  /** Lay out the labels for a picture of a size [px]. */
-  place(camera: Camera, size: PictureSize, pixelRatio: number): void {
+  /** Lay out the labels for a picture of a size [px], within its free part. */
+  place(camera: Camera, size: PictureSize, free: Area, pixelRatio: number): void {
     this.isEmpty = this.set.labels.size === 0 && this.visible.length === 0;
     this.size = size;
     this.pixelRatio = pixelRatio;
     this.font = this.style.getPropertyValue("--font") || "sans-serif";
-    this.findVisible(camera, size);
-    layoutLabels(this.visible, size.width, size.height);
+    this.findVisible(camera, size, free);
+    layoutLabels(this.visible, free);
   }
 
   /** Draw the labels where they were placed. */
@@ -140,8 +157,9 @@ export class LabelLayer {
       context.fill();
       context.stroke();
       context.fillStyle = this.color("--text");
-      context.fillText(label.text, box.x + PADDING, middle);
-      const end = box.x + PADDING + context.measureText(label.text).width + PADDING;
+      const text = textOf(label, true);
+      context.fillText(text, box.x + PADDING, middle);
+      const end = box.x + PADDING + context.measureText(text).width + PADDING;
       this.setFont(context, false);
       context.fillStyle = this.color("--text-2");
       context.fillText(label.detail, end, middle);
@@ -163,13 +181,15 @@ export class LabelLayer {
     context.font = isBold ? `600 ${SIZE}px ${this.font}` : `${SIZE}px ${this.font}`;
   }
 
-  private findVisible(camera: Camera, size: PictureSize): void {
+  private findVisible(camera: Camera, size: PictureSize, { left, top, width, height }: Area): void {
     this.visible.length = 0;
     for (const label of this.set.labels) {
-      if (!isShown(label.anchor)) continue;
+      if (!isShown(label.anchor) || (label.isQuiet && label !== this.hovered)) continue;
       const at = toPicture(label.anchor.getWorldPosition(this.point), camera, size);
-      if (at === null || at.x < 0 || at.y < 0 || at.x > size.width || at.y > size.height) continue;
+      if (at === null || at.x < left || at.y < top || at.x > left + width || at.y > top + height) continue;
       const entry = this.entryOf(label);
+      if (label !== this.hovered && this.isCovered(entry, camera)) continue;
+      entry.rank = label.rank;
       entry.x = at.x;
       entry.y = at.y;
       entry.distance = at.z;
@@ -177,6 +197,17 @@ export class LabelLayer {
       if (this.context !== null) this.measure(this.context, entry);
       this.visible.push(entry);
     }
+  }
+
+  /** True if something stands before a frame's anchor; looks again only after a while. */
+  private isCovered(entry: VisibleLabel, camera: Camera): boolean {
+    const { anchor, rank, reach } = entry.label;
+    const now = performance.now();
+    if (rank !== null && now - entry.lookedAt > LOOK_AGAIN) {
+      entry.lookedAt = now;
+      entry.isCovered = this.set.isCovered(anchor.getWorldPosition(this.point), camera, reach);
+    }
+    return entry.isCovered;
   }
 
   private entryOf(label: SceneLabel): VisibleLabel {
@@ -191,6 +222,9 @@ export class LabelLayer {
         width: 0,
         distance: 0,
         hovered: false,
+        rank: null,
+        isCovered: false,
+        lookedAt: -Infinity,
         corner: -1,
         measured: "",
         measuredDetail: "",
@@ -205,18 +239,19 @@ export class LabelLayer {
   private measure(context: CanvasRenderingContext2D, entry: VisibleLabel): void {
     const { label, hovered: isBoxed } = entry;
     const detail = label === this.hovered ? label.detail : "";
+    const text = textOf(label, isBoxed);
     if (
       entry.width > 0 &&
-      entry.measured === label.text &&
+      entry.measured === text &&
       entry.measuredDetail === detail &&
       entry.isMeasuredBoxed === isBoxed
     )
       return;
-    entry.measured = label.text;
+    entry.measured = text;
     entry.measuredDetail = detail;
     entry.isMeasuredBoxed = isBoxed;
     this.setFont(context, isBoxed);
-    entry.width = context.measureText(label.text).width + (isBoxed ? 2 * PADDING : 4);
+    entry.width = context.measureText(text).width + (isBoxed ? 2 * PADDING : 4);
     this.setFont(context, false);
     if (detail !== "") entry.width += 4 + context.measureText(detail).width + PADDING;
   }
@@ -245,6 +280,11 @@ export class LabelLayer {
     }
     return best;
   }
+}
+
+/** A frame's whole name is in its box alone. */
+function textOf({ text, full, color }: SceneLabel, isBoxed: boolean): string {
+  return isBoxed && full !== "" && color === undefined ? full : text;
 }
 
 function drawLeader(context: CanvasRenderingContext2D, { x, y, box }: LabelRequest, color: string): void {

@@ -5,6 +5,8 @@
  * one without such a place is not shown. The hovered one always is.
  */
 
+import type { Area } from "./free_area";
+
 /** Height of a label's band, and the room that it needs [px]. */
 export const BAND = 20;
 /** Distances of a label from its anchor [px]. */
@@ -25,10 +27,12 @@ export interface LabelRequest {
   y: number;
   /** Width of the text [px]. */
   width: number;
-  /** Distance to the camera: nearer labels have priority. */
+  /** Depth in the picture, −1…1: nearer labels have priority. */
   distance: number;
   /** True: has priority and is always placed, as is a person's name. */
   hovered: boolean;
+  /** Rank among those of which few are placed; null: it is none of them. */
+  rank: number | null;
   /** Index of its corner; the last corner is tried first, so that labels do not jump; −1: not placed. */
   corner: number;
   /** Position, if placed. */
@@ -43,22 +47,32 @@ const CORNERS = [
   [-1, 1],
 ] as const;
 
-/** Place the requests, or mark them as not placed; sorts them by priority. */
-export function layoutLabels(requests: LabelRequest[], width: number, height: number): void {
+/** Number of ranked labels in a picture, besides the hovered one. */
+const FEW = 3;
+
+/** Place the requests within an area [px], or mark them as not placed; sorts them by priority. */
+export function layoutLabels(requests: LabelRequest[], area: Area): void {
   sort(requests);
+  let few = 0;
   for (let i = 0; i < requests.length; i += 1) {
     const request = requests[i];
     if (request === undefined) continue;
-    if (request.corner > 0 && fits(request, request.corner, i, requests, width, height)) continue;
-    let corner = 0;
-    while (corner < CORNERS.length && !fits(request, corner, i, requests, width, height)) corner += 1;
-    request.corner = corner < CORNERS.length ? corner : -1;
-    if (request.corner < 0 && request.hovered) {
-      request.corner = 0;
-      putBox(request, 0);
-      moveInside(request.box, width, height);
-    }
+    const isRanked = request.rank !== null && !request.hovered;
+    if (isRanked && few === FEW) request.corner = -1;
+    else place(request, i, requests, area);
+    if (isRanked && request.corner >= 0) few += 1;
   }
+}
+
+function place(request: LabelRequest, index: number, requests: readonly LabelRequest[], area: Area): void {
+  if (request.corner > 0 && fits(request, request.corner, index, requests, area)) return;
+  let corner = 0;
+  while (corner < CORNERS.length && !fits(request, corner, index, requests, area)) corner += 1;
+  request.corner = corner < CORNERS.length ? corner : -1;
+  if (request.corner >= 0 || !request.hovered) return;
+  request.corner = 0;
+  putBox(request, 0);
+  moveInside(request.box, area);
 }
 
 /** Insertion sort, since the order hardly changes from picture to picture. */
@@ -69,15 +83,16 @@ function sort(requests: LabelRequest[]): void {
     let at = i;
     for (; at > 0; at -= 1) {
       const before = requests[at - 1];
-      if (before === undefined || rank(before) <= rank(moved)) break;
+      if (before === undefined || order(before) <= order(moved)) break;
       requests[at] = before;
     }
     requests[at] = moved;
   }
 }
 
-function rank({ hovered, distance }: LabelRequest): number {
-  return hovered ? -1 : distance;
+/** Order: hovered ones, then by rank, then by distance, which is below 1. */
+function order({ hovered, rank, distance }: LabelRequest): number {
+  return hovered ? -Infinity : distance + 2 * (rank ?? 0);
 }
 
 /** Put a request's box at a corner; true: it may stay there. */
@@ -86,12 +101,11 @@ function fits(
   corner: number,
   index: number,
   requests: readonly LabelRequest[],
-  width: number,
-  height: number,
+  { left, top, width, height }: Area,
 ): boolean {
   putBox(request, corner);
   const { box } = request;
-  if (box.x < 0 || box.y < 0 || box.x + box.width > width || box.y + BAND > height) return false;
+  if (box.x < left || box.y < top || box.x + box.width > left + width || box.y + BAND > top + height) return false;
   for (let i = 0; i < requests.length; i += 1) {
     const other = requests[i];
     if (other === undefined || i === index) continue;
@@ -115,7 +129,7 @@ function isInside(x: number, y: number, box: LabelBox): boolean {
   return x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + BAND;
 }
 
-function moveInside(box: LabelBox, width: number, height: number): void {
-  box.x = Math.max(0, Math.min(width - box.width, box.x));
-  box.y = Math.max(0, Math.min(height - BAND, box.y));
+function moveInside(box: LabelBox, { left, top, width, height }: Area): void {
+  box.x = Math.max(left, Math.min(left + width - box.width, box.x));
+  box.y = Math.max(top, Math.min(top + height - BAND, box.y));
 }

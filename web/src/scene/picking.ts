@@ -66,6 +66,25 @@ export class Picker {
     return best === null ? null : { point: best.point, object: best.object, index: best.index };
   }
 
+  /** True if a surface stands before a point of the fixed frame, nearer to the camera by more than a distance [m]. */
+  isCovered(roots: readonly Object3D[], camera: Camera, point: Vector3, reach: number): boolean {
+    const { x, y } = point.clone().project(camera);
+    this.raycaster.setFromCamera(new Vector2(x, y), camera);
+    const far = this.raycaster.ray.origin.distanceTo(point) - reach;
+    return roots.some((root) => this.isMet(root, far));
+  }
+
+  private isMet(object: Object3D, far: number): boolean {
+    if (!object.visible || object.userData[NOT_PICKED] === true) return false;
+    if (this.bodies.isMissed(object, this.raycaster.ray)) return false;
+    if (isMesh(object)) {
+      const candidates: Candidate[] = [];
+      this.pickMesh(object, this.raycaster.camera, candidates);
+      if (candidates.some(({ point }) => point.distanceTo(this.raycaster.ray.origin) < far)) return true;
+    }
+    return object.children.some((child) => this.isMet(child, far));
+  }
+
   /** Point at which the ray through a point [px] meets z = 0. */
   pickGround(camera: Camera, size: PictureSize, x: number, y: number): Vector3 | null {
     this.aim(camera, size, x, y);

@@ -62,6 +62,14 @@ export interface Label {
   text: string;
   /** Second text, shown while the label is hovered: "in camera_base". */
   detail: string;
+  /** Full text, shown while the label is hovered. */
+  full: string;
+  /** Frames of a robot: few of them are named, those of the lowest rank first; null: it is none of them. */
+  rank: number | null;
+  /** True: it shows only while it is hovered. */
+  isQuiet: boolean;
+  /** Distance in front of the anchor that does not cover it, as the anchor's own shape does not [m]. */
+  reach: number;
   remove(): void;
 }
 

@@ -45,7 +45,10 @@ export class ThreeScene implements SceneView {
   private readonly ground = new GroundGrid();
   private readonly headlight = new DirectionalLight(0xffffff, 0.65 * Math.PI);
   private readonly picker = new Picker();
-  private readonly labels = new LabelSet(() => this.invalidate());
+  private readonly labels = new LabelSet(
+    () => this.invalidate(),
+    (point, camera, reach) => this.picker.isCovered([this.displays, this.world], camera, point, reach),
+  );
   readonly panes: ScenePanes;
   readonly camera = computed(() => this.panes.pointed.value.camera.value);
   readonly paneSize = computed(() => this.panes.pointed.value.place.value.area);
@@ -327,6 +330,6 @@ export class ThreeScene implements SceneView {
       renderer.render(this.scene, camera);
       for (const step of this.steps) step.afterPane?.(renderer, camera);
     }
-    pane.placeOver(area, ratio);
+    pane.placeOver(area, Math.max(ratio, window.devicePixelRatio)); // names stay sharp where the picture is coarse
   }
 }

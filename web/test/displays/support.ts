@@ -7,7 +7,7 @@ import type { UndoStack } from "../../src/displays/undo_stack";
 import type { DisplayContext } from "../../src/displays/display";
 import type { FrameInfo, FrameTree } from "../../src/frames/frame_tree";
 import { NoTransform, type Transform } from "../../src/frames/transform";
-import type { SceneView } from "../../src/scene/scene_view";
+import type { Label, SceneView } from "../../src/scene/scene_view";
 import { GraphNames } from "../../src/protocol/graph_names";
 import { FakeConnection } from "../fake_connection";
 
@@ -58,18 +58,11 @@ export class FakeFrames implements FrameTree {
   }
 }
 
-interface FakeLabel {
-  readonly anchor: Object3D;
-  text: string;
-  detail: string;
-  remove(): void;
-}
-
 class FakeScene {
   readonly displays = new Group();
   readonly world = new Group();
   readonly camera = signal(new PerspectiveCamera());
-  readonly labels: FakeLabel[] = [];
+  readonly labels: Label[] = [];
   frames = 0;
 
   invalidate(): void {
@@ -80,11 +73,15 @@ class FakeScene {
     return () => undefined;
   }
 
-  addLabel(anchor: Object3D, text: string): FakeLabel {
-    const label: FakeLabel = {
+  addLabel(anchor: Object3D, text: string): Label {
+    const label: Label = {
       anchor,
       text,
       detail: "",
+      full: "",
+      rank: null,
+      isQuiet: false,
+      reach: 0,
       remove: () => void this.labels.splice(this.labels.indexOf(label), 1),
     };
     this.labels.push(label);

@@ -45,7 +45,19 @@ describe("TF", () => {
     expect(scene.labels.map((label) => label.text)).toEqual(["map"]);
     tf.names.value.value = false;
     tf.update(3n, 1);
-    expect(scene.labels).toEqual([]);
+    expect(scene.labels.map((label) => label.isQuiet)).toEqual([true]); // its name shows while it is pointed at
+  });
+
+  it("names frames without their robot's prefix, and those near the root first", () => {
+    const { tf, frames, scene } = started();
+    frames.set("rp2w/base", "map");
+    frames.set("rp2w/camera", "rp2w/base");
+    tf.update(1n, 1);
+    expect(scene.labels.map(({ text, full, rank }) => [text, full, rank])).toEqual([
+      ["map", "map", 0],
+      ["base", "rp2w/base", 1],
+      ["camera", "rp2w/camera", 2],
+    ]);
   });
 
   it("hides frames that are switched off, as the file or a person says", () => {

@@ -2,14 +2,26 @@ import { expect, test } from "vitest";
 
 import { BAND, layoutLabels, type LabelRequest } from "../../src/scene/label_layout";
 
+const AREA = { left: 0, top: 0, width: 800, height: 600 };
+
 function request(x: number, y: number, changes: Partial<LabelRequest> = {}): LabelRequest {
-  return { x, y, width: 60, distance: 1, hovered: false, corner: -1, box: { x: 0, y: 0, width: 0 }, ...changes };
+  return {
+    x,
+    y,
+    width: 60,
+    distance: 1,
+    hovered: false,
+    rank: null,
+    corner: -1,
+    box: { x: 0, y: 0, width: 0 },
+    ...changes,
+  };
 }
 
 /** Requests that got a place, those that come first first. */
 function placed(requests: readonly LabelRequest[]): LabelRequest[] {
   const sorted = [...requests];
-  layoutLabels(sorted, 800, 600);
+  layoutLabels(sorted, AREA);
   return sorted.filter(({ corner }) => corner >= 0);
 }
 
@@ -58,4 +70,21 @@ test("the hovered label is shown within the picture even without free space", ()
 test("a label keeps its corner while that is free", () => {
   expect(placed([request(400, 300)])[0]?.corner).toBe(0);
   expect(placed([request(400, 300, { corner: 3 })])[0]?.corner).toBe(3);
+});
+
+test("three ranked labels are shown, the lowest ranks first, and the hovered one besides", () => {
+  const frames = Array.from({ length: 8 }, (_, rank) => request(100, 60 * (8 - rank), { rank }));
+  const hovered = request(500, 300, { rank: 9, hovered: true });
+
+  expect(new Set(placed([...frames, hovered]))).toEqual(new Set([hovered, ...frames.slice(0, 3)]));
+});
+
+test("no label is under what covers the edges of the picture", () => {
+  const edge = request(105, 300);
+  layoutLabels([edge], { left: 100, top: 50, width: 600, height: 500 });
+
+  expect(edge.box.x).toBeGreaterThanOrEqual(100);
+  const outside = request(690, 55, { width: 640 });
+  layoutLabels([outside], { left: 100, top: 50, width: 600, height: 500 });
+  expect(outside.corner).toBe(-1);
 });

@@ -30,7 +30,8 @@ function setUp(looksOnly = false) {
     },
     ray: (x: number, y: number) => new Ray(new Vector3(x / 100, y / 100, 10), new Vector3(0, 0, -1)),
     addLabel: (anchor: Object3D, text: string) => {
-      const label = { anchor, text, detail: "", remove: () => labels.splice(labels.indexOf(label), 1) };
+      const label = new FakeScene().addLabel(anchor, text);
+      label.remove = () => void labels.splice(labels.indexOf(label), 1);
       labels.push(label);
       return label;
     },

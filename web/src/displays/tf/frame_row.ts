@@ -70,12 +70,22 @@ export function fadeOf(age: number, timeout: number): Fade {
   return { grey: 1, alpha: Math.max(0, (timeout - age) / third) };
 }
 
+/** What is this near in front of a frame, per size of its axes, is its own robot. */
+const REACH = 1.5;
+
+/** Name of a frame without its robot's prefix. */
+function shortName(name: string): string {
+  return name.slice(name.lastIndexOf("/") + 1) || name;
+}
+
 /** Frame in the scene. */
 export class FrameView {
   /** Anchor of its name, in the fixed frame. */
   readonly anchor = new Object3D();
   readonly toParent = new Vector3();
   parent: string | null = null;
+  /** Number of frames above it. */
+  depth = 0;
   isPlaced = false;
   fade: Fade = FRESH;
   private label: Label | null = null;
@@ -121,14 +131,22 @@ export class FrameView {
     return changed;
   }
 
-  showName(shown: boolean): void {
-    if (shown === (this.label !== null)) return;
-    this.label?.remove();
-    this.label = shown ? this.scene.addLabel(this.anchor, this.name) : null;
+  /** Label the frame while it is shown; `isNamed`: not only while it is hovered; `size`: of its axes [m]. */
+  setLabel(isShown: boolean, isNamed: boolean, size: number): void {
+    if (isShown !== (this.label !== null)) {
+      this.label?.remove();
+      this.label = isShown ? this.scene.addLabel(this.anchor, shortName(this.name)) : null;
+    }
+    if (this.label === null) return;
+    this.label.full = this.name;
+    this.label.rank = this.depth;
+    this.label.isQuiet = !isNamed;
+    this.label.reach = REACH * size;
+    this.label.detail = this.parent === null ? "" : `in ${shortName(this.parent)}`;
   }
 
   dispose(): void {
-    this.showName(false);
+    this.setLabel(false, false, 0);
     this.anchor.removeFromParent();
   }
 }

@@ -63,7 +63,7 @@ export class Pane {
   /** Lay out labels and axes for the picture being drawn. */
   placeOver(size: PictureSize, pixelRatio: number): void {
     const camera = this.camera.peek();
-    this.labels.place(camera, size, pixelRatio);
+    this.labels.place(camera, size, this.free.peek(), pixelRatio);
     this.drawn.copy(camera.matrixWorldInverse);
   }
 
