@@ -120,7 +120,7 @@ export class LabelLayer {
     this.pixelRatio = pixelRatio;
     this.font = this.style.getPropertyValue("--font") || "sans-serif";
     this.findVisible(camera, size, free);
-    layoutLabels(this.visible, free);
+    layoutLabels(this.visible, free, (entry) => this.isCovered(entry, camera));
   }
 
   /** Draw the labels where they were placed. */
@@ -188,7 +188,6 @@ export class LabelLayer {
       const at = toPicture(label.anchor.getWorldPosition(this.point), camera, size);
       if (at === null || at.x < left || at.y < top || at.x > left + width || at.y > top + height) continue;
       const entry = this.entryOf(label);
-      if (label !== this.hovered && this.isCovered(entry, camera)) continue;
       entry.rank = label.rank;
       entry.x = at.x;
       entry.y = at.y;
@@ -201,9 +200,9 @@ export class LabelLayer {
 
   /** True if something stands before a frame's anchor; looks again only after a while. */
   private isCovered(entry: VisibleLabel, camera: Camera): boolean {
-    const { anchor, rank, reach } = entry.label;
+    const { anchor, reach } = entry.label;
     const now = performance.now();
-    if (rank !== null && now - entry.lookedAt > LOOK_AGAIN) {
+    if (now - entry.lookedAt > LOOK_AGAIN) {
       entry.lookedAt = now;
       entry.isCovered = this.set.isCovered(anchor.getWorldPosition(this.point), camera, reach);
     }

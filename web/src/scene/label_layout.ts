@@ -50,15 +50,23 @@ const CORNERS = [
 /** Number of ranked labels in a picture, besides the hovered one. */
 const FEW = 3;
 
-/** Place the requests within an area [px], or mark them as not placed; sorts them by priority. */
-export function layoutLabels(requests: LabelRequest[], area: Area): void {
+/**
+ * Place the requests within an area [px], or mark them as not placed; sorts them by priority.
+ *
+ * `isCovered` is asked for ranked labels alone, and only until a few have a place.
+ */
+export function layoutLabels<Request extends LabelRequest>(
+  requests: Request[],
+  area: Area,
+  isCovered: (request: Request) => boolean = () => false,
+): void {
   sort(requests);
   let few = 0;
   for (let i = 0; i < requests.length; i += 1) {
     const request = requests[i];
     if (request === undefined) continue;
     const isRanked = request.rank !== null && !request.hovered;
-    if (isRanked && few === FEW) request.corner = -1;
+    if (isRanked && (few === FEW || isCovered(request))) request.corner = -1;
     else place(request, i, requests, area);
     if (isRanked && request.corner >= 0) few += 1;
   }

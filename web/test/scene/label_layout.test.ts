@@ -88,3 +88,16 @@ test("no label is under what covers the edges of the picture", () => {
   layoutLabels([outside], { left: 100, top: 50, width: 600, height: 500 });
   expect(outside.corner).toBe(-1);
 });
+
+test("a covered label leaves its place to the next, and nobody looks for more than are shown", () => {
+  const frames = Array.from({ length: 50 }, (_, rank) => request(100, 10 + 11 * (50 - rank), { rank }));
+  const asked: (number | null)[] = [];
+  layoutLabels(frames, AREA, ({ rank }) => {
+    asked.push(rank);
+    return rank === 1;
+  });
+
+  expect(frames.find(({ rank }) => rank === 1)?.corner).toBe(-1);
+  expect(frames.filter(({ corner }) => corner >= 0)).toHaveLength(3);
+  expect(asked.length).toBeLessThan(50);
+});
