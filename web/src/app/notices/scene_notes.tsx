@@ -27,7 +27,7 @@ function Loading({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const { world, session, connection } = shell.page;
   const manifest = world.manifest.value;
   const progress = world.progress.value;
-  if (session.kind === "graph" || session.kind === "bag" || connection.state.value.kind !== "connected") return null;
+  if (session.kind === "graph" || session.kind === "bag" || connection.state.value.kind === "lost") return null;
   if (manifest?.models.length === 0) return <Note text="The world is empty." />;
   if (manifest !== null && progress >= 1) return null;
   const name = manifest === null || manifest.name === "default" ? session.title : manifest.name;
