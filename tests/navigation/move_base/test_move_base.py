@@ -104,6 +104,96 @@ def test_make_plan_leads_to_the_goal_or_as_near_as_the_tolerance_allows(graph: A
     assert near.poses[-2].pose.position.x < 3.0
 
 
+def test_obstacles_stay_until_the_costmaps_are_cleared(graph: Any) -> None:
+    _start(graph)
+    grids = graph.listen("/move_base/global_costmap/costmap", "nav_msgs/OccupancyGrid")
+    updates = graph.listen("/move_base/global_costmap/costmap_updates", "map_msgs/OccupancyGridUpdate")
+    scans = graph.advertise("/scan", "sensor_msgs/LaserScan")
+    cells: dict[str, Any] = {}
+
+    def is_marked() -> bool:
+        """Return True if the cell at 1.65, 1.05 is lethal, after all updates."""
+        if "grid" not in cells:
+            cells["grid"] = grids[-1].data.reshape(_SIZE, _SIZE).copy()
+        for update in updates:
+            part = (slice(update.y, update.y + update.height), slice(update.x, update.x + update.width))
+            cells["grid"][part] = update.data.reshape(update.height, update.width)
+        updates.clear()
+        return bool(cells["grid"][10, 16] == 100)
+
+    graph.until(lambda: grids)
+    scan = {"angle_increment": math.pi, "range_min": 0.1, "range_max": 5.0, "ranges": np.array([0.6], np.float32)}
+    scans.publish({"header": {"frame_id": "base_link"}, **scan})
+    graph.until(is_marked)
+    graph.call("/move_base/clear_costmaps", "std_srvs/Empty")
+
+    graph.until(lambda: not is_marked())
+
+
+def test_recovery_behaviors_run_in_order_before_a_goal_is_given_up(graph: Any) -> None:
+    _start(graph, recovery_behavior_enabled=True, clearing_rotation_allowed=False)
+    statuses = graph.listen("/move_base/recovery_status", "move_base_msgs/RecoveryStatus")
+    graph.until(lambda: graph.connected("/move_base/recovery_status"))
+
+    result = _drive_to(graph, _pose(3.5, 1.0))
+
+    assert result.status.status == 4
+    steps = [(status.current_recovery_number, status.recovery_behavior_name) for status in statuses]
+    assert steps == [(0, "conservative_reset"), (1, "aggressive_reset")]
+    assert {status.total_number_of_recoveries for status in statuses} == {2}
+
+
+def test_a_scan_may_be_missing_no_longer_than_expected(graph: Any) -> None:
+    """Without data, the robot is not driven."""
+    late = {"observation_sources": "scan", "scan": {**_SCAN, "expected_update_rate": 0.01}}
+    local = {**_parameters()["local_costmap"], "obstacles": late}
+    _start(graph, local_costmap=local)
+    commands = graph.listen("/cmd_vel", "geometry_msgs/Twist")
+    goals = graph.advertise("/move_base_simple/goal", "geometry_msgs/PoseStamped")
+    graph.until(lambda: graph.connected("/cmd_vel"))
+
+    goals.publish(_pose(2.0, 1.0))
+
+    graph.until(lambda: len(commands) > 5)
+    assert not any(command.linear.x or command.angular.z for command in commands)
+
+
+@pytest.mark.parametrize(
+    ("name", "error"),
+    [
+        ("base_local_planner", "no local planner 'teb'; there are: "),
+        ("base_global_planner", "no global planner 'teb'; there are: carrot_planner/CarrotPlanner, "),
+    ],
+)
+def test_an_unknown_planner_ends_the_node_with_the_names_of_those_that_exist(
+    graph: Any, name: str, error: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    graph.set_params({"/move_base": _parameters(**{name: "teb"})})
+    graph.advertise("/map", "nav_msgs/OccupancyGrid", latch=True).publish(_map())
+    broadcaster = StaticTransformBroadcaster(graph.client)
+    broadcaster.send_transform(Transform(parent="map", child="base_link", stamp_ns=0))
+
+    assert graph.start("move_base/move_base").result(30.0) == 1
+    assert error in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("planner", ["global_planner/GlobalPlanner", "carrot_planner/CarrotPlanner"])
+def test_other_global_planners_lead_to_the_goal(graph: Any, planner: str) -> None:
+    _start(graph, base_global_planner=planner)
+
+    plan = graph.call("/move_base/make_plan", "nav_msgs/GetPlan", goal=_pose(2.0, 2.0)).plan
+
+    assert (plan.poses[-1].pose.position.x, plan.poses[-1].pose.position.y) == pytest.approx((2.0, 2.0))
+
+
+def test_a_carrot_ends_before_a_wall(graph: Any) -> None:
+    _start(graph, base_global_planner="carrot_planner/CarrotPlanner")
+
+    plan = graph.call("/move_base/make_plan", "nav_msgs/GetPlan", goal=_pose(3.0, 1.05)).plan
+
+    assert 2.6 < plan.poses[-1].pose.position.x < 2.9
+
+
 def test_a_goal_behind_a_wall_is_aborted(graph: Any) -> None:
     _start(graph)
 

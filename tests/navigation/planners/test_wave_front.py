@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from trundle.navigation import _grids
-from trundle.navigation.planners.navfn import crossing_costs, nearest_reached
+from trundle.navigation.planners.navfn import crossing_costs
+from trundle.navigation.planners.potential import nearest_reached
 
 
 def test_distances_on_an_empty_grid_are_nearly_straight() -> None:

@@ -4,6 +4,7 @@ import math
 from typing import Annotated
 
 import msgspec
+import numpy as np
 from msgspec import Meta
 
 from trundle.navigation import _grids
@@ -27,12 +28,11 @@ class InflationSettings(msgspec.Struct, kw_only=True):
 def inflated_costs(settings: InflationSettings, resolution_m: float, inscribed_m: float) -> list[int]:
     """Return the cost for each squared distance in cells: lethal, inscribed, then falling exponentially."""
     radius = min(math.ceil(settings.inflation_radius / resolution_m - 1e-9), _MAX_RADIUS_CELLS)
-    costs = [LETHAL]
-    for square in range(1, radius * radius + 1):
-        distance_m = math.sqrt(square) * resolution_m
-        factor = math.exp(-settings.cost_scaling_factor * (distance_m - inscribed_m))
-        costs.append(INSCRIBED if distance_m <= inscribed_m else int((INSCRIBED - 1) * factor))
-    return costs
+    distances_m = np.sqrt(np.arange(radius * radius + 1)) * resolution_m
+    factors = np.exp(np.minimum(-settings.cost_scaling_factor * (distances_m - inscribed_m), 0.0))
+    costs = np.where(distances_m <= inscribed_m, INSCRIBED, ((INSCRIBED - 1) * factors).astype(int))
+    costs[0] = LETHAL
+    return costs.tolist()
 
 
 class InflationLayer:

@@ -213,7 +213,7 @@ class MoveBase:
             node.log.error("move_base cannot make a plan for you because it could not get the start pose of the robot")
             return {}
         plan = self._global_planner.make_plan(start, goal, 0.0)
-        tolerance = float(request.tolerance)
+        tolerance = request.tolerance
         if plan is None and tolerance > 0.0:
             plan = self._global_planner.make_plan(start, goal, tolerance)
             if plan is not None and self._settings.make_plan_add_unreachable_goal:

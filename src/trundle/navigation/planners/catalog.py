@@ -4,6 +4,8 @@ import importlib
 from typing import Any
 
 GLOBAL_PLANNERS = {
+    "carrot_planner/CarrotPlanner": "trundle.navigation.planners.carrot_planner:CarrotPlanner",
+    "global_planner/GlobalPlanner": "trundle.navigation.planners.global_planner:GlobalPlanner",
     "navfn/NavfnROS": "trundle.navigation.planners.navfn:NavfnROS",
 }
 LOCAL_PLANNERS = {

@@ -42,7 +42,7 @@ class FollowedPlan:
         if poses is None or not len(poses):
             return None
         distances = np.hypot(poses[:, 0] - pose.x, poses[:, 1] - pose.y)
-        lengths = self._lengths(poses)
+        lengths = lengths_along(poses)
         is_searched = (lengths >= lengths[self._place] - _PRUNED_M) & (lengths <= lengths[self._place] + _SEARCHED_M)
         near = np.where(is_searched, distances, np.inf)
         self._place = int(near.argmin())
@@ -68,18 +68,17 @@ class FollowedPlan:
         turned = plan.poses @ np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
         return turned + np.array([x, y, yaw])
 
-    @staticmethod
-    def _lengths(poses: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the length of the way up to each pose [m]."""
-        steps = np.hypot(*np.diff(poses[:, :2], axis=0).T)
-        return np.concatenate([[0.0], np.cumsum(steps)])
+
+def lengths_along(poses: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the length of a way (n, 3) up to each of its poses [m]."""
+    steps = np.diff(poses[:, :2], axis=0, prepend=poses[:1, :2])
+    return np.cumsum(np.hypot(steps[:, 0], steps[:, 1]))
 
 
 def point_ahead(plan: NDArray[np.float64], distance_m: float) -> Pose2D:
     """Return the pose of a plan at a distance along it; its end if it is shorter."""
-    steps = np.hypot(*np.diff(plan[:, :2], axis=0).T)
-    index = int(np.searchsorted(np.cumsum(steps), distance_m))
-    return Pose2D(*plan[min(index + 1, len(plan) - 1)].tolist())
+    index = int(np.searchsorted(lengths_along(plan), distance_m))
+    return Pose2D(*plan[min(index, len(plan) - 1)].tolist())
 
 
 def distance_fields(

@@ -1,23 +1,15 @@
-"""navfn/NavfnROS: the way of least cost through a costmap, down a potential."""
-
-import math
-from typing import TYPE_CHECKING, Any
+"""navfn/NavfnROS: the way of least cost through a costmap."""
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.navigation import _grids
 from trundle.robots.parameters import RosParameters
 from trundle.ros import Node
 
-from ..costmap import INSCRIBED, LETHAL, NO_INFORMATION, Costmap, CostmapRos
+from ..costmap import INSCRIBED, LETHAL, NO_INFORMATION, CostmapRos
 from ..settings import read_settings
-from .interfaces import Plan, Pose2D
-from .path_message import path_message
-
-if TYPE_CHECKING:
-    from trundle.ros.message_types import nav_msgs
+from .potential import PotentialPlanner
 
 _NEUTRAL_COST, _COST_FACTOR, _OBSTACLE_COST = 50.0, 0.8, 254.0
 """Cost of crossing a cell: navfn's sum of a constant and a share of the costmap's cost."""
@@ -33,76 +25,13 @@ class NavfnSettings(msgspec.Struct, kw_only=True):
     planner_window_y: float = 0.0
 
 
-class NavfnROS:
-    """Plans as navfn does: a front from the robot spreads over all cells, and the way descends from the goal to it.
-
-    The front solves the eikonal equation, so that ways are straight where costs are equal. `~NavfnROS/make_plan`
-    plans without driving; `~NavfnROS/plan` has each plan.
-    """
+class NavfnROS(PotentialPlanner):
+    """Plans with navfn's costs."""
 
     def __init__(self, node: Node, name: str, settings: RosParameters, costmap: CostmapRos) -> None:
-        self._node = node
-        self._costmap = costmap
-        self._settings = read_settings(NavfnSettings, settings)
-        self._crossing = crossing_costs(allow_unknown=self._settings.allow_unknown)
-        self._plans = node.advertise(f"~{name}/plan", "nav_msgs/Path", queue_size=1)
-        node.advertise_service(f"~{name}/make_plan", "nav_msgs/GetPlan", self._on_make_plan)
-
-    def _on_make_plan(self, request: "nav_msgs.GetPlanRequest") -> dict[str, Any]:
-        start, goal = (
-            Pose2D(pose.pose.position.x, pose.pose.position.y, 0.0) for pose in (request.start, request.goal)
-        )
-        plan = self.make_plan(start, goal, float(request.tolerance))
-        empty = Plan(self._costmap.frame, np.empty((0, 3)))
-        return {"plan": path_message(plan or empty, self._node.clock.now_ns())}
-
-    def make_plan(self, start: Pose2D, goal: Pose2D, tolerance: float | None = None) -> Plan | None:
-        """See `GlobalPlanner`."""
-        grid = self._costmap.costmap
-        first, last = grid.cell(start.x, start.y), grid.cell(goal.x, goal.y)
-        if first is None:
-            self._node.log.warn(
-                "The robot's start position is off the global costmap. Planning will always fail, are you sure the "
-                "robot has been properly localized?"
-            )
-            return None
-        if last is None:
-            self._node.log.warn(
-                "The goal sent to the navfn planner is off the global costmap. Planning will always fail to this goal."
-            )
-            return None
-        reach = self._settings.default_tolerance if tolerance is None else tolerance
-        costs = self._costs(grid, first)
-        potential = _grids.wave_front(costs, [first], stop=last if reach <= 0.0 else (-1, -1))
-        end = nearest_reached(potential, last, reach / grid.resolution_m)
-        way = _grids.descend(potential, end, first) if end is not None else np.empty((0, 2))
-        if end is None or not len(way):
-            return None
-        plan = Plan(self._costmap.frame, self._poses(grid, way[::-1], start, goal, is_exact=end == last))
-        if self._plans.has_subscribers:
-            self._plans.publish(path_message(plan, self._node.clock.now_ns()))
-        return plan
-
-    def _costs(self, grid: Costmap, start: tuple[int, int]) -> NDArray[np.float32]:
-        """Return the cost of crossing each cell; the border is impassable, the robot's own cell is not."""
-        costs = self._crossing[grid.cells]
-        costs[[0, -1], :] = 0.0
-        costs[:, [0, -1]] = 0.0
-        costs[start[1], start[0]] = _NEUTRAL_COST
-        return costs
-
-    def _poses(
-        self, grid: Costmap, way: NDArray[np.float64], start: Pose2D, goal: Pose2D, *, is_exact: bool
-    ) -> NDArray[np.float64]:
-        """Return the way from the robot to the goal in metres, headed along itself."""
-        points = (way + 0.5) * grid.resolution_m + np.array(grid.origin)
-        points[0] = start.x, start.y
-        if is_exact:
-            points[-1] = goal.x, goal.y
-        steps = np.diff(points, axis=0, append=points[-1:])
-        yaws = np.arctan2(steps[:, 1], steps[:, 0])
-        yaws[-1] = goal.yaw
-        return np.column_stack([points, yaws])
+        own = read_settings(NavfnSettings, settings)
+        crossing = crossing_costs(allow_unknown=own.allow_unknown)
+        super().__init__(node, name, costmap, crossing=crossing, tolerance_m=own.default_tolerance)
 
 
 def crossing_costs(*, allow_unknown: bool) -> NDArray[np.float32]:
@@ -111,21 +40,3 @@ def crossing_costs(*, allow_unknown: bool) -> NDArray[np.float32]:
     costs[INSCRIBED] = costs[LETHAL] = 0.0
     costs[NO_INFORMATION] = _OBSTACLE_COST - 1.0 if allow_unknown else 0.0
     return costs.astype(np.float32)
-
-
-def nearest_reached(
-    potential: NDArray[np.float32], goal: tuple[int, int], tolerance_cells: float
-) -> tuple[int, int] | None:
-    """Return the cell nearest to the goal that the front reached, within the tolerance; None if there is none."""
-    column, row = goal
-    if potential[row, column] < _grids.UNREACHED:
-        return goal
-    reach = math.floor(tolerance_cells)
-    x0, y0 = max(column - reach, 0), max(row - reach, 0)
-    part = potential[y0 : row + reach + 1, x0 : column + reach + 1]
-    rows, columns = np.nonzero(part < _grids.UNREACHED)
-    squares = (rows + y0 - row) ** 2 + (columns + x0 - column) ** 2
-    if not len(squares) or squares.min() > tolerance_cells**2:
-        return None
-    nearest = int(squares.argmin())
-    return int(columns[nearest]) + x0, int(rows[nearest]) + y0

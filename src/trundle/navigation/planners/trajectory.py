@@ -15,7 +15,7 @@ from trundle.ros import Node, TransformBuffer
 from ..costmap import CostmapRos
 from ..settings import read_settings, reconfigure
 from .dwa import axis_samples
-from .followed_plan import distance_fields, point_ahead
+from .followed_plan import distance_fields, lengths_along, point_ahead
 from .follower import Follower
 from .goal_stop import Velocity
 from .interfaces import Pose2D
@@ -141,6 +141,9 @@ class TrajectoryPlannerROS(Follower):
         terms = _grids.score_rollouts(
             self.rollout_settings(horizon_s), maps, self.costmap.footprint, pose, self.odom.velocity, samples
         )
+        way_costs = self._way_costs(plan, np.abs(samples[:, 0]) * horizon_s)
+        obstacles = terms[:, 0]
+        obstacles[obstacles > 0.0] = np.maximum(obstacles - way_costs, 0.0)[obstacles > 0.0]
         scores = self._scores(terms, samples, pose, plan)
         best = int(scores.argmin()) if len(scores) else -1
         if best < 0 or not math.isfinite(scores[best]):
@@ -148,6 +151,21 @@ class TrajectoryPlannerROS(Follower):
         x, y, turn = samples[best].tolist()
         self.oscillation.note(pose, (x, y, turn), settings.oscillation_reset_dist, settings.escape_reset_theta)
         return x, y, turn
+
+    def _way_costs(self, plan: NDArray[np.float64], lengths_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the highest cost under the footprint on the first part of the way, for each of its lengths.
+
+        Only what a trajectory costs beyond it counts: else standing before a door would cost less than to pass it.
+        """
+        grid = self.costmap.costmap
+        along = lengths_along(plan)
+        count = int(np.searchsorted(along, float(lengths_m.max()))) + 1
+        costs = [
+            _grids.footprint_cost(grid.cells, grid.origin, grid.resolution_m, self.costmap.footprint, (x, y, yaw))
+            for x, y, yaw in plan[:count].tolist()
+        ]
+        highest = np.maximum.accumulate(np.maximum(costs, 0.0))
+        return highest[np.minimum(np.searchsorted(along, lengths_m), len(highest) - 1)]
 
     def _scores(
         self, terms: NDArray[np.float64], samples: NDArray[np.float64], pose: Pose2D, plan: NDArray[np.float64]
@@ -157,7 +175,7 @@ class TrajectoryPlannerROS(Follower):
         scale = self.costmap.costmap.resolution_m if settings.meter_scoring else 1.0
         obstacles, path, goal, front, _, steps = terms.T
         is_valid = (obstacles >= 0.0) & (steps > 0.0) & (path < _grids.UNREACHED) & (goal < _grids.UNREACHED)
-        costs = settings.occdist_scale * obstacles
+        costs: NDArray[np.float64] = settings.occdist_scale * obstacles
         if settings.simple_attractor:
             ends = np.array([self._end(pose, sample) for sample in samples]).reshape(-1, 2)
             offsets = ends - plan[-1, :2]
@@ -166,13 +184,14 @@ class TrajectoryPlannerROS(Follower):
             ahead = point_ahead(plan, settings.heading_lookahead)
             direction = math.atan2(ahead.y - pose.y, ahead.x - pose.x)
             yaws = pose.yaw + samples[:, 2] * settings.heading_scoring_timestep
-            misses = np.abs([angle_between(float(yaw), direction) for yaw in yaws])
+            misses = np.array([abs(angle_between(float(yaw), direction)) for yaw in yaws])
             costs = costs + 0.3 * scale * settings.path_distance_bias * path + misses
             costs += scale * settings.goal_distance_bias * goal
         else:
             costs = costs + scale * (settings.path_distance_bias * path + settings.goal_distance_bias * goal)
         is_spot = (samples[:, 0] == 0.0) & (samples[:, 1] == 0.0)
-        costs = np.where(is_spot, _SPOT_PENALTY + front, costs) + _ESCAPE_PENALTY * (samples[:, 0] < 0.0)
+        costs[is_spot] = _SPOT_PENALTY + front[is_spot]
+        costs[samples[:, 0] < 0.0] += _ESCAPE_PENALTY
         return np.where(is_valid, costs, math.inf)
 
     def _end(self, pose: Pose2D, sample: NDArray[np.float64]) -> tuple[float, float]:
