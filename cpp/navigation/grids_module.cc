@@ -127,11 +127,11 @@ nb::object score_rollouts(const RolloutSettings& settings, const RolloutMaps& ma
   std::vector<double> numbers;
   {
     const NoGil unlocked;
-    const auto polygon = points_of(footprint);
+    FootprintCosts costs(maps, points_of(footprint));
     numbers.reserve(6 * targets.shape(0));
     for (std::size_t i = 0; i < targets.shape(0); ++i) {
       const auto poses = roll_out(settings, pose, velocity, {targets(i, 0), targets(i, 1), targets(i, 2)});
-      const auto score = score_rollout(settings, maps, polygon, poses);
+      const auto score = score_rollout(settings, costs, poses);
       numbers.insert(numbers.end(),
                      {score.obstacles, score.path, score.goal, score.front, score.alignment, score.steps});
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "wave_front.h"
 
@@ -13,6 +15,8 @@ constexpr double kCollision = -1;
 constexpr double kUnknown = -2;
 constexpr std::uint8_t kInscribed = 253;
 constexpr int kMaxSteps = 10000;
+constexpr std::size_t kRoundCorners = 12;
+constexpr double kRoundShare = 0.1;  // of the radius, which padding along the axes changes
 
 std::array<int, 2> cell_of(const RolloutMaps& maps, double x, double y) {
   const auto number = [&](double value, double origin, int count) {
@@ -56,8 +60,7 @@ std::vector<Triple> roll_out(const RolloutSettings& settings, Triple pose, Tripl
   return poses;
 }
 
-double footprint_cost(const RolloutMaps& maps, const std::vector<std::array<double, 2>>& footprint,
-                      const Triple& pose) {
+double footprint_cost(const RolloutMaps& maps, const Polygon& footprint, const Triple& pose) {
   const auto [x, y] = cell_of(maps, pose[0], pose[1]);
   if (!maps.shape.contains(x, y)) return kUnknown;
   const std::uint8_t center = maps.costs[maps.shape.index(x, y)];
@@ -88,11 +91,35 @@ double footprint_cost(const RolloutMaps& maps, const std::vector<std::array<doub
   return highest;
 }
 
-RolloutScore score_rollout(const RolloutSettings& settings, const RolloutMaps& maps,
-                           const std::vector<std::array<double, 2>>& footprint, const std::vector<Triple>& poses) {
+FootprintCosts::FootprintCosts(const RolloutMaps& maps, Polygon footprint)
+    : maps_(maps), footprint_(std::move(footprint)) {
+  if (footprint_.size() < kRoundCorners) return;
+  const double radius = std::hypot(footprint_[0][0], footprint_[0][1]);
+  for (const auto& point : footprint_)
+    if (std::fabs(std::hypot(point[0], point[1]) - radius) > kRoundShare * radius) return;
+  known_.assign(4 * maps.shape.size(), std::numeric_limits<float>::quiet_NaN());
+}
+
+double FootprintCosts::at(const Triple& pose) {
+  if (known_.empty()) return footprint_cost(maps_, footprint_, pose);
+  const double half = maps_.resolution / 2;
+  const double x = std::floor((pose[0] - maps_.origin[0]) / half);
+  const double y = std::floor((pose[1] - maps_.origin[1]) / half);
+  if (!(x >= 0 && y >= 0 && x < 2.0 * maps_.shape.width && y < 2.0 * maps_.shape.height)) return kUnknown;
+  const auto columns = static_cast<std::size_t>(2 * maps_.shape.width);
+  float& known = known_[static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x)];
+  if (std::isnan(known)) {
+    const Triple center{maps_.origin[0] + (x + 0.5) * half, maps_.origin[1] + (y + 0.5) * half, 0};
+    known = static_cast<float>(footprint_cost(maps_, footprint_, center));
+  }
+  return static_cast<double>(known);
+}
+
+RolloutScore score_rollout(const RolloutSettings& settings, FootprintCosts& costs, const std::vector<Triple>& poses) {
+  const RolloutMaps& maps = costs.maps();
   RolloutScore score{0, 0, 0, 0, 0, static_cast<double>(poses.size())};
   for (const Triple& pose : poses) {
-    const double cost = footprint_cost(maps, footprint, pose);
+    const double cost = costs.at(pose);
     if (cost < 0) {
       score.obstacles = cost;
       return score;

@@ -39,11 +39,27 @@ struct RolloutScore {
 // Poses of a trajectory, the first after one time step.
 std::vector<Triple> roll_out(const RolloutSettings& settings, Triple pose, Triple velocity, const Triple& target);
 
-// Score of one trajectory; `footprint` is a polygon [m] around the robot's origin, or empty for its center alone.
-RolloutScore score_rollout(const RolloutSettings& settings, const RolloutMaps& maps,
-                           const std::vector<std::array<double, 2>>& footprint, const std::vector<Triple>& poses);
+using Polygon = std::vector<std::array<double, 2>>;
 
 // Highest cost under the edges of a footprint and its center; negative as in `RolloutScore`.
-double footprint_cost(const RolloutMaps& maps, const std::vector<std::array<double, 2>>& footprint, const Triple& pose);
+double footprint_cost(const RolloutMaps& maps, const Polygon& footprint, const Triple& pose);
+
+// Costs of one footprint, a polygon [m] around the robot's origin, or empty for its center alone.
+//
+// Those of a round footprint do not depend on the yaw: each half cell is computed once, at its center.
+class FootprintCosts {
+ public:
+  FootprintCosts(const RolloutMaps& maps, Polygon footprint);
+  double at(const Triple& pose);
+  [[nodiscard]] const RolloutMaps& maps() const { return maps_; }
+
+ private:
+  const RolloutMaps& maps_;
+  Polygon footprint_;
+  std::vector<float> known_;  // empty unless the footprint is round; NaN where not computed yet
+};
+
+// Score of one trajectory.
+RolloutScore score_rollout(const RolloutSettings& settings, FootprintCosts& costs, const std::vector<Triple>& poses);
 
 }  // namespace trundle

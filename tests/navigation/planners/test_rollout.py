@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from trundle.navigation import _grids
+from trundle.navigation.costmap import circle
 
 _SETTINGS: dict[str, Any] = {"sim_time": 2.0, "granularity": 0.01, "angular_granularity": 0.01}
 _NO_FOOTPRINT = np.empty((0, 2))
@@ -73,3 +74,21 @@ def test_grids_of_two_shapes_are_refused() -> None:
         _grids.RolloutMaps(
             costs=np.zeros((3, 3), np.uint8), path=field, goal=field, front=field, origin=(0.0, 0.0), resolution=0.1
         )
+
+
+@pytest.mark.parametrize(("row", "expected"), [(10, -1.0), (12, -1.0), (13, 0.0)])
+def test_a_round_footprint_collides_where_its_circle_touches_a_lethal_cell(row: int, expected: float) -> None:
+    """Its costs are kept for each half cell: the robot of 0.25 m passes a cell that begins 0.3 m beside it."""
+    costs = np.zeros((20, 20), np.uint8)
+    costs[row, 14] = 254
+
+    assert _score(costs, circle(0.25), (0.3, 0.0, 0.0))[0] == expected
+
+
+def test_costs_of_a_round_footprint_are_those_of_its_outline() -> None:
+    costs = np.tile(np.arange(0, 200, 10, dtype=np.uint8), (20, 1))
+    outline = circle(0.25)
+
+    kept = _score(costs, outline, (0.2, 0.0, 0.0))[0]
+
+    assert kept == pytest.approx(_grids.footprint_cost(costs, (-1.0, -1.0), 0.1, outline, (0.4, 0.0, 0.0)), abs=10.0)
