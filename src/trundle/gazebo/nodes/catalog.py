@@ -28,6 +28,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("gazebo_ros", "perf"): "trundle.gazebo.nodes.gazebo:GazeboServer",
     ("gazebo_ros", "spawn_model"): "trundle.gazebo.nodes.gazebo:SpawnModel",
     ("gazebo_ros", "urdf_spawner"): "trundle.gazebo.nodes.gazebo:SpawnModel",
+    ("gmapping", "slam_gmapping"): "trundle.navigation.mapping:SlamGmapping",
     ("gscam", "gscam"): "trundle.gazebo.nodes.camera_drivers:GsCam",
     ("gscam", "gscam_node"): "trundle.gazebo.nodes.camera_drivers:GsCam",
     ("image_view", "image_view"): "trundle.gazebo.nodes.rqt_windows:ImageView",

@@ -14,7 +14,6 @@ ALTERNATIVES: dict[str, str] = {
     "explore_lite": _NAVIGATION,
     "frontier_exploration": _NAVIGATION,
     "global_planner": _NAVIGATION,
-    "gmapping": _NAVIGATION,
     "hector_mapping": _NAVIGATION,
     "karto_slam": _NAVIGATION,
     "slam_karto": _NAVIGATION,

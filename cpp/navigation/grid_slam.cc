@@ -1,0 +1,206 @@
+#include "grid_slam.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace trundle::navigation {
+
+namespace {
+
+constexpr double kTiny = 1e-12;
+
+}  // namespace
+
+GridSlam::GridSlam(const SlamOptions& options, std::vector<double> bearings, const PlanarPose& pose, std::uint64_t seed)
+    : options_(options),
+      bearings_(std::move(bearings)),
+      matcher_(options.match),
+      random_(seed),
+      particles_(static_cast<std::size_t>(std::max(options.particles, 1)), Particle{pose, HitMap(options.delta)}),
+      counts_(options.delta) {}
+
+// As gmapping's motion model: noise grows with the distances along each axis, not with their squares.
+void GridSlam::drift(PlanarPose& pose, const PlanarPose& motion) {
+  const auto& [srr, srt, str, stt] = std::array<double, 4>{options_.srr, options_.srt, options_.str, options_.stt};
+  const double forward = std::abs(motion.x), sideways = std::abs(motion.y), turn = std::abs(motion.yaw);
+  const PlanarPose noisy{
+      motion.x + random_.gaussian(srr * forward + str * turn + 0.3 * srr * sideways),
+      motion.y + random_.gaussian(srr * sideways + str * turn + 0.3 * srr * forward),
+      normalized_angle(motion.yaw + random_.gaussian(stt * turn + srt * std::hypot(motion.x, motion.y)))};
+  pose = compose(pose, noisy);
+}
+
+bool GridSlam::process(const PlanarPose& odometry, double time_s, const std::vector<double>& ranges) {
+  if (has_started_) {
+    const PlanarPose motion = compose(inverse(odometry_), odometry);
+    for (Particle& particle : particles_) drift(particle.pose, motion);
+    driven_ += std::hypot(motion.x, motion.y);
+    turned_ += std::abs(motion.yaw);
+  }
+  odometry_ = odometry;
+  const bool is_due = options_.temporal_update >= 0.0 && time_s - last_time_s_ > options_.temporal_update;
+  if (has_started_ && driven_ < options_.linear_update && turned_ < options_.angular_update && !is_due) return false;
+  driven_ = turned_ = 0.0;
+  last_time_s_ = time_s;
+  std::vector<float> kept;
+  for (const double range : ranges)
+    kept.push_back(range > 0.0 && range <= options_.max_range ? static_cast<float>(range) : 0.0f);
+  kept.resize(bearings_.size(), 0.0f);
+  scans_.push_back(std::move(kept));
+  if (has_started_) {
+    match();
+    resample_if_needed();
+  }
+  has_started_ = true;
+  register_scan();
+  return true;
+}
+
+std::vector<BeamEnd> GridSlam::beam_ends(const std::vector<float>& ranges) const {
+  const double before = std::numbers::sqrt2 * options_.delta;
+  std::vector<BeamEnd> beams;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const double range = double{ranges[i]};
+    if (range == 0.0 || range > options_.usable_range) continue;
+    const double c = std::cos(bearings_[i]), s = std::sin(bearings_[i]);
+    beams.push_back({range * c, range * s, (range - before) * c, (range - before) * s});
+  }
+  return beams;
+}
+
+void GridSlam::match() {
+  const std::vector<BeamEnd> beams = beam_ends(scans_.back());
+  int unmatched = 0;
+  for (Particle& particle : particles_) {
+    const Match match = matcher_.optimize(particle.map, particle.pose, beams);
+    if (match.score > options_.minimum_score) particle.pose = match.pose;
+    else ++unmatched;
+    particle.log_weight += matcher_.log_likelihood(particle.map, particle.pose, beams);
+  }
+  unmatched_share_ = static_cast<double>(unmatched) / static_cast<double>(particles_.size());
+}
+
+std::vector<double> GridSlam::weights() const {
+  const double gain = 1.0 / (options_.likelihood_gain * static_cast<double>(particles_.size()));
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const Particle& particle : particles_) highest = std::max(highest, particle.log_weight);
+  std::vector<double> weights;
+  double sum = 0.0;
+  for (const Particle& particle : particles_) {
+    weights.push_back(std::exp(gain * (particle.log_weight - highest)));
+    sum += weights.back();
+  }
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+double GridSlam::entropy() const {
+  double entropy = 0.0;
+  for (const double weight : weights())
+    if (weight > 0.0) entropy -= weight * std::log(weight);
+  return entropy;
+}
+
+std::size_t GridSlam::best() const {
+  const auto heaviest =
+      std::max_element(particles_.begin(), particles_.end(),
+                       [](const Particle& a, const Particle& b) { return a.log_weight < b.log_weight; });
+  return static_cast<std::size_t>(heaviest - particles_.begin());
+}
+
+// Systematic resampling when the effective number of particles is low.
+void GridSlam::resample_if_needed() {
+  const std::vector<double> weights = this->weights();
+  double squares = 0.0;
+  for (const double weight : weights) squares += weight * weight;
+  const auto count = static_cast<double>(particles_.size());
+  if (1.0 / squares >= options_.resample_threshold * count) return;
+  std::vector<Particle> drawn;
+  double place = random_.uniform() / count, sum = 0.0;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    sum += weights[i];
+    for (; place < sum && drawn.size() < particles_.size(); place += 1.0 / count) drawn.push_back(particles_[i]);
+  }
+  while (drawn.size() < particles_.size()) drawn.push_back(particles_.back());
+  for (Particle& particle : drawn) particle.log_weight = 0.0;
+  particles_ = std::move(drawn);
+}
+
+void GridSlam::register_scan() {
+  const std::vector<BeamEnd> beams = beam_ends(scans_.back());
+  for (Particle& particle : particles_) {
+    nodes_.push_back({particle.pose, particle.node, static_cast<int>(scans_.size()) - 1});
+    particle.node = static_cast<int>(nodes_.size()) - 1;
+    const double c = std::cos(particle.pose.yaw), s = std::sin(particle.pose.yaw);
+    for (const BeamEnd& beam : beams) {
+      const double x = particle.pose.x + c * beam.x - s * beam.y, y = particle.pose.y + s * beam.x + c * beam.y;
+      if (!particle.map.reaches(x) || !particle.map.reaches(y)) continue;
+      const int column = particle.map.cell_of(x), row = particle.map.cell_of(y);
+      Hits& hits = particle.map.at(column, row);
+      hits.x += static_cast<float>(x - particle.map.corner(column));
+      hits.y += static_cast<float>(y - particle.map.corner(row));
+      ++hits.count;
+    }
+  }
+}
+
+// Counts the beams that crossed each cell and those that ended in it.
+void GridSlam::count(const Node& node) {
+  const auto& ranges = scans_[static_cast<std::size_t>(node.scan)];
+  const double start_x = node.pose.x / options_.delta, start_y = node.pose.y / options_.delta;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const double range = double{ranges[i]};
+    if (range == 0.0) continue;
+    const double length = std::min(range, options_.usable_range);
+    const double dx = std::cos(node.pose.yaw + bearings_[i]), dy = std::sin(node.pose.yaw + bearings_[i]);
+    const double end_x = node.pose.x + length * dx, end_y = node.pose.y + length * dy;
+    if (!counts_.reaches(node.pose.x) || !counts_.reaches(node.pose.y) || !counts_.reaches(end_x) ||
+        !counts_.reaches(end_y))
+      continue;
+    int column = counts_.cell_of(node.pose.x), row = counts_.cell_of(node.pose.y);
+    const int end_column = counts_.cell_of(end_x), end_row = counts_.cell_of(end_y);
+    // The end first, so that the map grows but once.
+    Counts& end = counts_.at(end_column, end_row);
+    ++end.visits;
+    end.hits += range <= options_.usable_range;
+    const int step_x = dx < 0.0 ? -1 : 1, step_y = dy < 0.0 ? -1 : 1;
+    const double per_x = 1.0 / std::max(std::abs(dx), kTiny), per_y = 1.0 / std::max(std::abs(dy), kTiny);
+    double next_x = (step_x > 0 ? column + 1 - start_x : start_x - column) * per_x;
+    double next_y = (step_y > 0 ? row + 1 - start_y : start_y - row) * per_y;
+    for (int left = std::abs(end_column - column) + std::abs(end_row - row); left > 0; --left) {
+      ++counts_.at(column, row).visits;
+      if (next_x < next_y) {
+        next_x += per_x;
+        column += step_x;
+      } else {
+        next_y += per_y;
+        row += step_y;
+      }
+    }
+  }
+}
+
+std::vector<std::int8_t> GridSlam::draw(const MapFrame& frame) {
+  const int last = particles_[best()].node;
+  std::vector<int> path;  // back to what is counted already
+  int node = last;
+  for (; node >= 0 && node != counted_node_; node = nodes_[static_cast<std::size_t>(node)].parent) path.push_back(node);
+  if (node < 0) counts_ = PatchMap<Counts>(options_.delta);
+  for (auto place = path.rbegin(); place != path.rend(); ++place) count(nodes_[static_cast<std::size_t>(*place)]);
+  counted_node_ = last;
+  std::vector<std::int8_t> cells;
+  cells.reserve(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
+  for (int row = 0; row < frame.height; ++row)
+    for (int column = 0; column < frame.width; ++column) {
+      const Counts* counts = counts_.find(frame.first_column + column, frame.first_row + row);
+      if (counts == nullptr || counts->visits == 0) cells.push_back(-1);
+      else
+        cells.push_back(counts->hits > frame.occupied_threshold * counts->visits ? std::int8_t{100} : std::int8_t{0});
+    }
+  return cells;
+}
+
+}  // namespace trundle::navigation

@@ -1,0 +1,93 @@
+// Grid mapping with a Rao-Blackwellized particle filter: as in Grisetti, Stachniss and Burgard, "Improved Techniques
+// for Grid Mapping with Rao-Blackwellized Particle Filters" (2007), with gmapping's parameters.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "patch_map.h"
+#include "planar_pose.h"
+#include "random.h"
+#include "scan_matcher.h"
+
+namespace trundle::navigation {
+
+struct SlamOptions {
+  MatchOptions match;
+  double delta = 0.05;                         // size of a cell [m]
+  double max_range = 8.0, usable_range = 8.0;  // maxRange, maxUrange [m]
+  double minimum_score = 0.0;
+  double likelihood_gain = 3.0;                       // ogain
+  double srr = 0.1, srt = 0.2, str = 0.1, stt = 0.2;  // noise of the odometry
+  double linear_update = 1.0, angular_update = 0.5;   // [m], [rad]
+  double temporal_update = -1.0;                      // [s]; negative: never
+  double resample_threshold = 0.5;
+  int particles = 30;
+};
+
+// Bounds of a drawn map and when a cell counts as occupied.
+struct MapFrame {
+  int first_column, first_row;  // numbers of the cells; that of (0, 0) [m] is 0
+  int width, height;            // [cells]
+  double occupied_threshold;
+};
+
+class GridSlam {
+ public:
+  // bearings: of a scan's beams in the laser's frame [rad]; pose: of the laser in the map at the first scan.
+  GridSlam(const SlamOptions& options, std::vector<double> bearings, const PlanarPose& pose, std::uint64_t seed);
+
+  // Moves the particles; true if the scan was used, after enough motion or time.
+  //
+  // odometry: pose of the laser in the odometry's frame; ranges: [m], as many as bearings.
+  bool process(const PlanarPose& odometry, double time_s, const std::vector<double>& ranges);
+
+  // Pose of the laser in the map, of the best particle.
+  PlanarPose pose() const { return particles_[best()].pose; }
+  // Entropy of the weights.
+  double entropy() const;
+  // Share of particles that kept their odometry at the last scan, as its match was below minimumScore.
+  double unmatched_share() const { return unmatched_share_; }
+  // Map of the best particle's trajectory, row by row from below: -1 unknown, 0 free, 100 occupied.
+  std::vector<std::int8_t> draw(const MapFrame& frame);
+
+ private:
+  struct Particle {
+    PlanarPose pose;
+    HitMap map;
+    double log_weight = 0.0;  // since the last resampling
+    int node = -1;            // of its trajectory
+  };
+  struct Node {  // a pose at which a scan was used
+    PlanarPose pose;
+    int parent, scan;
+  };
+  struct Counts {
+    std::int32_t hits = 0, visits = 0;
+  };
+
+  std::size_t best() const;
+  std::vector<double> weights() const;
+  void drift(PlanarPose& pose, const PlanarPose& motion);
+  void match();
+  void resample_if_needed();
+  void register_scan();
+  std::vector<BeamEnd> beam_ends(const std::vector<float>& ranges) const;
+  void count(const Node& node);
+
+  SlamOptions options_;
+  std::vector<double> bearings_;
+  ScanMatcher matcher_;
+  Random random_;
+  std::vector<Particle> particles_;
+  std::vector<Node> nodes_;
+  std::vector<std::vector<float>> scans_;
+  PlanarPose odometry_;
+  double driven_ = 0.0, turned_ = 0.0, last_time_s_ = 0.0;  // since the last scan used
+  bool has_started_ = false;
+  double unmatched_share_ = 0.0;
+  PatchMap<Counts> counts_;  // along the trajectory that ends in counted_node_
+  int counted_node_ = -1;
+};
+
+}  // namespace trundle::navigation

@@ -1,0 +1,1 @@
+from .gmapping import SlamGmapping as SlamGmapping
