@@ -12,6 +12,8 @@ namespace trundle::navigation {
 namespace {
 
 constexpr double kConvergedDistance = 0.5;  // [m]; amcl's
+// A set of max_particles would miss the pose in a large map: so many more are drawn, and reduced by the first scan.
+constexpr int kCandidatesPerParticle = 10, kMaxCandidates = 200'000;
 constexpr double kGoldenRatio = 0.6180339887498949;
 
 // Lower triangular root of a covariance; directions without variance have none.
@@ -97,7 +99,10 @@ void ParticleFilter::spread(const PlanarPose& mean, const std::array<double, 9>&
 void ParticleFilter::spread_over_map() {
   slow_average_ = fast_average_ = 0.0;
   particles_.clear();
-  for (int i = 0; i < options_.max_particles; ++i) particles_.push_back({random_pose(), 1.0 / options_.max_particles});
+  const auto wanted =
+      std::min<std::int64_t>(std::int64_t{kCandidatesPerParticle} * options_.max_particles, kMaxCandidates);
+  const auto count = std::max<std::int64_t>(wanted, options_.max_particles);
+  for (std::int64_t i = 0; i < count; ++i) particles_.push_back({random_pose(), 1.0 / static_cast<double>(count)});
 }
 
 PlanarPose ParticleFilter::random_pose() {
@@ -133,12 +138,17 @@ void ParticleFilter::weigh(LaserModel& model, const LaserScan& scan) {
       slow_average_ == 0.0 ? likelihood : slow_average_ + options_.alpha_slow * (likelihood - slow_average_);
   fast_average_ =
       fast_average_ == 0.0 ? likelihood : fast_average_ + options_.alpha_fast * (likelihood - fast_average_);
+  if (particles_.size() > static_cast<std::size_t>(options_.max_particles)) draw();
 }
 
 void ParticleFilter::resample() {
   double squares = 0.0;
   for (const auto& particle : particles_) squares += particle.weight * particle.weight;
   if (options_.selective_resampling && squares * static_cast<double>(particles_.size()) < 2.0) return;
+  draw();
+}
+
+void ParticleFilter::draw() {
   std::vector<double> sums{0.0};
   for (const auto& particle : particles_) sums.push_back(sums.back() + particle.weight);
   const double random_share = slow_average_ > 0.0 ? std::max(0.0, 1.0 - fast_average_ / slow_average_) : 0.0;

@@ -35,7 +35,7 @@ class ParticleFilter {
 
   // Draws max_particles from a normal distribution; covariance: row by row, of x, y, yaw.
   void spread(const PlanarPose& mean, const std::array<double, 9>& covariance);
-  // Draws max_particles over all free cells.
+  // Draws more than max_particles over all free cells; the first scan reduces them.
   void spread_over_map();
 
   void move(const OdometryModel& model, const PlanarPose& from, const PlanarPose& to) {
@@ -49,6 +49,7 @@ class ParticleFilter {
   const std::vector<Particle>& particles() const { return particles_; }
 
  private:
+  void draw();
   PlanarPose random_pose();
   bool has_converged() const;
 

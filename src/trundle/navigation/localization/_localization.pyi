@@ -78,7 +78,7 @@ class ParticleFilter:
         """Draw all particles from a normal distribution; `covariance`: of x, y, yaw, nine numbers row by row."""
 
     def spread_over_map(self) -> None:
-        """Draw all particles over the free cells."""
+        """Draw more than max_particles over the free cells; the first scan reduces them."""
 
     def move(self, model: OdometryModel, start: PlanarPose, end: PlanarPose) -> None:
         """Move the particles as the odometry moved."""

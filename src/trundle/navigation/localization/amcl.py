@@ -104,9 +104,10 @@ class Amcl:
         self._node.log.info("Requesting the map...")
         while True:
             try:
+                await self._node.wait_for_service("static_map", None)
                 answer: Any = await self._node.call_service("static_map", "nav_msgs/GetMap", {})
-            except ServiceError:
-                self._warnings.warn(f"no map yet: {self._node.resolve('static_map')} does not answer; trying again")
+            except ServiceError as error:
+                self._warnings.warn(f"no map yet: {error}; trying again")
                 await self._node.clock.sleep(_RETRY_S)
             else:
                 self._use_map(answer.map)

@@ -1,0 +1,108 @@
+"""amcl and gmapping in a house of five rooms with a driving robot, as launch files start them."""
+
+import math
+import os
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from trundle.gazebo.nodes.map_server.occupancy_grid import read_map
+from trundle.ros import Message, Messages, open_bag, to_nsec
+
+pytestmark = pytest.mark.slow
+LAUNCH = """
+<launch>
+  <include file="$(find house_nav)/launch/sim.launch"/>
+  <include file="$(find house_nav)/launch/{nodes}.launch">{arguments}</include>
+  <node if="{is_driven}" pkg="rostopic" type="rostopic" name="drive" args="pub /cmd_vel geometry_msgs/Twist
+    '{{linear: {{x: 0.2}}, angular: {{z: -0.4}}}}'"/>
+</launch>
+"""
+
+
+def drive(house: Path, folder: Path, nodes: str, *, name: str, arguments: str = "", is_driven: bool = True) -> Path:
+    """Drive in circles for 30 s, or rest for 5 s, flat out; returns the bag."""
+    file, bag = folder / f"{name}.launch", folder / f"{name}.bag"
+    file.write_text(LAUNCH.format(nodes=nodes, arguments=arguments, is_driven=is_driven))
+    command = [sys.executable, "-m", "trundle", "launch", "--port", "0", str(file), "--headless"]
+    options = ["--speed", "max", "--duration", "30" if is_driven else "5", "--record", str(bag)]
+    env = {**os.environ, "ROS_PACKAGE_PATH": str(house)}
+    subprocess.run([*command, *options], env=env, check=True, timeout=600, stdout=subprocess.DEVNULL)
+    return bag
+
+
+def read(bag: Path, topic: str) -> list[Message]:
+    messages = Messages()
+    with open_bag(bag) as opened:
+        return [
+            messages.deserialize(message.data, message.connection.type)
+            for message in opened.messages(lambda connection: connection.topic == topic)
+        ]
+
+
+def planar(messages: Sequence[Message]) -> NDArray[np.float64]:
+    """Stamp [s], x, y [m], yaw [rad] of each message."""
+    rows: list[list[float]] = []
+    for message in messages:
+        pose = message.pose.pose
+        yaw = 2.0 * math.atan2(pose.orientation.z, pose.orientation.w)
+        rows.append([to_nsec(message.header.stamp) / 1e9, pose.position.x, pose.position.y, yaw])
+    return np.array(rows)
+
+
+@pytest.fixture
+def house(shared: Path) -> Path:
+    folder = shared / "peers/navigation/house_nav"
+    if not folder.is_dir():
+        pytest.skip(f"the house is not in {folder}")
+    return folder
+
+
+def test_amcl_finds_a_driving_robot_from_a_wrong_guess(house: Path, tmp_path: Path) -> None:
+    guess = '<arg name="x" value="-1.7"/><arg name="yaw" value="0.3"/>'  # 0.3 m and 17° beside the robot
+    bag = drive(house, tmp_path, "amcl", name="amcl", arguments=guess)
+
+    estimates, truth = planar(read(bag, "/amcl_pose")), planar(read(bag, "/ground_truth"))
+    late = estimates[estimates[:, 0] > 20.0]
+    errors = [
+        np.hypot(x - np.interp(stamp, truth[:, 0], truth[:, 1]), y - np.interp(stamp, truth[:, 0], truth[:, 2]))
+        for stamp, x, y, _ in late
+    ]
+    assert len(late) > 10
+    assert np.median(errors) < 0.06
+
+
+@pytest.mark.parametrize("nodes", ["amcl", "gmapping"])
+def test_recordings_are_the_same_in_every_run(house: Path, tmp_path: Path, nodes: str) -> None:
+    """Random numbers have a seed, and time waits for the nodes. The robot rests: rostopic pub has no simulated time."""
+    bags = [drive(house, tmp_path, nodes, name=f"{nodes}{number}", is_driven=False) for number in (1, 2)]
+
+    assert read(bags[0], "/particlecloud" if nodes == "amcl" else "/map")
+    assert bags[0].read_bytes() == bags[1].read_bytes()
+
+
+def test_gmapping_maps_the_room_around_a_driving_robot(house: Path, tmp_path: Path) -> None:
+    bag = drive(house, tmp_path, "gmapping", name="gmapping")
+
+    last = read(bag, "/map")[-1]
+    cells = np.array(last.data, dtype=np.int8).reshape(last.info.height, last.info.width)
+    # The map's frame has its origin in the start (-2.0, -0.8); the plan's walls lie in the same cells.
+    rows, columns = np.nonzero(cells == 100)
+    found = np.stack([columns, rows], axis=1) * 0.05 + 0.025 - 100.0 + np.array([-2.0, -0.8])
+    plan = _occupied(house / "maps/house.yaml")
+    near = np.array([np.abs(plan - place).max(axis=1).min() < 0.051 for place in found])
+    assert len(found) > 200
+    assert near.mean() > 0.97
+
+
+def _occupied(file: Path) -> NDArray[np.float64]:
+    """Centers of the plan's occupied cells [m]."""
+    grid = read_map(file)
+    rows, columns = np.nonzero(grid.cells == 100)
+    centers = (np.stack([columns, rows], axis=1) + 0.5) * grid.resolution_m + np.array(grid.origin[:2])
+    return centers.astype(np.float64)
