@@ -1,7 +1,7 @@
 """Well-known executables without a built-in replacement, and alternatives."""
 
 OVER_THE_WIRE = "the real one can run in a container with ROS_MASTER_URI set to this master"
-_NAVIGATION = f"planning and localisation are out of scope; {OVER_THE_WIRE}"
+_NAVIGATION = f"Trundle has no stand-in for it; {OVER_THE_WIRE}"
 _DRIVER = "a driver of real hardware; the simulator's sensors publish the same topics where the model has them"
 _ROSSERIAL = (
     "it talks to a microcontroller on a serial port; rosserial_python's serial_node.py is Python, and runs here: "
