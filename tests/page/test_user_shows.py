@@ -50,6 +50,14 @@ WORLD = f"""<sdf version="1.6"><world name="yard"><wind><linear_velocity>3 0 0</
 <link name="flap"><pose>0 0.6 0.1 0 0 0</pose>{_shapes("0.2 0.2 0.2", "0.2 0.2 0.2", "0 0 1")}</link>
 <joint name="hinge" type="revolute"><pose>0 -0.1 0 0 0 0</pose><parent>base</parent><child>flap</child>
 <axis><xyz>0 0 1</xyz><limit><lower>0</lower><upper>1.5708</upper></limit></axis></joint></model></world></sdf>"""
+RECORD_SENT = """
+window.sent = []; // text messages to the server, which a worker sends
+const post = Worker.prototype.postMessage;
+Worker.prototype.postMessage = function (message, ...others) {
+  if (message?.kind === "send" && typeof message.frame === "string") window.sent.push(message.frame);
+  return post.call(this, message, ...others);
+};
+"""
 RED, BLUE = (255, 0, 0), (0, 0, 255)
 
 
@@ -58,24 +66,15 @@ class Viewer(WorldUser):
 
     def __init__(self, browser: Any, url: str) -> None:
         super().__init__(browser, url)
-        self.sent: list[dict[str, Any]] = []
-        """Text messages from the page to its server since its last load."""
-        self.page.on("websocket", self._listen)
+        self.page.add_init_script(RECORD_SENT)
         self.page.reload()
         self.page.get_by_label("Connected").first.wait_for()
-
-    def _listen(self, socket: Any) -> None:
-        socket.on("framesent", self._note_sent)
-
-    def _note_sent(self, message: str | bytes) -> None:
-        if isinstance(message, str):
-            self.sent.append(json.loads(message))
 
     def is_subscribed(self, topic: str) -> bool:
         """True while the page subscribes to a topic."""
         channel = self._client.channels[topic]["id"]
         subscriptions: set[int] = set()
-        for message in self.sent:
+        for message in map(json.loads, self.page.evaluate("window.sent")):
             subscriptions |= {
                 entry["id"] for entry in message.get("subscriptions", []) if entry["channelId"] == channel
             }
