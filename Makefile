@@ -43,9 +43,10 @@ $(NODE):
 demo: $(READY)  ## the RP2W telepresence robot, in the browser (HEADLESS=1: 10 s without)
 	$(BIN)/trundle run rp2w_at_home.world $(if $(HEADLESS),--headless --duration 10 --speed max)
 
+# Three workers for two cores, as many tests wait for processes; the longest files first.
 test: $(READY)  ## the tests of every day, with what this machine has
 	$(NPM) run --silent test
-	$(BIN)/python -m pytest -n 2 --dist loadfile -m "not slow"
+	$(BIN)/python -m pytest -n 3 --dist loadfile -m "not slow" tests/system tests/page tests
 
 test-all: $(READY) dist/.built $(VENV)/.large  ## everything
 	$(NPM) run --silent test

@@ -103,6 +103,7 @@ def _seconds_behind(chip: Any) -> float:
     return float(chip.inner_text().partition(" s behind")[0])
 
 
+@pytest.mark.slow
 def test_a_late_page_says_so_until_it_has_caught_up(chromium: Any, graph: Graph) -> None:
     with _open_page(chromium, graph) as (page, link):
         chip = page.locator(".connection")

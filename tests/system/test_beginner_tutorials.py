@@ -2,10 +2,13 @@
 
 from pathlib import Path
 
+import pytest
+
 NODES = ("talker", "listener", "add_two_ints_server")
 LAUNCH = "".join(f'<node pkg="beginner_tutorials" name="{name}" type="{name}.py" output="screen"/>' for name in NODES)
 
 
+@pytest.mark.slow
 def test_talker_listener_and_add_two_ints_run(start, trundle, until, tmp_path: Path) -> None:
     (tmp_path / "a.launch").write_text(f"<launch>{LAUNCH}</launch>")
     launch = start("launch", "a.launch", "--headless")

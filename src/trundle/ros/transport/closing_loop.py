@@ -103,8 +103,10 @@ class ClosingLoop(asyncio.SelectorEventLoop):
             done, _ = await asyncio.wait(self._opening, timeout=_OPENING_S / _ENDING_ROUNDS)
             for task in done:  # their done callbacks may run later
                 self._on_created(task)
-        while self._servers:
-            await close_server(self._servers.pop())
+        while servers := list(self._servers):  # strong references: one that is collected meanwhile would leave the set
+            self._servers.difference_update(servers)
+            for server in servers:
+                await close_server(server)
 
     def _other_tasks(self) -> "set[asyncio.Task[Any]]":
         """Tasks except the current one and those that create servers, which cannot be closed if it is cancelled."""
