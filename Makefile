@@ -15,7 +15,7 @@ WEB    := $(shell find web -path web/node_modules -prune -o -path web/schema -pr
 help:  ## this list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /make \1\t/' | expand -t 18
 
-# Compiled once, for the thousand processes that tests start: an environment may forbid Python to keep what it compiles.
+# Compiled once for all processes of the tests: an environment may forbid Python to keep what it compiles.
 $(READY): $(BUILT) $(CLIENT)
 	@$(BIN)/python -m compileall -q src
 	@touch $@

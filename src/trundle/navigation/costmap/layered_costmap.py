@@ -32,7 +32,7 @@ class Layer(Protocol):
         ...
 
     def reset(self) -> None:
-        """Start anew."""
+        """Discard what was observed so far."""
         ...
 
     def update_bounds(self, robot: tuple[float, float, float], bounds: Bounds) -> None:

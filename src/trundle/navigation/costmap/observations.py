@@ -1,4 +1,4 @@
-"""What a sensor saw lately: points in the costmap's frame, from scans and clouds."""
+"""Recent observations of a sensor: points in the costmap's frame, from scans and clouds."""
 
 import math
 from collections import deque

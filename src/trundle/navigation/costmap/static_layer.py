@@ -31,7 +31,7 @@ class StaticSettings(msgspec.Struct, kw_only=True):
 
 
 class StaticSwitch(msgspec.Struct, kw_only=True):
-    """What dynamic_reconfigure changes."""
+    """Settings that dynamic_reconfigure changes."""
 
     enabled: bool = True
 

@@ -146,7 +146,7 @@ class Amcl:
         return True
 
     def _start_filter(self) -> None:
-        """Begin anew at the initial pose, with models of the present settings."""
+        """Restart the filter at the initial pose, with models of the current settings."""
         self._filter = _localization.ParticleFilter(self._settings.filter_options, self._map, seed=_SEED)
         self._make_models()
         if self._initial is None:

@@ -28,7 +28,7 @@ class RecoveryBehavior(Protocol):
 
 
 class Surroundings(NamedTuple):
-    """What behaviors act on."""
+    """Costmaps, velocity commands and parameters that recovery behaviors use."""
 
     node: Node
     global_costmap: CostmapRos
