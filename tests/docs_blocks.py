@@ -37,7 +37,7 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "ARCHITECTURE.md",
 """Pages of the documentation; empty in the sdist."""
 COMMANDS = Path(os.environ.get("TRUNDLE_COMMANDS", Path(sys.executable).parent))
 """Folder of `trundle` and `python` for blocks."""
-_TIMEOUT_S = 60.0
+_TIMEOUT_S = 300.0
 _FENCE = re.compile(
     r"(?:^[ ]*<!-- (?P<mark>[^\n]+?) -->\n+)?"
     r"^(?P<indent>[ ]*)```(?P<language>\w+)(?: title=\"(?P<title>[^\"]+)\")?[ ]*\n"

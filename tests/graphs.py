@@ -1,5 +1,7 @@
 """A ROS graph for a test: a loop, a master at a free port, and nodes."""
 
+import random
+import socket
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -10,6 +12,17 @@ from trundle.ros import Core, GraphLoop, Messages, Node
 
 PATIENCE_S = 60.0
 """Timeout of any wait on a busy machine [s]."""
+
+
+def free_port() -> int:
+    """Return a free port that the system gives to nobody who asks for any."""
+    while True:
+        with socket.socket() as probe:
+            try:
+                probe.bind(("127.0.0.1", random.randrange(20_000, 32_000)))
+            except OSError:
+                continue
+            return int(probe.getsockname()[1])
 
 
 def until(condition: Callable[[], object]) -> None:

@@ -8,7 +8,6 @@ import json
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -18,6 +17,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
+from tests.graphs import free_port
 
 from trundle.robots.packages.stock import STOCK
 from trundle.ros import GraphLoop, Message, Node, to_nsec
@@ -85,7 +85,7 @@ def _run(line: str, corpus: Path, folder: Path, loop: GraphLoop) -> str:
         "ROS_PACKAGE_PATH": ":".join(
             map(str, (corpus / "repos" / file.partition("/")[0], corpus / "repos", folder / "not_mounted"))
         ),
-        "ROS_MASTER_URI": f"http://127.0.0.1:{_free_port()}",
+        "ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}",
     }
     words = ["launch", str(corpus / "repos" / file), *arguments, "--headless", "--speed", "max"]
     with (home / "log").open("w") as log:
@@ -135,9 +135,3 @@ def _listen(process: "subprocess.Popen[bytes]", node: Node, topics: Sequence[str
     finally:
         node.loop.run(node.shutdown())
     return [topic for topic, number in counts.items() if number < _MESSAGES]
-
-
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])

@@ -2,13 +2,13 @@
 
 import os
 import re
-import socket
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 from tests.cpu_quota import slowed
+from tests.graphs import free_port
 
 from trundle.ros import GraphLoop, Message, Node, open_bag
 
@@ -26,19 +26,13 @@ _FAILED = re.compile(r"\[FATAL\]|Traceback|has died|cannot be started|does not a
 _WORLD = """<launch><node pkg="gazebo_ros" type="gzserver" name="gazebo" args="worlds/empty.world"/></launch>"""
 
 
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
-
-
 def _environment(home: Path, packages: Sequence[Path]) -> dict[str, str]:
     home.mkdir()
     return {
         **{key: value for key, value in os.environ.items() if not key.startswith(("ROS_", "GAZEBO_"))},
         "HOME": str(home),
         "ROS_PACKAGE_PATH": ":".join(map(str, packages)),
-        "ROS_MASTER_URI": f"http://127.0.0.1:{_free_port()}",
+        "ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}",
         "TURTLEBOT3_MODEL": "burger",
     }
 

@@ -3,7 +3,6 @@
 import os
 import pty
 import shutil
-import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -14,6 +13,7 @@ from threading import Thread
 
 import pytest
 from tests.git_server import GitServer, git_server, manifest
+from tests.graphs import free_port
 
 from trundle.app.cli.main import main
 from trundle.robots.packages import LENIENT
@@ -315,7 +315,7 @@ def test_nodes_of_a_skipped_machine_are_skipped(
 </launch>"""
     )
     assert (
-        main(["launch", str(launch), "--headless", "--port", str(_free_port()), "--duration", "0.1", "--lenient"]) == 0
+        main(["launch", str(launch), "--headless", "--port", str(free_port()), "--duration", "0.1", "--lenient"]) == 0
     )
     out, err = capsys.readouterr()
     assert f"{launch}:2: warning: no package 'no_such_robot'; <machine> far is left out" in err
@@ -365,9 +365,3 @@ def test_lists_of_repositories_are_fetched_into_the_workspace(workspace: Path, s
     other = workspace / "other"
     assert main(["--as", "rosinstall", str(other), str(workspace / "src/.rosinstall")]) == 0
     assert (other / "grip/hand/package.xml").is_file()
-
-
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
