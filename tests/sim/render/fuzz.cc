@@ -7,7 +7,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "../../cpp/render/renderer.h"
+#include "../../../cpp/render/renderer.h"
 
 using namespace trundle;
 
