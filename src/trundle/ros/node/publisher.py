@@ -86,6 +86,15 @@ class Publisher:
         return self._subscriber_count > 0
 
     @property
+    def is_congested(self) -> bool:
+        """True while every subscriber reads too slowly."""
+        outs = self._direct
+        for out in outs:  # usual, and called for every message
+            if not out.is_congested:
+                return False
+        return bool(outs)
+
+    @property
     def needs_every_message(self) -> bool:
         """True if a subscriber needs every message; else periodic messages may be skipped."""
         return self._subscriber_count > 0 and self._subscriber_links.need_every_message
@@ -124,7 +133,7 @@ class Publisher:
             return
         self._lost += len(self._outbox) == self._queue_size
         self._outbox.append(message)
-        if not self._is_flush_scheduled:
+        if not self._is_flush_scheduled and not self.is_congested:  # `resume` sends the message later
             self._flush_soon()
 
     def checkpoint(self) -> Callable[[], None]:

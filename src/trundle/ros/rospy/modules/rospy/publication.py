@@ -17,7 +17,7 @@ from trundle.ros.transport.tcpros import FrameProtocol
 from . import core, graph
 from .msg import framed
 
-_CONGESTED_S = 0.001
+_CONGESTED_S = 0.0002
 
 
 class SubscribeListener:
@@ -206,14 +206,6 @@ class FramePublisher(GraphPublisher):
         self.latch = self._publication.is_latch
         self._queue_size = self._publication.limit
         self._outbox = deque(self._outbox, maxlen=self._queue_size)
-
-    @property
-    def is_congested(self) -> bool:
-        """True while every subscriber reads too slowly."""
-        for out in self._direct:  # usual, and called for every message
-            if not out.is_congested:
-                return False
-        return self._subscriber_links.is_congested
 
     @property
     def sends_directly(self) -> bool:
