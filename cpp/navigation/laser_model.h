@@ -39,6 +39,9 @@ class LaserModel {
   // has_converged: the particles are close together, so that beams which most of them do not explain may be skipped.
   double weigh(std::vector<Particle>& particles, const LaserScan& scan, bool has_converged);
 
+  // True if a scan's beams are multiplied; the other models add them.
+  bool is_sharp() const { return options_.kind == LaserKind::kLikelihoodFieldProb; }
+
  private:
   struct Beams;
 

@@ -8,6 +8,7 @@ namespace trundle::navigation {
 
 namespace {
 
+constexpr double kLeastShare = 0.2;  // of the standard deviation; its square alone is nearly zero for short motions
 constexpr double kMinTranslation = 0.01;  // [m]; below, the direction of the motion is noise
 
 double square(double value) { return value * value; }
@@ -26,7 +27,10 @@ void OdometryModel::move(std::vector<Particle>& particles, const PlanarPose& fro
   const double translation = std::hypot(dx, dy);
   const double rotation = angle_difference(to.yaw, from.yaw);
   const bool is_corrected = kind == OdometryKind::kDiffCorrected || kind == OdometryKind::kOmniCorrected;
-  const auto sigma = [is_corrected](double variance) { return is_corrected ? std::sqrt(variance) : variance; };
+  const auto sigma = [is_corrected](double variance) {
+    const double root = std::sqrt(variance);
+    return is_corrected ? root : std::max(variance, kLeastShare * root);
+  };
   if (kind == OdometryKind::kOmni || kind == OdometryKind::kOmniCorrected) {
     const double bearing = angle_difference(std::atan2(dy, dx), from.yaw);
     const double forward_sigma = sigma(a3 * square(translation) + a1 * square(rotation));

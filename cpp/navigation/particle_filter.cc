@@ -14,6 +14,7 @@ namespace {
 constexpr double kConvergedDistance = 0.5;  // [m]; amcl's
 // A set of max_particles would miss the pose in a large map: so many more are drawn, and reduced by the first scan.
 constexpr int kCandidatesPerParticle = 10, kMaxCandidates = 200'000;
+constexpr double kScanExponent = 6.0;
 constexpr double kGoldenRatio = 0.6180339887498949;
 
 // Lower triangular root of a covariance; directions without variance have none.
@@ -125,7 +126,10 @@ bool ParticleFilter::has_converged() const {
 }
 
 void ParticleFilter::weigh(LaserModel& model, const LaserScan& scan) {
-  const double log_scale = model.weigh(particles_, scan, has_converged());
+  std::vector<double> before;
+  for (const auto& particle : particles_) before.push_back(particle.weight);
+  const bool is_converged = has_converged();
+  const double log_scale = model.weigh(particles_, scan, is_converged);
   double total = 0.0;
   for (const auto& particle : particles_) total += particle.weight;
   if (!(total > 0.0)) {
@@ -138,7 +142,20 @@ void ParticleFilter::weigh(LaserModel& model, const LaserScan& scan) {
       slow_average_ == 0.0 ? likelihood : slow_average_ + options_.alpha_slow * (likelihood - slow_average_);
   fast_average_ =
       fast_average_ == 0.0 ? likelihood : fast_average_ + options_.alpha_fast * (likelihood - fast_average_);
+  if (is_converged && !model.is_sharp()) sharpen(before);
   if (particles_.size() > static_cast<std::size_t>(options_.max_particles)) draw();
+}
+
+// Counts the last scan several times. amcl's sum over a scan's beams tells little: a pose 0.1 m off is taken for three
+// quarters as likely, so that particles follow an odometry that is wrong by a few percent.
+void ParticleFilter::sharpen(const std::vector<double>& before) {
+  double total = 0.0;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    double& weight = particles_[i].weight;
+    if (weight > 0.0) weight = before[i] * std::pow(weight / before[i], kScanExponent);
+    total += weight;
+  }
+  for (auto& particle : particles_) particle.weight /= total;
 }
 
 void ParticleFilter::resample() {

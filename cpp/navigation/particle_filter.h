@@ -49,6 +49,7 @@ class ParticleFilter {
   const std::vector<Particle>& particles() const { return particles_; }
 
  private:
+  void sharpen(const std::vector<double>& before);
   void draw();
   PlanarPose random_pose();
   bool has_converged() const;
