@@ -166,6 +166,8 @@ void GridSlam::count(const Node& node) {
     Counts& end = counts_.at(end_column, end_row);
     ++end.visits;
     end.hits += range <= options_.usable_range;
+    seen_.include(column, row);
+    seen_.include(end_column, end_row);
     const int step_x = dx < 0.0 ? -1 : 1, step_y = dy < 0.0 ? -1 : 1;
     const double per_x = 1.0 / std::max(std::abs(dx), kTiny), per_y = 1.0 / std::max(std::abs(dy), kTiny);
     double next_x = (step_x > 0 ? column + 1 - start_x : start_x - column) * per_x;
@@ -183,14 +185,27 @@ void GridSlam::count(const Node& node) {
   }
 }
 
-std::vector<std::int8_t> GridSlam::draw(const MapFrame& frame) {
+// Counts what the best particle's trajectory has and counts_ has not yet.
+void GridSlam::count_new() {
   const int last = particles_[best()].node;
   std::vector<int> path;  // back to what is counted already
   int node = last;
   for (; node >= 0 && node != counted_node_; node = nodes_[static_cast<std::size_t>(node)].parent) path.push_back(node);
-  if (node < 0) counts_ = PatchMap<Counts>(options_.delta);
+  if (node < 0) {
+    counts_ = PatchMap<Counts>(options_.delta);
+    seen_ = {};
+  }
   for (auto place = path.rbegin(); place != path.rend(); ++place) count(nodes_[static_cast<std::size_t>(*place)]);
   counted_node_ = last;
+}
+
+SeenCells GridSlam::seen() {
+  count_new();
+  return seen_;
+}
+
+std::vector<std::int8_t> GridSlam::draw(const MapFrame& frame) {
+  count_new();
   std::vector<std::int8_t> cells;
   cells.reserve(static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height));
   for (int row = 0; row < frame.height; ++row)

@@ -2,7 +2,9 @@
 // for Grid Mapping with Rao-Blackwellized Particle Filters" (2007), with gmapping's parameters.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "patch_map.h"
@@ -32,6 +34,19 @@ struct MapFrame {
   double occupied_threshold;
 };
 
+// Cells that a trajectory saw, the last ones included; empty where the first exceed the last.
+struct SeenCells {
+  int first_column = std::numeric_limits<int>::max(), first_row = std::numeric_limits<int>::max();
+  int last_column = std::numeric_limits<int>::min(), last_row = std::numeric_limits<int>::min();
+
+  void include(int column, int row) {
+    first_column = std::min(first_column, column);
+    first_row = std::min(first_row, row);
+    last_column = std::max(last_column, column);
+    last_row = std::max(last_row, row);
+  }
+};
+
 class GridSlam {
  public:
   // bearings: of a scan's beams in the laser's frame [rad]; pose: of the laser in the map at the first scan.
@@ -48,6 +63,8 @@ class GridSlam {
   double entropy() const;
   // Share of particles that kept their odometry at the last scan, as its match was below minimumScore.
   double unmatched_share() const { return unmatched_share_; }
+  // Cells that the best particle's trajectory saw.
+  SeenCells seen();
   // Map of the best particle's trajectory, row by row from below: -1 unknown, 0 free, 100 occupied.
   std::vector<std::int8_t> draw(const MapFrame& frame);
 
@@ -74,6 +91,7 @@ class GridSlam {
   void register_scan();
   std::vector<BeamEnd> beam_ends(const std::vector<float>& ranges) const;
   void count(const Node& node);
+  void count_new();
 
   SlamOptions options_;
   std::vector<double> bearings_;
@@ -86,6 +104,7 @@ class GridSlam {
   double driven_ = 0.0, turned_ = 0.0, last_time_s_ = 0.0;  // since the last scan used
   bool has_started_ = false;
   double unmatched_share_ = 0.0;
+  SeenCells seen_;           // by what is in counts_
   PatchMap<Counts> counts_;  // along the trajectory that ends in counted_node_
   int counted_node_ = -1;
 };

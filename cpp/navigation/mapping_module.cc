@@ -61,6 +61,11 @@ Cells draw(GridSlam& slam, int first_column, int first_row, int width, int heigh
   return Cells(data, {static_cast<std::size_t>(height), static_cast<std::size_t>(width)}, owner);
 }
 
+std::tuple<int, int, int, int> seen(GridSlam& slam) {
+  const SeenCells cells = slam.seen();
+  return {cells.first_column, cells.first_row, cells.last_column, cells.last_row};
+}
+
 }  // namespace
 
 NB_MODULE(_mapping, module) {
@@ -104,6 +109,7 @@ NB_MODULE(_mapping, module) {
   nb::class_<GridSlam>(module, "GridSlam")
       .def("__init__", &make_slam, "options"_a, "bearings"_a, "pose"_a, nb::kw_only(), "seed"_a)
       .def("process", &process, "odometry"_a, "time_s"_a, "ranges"_a)
+      .def("seen", &seen, Release())
       .def("draw", &draw, nb::kw_only(), "first_column"_a, "first_row"_a, "width"_a, "height"_a, "occupied_threshold"_a)
       .def_prop_ro("pose",
                    [](const GridSlam& slam) {

@@ -15,12 +15,12 @@ WORLD = house_map()
 
 
 def test_the_node_publishes_the_map_its_service_and_the_transform_of_odom(graph) -> None:
-    """The map's frame is the odometry's at first; in it, the robot starts at (1, 1)."""
+    """The map's frame is the odometry's at first; in it, the robot starts at (1, 1). The map grows beyond xmax."""
     maps = graph.listen("/map", "nav_msgs/OccupancyGrid")
     entropies = graph.listen("/slam_gmapping/entropy", "std_msgs/Float64")
     metadata = graph.listen("/map_metadata", "nav_msgs/MapMetaData")
     buffer = TransformListener(graph.client).buffer
-    bounds = {"xmin": -1.0, "ymin": -1.0, "xmax": 7.0, "ymax": 5.0}
+    bounds = {"xmin": -1.0, "ymin": -1.0, "xmax": 2.2, "ymax": 5.4}
     graph.start("gmapping/slam_gmapping", particles=3, map_update_interval=0.0, linearUpdate=0.3, **bounds)
     static, odometry = StaticTransformBroadcaster(graph.client), TransformBroadcaster(graph.client)
     static.send_transform(Transform(parent="base_link", child="base_scan"))
@@ -45,14 +45,25 @@ def test_the_node_publishes_the_map_its_service_and_the_transform_of_odom(graph)
     graph.until(lambda: buffer.can_transform("map", "odom") and metadata)
     assert buffer.lookup_transform("map", "odom").pose.position == pytest.approx((0.0, 0.0, 0.0), abs=0.03)
     info = maps[-1].info
-    assert (info.width, info.height, info.origin.position.x, maps[-1].header.frame_id) == (160, 120, -1.0, "map")
+    assert (info.height, info.origin.position.x, maps[-1].header.frame_id) == (128, -1.0, "map")
+    assert (info.width % 32, info.width * 0.05 > 1.0 + 3.5 + 10.0) == (0, True)
     cells = np.array(maps[-1].data, dtype=np.int8).reshape(info.height, info.width)
     assert set(np.unique(cells)) == {-1, 0, 100}
     row, column = 40, round((3.5 + 1.0) / 0.05)  # y = 1 m, the wall at x = 3.5 m
     assert 100 in cells[row, column - 1 : column + 2]
     assert (cells[row, column - 40 : column - 2] == 0).all()
     answer = graph.call("/dynamic_map", "nav_msgs/GetMap")
-    assert (answer.map.info.width, answer.map.info.resolution) == (160, pytest.approx(0.05))
+    assert (answer.map.info.width, answer.map.info.resolution) == (info.width, pytest.approx(0.05))
+
+
+def test_a_map_grows_by_patches_of_32_cells_where_something_was_seen_beyond() -> None:
+    """As turtlebot3's: 20 m from xmin on are 12 patches; 10 m more on the side that was exceeded."""
+    frame = read_settings(RosParameters({"xmin": -10.0, "ymin": -10.0, "xmax": 10.0, "ymax": 10.0}, "/slam")).frame
+
+    assert frame == (-200, -200, 384, 384)
+    assert frame.grown((-200, -200, 183, 183), 0.05) == frame
+    assert frame.grown((-210, 0, 184, 0), 0.05) == (-200 - 224, -200, 224 + 384 + 224, 384)
+    assert frame.grown((0, 0, 2**30, 2**30), 0.05) == frame  # more than a map may have
 
 
 @pytest.mark.parametrize(

@@ -54,10 +54,8 @@ def noisy(pose: Pose, random: np.random.Generator) -> NDArray[np.float64]:
 
 
 def draw(slam: _mapping.GridSlam, used: GmappingSettings) -> NDArray[np.int8]:
-    first_column, first_row, width, height = used.frame
-    return slam.draw(
-        first_column=first_column, first_row=first_row, width=width, height=height, occupied_threshold=used.occ_thresh
-    )
+    height, width = house_cells().shape
+    return slam.draw(first_column=0, first_row=0, width=width, height=height, occupied_threshold=used.occ_thresh)
 
 
 def run_slam(used: GmappingSettings, poses: list[Pose], odometry: list[Pose]) -> _mapping.GridSlam:

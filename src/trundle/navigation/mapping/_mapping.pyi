@@ -58,6 +58,9 @@ class GridSlam:
             ranges: (n,) [m], of the beams.
         """
 
+    def seen(self) -> tuple[int, int, int, int]:
+        """Return first column and row, last column and row of the cells that the best particle's scans crossed."""
+
     def draw(
         self, *, first_column: int, first_row: int, width: int, height: int, occupied_threshold: float
     ) -> NDArray[np.int8]:

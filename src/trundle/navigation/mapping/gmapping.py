@@ -18,7 +18,7 @@ from trundle.spatial import NS_PER_S, Pose
 from ..pose_messages import PlanarPose, from_planar
 from ..transform_filter import TransformFilter
 from . import _mapping
-from .gmapping_settings import read_settings
+from .gmapping_settings import MapFrame, read_settings
 
 if TYPE_CHECKING:
     from trundle.ros.message_types import sensor_msgs
@@ -31,8 +31,8 @@ class SlamGmapping:
     """Publishes `map`, `map_metadata`, `~entropy` and the transform of the odometry frame from `scan` and tf.
 
     Parameters, with the original's names and defaults: `GmappingSettings`. Service `dynamic_map`. Random numbers have
-    a fixed seed. Cells lie from xmin and ymin on; the map does not grow beyond xmax and ymax. Scans of one laser are
-    used, with the number of beams of the first.
+    a fixed seed. The map reaches from xmin and ymin to xmax and ymax, and grows with what is seen. Scans of one laser
+    are used, with the number of beams of the first.
     """
 
     def __init__(self, node: Node, arguments: list[str], host: NodeHost) -> None:
@@ -42,6 +42,7 @@ class SlamGmapping:
         self._map_from_odom = Pose()
         self._map: dict[str, Any] | None = None
         self._map_ns: int | None = None
+        self._frame: MapFrame | None = None
         self._count = 0
         self._pending: deque[sensor_msgs.LaserScan] = deque(maxlen=_QUEUE)
         self._is_pending = asyncio.Event()
@@ -128,7 +129,9 @@ class SlamGmapping:
 
     async def _publish_map(self, slam: _mapping.GridSlam) -> None:
         settings = self._settings
-        first_column, first_row, width, height = settings.frame
+        seen = await asyncio.to_thread(slam.seen)
+        self._frame = (self._frame or settings.frame).grown(seen, settings.delta)
+        first_column, first_row, width, height = self._frame
         cells = await asyncio.to_thread(
             slam.draw,
             first_column=first_column,

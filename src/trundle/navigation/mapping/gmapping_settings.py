@@ -1,6 +1,7 @@
 """slam_gmapping's parameters, with the original's names and defaults."""
 
 import math
+from typing import NamedTuple
 
 from msgspec import Struct, structs
 
@@ -12,7 +13,36 @@ from . import _mapping
 refuse_stale(_mapping)
 _RANGE_MARGIN_M = 0.01
 _MAX_CELLS = 400_000_000
+_PATCH, _MARGIN_M = 32, 10.0
+"""gmapping's patches of a map [cells], and how far a map grows beyond what was seen."""
 _MAX_PARTICLES = 10_000
+
+
+class MapFrame(NamedTuple):
+    """Cells of a published map; cell (0, 0) begins in the origin."""
+
+    first_column: int
+    first_row: int
+    width: int
+    height: int
+
+    def grown(self, seen: tuple[int, int, int, int], delta_m: float) -> "MapFrame":
+        """Return a frame that holds what was seen: first column and row, last column and row.
+
+        As gmapping's, it grows by whole patches to 10 m beyond on the sides where it was exceeded.
+        """
+        margin = math.ceil(_MARGIN_M / delta_m)
+        first_column, width = _grown(self.first_column, self.width, seen[0], seen[2], margin)
+        first_row, height = _grown(self.first_row, self.height, seen[1], seen[3], margin)
+        frame = MapFrame(first_column, first_row, width, height)
+        return frame if width * height <= _MAX_CELLS else self
+
+
+def _grown(first: int, count: int, seen_first: int, seen_last: int, margin: int) -> tuple[int, int]:
+    """Return first cell and number of cells along one axis."""
+    before = -(-(first - seen_first + margin) // _PATCH) * _PATCH if seen_first < first else 0
+    after = -(-(seen_last + margin - first - count + 1) // _PATCH) * _PATCH if seen_last >= first + count else 0
+    return first - before, before + count + after
 
 
 class GmappingSettings(Struct, frozen=True, kw_only=True):
@@ -60,11 +90,12 @@ class GmappingSettings(Struct, frozen=True, kw_only=True):
     lasamplestep: float = 0.005
 
     @property
-    def frame(self) -> tuple[int, int, int, int]:
-        """First column, first row, width and height of the map [cells]; cell (0, 0) begins in the origin."""
+    def frame(self) -> "MapFrame":
+        """The map before anything was seen: whole patches from xmin and ymin on, as gmapping's."""
         first_column, first_row = math.floor(self.xmin / self.delta + 0.5), math.floor(self.ymin / self.delta + 0.5)
-        width = math.ceil((self.xmax - self.xmin) / self.delta - 1e-6)
-        return first_column, first_row, width, math.ceil((self.ymax - self.ymin) / self.delta - 1e-6)
+        across, along = self.xmax - self.xmin, self.ymax - self.ymin
+        width, height = (math.ceil(length / self.delta - 1e-6) // _PATCH * _PATCH for length in (across, along))
+        return MapFrame(first_column, first_row, width, height)
 
     def slam_options(self, *, range_max_m: float) -> _mapping.SlamOptions:
         """Return the options of the filter for a laser with a maximum range [m]."""
