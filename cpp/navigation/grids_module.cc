@@ -12,6 +12,7 @@
 #include "costmap_cells.h"
 #include "inflation.h"
 #include "rollout.h"
+#include "voxel_rays.h"
 #include "wave_front.h"
 
 namespace nb = nanobind;
@@ -77,6 +78,23 @@ void clear_rays(const Grid<std::uint8_t>& grid, std::array<double, 2> sensor, co
       cells[shape.index(column, row)] = kFreeSpace;
       return true;
     });
+  }
+}
+
+void clear_voxel_rays(const Grid<std::uint32_t>& columns, const Grid<std::uint8_t>& costs,
+                      const std::array<double, 3>& sensor, const Triples& ends, int levels, int unknown_threshold,
+                      int mark_threshold) {
+  const GridShape shape = shape_of(columns);
+  if (costs.shape(0) != columns.shape(0) || costs.shape(1) != columns.shape(1))
+    throw nb::value_error("the grids have one shape");
+  if (levels < 0 || levels > kMaxVoxelLevels) throw nb::value_error("a column has at most 16 levels");
+  const VoxelColumns voxels{shape, levels, columns.data(), costs.data(), unknown_threshold, mark_threshold};
+  const NoGil unlocked;
+  for (std::size_t i = 0; i < ends.shape(0); ++i) {
+    const std::array<double, 3> end{ends(i, 0), ends(i, 1), ends(i, 2)};
+    const auto is_near = [](double value) { return std::fabs(value) < kMaxSide; };
+    if (std::all_of(end.begin(), end.end(), is_near) && std::all_of(sensor.begin(), sensor.end(), is_near))
+      clear_voxel_ray(voxels, sensor, end);
   }
 }
 
@@ -148,6 +166,8 @@ NB_MODULE(_grids, module) {
   module.attr("UNREACHED") = kUnreached;
   module.def("inflate", inflate_window, "cells"_a, "window"_a, "costs"_a, nb::kw_only(), "inflate_unknown"_a);
   module.def("clear_rays", clear_rays, "cells"_a, "sensor"_a, "ends"_a, nb::kw_only(), "range"_a);
+  module.def("clear_voxel_rays", clear_voxel_rays, nb::arg("voxels").noconvert(), nb::arg("cells").noconvert(),
+             "sensor"_a, "ends"_a, nb::kw_only(), "levels"_a, "unknown_threshold"_a, "mark_threshold"_a);
   module.def("wave_front", wave_front, "costs"_a, "seeds"_a, nb::kw_only(), "stop"_a = std::array<int, 2>{-1, -1});
   module.def("descend", descend_potential, "potential"_a, "start"_a, "end"_a);
   nb::class_<RolloutSettings>(module, "RolloutSettings")

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
-from numpy import float32, float64, uint8
+from numpy import float32, float64, uint8, uint32
 from numpy.typing import NDArray
 
 UNREACHED: float
@@ -33,6 +33,28 @@ def clear_rays(cells: NDArray[uint8], sensor: tuple[float, float], ends: NDArray
 
     Raises:
         ValueError: the sensor is outside the grid.
+    """
+
+def clear_voxel_rays(
+    voxels: NDArray[uint32],
+    cells: NDArray[uint8],
+    sensor: _Triple,
+    ends: NDArray[float64],
+    *,
+    levels: int,
+    unknown_threshold: int,
+    mark_threshold: int,
+) -> None:
+    """Free the voxels along rays, and the cells of columns that have no obstacle any more.
+
+    Args:
+        voxels: columns, changed in place: bits 0 … 15 unknown or occupied levels, 16 … 31 occupied ones.
+        cells: costs, changed in place: free, or unknown with more than `unknown_threshold` unknown levels.
+        sensor: x, y, level; (0, 0, 0) is the outer corner of the first voxel.
+        ends: (n, 3)
+        levels: number of levels, at most 16.
+        unknown_threshold: greatest number of unknown levels of a free column.
+        mark_threshold: greatest number of occupied levels of a column without an obstacle.
     """
 
 def wave_front(

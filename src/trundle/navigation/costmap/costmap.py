@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,9 @@ FREE_SPACE, INSCRIBED, LETHAL, NO_INFORMATION = 0, 253, 254, 255
 """Costs of costmap_2d: between free and inscribed, the center of the robot may be there."""
 MAX_CELLS = 100_000_000
 """Most cells of one grid."""
+_ROUNDING = 1e-6
+"""Share of a cell by which a point may lie before it [cells], so that grids which follow one another stay together."""
+_Number = TypeVar("_Number", np.uint8, np.uint32)
 
 
 @dataclass(slots=True)
@@ -33,6 +37,12 @@ class Costmap:
         """Give every cell the default cost."""
         self.cells = np.full((self.height, self.width), self.default, dtype=np.uint8)
 
+    def copy(self) -> "Costmap":
+        """Return a costmap of the same costs, which stay."""
+        grid = Costmap(*self.geometry, self.default)
+        grid.cells = self.cells.copy()
+        return grid
+
     @property
     def geometry(self) -> tuple[int, int, float, tuple[float, float]]:
         """Size in cells, resolution [m] and origin [m]."""
@@ -55,22 +65,32 @@ class Costmap:
             self.origin[1] + (row + 0.5) * self.resolution_m,
         )
 
-    def shift_to(self, x: float, y: float) -> None:
-        """Move the origin to the grid's cell at a point [m]; costs stay where they are in the frame."""
-        columns = math.floor((x - self.origin[0]) / self.resolution_m)
-        rows = math.floor((y - self.origin[1]) / self.resolution_m)
-        if columns == rows == 0:
-            return
-        old = self.cells
-        self.clear()
+    def shift_to(self, x: float, y: float) -> tuple[int, int]:
+        """Move the origin to the grid's cell at a point [m]; costs stay where they are in the frame.
+
+        Returns the number of columns and rows by which the origin moved.
+        """
+        columns = math.floor((x - self.origin[0]) / self.resolution_m + _ROUNDING)
+        rows = math.floor((y - self.origin[1]) / self.resolution_m + _ROUNDING)
         self.origin = (
             self.origin[0] + columns * self.resolution_m,
             self.origin[1] + rows * self.resolution_m,
         )
-        if abs(columns) < self.width and abs(rows) < self.height:
-            kept = old[max(rows, 0) : self.height + min(rows, 0), max(columns, 0) : self.width + min(columns, 0)]
-            top, left = max(-rows, 0), max(-columns, 0)
-            self.cells[top : top + kept.shape[0], left : left + kept.shape[1]] = kept
+        self.cells = moved(self.cells, columns, rows, self.default)
+        return columns, rows
+
+
+def moved(cells: NDArray[_Number], columns: int, rows: int, fill: int) -> NDArray[_Number]:
+    """Return cells (height, width) of a grid whose origin moved by columns and rows; new ones are `fill`."""
+    if columns == rows == 0:
+        return cells
+    height, width = cells.shape
+    result = np.full_like(cells, fill)
+    if abs(columns) < width and abs(rows) < height:
+        kept = cells[max(rows, 0) : height + min(rows, 0), max(columns, 0) : width + min(columns, 0)]
+        top, left = max(-rows, 0), max(-columns, 0)
+        result[top : top + kept.shape[0], left : left + kept.shape[1]] = kept
+    return result
 
 
 @dataclass(slots=True)

@@ -16,10 +16,8 @@ from trundle.spatial import NS_PER_S
 from ..settings import read_settings, reconfigure
 from .costmap import MAX_CELLS, Costmap
 from .footprint import placed, radii, read_footprint
-from .inflation_layer import InflationLayer
 from .layer_plugins import LayerMaker, plugin_list
 from .layered_costmap import Layer, LayeredCostmap
-from .obstacle_layer import ObstacleLayer
 from .publisher import CostmapPublisher
 from .static_layer import StaticLayer
 
@@ -94,12 +92,7 @@ class CostmapRos:
         node, space = self._node, f"{self._node.name}/{self.name}"
         reconfigure(node, space, self.settings, self._on_settings)
         for layer in self._layered.layers:
-            if isinstance(layer, InflationLayer):
-                reconfigure(node, f"{space}/{layer.name}", layer.settings, layer.change)
-            elif isinstance(layer, ObstacleLayer):
-                reconfigure(node, f"{space}/{layer.name}", layer.settings, layer.match_size)
-            elif isinstance(layer, StaticLayer):
-                reconfigure(node, f"{space}/{layer.name}", layer.switch, layer.reset)
+            reconfigure(node, f"{space}/{layer.name}", layer.options, layer.change)
 
     def _on_settings(self) -> None:
         """Take a footprint set at run time; the size stays that of the start."""

@@ -42,7 +42,7 @@ class InflationLayer:
 
     def __init__(self, name: str, master: Costmap, settings: InflationSettings) -> None:
         self.name = name
-        self.settings = settings
+        self.options = settings
         self._master = master
         self._inscribed_m = 0.0
         self._last = Bounds()
@@ -52,7 +52,7 @@ class InflationLayer:
     @property
     def enabled(self) -> bool:
         """True if the layer takes part in updates."""
-        return self.settings.enabled
+        return self.options.enabled
 
     def set_inscribed_radius(self, radius_m: float) -> None:
         """Take the robot's inscribed radius."""
@@ -75,15 +75,15 @@ class InflationLayer:
         """Extend the bounds by the radius, and to those of the last update."""
         del robot
         if self._is_changed:
-            self._costs = inflated_costs(self.settings, self._master.resolution_m, self._inscribed_m)
+            self._costs = inflated_costs(self.options, self._master.resolution_m, self._inscribed_m)
             bounds.touch_all(self._master)
             self._is_changed = False
         last, self._last = self._last, Bounds(bounds.min_x, bounds.min_y, bounds.max_x, bounds.max_y)
         bounds.join(last)
-        bounds.join(Bounds(bounds.min_x, bounds.min_y, bounds.max_x, bounds.max_y), self.settings.inflation_radius)
+        bounds.join(Bounds(bounds.min_x, bounds.min_y, bounds.max_x, bounds.max_y), self.options.inflation_radius)
 
     def update_costs(self, master: Costmap, window: tuple[int, int, int, int]) -> None:
         """Inflate a window."""
-        unknown = self.settings.inflate_unknown
+        unknown = self.options.inflate_unknown
         if self._costs and max(self._costs) > FREE_SPACE:
             _grids.inflate(master.cells, window, self._costs, inflate_unknown=unknown)

@@ -1,5 +1,7 @@
 """The layers that a costmap's parameters name, in Hydro's form and in that from before."""
 
+import re
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from trundle.robots.parameters import RosParameters
@@ -10,12 +12,12 @@ from .costmap import Costmap
 from .inflation_layer import InflationLayer, InflationSettings
 from .observations import ObservationSource, SourceSettings
 from .obstacle_layer import ObstacleLayer, ObstacleSettings
+from .range_sensor_layer import RangeSensorLayer, RangeSettings
 from .static_layer import StaticLayer, StaticSettings
+from .voxel_layer import NonPersistentVoxelLayer, VoxelLayer, VoxelSettings
 
 if TYPE_CHECKING:
     from .layered_costmap import Layer
-
-_OBSTACLES = frozenset({"ObstacleLayer", "VoxelLayer", "NonPersistentVoxelLayer"})
 
 
 def plugin_list(node: Node, settings: RosParameters) -> list[tuple[str, str, RosParameters]]:
@@ -71,47 +73,118 @@ class LayerMaker:
 
     def make(self, name: str, kind: str, settings: RosParameters) -> "Layer | None":
         """Make a layer; None, with an error in the log, for a type that there is no stand-in for."""
-        node, master = self._node, self._master
-        short = kind.removeprefix("costmap_2d::").rpartition("/")[2]
-        own = self._settings.section(name)
-        if short in _OBSTACLES:
-            tracks = own.flag("track_unknown_space", default=self._settings.flag("track_unknown_space", default=False))
-            return ObstacleLayer(
-                node,
-                name,
-                master,
-                read_settings(ObstacleSettings, own, settings),
-                self._sources(settings if "observation_sources" in settings else own),
-                is_rolling=self._is_rolling,
-                tracks_unknown=tracks,
+        short = re.split("::|/", kind)[-1]
+        make = _MAKERS.get(short)
+        if make is None:
+            self._node.log.error(
+                f"{self._settings.namespace}: no layer {kind!r}; the costmap goes on without it; "
+                f"there are: {', '.join(_MAKERS)}"
             )
-        if short == "StaticLayer":
-            static = read_settings(StaticSettings, own) if settings is not self._settings else _old_static(settings)
-            return StaticLayer(node, name, master, static, is_rolling=self._is_rolling)
-        if short == "InflationLayer":
-            return InflationLayer(name, master, read_settings(InflationSettings, own, settings))
-        known = "StaticLayer, ObstacleLayer, VoxelLayer, InflationLayer"
-        node.log.error(
-            f"{self._settings.namespace}: no layer {kind!r}; the costmap goes on without it; there are: {known}"
-        )
-        return None
+            return None
+        if short == "SpatioTemporalVoxelLayer":
+            self._node.log.warn(
+                f"{self._settings.namespace}/{name}: {kind} is a VoxelLayer here, which forgets by rays"
+            )
+        return make(self, name, settings)
 
-    def _sources(self, settings: RosParameters) -> list[ObservationSource]:
-        """Read the observation sources of a layer."""
+    def make_static(self, name: str, settings: RosParameters) -> StaticLayer:
+        own = self._settings.section(name)
+        static = read_settings(StaticSettings, own) if settings is not self._settings else _old_static(settings)
+        return StaticLayer(
+            self._node,
+            name,
+            self._master,
+            static,
+            frame=self._frame,
+            buffer=self._buffer,
+            is_rolling=self._is_rolling,
+        )
+
+    def make_inflation(self, name: str, settings: RosParameters) -> InflationLayer:
+        own = self._settings.section(name)
+        return InflationLayer(name, self._master, read_settings(InflationSettings, own, settings))
+
+    def make_obstacles(self, name: str, settings: RosParameters) -> ObstacleLayer:
+        own = self._settings.section(name)
+        return ObstacleLayer(
+            self._node,
+            name,
+            self._master,
+            read_settings(ObstacleSettings, own, settings),
+            self._sources(name, settings),
+            is_rolling=self._is_rolling,
+            tracks_unknown=self._tracks_unknown(own),
+        )
+
+    def make_voxels(self, name: str, settings: RosParameters) -> VoxelLayer:
+        return self._make_voxel_layer(VoxelLayer, name, settings)
+
+    def make_forgetful_voxels(self, name: str, settings: RosParameters) -> VoxelLayer:
+        return self._make_voxel_layer(NonPersistentVoxelLayer, name, settings)
+
+    def _make_voxel_layer(self, layer: type[VoxelLayer], name: str, settings: RosParameters) -> VoxelLayer:
+        own = self._settings.section(name)
+        publishes = own.flag("publish_voxel_map", default=settings.flag("publish_voxel_map", default=False))
+        return layer(
+            self._node,
+            name,
+            self._master,
+            read_settings(VoxelSettings, own, settings),
+            self._sources(name, settings),
+            is_rolling=self._is_rolling,
+            tracks_unknown=self._tracks_unknown(own),
+            frame=self._frame,
+            topic=f"{own.namespace}/voxel_grid" if publishes else None,
+        )
+
+    def make_ranges(self, name: str, settings: RosParameters) -> RangeSensorLayer:
+        del settings
+        own = self._settings.section(name)
+        return RangeSensorLayer(
+            self._node,
+            name,
+            self._master,
+            read_settings(RangeSettings, own),
+            own.texts("topics") or ["/sonar"],
+            kind=own.text("input_sensor_type", "ALL").upper(),
+            frame=self._frame,
+            buffer=self._buffer,
+            is_rolling=self._is_rolling,
+        )
+
+    def _tracks_unknown(self, own: RosParameters) -> bool:
+        default = self._settings.flag("track_unknown_space", default=False)
+        return own.flag("track_unknown_space", default=default)
+
+    def _sources(self, name: str, settings: RosParameters) -> list[ObservationSource]:
+        """Read the observation sources of a layer, from the costmap's namespace or the layer's own."""
+        if "observation_sources" not in settings:
+            settings = self._settings.section(name)
         sources: list[ObservationSource] = []
         names = settings.text("observation_sources", "").split()
         self._node.log.info(f"    Subscribed to Topics: {' '.join(names)}")
-        for name in names:
-            section = settings.section(name)
+        for source_name in names:
+            section = settings.section(source_name)
             source = read_settings(SourceSettings, section)
             for field in ("obstacle_range", "raytrace_range"):
                 if field not in section:
                     spaces = (settings, self._settings, self._root)
                     found = next((space for space in spaces if field in space), section)
                     setattr(source, field, found.number(field, getattr(source, field), minimum=0.0))
-            source.topic = source.topic or name
+            source.topic = source.topic or source_name
             sources.append(ObservationSource(self._node, source, self._frame, self._buffer))
         return sources
+
+
+_MAKERS: dict[str, Callable[[LayerMaker, str, RosParameters], "Layer"]] = {
+    "StaticLayer": LayerMaker.make_static,
+    "ObstacleLayer": LayerMaker.make_obstacles,
+    "VoxelLayer": LayerMaker.make_voxels,
+    "NonPersistentVoxelLayer": LayerMaker.make_forgetful_voxels,
+    "SpatioTemporalVoxelLayer": LayerMaker.make_voxels,
+    "RangeSensorLayer": LayerMaker.make_ranges,
+    "InflationLayer": LayerMaker.make_inflation,
+}
 
 
 def _old_static(settings: RosParameters) -> StaticSettings:

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Protocol
 
+import msgspec
 from numpy import float64
 from numpy.typing import NDArray
 
@@ -16,6 +17,12 @@ class Layer(Protocol):
     """One layer of a costmap."""
 
     name: str
+    options: msgspec.Struct
+    """Settings that dynamic_reconfigure changes."""
+
+    def change(self) -> None:
+        """Take changed options."""
+        ...
 
     @property
     def enabled(self) -> bool:

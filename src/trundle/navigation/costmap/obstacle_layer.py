@@ -43,7 +43,7 @@ class ObstacleLayer:
         tracks_unknown: bool,
     ) -> None:
         self.name = name
-        self.settings = settings
+        self.options = settings
         self.footprint = np.empty((0, 2))
         """Polygon (n, 2) in the robot's frame [m], whose cells are freed."""
         self._master = master
@@ -57,22 +57,33 @@ class ObstacleLayer:
     @property
     def enabled(self) -> bool:
         """True if the layer takes part in updates."""
-        return self.settings.enabled
+        return self.options.enabled
 
     @property
     def is_current(self) -> bool:
         """True if every sensor keeps its expected rate."""
         return all(source.is_current for source in self._sources)
 
+    def change(self) -> None:
+        """See `Layer`; forgets obstacles."""
+        self._forget()
+
     def match_size(self) -> None:
         """Take the costmap's size; forgets obstacles."""
         grid, master = self._grid, self._master
         grid.width, grid.height, grid.resolution_m, grid.origin = master.geometry
-        grid.clear()
+        self._forget()
+
+    def _forget(self) -> None:
+        self._grid.clear()
+
+    def _roll(self) -> tuple[int, int]:
+        """Follow the costmap; returns the number of columns and rows by which it moved."""
+        return self._grid.shift_to(*self._master.origin)
 
     def reset(self) -> None:
         """Forget obstacles."""
-        self._grid.clear()
+        self._forget()
         for source in self._sources:
             source.clear()
 
@@ -95,7 +106,7 @@ class ObstacleLayer:
         """Clear and mark by the latest observations."""
         self._robot = robot
         if self._is_rolling:
-            self._grid.shift_to(*self._master.origin)
+            self._roll()
         seen = [(source, source.observations()) for source in self._sources]
         for source, observations in seen:
             for observation in observations if source.settings.clearing else ():
@@ -103,16 +114,13 @@ class ObstacleLayer:
         for source, observations in seen:
             for observation in observations if source.settings.marking else ():
                 self._mark(observation, source.settings.obstacle_range, bounds)
-        if self.settings.footprint_clearing_enabled and len(self.footprint):
+        if self.options.footprint_clearing_enabled and len(self.footprint):
             bounds.touch(placed(self.footprint, *robot))
 
     def _clear(self, observation: Observation, range_m: float, bounds: Bounds) -> None:
         x, y, _ = observation.sensor
         if self._grid.cell(x, y) is None:
-            self._warnings.warn(
-                f"The origin for the sensor at ({x:.2f}, {y:.2f}) is out of map bounds. "
-                "So, the costmap cannot raytrace for it."
-            )
+            self._warn_of_sensor(observation)
             return
         ends = observation.points[:, :2]
         sensor = self._grid.in_cells(np.array([[x, y]]))[0]
@@ -125,24 +133,39 @@ class ObstacleLayer:
         bounds.touch(np.array([x, y]) + offsets * np.minimum(1.0, range_m / lengths)[:, None])
         bounds.touch(np.array([[x, y]]))
 
-    def _mark(self, observation: Observation, range_m: float, bounds: Bounds) -> None:
-        points = observation.points[observation.points[:, 2] <= self.settings.max_obstacle_height]
+    def _warn_of_sensor(self, observation: Observation) -> None:
+        place = ", ".join(f"{value:.2f}" for value in observation.sensor)
+        self._warnings.warn(
+            f"The origin for the sensor at ({place}) is out of map bounds. So, the costmap cannot raytrace for it."
+        )
+
+    def _near(self, observation: Observation, range_m: float) -> NDArray[np.float64]:
+        """Return the points (n, 3) that are obstacles: low and near enough [m]."""
+        points = observation.points[observation.points[:, 2] <= self.options.max_obstacle_height]
         offsets = points - np.array(observation.sensor)
-        points = points[(offsets**2).sum(axis=1) < range_m**2][:, :2]
-        cells = np.floor(self._grid.in_cells(points)).astype(int)
+        return points[(offsets**2).sum(axis=1) < range_m**2]
+
+    def _inside(self, points: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.bool_]]:
+        """Return columns and rows of the points (n, 3) in the costmap, and which of the points they are."""
+        cells = np.floor(self._grid.in_cells(points[:, :2])).astype(int)
         is_inside = ((cells >= 0) & (cells < np.array([self._grid.width, self._grid.height]))).all(axis=1)
         columns, rows = cells[is_inside].T
+        return columns, rows, is_inside
+
+    def _mark(self, observation: Observation, range_m: float, bounds: Bounds) -> None:
+        points = self._near(observation, range_m)
+        columns, rows, is_inside = self._inside(points)
         self._grid.cells[rows, columns] = LETHAL
-        bounds.touch(points[is_inside])
+        bounds.touch(points[is_inside, :2])
 
     def update_costs(self, master: Costmap, window: tuple[int, int, int, int]) -> None:
         """Copy obstacles into a window."""
-        if self.settings.footprint_clearing_enabled and len(self.footprint):
+        if self.options.footprint_clearing_enabled and len(self.footprint):
             _free_polygon(self._grid, placed(self.footprint, *self._robot))
         x0, y0, x1, y1 = window
         source, target = self._grid.cells[y0:y1, x0:x1], master.cells[y0:y1, x0:x1]
         known = source != NO_INFORMATION
-        match self.settings.combination_method:
+        match self.options.combination_method:
             case 0:
                 np.copyto(target, source, where=known)
             case 1:

@@ -7,7 +7,9 @@ import numpy as np
 from msgspec import Meta
 from numpy.typing import NDArray
 
-from trundle.ros import Node
+from trundle.gazebo.nodes.rate import LogThrottle
+from trundle.ros import Node, TransformBuffer, TransformError
+from trundle.spatial import Pose, matrix_from_quaternion
 
 from .costmap import FREE_SPACE, LETHAL, MAX_CELLS, NO_INFORMATION, Bounds, Costmap
 
@@ -41,15 +43,39 @@ class StaticLayer:
 
     is_current = True
 
-    def __init__(self, node: Node, name: str, master: Costmap, settings: StaticSettings, *, is_rolling: bool) -> None:
+    def __init__(
+        self,
+        node: Node,
+        name: str,
+        master: Costmap,
+        settings: StaticSettings,
+        *,
+        frame: str,
+        buffer: TransformBuffer,
+        is_rolling: bool,
+    ) -> None:
+        """Subscribe.
+
+        Args:
+            node: node of the costmap.
+            name: the layer's.
+            master: the costmap.
+            settings: parameters.
+            frame: frame of the costmap, which may differ from the map's if it rolls.
+            buffer: transforms.
+            is_rolling: True for a rolling window.
+        """
         self.name = name
-        self.switch = StaticSwitch()
+        self.options = StaticSwitch()
+        self._frame = frame
+        self._buffer = buffer
+        self._warnings = LogThrottle(node, 5.0)
         self._node = node
         self._master = master
         self._settings = settings
         self._is_rolling = is_rolling
         self.map: Costmap | None = None
-        self.frame = "map"
+        self._map_frame = "map"
         self._has_changed = False
         self._subscription = node.subscribe(settings.map_topic, "nav_msgs/OccupancyGrid", self._on_map, queue_size=1)
         if settings.subscribe_to_updates:
@@ -80,7 +106,7 @@ class StaticLayer:
         self._node.log.info(f"Received a {info.width} X {info.height} map at {info.resolution:f} m/pix")
         grid = Costmap(info.width, info.height, float(info.resolution), (float(position.x), float(position.y)))
         grid.cells = self._costs(np.asarray(message.data, dtype=np.int8).reshape(info.height, info.width))
-        self.map, self.frame, self._has_changed = grid, message.header.frame_id.lstrip("/"), True
+        self.map, self._map_frame, self._has_changed = grid, message.header.frame_id.lstrip("/"), True
         if self._settings.first_map_only:
             self._node.log.info("Shutting down the map subscriber. first_map_only flag is on")
             self._subscription.unregister()
@@ -99,7 +125,7 @@ class StaticLayer:
     @property
     def enabled(self) -> bool:
         """True if the layer takes part in updates."""
-        return self.switch.enabled
+        return self.options.enabled
 
     @property
     def fits(self) -> bool:
@@ -114,6 +140,10 @@ class StaticLayer:
         master.width, master.height, master.resolution_m, master.origin = grid.geometry
         master.clear()
 
+    def change(self) -> None:
+        """See `Layer`."""
+        self._has_changed = True
+
     def reset(self) -> None:
         """Draw the whole map at the next update."""
         self._has_changed = True
@@ -122,7 +152,7 @@ class StaticLayer:
         """Extend the bounds to a new map."""
         del robot
         if self.map is not None and (self._has_changed or self._is_rolling):
-            bounds.touch_all(self.map)
+            bounds.touch_all(self._master if self._is_rolling else self.map)
         self._has_changed = False
 
     def update_costs(self, master: Costmap, window: tuple[int, int, int, int]) -> None:
@@ -131,27 +161,44 @@ class StaticLayer:
             return
         x0, y0, x1, y1 = window
         target = master.cells[y0:y1, x0:x1]
-        if self.map.geometry == master.geometry:
+        is_inside: NDArray[np.bool_] | bool = True
+        if self.map.geometry == master.geometry and not self._is_rolling:
             source = self.map.cells[y0:y1, x0:x1]
         else:
-            source = self._sampled(master, window)
-        known = source != NO_INFORMATION
+            sampled = self._sampled(self.map, master, window)
+            if sampled is None:
+                return
+            source, is_inside = sampled
         if self._settings.use_maximum:
-            target[...] = np.where(known & ((target == NO_INFORMATION) | (source > target)), source, target)
-        else:
-            target[...] = source
+            known = source != NO_INFORMATION
+            is_inside = is_inside & known & ((target == NO_INFORMATION) | (source > target))
+        np.copyto(target, source, where=is_inside)
 
-    def _sampled(self, master: Costmap, window: tuple[int, int, int, int]) -> NDArray[np.uint8]:
-        """Return the map's costs at the centers of a window's cells; unknown outside."""
-        assert self.map is not None, "update_costs checks it"
+    def _sampled(
+        self, grid: Costmap, master: Costmap, window: tuple[int, int, int, int]
+    ) -> tuple[NDArray[np.uint8], NDArray[np.bool_]] | None:
+        """Return the map's costs at the centers of a window's cells, and which of them are on the map.
+
+        None without a transform from the costmap's frame to the map's.
+        """
+        map_from_costmap = Pose()
+        if self._frame != self._map_frame:
+            try:
+                map_from_costmap = self._buffer.lookup_transform(self._map_frame, self._frame).pose
+            except TransformError as error:
+                self._warnings.warn(f"{self.name}: no transform from {self._frame} to {self._map_frame}: {error}")
+                return None
         x0, y0, x1, y1 = window
-        grid = self.map
         x = (np.arange(x0, x1) + 0.5) * master.resolution_m + master.origin[0]
         y = (np.arange(y0, y1) + 0.5) * master.resolution_m + master.origin[1]
-        columns = np.floor((x - grid.origin[0]) / grid.resolution_m).astype(int)
-        rows = np.floor((y - grid.origin[1]) / grid.resolution_m).astype(int)
-        costs = np.full((len(rows), len(columns)), NO_INFORMATION, dtype=np.uint8)
-        inside_x = (columns >= 0) & (columns < grid.width)
-        inside_y = (rows >= 0) & (rows < grid.height)
-        costs[np.ix_(inside_y, inside_x)] = grid.cells[np.ix_(rows[inside_y], columns[inside_x])]
-        return costs
+        turned = matrix_from_quaternion(map_from_costmap.quaternion)
+        places = [
+            turned[axis, 0] * x[None, :] + turned[axis, 1] * y[:, None] + map_from_costmap.position[axis]
+            for axis in (0, 1)
+        ]
+        columns = np.floor((places[0] - grid.origin[0]) / grid.resolution_m).astype(int)
+        rows = np.floor((places[1] - grid.origin[1]) / grid.resolution_m).astype(int)
+        is_inside = (columns >= 0) & (columns < grid.width) & (rows >= 0) & (rows < grid.height)
+        costs = np.full(is_inside.shape, NO_INFORMATION, dtype=np.uint8)
+        costs[is_inside] = grid.cells[rows[is_inside], columns[is_inside]]
+        return costs, is_inside

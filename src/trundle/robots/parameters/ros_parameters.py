@@ -27,6 +27,15 @@ class RosParameters(Parameters):
         """Return a nested namespace."""
         return type(self)(self._tree.get(name), f"{self.namespace}/{name}")
 
+    def renamed(self, names: Mapping[str, str]) -> Self:
+        """Return the namespace with parameters by new names as well, unless those are set; `names` are old → new."""
+        tree = self._tree
+        return type(self)({**{new: tree[old] for old, new in names.items() if old in tree}, **tree}, self.namespace)
+
+    def with_defaults(self, values: Mapping[str, object]) -> Self:
+        """Return the namespace with values for parameters that are not set."""
+        return type(self)({**values, **self._tree}, self.namespace)
+
     def sections(self, name: str) -> list[Self]:
         """Return the dictionaries of a list parameter."""
         return [type(self)(item, f"{self.namespace}/{name}[{i}]") for i, item in enumerate(self.items(name))]
