@@ -72,6 +72,9 @@ def test_a_saved_map_equals_the_served_one(graph, picture: Path) -> None:
     saved = picture.with_name("saved")
     assert graph.start("map_server/map_saver", f"-f {saved}").result(PATIENCE_S) == 0
 
+    pixels = bytes([254, 254, 254]), bytes([0, 205, 254])
+    header = b"P5\n# CREATOR: map_saver.cpp 0.050 m/pix\n3 2\n255\n"
+    assert saved.with_name("saved.pgm").read_bytes() == header + pixels[1] + pixels[0]
     assert read_map(saved.with_name("saved.yaml")).cells.tolist() == [[0, 0, 0], [100, -1, 0]]
     served = graph.call("/static_map", "nav_msgs/GetMap").map
     assert (served.header.frame_id, served.info.width, served.info.height) == ("map", 3, 2)
