@@ -24,9 +24,10 @@ def read_settings(kind: type[_Settings], *parameters: RosParameters) -> _Setting
         default = getattr(defaults, name)
         section = next((section for section in parameters if name in section), None)
         if section is not None:
-            lower = _bounds(kind, name)[0]
-            limits = {} if isinstance(default, bool | str) else {"minimum": lower}
-            values[name] = getattr(section, _READERS[type(default)])(name, default=default, **limits)
+            value = getattr(section, _READERS[type(default)])(name, default=default)
+            if not isinstance(default, bool | str):
+                value = type(default)(section.clamped(name, value, *_bounds(kind, name)))
+            values[name] = value
     return kind(**values)
 
 

@@ -10,6 +10,8 @@ from tests.navigation.costmap.layer_parts import quiet_node, saw, source
 from trundle.navigation import _grids
 from trundle.navigation.costmap import FREE_SPACE, LETHAL, NO_INFORMATION, Bounds, Costmap
 from trundle.navigation.costmap.voxel_layer import NonPersistentVoxelLayer, VoxelLayer, VoxelSettings
+from trundle.navigation.settings import read_settings
+from trundle.robots.parameters import RosParameters
 
 _SENSOR = (1.05, 1.05, 0.5)
 _place = st.tuples(st.floats(0.01, 9.99), st.floats(0.01, 9.99), st.floats(0.01, 9.99))
@@ -64,6 +66,13 @@ def test_what_is_above_the_levels_or_too_high_is_no_obstacle_and_what_is_below_t
     scene = Scene(z_voxels=5, max_obstacle_height=0.9)
     scene.see((2.05, 1.05, 0.95), (2.05, 2.05, 1.5), (2.05, 3.05, -0.3))
     assert [scene.cost(2.05, y) for y in (1.05, 2.05, 3.05)] == [FREE_SPACE, FREE_SPACE, LETHAL]
+
+
+def test_a_column_has_at_most_16_levels() -> None:
+    warnings: list[str] = []
+    parameters = RosParameters({"z_voxels": 40}, "/move_base/voxels", warn=warnings.append)
+    assert read_settings(VoxelSettings, parameters).z_voxels == 16
+    assert warnings == ["parameter /move_base/voxels/z_voxels must be ≤ 16, got 40; 16 is used"]
 
 
 def test_mark_threshold_is_the_number_of_levels_that_may_be_occupied() -> None:

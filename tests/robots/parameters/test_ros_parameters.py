@@ -54,3 +54,24 @@ def test_an_error_in_a_section_names_its_full_path() -> None:
 
     with pytest.raises(ParamError, match=r"^parameter /mux/topics\[0\]/timeout is not set$"):
         parameters.sections("topics")[0].number("timeout")
+
+
+def test_with_a_warning_an_invalid_value_becomes_its_default() -> None:
+    warnings: list[str] = []
+    parameters = RosParameters({"own": {"rate": "fast", "y_vels": [0.1]}}, "/node", warn=warnings.append)
+    own = parameters.section("own")
+
+    assert (own.number("rate", 2.0), own.text("y_vels", "0.1")) == (2.0, "0.1")
+    assert warnings[0].startswith("parameter /node/own/rate")
+    assert warnings[0].endswith("; 2.0 is used")
+    with pytest.raises(ParamError, match="rate"):
+        own.number("rate")
+
+
+def test_renamed_parameters_keep_what_is_set_by_its_new_name() -> None:
+    parameters = RosParameters({"max_rot_vel": 1.0, "acc_lim_th": 2.0, "acc_lim_theta": 3.0}, "/node")
+    renamed = parameters.renamed({"max_rot_vel": "max_vel_theta", "acc_lim_th": "acc_lim_theta"})
+
+    assert (renamed.number("max_vel_theta"), renamed.number("acc_lim_theta")) == (1.0, 3.0)
+    assert renamed.with_defaults({"max_vel_theta": 9.0, "sim_time": 2.0}).number("max_vel_theta") == 1.0
+    assert renamed.with_defaults({"sim_time": 2.0}).number("sim_time") == 2.0

@@ -206,8 +206,9 @@ class CostmapRos:
 
 def _read(section: RosParameters) -> CostmapSettings:
     """Read the settings; a footprint may be a list, which is read elsewhere."""
+    defaults = CostmapSettings()
     numbers = [name for name in CostmapSettings.__struct_fields__ if name != "footprint"]
-    tree = {name: section.number(name) for name in numbers if name in section}
+    tree = {name: section.number(name, getattr(defaults, name)) for name in numbers}
     settings = read_settings(CostmapSettings, RosParameters(tree, section.namespace))
     if not settings.resolution > 0.0 or not settings.width > 0.0 or not settings.height > 0.0:
         raise ParamError(f"{section.namespace}: resolution, width and height must be > 0 m")

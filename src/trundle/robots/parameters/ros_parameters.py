@@ -1,6 +1,6 @@
 """Parameters of the ROS graph, read once from the parameter server."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import NoneType
 from typing import Any, Self, cast
 
@@ -8,12 +8,19 @@ from .base import ParamError, Parameters
 
 
 class RosParameters(Parameters):
-    """Parameters of a namespace; an invalid value raises ParamError."""
+    """Parameters of a namespace; an invalid value raises ParamError, or is replaced by its default with a warning."""
 
-    def __init__(self, tree: object, namespace: str) -> None:
-        """Wrap a tree of parameters, empty if it is not a mapping; `namespace` is its global name."""
+    def __init__(self, tree: object, namespace: str, *, warn: Callable[[str], None] | None = None) -> None:
+        """Wrap parameters.
+
+        Args:
+            tree: parameters, empty if it is not a mapping.
+            namespace: its global name.
+            warn: called with a sentence for each invalid value that has a default; None: ParamError.
+        """
         self._tree: Mapping[str, Any] = tree if isinstance(tree, Mapping) else {}
         self.namespace = namespace.rstrip("/")
+        self._warn = warn
 
     def __contains__(self, name: str) -> bool:
         """True if the namespace has the parameter."""
@@ -25,20 +32,30 @@ class RosParameters(Parameters):
 
     def section(self, name: str) -> Self:
         """Return a nested namespace."""
-        return type(self)(self._tree.get(name), f"{self.namespace}/{name}")
+        return type(self)(self._tree.get(name), f"{self.namespace}/{name}", warn=self._warn)
 
     def renamed(self, names: Mapping[str, str]) -> Self:
         """Return the namespace with parameters by new names as well, unless those are set; `names` are old → new."""
         tree = self._tree
-        return type(self)({**{new: tree[old] for old, new in names.items() if old in tree}, **tree}, self.namespace)
+        found = {new: tree[old] for old, new in names.items() if old in tree}
+        return type(self)({**found, **tree}, self.namespace, warn=self._warn)
 
     def with_defaults(self, values: Mapping[str, object]) -> Self:
         """Return the namespace with values for parameters that are not set."""
-        return type(self)({**values, **self._tree}, self.namespace)
+        return type(self)({**values, **self._tree}, self.namespace, warn=self._warn)
+
+    def clamped(self, name: str, value: float, lower: float, upper: float) -> float:
+        """Return a parameter's value, or the nearest within bounds, with a warning or as ParamError."""
+        nearest = type(value)(min(max(value, lower), upper))
+        if nearest != value:
+            limit = f" must be ≥ {lower:g}" if value < lower else f" must be ≤ {upper:g}"
+            self._reject(name, f"{limit}, got {value:g}", nearest)
+        return nearest
 
     def sections(self, name: str) -> list[Self]:
         """Return the dictionaries of a list parameter."""
-        return [type(self)(item, f"{self.namespace}/{name}[{i}]") for i, item in enumerate(self.items(name))]
+        space = f"{self.namespace}/{name}"
+        return [type(self)(item, f"{space}[{i}]", warn=self._warn) for i, item in enumerate(self.items(name))]
 
     def texts(self, name: str) -> list[str]:
         """Return a list of texts; empty if absent."""
@@ -58,8 +75,10 @@ class RosParameters(Parameters):
         return self._tree.get(name)
 
     def _reject(self, name: str, message: str, default: object) -> None:
-        del default
-        raise ParamError(f"{self._label(name)}{message}")
+        problem = f"{self._label(name)}{message}"
+        if self._warn is None or default is None:
+            raise ParamError(problem)
+        self._warn(f"{problem}; {default!r} is used")
 
     def _missing(self, name: str) -> ParamError:
         return ParamError(f"{self._label(name)} is not set")
