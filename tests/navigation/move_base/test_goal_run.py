@@ -11,9 +11,10 @@ import pytest
 
 from trundle.navigation.move_base.goal_run import GoalRun
 from trundle.navigation.move_base.node import MoveBaseSettings
-from trundle.navigation.move_base.recovery import RotateRecovery, Surroundings
+from trundle.navigation.move_base.recovery import MoveSlowAndClear, RotateRecovery, Surroundings
 from trundle.navigation.planners import Plan, Pose2D
 from trundle.robots.parameters import RosParameters
+from trundle.ros import PendingWork
 
 _PERIOD_NS = 50_000_000
 
@@ -30,24 +31,42 @@ class Robot:
         self.x, self.yaw = 0.0, 0.0
         self.commands: list[tuple[float, float, float]] = []
         self.chosen = velocity
+        self.speed_limits = (0.5, 1.0)
+        self.cleared_m: list[float] = []
         self.has_plan = True
         self.cells = np.zeros((40, 40), np.uint8)
         self.costmap = SimpleNamespace(cells=self.cells, origin=(-2.0, -2.0), resolution_m=0.1)
         log = logging.getLogger("robot")
         log_methods = SimpleNamespace(warn=log.warning, error=log.error, info=log.info)
-        self.node: Any = SimpleNamespace(name="/move_base", log=log_methods, clock=self, closed=asyncio.Event())
+        self.node: Any = SimpleNamespace(
+            name="/move_base",
+            log=log_methods,
+            clock=self,
+            closed=asyncio.Event(),
+            loop=SimpleNamespace(work=PendingWork(), spawn=asyncio.ensure_future),
+        )
 
     def now_ns(self) -> int:
         return self.time_ns
+
+    async def sleep(self, seconds: float) -> None:
+        del seconds
+        await asyncio.sleep(0)
 
     async def sleep_until(self, ns: int) -> None:
         speed, _, turn = self.commands[-1] if self.commands else (0.0, 0.0, 0.0)
         self.x += speed * (ns - self.time_ns) / 1e9
         self.yaw += turn * (ns - self.time_ns) / 1e9
         self.time_ns = max(self.time_ns, ns)
+        await asyncio.sleep(0)  # planning goes on
 
     def robot_pose(self) -> tuple[float, float, float]:
         return self.x, 0.0, math.remainder(self.yaw, 2.0 * math.pi)
+
+    def clear_outside(self, size_m: float, layers: list[str], *, invert: bool) -> None:
+        assert invert
+        assert "obstacle_layer" in layers
+        self.cleared_m.append(size_m)
 
     def drive(self, *velocity: float) -> None:
         x, y, turn = velocity
@@ -57,9 +76,11 @@ class Robot:
 
     def set_plan(self, plan: Plan) -> None: ...
 
-    def make_plan(self, start: Pose2D, goal: Pose2D, tolerance: float | None = None) -> Plan | None:
+    async def make_plan(self, start: Pose2D, goal: Pose2D, tolerance: float | None = None) -> Plan | None:
         del tolerance
         return Plan("map", np.array([start, goal])) if self.has_plan else None
+
+    def publish(self, plan: Plan) -> None: ...
 
     def velocity(self) -> tuple[float, float, float] | None:
         return self.chosen
@@ -138,7 +159,7 @@ def test_after_a_recovery_that_helped_the_goal_is_reached() -> None:
 def _rotate(robot: Robot) -> None:
     costmaps: Any = robot
     empty = RosParameters({}, "/move_base")
-    surroundings = Surroundings(robot.node, costmaps, costmaps, robot.drive, empty, "DWAPlannerROS")
+    surroundings = Surroundings(robot.node, costmaps, costmaps, robot.drive, empty, costmaps, "DWAPlannerROS")
     asyncio.run(RotateRecovery("rotate_recovery", empty, surroundings).run())
 
 
@@ -160,3 +181,28 @@ def test_a_rotation_beside_an_obstacle_is_refused() -> None:
 
     assert robot.yaw == 0.0
     assert robot.commands == [(0.0, 0.0, 0.0)]
+
+
+def test_the_robot_moves_slowly_until_it_is_past_what_was_cleared() -> None:
+    robot = Robot()
+    costmaps: Any = robot
+    settings = RosParameters({"limited_trans_speed": 0.2, "clearing_distance": 0.4}, "/move_base/slow")
+    surroundings = Surroundings(robot.node, costmaps, costmaps, robot.drive, settings, costmaps, "DWAPlannerROS")
+    behavior = MoveSlowAndClear("slow", settings, surroundings)
+
+    async def recover_twice() -> list[float]:
+        """Recover at 0 m and 0.2 m; return the limit at each tenth of a metre."""
+        limits: list[float] = []
+        robot.drive(0.1, 0.0, 0.0)
+        for decimetre in range(7):
+            if decimetre in (0, 2):
+                await behavior.run()
+            limits.append(robot.speed_limits[0])
+            robot.time_ns += 10**9
+            robot.x += 0.1
+            for _ in range(4):  # the behavior looks where the robot is
+                await asyncio.sleep(0)
+        return limits
+
+    assert asyncio.run(recover_twice()) == [0.2, 0.2, 0.2, 0.2, 0.2, 0.5, 0.5]
+    assert robot.cleared_m == [0.8] * 4

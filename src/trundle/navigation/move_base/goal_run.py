@@ -1,5 +1,6 @@
 """The way to one goal: plan, control, recover."""
 
+import asyncio
 import enum
 import math
 from collections.abc import Callable, Sequence
@@ -91,9 +92,17 @@ class GoalRun:
         now_ns = node.clock.now_ns()
         self._planned_ns = self._valid_plan_ns = self._valid_control_ns = self._moved_ns = now_ns
         self._moved_from: Pose2D | None = None
+        self._planning: asyncio.Task[Plan | None] | None = None
 
     async def drive(self, feed_back: Callable[[Pose2D], None]) -> ActionResult:
         """Drive to the goal; returns how it ended."""
+        try:
+            return await self._drive_on(feed_back)
+        finally:
+            if self._planning is not None:
+                self._planning.cancel()
+
+    async def _drive_on(self, feed_back: Callable[[Pose2D], None]) -> ActionResult:
         node = self._node
         rate = Rate(node, max(self._settings.controller_frequency, 0.1))
         self._local_planner.start()
@@ -119,8 +128,10 @@ class GoalRun:
             )
             self._drive(0.0, 0.0, 0.0)
             return None
+        if self._planning is not None and self._planning.done():
+            self._take(self._planning.result())
         if self._is_plan_due():
-            self._plan(pose)
+            self._begin_plan(pose)
         if self._state is State.CONTROLLING:
             return self._control()
         if self._state is State.CLEARING:
@@ -140,18 +151,28 @@ class GoalRun:
                 self._next_behavior = 0
 
     def _is_plan_due(self) -> bool:
+        if self._planning is not None:
+            return False
         if self._state is State.PLANNING:
             return True
         frequency = self._settings.planner_frequency
         period_s = 1.0 / frequency - 1e-6 if frequency > 0.0 else math.inf
         return self._state is State.CONTROLLING and self._seconds_since(self._planned_ns) >= period_s
 
-    def _plan(self, pose: Pose2D) -> None:
-        """Make a plan; without one, keep the last one, or in the end recover."""
+    def _begin_plan(self, pose: Pose2D) -> None:
+        """Plan beside the control cycles; simulated time waits, so that the same cycle takes the plan in every run."""
+        work = self._node.loop.work
+        planning = work.start("a plan")
         self._planned_ns = self._node.clock.now_ns()
-        plan: Plan | None = self._global_planner.make_plan(pose, self._goal)
+        self._planning = asyncio.create_task(self._global_planner.make_plan(pose, self._goal))
+        self._planning.add_done_callback(lambda _: work.finish(planning))
+
+    def _take(self, plan: Plan | None) -> None:
+        """Follow a plan; without one, keep the last one, or in the end recover."""
+        self._planning = None
         if plan is not None:
             self._valid_plan_ns, self._retries = self._planned_ns, 0
+            self._global_planner.publish(plan)
             self._local_planner.set_plan(plan)
             if self._state is State.PLANNING:
                 self._state = State.CONTROLLING

@@ -15,8 +15,6 @@ from trundle.spatial import Pose
 
 from ..costmap import CostmapRos
 from ..planners import (
-    GLOBAL_PLANNERS,
-    LOCAL_PLANNERS,
     GlobalPlanner,
     LocalPlanner,
     Plan,
@@ -57,7 +55,7 @@ class MoveBaseSettings(msgspec.Struct, kw_only=True):
 
 
 class MoveBase:
-    """Drives to the goals of the action `move_base` and of `move_base_simple/goal`.
+    """Drives to the goals of the action `move_base`, whatever the node's name, and of `move_base_simple/goal`.
 
     Parameters, with the original's defaults: `MoveBaseSettings`, recovery_behaviors, and the namespaces
     global_costmap, local_costmap, the planners' and the behaviors'. Services: `~make_plan`, `~clear_costmaps`.
@@ -71,7 +69,7 @@ class MoveBase:
         """Drive until cancelled."""
         node = self._node
         try:
-            root = RosParameters(await node.params.get("~", {}), node.name)
+            root = RosParameters(await node.params.get("~", {}), node.name, warn=node.log.warn)
             self._settings = read_settings(MoveBaseSettings, root)
             await self._start(root)
         except ParamError as error:
@@ -85,41 +83,29 @@ class MoveBase:
         self._buffer = TransformListener(node).buffer
         self._commands = node.advertise("cmd_vel", "geometry_msgs/Twist", queue_size=1)
         self._current_goal = node.advertise("~current_goal", "geometry_msgs/PoseStamped", queue_size=1)
-        self._recovery_status = node.advertise("~recovery_status", "move_base_msgs/RecoveryStatus", queue_size=1)
+        kind = "move_base_msgs/RecoveryStatus"
+        self._recovery_status = node.advertise("move_base/recovery_status", kind, queue_size=1)
         self._global_costmap = CostmapRos(node, "global_costmap", root, self._buffer)
         await self._global_costmap.start()
-        self._global_planner = self._make_global_planner(root)
+        make, space, section = find_global_planner(node, settings.base_global_planner, root)
+        self._global_planner: GlobalPlanner = make(node, space, section, self._global_costmap)
         self._local_costmap = CostmapRos(node, "local_costmap", root, self._buffer)
         await self._local_costmap.start()
-        self._local_planner = self._make_local_planner(root)
-        planner = settings.base_local_planner.rpartition("/")[2]
-        self._behaviors = read_behaviors(
-            root, Surroundings(node, self._global_costmap, self._local_costmap, self._drive, root, planner)
+        make, space, section = find_local_planner(node, settings.base_local_planner, root)
+        odometry = OdometryReader(node, "odom")
+        self._local_planner: LocalPlanner = make(
+            node, space, section, root, self._local_costmap, self._buffer, odometry
         )
+        node.log.info(f"Created local_planner {settings.base_local_planner}")
+        costmaps = (self._global_costmap, self._local_costmap)
+        surroundings = Surroundings(node, *costmaps, self._drive, root, self._local_planner, space)
+        self._behaviors = read_behaviors(root, surroundings)
         node.advertise_service("~make_plan", "nav_msgs/GetPlan", self._on_make_plan)
         node.advertise_service("~clear_costmaps", "std_srvs/Empty", self._on_clear_costmaps)
-        self._goals = node.advertise("~goal", "move_base_msgs/MoveBaseActionGoal", queue_size=1)
+        self._goals = node.advertise("move_base/goal", "move_base_msgs/MoveBaseActionGoal", queue_size=1)
         node.subscribe("move_base_simple/goal", "geometry_msgs/PoseStamped", self._on_simple_goal, queue_size=1)
-        self._server = ActionServer(node, node.name, "move_base_msgs/MoveBase", self._execute)
+        self._server = ActionServer(node, "move_base", "move_base_msgs/MoveBase", self._execute)
         reconfigure(node, node.name, settings, lambda: None)
-
-    def _make_global_planner(self, root: RosParameters) -> GlobalPlanner:
-        name = self._settings.base_global_planner
-        kind = find_global_planner(name)
-        if kind is None:
-            raise ParamError(f"no global planner {name!r}; there are: {', '.join(GLOBAL_PLANNERS)}")
-        space = name.rpartition("/")[2]
-        return kind(self._node, space, root.section(space), self._global_costmap)
-
-    def _make_local_planner(self, root: RosParameters) -> LocalPlanner:
-        name = self._settings.base_local_planner
-        kind = find_local_planner(name)
-        if kind is None:
-            raise ParamError(f"no local planner {name!r}; there are: {', '.join(LOCAL_PLANNERS)}")
-        odometry = OdometryReader(self._node, "odom")
-        planner = kind(self._node, name.rpartition("/")[2], root, self._local_costmap, self._buffer, odometry)
-        self._node.log.info(f"Created local_planner {name}")
-        return planner
 
     def _drive(self, x: float, y: float, turn: float) -> None:
         self._commands.publish({"linear": {"x": x, "y": y}, "angular": {"z": turn}})
@@ -198,7 +184,7 @@ class MoveBase:
         moved = transform.pose @ Pose.from_rpy(pose.x, pose.y, 0.0, 0.0, 0.0, pose.yaw)
         return Pose2D(moved.position[0], moved.position[1], moved.rpy[2])
 
-    def _on_make_plan(self, request: "nav_msgs.GetPlanRequest") -> dict[str, Any]:
+    async def _on_make_plan(self, request: "nav_msgs.GetPlanRequest") -> dict[str, Any]:
         """Plan without driving; to the nearest place within the tolerance, if the goal cannot be reached."""
         node = self._node
         if self._server.active:
@@ -212,13 +198,16 @@ class MoveBase:
         if start is None or goal is None:
             node.log.error("move_base cannot make a plan for you because it could not get the start pose of the robot")
             return {}
-        plan = self._global_planner.make_plan(start, goal, 0.0)
+        plan = await self._global_planner.make_plan(start, goal, 0.0)
         tolerance = request.tolerance
         if plan is None and tolerance > 0.0:
-            plan = self._global_planner.make_plan(start, goal, tolerance)
+            plan = await self._global_planner.make_plan(start, goal, tolerance)
             if plan is not None and self._settings.make_plan_add_unreachable_goal:
                 plan = Plan(plan.frame, np.vstack([plan.poses, goal]))
-        return {} if plan is None else {"plan": path_message(plan, node.clock.now_ns())}
+        if plan is None:
+            return {}
+        self._global_planner.publish(plan)
+        return {"plan": path_message(plan, node.clock.now_ns())}
 
 
 def _pose_2d(stamped: "geometry_msgs.PoseStamped") -> Pose2D:

@@ -12,6 +12,7 @@ from trundle.robots.parameters import ParamError, RosParameters
 from trundle.ros import Node
 
 from ..costmap import CostmapRos
+from ..planners import LocalPlanner
 
 _CLEARABLE = ["obstacle_layer", "obstacles"]
 Drive = Callable[[float, float, float], None]
@@ -36,7 +37,8 @@ class Surroundings(NamedTuple):
     drive: Drive
     """Commands a velocity x, y [m/s], yaw [rad/s]."""
     root: RosParameters
-    local_planner: str
+    local_planner: LocalPlanner
+    local_space: str
     """Name of the local planner's namespace."""
 
 
@@ -79,7 +81,7 @@ class RotateRecovery:
     def __init__(self, name: str, settings: RosParameters, surroundings: Surroundings) -> None:
         self.name = name
         self._surroundings = surroundings
-        planner = surroundings.root.section(surroundings.local_planner)
+        planner = surroundings.root.section(surroundings.local_space)
         spaces = (settings, planner)
 
         def number(field: str, default: float, *, above: float = 0.0) -> float:
@@ -133,9 +135,50 @@ class RotateRecovery:
         )
 
 
+class MoveSlowAndClear:
+    """Forgets the obstacles in a square around the robot, and limits its speed until it has moved on.
+
+    Parameters, with the original's defaults: clearing_distance 0.5, limited_distance 0.3, limited_trans_speed 0.25,
+    limited_rot_speed 0.45. Limits are those of the local planner, whatever max_trans_param_name and max_rot_param_name.
+    """
+
+    def __init__(self, name: str, settings: RosParameters, surroundings: Surroundings) -> None:
+        self.name = name
+        self._surroundings = surroundings
+        self._clear_m = settings.number("clearing_distance", 0.5)
+        self._distance_m = settings.number("limited_distance", 0.3)
+        self._limits = settings.number("limited_trans_speed", 0.25), settings.number("limited_rot_speed", 0.45)
+        self._begun: tuple[float, float, float] | None = None
+        """Where the speed was limited last; None: it is not limited."""
+
+    async def run(self) -> None:
+        """See `RecoveryBehavior`."""
+        node, planner = self._surroundings.node, self._surroundings.local_planner
+        node.log.warn("Move slow and clear recovery behavior started.")
+        for costmap in (self._surroundings.global_costmap, self._surroundings.local_costmap):
+            costmap.clear_outside(2.0 * self._clear_m, _CLEARABLE, invert=True)
+        is_limited, self._begun = self._begun is not None, self._surroundings.global_costmap.robot_pose()
+        if self._begun is not None and not is_limited:
+            usual = planner.speed_limits
+            planner.speed_limits = min(usual[0], self._limits[0]), min(usual[1], self._limits[1])
+            node.loop.spawn(self._lift(usual))
+
+    async def _lift(self, usual: tuple[float, float]) -> None:
+        """Restore the usual limits once the robot has moved far enough."""
+        node = self._surroundings.node
+        while self._begun is not None and not node.closed.is_set():
+            await node.clock.sleep(0.1)
+            pose = self._surroundings.global_costmap.robot_pose()
+            if pose is not None and math.dist(pose[:2], self._begun[:2]) >= self._distance_m:
+                node.log.info("Moved far enough, removing speed limit.")
+                self._surroundings.local_planner.speed_limits = usual
+                self._begun = None
+
+
 _TYPES: dict[str, Callable[[str, RosParameters, Surroundings], RecoveryBehavior]] = {
     "clear_costmap_recovery/ClearCostmapRecovery": ClearCostmapRecovery,
     "rotate_recovery/RotateRecovery": RotateRecovery,
+    "move_slow_and_clear/MoveSlowAndClear": MoveSlowAndClear,
 }
 
 

@@ -24,7 +24,7 @@ class CarrotPlanner:
         self._step_m = settings.number("step_size", costmap.costmap.resolution_m, above=0.0)
         self._least_m = settings.number("min_dist_from_robot", 0.1)
 
-    def make_plan(self, start: Pose2D, goal: Pose2D, tolerance: float | None = None) -> Plan | None:
+    async def make_plan(self, start: Pose2D, goal: Pose2D, tolerance: float | None = None) -> Plan | None:
         """See `GlobalPlanner`; every tolerance is allowed."""
         del tolerance
         distance = math.hypot(goal.x - start.x, goal.y - start.y)
@@ -36,6 +36,9 @@ class CarrotPlanner:
         if not free or shares[free[-1]] * distance < min(self._least_m, distance):
             return None
         return Plan(self._costmap.frame, poses[: free[-1] + 1])
+
+    def publish(self, plan: Plan) -> None:
+        """See `GlobalPlanner`; the original has no topic."""
 
     def _fits(self, pose: Pose2D) -> bool:
         grid = self._costmap.costmap

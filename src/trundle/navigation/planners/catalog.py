@@ -1,7 +1,13 @@
 """Planners by the names of their plugins; imported on use."""
 
 import importlib
+import re
 from typing import Any
+
+from trundle.robots.parameters import ParamError, RosParameters
+from trundle.ros import Node
+
+from .substitutes import GLOBAL_SUBSTITUTES, SUBSTITUTES
 
 GLOBAL_PLANNERS = {
     "carrot_planner/CarrotPlanner": "trundle.navigation.planners.carrot_planner:CarrotPlanner",
@@ -14,14 +20,41 @@ LOCAL_PLANNERS = {
 }
 
 
-def find_global_planner(name: str) -> Any | None:
-    """Return the class of a global planner; None if there is none of that name."""
-    return _find(GLOBAL_PLANNERS, name)
+def find_global_planner(node: Node, name: str, root: RosParameters) -> tuple[Any, str, RosParameters]:
+    """Return class, namespace and parameters of a global planner.
+
+    Raises:
+        ParamError: there is none of that name.
+    """
+    space = name.rpartition("/")[2]
+    if re.split("::", space)[-1] in GLOBAL_SUBSTITUTES:
+        node.log.warn(f"base_global_planner: navfn/NavfnROS is used in place of {name}")
+        return _find(GLOBAL_PLANNERS, "NavfnROS"), space, root.section(space)
+    kind = _find(GLOBAL_PLANNERS, name)
+    if kind is None:
+        raise ParamError(f"no global planner {name!r}; there are: {', '.join(GLOBAL_PLANNERS)}")
+    return kind, space, root.section(space)
 
 
-def find_local_planner(name: str) -> Any | None:
-    """Return the class of a local planner; None if there is none of that name."""
-    return _find(LOCAL_PLANNERS, name)
+def find_local_planner(node: Node, name: str, root: RosParameters) -> tuple[Any, str, RosParameters]:
+    """Return class, namespace and parameters of a local planner.
+
+    Raises:
+        ParamError: there is none of that name.
+    """
+    space = re.split("/|::", name)[-1]
+    if space == "LocalPlannerAdapter":  # nav_core_adapter's, which loads another one
+        name = root.section(space).text("planner_name", "DWBLocalPlanner")
+        space = re.split("/|::", name)[-1]
+    section = root.section(space)
+    if space in SUBSTITUTES:
+        node.log.warn(f"base_local_planner: dwa_local_planner/DWAPlannerROS is used in place of {name}")
+        return _find(LOCAL_PLANNERS, "DWAPlannerROS"), space, SUBSTITUTES[space](section)
+    kind = _find(LOCAL_PLANNERS, name)
+    if kind is None:
+        known = ", ".join((*LOCAL_PLANNERS, *SUBSTITUTES))
+        raise ParamError(f"no local planner {name!r}; there are: {known}")
+    return kind, space, section
 
 
 def _find(catalog: dict[str, str], name: str) -> Any | None:

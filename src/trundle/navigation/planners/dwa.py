@@ -64,10 +64,23 @@ class DwaSettings(msgspec.Struct, kw_only=True):
     latch_xy_goal_tolerance: bool = False
 
 
+_OLD_NAMES = {
+    "max_trans_vel": "max_vel_trans",
+    "min_trans_vel": "min_vel_trans",
+    "max_rot_vel": "max_vel_theta",
+    "min_rot_vel": "min_vel_theta",
+    "acc_limit_trans": "acc_lim_trans",
+    "acc_lim_th": "acc_lim_theta",
+    "rot_stopped_vel": "theta_stopped_vel",
+}
+"""Names before Melodic."""
+
+
 class DWAPlannerROS(Follower):
     """Samples reachable velocities, simulates each, and commands the one of the best score.
 
-    Parameters are the original's (`DwaSettings`), with `controller_frequency`, `sum_scores` and `cheat_factor`. Unlike
+    Parameters are the original's (`DwaSettings`), also by their names before Melodic, with `controller_frequency`,
+    `sum_scores` and `cheat_factor`, and `min_turning_radius` [m] for a car, whose direction at the goal is free. Unlike
     the original's, trajectories accelerate toward any velocity, and a robot turns on the spot before it sets out on a
     way that begins beside or behind it.
     """
@@ -76,13 +89,17 @@ class DWAPlannerROS(Follower):
         self,
         node: Node,
         name: str,
+        section: RosParameters,
         root: RosParameters,
         costmap: CostmapRos,
         buffer: TransformBuffer,
         odom: OdometryReader,
     ) -> None:
-        section = root.section(name)
+        section = section.renamed(_OLD_NAMES)
         self._settings = settings = read_settings(DwaSettings, section)
+        self._turning_radius_m = section.number("min_turning_radius", 0.0, minimum=0.0)
+        if self._turning_radius_m > 0.0:
+            settings.yaw_goal_tolerance = math.pi  # a car does not turn on the spot
         self._sums_scores = section.flag("sum_scores", default=False)
         self._cheat_factor = section.number("cheat_factor", 1.0)
         super().__init__(
@@ -104,9 +121,18 @@ class DWAPlannerROS(Follower):
         return self._settings.min_vel_theta, self._settings.max_vel_theta
 
     @property
+    def speed_limits(self) -> tuple[float, float]:
+        """See `LocalPlanner`."""
+        return self._settings.max_vel_trans, self._settings.max_vel_theta
+
+    @speed_limits.setter
+    def speed_limits(self, limits: tuple[float, float]) -> None:
+        self._settings.max_vel_trans, self._settings.max_vel_theta = limits
+
+    @property
     def turns_first(self) -> bool:
         """See `Follower`."""
-        return self._settings.max_vel_y <= 0.0
+        return self._settings.max_vel_y <= 0.0 and self._turning_radius_m <= 0.0
 
     def best(self, pose: Pose2D, plan: NDArray[np.float64]) -> Velocity | None:
         """See `Follower`."""
@@ -192,7 +218,8 @@ class DWAPlannerROS(Follower):
         samples = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
         speed, turn = np.hypot(samples[:, 0], samples[:, 1]), np.abs(samples[:, 2])
         is_slow = (speed + _EPSILON < settings.min_vel_trans) & (turn + _EPSILON < settings.min_vel_theta)
-        return np.ascontiguousarray(samples[~is_slow & (speed - _EPSILON <= settings.max_vel_trans)])
+        is_too_tight = turn * self._turning_radius_m > speed + _EPSILON
+        return np.ascontiguousarray(samples[~is_slow & ~is_too_tight & (speed - _EPSILON <= settings.max_vel_trans)])
 
     @property
     def _accelerations(self) -> NDArray[np.float64]:

@@ -28,7 +28,7 @@ class Plan(NamedTuple):
 class GlobalPlanner(Protocol):
     """nav_core::BaseGlobalPlanner."""
 
-    def make_plan(self, start: Pose2D, goal: Pose2D, tolerance: float | None = None) -> Plan | None:
+    async def make_plan(self, start: Pose2D, goal: Pose2D, tolerance: float | None = None) -> Plan | None:
         """Return a way in the global costmap's frame; None if there is none.
 
         Args:
@@ -38,9 +38,16 @@ class GlobalPlanner(Protocol):
         """
         ...
 
+    def publish(self, plan: Plan) -> None:
+        """Publish a plan on the planner's topic."""
+        ...
+
 
 class LocalPlanner(Protocol):
     """nav_core::BaseLocalPlanner."""
+
+    speed_limits: tuple[float, float]
+    """Greatest speed [m/s] and turning speed [rad/s]."""
 
     def start(self) -> None:
         """Begin a new goal."""

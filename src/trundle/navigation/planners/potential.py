@@ -1,5 +1,6 @@
 """A way of least cost down a potential, as navfn and global_planner make it."""
 
+import asyncio
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -43,16 +44,18 @@ class PotentialPlanner:
         self._plans = node.advertise(f"~{name}/plan", "nav_msgs/Path", queue_size=1)
         node.advertise_service(f"~{name}/make_plan", "nav_msgs/GetPlan", self._on_make_plan)
 
-    def _on_make_plan(self, request: "nav_msgs.GetPlanRequest") -> dict[str, Any]:
+    async def _on_make_plan(self, request: "nav_msgs.GetPlanRequest") -> dict[str, Any]:
         start, goal = (
             Pose2D(pose.pose.position.x, pose.pose.position.y, 0.0) for pose in (request.start, request.goal)
         )
-        plan = self.make_plan(start, goal, request.tolerance)
+        plan = await self.make_plan(start, goal, request.tolerance)
+        if plan is not None:
+            self.publish(plan)
         empty = Plan(self._costmap.frame, np.empty((0, 3)))
         return {"plan": path_message(plan or empty, self._node.clock.now_ns())}
 
-    def make_plan(self, start: Pose2D, goal: Pose2D, tolerance: float | None = None) -> Plan | None:
-        """See `GlobalPlanner`."""
+    async def make_plan(self, start: Pose2D, goal: Pose2D, tolerance: float | None = None) -> Plan | None:
+        """See `GlobalPlanner`; plans in a copy of the costs, beside the graph's thread."""
         grid = self._costmap.costmap
         first, last = grid.cell(start.x, start.y), grid.cell(goal.x, goal.y)
         if first is None:
@@ -69,16 +72,24 @@ class PotentialPlanner:
         reach = self._tolerance_m if tolerance is None else tolerance
         if not 0.0 <= reach < math.inf:
             reach = 0.0
+        return await asyncio.to_thread(self._plan, grid.copy(), start, goal, first, last, reach)
+
+    def publish(self, plan: Plan) -> None:
+        """See `GlobalPlanner`."""
+        if self._plans.has_subscribers:
+            self._plans.publish(path_message(plan, self._node.clock.now_ns()))
+
+    def _plan(
+        self, grid: Costmap, start: Pose2D, goal: Pose2D, first: tuple[int, int], last: tuple[int, int], reach: float
+    ) -> Plan | None:
+        """Plan from the cell `first` to `last`, or to the nearest within reach [m]."""
         costs = self._costs(grid, first)
         potential = _grids.wave_front(costs, [first], stop=last if reach <= 0.0 else (-1, -1))
         end = nearest_reached(potential, last, reach / grid.resolution_m)
         way = _grids.descend(potential, end, first) if end is not None else np.empty((0, 2))
         if end is None or not len(way):
             return None
-        plan = Plan(self._costmap.frame, self._poses(grid, way[::-1], start, goal, is_exact=end == last))
-        if self._plans.has_subscribers:
-            self._plans.publish(path_message(plan, self._node.clock.now_ns()))
-        return plan
+        return Plan(self._costmap.frame, self._poses(grid, way[::-1], start, goal, is_exact=end == last))
 
     def _costs(self, grid: Costmap, start: tuple[int, int]) -> NDArray[np.float32]:
         """Return the cost of crossing each cell; the border is impassable, the robot's own cell is not.

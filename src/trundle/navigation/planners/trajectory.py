@@ -86,16 +86,14 @@ class TrajectoryPlannerROS(Follower):
         self,
         node: Node,
         name: str,
+        section: RosParameters,
         root: RosParameters,
         costmap: CostmapRos,
         buffer: TransformBuffer,
         odom: OdometryReader,
     ) -> None:
-        section = root.section(name)
+        section = section.renamed(_OLD_NAMES)
         self._settings = settings = read_settings(TrajectorySettings, section)
-        for old, field in _OLD_NAMES.items():
-            if old in section and field not in section:
-                setattr(settings, field, section.number(old))
         if "min_vel_theta" not in section:
             settings.min_vel_theta = -settings.max_vel_theta
         if "angular_sim_granularity" not in section:
@@ -110,6 +108,16 @@ class TrajectoryPlannerROS(Follower):
     def turn_limits(self) -> tuple[float, float]:
         """See `Follower`."""
         return self._settings.min_in_place_vel_theta, self._settings.max_vel_theta
+
+    @property
+    def speed_limits(self) -> tuple[float, float]:
+        """See `LocalPlanner`."""
+        return self._settings.max_vel_x, self._settings.max_vel_theta
+
+    @speed_limits.setter
+    def speed_limits(self, limits: tuple[float, float]) -> None:
+        self._settings.max_vel_x, self._settings.max_vel_theta = limits
+        self._settings.min_vel_theta = -limits[1]
 
     @property
     def turns_first(self) -> bool:

@@ -1,0 +1,67 @@
+"""Planners of other packages, answered by DWAPlannerROS and NavfnROS with the limits that their parameters set."""
+
+from collections.abc import Callable, Mapping
+
+from trundle.robots.parameters import RosParameters
+
+_DWB = {
+    "max_speed_xy": "max_vel_trans",
+    "min_speed_xy": "min_vel_trans",
+    "min_speed_theta": "min_vel_theta",
+    "vtheta_samples": "vth_samples",
+}
+_RPP = {
+    "desired_linear_vel": "max_vel_x",
+    "rotate_to_heading_angular_vel": "max_vel_theta",
+    "max_angular_accel": "acc_lim_theta",
+    "goal_dist_tol": "xy_goal_tolerance",
+}
+_BANDS = {
+    "max_vel_lin": "max_vel_x",
+    "min_vel_lin": "min_vel_trans",
+    "max_vel_th": "max_vel_theta",
+    "min_in_place_vel_th": "min_vel_theta",
+    "max_acceleration": "acc_lim_x",
+    "max_rotational_acceleration": "acc_lim_theta",
+    "tolerance_trans": "xy_goal_tolerance",
+    "tolerance_rot": "yaw_goal_tolerance",
+}
+_TEB = {"max_vel_x": 0.4, "max_vel_theta": 0.3, "acc_lim_x": 0.5, "acc_lim_theta": 0.5}
+_TEB_TOLERANCES = {"xy_goal_tolerance": 0.2, "yaw_goal_tolerance": 0.2}
+
+
+def _like_dwa(names: Mapping[str, str]) -> Callable[[RosParameters], RosParameters]:
+    return lambda section: _on_wheels(section.renamed(names), {})
+
+
+def _from_teb(section: RosParameters) -> RosParameters:
+    """Return DWA's parameters from TEB's; only a car drives backwards, as it cannot turn on the spot."""
+    defaults = {**_TEB, **_TEB_TOLERANCES, "sim_time": 2.0}
+    if section.number("min_turning_radius", 0.0) > 0.0:
+        defaults["min_vel_x"] = -section.number("max_vel_x_backwards", 0.2)
+    if sideways := section.number("max_vel_y", 0.0):
+        defaults["min_vel_y"] = -sideways
+    return _on_wheels(section, defaults)
+
+
+def _on_wheels(section: RosParameters, defaults: dict[str, float]) -> RosParameters:
+    """Return parameters with defaults: no sideways motion, and as fast as straight ahead in all directions."""
+    straight = section.number("max_vel_x", defaults.get("max_vel_x", 0.55))
+    sideways = section.number("max_vel_y", 0.0)
+    still = {"max_vel_y": 0.0, "min_vel_y": 0.0, "vy_samples": 0} if sideways == 0.0 else {}
+    return section.with_defaults({"max_vel_trans": max(straight, sideways), **defaults, **still})
+
+
+SUBSTITUTES: dict[str, Callable[[RosParameters], RosParameters]] = {
+    "TebLocalPlannerROS": _from_teb,
+    "MpcLocalPlannerROS": _from_teb,
+    "EBandPlannerROS": _like_dwa(_BANDS),
+    "PoseFollower": _like_dwa(_BANDS),
+    "RegulatedPurePursuitController": _like_dwa(_RPP),
+    "NeoLocalPlanner": _like_dwa({}),
+    "MIRPlannerROS": _like_dwa({}),
+    "DWBLocalPlanner": _like_dwa(_DWB),
+}
+"""Class of a local planner → its parameters as DWAPlannerROS'."""
+GLOBAL_SUBSTITUTES = frozenset({"SBPLLatticePlanner", "GlobalPlannerAdapter"})
+"""Classes of global planners that NavfnROS stands in for."""
