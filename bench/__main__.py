@@ -3,7 +3,7 @@
 A ratio is the median, over alternating pairs of runs, of Trundle's result over the peer's. Each row names its peer
 with the peer's options. Run it on an idle machine: other programs slow down both, but not equally.
 
-    python -m bench                 all benchmarks, about half an hour
+    python -m bench                 all benchmarks, about 50 minutes
     python -m bench step renderer   two benchmarks
 """
 
@@ -29,6 +29,7 @@ BENCHES = {
     "contacts": "piles, walls and contact sensors",
     "house": "a furnished house",
     "images": "image topics",
+    "navigation": "amcl and move_base in a house, twenty tours",
     "renderer": "pictures and scans against MuJoCo and PyBullet",
     "dataset": "labelled pictures",
     "page_feed": "CPU time of serving pages",

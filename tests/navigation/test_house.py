@@ -1,4 +1,4 @@
-"""amcl and gmapping in a house of five rooms with a driving robot, as launch files start them."""
+"""amcl, gmapping and move_base in a house of five rooms with a driving robot, as launch files start them."""
 
 import math
 import os
@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bench.navigation import drive as drive_to_goals
 from numpy.typing import NDArray
 
 from trundle.gazebo.nodes.map_server.occupancy_grid import read_map
@@ -98,6 +99,18 @@ def test_gmapping_maps_the_room_around_a_driving_robot(house: Path, tmp_path: Pa
     near = np.array([np.abs(plan - place).max(axis=1).min() < 0.051 for place in found])
     assert len(found) > 200
     assert near.mean() > 0.97
+
+
+@pytest.mark.usefixtures("house")
+@pytest.mark.parametrize("planner", ["dwa", "trajectory"])
+def test_amcl_and_move_base_reach_goals_with_an_odometry_that_is_wrong_by_a_few_percent(planner: str) -> None:
+    """Through two doors of 0.9 m, past a table."""
+    tour = drive_to_goals(9, planner=planner, is_worse=True, count=2)
+
+    assert tour.reached == 2
+    assert tour.clearance_m > 0.09
+    assert tour.ratio < 1.1
+    assert max(goal["error_m"] for goal in tour.goals) < 0.2
 
 
 def _occupied(file: Path) -> NDArray[np.float64]:
