@@ -13,6 +13,7 @@ from .inflation_layer import InflationLayer, InflationSettings
 from .observations import ObservationSource, SourceSettings
 from .obstacle_layer import ObstacleLayer, ObstacleSettings
 from .range_sensor_layer import RangeSensorLayer, RangeSettings
+from .social_layer import SocialLayer, SocialSettings
 from .static_layer import StaticLayer, StaticSettings
 from .voxel_layer import NonPersistentVoxelLayer, VoxelLayer, VoxelSettings
 
@@ -152,6 +153,18 @@ class LayerMaker:
             is_rolling=self._is_rolling,
         )
 
+    def make_proxemic(self, name: str, settings: RosParameters) -> SocialLayer:
+        del settings
+        return self._make_social(name, passes=False)
+
+    def make_passing(self, name: str, settings: RosParameters) -> SocialLayer:
+        del settings
+        return self._make_social(name, passes=True)
+
+    def _make_social(self, name: str, *, passes: bool) -> SocialLayer:
+        settings = read_settings(SocialSettings, self._settings.section(name))
+        return SocialLayer(self._node, name, settings, frame=self._frame, buffer=self._buffer, passes=passes)
+
     def _tracks_unknown(self, own: RosParameters) -> bool:
         default = self._settings.flag("track_unknown_space", default=False)
         return own.flag("track_unknown_space", default=default)
@@ -183,6 +196,8 @@ _MAKERS: dict[str, Callable[[LayerMaker, str, RosParameters], "Layer"]] = {
     "NonPersistentVoxelLayer": LayerMaker.make_forgetful_voxels,
     "SpatioTemporalVoxelLayer": LayerMaker.make_voxels,
     "RangeSensorLayer": LayerMaker.make_ranges,
+    "ProxemicLayer": LayerMaker.make_proxemic,
+    "PassingLayer": LayerMaker.make_passing,
     "InflationLayer": LayerMaker.make_inflation,
 }
 

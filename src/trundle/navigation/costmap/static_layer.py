@@ -38,6 +38,17 @@ class StaticSwitch(msgspec.Struct, kw_only=True):
     enabled: bool = True
 
 
+def _costs_of_occupancies(settings: StaticSettings) -> NDArray[np.uint8]:
+    """Return the cost (256,) of each occupancy, by its bits."""
+    occupancy = np.arange(256, dtype=np.uint8).view(np.int8).astype(np.int16)
+    threshold = max(min(settings.lethal_cost_threshold, 100), 1)
+    scaled = np.zeros_like(occupancy) if settings.trinary_costmap else occupancy * LETHAL // threshold
+    costs = np.where(occupancy >= threshold, LETHAL, np.clip(scaled, FREE_SPACE, LETHAL))
+    unknown = NO_INFORMATION if settings.track_unknown_space else FREE_SPACE
+    is_unknown = np.arange(256) == settings.unknown_cost_value & 255
+    return np.where(is_unknown, unknown, costs).astype(np.uint8)
+
+
 class StaticLayer:
     """Copies the map's costs; in a costmap without a rolling window, the map sets size and resolution."""
 
@@ -73,6 +84,7 @@ class StaticLayer:
         self._node = node
         self._master = master
         self._settings = settings
+        self._cost_of = _costs_of_occupancies(settings)
         self._is_rolling = is_rolling
         self.map: Costmap | None = None
         self._map_frame = "map"
@@ -84,13 +96,7 @@ class StaticLayer:
 
     def _costs(self, values: NDArray[np.int8]) -> NDArray[np.uint8]:
         """Return costs of occupancies."""
-        settings = self._settings
-        threshold = max(min(settings.lethal_cost_threshold, 100), 1)
-        occupancy = values.astype(np.int16)
-        scaled = np.zeros_like(occupancy) if settings.trinary_costmap else occupancy * LETHAL // threshold
-        costs = np.where(occupancy >= threshold, LETHAL, np.clip(scaled, FREE_SPACE, LETHAL))
-        unknown = NO_INFORMATION if settings.track_unknown_space else FREE_SPACE
-        return np.where(occupancy == settings.unknown_cost_value, unknown, costs).astype(np.uint8)
+        return self._cost_of[values.view(np.uint8)]
 
     def _on_map(self, message: "nav_msgs.OccupancyGrid") -> None:
         info = message.info

@@ -84,7 +84,7 @@ class PotentialPlanner:
     ) -> Plan | None:
         """Plan from the cell `first` to `last`, or to the nearest within reach [m]."""
         costs = self._costs(grid, first)
-        potential = _grids.wave_front(costs, [first], stop=last if reach <= 0.0 else (-1, -1))
+        potential = _grids.wave_front(costs, [first], stop=last)  # else it has reached all that it can
         end = nearest_reached(potential, last, reach / grid.resolution_m)
         way = _grids.descend(potential, end, first) if end is not None else np.empty((0, 2))
         if end is None or not len(way):
