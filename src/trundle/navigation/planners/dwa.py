@@ -231,6 +231,9 @@ class DWAPlannerROS(Follower):
         step = (self._accelerations * self.period_s).tolist()
         x, y, turn = (approach(*args) for args in zip(self.odom.velocity, target, step, strict=True))
         least = self._settings.min_vel_theta
+        if self._turning_radius_m > 0.0:
+            tightest = abs(x) / self._turning_radius_m
+            return x, y, min(max(turn, -tightest), tightest)
         if math.hypot(x, y) < self._settings.min_vel_trans and math.hypot(target[0], target[1]) < _EPSILON:
             turn = math.copysign(max(abs(turn), least), target[2])
         return x, y, turn
