@@ -70,6 +70,7 @@ export function boot(root: HTMLElement, json: string): void {
     views,
     fixedFrame,
     selection,
+    select: (picked) => shell.select(picked),
     hovered,
     editor,
     looksOnly: first.view_only,

@@ -14,9 +14,10 @@ import { Insertion } from "./insert/insertion";
 import { Layout } from "./layout";
 import { Notices } from "./notices/notices";
 import type { OpenMenu } from "./object_menu/open_menu";
-import type { Page } from "../page/page";
+import type { Page, Selection } from "../page/page";
 import { recallSplit } from "./panes/remembered_split";
 import { isBoolean, recall, remember } from "../page/storage";
+import { keyOf } from "../page/world_nodes";
 import { Videos } from "./video/videos";
 
 /** An .rviz file that is shown. */
@@ -87,6 +88,13 @@ export class Shell {
     this.editor = new ModelEditor(page, this.notices);
     this.dock = new DockSlot(page, this.layout);
     effect(() => remember("cameras", this.showsCameras.value));
+  }
+
+  /** Select what was clicked in the scene, and show it in the tree of the left panel if that is open. */
+  select(selection: Selection | null): void {
+    this.page.selection.value = selection;
+    const isInTree = keyOf(selection) !== "" || selection?.kind === "part";
+    if (isInTree && !this.layout.isRail("left")) this.layout.left.page.value = "world";
   }
 
   /** Send a request to the server; a refusal becomes a notice. */

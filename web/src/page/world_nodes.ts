@@ -174,6 +174,16 @@ function matches(node: WorldNode, query: string): boolean {
   return node.label.toLowerCase().includes(query) || node.children.some((child) => matches(child, query));
 }
 
+/** Nodes from the root to the one with a key; empty: there is none. */
+export function pathTo(root: WorldNode, key: string): readonly WorldNode[] {
+  if (root.key === key) return [root];
+  for (const child of root.children) {
+    const path = pathTo(child, key);
+    if (path.length > 0) return [root, ...path];
+  }
+  return [];
+}
+
 /** Key of a selection's node; "": none. */
 export function keyOf(selection: Selection | null): string {
   switch (selection?.kind) {

@@ -5,6 +5,7 @@ import { useEffect } from "preact/hooks";
 
 import { canControl, LOOKS_ONLY } from "../page/looking";
 import { fixed } from "../theme/format";
+import { SteadyNumber } from "../theme/steady_number";
 import { AXIS_NAMES, BUTTON_NAMES } from "./joystick/gamepad_axes";
 import { joystickState, type JoystickState } from "./joystick/joystick_state";
 import { Stick } from "./joystick/stick";
@@ -63,7 +64,9 @@ function Joystick({ page }: PanelProps): JSX.Element {
           {AXIS_NAMES.map((name, index) => (
             <div key={name}>
               <dt>{name}</dt>
-              <dd>{fixed(axis(state, index), 2)}</dd>
+              <dd>
+                <SteadyNumber text={fixed(axis(state, index), 2)} length={5} />
+              </dd>
             </div>
           ))}
         </dl>

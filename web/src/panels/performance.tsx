@@ -5,6 +5,7 @@ import { useEffect, useRef } from "preact/hooks";
 
 import type { Profile } from "../protocol/generated/page_messages";
 import { count, fixed } from "../theme/format";
+import { SteadyNumber } from "../theme/steady_number";
 import type { Panel, PanelProps } from "./panel";
 import { barOf, GROUP_NAMES, performanceState, rowsOf, sparkline, type Row } from "./performance/performance_state";
 import { useShown } from "./use";
@@ -50,7 +51,7 @@ interface HeadProps {
 
 function Head({ profile, factors, isPaused }: HeadProps): JSX.Element {
   const factor = fixed(factors.at(-1), 2);
-  const label = `Real-time factor over the last ${count(factors.length, "second")}: now ${factor}, least ${fixed(Math.min(...factors), 2)}`;
+  const label = `Real-time factor over the last ${count(factors.length, "second")}: now ${factor}, minimum ${fixed(Math.min(...factors), 2)}`;
   return (
     <dl class="figures">
       <Figure name="Real-time factor" value={factor}>
@@ -63,12 +64,15 @@ function Head({ profile, factors, isPaused }: HeadProps): JSX.Element {
       <Figure name="Bodies" value={String(profile.bodies)} />
       <Figure name="Asleep" value={String(profile.asleep)} />
       {profile.graph_s !== null && (
-        <Figure name="Graph's thread" value={fixed((100 * profile.graph_s) / profile.wall_s, 0)} unit="% of a core" />
+        <Figure name="ROS thread" value={fixed((100 * profile.graph_s) / profile.wall_s, 0)} unit="% of a core" />
       )}
       {isPaused && <span class="dim">paused</span>}
     </dl>
   );
 }
+
+/** Length of a usual figure: "12345". */
+const FIGURE_LENGTH = 5;
 
 function Figure({
   name,
@@ -85,7 +89,7 @@ function Figure({
     <div>
       <dt>{name}</dt>
       <dd>
-        {value}
+        <SteadyNumber text={value} length={FIGURE_LENGTH} />
         {unit !== undefined && <i class="unit">{unit}</i>}
       </dd>
       {children}

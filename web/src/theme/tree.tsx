@@ -1,7 +1,7 @@
 /** A tree of rows: arrows move, open and close; one row is in the tab order. */
 
 import type { ComponentChildren, JSX } from "preact";
-import { useRef, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 
 import { Icon } from "./icons";
 import { LongPress } from "./long_press";
@@ -40,11 +40,17 @@ export function Tree(props: TreeProps): JSX.Element {
   latest.current = props;
   const drawn = useRef(new WeakMap<TreeRow, { readonly isInOrder: boolean; readonly element: JSX.Element }>());
   const inOrder = rows.find((row) => row.key === focused) ?? rows.find((row) => row.selected) ?? rows[0];
+  const elementOf = (key: string): HTMLElement | null =>
+    list.current?.querySelector<HTMLElement>(`[data-key="${CSS.escape(key)}"]`) ?? null;
   const focus = (row: TreeRow | undefined): void => {
     if (row === undefined) return;
     setFocused(row.key);
-    list.current?.querySelector<HTMLElement>(`[data-key="${CSS.escape(row.key)}"]`)?.focus();
+    elementOf(row.key)?.focus();
   };
+  const selected = rows.find((row) => row.selected)?.key;
+  useEffect(() => {
+    if (selected !== undefined) elementOf(selected)?.scrollIntoView({ block: "nearest" });
+  }, [selected]);
   const keyDown = (event: KeyboardEvent): void => {
     const index = rows.findIndex((row) => row.key === focused);
     const row = rows[index];

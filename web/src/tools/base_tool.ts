@@ -20,7 +20,9 @@ export interface ToolContext {
   readonly scene: SceneView;
   readonly views: Pick<Views, "focus">;
   readonly fixedFrame: ReadonlySignal<string>;
-  readonly selection: Signal<Selection | null>;
+  readonly selection: ReadonlySignal<Selection | null>;
+  /** Select what was clicked in the scene. */
+  readonly select: (selection: Selection | null) => void;
   readonly hovered: Signal<Selection | null>;
   /** Null where no world can be changed. */
   readonly editor: WorldEditor | null;

@@ -111,7 +111,7 @@ export abstract class HandleTool extends BaseTool {
     if (dragged === null) {
       if (input.kind === "move") this.pointed = input;
       else if (input.kind === "up" && input.button === 0)
-        this.context.selection.value = selectionOf(this.context.scene.pick(input.x, input.y));
+        this.context.select(selectionOf(this.context.scene.pick(input.x, input.y)));
       return false;
     }
     if (input.kind === "move") this.pull(dragged, input);

@@ -42,7 +42,7 @@ export class Interact extends BaseTool {
     if (this.dragged !== null) return this.drag(this.dragged, input);
     if (input.kind === "move") this.waiting = input;
     else if (input.kind === "down") return this.press(input);
-    else if (input.kind === "up" && input.button === 0) this.context.selection.value = selectionOf(this.pressed);
+    else if (input.kind === "up" && input.button === 0) this.context.select(selectionOf(this.pressed));
     return false;
   }
 

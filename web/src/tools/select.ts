@@ -45,10 +45,10 @@ export class Select extends BaseTool {
   }
 
   private select(from: PointerInput, to: PointerInput): void {
-    const { scene, selection } = this.context;
+    const { scene, select } = this.context;
     const box = boxOf(from, to);
     const isClick = box.right - box.left < CLICK && box.bottom - box.top < CLICK;
-    selection.value = isClick ? selectionOf(scene.pick(to.x, to.y)) : selectionOfAll(scene.pickBox(box, MAX_PICKED));
+    select(isClick ? selectionOf(scene.pick(to.x, to.y)) : selectionOfAll(scene.pickBox(box, MAX_PICKED)));
   }
 
   private draw(from: PointerInput, to: PointerInput): void {

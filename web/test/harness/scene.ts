@@ -39,6 +39,7 @@ const tools = new ToolList({
   views,
   fixedFrame: signal("map"),
   selection,
+  select: (picked) => (selection.value = picked),
   hovered: signal(null),
   editor: null,
   looksOnly: false,

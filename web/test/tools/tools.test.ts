@@ -52,6 +52,7 @@ function setUp(looksOnly = false) {
     views,
     fixedFrame: signal("map"),
     selection,
+    select: (picked) => (selection.value = picked),
     hovered,
     editor: null,
     looksOnly,

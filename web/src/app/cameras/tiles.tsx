@@ -9,6 +9,7 @@ import { drawPicture, PictureStream, type PictureSource } from "../../displays/p
 import { Button } from "../../theme/button";
 import { fixed } from "../../theme/format";
 import { Name } from "../../theme/name";
+import { SteadyNumber } from "../../theme/steady_number";
 import { CameraSamples } from "./samples";
 import { streamedTopic, tileKey, type CameraTopic } from "./topics";
 import type { Shell } from "../shell";
@@ -96,7 +97,13 @@ function Tile({ shell, camera, isLarge, onPress }: TileProps): JSX.Element {
       {fault === null && !wasDrawn.value && <span class="said t2 sm">No picture yet</span>}
       <figcaption class="cap">
         <Name text={camera.name} />
-        <span class="r">{hertz === null || hertz < 0.5 ? "" : `${fixed(hertz, 0)} Hz`}</span>
+        <span class="r">
+          {hertz !== null && hertz >= 0.5 && (
+            <>
+              <SteadyNumber text={fixed(hertz, 0)} length={2} /> Hz
+            </>
+          )}
+        </span>
         <VideoButton shell={shell} topic={topic} name={camera.name} />
         <Button
           icon={isLarge ? "close" : "enlarge"}

@@ -10,6 +10,7 @@ import { fixed } from "../../theme/format";
 import { Icon } from "../../theme/icons";
 import { Name } from "../../theme/name";
 import { StatusShape } from "../../theme/status_shape";
+import { SteadyNumber } from "../../theme/steady_number";
 import { TextField } from "../../theme/text_field";
 import type { TreeRow } from "../../theme/tree";
 import { isSilence } from "../notices/notices";
@@ -116,20 +117,29 @@ function DisplayRow({ display, rows }: { readonly display: Display; readonly row
       ) : (
         <Name text={display.name.value} />
       )}
-      <span class="r">{rateText(page, display)}</span>
+      <span class="r">
+        <Rate page={page} display={display} />
+      </span>
       {color !== undefined && <span class="sw" style={{ background: hex(color.value.value as readonly number[]) }} />}
     </>
   );
 }
 
-function rateText(page: Page, display: Display): string {
-  if (!display.enabled.value.value) return "";
-  if (display.className === "rviz/TF") return `${page.frames.frames.value.length} frames`;
-  if (isSilent(display)) return "no data";
+/** Length of a rate of up to 100 Hz. */
+const RATE_LENGTH = 5;
+
+function Rate({ page, display }: { readonly page: Page; readonly display: Display }): JSX.Element | null {
+  if (!display.enabled.value.value) return null;
+  if (display.className === "rviz/TF") return <>{page.frames.frames.value.length} frames</>;
+  if (isSilent(display)) return <>no data</>;
   const { topic } = display;
-  if (topic === null || topic === "") return "";
-  const { rate } = page.connection.statistics(topic);
-  return rate === null || rate < 0.05 ? "" : `${fixed(rate, 1)} Hz`;
+  const rate = topic === null || topic === "" ? null : page.connection.statistics(topic).rate;
+  if (rate === null || rate < 0.05) return null;
+  return (
+    <>
+      <SteadyNumber text={fixed(rate, 1)} length={RATE_LENGTH} /> Hz
+    </>
+  );
 }
 
 interface RenameProps {
@@ -145,7 +155,7 @@ function Rename({ name, onCommit, onLeave }: RenameProps): JSX.Element {
         label="Name"
         value={name}
         class="small"
-        check={(text) => (text.trim() === "" ? "A name, please." : null)}
+        check={(text) => (text.trim() === "" ? "Enter a name." : null)}
         onCommit={(text) => onCommit(text.trim())}
       />
     </span>

@@ -1,6 +1,6 @@
 /** Tree of the edited model, which replaces the world's, with the drawer of new parts below it. */
 
-import { useSignal } from "@preact/signals";
+import { useSignal, useSignalEffect } from "@preact/signals";
 import type { JSX } from "preact";
 
 import type { DraftInfo, DraftPart } from "../../protocol/generated/page_messages";
@@ -25,8 +25,12 @@ interface TreeProps {
 export function DraftTree({ shell, draft }: TreeProps): JSX.Element {
   const { editor, page } = shell;
   const edits = canEdit(shell);
-  const shut = useSignal<ReadonlySet<string>>(new Set());
+  const toggled = useSignal<ReadonlyMap<string, boolean>>(new Map());
   const isAdding = useSignal(draft.parts.length === 1);
+  useSignalEffect(() => {
+    const selection = page.selection.value;
+    if (selection?.kind === "part") toggled.value = withOpenAncestors(toggled.peek(), selection.part);
+  });
   const selected = page.selection.value?.kind === "part" ? keyOf(page.selection.value.part) : null;
   const byKey = new Map(draft.parts.map((part) => [keyOf(part.part), part]));
   const select = (key: string): void => {
@@ -45,13 +49,8 @@ export function DraftTree({ shell, draft }: TreeProps): JSX.Element {
       <div class="scroll">
         <Tree
           label="Model"
-          rows={rows(draft, shut.value, selected)}
-          onToggle={(key, open) => {
-            const next = new Set(shut.value);
-            if (open) next.delete(key);
-            else next.add(key);
-            shut.value = next;
-          }}
+          rows={rows(draft, toggled.value, selected)}
+          onToggle={(key, open) => (toggled.value = new Map(toggled.value).set(key, open))}
           onSelect={select}
           onHover={(key) => {
             const part = key === null ? undefined : byKey.get(key);
@@ -107,12 +106,9 @@ function selectionOf({ part }: DraftPart): Selection {
   return { kind: "part", part };
 }
 
-function rows(draft: DraftInfo, shut: ReadonlySet<string>, selected: string | null): readonly TreeRow[] {
-  const shown = draft.parts.filter(({ part }) => {
-    for (let end = part.length - 2; end >= 0; end -= 2)
-      if (shut.has(keyOf(part.slice(0, end))) !== isShutAtFirst(part.slice(0, end))) return false;
-    return true;
-  });
+function rows(draft: DraftInfo, toggled: ReadonlyMap<string, boolean>, selected: string | null): readonly TreeRow[] {
+  const isOpen = (part: PartPath): boolean => toggled.get(keyOf(part)) ?? part.length === 0; // at first the model alone
+  const shown = draft.parts.filter(({ part }) => ancestorsOf(part).every(isOpen));
   return shown.map((part) => {
     const key = keyOf(part.part);
     const hasMore = draft.parts.some(
@@ -121,7 +117,7 @@ function rows(draft: DraftInfo, shut: ReadonlySet<string>, selected: string | nu
     return {
       key,
       depth: part.part.length / 2,
-      open: hasMore ? shut.has(key) === isShutAtFirst(part.part) : undefined,
+      open: hasMore ? isOpen(part.part) : undefined,
       selected: key === selected,
       content: (
         <>
@@ -135,9 +131,12 @@ function rows(draft: DraftInfo, shut: ReadonlySet<string>, selected: string | nu
   });
 }
 
-/** True for links, whose parts are hidden until the link is opened. */
-function isShutAtFirst(part: PartPath): boolean {
-  return part.length > 0;
+function ancestorsOf(part: PartPath): readonly PartPath[] {
+  return Array.from({ length: part.length / 2 }, (_, depth) => part.slice(0, 2 * depth));
+}
+
+function withOpenAncestors(toggled: ReadonlyMap<string, boolean>, part: PartPath): ReadonlyMap<string, boolean> {
+  return new Map([...toggled, ...ancestorsOf(part).map((ancestor) => [keyOf(ancestor), true] as const)]);
 }
 
 function Worst({ part }: { readonly part: DraftPart }): JSX.Element | null {

@@ -7,17 +7,16 @@ import type { JointInfo, ModelInfo } from "../../protocol/generated/page_message
 import type { JointState } from "../../scene/simulated_world";
 import { Button } from "../../theme/button";
 import { fixed } from "../../theme/format";
+import { Name } from "../../theme/name";
 import { Slider } from "../../theme/slider";
-import { jointValue, turnsFreely } from "./joint_values";
+import { SteadyNumber } from "../../theme/steady_number";
+import { jointValue, MAX_VELOCITY, turnsFreely } from "./joint_values";
 import { JOINT_VALUES } from "../../panels/plots/simulated_values";
 import { PlotMenu } from "./plot_menu";
 import type { Shell } from "../shell";
 import { NumbersRow } from "./value_rows";
 import { canEdit, editWorld } from "../world/edits";
 import type { Fields } from "../../protocol/connection";
-
-/** Largest velocity of a slider [rad/s or m/s]. */
-const FASTEST = 10;
 
 export function ModelJoints({
   shell,
@@ -150,16 +149,15 @@ function JointSlider({
   const start = useSignal(0);
   const state = joint.index === null ? undefined : shell.page.world.joints.value.at(joint.index);
   if (state === undefined) return null;
-  const { isVelocity, value, unit } = jointValue(joint, state);
-  const [lower, upper] = isVelocity ? [-FASTEST, FASTEST] : [joint.lower ?? 0, joint.upper ?? 0];
+  const { isVelocity, value, unit, decimals, text, length } = jointValue(joint, state);
+  const [lower, upper] = isVelocity ? [-MAX_VELOCITY, MAX_VELOCITY] : [joint.lower ?? 0, joint.upper ?? 0];
   const shown = dragged.value ?? value;
-  const decimals = unit.startsWith("m") ? 3 : 2;
   return (
     <div class="jt">
       <div class="h">
-        <span>{joint.name}</span>
+        <Name text={joint.name} />
         <span>
-          {fixed(value, decimals)}
+          <SteadyNumber text={text} length={length} />
           <span class="unit">{unit}</span>
         </span>
       </div>

@@ -9,8 +9,14 @@ export interface JointValue {
   readonly isVelocity: boolean;
   readonly value: number;
   readonly unit: string;
+  readonly decimals: number;
   readonly text: string;
+  /** Characters of the longest text within the joint's limits. */
+  readonly length: number;
 }
+
+/** Velocity of a joint without limits that its slider reaches [rad/s or m/s]. */
+export const MAX_VELOCITY = 10;
 
 /** True for a joint without limits, whose position has no meaning. */
 export function turnsFreely(joint: JointInfo): boolean {
@@ -22,5 +28,8 @@ export function jointValue(joint: JointInfo, state: JointState): JointValue {
   const value = isVelocity ? state.velocity : state.position;
   const metres = joint.type === "prismatic" || joint.type === "screw";
   const unit = `${metres ? "m" : "rad"}${isVelocity ? "/s" : ""}`;
-  return { isVelocity, value, unit, text: `${fixed(value, metres ? 3 : 2)} ${unit}` };
+  const decimals = metres ? 3 : 2;
+  const ends = isVelocity ? [-MAX_VELOCITY] : [joint.lower, joint.upper];
+  const length = Math.max(...ends.map((end) => fixed(end, decimals).length));
+  return { isVelocity, value, unit, decimals, text: fixed(value, decimals), length };
 }

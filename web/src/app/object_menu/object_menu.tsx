@@ -38,7 +38,7 @@ export function openMenu(
   at: Vector3 | null = null,
 ): void {
   if (objectItems(shell, selection, at).length === 0) return;
-  if (selection !== null) shell.page.selection.value = selection;
+  if (selection !== null) shell.select(selection);
   shell.menu.value = { selection, x, y, at, from: document.activeElement };
 }
 

@@ -1,6 +1,6 @@
 /** The World page: search, and the tree of the simulated world. */
 
-import { useComputed, useSignal } from "@preact/signals";
+import { untracked, useComputed, useSignal, useSignalEffect, type ReadonlySignal, type Signal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
@@ -8,6 +8,7 @@ import type { Manifest } from "../../protocol/generated/page_messages";
 import { DraftTree } from "../editor/draft_tree";
 import { Icon } from "../../theme/icons";
 import { Name } from "../../theme/name";
+import { SteadyNumber } from "../../theme/steady_number";
 import { Tree, type TreeRow } from "../../theme/tree";
 import { frameSelection } from "../views/framing";
 import { jointValue } from "../inspector/joint_values";
@@ -20,6 +21,7 @@ import {
   allModels,
   bodiesOf,
   keyOf,
+  pathTo,
   visibleNodes,
   worldNode,
   type VisibleNode,
@@ -33,10 +35,7 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
   );
   const search = useSignal("");
   const rows = useRef(new WorldRows());
-  const toggled = useSignal<ReadonlyMap<string, boolean>>(new Map());
-  const opened = useComputed(() => openedAtFirst(world.manifest.value));
-  const isOpen = (node: WorldNode): boolean =>
-    toggled.value.get(node.key) ?? (node.selection?.kind !== "model" || opened.value.has(node.hides ?? ""));
+  const { isOpen, setOpen } = useOpenRows(shell, root, search);
   if (root.value === null) {
     const message =
       session.kind === "graph" ? "Nothing is simulated here: this page shows a ROS graph." : "Loading the world.";
@@ -50,7 +49,7 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
   return (
     <>
       <div class="search">
-        <Search shell={shell} onInput={(text) => (search.value = text)} />
+        <Search shell={shell} text={search} />
         {canEdit(shell) && <WorldMenu shell={shell} />}
       </div>
       <div class="scroll">
@@ -58,7 +57,7 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
         <Tree
           label="World"
           rows={nodes.map((row) => rows.current.of(shell, row, row.node.key === selected))}
-          onToggle={(key, open) => (toggled.value = new Map(toggled.value).set(key, open))}
+          onToggle={setOpen}
           onSelect={(key) => {
             const node = byKey.get(key);
             if (node?.selection !== null && node?.selection !== undefined) selection.value = node.selection;
@@ -80,6 +79,33 @@ export function WorldTree({ shell }: { readonly shell: Shell }): JSX.Element {
       </div>
     </>
   );
+}
+
+/** Open rows: those that the person has opened, and the ancestors of each new selection. */
+function useOpenRows(
+  { page: { world, selection } }: Shell,
+  root: ReadonlySignal<WorldNode | null>,
+  search: Signal<string>,
+): { readonly isOpen: (node: WorldNode) => boolean; readonly setOpen: (key: string, open: boolean) => void } {
+  const toggled = useSignal<ReadonlyMap<string, boolean>>(new Map());
+  const opened = useComputed(() => openedAtFirst(world.manifest.value));
+  const isOpen = (node: WorldNode): boolean =>
+    toggled.value.get(node.key) ?? (node.selection?.kind !== "model" || opened.value.has(node.hides ?? ""));
+  const isLoaded = useComputed(() => root.value !== null);
+  useSignalEffect(() => {
+    const key = keyOf(selection.value);
+    if (!isLoaded.value) return;
+    untracked(() => {
+      const path = root.value === null ? [] : pathTo(root.value, key);
+      if (path.length === 0) return;
+      const next = new Map(toggled.value);
+      for (const node of path.slice(0, -1)) if (!isOpen(node)) next.set(node.key, true);
+      toggled.value = next;
+      if (root.value !== null && !visibleNodes(root.value, isOpen, search.value).some(({ node }) => node.key === key))
+        search.value = "";
+    });
+  });
+  return { isOpen, setOpen: (key, open) => (toggled.value = new Map(toggled.value).set(key, open)) };
 }
 
 /** Names of the models that are open at first: the robot, or without one a model that moves alone. */
@@ -131,7 +157,13 @@ function makeRow(shell: Shell, { node, depth, isOpen }: VisibleNode, selected: b
 function JointValue({ shell, node }: { readonly shell: Shell; readonly node: WorldNode }): JSX.Element {
   const joint = typeof node.detail === "string" ? null : node.detail.joint;
   const state = joint?.index === null || joint === null ? undefined : shell.page.world.joints.value.at(joint.index);
-  return <>{joint === null || state === undefined ? (joint?.type ?? "") : jointValue(joint, state).text}</>;
+  if (joint === null || state === undefined) return <>{joint?.type}</>;
+  const { text, length, unit } = jointValue(joint, state);
+  return (
+    <>
+      <SteadyNumber text={text} length={length} /> {unit}
+    </>
+  );
 }
 
 function Eye({
@@ -159,7 +191,7 @@ function Eye({
   );
 }
 
-function Search({ shell, onInput }: { readonly shell: Shell; readonly onInput: (text: string) => void }): JSX.Element {
+function Search({ shell, text }: { readonly shell: Shell; readonly text: Signal<string> }): JSX.Element {
   const input = useRef<HTMLInputElement>(null);
   useEffect(
     () =>
@@ -180,11 +212,11 @@ function Search({ shell, onInput }: { readonly shell: Shell; readonly onInput: (
         type="search"
         placeholder="Search the world"
         aria-label="Search the world"
-        onInput={(event) => onInput(event.currentTarget.value)}
+        value={text.value}
+        onInput={(event) => (text.value = event.currentTarget.value)}
         onKeyDown={(event) => {
           if (event.key !== "Escape") return;
-          event.currentTarget.value = "";
-          onInput("");
+          text.value = "";
           event.currentTarget.blur();
         }}
       />

@@ -6,6 +6,7 @@ import { MenuButton } from "../../theme/menu";
 import type { MenuItem } from "../../theme/menu_list";
 import { fixed } from "../../theme/format";
 import { Name } from "../../theme/name";
+import { SteadyNumber } from "../../theme/steady_number";
 import { significant } from "../messages/format";
 import { useTick } from "../use";
 import type { Curve } from "./curve";
@@ -16,6 +17,8 @@ import { COLORS, isDashed } from "./style";
 const PERIOD = 200; // ms
 /** Ratio of a curve's largest value below which a value is written as 0. */
 const UNSEEN = 1e-4;
+/** Length of "−0.123". */
+const VALUE_LENGTH = 6;
 
 export function Legend({ state, plot }: { readonly state: PlotsState; readonly plot: Plot }): JSX.Element {
   useTick(PERIOD);
@@ -34,7 +37,12 @@ export function Legend({ state, plot }: { readonly state: PlotsState; readonly p
               <Name text={curve.name} />
             </span>
             <span class="num">
-              <b>{value === null ? "—" : legendText(value, largest(curve, state))}</b>{" "}
+              <b>
+                <SteadyNumber
+                  text={value === null ? "—" : legendText(value, largest(curve, state))}
+                  length={VALUE_LENGTH}
+                />
+              </b>{" "}
               {curve.unit.value !== "" && <span class="unit">{curve.unit.value}</span>}
             </span>
             <MenuButton label={`Curve ${curve.path}`} icon="dots" class="sml" items={() => items(state, plot, curve)} />
@@ -66,9 +74,9 @@ function items(state: PlotsState, plot: Plot, curve: Curve): readonly MenuItem[]
   return [
     { title: "Left axis", checked: curve.axis.value === "left", run: () => void (curve.axis.value = "left") },
     { title: "Right axis", checked: curve.axis.value === "right", run: () => void (curve.axis.value = "right") },
-    { title: "In a plot of its own", disabled: plot.curves.length < 2, run: () => state.separate(curve) },
+    { title: "Move to a new plot", disabled: plot.curves.length < 2, run: () => state.separate(curve) },
     ...others.map((other) => ({
-      title: `Into the plot of ${other.curves[0]?.name ?? "none"}`,
+      title: `Move to the plot of ${other.curves[0]?.name ?? "none"}`,
       run: () => state.move(curve, other.id),
     })),
     { title: "Remove", icon: "close", run: () => state.remove(curve) },
