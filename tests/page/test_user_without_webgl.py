@@ -13,6 +13,9 @@ from tests.page.built_client import needs_client
 from tests.page.panel_user import PATIENCE_MS, PanelUser
 from tests.system.browser import running_page
 
+from trundle.base.http.page_address import PageAddress
+from trundle.page import PageServer, Session
+
 pytestmark = [needs_client, pytest.mark.slow]
 WORLD = """<sdf version="1.6"><world name="w">
 <light name="sun" type="directional"><direction>-0.4 0.3 -0.9</direction><diffuse>0.9 0.9 0.9 1</diffuse></light>
@@ -42,9 +45,21 @@ class Onlooker(PanelUser):
         self.page.set_default_timeout(PATIENCE_MS)
         self.faults: list[str] = []
         self.page.on("pageerror", lambda error: self.faults.append(str(error)))
+        self.page.on("response", self._check)
         self.page.add_init_script(NO_WEBGL)
         self.page.goto(url)
         self.page.get_by_label("Connected").first.wait_for()
+
+    def _check(self, response: Any) -> None:
+        if response.status >= 400:
+            self.faults.append(f"{response.status} of {response.url}")
+
+    def side_page(self, name: str) -> None:
+        """Open a page of the left panel, or of the phone's sheet."""
+        if self.size[0] > 640:
+            self.page.get_by_role("tab", name=name).click()
+        else:
+            self.page.get_by_role("navigation").get_by_role("button", name=name).click()
 
     def picture(self) -> NDArray[np.int64]:
         """Return the shown picture without overlays."""
@@ -56,6 +71,10 @@ class Onlooker(PanelUser):
     def shows_trolley(self) -> bool:
         red, green, blue = np.moveaxis(self.picture(), -1, 0)
         return bool((red - np.maximum(green, blue) > 60).mean() > 0.002)
+
+    def middle(self) -> NDArray[np.int64]:
+        """Return the color in the middle of the picture."""
+        return self.picture()[self.size[1] // 2, self.size[0] // 2]
 
     def newest_picture(self) -> NDArray[np.int64]:
         """Return a picture requested after this call."""
@@ -155,3 +174,65 @@ def test_the_next_picture_is_requested_after_the_last_has_arrived(user: Onlooker
     user.until(lambda: len(routes) == 2, what="for the next one")
     routes[1].continue_()
     user.page.unroute("**/camera.png*")
+
+
+def test_the_notice_is_closed_for_good(user: Onlooker) -> None:
+    notice = user.page.get_by_text("This browser has no WebGL 2")
+    notice.wait_for()
+    user.button("Dismiss").click()
+    notice.wait_for(state="detached")
+    user.until(user.shows_trolley, what="for a picture of the trolley")
+    user.page.reload()
+    user.page.get_by_label("Connected").first.wait_for()
+    user.until(user.shows_trolley, what="for a picture of the trolley")
+    assert notice.count() == 0
+
+
+def test_the_edited_model_is_in_the_picture(user: Onlooker) -> None:
+    """It is in the middle, where the robot is before."""
+    user.until(user.shows_trolley, what="for a picture of the trolley")
+    user.until(lambda: user.middle()[0] > 100 > user.middle()[2], what="for the red trolley in the middle")
+    user.side_page("World")
+    user.page.get_by_role("treeitem").filter(has_text="pillar").first.click(button="right")
+    user.page.get_by_role("menuitem", name="Edit model…").click()
+    user.page.get_by_role("tree", name="Model").wait_for()
+    user.until(lambda: user.middle()[2] > 100 > user.middle()[0], what="for the blue pillar in the middle")
+    user.button("Leave the editor").click()
+    user.until(lambda: user.middle()[0] > 100 > user.middle()[2], what="for the trolley again")
+
+
+def test_a_shape_is_inserted_at_a_typed_position(user: Onlooker) -> None:
+    user.until(user.shows_trolley, what="for a picture of the trolley")
+    if user.size[0] > 640:
+        user.side_page("Insert")
+    else:
+        user.side_page("World")
+        user.button("World's menu").click()
+        user.page.get_by_role("menuitem", name="Open Insert").click()
+    user.button("Insert sphere").click()
+    place = user.page.get_by_role("region", name="Position of the sphere")
+    place.get_by_text("There is no 3D view to click in").wait_for()
+    for axis, value in (("x", "2.5"), ("y", "-1")):
+        place.get_by_label(f"Position {axis} [m]").fill(value)
+    user.page.keyboard.press("Tab")
+    place.get_by_role("button", name="Insert", exact=True).click()
+    place.wait_for(state="detached")
+    user.side_page("World")
+    user.page.get_by_role("treeitem", selected=True).filter(has_text="sphere").wait_for()
+    user.side_page("Inspector" if user.size[0] <= 640 else "World")
+    assert user.page.get_by_label("x [m]", exact=True).input_value() == "2.500"
+    assert user.page.get_by_label("y [m]", exact=True).input_value() == "−1.000"
+
+
+def test_a_ros_graph_asks_for_no_pictures(chromium: Any) -> None:
+    with PageServer.start(Session(title="graph", kind="graph"), at=PageAddress(port=0)) as server:
+        user = Onlooker(chromium, server.url, (1440, 900))
+        user.page.get_by_text("This browser has no WebGL 2").wait_for()
+        requested: list[str] = []
+        user.page.on("request", lambda request: requested.append(request.url))
+        user.open("Topics")
+        user.sees("There are no topics.")
+        user.page.wait_for_timeout(1500)  # time for two pictures
+        assert [url for url in requested if "camera.png" in url] == []
+        assert server.requests() == []
+        user.close()

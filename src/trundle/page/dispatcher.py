@@ -37,7 +37,8 @@ from .clients.protocol import (
 )  # fmt: skip
 from .graph.ros_graph import RosGraph
 from .mailbox import Mailbox
-from .owner import MAX_IN_FLIGHT, Owner, PictureError, respond
+from .owner import MAX_IN_FLIGHT, Owner, respond
+from .picture_slots import PictureError
 from .requests.answers import DefinitionText, FilesExist, SavedFile
 from .requests.request import REQUEST_NAMES, ClientAction, Definition, PlotSeries, RenderView, SaveRvizAs, SocketAction
 from .requests.world import RenderModel

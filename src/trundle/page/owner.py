@@ -7,6 +7,7 @@ from msgspec import UNSET
 
 from .clients.connection import Connection
 from .clients.server_messages import Response
+from .picture_slots import PictureError, PictureSlots
 from .requests.request import ClientAction, PageAction, RenderView, Request
 from .requests.world import RenderModel
 from .wire import Driven, FromServer, Plotted, Respond, Watched
@@ -14,7 +15,8 @@ from .wire import Driven, FromServer, Plotted, Respond, Watched
 MAX_IN_FLIGHT = 64
 """Limit of a client's pending requests."""
 _MAX_PICTURES = 4
-_PICTURE_TIMEOUT_S = 10.0
+_MAX_WAITING_PICTURES = 60
+_PICTURE_TIMEOUT_S = 60.0
 
 
 class Owner:
@@ -31,6 +33,7 @@ class Owner:
         self._last_id = last_request
         self._pending: dict[int, tuple[Connection, int | str]] = {}
         self._pictures: dict[int, asyncio.Future[Respond]] = {}
+        self._picture_slots = PictureSlots(_MAX_PICTURES, max_waiting=_MAX_WAITING_PICTURES)
         self._watched: frozenset[str] = frozenset()
         self._plotted: frozenset[str] = frozenset()
 
@@ -47,8 +50,10 @@ class Owner:
         Raises:
             PictureError: the picture cannot be drawn, or not in time.
         """
-        if len(self._pictures) >= _MAX_PICTURES:
-            raise PictureError(f"{_MAX_PICTURES} pictures are being drawn already")
+        async with self._picture_slots.slot():
+            return await self._render(view)
+
+    async def _render(self, view: RenderView | RenderModel) -> bytes:
         number = self._send(view)
         future = self._pictures[number] = asyncio.get_running_loop().create_future()
         try:
@@ -93,10 +98,6 @@ class Owner:
     def set_driven(self, topics: dict[str, str]) -> None:
         """Report the topics that clients drive with, and their types."""
         self.send(Driven(topics))
-
-
-class PictureError(Exception):
-    """A picture cannot be drawn; the text is the reason."""
 
 
 def respond(client: Connection, client_id: int | str, error: str | None = None, answer: bytes = b"{}") -> None:

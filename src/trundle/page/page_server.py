@@ -219,9 +219,12 @@ class PageServer:
         """Answer a request; `error` is the reason for a failure."""
         self._send(Respond(request_id, error, answer=encode_json(answer)))
 
-    def respond_picture(self, request_id: int, picture: bytes) -> None:
-        """Answer `RenderView` or `RenderModel` with a picture, or a GLB."""
-        self._send(Respond(request_id, picture=picture))
+    def respond_picture(self, request_id: int, picture: bytes | str) -> None:
+        """Answer `RenderView` or `RenderModel` with a picture, a GLB, or the error as text."""
+        if isinstance(picture, str):
+            self.respond(request_id, picture)
+        else:
+            self._send(Respond(request_id, picture=picture))
 
     def set_session(self, session: Session) -> None:
         """Replace the session."""

@@ -35,7 +35,7 @@ class FakeServer:
         self.contacts: list[Any] = []
         self.ranges: list[Any] = []
         self.images: list[tuple[str, int, Any]] = []
-        self.pictures: queue.SimpleQueue[tuple[int, bytes]] = queue.SimpleQueue()
+        self.pictures: queue.SimpleQueue[tuple[int, Any]] = queue.SimpleQueue()
         self.notices: list[tuple[str, str | None]] = []
         self.plotted: tuple[str, ...] = ()
         self.series: list[tuple[int, dict[str, Any], Any]] = []
@@ -64,8 +64,8 @@ class FakeServer:
         self.fields[request_id] = sent(answer)
         self.answers[request_id] = error
 
-    def respond_picture(self, request_id: int, png: bytes) -> None:
-        self.pictures.put((request_id, png))
+    def respond_picture(self, request_id: int, picture: bytes | str) -> None:
+        self.pictures.put((request_id, picture))
 
     def is_watched(self, stream: str) -> bool:
         return self.watched is None or stream in self.watched

@@ -23,6 +23,8 @@ from trundle.base.http.page_address import PageAddress
 from trundle.live.state_logs import PageRecording
 from trundle.page import (
     LINES,
+    BeginDraft,
+    LeaveDraft,
     MoveJoint,
     Pause,
     Play,
@@ -32,6 +34,7 @@ from trundle.page import (
     Reset,
     RunTo,
     Seek,
+    SetField,
     SetPhysics,
     SetSpeed,
     Step,
@@ -39,6 +42,7 @@ from trundle.page import (
 )
 from trundle.page.shared_page import SharedPage
 from trundle.page.shown_world import BareWorld
+from trundle.page.simulated_world import pictures
 from trundle.page.simulated_world.page import SimulationPage
 from trundle.sim.realtime_pacer import RealtimePacer
 from trundle.sim.simulation import DebugLine, Simulation, read_state_log
@@ -305,6 +309,67 @@ def test_pictures_are_drawn_for_browsers_without_webgl(tmp_path: Path) -> None:
     assert red > 60
     assert red > 4 * green
     assert rgb[1, 1].min() > 4 * rgb[24, 32].min()
+
+
+_RED = "<material><ambient>1 0 0 1</ambient><diffuse>1 0 0 1</diffuse></material>"
+_BALL = f"""<model name="ball"><pose>9 0 0 0 0 0</pose><link name="link"><visual name="v">
+<geometry><sphere><radius>0.5</radius></sphere></geometry>{_RED}</visual></link></model>"""
+_CART_AT_ORIGIN = "<model name='cart'><link name='a'/><link name='b'/><joint name='j' type='revolute'>"
+_CART_AT_ORIGIN += "<parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint></model>"
+
+
+def _red_pixels(shown: Shown) -> int:
+    shown.server.ask(RenderView(width=64, height=48, distance=3.0))
+    shown.page.handle_requests(shown.pacer, paused=True)
+    _, png = shown.server.pictures.get(timeout=60)
+    red, green, _ = np.moveaxis(np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=int), -1, 0)
+    return int((red > 2 * green + 20).sum())
+
+
+def _edit(shown: Shown, action: Any) -> None:
+    """Ask for an edit of the draft, and wait until it is shown."""
+    count = len(shown.server.worlds)
+    number = shown.server.ask(action)
+    while number not in shown.server.answers or len(shown.server.worlds) == count:
+        shown.page.handle_requests(shown.pacer, paused=True)
+        time.sleep(0.001)
+    assert shown.server.answers[number] is None
+
+
+def test_the_edited_model_is_drawn_in_place_of_its_original(tmp_path: Path) -> None:
+    """The robot is at the origin, out of whose picture the ball is; the picture of a draft is centered on the draft."""
+    shown = Shown(loaded(tmp_path, _CART_AT_ORIGIN + _BALL)[0])
+    shown.wait_world(1)
+    assert _red_pixels(shown) == 0
+
+    _edit(shown, BeginDraft(model="ball"))
+    large = _red_pixels(shown)
+    part, radius = next(
+        (tuple(part["part"]), field["name"])
+        for part in shown.server.worlds[-1][0]["draft"]["parts"]
+        for section in part["sections"]
+        for field in section["fields"]
+        if field["name"].endswith("sphere/radius")
+    )
+    _edit(shown, SetField(part=part, field=radius, value=(0.2,)))
+    small = _red_pixels(shown)
+    assert 0 < small < large / 3
+
+    _edit(shown, LeaveDraft())
+    assert _red_pixels(shown) == 0
+
+
+def test_a_world_that_cannot_be_drawn_has_a_reason(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Later pictures come."""
+    shown = Shown(loaded(tmp_path, _BALL)[0])
+    with monkeypatch.context() as broken:
+        broken.setattr(pictures, "scene_from_world", lambda *_: 1 / 0)
+        shown.server.ask(RenderView(width=64, height=48))
+        shown.page.handle_requests(shown.pacer, paused=True)
+        _, reason = shown.server.pictures.get(timeout=60)
+
+    assert reason == "the world cannot be drawn: ZeroDivisionError: division by zero"
+    assert _red_pixels(shown) > 0
 
 
 def test_a_tall_robot_fits_into_pictures_of_any_aspect_ratio(tmp_path: Path) -> None:

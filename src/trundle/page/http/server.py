@@ -2,8 +2,8 @@
 
 import logging
 import socket
-from collections.abc import Awaitable, Callable, Generator, Mapping
-from contextlib import contextmanager
+from collections.abc import Awaitable, Callable, Mapping
+from contextlib import AbstractAsyncContextManager, nullcontext
 from pathlib import Path
 from typing import Protocol
 
@@ -19,7 +19,7 @@ from ..clients.connection import Connection
 from ..clients.frames import CLOSE, PONG
 from ..clients.outbox import Outbox, pong_number
 from ..clients.protocol import SUBPROTOCOLS, TRUNDLE_DRIVE
-from ..owner import PictureError
+from ..picture_slots import PictureError, PictureSlots
 from ..requests.request import RenderView
 from ..requests.world import RenderModel
 from ..uploads.upload_folder import UploadedModels
@@ -32,6 +32,7 @@ _MAX_MESSAGE_BYTES = 16 * 1024 * 1024
 """Limit of a client's message."""
 _MAX_VIEW_ONLY_PICTURES = 2
 """Limit of concurrent pictures for view-only clients."""
+_MAX_WAITING_VIEW_ONLY = 30
 _CLOSE_TIMEOUT_S = 1.0
 _log = logging.getLogger(__name__)
 _TEXT = "text/plain"
@@ -85,7 +86,7 @@ class HttpServer:
         self._slots = ClientSlots()
         self._driving_slots = ClientSlots()
         """Slots of sockets that only drive: each page opens one besides its own."""
-        self._view_only_pictures = 0
+        self._view_only_pictures = PictureSlots(_MAX_VIEW_ONLY_PICTURES, max_waiting=_MAX_WAITING_VIEW_ONLY)
         self._guard = Guard(access, is_page=True)
 
     async def start(self, listening: socket.socket) -> None:
@@ -136,7 +137,7 @@ class HttpServer:
     async def _camera(self, request: web.Request) -> web.StreamResponse:
         try:
             view = msgspec.convert(dict(request.query), RenderView, strict=False)
-            with self._picture_slot(request):
+            async with self._picture_slot(request):
                 picture = await self._page.render(view)
         except msgspec.ValidationError as error:
             raise web.HTTPBadRequest(reason=f"not a view: {error}") from None
@@ -144,21 +145,9 @@ class HttpServer:
             raise web.HTTPServiceUnavailable(reason=" ".join(str(error).split())) from None
         return web.Response(body=picture, content_type="image/png", headers={"Cache-Control": "no-store"})
 
-    @contextmanager
-    def _picture_slot(self, request: web.Request) -> Generator[None]:
-        """Count a picture that is being drawn.
-
-        Raises:
-            PictureError: view-only clients have too many pictures being drawn.
-        """
-        count = int(self._is_view_only(request))
-        if self._view_only_pictures + count > _MAX_VIEW_ONLY_PICTURES:
-            raise PictureError(f"{_MAX_VIEW_ONLY_PICTURES} pictures are being drawn already")
-        self._view_only_pictures += count
-        try:
-            yield
-        finally:
-            self._view_only_pictures -= count
+    def _picture_slot(self, request: web.Request) -> AbstractAsyncContextManager[None]:
+        """Occupy one of the few slots that view-only clients have, so that they do not delay the others."""
+        return self._view_only_pictures.slot() if self._is_view_only(request) else nullcontext()
 
     async def _model_picture(self, request: web.Request) -> web.StreamResponse:
         return await self._render_model(request, "picture", "image/png")

@@ -63,6 +63,6 @@ def _inertia_section(link: Link | None) -> Section:
                 Field(name=path, label=path[-3:], unit="kg m²", default="1" if path[-2] == path[-1] else "0")
                 for path in moments
             ),
-            Field(name="inertial/pose", label="Centre of mass", kind="pose", default="0 0 0 0 0 0"),
+            Field(name="inertial/pose", label="Center of mass", kind="pose", default="0 0 0 0 0 0"),
         ),
     )

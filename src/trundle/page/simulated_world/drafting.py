@@ -62,6 +62,8 @@ class ShownDraft(Struct, frozen=True, kw_only=True):
     """Draft as the client draws it."""
 
     info: DraftInfo | None
+    model: Model | None = None
+    """Flat model at its pose in the world; None: no draft."""
     resources: tuple[str, ...] = ()
     """URLs of all files that it needs."""
     files: dict[str, bytes] = {}
@@ -221,7 +223,7 @@ class Drafting:
             folder=folder_name(draft.name) if os.access(self._root, os.W_OK) else None,
         )
         urls = (file.url for file in named.files)
-        self._shown.put(ShownDraft(info=info, resources=(*urls, *named.resources), files=files))
+        self._shown.put(ShownDraft(info=info, model=model, resources=(*urls, *named.resources), files=files))
 
     def _close(self) -> None:
         self._draft = None

@@ -34,7 +34,7 @@ from ..shown_world import ShownWorld
 from .code_consent import CodeConsent
 from .controls import Recorder, SimulationControls, reason_of
 from .current_world import current_world
-from .drafting import Drafting
+from .drafting import NO_DRAFT, Drafting
 from .insertion import Insertion
 from .manifest import find_robot
 from .model_edits import ModelEdits
@@ -86,11 +86,12 @@ class SimulationPage:
         packages, environment = world.packages, world.environment
         self._replays = ReplaySaver(self._server.respond)
         self._saver = WorldSaver(self._server.respond, packages, root)
-        self._model_pictures = ModelPictures(self._respond_picture, packages)
+        self._model_pictures = ModelPictures(self._server.respond_picture, packages)
         self._streams = WorldStreams(
             self._server, has_graph=page.has_graph, offered_file=self._saver.offered_file, wall_ns=wall_ns
         )
         self._consent = CodeConsent(environment)
+        self._draft = NO_DRAFT
         self._drafting = Drafting(self._server.respond, packages, environment, root, self._consent)
         self._pictures = WorldPictures(self._server.respond_picture)
         self._performance = PerformanceStream(self._server)
@@ -197,20 +198,14 @@ class SimulationPage:
     def _show_draft(self) -> None:
         """Show the draft's edits since the last call."""
         for draft in self._drafting.poll(self._world, self._model_edits):
+            self._draft = draft
             self._streams.show_draft(draft)
 
-    def _respond_picture(self, request_id: int, drawn: bytes | str) -> None:
-        """Answer with a picture or an error."""
-        if isinstance(drawn, str):
-            self._server.respond(request_id, drawn)
-        else:
-            self._server.respond_picture(request_id, drawn)
-
     def _draw(self, request_id: int, view: RenderView) -> None:
-        """Draw a picture centred on the robot, or on the origin."""
+        """Draw a picture of the robot, the model being edited or the origin."""
         simulation = self._simulation
         states = {name: simulation.animation_state(name) for name in simulation.actors}
-        self._pictures.draw(request_id, view, simulation.world, simulation.snapshot().poses, states)
+        self._pictures.draw(request_id, view, simulation.world, simulation.snapshot().poses, states, self._draft)
 
     def close(self) -> None:
         """Close the page."""

@@ -1,6 +1,7 @@
-"""Pictures of the running world for browsers without WebGL, drawn on their own thread."""
+"""Pictures of the running world and the model being edited for browsers without WebGL, drawn on their own thread."""
 
 import io
+import logging
 import math
 import queue
 import threading
@@ -8,20 +9,23 @@ from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 import numpy as np
+from msgspec.structs import replace
 from numpy.typing import NDArray
 from PIL import Image
 
 from trundle.base.diagnostics import Diagnostics
 from trundle.page import RenderView
-from trundle.robots.model import AnimationState, World
-from trundle.sim.render import Intrinsics, NativeRenderer, Scene, scene_from_world, update_skins
-from trundle.spatial import Pose, Vector3
+from trundle.robots.model import AnimationState, Model, World
+from trundle.sim.render import Intrinsics, NativeRenderer, scene_from_world, update_skins
+from trundle.spatial import Pose, Vector3, rows_from_poses
 
+from .drafting import NO_DRAFT, ShownDraft
 from .manifest import find_robot
 
 _FOV_RAD = 0.9
 """Field of view of the shorter side."""
 _FAR_M = 1e5
+_log = logging.getLogger(__name__)
 
 
 class _Job(NamedTuple):
@@ -34,12 +38,15 @@ class _Job(NamedTuple):
 
 
 class WorldPictures:
-    """Draws requested views; `respond` is called on the drawing thread with a request's id and the PNG."""
+    """Draws requested views."""
 
-    def __init__(self, respond: Callable[[int, bytes], None]) -> None:
+    def __init__(self, respond: Callable[[int, bytes | str], None]) -> None:
+        """Create it; `respond` is called on the drawing thread with a request's id and the PNG, or the error."""
         self._respond = respond
         self._jobs: queue.SimpleQueue[_Job | None] = queue.SimpleQueue()
         self._thread: threading.Thread | None = None
+        self._edited: tuple[World, Model, World] | None = None
+        """World, model being edited, and the world in which it is drawn."""
 
     def draw(
         self,
@@ -48,8 +55,9 @@ class WorldPictures:
         world: World,
         poses: NDArray[np.float64],
         states: Mapping[str, AnimationState],
+        draft: ShownDraft = NO_DRAFT,
     ) -> None:
-        """Queue a request for a picture; return at once.
+        """Queue a request for a picture of the robot, the model being edited or the origin; return at once.
 
         Args:
             request_id: request to answer.
@@ -57,44 +65,84 @@ class WorldPictures:
             world: flat world; its scene is reused while the world is the same object.
             poses: (links, 7) in the world.
             states: animation state of each actor by name.
+            draft: model being edited, drawn in place of its original.
         """
         if self._thread is None:
             self._thread = threading.Thread(target=self._run, name="trundle-page-pictures", daemon=True)
             self._thread.start()
-        self._jobs.put(_Job(request_id, view, world, poses, states, _target(world, poses)))
+        target = _target(world, poses)
+        if draft.info is not None and draft.model is not None:
+            rows = rows_from_poses(_link_poses(draft.model))
+            poses = np.concatenate((poses[~_rows_of(draft.info.original, world, len(poses))], rows))
+            world = self._with_draft(world, draft.model, draft.info.original)
+            target = _center(rows) if len(rows) else target
+        self._jobs.put(_Job(request_id, view, world, poses, states, target))
+
+    def _with_draft(self, world: World, model: Model, original: str | None) -> World:
+        """Return the world with a model in place of another; the same object for the same arguments."""
+        if self._edited is None or self._edited[0] is not world or self._edited[1] is not model:
+            others = tuple(other for other in world.models if other.name != original)
+            self._edited = world, model, replace(world, models=(*others, model))
+        return self._edited[2]
 
     def close(self) -> None:
         """Stop after the current picture."""
         self._jobs.put(None)
 
     def _run(self) -> None:
-        world: World | None = None
-        scene: Scene | None = None
-        renderer: NativeRenderer | None = None
+        drawn: _DrawnWorld | None = None
         while (job := self._jobs.get()) is not None:
-            if renderer is None or scene is None or job.world is not world:
-                world = job.world
-                scene = scene_from_world(world, Diagnostics())
-                renderer = NativeRenderer(scene, threads=1)
-            renderer.update(job.poses)
-            update_skins(renderer, scene, lambda actor, job=job: job.states.get(actor, AnimationState()))
-            view = job.view
-            (picture,) = renderer.render([(_eye(view, job.target), _lens(view))])
-            png = io.BytesIO()
-            Image.fromarray(picture.rgb).save(png, "PNG", compress_level=1)
-            self._respond(job.id, png.getvalue())
+            try:
+                if drawn is None or drawn.world is not job.world:
+                    drawn = _DrawnWorld(job.world)
+                picture: bytes | str = drawn.png(job)
+            except Exception as error:  # a model that cannot be drawn must not end the pictures
+                _log.exception("the world cannot be drawn")
+                picture = f"the world cannot be drawn: {type(error).__name__}: {error}"
+            self._respond(job.id, picture)
+
+
+class _DrawnWorld:
+    """Renderer of one world."""
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+        self._scene = scene_from_world(world, Diagnostics())
+        self._renderer = NativeRenderer(self._scene, threads=1)
+
+    def png(self, job: _Job) -> bytes:
+        self._renderer.update(job.poses)
+        update_skins(self._renderer, self._scene, lambda actor: job.states.get(actor, AnimationState()))
+        (picture,) = self._renderer.render([(_eye(job.view, job.target), _lens(job.view))])
+        png = io.BytesIO()
+        Image.fromarray(picture.rgb).save(png, "PNG", compress_level=1)
+        return png.getvalue()
 
 
 def _target(world: World, poses: NDArray[np.float64]) -> Vector3:
-    """Return the centre of the robot's links, or the origin [m]."""
-    robot, row = find_robot(world), 0
+    """Return the center of the robot's links, or the origin [m]."""
+    robot = find_robot(world)
+    return (0.0, 0.0, 0.0) if robot is None else _center(poses[_rows_of(robot.name, world, len(poses))])
+
+
+def _center(poses: NDArray[np.float64]) -> Vector3:
+    positions = poses[:, :3]
+    x, y, z = ((positions.min(axis=0) + positions.max(axis=0)) / 2).tolist()
+    return (x, y, z)
+
+
+def _rows_of(name: str | None, world: World, count: int) -> NDArray[np.bool_]:
+    """Return which of `count` rows of poses are a model's."""
+    rows = np.zeros(count, dtype=np.bool_)
+    start = 0
     for model in world.models:
-        if model is robot:
-            positions = poses[row : row + len(model.links), :3]
-            x, y, z = ((positions.min(axis=0) + positions.max(axis=0)) / 2).tolist()
-            return (x, y, z)
-        row += len(model.links)
-    return (0.0, 0.0, 0.0)
+        rows[start : start + len(model.links)] = model.name == name
+        start += len(model.links)
+    return rows
+
+
+def _link_poses(model: Model) -> list[Pose]:
+    return [model.world_from_model @ link.model_from_link for link in model.links]
 
 
 def _lens(view: RenderView) -> Intrinsics:

@@ -21,7 +21,7 @@ export function InsertButton({ shell, item, class: name, tip, children }: Insert
   const { scene, tools } = shell.page;
   const from = useRef<{ readonly x: number; readonly y: number } | null>(null);
   const isDragged = useRef(false);
-  const chosen = tools.insert?.chosen.value ?? null;
+  const chosen = shell.insertion.typed.value ?? tools.insert?.chosen.value ?? null;
   const isChosen = chosen?.kind === item.kind && chosen.name === item.name;
   const move = (event: TargetedPointerEvent<HTMLButtonElement>): void => {
     const { current: start } = from;
@@ -50,7 +50,7 @@ export function InsertButton({ shell, item, class: name, tip, children }: Insert
       data-tip={tip}
       onPointerDown={(event) => {
         isDragged.current = false;
-        if (event.button !== 0) return;
+        if (event.button !== 0 || !shell.isDrawn.peek()) return;
         event.currentTarget.setPointerCapture(event.pointerId);
         from.current = { x: event.clientX, y: event.clientY };
       }}
@@ -60,7 +60,7 @@ export function InsertButton({ shell, item, class: name, tip, children }: Insert
       onClick={({ detail }) => {
         if (isDragged.current) return;
         shell.insertion.choose(item);
-        if (detail === 0) tools.insert?.placeInMiddle(); // by the keyboard
+        if (detail === 0 && shell.isDrawn.peek()) tools.insert?.placeInMiddle(); // by the keyboard
       }}
     >
       {children}

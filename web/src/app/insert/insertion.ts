@@ -1,6 +1,6 @@
 /** Puts models, shapes and lights into the running world; undo takes them out, redo puts them back. */
 
-import { effect, signal } from "@preact/signals";
+import { effect, signal, type ReadonlySignal } from "@preact/signals";
 import type { Vector3 } from "three";
 
 import type { Answer } from "../../protocol/connection";
@@ -20,6 +20,8 @@ export interface CodeConsent {
 /** Parts of the page that insertions use. */
 export interface InsertionContext extends UploadContext {
   readonly page: Page;
+  /** False: there is no 3D view to click in. */
+  readonly isDrawn: ReadonlySignal<boolean>;
 }
 
 export class Insertion {
@@ -27,6 +29,8 @@ export class Insertion {
   readonly models = signal<readonly ModelEntry[] | null>(null);
   readonly consentRequest = signal<CodeConsent | null>(null);
   readonly upload: ModelUpload;
+  /** Item whose position is typed, where there is no 3D view; null: none. */
+  readonly typed = signal<Insertable | null>(null);
 
   constructor(private readonly context: InsertionContext) {
     const { page, layout } = context;
@@ -47,15 +51,20 @@ export class Insertion {
     );
   }
 
-  /** Choose the item that follows the pointer. */
+  /** Choose the item that follows the pointer, or whose position is typed. */
   choose(item: Insertable): void {
-    const { layout, page } = this.context;
+    const { layout, page, isDrawn } = this.context;
+    if (!isDrawn.peek()) {
+      this.typed.value = item;
+      return;
+    }
     page.tools.insert?.choose(item);
     page.tools.use("trundle/Insert");
     if (layout.isPhone.peek()) layout.sheetHeight.value = "closed";
   }
 
-  private place(item: Insertable, point: Vector3, consent: string | null = null): void {
+  /** Insert an item at a point of the world [m]. */
+  place(item: Insertable, point: Vector3, consent: string | null = null): void {
     void this.context.page.undo.ask(this.insert(item, point, consent));
   }
 

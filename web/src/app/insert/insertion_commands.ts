@@ -18,7 +18,7 @@ export function insertionCommands(shell: Shell): readonly Command[] {
   });
   return [
     { id: "upload_model", title: "Upload a model", group: "Simulation", run: () => shell.insertion.upload.open() },
-    command("insert.place", "Insert in the middle of the view", "Enter", () => insert.placeInMiddle()),
-    command("insert.leave", "Insert nothing", "Escape", () => shell.page.tools.use("rviz/Interact")),
+    command("insert.place", "Insert in the center of the view", "Enter", () => insert.placeInMiddle()),
+    command("insert.leave", "Cancel the insertion", "Escape", () => shell.page.tools.use("rviz/Interact")),
   ];
 }

@@ -8,6 +8,7 @@ import { Button } from "../../theme/button";
 import { Icon, type IconName } from "../../theme/icons";
 import type { Insertable } from "../../page/insertable";
 import { InsertButton } from "./button";
+import { TypedPosition } from "./typed_position";
 import type { ModelEntry } from "../../protocol/generated/page_messages";
 import { pictureUrl } from "../../protocol/picture_urls";
 import type { Shell } from "../shell";
@@ -62,6 +63,7 @@ export function InsertPage({ shell }: { readonly shell: Shell }): JSX.Element {
           <ModelButton key={model.name} shell={shell} model={model} />
         ))}
       </div>
+      {insertion.typed.value !== null && <TypedPosition shell={shell} item={insertion.typed.value} />}
     </>
   );
 }

@@ -15,9 +15,9 @@ export function NoticeList({ shell }: { readonly shell: Shell }): JSX.Element {
   };
   const notices = shell.notices.all.value;
   return (
-    <Dialog title="Faults" class="notices" onClose={close}>
+    <Dialog title="Problems" class="notices" onClose={close}>
       <div class="scroll" tabIndex={0}>
-        {notices.length === 0 && <p class="empty">No faults.</p>}
+        {notices.length === 0 && <p class="empty">No problems.</p>}
         {notices.map((notice, index) => (
           <Entry key={index} shell={shell} notice={notice} onClose={close} />
         ))}

@@ -5,11 +5,11 @@ import type { JSX } from "preact";
 import { fixed } from "../../theme/format";
 import { Name } from "../../theme/name";
 import type { Shell } from "../shell";
-import { Pictures } from "./pictures";
+import { WithoutWebGl } from "./without_webgl";
 
 export function SceneNotes({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const status = shell.page.scene.status.value;
-  if (status.kind === "unsupported") return <Pictures shell={shell} reason={status.reason} />;
+  if (status.kind === "unsupported") return <WithoutWebGl shell={shell} reason={status.reason} />;
   if (status.kind === "lost")
     return <Note text="The graphics context was lost; the browser may restore it, or load the page again." />;
   return <Loading shell={shell} />;

@@ -21,7 +21,7 @@ it("is undone even before the server has answered", async () => {
     requests.push(name);
     return new Promise((resolve) => (answer = resolve));
   });
-  const insertion = new Insertion({ page, layout: {} } as unknown as InsertionContext);
+  const insertion = new Insertion({ page, layout: {}, isDrawn: signal(true) } as unknown as InsertionContext);
   expect(insertion.consentRequest.value).toBeNull();
   page.undo.record(
     "Earlier",

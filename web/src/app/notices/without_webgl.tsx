@@ -1,10 +1,12 @@
-/** Pictures by our own renderer where the browser has no WebGL; a drag turns them. */
+/** A browser without WebGL: the reason, and pictures of a simulated world by our own renderer, which a drag turns. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 
+import { isBoolean, recall, remember } from "../../page/storage";
 import { pictureUrl } from "../../protocol/picture_urls";
+import { Button } from "../../theme/button";
 import { fixed } from "../../theme/format";
 import type { Shell } from "../shell";
 
@@ -14,12 +16,41 @@ const REFRESH = { loaded: 500, failed: 3000 };
 const [MAX_WIDTH, MAX_HEIGHT] = [960, 720];
 const TURN = 0.01; // rad per pixel
 
-export function Pictures({ shell, reason }: { readonly shell: Shell; readonly reason: string }): JSX.Element {
+interface WithoutWebGlProps {
+  readonly shell: Shell;
+  readonly reason: string;
+}
+
+export function WithoutWebGl({ shell, reason }: WithoutWebGlProps): JSX.Element {
+  const isClosed = useSignal(recall("without_webgl.closed", false, isBoolean));
+  const { kind } = shell.page.session;
+  const hasPictures = kind === "simulation" || kind === "log"; // the server draws no graphs and no bags
+  const close = (): void => {
+    isClosed.value = true;
+    remember("without_webgl.closed", true);
+  };
+  return (
+    <>
+      {hasPictures && <Pictures shell={shell} />}
+      {!isClosed.value && (
+        <div class={hasPictures ? "scene-note high float" : "scene-note float"} role="status">
+          <p>
+            {reason}
+            {hasPictures && " These pictures come from the simulator's own renderer: drag to turn."}
+          </p>
+          <Button icon="close" label="Dismiss" small onClick={close} />
+        </div>
+      )}
+    </>
+  );
+}
+
+function Pictures({ shell }: { readonly shell: Shell }): JSX.Element {
   const view = useSignal({ azimuth: 0.8, elevation: 0.5, distance: 4 });
   const shown = useSignal("");
   const failed = useSignal(false);
   const timer = useRef(0);
-  const { isPhone, width, height } = shell.layout;
+  const { width, height } = shell.layout;
   const ask = (): void => {
     if (document.visibilityState !== "visible") {
       askIn(REFRESH.loaded);
@@ -81,10 +112,7 @@ export function Pictures({ shell, reason }: { readonly shell: Shell; readonly re
           onKeyDown={(event) => keys[event.key]?.()}
         />
       )}
-      <p class={isPhone.value || !failed.value ? "scene-note high float" : "scene-note float"} role="status">
-        {reason}
-        {!failed.value && " These pictures come from the simulator's own renderer: drag to turn."}
-      </p>
+      {failed.value && <p class="scene-note float">The simulator sends no picture. The page asks again.</p>}
     </>
   );
 }
