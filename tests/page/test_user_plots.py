@@ -53,14 +53,19 @@ def user(chromium: Any, graph: Graph) -> Iterator[PanelUser]:
         user.close()
 
 
-def _height(user: PanelUser, path: str) -> int:
-    """Return the height of a curve [px]."""
+def _pixels(user: PanelUser, path: str) -> tuple[Any, Any]:
+    """Return rows and columns of a curve's pixels in the plot."""
     row = user.page.locator(".legend li").filter(has=user.page.locator(f'[title="{path}"]'))
     token = row.evaluate("one => one.style.getPropertyValue('--c')").removeprefix("var(").removesuffix(")")
     color = user.page.evaluate(f"getComputedStyle(document.documentElement).getPropertyValue('{token}')")
     png = user.page.get_by_role("img", name=f"Plot of {SMALL}").screenshot()
     picture = np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=int)
-    rows = np.nonzero((np.abs(picture - ImageColor.getrgb(color.strip())) < 16).all(axis=-1))[0]
+    return np.nonzero((np.abs(picture - ImageColor.getrgb(color.strip())) < 16).all(axis=-1))
+
+
+def _height(user: PanelUser, path: str) -> int:
+    """Return the height of a curve [px]."""
+    rows, _ = _pixels(user, path)
     return 0 if len(rows) == 0 else int(np.ptp(rows))
 
 
@@ -121,3 +126,27 @@ def test_all_curves_are_in_one_file(user: PanelUser) -> None:
     assert [float(row[0]) for row in rows] == sorted({float(row[0]) for row in rows})  # one row for both
     assert [float(value) for value in rows[-1]] == [120.0, 1.0, 2000.0]
     assert all(float(large) == 1000.0 + 1000.0 * float(small) for _, small, large in rows if small and large)
+
+
+def test_a_command_is_drawn_as_a_step(user: PanelUser, graph: Graph) -> None:
+    """Between two commands a second apart, only the step is between their values."""
+    command = "/cmd_vel/linear/x"
+    publisher = graph.node("driver").advertise("/cmd_vel", "geometry_msgs/Twist")
+    user.button("Add curve").first.click()
+    path = user.page.get_by_role("combobox", name="Path of a curve")
+    path.fill(command)
+    path.press("Enter")
+    user.button("Close").click()
+    user.page.get_by_label("Time window").select_option("5 s")
+    graph.until(lambda: publisher.has_subscribers)
+    for value in (0.0, 1.0):
+        publisher.publish({"linear": {"x": value}})
+        user.page.locator(".legend b", has_text=f"{value:.3f}").last.wait_for()
+        user.page.wait_for_timeout(1000)
+    publisher.publish({"linear": {"x": 1.0}})
+    user.until(lambda: _height(user, command) > 60, what="for the step")
+
+    rows, columns = _pixels(user, command)
+    between = columns[(rows > rows.min() + 4) & (rows < rows.max() - 4)]
+    assert np.ptp(columns) > 60
+    assert np.ptp(between) <= 3

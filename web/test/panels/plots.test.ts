@@ -46,6 +46,27 @@ describe("a curve", () => {
     expect(new Curve(fakePage({ kind: "log" }), "nonsense").fault.value).toBe("No joint nonsense is simulated");
   });
 
+  test("holds a command until the next one, and the last one until the end", () => {
+    const page = fakePage({ plots: ["/odom.x", "/cmd_vel.linear.x"] });
+    const state = new PlotsState(page);
+    const [measured, commanded] = state.curves;
+    const command = (x: number, time: bigint): void =>
+      page.connection.receive("/cmd_vel", { linear: { x } }, { time: time * 1_000_000_000n });
+    page.connection.receive("/odom", { ...at(10), x: 0 });
+    command(0, 10n);
+    command(1, 20n);
+    page.connection.receive("/odom", { ...at(40), x: 1 });
+    expect([measured?.isHeld.value, commanded?.isHeld.value]).toEqual([false, true]);
+    const lines = [...state.svg().matchAll(/points="([^"]*)"/g)].map(([, points = ""]) =>
+      points.split(" ").map((point) => point.split(",").map(Number)),
+    );
+    const [ramp = [], steps = []] = lines;
+    expect([ramp.length, steps.length]).toEqual([2, 4]);
+    const [first, before, second, end] = steps;
+    expect([before?.[1], before?.[0]]).toEqual([first?.[1], second?.[0]]);
+    expect([end?.[1], end?.[0]]).toEqual([second?.[1], ramp.at(-1)?.[0]]);
+  });
+
   test("uses its topic once it is known, and drops the guessed one", () => {
     const page = fakePage();
     const curve = new Curve(page, "/a/b/c");

@@ -28,6 +28,8 @@ export class Curve {
   readonly fault = signal("");
   readonly unit = signal("");
   readonly axis = signal<"left" | "right">("left");
+  /** True for commands and other messages without a stamp: a value holds until the next message. */
+  readonly isHeld = signal(false);
   /** Counts points, so that a drawing knows whether there are new ones. */
   revision = 0;
   private subscription: Subscription | undefined;
@@ -102,7 +104,9 @@ export class Curve {
       this.fault.value = value === null ? faultAt(message, steps) : "";
       if (value === null) return;
       this.unit.value = unitOf(type, fields);
-      this.add(stampOf(message) ?? Number(time) / 1e9, value);
+      const stamp = stampOf(message);
+      this.isHeld.value = stamp === null || topic === this.page.drive.topic.peek();
+      this.add(stamp ?? Number(time) / 1e9, value);
     };
     this.subscription = this.page.connection.subscribe(
       topic,

@@ -33,6 +33,7 @@ export function PlotCanvas({ state, curves, theme }: PlotCanvasProps): JSX.Eleme
   const box = useRef<HTMLDivElement>(null);
   const axes = curves.map((curve) => curve.axis.value).join();
   const units = curves.map((curve) => curve.unit.value).join();
+  const held = curves.map((curve) => curve.isHeld.value).join();
   useEffect(() => {
     const element = box.current;
     if (element === null) return;
@@ -45,7 +46,7 @@ export function PlotCanvas({ state, curves, theme }: PlotCanvasProps): JSX.Eleme
       fit.disconnect();
       plot.destroy();
     };
-  }, [state, curves, theme, axes, units]);
+  }, [state, curves, theme, axes, units, held]);
   return (
     <div ref={box} class="canvas" role="img" aria-label={`Plot of ${curves.map((curve) => curve.path).join(", ")}`} />
   );
@@ -192,8 +193,9 @@ function series(curve: Curve, index: number, color: (name: string) => string): u
       { scale: curve.axis.peek(), auto: false },
     ],
   };
-  const { linear } = uPlot.paths;
-  if (linear !== undefined) drawn.paths = linear();
+  const { linear, stepped } = uPlot.paths;
+  const paths = curve.isHeld.peek() ? stepped?.({ align: 1, extend: true }) : linear?.();
+  if (paths !== undefined) drawn.paths = paths;
   if (isDashed(index)) drawn.dash = DASH;
   return drawn;
 }

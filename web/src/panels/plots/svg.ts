@@ -1,6 +1,7 @@
 /** Plots as an SVG picture on white, for papers and reports. */
 
 import { significant, timeText } from "../messages/format";
+import type { Curve } from "./curve";
 import { paddedRange, type Plot, type Range } from "./plot";
 import { isDashed } from "./style";
 
@@ -44,8 +45,7 @@ function plotText({ curves }: Plot, range: Range): string {
     }
     for (const curve of sideCurves) {
       const index = curves.indexOf(curve);
-      const [xs, ys] = curve.points.between(from, to);
-      const points = Array.from(xs, (time, at) => `${x(time).toFixed(2)},${y(ys[at] ?? 0).toFixed(2)}`);
+      const points = drawnPoints(curve, range).map(([time, value]) => `${x(time).toFixed(2)},${y(value).toFixed(2)}`);
       const dash = isDashed(index) ? ' stroke-dasharray="4 3"' : "";
       parts.push(
         `<polyline clip-path="inset(0)" fill="none" stroke="${color(index)}" stroke-width="1.5"${dash} points="${points.join(" ")}"/>`,
@@ -60,6 +60,21 @@ function plotText({ curves }: Plot, range: Range): string {
     );
   });
   return parts.join("\n");
+}
+
+/** Points of a line; a held value has the next one's time, too, and the last one the range's end. */
+function drawnPoints(curve: Curve, [from, to]: Range): readonly (readonly [number, number])[] {
+  const [xs, ys] = curve.points.between(from, to);
+  return Array.from(xs, (time, at) => {
+    const value = ys[at] ?? 0;
+    const end = Math.max(time, xs[at + 1] ?? to);
+    return curve.isHeld.peek()
+      ? ([
+          [time, value],
+          [end, value],
+        ] as const)
+      : ([[time, value]] as const);
+  }).flat();
 }
 
 function color(index: number): string {
