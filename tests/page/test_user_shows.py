@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from PIL import ImageColor
 from tests.page.built_client import needs_client
-from tests.page.scene_user import PX_PER_M
+from tests.page.scene_user import PX_PER_M, Point
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
 
@@ -100,6 +101,12 @@ class Viewer(WorldUser):
         self.page.get_by_role("combobox", name="Search commands").fill(command)
         self.page.keyboard.press("Enter")
 
+    def has_color(self, point: Point, color: tuple[int, ...]) -> bool:
+        """Tell if the picture has a color at a point of the ground, shaded or not."""
+        row, column = round((1.5 - point[1]) * PX_PER_M), round((point[0] + 2.5) * PX_PER_M)
+        shown = self.picture()[row, column].astype(float)
+        return bool(np.abs(shown / max(shown.max(), 1) - np.array(color) / max(color)).max() < 0.08)
+
     def is_shown(self, part: str) -> bool:
         self.button("Show in the view").click()
         checked = self.page.get_by_role("menuitemcheckbox", name=part, exact=True).get_attribute("aria-checked")
@@ -176,10 +183,40 @@ def test_a_joints_range_and_a_links_axes_are_drawn(user: Viewer) -> None:
     user.until_changed(before, lambda mask: not _within(mask, (0.8, 0.97), (0.42, 0.48)).any())
     user.show("Joints", "Link frames")
     user.until_changed(before, lambda mask: _within(mask, (-1.0, -0.9), (0, 0.01)).all(), what="for the x axis")
-    user.show("Link frames", "Centres of mass")
+    user.show("Link frames", "Centers of mass")
     user.until_changed(before, lambda mask: 1e-4 < _area(_within(mask, (-1.2, -0.8), (-0.2, 0.2))) < 0.01)
-    user.show("Centres of mass")
+    user.show("Centers of mass")
     user.until_changed(before, lambda mask: not mask.any())
+
+
+def _axes_are_painted(user: Viewer, theme: str) -> bool:
+    """Tell if x and y of the world's origin have the theme's colors; z points at the camera."""
+    colors = user.page.evaluate(
+        "['--x', '--y'].map((one) => getComputedStyle(document.documentElement).getPropertyValue(one).trim())"
+    )
+    assert user.page.evaluate("document.documentElement.dataset.theme") == theme
+    along_x, along_y = (ImageColor.getrgb(color) for color in colors)
+    return all(user.has_color(point, color) for point, color in (((0.4, 0.0), along_x), ((0.0, 0.4), along_y)))
+
+
+def test_axes_have_the_colors_of_the_theme(user: Viewer) -> None:
+    """Those of the world's origin, and those of a frame, which an rviz display draws."""
+    for part in ("World origin", "Axes"):
+        if part == "Axes":
+            user.side("Displays")
+            user.button("Add").click()
+            user.page.get_by_role("tab", name="By class").click()
+            user.button("Add Axes").click()
+        else:
+            user.show(part)
+        for _ in range(2):
+            theme = user.page.evaluate("document.documentElement.dataset.theme")
+            user.until(lambda theme=theme: _axes_are_painted(user, theme), what=f"for {part} in {theme}")
+            user.page.get_by_role("button", name="Dark theme" if theme == "light" else "Light theme").click()
+        if part == "World origin":
+            user.show(part)
+    user.button("Remove").click()
+    user.side("Inspector")
 
 
 def test_a_cameras_frustum_is_drawn(user: Viewer) -> None:

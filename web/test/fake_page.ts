@@ -17,6 +17,7 @@ import type { JointStates, SimulatedWorld } from "../src/scene/simulated_world";
 import type { PaneLayout } from "../src/scene/panes/pane_layout";
 import type { ViewController, ViewPane, Views } from "../src/scene/view_controller";
 import type { Tool, ToolBox } from "../src/page/tool";
+import { AXIS_RGB } from "../src/shapes/axes";
 import { GraphNames } from "../src/protocol/graph_names";
 import { FakeConnection } from "./fake_connection";
 import { FakeDisplayList } from "./fake_displays";
@@ -283,7 +284,15 @@ export function fakePage(session: Partial<PageSession> = {}): FakePage {
     views: new FakeViews(),
     world: new FakeWorld(),
     displays: new FakeDisplayList(
-      { connection, names: new GraphNames(), frames, scene, displays: signal([]), fixedFrame: signal("map") },
+      {
+        connection,
+        names: new GraphNames(),
+        frames,
+        scene,
+        displays: signal([]),
+        fixedFrame: signal("map"),
+        axisColors: signal(AXIS_RGB),
+      },
       undo,
     ),
     tools: new FakeTools(),

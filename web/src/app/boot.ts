@@ -21,6 +21,8 @@ import { RangeLines } from "../scene/overlays/range_lines";
 import { SelectionOutline } from "../scene/world/selection_outline";
 import { WorldFeed } from "../scene/world/world_feed";
 import { ToolList } from "../tools/tool_list";
+import { AXIS_RGB } from "../shapes/axes";
+import { followAxisColors } from "./axis_colors";
 import { CommandList } from "./commands";
 import { Drive } from "../page/drive";
 import { firstPicture } from "./first_picture";
@@ -55,6 +57,7 @@ export function boot(root: HTMLElement, json: string): void {
   const fixedFrame = signal(first.fixed_frame ?? "map");
   const selection: Page["selection"] = signal(null);
   const hovered: Page["hovered"] = signal(null);
+  const axisColors = signal(AXIS_RGB);
 
   const sceneHost = document.createElement("div");
   const scene = new ThreeScene(sceneHost);
@@ -75,7 +78,16 @@ export function boot(root: HTMLElement, json: string): void {
     editor,
     looksOnly: first.view_only,
   });
-  const displays: DisplayStore = new DisplayStore({ connection: view, names, frames, scene, undo, views, tools });
+  const displays: DisplayStore = new DisplayStore({
+    connection: view,
+    names,
+    frames,
+    scene,
+    undo,
+    views,
+    tools,
+    axisColors,
+  });
   const drive = new Drive({
     connection,
     get session() {
@@ -106,6 +118,7 @@ export function boot(root: HTMLElement, json: string): void {
   effect(() => {
     fixedFrame.value = displays.fixedFrame.value;
   });
+  followAxisColors(page, theme, axisColors);
   new SceneInput(
     scene,
     views,

@@ -1,5 +1,7 @@
 /** Axes: three axes at the origin of a frame. */
 
+import { effect } from "@preact/signals";
+
 import { Display } from "./display";
 import { BoolProperty, FIXED_FRAME, FrameProperty, NumberProperty } from "../rviz/properties";
 import { register } from "./registry";
@@ -17,22 +19,27 @@ export class AxesDisplay extends Display {
 
   private axes: Axes | null = null;
   private path: Trail | null = null;
-  private unwatch = (): void => undefined;
+  private stops: (() => void)[] = [];
 
   protected onStart(): void {
     const axes = new Axes();
     this.axes = axes;
     this.root.add(axes);
-    this.unwatch = watch(this.properties, () => {
-      axes.setSize(this.length.value.peek(), this.radius.value.peek());
-      axes.setAlpha(this.alpha.value.peek());
-      this.setTrail(this.trail.value.peek());
-      this.context.scene.invalidate();
-    });
+    this.stops = [
+      watch(this.properties, () => {
+        axes.setSize(this.length.value.peek(), this.radius.value.peek());
+        this.setTrail(this.trail.value.peek());
+        this.context.scene.invalidate();
+      }),
+      effect(() => {
+        axes.setColors(this.context.axisColors.value, this.alpha.value.value);
+        this.context.scene.invalidate();
+      }),
+    ];
   }
 
   protected onStop(): void {
-    this.unwatch();
+    for (const stop of this.stops) stop();
     this.root.clear();
     this.setTrail(false);
     this.axes?.dispose();

@@ -9,6 +9,7 @@ import type { FrameTree } from "../frames/frame_tree";
 import { NoTransform, type Transform } from "../frames/transform";
 import type { SceneView } from "../scene/scene_view";
 import type { StatusLevel } from "../rviz/status_level";
+import type { AxisColors } from "../shapes/axes";
 import { BoolProperty, isMapping, TopicProperty, type Property, type Yaml, type YamlMapping } from "../rviz/properties";
 
 export interface Status {
@@ -29,6 +30,8 @@ export interface DisplayContext {
   /** Displays of the list, groups with theirs. */
   readonly displays: ReadonlySignal<readonly Display[]>;
   readonly fixedFrame: ReadonlySignal<string>;
+  /** Colors of frames' axes. */
+  readonly axisColors: ReadonlySignal<AxisColors>;
 }
 
 /**

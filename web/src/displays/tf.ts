@@ -5,6 +5,7 @@ import { NoTransform } from "../frames/transform";
 import { Display } from "./display";
 import { KeyedProperty } from "./keyed_property";
 import { BoolProperty, NumberProperty, StringProperty } from "../rviz/properties";
+import { AXIS_RGB } from "../shapes/axes";
 import { register } from "./registry";
 import { fadeOf, FrameRow, FrameView, TreeProperty } from "./tf/frame_row";
 import { TfShapes, type TfStyle } from "./tf/tf_shapes";
@@ -30,7 +31,7 @@ export class Tf extends Display {
 
   private readonly views = new Map<string, FrameView>();
   private shapes = new TfShapes();
-  private style: TfStyle = { axes: true, arrows: true, scale: 1, alpha: 1 };
+  private style: TfStyle = { axes: true, arrows: true, scale: 1, alpha: 1, colors: AXIS_RGB };
   private isRestyled = true;
   private sinceUpdate = Infinity;
   private sinceDetails = Infinity;
@@ -47,6 +48,7 @@ export class Tf extends Display {
         [this.names, this.axes, this.arrows, this.scale, this.alpha, this.rows, this.whitelist, this.blacklist],
         () => this.restyle(),
       ),
+      this.context.axisColors.subscribe(() => this.restyle()),
       this.allFrames.value.subscribe((enabled) => this.enableAll(enabled)),
     ];
   }
@@ -147,6 +149,7 @@ export class Tf extends Display {
       arrows: this.arrows.value.peek(),
       scale: this.scale.value.peek(),
       alpha: this.alpha.value.peek(),
+      colors: this.context.axisColors.peek(),
     };
     this.isRestyled = true;
     this.context.scene.invalidate();

@@ -6,7 +6,11 @@ import type { Rgb } from "../rviz/properties";
 import { ShapeMaterial } from "./shape_material";
 import { SHAFT } from "./solids";
 
-export const AXIS_RGB: readonly [Rgb, Rgb, Rgb] = [
+/** Colors of x, y and z. */
+export type AxisColors = readonly [Rgb, Rgb, Rgb];
+
+/** rviz's colors. */
+export const AXIS_RGB: AxisColors = [
   [255, 0, 0],
   [0, 255, 0],
   [0, 0, 255],
@@ -22,7 +26,7 @@ export class Axes extends Group {
     z?.rotation.set(0, -Math.PI / 2, 0);
     super.add(...this.axes);
     this.setSize(length, radius);
-    this.setAlpha(1);
+    this.setColors(AXIS_RGB, 1);
   }
 
   /** Length and rviz's radius [m], which is the diameter of its cylinders. */
@@ -30,17 +34,8 @@ export class Axes extends Group {
     for (const axis of this.axes) axis.scale.set(length, radius, radius);
   }
 
-  setAlpha(alpha: number): void {
-    this.axes.forEach((axis, index) => axis.material.setColor(AXIS_RGB[index] ?? [255, 255, 255], alpha));
-  }
-
-  /** Mix the axes' colors with grey: 0: no grey, 1: grey (0.7). */
-  setFaded(share: number, alpha: number): void {
-    this.axes.forEach((axis, index) => {
-      const [red, green, blue] = AXIS_RGB[index] ?? [255, 255, 255];
-      const mix = (part: number): number => (part / 255) * (1 - share) + 0.7 * share;
-      axis.material.setRgba(mix(red), mix(green), mix(blue), alpha);
-    });
+  setColors(colors: AxisColors, alpha: number): void {
+    this.axes.forEach((axis, index) => axis.material.setColor(colors[index] ?? [255, 255, 255], alpha));
   }
 
   override dispose(): void {

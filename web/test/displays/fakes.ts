@@ -7,6 +7,7 @@ import type { Display, DisplayContext } from "../../src/displays/display";
 import type { FrameTree } from "../../src/frames/frame_tree";
 import { NoTransform, type Transform } from "../../src/frames/transform";
 import type { SceneView } from "../../src/scene/scene_view";
+import { AXIS_RGB } from "../../src/shapes/axes";
 import { GraphNames } from "../../src/protocol/graph_names";
 import { FakeConnection } from "../fake_connection";
 
@@ -55,6 +56,7 @@ export function fakes(): Fakes {
       scene,
       displays: signal([]),
       fixedFrame,
+      axisColors: signal(AXIS_RGB),
     },
     connection,
     frames,

@@ -8,6 +8,7 @@ import type { DisplayContext } from "../../src/displays/display";
 import type { FrameInfo, FrameTree } from "../../src/frames/frame_tree";
 import { NoTransform, type Transform } from "../../src/frames/transform";
 import type { Label, SceneView } from "../../src/scene/scene_view";
+import { AXIS_RGB } from "../../src/shapes/axes";
 import { GraphNames } from "../../src/protocol/graph_names";
 import { FakeConnection } from "../fake_connection";
 
@@ -135,6 +136,7 @@ export function setup(fixedFrame = "map"): Setup {
     scene: scene as unknown as SceneView,
     displays: signal([]),
     fixedFrame: signal(fixedFrame),
+    axisColors: signal(AXIS_RGB),
   };
   return { connection, frames, scene, context };
 }

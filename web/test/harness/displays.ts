@@ -10,7 +10,7 @@ import type { Display, DisplayContext } from "../../src/displays/display";
 import type { YamlMapping } from "../../src/rviz/properties";
 import { drawPicture, type PictureSource } from "../../src/displays/pictures/picture_stream";
 import { displayClass } from "../../src/displays/registry";
-import { Axes } from "../../src/shapes/axes";
+import { AXIS_RGB, Axes } from "../../src/shapes/axes";
 import type { Transform } from "../../src/frames/transform";
 import { ThreeScene } from "../../src/scene/three_scene";
 import { GraphNames } from "../../src/protocol/graph_names";
@@ -90,6 +90,7 @@ function show(
     scene,
     displays: signal([]),
     fixedFrame: signal("map"),
+    axisColors: signal(AXIS_RGB),
   };
   display = displayClass(className)?.create(context) ?? null;
   if (display === null) throw new Error(`no ${className}`);

@@ -3,9 +3,12 @@
 import "../../src/scene/conventions";
 import "../../src/displays/all";
 
+import { signal } from "@preact/signals";
+
 import { DisplayStore } from "../../src/displays/display_store";
 import { ThreeScene } from "../../src/scene/three_scene";
 import { ViewList } from "../../src/scene/views/view_list";
+import { AXIS_RGB } from "../../src/shapes/axes";
 import { GraphNames } from "../../src/protocol/graph_names";
 import { FakeFrames, FakeUndo } from "../displays/support";
 import { FakeConnection } from "../fake_connection";
@@ -45,6 +48,7 @@ async function open(
     names: new GraphNames(),
     frames: tree,
     scene,
+    axisColors: signal(AXIS_RGB),
     undo: new FakeUndo(),
     views,
     tools,

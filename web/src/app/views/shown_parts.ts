@@ -13,7 +13,7 @@ export const PART_NAMES: Readonly<Record<Part, string>> = {
   wireframe: "Wireframe",
   collisions: "Collisions",
   joints: "Joints",
-  centres: "Centres of mass",
+  centres: "Centers of mass",
   inertias: "Inertias",
   contacts: "Contacts",
   frames: "Link frames",

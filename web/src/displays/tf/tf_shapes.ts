@@ -3,6 +3,7 @@
 import { Group, Matrix4, Quaternion, Vector3 } from "three";
 
 import type { Selectable } from "../../scene/scene_view";
+import type { AxisColors } from "../../shapes/axes";
 import { Instances } from "../../shapes/instances";
 import { SHAFT, HEAD } from "../../shapes/solids";
 import type { FrameView } from "./frame_row";
@@ -33,6 +34,7 @@ export interface TfStyle {
   readonly arrows: boolean;
   readonly scale: number;
   readonly alpha: number;
+  readonly colors: AxisColors;
 }
 
 export class TfShapes extends Group {
@@ -64,13 +66,14 @@ export class TfShapes extends Group {
     const count = style.axes ? this.shown.length : 0;
     scale.set(AXES.length, AXES.radius, AXES.radius).multiplyScalar(style.scale);
     this.axes.forEach((axis, k) => {
+      const [red, green, blue] = style.colors[k] ?? [255, 255, 255];
       axis.begin(count);
       for (let index = 0; index < count; index++) {
         const frame = this.shown[index];
         if (frame === undefined) continue;
         turn.copy(frame.anchor.quaternion).multiply(TURNS[k] ?? TURNS[0]);
         axis.setMatrixAt(index, matrix.compose(frame.anchor.position, turn, scale));
-        setFaded(axis, index, k === 0 ? 1 : 0, k === 1 ? 1 : 0, k === 2 ? 1 : 0, frame, style.alpha);
+        setFaded(axis, index, red / 255, green / 255, blue / 255, frame, style.alpha);
       }
       axis.finish();
     });

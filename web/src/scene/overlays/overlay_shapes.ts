@@ -7,12 +7,14 @@ import {
   LineSegments,
   Mesh,
   MeshBasicMaterial,
+  SRGBColorSpace,
   Vector3,
   DoubleSide,
   Group,
   type Object3D,
 } from "three";
 
+import type { AxisColors } from "../../shapes/axes";
 import { HEAD, SHAFT } from "../../shapes/solids";
 
 const X = new Vector3(1, 0, 0);
@@ -21,9 +23,6 @@ const [AREAS, SOLIDS] = [20, 21];
 
 /** Colors, the same in both themes as the world's own background lies behind them. */
 export const COLORS = {
-  x: 0xff5b52,
-  y: 0x56cc40,
-  z: 0x4f9dff,
   axis: 0xf2b134,
   limit: 0x3fbed0,
   inertia: 0xc06bff,
@@ -36,18 +35,12 @@ const materials = new Map<string, MeshBasicMaterial | LineBasicMaterial>();
 
 /** Flat material drawn in front of bodies; shared, so not to be disposed of. */
 export function flat(color: number, opacity = 1): MeshBasicMaterial {
-  return shared(
-    `${color} ${opacity}`,
-    () =>
-      new MeshBasicMaterial({
-        color: color,
-        opacity,
-        transparent: true,
-        depthTest: false,
-        depthWrite: false,
-        side: DoubleSide,
-      }),
-  );
+  return shared(`${color} ${opacity}`, () => flatMaterial(color, opacity));
+}
+
+function flatMaterial(color: number, opacity: number): MeshBasicMaterial {
+  const inFront = { depthTest: false, depthWrite: false } as const;
+  return new MeshBasicMaterial({ color, opacity, transparent: true, side: DoubleSide, ...inFront });
 }
 
 function shared<M extends MeshBasicMaterial | LineBasicMaterial>(key: string, make: () => M): M {
@@ -70,8 +63,12 @@ export function lines(points: readonly number[], color: number, opacity = 1): Li
 
 /** An arrow of a length from the origin in a direction. */
 export function arrow(direction: Vector3, length: number, color: number): Group {
+  return arrowOf(direction, length, flat(color));
+}
+
+function arrowOf(direction: Vector3, length: number, material: MeshBasicMaterial): Group {
   const group = new Group();
-  const [shaft, head] = [new Mesh(SHAFT, flat(color)), new Mesh(HEAD, flat(color))];
+  const [shaft, head] = [new Mesh(SHAFT, material), new Mesh(HEAD, material)];
   shaft.scale.set(0.78 * length, 0.04 * length, 0.04 * length);
   head.position.x = 0.78 * length;
   head.scale.set(0.22 * length, 0.12 * length, 0.12 * length);
@@ -80,14 +77,20 @@ export function arrow(direction: Vector3, length: number, color: number): Group 
   return group;
 }
 
+const AXES = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)] as const;
+const axisMaterials = AXES.map(() => flatMaterial(0xffffff, 1));
+
 /** Axes of a frame. */
 export function triad(length: number): Group {
-  const group = new Group();
-  const colors = [COLORS.x, COLORS.y, COLORS.z];
-  [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].forEach((axis, i) =>
-    group.add(arrow(axis, length, colors[i] ?? 0)),
-  );
-  return group;
+  return new Group().add(...AXES.map((axis, i) => arrowOf(axis, length, axisMaterials[i] ?? flat(0xffffff))));
+}
+
+/** Set the colors of all axes of frames, also of those that are drawn. */
+export function setAxisColors(colors: AxisColors): void {
+  axisMaterials.forEach((material, i) => {
+    const [red, green, blue] = colors[i] ?? [255, 255, 255];
+    material.color.setRGB(red / 255, green / 255, blue / 255, SRGBColorSpace);
+  });
 }
 
 export function inFront<O extends Object3D>(object: O): O {

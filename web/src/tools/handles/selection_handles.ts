@@ -31,6 +31,7 @@ export class SelectionHandles extends Group {
   private shapes: { readonly handle: Handle; readonly shape: HandleShape }[] = [];
   private readonly raycaster = new Raycaster();
   private lit: Handle | null = null;
+  private theme: string | undefined;
 
   constructor() {
     super();
@@ -54,6 +55,7 @@ export class SelectionHandles extends Group {
 
   /** Place them at a pose, for a picture of this height [px]. */
   place({ position, orientation }: Transform, camera: Camera, height: number): void {
+    if (this.theme !== document.documentElement.dataset["theme"]) this.paint();
     this.position.copy(position);
     this.quaternion.copy(orientation);
     this.updateWorldMatrix(true, false);
@@ -82,6 +84,7 @@ export class SelectionHandles extends Group {
   }
 
   private paint(): void {
+    this.theme = document.documentElement.dataset["theme"];
     const style = getComputedStyle(document.documentElement);
     const token = (name: string): string => style.getPropertyValue(name).trim() || "#ffffff";
     for (const { handle, shape } of this.shapes) {

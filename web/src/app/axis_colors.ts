@@ -1,0 +1,31 @@
+/** Colors of axes: the design's, which follow the theme; in displays rviz's where the page looks like rviz. */
+
+import { effect, type ReadonlySignal, type Signal } from "@preact/signals";
+import { Color } from "three";
+
+import type { Page } from "../page/page";
+import type { Rgb } from "../rviz/properties";
+import { setAxisColors } from "../scene/overlays/overlay_shapes";
+import { AXIS_RGB, type AxisColors } from "../shapes/axes";
+
+/** Follow theme and session with the colors of displays' axes and of overlays. */
+export function followAxisColors(page: Page, theme: ReadonlySignal<string>, ofDisplays: Signal<AxisColors>): void {
+  effect(() => {
+    const { kind, rviz } = page.session;
+    const isOwnLook = rviz === null && (kind === "simulation" || kind === "log");
+    document.documentElement.dataset["theme"] = theme.value; // whichever effect comes first
+    const colors = designColors();
+    setAxisColors(colors);
+    ofDisplays.value = isOwnLook ? colors : AXIS_RGB;
+    page.scene.invalidate();
+  });
+}
+
+function designColors(): AxisColors {
+  const style = getComputedStyle(document.documentElement);
+  const rgb = (token: string): Rgb => {
+    const hex = new Color(style.getPropertyValue(token).trim()).getHex();
+    return [hex >> 16, (hex >> 8) & 255, hex & 255];
+  };
+  return [rgb("--x"), rgb("--y"), rgb("--z")];
+}
