@@ -17,6 +17,7 @@ import { colorOf, nameOf } from "../page/people";
 import { simulates } from "./simulation_commands";
 import type { Shell } from "./shell";
 import { switchTheme } from "./theme";
+import { shownItems } from "./views/view_menu";
 
 export function Bar({ shell }: { readonly shell: Shell }): JSX.Element {
   return shell.layout.isPhone.value ? <PhoneBar shell={shell} /> : <WideBar shell={shell} />;
@@ -31,7 +32,7 @@ function PhoneBar({ shell }: { readonly shell: Shell }): JSX.Element {
       <FittingPart rank={1}>
         <Mark />
       </FittingPart>
-      {!canControl(page) && <LookingOnly isShort />}
+      {!canControl(page) && <ViewOnly />}
       {simulates(page) ? canControl(page) && <PlayPause shell={shell} /> : <Freeze shell={shell} />}
       <Clock shell={shell} />
       <span class="sp" />
@@ -51,7 +52,7 @@ function WideBar({ shell }: { readonly shell: Shell }): JSX.Element {
     <header ref={row} class="bar" aria-label="Trundle">
       <Mark />
       <Title shell={shell} />
-      {!canControl(page) && <LookingOnly isShort={false} />}
+      {!canControl(page) && <ViewOnly />}
       {simulates(page) ? canControl(page) && <SimulationControls shell={shell} /> : <Freeze shell={shell} />}
       <span class="sep" />
       <Clock shell={shell} />
@@ -165,11 +166,11 @@ function resetItems({ commands }: Shell): readonly MenuItem[] {
   return resets.map(({ title, keys, run }) => ({ title, keys, run }));
 }
 
-function LookingOnly({ isShort }: { readonly isShort: boolean }): JSX.Element {
+function ViewOnly(): JSX.Element {
   return (
     <span class="looking" data-tip={`${LOOKS_ONLY} Others control time, robots, topics and the world.`} tabIndex={0}>
       <Icon name="eye" />
-      {isShort ? "Look" : "Looking only"}
+      View only
     </span>
   );
 }
@@ -182,7 +183,7 @@ function PeopleHere({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const items = (): readonly MenuItem[] =>
     people.map((person) => ({
       title: person.number === you ? `${nameOf(person)}, you` : nameOf(person),
-      ...(person.view_only ? { detail: "looks only" } : {}),
+      ...(person.view_only ? { detail: "view only" } : {}),
       color: colorOf(person),
       disabled: person.selection === null || person.number === you,
       run: () => (shell.page.selection.value = person.selection),
@@ -288,16 +289,45 @@ function givenItems(shell: Shell): readonly GivenItem[] {
   ];
 }
 
-/** Phone menu with the controls that do not fit into the bar. */
+/** Phone menu with the controls that do not fit into the bar: time, files, the view, the page. */
 function phoneItems(shell: Shell): readonly MenuItem[] {
-  const { commands, page } = shell;
-  const shown = commands.all
-    .peek()
-    .filter(({ id, group }) => group === "Simulation" && id !== "play_pause" && canControl(page));
-  return [
-    ...shown.map(({ title, run, enabled }) => ({ title, run, disabled: !(enabled?.() ?? true) })),
-    { title: "Share", run: () => (shell.dialog.value = "share") },
-    themeItem(shell),
-    { title: "Search commands", run: () => (shell.dialog.value = "palette") },
+  const { page, dialog } = shell;
+  const recording = recordingOf(shell);
+  const groups: readonly (readonly MenuItem[])[] = [
+    [
+      ...commandItems(shell, ["step"]),
+      ...submenu("Speed", simulates(page) ? speedItems(shell, page.world.state.peek()?.speed ?? null) : []),
+      ...submenu("Reset", resetItems(shell)),
+      ...commandItems(shell, ["time"]),
+    ].filter(() => canControl(page)),
+    [
+      ...(recording === null ? [] : [{ title: recording.text, run: recording.toggle }]),
+      ...submenu("Save", commandItems(shell, ["save_world", "replay", "replay.glb"])),
+    ],
+    [
+      ...commandItems(shell, ["frame", "picture", "video"]),
+      ...submenu(
+        "Show in the view",
+        shell.isDrawn.peek() && page.world.manifest.peek() !== null ? shownItems(page) : [],
+      ),
+    ],
+    [
+      { title: "Share", run: () => (dialog.value = "share") },
+      themeItem(shell),
+      { title: "Search commands", run: () => (dialog.value = "palette") },
+    ],
   ];
+  return groups
+    .filter((group) => group.length > 0)
+    .flatMap((group, number) => group.map((item, index) => ({ ...item, starts: number > 0 && index === 0 })));
+}
+
+function commandItems({ commands }: Shell, ids: readonly string[]): readonly MenuItem[] {
+  return ids
+    .flatMap((id) => commands.all.peek().filter((command) => command.id === id))
+    .map(({ title, run, enabled }) => ({ title, run, disabled: enabled?.() === false }));
+}
+
+function submenu(title: string, items: readonly MenuItem[]): readonly MenuItem[] {
+  return items.length === 0 ? [] : [{ title, items: () => items }];
 }

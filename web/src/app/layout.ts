@@ -185,6 +185,6 @@ export class Layout {
     px("--dock-now", this.dock.value);
     px("--in-l", phone ? 8 : left + 16);
     px("--in-r", phone ? 8 : right + 16);
-    px("--in-b", phone ? 72 : this.dock.value + 16);
+    px("--in-b", phone ? this.phoneFoot(false) : this.dock.value + 16);
   }
 }

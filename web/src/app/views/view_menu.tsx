@@ -30,7 +30,7 @@ export function ViewMenu({ shell }: { readonly shell: Shell }): JSX.Element {
   );
 }
 
-function shownItems(page: Page): readonly MenuItem[] {
+export function shownItems(page: Page): readonly MenuItem[] {
   const { shown } = page.world;
   const parts = partsOf(page).map((part): MenuItem => {
     const isShown = shown.all.value.has(part);
@@ -38,7 +38,9 @@ function shownItems(page: Page): readonly MenuItem[] {
   });
   const world = WORLD_PARTS.map((part): MenuItem => {
     const isShown = isWorldPartShown(page, part);
-    return { title: WORLD_PART_NAMES[part], checked: isShown, stays: true, run: () => shown.setWorld(part, !isShown) };
+    const starts = part === WORLD_PARTS[0];
+    const run = (): void => shown.setWorld(part, !isShown);
+    return { title: WORLD_PART_NAMES[part], checked: isShown, stays: true, starts, run };
   });
   return [...parts, ...world];
 }

@@ -7,12 +7,15 @@ import type { MenuItem } from "../../theme/menu_list";
 import type { Shell } from "../shell";
 
 const COMMANDS = ["side.insert", "new_model", "save_world", "reload"];
+/** First command of a group below the first. */
+const STARTS = "save_world";
 
 export function WorldMenu({ shell }: { readonly shell: Shell }): JSX.Element {
   const items = (): readonly MenuItem[] =>
     COMMANDS.flatMap((id) => shell.commands.all.peek().filter((command) => command.id === id)).map(
-      ({ title, keys, run, enabled }) => ({
+      ({ id, title, keys, run, enabled }) => ({
         title,
+        starts: id === STARTS,
         keys,
         disabled: enabled?.() === false,
         run,
