@@ -12,9 +12,12 @@ from tests.throttled_link import ThrottledLink
 
 from trundle.base.http.page_address import PageAddress
 from trundle.page import GraphAddress, PageServer, Session
+from trundle.ros import Messages
 
 MB = 1024 * 1024
 COUNT = 60
+SIZE = (480, 640)
+"""Height and width of images of 900 kB."""
 FOXGLOVE = "foxglove.websocket.v1"
 
 
@@ -163,4 +166,50 @@ def test_a_slow_client_is_up_to_date_and_the_others_get_everything(graph: Graph,
         assert behind[len(behind) // 2] < COUNT // 2, (name, behind)  # without a bound, most of them
         assert len(client.payloads("/scan")) > 2 * len(client.payloads("/image")) > 0
     for publisher in (scan, image):
+        publisher.unregister()
+
+
+@pytest.mark.slow
+def test_long_messages_do_not_block_a_client_of_the_foxglove_protocol(graph: Graph, graph_page: PageServer) -> None:
+    """Behind 100 kB/s an image of 900 kB would take 9 s: it has fewer pixels; what has no pixels is not sent."""
+    node = graph.node("long_messages")
+    types = {"/scan": "std_msgs/UInt8MultiArray", "/blob": "std_msgs/UInt8MultiArray", "/picture": "sensor_msgs/Image"}
+    topics = {topic: node.advertise(topic, type_name) for topic, type_name in types.items()}
+    pixels = np.zeros((*SIZE, 3), np.uint8)
+    image: dict[str, object] = {"height": SIZE[0], "width": SIZE[1], "encoding": "rgb8", "step": 3 * SIZE[1]}
+    behind: list[int] = []
+    """Number of scans that the client was behind whenever one was published."""
+    with (
+        ThrottledLink(graph_page.url, bytes_per_s=100e3, buffer_bytes=4 * MB) as link,
+        ProtocolClient(graph_page.url, protocol=FOXGLOVE) as reader,
+        ProtocolClient(link.url, protocol=FOXGLOVE) as slow,
+    ):
+        reader.subscribe("/picture")
+        subscribed = {topic: slow.subscribe(topic) for topic in types}
+        graph.until(lambda: all(publisher.has_subscribers for publisher in topics.values()))
+        for number in range(250):
+            topics["/picture"].publish(image | {"data": pixels.reshape(-1)})
+            topics["/blob"].publish({"data": np.zeros(200_000, np.uint8)})
+            topics["/scan"].publish({"data": np.full(1000, number, np.uint8)})
+            slow.settle(0.02)
+            reader.settle(0.0)
+            scans = slow.payloads("/scan")
+            behind.append(number - scans[-1][-1] if scans else number)
+        pictures = [Messages().deserialize(data, "sensor_msgs/Image") for data in slow.payloads("/picture")]
+        blobs = len(slow.payloads("/blob"))
+        reports = {status.get("id"): status["message"] for status in slow.statuses}
+        for topic in ("/scan", "/picture"):
+            slow.unsubscribe(subscribed[topic])
+        topics["/blob"].publish({"data": np.zeros(200_000, np.uint8)})
+        slow.until(lambda: slow.payloads("/blob"))
+        slow.last("removeStatus")
+
+    assert max(behind) < 100, behind  # blocked for 9 s, all of them
+    assert len(pictures) > 2
+    assert all(0 < picture.width < SIZE[1] // 2 and picture.data.size < 60_000 for picture in pictures)
+    assert all(len(data) > pixels.nbytes for data in reader.payloads("/picture"))
+    assert blobs == 0
+    assert "fewer pixels" in reports["reduced/picture"]
+    assert "none is sent" in reports["reduced/blob"]
+    for publisher in topics.values():
         publisher.unregister()

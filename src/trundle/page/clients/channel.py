@@ -10,6 +10,7 @@ from .frames import Buffer
 from .protocol import ENCODING, SCHEMA_ENCODING
 from .send_flow import NEWEST, Keys
 from .server_messages import ChannelOffer
+from .thinning import Thin
 
 _ids = itertools.count(1)
 
@@ -22,7 +23,14 @@ class Client(Protocol):
         """True if the client must not change anything."""
         ...
 
-    def send_message(self, channel: "Channel", time_ns: int, pieces: Sequence[Buffer], keys: Keys = NEWEST) -> None:
+    def send_message(
+        self,
+        channel: "Channel",
+        time_ns: int,
+        pieces: Sequence[Buffer],
+        keys: Keys = NEWEST,
+        thin: Thin | None = None,
+    ) -> None:
         """Send a message of a channel that the client subscribes to.
 
         Args:
@@ -30,6 +38,7 @@ class Client(Protocol):
             time_ns: time of the message [ns].
             pieces: buffers of the payload, which must not change afterwards.
             keys: returns the parts of a state that the message holds; see `Outbox.send`.
+            thin: returns a smaller version of a payload of one piece.
         """
         ...
 
@@ -94,7 +103,7 @@ class Channel:
         """Remove a client."""
         self.clients.discard(client)
 
-    def publish(self, time_ns: int, pieces: Sequence[Buffer], keys: Keys = NEWEST) -> None:
-        """Send a message to every subscribed client; `keys` as in `Outbox.send`."""
+    def publish(self, time_ns: int, pieces: Sequence[Buffer], keys: Keys = NEWEST, thin: Thin | None = None) -> None:
+        """Send a message to every subscribed client; `keys` and `thin` as in `Outbox.send`."""
         for client in self.clients:
-            client.send_message(self, time_ns, pieces, keys)
+            client.send_message(self, time_ns, pieces, keys, thin)

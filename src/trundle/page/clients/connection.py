@@ -10,12 +10,24 @@ from msgspec import UNSET
 from .channel import Channel
 from .frames import BINARY, TEXT, Buffer, frame_header
 from .outbox import Outbox
-from .protocol import ERROR, Echo, Subscribe, Unsubscribe, mark_message, message_header, stamped_header
-from .send_flow import KEPT, NEWEST, Keys
-from .server_messages import AdvertiseChannels, Response, ServerOperation, Status, UnadvertiseChannels
+from .protocol import ERROR, WARNING, Echo, Subscribe, Unsubscribe, mark_message, message_header, stamped_header
+from .send_flow import KEPT, NEWEST, Keys, Reduction
+from .server_messages import (
+    AdvertiseChannels,
+    RemoveStatus,
+    Response,
+    ServerOperation,
+    Status,
+    UnadvertiseChannels,
+)
+from .thinning import Thin
 
 _STATUS = "status"
 _MAX_SUBSCRIPTIONS = 10_000
+_REDUCTIONS = {
+    Reduction.THINNED: "so it is sent with fewer pixels or points",
+    Reduction.HELD: "so none is sent while other topics are subscribed to",
+}
 
 
 class ChannelTable(Protocol):
@@ -56,21 +68,31 @@ class Connection:
         self.drops_changed = False
         if speaks_trundle:
             outbox.splits, outbox.mark_frame = True, _mark
+        outbox.reduced = self._report_reduction
         self._channels = channels
         self._subscriptions: dict[int, Channel] = {}
         self._numbers: dict[Channel, int] = {}
         """Channel → id of its subscription."""
+        self._reduced: set[Channel] = set()
+        """Channels with a status about reduced messages."""
 
     # -- to the client
 
-    def send_message(self, channel: Channel, time_ns: int, pieces: Sequence[Buffer], keys: Keys = NEWEST) -> None:
+    def send_message(
+        self,
+        channel: Channel,
+        time_ns: int,
+        pieces: Sequence[Buffer],
+        keys: Keys = NEWEST,
+        thin: Thin | None = None,
+    ) -> None:
         """Send a message of a channel that the client subscribes to."""
         number = self._numbers[channel]
         if self.speaks_trundle:
             header = stamped_header(number, time_ns, time.time_ns())
         else:
             header = message_header(number, time_ns)
-        self.outbox.send(BINARY, (header, *pieces), channel, keys if channel.is_droppable else KEPT)
+        self.outbox.send(BINARY, (header, *pieces), channel, keys if channel.is_droppable else KEPT, thin)
 
     def send(self, message: ServerOperation) -> None:
         """Send a text message that is never dropped."""
@@ -139,6 +161,7 @@ class Connection:
             else:
                 self._subscriptions[subscription.id] = channel
                 self._numbers[channel] = subscription.id
+                self.outbox.is_shared = len(self._numbers) > 1
                 channel.subscribe(self)
 
     def unsubscribe(self, operation: Unsubscribe) -> None:
@@ -167,6 +190,22 @@ class Connection:
         del self._numbers[channel]
         channel.unsubscribe(self)
         self.outbox.forget(channel)
+        self.outbox.is_shared = len(self._numbers) > 1
+        if channel in self._reduced:
+            self._reduced.remove(channel)
+            self.send(RemoveStatus((_reduction_id(channel),)))
+
+    def _report_reduction(self, channel: Hashable, reduction: Reduction, transfer_s: float) -> None:
+        """Tell the client why it gets less of a topic."""
+        if isinstance(channel, Channel):
+            self._reduced.add(channel)
+            text = f"{channel.topic}: a message takes {transfer_s:.1f} s on this connection, {_REDUCTIONS[reduction]}"
+            self.send_status(WARNING, text, _reduction_id(channel))
+
+
+def _reduction_id(channel: Channel) -> str:
+    """Return the id of the status about a channel's reduced messages."""
+    return f"reduced{channel.topic}"
 
 
 def _mark(number: int) -> Sequence[Buffer]:

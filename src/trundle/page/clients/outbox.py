@@ -14,7 +14,8 @@ from itertools import islice
 
 from .frames import PING, Buffer, frame_header
 from .pace import Pace
-from .send_flow import KEPT, Flow, Keys, Message
+from .send_flow import KEPT, Flow, Keys, Message, Reduction
+from .thinning import Thin
 
 MAX_STREAM_BYTES = 4 * 1024 * 1024
 """Limit of queued bytes in streams; the newest message of each stream stays, however long."""
@@ -23,7 +24,9 @@ MAX_BYTES = 256 * 1024 * 1024
 _MAX_BATCH = 256
 """Messages per call of sendmsg, which accepts at most IOV_MAX (1024) pieces."""
 _MAX_TRANSFER_S = 0.25
-"""Transfer time above which a message blocks the others for too long."""
+"""Transfer time above which a message blocks the others for too long; images and clouds are thinned to it."""
+_MAX_BLOCKING_S = 1.0
+"""Transfer time above which a message is not sent at all while there are others."""
 _PAUSES = 19
 """Pause after a message that blocked the others, as a multiple of the time that it took."""
 _PART_S = 0.03
@@ -65,6 +68,10 @@ class Outbox:
         """Returns the frame of a mark."""
         self.splits = False
         """True if the client joins the parts of long messages."""
+        self.is_shared = False
+        """True if the client waits for several streams, of which none must block the others."""
+        self.reduced: Callable[[Hashable, Reduction, float], None] = _ignore
+        """Called with a stream whose messages begin to be reduced, and the time that one takes [s]."""
         self._pace = Pace()
         self._flows: dict[Hashable, Flow] = {}
         self._queued: dict[Hashable, Flow] = {}
@@ -89,7 +96,14 @@ class Outbox:
         """Size of all queued messages [bytes]."""
         return self._waiting_bytes
 
-    def send(self, first_byte: int, pieces: Sequence[Buffer], stream: Hashable = None, keys: Keys = KEPT) -> None:
+    def send(
+        self,
+        first_byte: int,
+        pieces: Sequence[Buffer],
+        stream: Hashable = None,
+        keys: Keys = KEPT,
+        thin: Thin | None = None,
+    ) -> None:
         """Send or queue a message.
 
         Args:
@@ -98,11 +112,12 @@ class Outbox:
             stream: messages of a stream stay in order.
             keys: returns the parts of a state that the message holds. Once the stream has newer messages with all of
                 them, it is dropped if the client is slow. `KEPT`: it is never dropped.
+            thin: returns a smaller version of the last of two pieces.
         """
         if self._is_closed:
             return
         self._count += 1
-        message = Message(self._count, first_byte, pieces, keys, self._loop.time())
+        message = Message(self._count, first_byte, pieces, keys, self._loop.time(), thin)
         flow = self._flows.get(stream)
         if flow is None:
             flow = self._flows[stream] = Flow(stream, len(self._flows))
@@ -144,6 +159,8 @@ class Outbox:
 
     def forget(self, stream: Hashable) -> None:
         """Remove a stream's queued messages, except for one of which parts were sent."""
+        if stream in self._flows:
+            self._flows[stream].reduction = None
         flow = self._queued.get(stream)
         if flow is None:
             return
@@ -262,15 +279,36 @@ class Outbox:
         return int(min(max(self._pace.rate * _PART_S, _MIN_PART_BYTES), MAX_BYTES))
 
     def _quick_flow(self, now_s: float) -> Flow | None:
-        """Return the flow that is next; one whose message blocks the others only after a long pause."""
+        """Return the flow that is next; one whose message blocks the others only after a long pause, or never."""
         for flow in sorted(self._queued.values(), key=lambda flow: flow.start):
             message = flow.messages[0]
-            if message.keys is KEPT or self._pace.transfer_s(message.size) <= _MAX_TRANSFER_S:
+            transfer_s = self._pace.transfer_s(message.size)
+            if message.keys is KEPT or not self.is_shared or transfer_s <= _MAX_TRANSFER_S:
                 return flow
-            if self._blocking is None and now_s >= self._blocking_due_s:
+            if self._shrink(flow, message, int(message.size * _MAX_TRANSFER_S / transfer_s)):
+                self._reduce(flow, Reduction.THINNED, transfer_s)
+                return flow
+            if transfer_s > _MAX_BLOCKING_S:
+                self._reduce(flow, Reduction.HELD, transfer_s)
+            elif self._blocking is None and now_s >= self._blocking_due_s:
                 self._blocking = now_s, self._pace.sent + 1
                 return flow
         return None
+
+    def _shrink(self, flow: Flow, message: Message, max_bytes: int) -> bool:
+        """Replace a message by a smaller version; False: there is none."""
+        before = message.size
+        if not message.shrink(max_bytes):
+            return False
+        self._waiting_bytes += message.size - before
+        flow.droppable_bytes += message.size - before
+        self._droppable_bytes += message.size - before
+        return True
+
+    def _reduce(self, flow: Flow, reduction: Reduction, transfer_s: float) -> None:
+        if flow.reduction is not reduction:
+            flow.reduction = reduction
+            self._loop.call_soon(self.reduced, flow.stream, reduction, transfer_s)  # later: it sends a message
 
     def _take(self, flow: Flow, part_bytes: int | None) -> int:
         """Move a flow's oldest message to `_rest`, or its next part; return the number of bytes."""
@@ -302,6 +340,10 @@ class Outbox:
         if not self._is_closed:
             self.close()
             self._loop.call_soon(self._broken, reason)  # later: the caller may be iterating over all clients
+
+
+def _ignore(stream: Hashable, reduction: Reduction, transfer_s: float) -> None:
+    """Report nothing."""
 
 
 def _limit_unsent(sock: socket.socket) -> None:

@@ -2,10 +2,12 @@
 
 from collections import deque
 from collections.abc import Callable, Hashable, Sequence
+from enum import Enum
 from typing import Final
 
 from .frames import BINARY, TEXT, Buffer, frame_header
 from .protocol import part_header
+from .thinning import Thin
 
 Keys = Callable[[], frozenset[Hashable]]
 """Returns the parts of a state that a message holds."""
@@ -29,18 +31,35 @@ NEWEST: Final[Keys] = _newest
 """Keys of a message that any newer one of its stream replaces."""
 
 
+class Reduction(Enum):
+    """What is done with a stream whose messages are too long for the connection."""
+
+    THINNED = "thinned"
+    HELD = "held"
+
+
 class Message:
     """Queued message."""
 
-    __slots__ = ("_first_byte", "_pieces", "_sent", "keys", "number", "queued_s", "size")
+    __slots__ = ("_first_byte", "_pieces", "_sent", "_thin", "keys", "number", "queued_s", "size")
 
-    def __init__(self, number: int, first_byte: int, pieces: Sequence[Buffer], keys: Keys, queued_s: float) -> None:
+    def __init__(
+        self,
+        number: int,
+        first_byte: int,
+        pieces: Sequence[Buffer],
+        keys: Keys,
+        queued_s: float,
+        thin: Thin | None = None,
+    ) -> None:
         self.number = number
         """Order among all messages."""
         self.keys = keys
         self.queued_s = queued_s
         self._first_byte = first_byte
         self._pieces = pieces
+        """A header, and the content."""
+        self._thin = thin
         self._sent = 0
         self.size = sum(map(len, pieces)) + _OVERHEAD_BYTES
 
@@ -48,6 +67,15 @@ class Message:
     def is_begun(self) -> bool:
         """True if a part was sent."""
         return self._sent > 0
+
+    def shrink(self, max_bytes: int) -> bool:
+        """Replace the content by a smaller version of about that many bytes; False: there is none."""
+        smaller = None if self._thin is None else self._thin(max_bytes)
+        if smaller is None:
+            return False
+        self._pieces = (self._pieces[0], smaller)
+        self.size = sum(map(len, self._pieces)) + _OVERHEAD_BYTES
+        return True
 
     def part(self, max_bytes: int, flow: int) -> tuple[Sequence[Buffer], bool]:
         """Return the frame of the next part, or of the whole message if it is short; True: it is the last one."""
@@ -65,7 +93,7 @@ class Message:
 class Flow:
     """Queued messages of one stream, in order."""
 
-    __slots__ = ("droppable_bytes", "finish", "messages", "number", "start", "stream")
+    __slots__ = ("droppable_bytes", "finish", "messages", "number", "reduction", "start", "stream")
 
     def __init__(self, stream: Hashable, number: int) -> None:
         self.stream = stream
@@ -73,6 +101,7 @@ class Flow:
         """Number in the headers of parts."""
         self.messages: deque[Message] = deque()
         self.droppable_bytes = 0
+        self.reduction: Reduction | None = None
         self.start = self.finish = 0.0
         """Tags of the oldest message and of the message sent last [bytes]: the flow with the smallest start is next."""
 

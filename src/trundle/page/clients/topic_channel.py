@@ -8,6 +8,7 @@ from trundle.ros import Node, RawMessage, Subscription
 from .channel import Channel, Client
 from .frames import Buffer
 from .message_keys import MessageKeys
+from .thinning import thinner
 
 _NEVER_DROPPED = ("visualization_msgs/", "map_msgs/", "nav_msgs/OccupancyGrid", "rosgraph_msgs/Log")
 """Types whose messages depend on earlier ones, markers and maps, and lines of logs."""
@@ -108,4 +109,5 @@ class TopicChannel(Channel):
         if message.latching:
             self.is_droppable = False
             self._latched[message.caller] = now_ns, message.data
-        self.publish(now_ns, (message.data,), MessageKeys(self.schema_name, message.caller, message.data))
+        keys = MessageKeys(self.schema_name, message.caller, message.data)
+        self.publish(now_ns, (message.data,), keys, thinner(self.schema_name, message.data))
