@@ -31,6 +31,7 @@ COMMANDS: dict[str, str] = {
     "launch": "start a ROS 1 launch file",
     "test": "run the tests of launch files, as rostest does, or every run of a sweep's plan",
     "play": "show a recorded run or a bag in the browser",
+    "compare": "list the differences of two recorded runs",
     "view": "show a running ROS graph in the browser, as rviz does",
     "page": "print the links of the pages that run",
     "check": "list errors and unsupported elements of a file",

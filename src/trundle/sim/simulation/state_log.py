@@ -12,7 +12,7 @@ or, without Trundle, `numpy.fromfile` after the first line.
 import contextlib
 import json
 from pathlib import Path
-from typing import IO
+from typing import IO, TYPE_CHECKING
 
 import numpy as np
 from msgspec import Struct
@@ -22,8 +22,10 @@ from trundle.base.diagnostics import DescriptionError, Source
 from trundle.base.file_lock import FileLock
 from trundle.base.files import open_file
 
-from .snapshot import Snapshot
 from .state_log_format import FORMAT
+
+if TYPE_CHECKING:  # reading a log needs no physics
+    from .snapshot import Snapshot
 
 _ROW = np.dtype("<f8")
 _LONGEST_HEADER = 256 * 1024 * 1024
@@ -61,7 +63,7 @@ class StateRecorder:
         header = {"format": FORMAT, "links": links, "joints": joints, "sdf": sdf}
         self._write(json.dumps(header).encode() + b"\n")
 
-    def after_step(self, snapshot: Snapshot) -> None:
+    def after_step(self, snapshot: "Snapshot") -> None:
         """Write a row.
 
         Raises:

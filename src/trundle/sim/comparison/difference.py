@@ -1,0 +1,48 @@
+"""Difference of one value between a run and its reference."""
+
+from typing import Literal, TypeAlias
+
+import numpy as np
+from msgspec import Struct
+from numpy.typing import NDArray
+
+_Array = NDArray[np.float64]
+Quantity: TypeAlias = Literal["distance", "angle", "position"]
+
+
+class Difference(Struct, frozen=True, kw_only=True):
+    """Difference of one value between a run and its reference: now, and over the time that both have had so far."""
+
+    name: str
+    """Model, or `model::joint`."""
+    quantity: Quantity
+    """Distance [m] and angle [rad] between the poses of a model, difference in position [rad or m] of a joint."""
+    now: float | None
+    """None: the reference has no such time, or the run no such model."""
+    maximum: float | None
+    """None: there was no time that both have."""
+    maximum_time: float | None
+    """The run's time at the maximum [s]."""
+    rms: float | None
+    """Root mean square."""
+
+
+def differences(poses: _Array, positions: _Array, other_poses: _Array, other_positions: _Array) -> _Array:
+    """Return (rows, 2 · models + joints): distances [m], angles [rad], and joints' differences [rad or m].
+
+    Args:
+        poses: (rows, models, 7) x y z, qw qx qy qz.
+        positions: (rows, joints).
+        other_poses: poses to compare with.
+        other_positions: positions to compare with.
+    """
+    distances = np.linalg.norm(poses[..., :3] - other_poses[..., :3], axis=-1)
+    joints = np.abs(positions - other_positions)
+    return np.concatenate([distances, _angles(poses[..., 3:], other_poses[..., 3:]), joints], axis=-1)
+
+
+def _angles(some: _Array, others: _Array) -> _Array:
+    """Return the angles between orientations of any length, exact for small angles as well."""
+    w, v, w_other, v_other = some[..., :1], some[..., 1:], others[..., :1], others[..., 1:]
+    sine = np.linalg.norm(w * v_other - w_other * v - np.cross(v, v_other), axis=-1)
+    return 2.0 * np.arctan2(sine, np.abs(np.sum(some * others, axis=-1)))
