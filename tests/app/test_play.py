@@ -1,5 +1,6 @@
 """Playback of a state log on a page."""
 
+import os
 from pathlib import Path
 from typing import Any, cast
 
@@ -8,10 +9,20 @@ import pytest
 from tests.page.simulated_world.fake_server import FakeServer
 
 import trundle
+from trundle.app.compare import compare_logs
 from trundle.app.play import LogPage, PlayOptions, play
-from trundle.base.diagnostics import DescriptionError
+from trundle.base.diagnostics import DescriptionError, UsageError
 from trundle.live.state_logs import start_state_log
-from trundle.page import PageServer, Pause, RenderView, Seek, SetSpeed
+from trundle.page import (
+    Compare,
+    PageServer,
+    Pause,
+    RenderView,
+    Seek,
+    SetReferenceOffset,
+    SetSpeed,
+    StopComparing,
+)
 from trundle.sim.simulation import Simulation, read_state_log
 
 PENDULUM = """<sdf version="1.6"><world name="w"><model name="m"><link name="arm"><pose>0 0 1 0 0 0</pose>
@@ -82,6 +93,58 @@ def test_pictures_are_rendered_at_the_time_of_playback(recording: tuple[Simulati
     page.update(0.1)
 
     assert server.pictures.get(timeout=60)[0] == number
+
+
+def test_two_logs_are_compared(recording: tuple[Simulation, Path], tmp_path: Path) -> None:
+    """The pendulum of the second begins at another angle; the page's numbers are those of `trundle compare`."""
+    _, file = recording
+    other = tmp_path / "other.log"
+    sim = trundle.load(str(tmp_path / "w.sdf"))
+    sim["m"].joint("hinge").set_position(0.3)
+    recorder = start_state_log(other, sim, sim.world, sim.report)
+    sim.add_hook(recorder, period_ns=recorder.period_ns)
+    sim.run(1.0)
+    recorder.close()
+    page, server = open_page(recording, paused=True)
+    while not server.worlds:
+        page.update(0.01)
+
+    numbers = [server.ask(Compare(file=os.fsencode(other), title="other.log")), server.ask(Seek(1_000_000_000))]
+    for _ in range(3):
+        page.update(0.0)
+
+    assert [server.answers[number] for number in numbers] == [None, None]
+    manifest, files = server.worlds[-1]
+    assert (manifest["reference"]["title"], manifest["reference"]["duration"]) == ("other.log", pytest.approx(1.0))
+    assert manifest["reference"]["url"] in files
+    expected = {(row.name, row.quantity): row for row in compare_logs(file, other).rows}
+    found = {(row["name"], row["quantity"]): row for row in server.differences[-1]["rows"]}
+    assert found["m::hinge", "position"]["maximum"] >= 0.3
+    for key, row in expected.items():
+        assert found[key]["maximum"] == pytest.approx(row.maximum), key
+        assert found[key]["now"] == pytest.approx(row.now), key
+
+    shift, stop = server.ask(SetReferenceOffset(1.5)), server.ask(StopComparing())
+    page.update(0.0)
+    assert (server.answers[shift], server.answers[stop]) == (None, None)
+    assert [world["reference"] and world["reference"]["start"] for world, _ in server.worlds[-2:]] == [1.5, None]
+
+
+def test_only_state_logs_of_this_world_are_compared(recording: tuple[Simulation, Path], tmp_path: Path) -> None:
+    bag, other = tmp_path / "run.bag", tmp_path / "other.log"
+    bag.write_bytes(b"#ROSBAG V2.0\n")
+    content = recording[1].read_bytes()
+    other.write_bytes(content.replace(b'"m::arm"', b'"n::arm"', 1))
+    page, server = open_page(recording)
+
+    number = server.ask(Compare(file=os.fsencode(other), title="other.log"))
+    page.update(0.0)
+
+    assert server.answers[number] == "other.log is a recording of another world: it has n, and here m can move"
+    with pytest.raises(UsageError, match="--compare needs two state logs"):
+        play(bag, PlayOptions(compare=recording[1]))
+    with pytest.raises(DescriptionError, match="not a state log"):
+        play(recording[1], PlayOptions(compare=bag))
 
 
 def test_an_empty_log_is_refused(recording: tuple[Simulation, Path]) -> None:

@@ -12,11 +12,13 @@ from trundle.page.replay.page_file import ReplayAbout
 from trundle.page.requests.request import RenderView, SocketAction
 from trundle.page.requests.world import RenderModel
 from trundle.page.session import PageSession
+from trundle.page.uploads.recording import UploadedRecording
 from trundle.page.uploads.upload_folder import UploadedModels
 from trundle.page.world import streams
 from trundle.page.world.manifest import Manifest
 from trundle.page.world.people import People
 from trundle.page.world.profile import Profile
+from trundle.page.world.reference import Differences
 
 REQUESTS: tuple[type[Struct], ...] = get_args(SocketAction)
 QUERIES = (RenderView, RenderModel)
@@ -26,12 +28,13 @@ CHANNELS: Mapping[str, Any] = {
     streams.WORLD: Manifest,
     streams.STATE: streams.ClockState,
     streams.PERFORMANCE: Profile,
+    streams.DIFFERENCES: Differences,
     streams.DROPS: dict[str, int],
     streams.PEOPLE: People,
     streams.LANES: Lanes,
 }
 """Content of the channels whose encoding is JSON."""
-DOCUMENTS = (streams.SeriesHead, UploadedModels, ReplayAbout)
+DOCUMENTS = (streams.SeriesHead, UploadedModels, UploadedRecording, ReplayAbout)
 """What else clients receive."""
 UNIONS: Mapping[str, Any] = {
     "ServerOperation": ServerOperation,

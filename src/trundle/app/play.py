@@ -11,26 +11,42 @@ from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from trundle.base.console import Console
-from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, TrundleError
+from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, TrundleError, UsageError
 from trundle.base.files import open_file
 from trundle.base.http.page_address import AllowedNames, PageAddress
 from trundle.base.signals import StopFlag, stop_flag
-from trundle.page import JOINTS, POSES, BagFile, PageServer, Playback, RenderView, Session
+from trundle.page import (
+    JOINTS,
+    POSES,
+    BagFile,
+    Compare,
+    PageAction,
+    PageServer,
+    Playback,
+    RenderView,
+    Session,
+    SetReferenceOffset,
+    StopComparing,
+)
 from trundle.page.actor_bones import ActorBones
 from trundle.page.browser import announce_page
 from trundle.page.simulated_world.body_numbers import BodyNumbers
+from trundle.page.simulated_world.controls import reason_of
 from trundle.page.simulated_world.manifest import find_robot, single_axes, world_manifest
 from trundle.page.simulated_world.pictures import WorldPictures
-from trundle.page.simulated_world.world_builder import WorldBuilder
+from trundle.page.simulated_world.reference import Reference, read_recording
+from trundle.page.simulated_world.world_builder import BuiltWorld, WorldBuilder
 from trundle.robots.model import AnimationState
 from trundle.ros import open_bag
 from trundle.ros.bridge import WORLD_FRAME
+from trundle.sim.comparison import Trajectory
 from trundle.sim.simulation import Simulation, StateLog
 from trundle.spatial import NS_PER_S
 
 from .recorded_run import open_recording
 
 _FRAME_S = 1 / 30
+_FRAMES_PER_COMPARISON = 3
 _POLL_S = 0.5
 _BAG_MAGIC = (b"#ROSBAG", b"#ROSRECORD", b"\x89MCAP0\r\n")
 
@@ -50,6 +66,8 @@ class PlayOptions:
     speed: float = 1.0
     """Recorded seconds per second of wall time."""
     paused: bool = False
+    compare: Path | None = None
+    """Recording to compare with."""
 
     @property
     def address(self) -> PageAddress:
@@ -64,16 +82,22 @@ def play(file: Path, options: PlayOptions) -> int:
         TrundleError: the file is neither, or its world cannot be read.
     """
     if _is_bag(file):
+        if options.compare is not None:
+            raise UsageError("--compare needs two state logs; a bag has no simulated world")
         return play_bag(file, options)
     report = Diagnostics()
     log, simulation = open_recording(file, report)
     show = Console(sys.stderr, report)
     show.findings()
+    reference = None if options.compare is None else read_recording(options.compare, str(options.compare))
     robot = find_robot(simulation.world)
     session = Session(title=file.name, kind="log", robot=None if robot is None else robot.name, fixed_frame=WORLD_FRAME)
     with stop_flag() as stop, PageServer.start(session, at=options.address) as server:
+        page = LogPage(server, log, simulation, options)
+        if options.compare is not None and reference is not None:
+            page.compare(reference, str(options.compare))
         announce_page(server, options.address, show.line, opens_browser=options.opens_browser)
-        LogPage(server, log, simulation, options).run(stop)
+        page.run(stop)
     return 130
 
 
@@ -126,6 +150,9 @@ class LogPage:
         bodies = (*log.links, *self._bones.names)
         self._bodies.update(bodies)
         self._builder = WorldBuilder()
+        self._built: BuiltWorld | None = None
+        self._reference: Reference | None = None
+        self._frames = 0
         manifest = replace(world_manifest(simulation, [], self._bodies), generation=1)
         self._builder.build(simulation.world, manifest, {name: self._bodies[name] for name in bodies})
 
@@ -147,22 +174,65 @@ class LogPage:
                 self._draw(request.id, request.action)
                 continue
             try:
-                playback.handle(request.action)
+                self._handle(request.action)
             except TrundleError as error:
-                server.respond(request.id, str(error))
+                server.respond(request.id, reason_of(error))
             else:
                 server.respond(request.id)
         playback.advance(wall_s)
         while (world := self._builder.poll()) is not None:
             self._simulation.report.extend(world.report.findings)
-            server.set_world(world.manifest, world.files)
+            self._built = world
+            self._show_world()
         sample = playback.sample
         if server.is_watched(POSES):
             poses = self._bones.with_bones(self._log.poses[sample], self._animation_state)
             server.put_poses(playback.time_ns, self._bodies.rows(poses))
         if server.is_watched(JOINTS):
             server.put_joints(playback.time_ns, self._joints[sample])
+        self._frames += 1
+        if self._reference is not None and self._frames % _FRAMES_PER_COMPARISON == 0:
+            self._reference.put_differences(server, playback.time_ns / NS_PER_S)
         server.put_state(playback.state)
+
+    def compare(self, recording: StateLog, title: str) -> None:
+        """Compare the log with another.
+
+        Raises:
+            UsageError: it was recorded in another world.
+        """
+        start = float(self._log.times[0])
+        reference = Reference(recording, title, self._simulation, start=start)
+        compared = reference.comparison.reference
+        reference.comparison.add_run(Trajectory.of_log(self._log).only(compared.models, compared.joints))
+        self._reference = reference
+        self._show_world()
+
+    def _handle(self, action: PageAction) -> None:
+        """Execute a request.
+
+        Raises:
+            TrundleError: it cannot be executed.
+        """
+        match action:
+            case Compare(file, title):
+                self.compare(read_recording(Path(os.fsdecode(file)), title), title)
+            case SetReferenceOffset(offset) if self._reference is not None:
+                self._reference.comparison.offset = offset
+                self._show_world()
+            case StopComparing():
+                self._reference = None
+                self._show_world()
+            case _:
+                self._playback.handle(action)
+
+    def _show_world(self) -> None:
+        if self._built is None:
+            return
+        manifest, files = self._built.manifest, self._built.files
+        if self._reference is not None:
+            manifest, files = self._reference.with_info(manifest), {**files, **self._reference.files}
+        self._server.set_world(manifest, files)
 
     def _animation_state(self, actor: str) -> AnimationState:
         """State of an actor's script at the displayed time; plugins' changes to it are not recorded."""

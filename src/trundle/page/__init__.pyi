@@ -39,6 +39,7 @@ from .requests.edits import (
 )
 from .requests.request import (
     MAX_STEPS as MAX_STEPS,
+    Compare as Compare,
     MoveJoystick as MoveJoystick,
     MoveSlider as MoveSlider,
     PageAction as PageAction,
@@ -52,8 +53,10 @@ from .requests.request import (
     RunTo as RunTo,
     SaveRviz as SaveRviz,
     Seek as Seek,
+    SetReferenceOffset as SetReferenceOffset,
     SetSpeed as SetSpeed,
     Step as Step,
+    StopComparing as StopComparing,
 )
 from .requests.world import (
     CopyModel as CopyModel,
@@ -76,6 +79,7 @@ from .session import JointSlider as JointSlider, NodeTerminal as NodeTerminal, R
 from .wire import BagFile as BagFile, GraphAddress as GraphAddress
 from .world.streams import (
     CONTACTS as CONTACTS,
+    DIFFERENCES as DIFFERENCES,
     JOINTS as JOINTS,
     LINES as LINES,
     PERFORMANCE as PERFORMANCE,

@@ -43,6 +43,7 @@ from .requests.answers import DefinitionText, FilesExist, SavedFile
 from .requests.request import REQUEST_NAMES, ClientAction, Definition, PlotSeries, RenderView, SaveRvizAs, SocketAction
 from .requests.world import RenderModel
 from .session import PageSession, RvizFile, Session
+from .uploads.recording import compare_upload
 from .uploads.upload_folder import Uploads
 from .view_only import allows, allows_binary, allows_request
 from .wire import (
@@ -67,6 +68,7 @@ from .world.channels import (
     StreamChannel,
     WorldChannel,
     contacts_channel,
+    differences_channel,
     joints_channel,
     line_channels,
     performance_channel,
@@ -117,7 +119,7 @@ class Page:
                 contacts_channel(world),
                 *line_channels(),
             )
-            streams += (series_channel(), performance_channel())
+            streams += (series_channel(), performance_channel(), differences_channel())
         self._streams: dict[str, StreamChannel] = {stream.topic: stream for stream in streams}
         self.hub = Hub(
             session_id=str(time.time_ns()),
@@ -239,6 +241,12 @@ class Page:
         if self._session.kind != "simulation":
             raise UsageError("models can only be inserted into a simulation")
         return await self._uploads.receive(parts)
+
+    async def compare(self, parts: MultipartReader) -> str:
+        """Receive a state log, compare the world with it, and return its title; raises UsageError."""
+        if self._session.kind not in ("simulation", "log"):
+            raise UsageError("a recording can only be compared with a simulation or with another recording")
+        return await compare_upload(parts, self._owner.compare)
 
     # -- for clients
 

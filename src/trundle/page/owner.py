@@ -8,7 +8,7 @@ from msgspec import UNSET
 from .clients.connection import Connection
 from .clients.server_messages import Response
 from .picture_slots import PictureError, PictureSlots
-from .requests.request import ClientAction, PageAction, RenderView, Request
+from .requests.request import ClientAction, Compare, PageAction, RenderView, Request
 from .requests.world import RenderModel
 from .wire import Driven, FromServer, Plotted, Respond, Watched
 
@@ -17,6 +17,7 @@ MAX_IN_FLIGHT = 64
 _MAX_PICTURES = 4
 _MAX_WAITING_PICTURES = 60
 _PICTURE_TIMEOUT_S = 60.0
+_COMPARE_TIMEOUT_S = 60.0
 
 
 class Owner:
@@ -32,7 +33,7 @@ class Owner:
         self.send = send
         self._last_id = last_request
         self._pending: dict[int, tuple[Connection, int | str]] = {}
-        self._pictures: dict[int, asyncio.Future[Respond]] = {}
+        self._asked: dict[int, asyncio.Future[Respond]] = {}
         self._picture_slots = PictureSlots(_MAX_PICTURES, max_waiting=_MAX_WAITING_PICTURES)
         self._watched: frozenset[str] = frozenset()
         self._plotted: frozenset[str] = frozenset()
@@ -50,28 +51,37 @@ class Owner:
         Raises:
             PictureError: the picture cannot be drawn, or not in time.
         """
-        async with self._picture_slots.slot():
-            return await self._render(view)
-
-    async def _render(self, view: RenderView | RenderModel) -> bytes:
-        number = self._send(view)
-        future = self._pictures[number] = asyncio.get_running_loop().create_future()
         try:
-            answer = await asyncio.wait_for(future, _PICTURE_TIMEOUT_S)
+            async with self._picture_slots.slot():
+                answer = await self._ask(view, _PICTURE_TIMEOUT_S)
         except TimeoutError:
             raise PictureError(f"no picture within {_PICTURE_TIMEOUT_S:.0f} s") from None
-        finally:
-            del self._pictures[number]
         if answer.picture is None:
             raise PictureError(answer.error or "the picture cannot be drawn")
         return answer.picture
+
+    async def compare(self, action: Compare) -> str | None:
+        """Compare the world with a state log; return the reason if it cannot be compared."""
+        try:
+            return (await self._ask(action, _COMPARE_TIMEOUT_S)).error
+        except TimeoutError:
+            return f"the simulation did not read the recording within {_COMPARE_TIMEOUT_S:.0f} s"
+
+    async def _ask(self, action: PageAction, timeout_s: float) -> Respond:
+        """Send a request and wait for its answer; raises TimeoutError."""
+        number = self._send(action)
+        future = self._asked[number] = asyncio.get_running_loop().create_future()
+        try:
+            return await asyncio.wait_for(future, timeout_s)
+        finally:
+            del self._asked[number]
 
     def receive(self, answer: Respond) -> None:
         """Forward the owner's answer to the client, if it is still connected."""
         if (request := self._pending.pop(answer.id, None)) is not None:
             respond(*request, answer.error, answer.answer)
-        elif (picture := self._pictures.get(answer.id)) is not None and not picture.done():
-            picture.set_result(answer)
+        elif (asked := self._asked.get(answer.id)) is not None and not asked.done():
+            asked.set_result(answer)
 
     def forget(self, client: Connection) -> None:
         """Remove the requests of a client that has disconnected."""

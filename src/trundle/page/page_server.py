@@ -50,6 +50,7 @@ from .wire import (
 from .world.streams import (
     ARRAY_HEADER,
     CONTACTS,
+    DIFFERENCES,
     IMAGE_HEADER,
     JOINTS,
     LINES,
@@ -71,6 +72,7 @@ if TYPE_CHECKING:
 
     from .world.manifest import Manifest
     from .world.profile import Profile
+    from .world.reference import Differences
 
 _MAX_REQUESTS = 1000
 _MIN_MAILBOX_BYTES = 4096
@@ -281,6 +283,10 @@ class PageServer:
     def put_performance(self, profile: "Profile") -> None:
         """Show how the wall time of the last second was spent."""
         self._put(PERFORMANCE, [msgspec.json.encode(profile)])
+
+    def put_differences(self, differences: "Differences") -> None:
+        """Show the differences from the recording that the world is compared with."""
+        self._put(DIFFERENCES, [msgspec.json.encode(differences)])
 
     def put_lines(self, time_ns: int, lines: Iterable[Line]) -> None:
         """Replace the lines."""

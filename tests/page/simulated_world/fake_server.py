@@ -11,6 +11,7 @@ from trundle.page.requests.answers import DONE, Answer
 from trundle.page.shared_page import SharedPage
 from trundle.page.world.manifest import Manifest
 from trundle.page.world.profile import Profile
+from trundle.page.world.reference import Differences
 from trundle.page.world.streams import SeriesHead
 
 
@@ -40,6 +41,7 @@ class FakeServer:
         self.plotted: tuple[str, ...] = ()
         self.series: list[tuple[int, dict[str, Any], Any]] = []
         self.profiles: list[dict[str, Any]] = []
+        self.differences: list[dict[str, Any]] = []
         self.is_closed = False
 
     def ask(self, action: PageAction) -> int:
@@ -51,6 +53,9 @@ class FakeServer:
     def requests(self, **_: object) -> list[Request]:
         pending, self.pending = self.pending, []
         return pending
+
+    def set_node(self, _: object) -> None:
+        pass
 
     def set_session(self, session: Session) -> None:
         self.session = session
@@ -87,6 +92,9 @@ class FakeServer:
 
     def put_performance(self, profile: Profile) -> None:
         self.profiles.append(sent(profile))
+
+    def put_differences(self, differences: Differences) -> None:
+        self.differences.append(sent(differences))
 
     def put_lines(self, time_ns: int, lines: Any) -> None:
         self.lines.append((time_ns, list(lines)))

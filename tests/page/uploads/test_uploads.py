@@ -29,7 +29,9 @@ def zipped(files: dict[str, str]) -> bytes:
 CART = zipped({"cart/model.config": CONFIG.format("A cart"), "cart/model.sdf": "<sdf/>"})
 
 
-def _post(url: str, files: dict[str, bytes], *, kind: str = "multipart/form-data", **fields: str) -> tuple[int, str]:
+def post(
+    url: str, files: dict[str, bytes], *, to: str = "models", kind: str = "multipart/form-data", **fields: str
+) -> tuple[int, str]:
     """Send a form as a browser does; return status and body."""
     boundary, parts = uuid.uuid4().hex, urlsplit(url)
     body = b"".join(
@@ -43,7 +45,7 @@ def _post(url: str, files: dict[str, bytes], *, kind: str = "multipart/form-data
     headers = {"Content-Type": f"{kind}; boundary={boundary}"} | {
         name.replace("_", "-").title(): text for name, text in fields.items()
     }
-    connection.request("POST", f"/models?{parts.query}", body + f"--{boundary}--\r\n".encode(), headers)
+    connection.request("POST", f"/{to}?{parts.query}", body + f"--{boundary}--\r\n".encode(), headers)
     answer = connection.getresponse()
     status, text = answer.status, answer.read().decode().strip()
     connection.close()
@@ -60,14 +62,14 @@ def _uploads(page: PageServer) -> Path:
 
 
 def test_an_archive_becomes_a_model_and_replaces_an_earlier_upload(page: PageServer) -> None:
-    assert _post(page.url, {"cart.zip": CART}, origin=page.url.partition("/?")[0]) == (
+    assert post(page.url, {"cart.zip": CART}, origin=page.url.partition("/?")[0]) == (
         200,
         '{"models":["cart"]}',
     )
     folder = _uploads(page)
     assert sorted(file.name for file in (folder / "cart").iterdir()) == ["model.config", "model.sdf"]
     files = {"cart/model.config": CONFIG.encode(), "cart/model.sdf": b"<sdf></sdf>", "cart/meshes/w.stl": b"solid"}
-    assert _post(page.url, files) == (200, '{"models":["cart"]}')
+    assert post(page.url, files) == (200, '{"models":["cart"]}')
     assert (folder / "cart/model.sdf").read_bytes() == b"<sdf></sdf>"
     assert (folder / "cart/meshes/w.stl").read_bytes() == b"solid"
     assert [file.name for file in folder.parent.parent.glob("trundle-upload-*")] == []
@@ -76,13 +78,13 @@ def test_an_archive_becomes_a_model_and_replaces_an_earlier_upload(page: PageSer
 def test_uploaded_code_is_held(page: PageServer) -> None:
     """A held file is not loaded as a plugin until the user consents."""
     files = {"coded/model.sdf": b"<sdf/>", "coded/code.py": b"", "coded/scripts/more.PY": b""}
-    assert _post(page.url, files)[0] == 200
+    assert post(page.url, files)[0] == 200
     folder = _uploads(page) / "coded"
     assert {file.name for file in folder.rglob("*.*")} == {"model.config", "model.sdf", "code.py.held", "more.PY.held"}
 
 
 def test_a_single_file_is_a_model(page: PageServer) -> None:
-    assert _post(page.url, {"my wagon.urdf": b"<robot/>"}) == (200, '{"models":["my wagon"]}')
+    assert post(page.url, {"my wagon.urdf": b"<robot/>"}) == (200, '{"models":["my wagon"]}')
     assert "my wagon.urdf" in (_uploads(page) / "my wagon" / "model.config").read_text()
 
 
@@ -102,34 +104,34 @@ def test_a_single_file_is_a_model(page: PageServer) -> None:
 def test_a_refused_upload_has_a_reason_and_stores_nothing(
     page: PageServer, files: dict[str, bytes], reason: str
 ) -> None:
-    _post(page.url, {"cart.zip": CART})
+    post(page.url, {"cart.zip": CART})
     before = sorted(_uploads(page).parent.rglob("*"))
-    status, body = _post(page.url, files)
+    status, body = post(page.url, files)
     assert (status, reason in body) == (400, True), body
     assert sorted(_uploads(page).parent.rglob("*")) == before
 
 
 def test_a_body_that_is_not_a_form_is_refused(page: PageServer) -> None:
-    assert _post(page.url, {"cart.zip": CART}, kind="text/plain")[0] == 400
+    assert post(page.url, {"cart.zip": CART}, kind="text/plain")[0] == 400
     for broken in ("multipart/form-data", "multipart/form-data; boundary=other"):
         connection = http.client.HTTPConnection(urlsplit(page.url).netloc, timeout=60)
         target = f"/models?{urlsplit(page.url).query}"
         connection.request("POST", target, b"nonsense\r\n" * 1000, {"Content-Type": broken})
         assert connection.getresponse().status == 400
         connection.close()
-    assert _post(page.url, {"cart.zip": CART}, content_encoding="gzip")[0] == 400
+    assert post(page.url, {"cart.zip": CART}, content_encoding="gzip")[0] == 400
 
 
 def test_uploads_need_a_token_with_full_access(page: PageServer) -> None:
     files = {"intruder.zip": zipped({"intruder/model.config": "", "intruder/model.sdf": ""})}
-    assert _post(page.view_url, files) == (403, "this link is view-only")
+    assert post(page.view_url, files) == (403, "this link is view-only")
     bare = page.url.partition("?")[0]
     foreign: list[dict[str, str]] = [{}, {"origin": bare.rstrip("/")}, {"origin": "http://evil.example"}]
     for fields in (*foreign, {"origin": "null"}):
-        assert _post(bare, files, **fields)[0] == 403
-    assert _post(f"{bare}?view_only&{urlsplit(page.url).query}", files) == (403, "this link is view-only")
-    assert _post(page.url, files, host="evil.example")[0] == 403
-    assert _post(page.url, {"cart.zip": CART})[0] == 200
+        assert post(bare, files, **fields)[0] == 403
+    assert post(f"{bare}?view_only&{urlsplit(page.url).query}", files) == (403, "this link is view-only")
+    assert post(page.url, files, host="evil.example")[0] == 403
+    assert post(page.url, {"cart.zip": CART})[0] == 200
     assert not (_uploads(page) / "intruder").exists()
 
 
@@ -140,14 +142,14 @@ def graph_page() -> Iterator[PageServer]:
 
 
 def test_uploads_without_a_simulation_or_a_token_are_refused(graph_page: PageServer) -> None:
-    assert _post(graph_page.url, {"cart.zip": CART}) == (400, "models can only be inserted into a simulation")
-    assert _post(graph_page.url.partition("?")[0], {"cart.zip": CART})[0] == 403
+    assert post(graph_page.url, {"cart.zip": CART}) == (400, "models can only be inserted into a simulation")
+    assert post(graph_page.url.partition("?")[0], {"cart.zip": CART})[0] == 403
     assert graph_page.uploads is None
 
 
 def test_uploads_are_removed_when_the_page_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     with PageServer.start(Session(title="t", kind="simulation"), at=PageAddress(port=0)) as page:
-        assert _post(page.url, {"cart.zip": CART})[0] == 200
+        assert post(page.url, {"cart.zip": CART})[0] == 200
         assert list(tmp_path.glob("trundle-models-*/models/cart/model.sdf")) != []
     assert list(tmp_path.glob("trundle-models-*")) == []

@@ -130,4 +130,5 @@ export const MANIFEST: Manifest = {
   frames: [],
   resources: [],
   draft: null,
+  reference: null,
 };

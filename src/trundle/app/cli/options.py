@@ -3,6 +3,7 @@
 import argparse
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
@@ -49,6 +50,12 @@ def _megabytes(text: str) -> int:
     if value < 0:
         raise argparse.ArgumentTypeError(f"{text} is not a size; give megabytes, such as 256")
     return value
+
+
+def add_compare(parser: argparse.ArgumentParser) -> None:
+    """Declare the option of commands whose page compares what it shows with a recording."""
+    help_ = "state log to compare with: as a ghost, in plots and in numbers"
+    field_option(parser)("--compare", type=Path, metavar="LOG", help=help_)
 
 
 def add_allow_outside(parser: argparse.ArgumentParser) -> None:

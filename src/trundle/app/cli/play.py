@@ -3,13 +3,14 @@
 import argparse
 from pathlib import Path
 
-from .options import add_allow_outside, add_page_access, field_option, page_access, read_options
+from .options import add_allow_outside, add_compare, add_page_access, field_option, page_access, read_options
 from .quiet_imports import quiet_imports
 
 EXAMPLES = """
   trundle run world.sdf --record run.log              record states at 50 Hz
   trundle play run.log                                show it in a loop
   trundle play run.log --speed 0.2                    slowly
+  trundle play run.log --compare other.log            with a second run as a ghost, and their differences
   trundle play drive.bag                              a bag, with its topics in the page's displays
 """
 
@@ -20,6 +21,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add = field_option(parser)
     add("--speed", type=_positive, metavar="X", help="real-time factor (1)")
     add("--pause", action="store_true", dest="paused", help="start paused")
+    add_compare(parser)
     add("--port", type=int, metavar="N", help="the page's port (8080, or the next free one)")
     add("--host", help="address that the page binds (127.0.0.1)")
     add_page_access(parser)

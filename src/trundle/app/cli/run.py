@@ -9,6 +9,7 @@ from trundle.base.diagnostics import DescriptionError, Diagnostic, Source, Trund
 
 from .options import (
     add_allow_outside,
+    add_compare,
     add_lenient,
     add_page_access,
     add_renderer,
@@ -49,6 +50,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     on_instability = "action when the physics diverges (pause with a page, exit without)"
     add("--on-instability", choices=("pause", "reset", "exit"), help=on_instability)
     add("--record", type=Path, metavar="FILE", help="write a state log for `trundle play`")
+    add_compare(parser)
     add_timeline(parser)
     add_page_access(parser)
     add_allow_outside(parser)

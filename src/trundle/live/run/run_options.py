@@ -37,6 +37,8 @@ class RunOptions:
     strict: bool = False
     record: Path | None = None
     """Path of the state log to write."""
+    compare: Path | None = None
+    """Recording to compare the run with, on its page."""
     timeline_mb: int = 256
     """Memory of the timeline, with a page [MB]; 0: none."""
     on_instability: OnInstability | None = None

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from trundle.base.console import Console
-from trundle.base.diagnostics import Diagnostics, TrundleError
+from trundle.base.diagnostics import Diagnostics, TrundleError, UsageError
 from trundle.base.http.page_address import PageAddress
 from trundle.base.signals import StopFlag, stop_flag
 from trundle.gazebo.plugin_error import plugin_error
@@ -52,6 +52,8 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
 
         if joined := master_notice(env):
             show.line(f"{joined}: something else started it")
+    if options.headless and options.compare is not None:
+        raise UsageError("--compare needs the page: leave --headless out, or record and use trundle compare")
     warn_of_network(options.host, show.line)
     report_workspace(file, Packages(env, start=Path.cwd()), show.line)
     world = RunningWorld(file, options, env, report, show)  # Ctrl-C still ends the process at once
@@ -61,6 +63,8 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         page = None
         if not options.headless:
             page = resources.enter_context(_open_page(world, options, show.line))
+            if options.compare is not None:
+                page.compare(options.compare, str(options.compare))
         wall_s = _simulate(world, page, options, stop, show.line)
         show.findings()
         simulation = world.simulation

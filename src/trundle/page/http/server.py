@@ -22,6 +22,7 @@ from ..clients.protocol import SUBPROTOCOLS, TRUNDLE_DRIVE
 from ..picture_slots import PictureError, PictureSlots
 from ..requests.request import RenderView
 from ..requests.world import RenderModel
+from ..uploads.recording import UploadedRecording
 from ..uploads.upload_folder import UploadedModels
 from ..view_only import REFUSAL
 from .client_files import MISSING, ClientFiles, content_type, is_immutable
@@ -63,6 +64,10 @@ class Page(Protocol):
         """Receive a model and return the names of the models that can now be inserted; raises UsageError."""
         ...
 
+    async def compare(self, parts: MultipartReader) -> str:
+        """Receive a recording, compare the world with it, and return its title; raises UsageError."""
+        ...
+
     def join(self, outbox: Outbox, *, protocol: str, is_view_only: bool) -> Connection:
         """Add a client that speaks a subprotocol."""
         ...
@@ -99,6 +104,7 @@ class HttpServer:
         app.router.add_get("/model.png", self._model_picture)
         app.router.add_get("/model.glb", self._model_shape)
         app.router.add_post("/models", self._upload)
+        app.router.add_post("/reference", self._compare)
         app.router.add_get("/{path:.*}", self._root)
         runner = web.AppRunner(app, access_log=None, handle_signals=False)
         await runner.setup()
@@ -169,15 +175,30 @@ class HttpServer:
         return web.Response(body=drawn, content_type=media_type, headers=headers)
 
     async def _upload(self, request: web.Request) -> web.StreamResponse:
+        async def receive(parts: MultipartReader) -> msgspec.Struct:
+            return UploadedModels(models=tuple(await self._page.upload(parts)))
+
+        return await self._receive_form(request, receive)
+
+    async def _compare(self, request: web.Request) -> web.StreamResponse:
+        async def receive(parts: MultipartReader) -> msgspec.Struct:
+            return UploadedRecording(title=await self._page.compare(parts))
+
+        return await self._receive_form(request, receive)
+
+    async def _receive_form(
+        self, request: web.Request, receive: Callable[[MultipartReader], Awaitable[msgspec.Struct]]
+    ) -> web.StreamResponse:
+        """Receive files from a client with full access; answer with JSON, or with the reason for a refusal."""
         if self._is_view_only(request):
             return web.Response(status=403, text=f"{REFUSAL}\n", content_type=_TEXT)
         try:
             if request.content_type != "multipart/form-data":
-                raise UsageError("send a model's files as multipart/form-data")
-            names = await self._page.upload(await request.multipart())
+                raise UsageError("send files as multipart/form-data")
+            answer = await receive(await request.multipart())
         except (UsageError, ValueError, HttpProcessingError, web.RequestPayloadError) as error:
             return web.Response(status=400, text=f"{' '.join(str(error).split())}\n", content_type=_TEXT)
-        return web.json_response(body=msgspec.json.encode(UploadedModels(models=tuple(names))))
+        return web.json_response(body=msgspec.json.encode(answer))
 
     async def _root(self, request: web.Request) -> web.StreamResponse:
         path = request.match_info["path"]

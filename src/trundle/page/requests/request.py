@@ -65,6 +65,25 @@ class Seek(Action, frozen=True):
     time_ns: TimeNs
 
 
+class SetReferenceOffset(Action, frozen=True, tag="reference_offset"):
+    """Set the time by which the recording that the world is compared with starts after the run."""
+
+    offset: Annotated[float, msgspec.Meta(ge=-1e6, le=1e6)]
+    """[s]"""
+
+
+class StopComparing(Action, frozen=True, tag="stop_comparing"):
+    """Stop comparing the world with a recording."""
+
+
+class Compare(Action, frozen=True, tag="compare"):
+    """Compare the world with a state log that a client uploaded; the server makes this request itself."""
+
+    file: bytes
+    """Path in the system's encoding."""
+    title: str
+
+
 class MoveSlider(Action, frozen=True, tag="slider"):
     """Move a joint of joint_state_publisher_gui."""
 
@@ -160,6 +179,8 @@ ClientAction: TypeAlias = (
     | MoveJoystick
     | SaveRviz
     | Record
+    | SetReferenceOffset
+    | StopComparing
 )
 """Requests through the page's socket that its owner answers."""
 SocketAction: TypeAlias = ClientAction | Definition | PlotSeries | SaveRvizAs
@@ -167,7 +188,7 @@ SocketAction: TypeAlias = ClientAction | Definition | PlotSeries | SaveRvizAs
 REQUEST_NAMES = frozenset(str(action.__struct_config__.tag) for action in get_args(SocketAction))
 GraphAction: TypeAlias = MoveSlider | MoveJoystick | SaveRviz
 """Requests to nodes of the graph; all others are for the simulation or recording."""
-PageAction: TypeAlias = ClientAction | RenderView | RenderModel
+PageAction: TypeAlias = ClientAction | RenderView | RenderModel | Compare
 
 
 class Request(msgspec.Struct, frozen=True, tag=True):

@@ -1,5 +1,6 @@
 """Page of a running simulation: its start and end, and the requests of its users."""
 
+import os
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -9,6 +10,7 @@ from trundle.base.diagnostics import TrundleError, UsageError
 from trundle.page import (
     POSES,
     BeginDraft,
+    Compare,
     DraftAction,
     InsertAction,
     ModelAction,
@@ -21,7 +23,10 @@ from trundle.page import (
     RunTo,
     SaveReplay,
     SaveWorld,
+    Seek,
+    SetReferenceOffset,
     Step,
+    StopComparing,
 )
 from trundle.robots.model import World
 from trundle.ros import Node
@@ -184,7 +189,9 @@ class SimulationPage:
             return paused or isinstance(request.action, BeginDraft)
         if isinstance(request.action, Play | Step | RunTo) and self._drafting.is_open:
             raise UsageError("the simulation is paused while a model is edited: finish or leave it first")
-        if isinstance(request.action, ModelAction):
+        if isinstance(request.action, Compare | SetReferenceOffset | StopComparing):
+            self._compare(request.action)
+        elif isinstance(request.action, ModelAction):
             self._model_edits.handle(request.action)
             pacer.restart()
         elif isinstance(request.action, Reload) and self.on_reload is not None:
@@ -192,8 +199,33 @@ class SimulationPage:
             pacer.restart()
         else:
             paused = self._controls.handle(request.action, pacer, paused=paused)
+            if isinstance(request.action, Seek):
+                self._streams.comparison.follow()
         self._server.respond(request.id)
         return paused
+
+    def compare(self, file: Path, title: str) -> None:
+        """Compare the world with a state log.
+
+        Raises:
+            TrundleError: the file is not a state log of this world, or cannot be read.
+        """
+        try:
+            self._streams.comparison.open(file, title)
+        except OSError as error:
+            raise UsageError(f"{title} cannot be read: {error.strerror}") from None
+        self._streams.show_comparison()
+
+    def _compare(self, action: Compare | SetReferenceOffset | StopComparing) -> None:
+        match action:
+            case Compare(file, title):
+                self.compare(Path(os.fsdecode(file)), title)
+                return
+            case SetReferenceOffset():
+                self._streams.comparison.set_offset(action)
+            case StopComparing():
+                self._streams.comparison.stop()
+        self._streams.show_comparison()
 
     def _show_draft(self) -> None:
         """Show the draft's edits since the last call."""

@@ -24,6 +24,7 @@ from .contact_rows import ContactRows
 from .controls import Recorder
 from .drafting import NO_DRAFT, ShownDraft
 from .lines import plugin_lines
+from .live_comparison import LiveComparison
 from .manifest import camera_topic, single_axes, world_manifest
 from .pose_history import PoseHistory
 from .series_sampler import SeriesSampler
@@ -66,6 +67,7 @@ class WorldStreams:
         self._series = SeriesSampler(server)
         self.history = PoseHistory()
         """Poses of the last minutes."""
+        self.comparison = LiveComparison(server)
         self._bodies = BodyNumbers()
         self._builder = WorldBuilder()
         self._generation = server.generation
@@ -111,6 +113,7 @@ class WorldStreams:
         self._contacts = ContactRows(simulation, self._bodies)
         self._series.show(simulation, sensors)
         self.history.clear()
+        self.comparison.show(simulation)
         if not self._has_graph:
             self._listen([sensor for sensor in sensors if isinstance(sensor, CameraSensor)])
 
@@ -157,31 +160,37 @@ class WorldStreams:
         self._slow_due_ns = now + _SLOW_NS
         if server.is_watched(JOINTS):
             server.put_joints(time_ns, self._joint_rows(snapshot))
+        self.comparison.put(snapshot)
         self._put_state(time_ns, pacer, paused=paused)
 
     def _publish_world(self) -> None:
         while (built := self._builder.poll()) is not None:
             self._simulation.report.extend(built.report.findings)
             self._built = built
-            self._server.set_world(self._with_draft(built), built.files)
+            self._server.set_world(self._complete(built), {**built.files, **self.comparison.files})
 
     def show_draft(self, draft: ShownDraft) -> None:
         """Show the model that is being edited, next to the world."""
         self._draft = draft
         if self._built is not None:
-            self._server.set_world(self._with_draft(self._built), draft.files)
+            self._server.set_world(self._complete(self._built), draft.files)
 
     def show_offered_file(self) -> None:
         """Update the path to offer for saving the world."""
         if self._built is not None:
             manifest = replace(self._built.manifest, file=self._offered_file(self._simulation.world))
             self._built = replace(self._built, manifest=manifest)
-            self._server.set_world(self._with_draft(self._built), {})
+            self._server.set_world(self._complete(self._built), {})
 
-    def _with_draft(self, built: BuiltWorld) -> Manifest:
-        """Return a manifest with the draft and its files."""
+    def show_comparison(self) -> None:
+        """Show the recording that the world is compared with, or that there is none."""
+        if self._built is not None:
+            self._server.set_world(self._complete(self._built), self.comparison.files)
+
+    def _complete(self, built: BuiltWorld) -> Manifest:
+        """Return a manifest with the draft, the recording and their files."""
         resources = (*built.manifest.resources, *self._draft.resources)
-        return replace(built.manifest, draft=self._draft.info, resources=resources)
+        return self.comparison.with_info(replace(built.manifest, draft=self._draft.info, resources=resources))
 
     def _joint_rows(self, snapshot: Snapshot) -> NDArray[np.float64]:
         columns = (snapshot.joint_positions, snapshot.joint_velocities, snapshot.joint_efforts)

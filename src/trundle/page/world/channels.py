@@ -10,7 +10,19 @@ from ..clients.channel import Channel, Client
 from ..clients.frames import Buffer
 from ..clients.protocol import ENCODING
 from ..mailbox import Mailbox
-from .streams import ARRAY_HEADER, CONTACTS, JOINTS, LINES, PERFORMANCE, POSES, RANGES, SERIES, STATE, WORLD
+from .streams import (
+    ARRAY_HEADER,
+    CONTACTS,
+    DIFFERENCES,
+    JOINTS,
+    LINES,
+    PERFORMANCE,
+    POSES,
+    RANGES,
+    SERIES,
+    STATE,
+    WORLD,
+)
 
 _XYZ_XYZW = [0, 1, 2, 4, 5, 6, 3]
 """Order of a pose's columns on the wire, as indices into x y z qw qx qy qz."""
@@ -206,6 +218,11 @@ def series_channel() -> StreamChannel:
 def performance_channel() -> StreamChannel:
     """Return the channel of profiles."""
     return StreamChannel(PERFORMANCE, encoding="json", period_s=0.0)
+
+
+def differences_channel() -> StreamChannel:
+    """Return the channel of the differences from the recording that the world is compared with."""
+    return StreamChannel(DIFFERENCES, encoding="json", period_s=0.0)
 
 
 def joints_channel(world: WorldChannel) -> RowsChannel:

@@ -5,6 +5,7 @@ from typing import TypeAlias
 from msgspec import Struct
 
 from .draft_info import DraftInfo, FileUrl
+from .reference import ReferenceInfo
 
 Triple: TypeAlias = tuple[float, float, float]
 PoseNumbers: TypeAlias = tuple[float, float, float, float, float, float]
@@ -173,7 +174,7 @@ class FrameInfo(Struct, frozen=True, kw_only=True):
 
 
 class Manifest(Struct, frozen=True, kw_only=True):
-    """Simulated world; generation, file, files and draft are set later."""
+    """Simulated world; generation, file, files, draft and reference are set later."""
 
     generation: int = 0
     """Number that is also in the headers of this world's poses, joints and contacts."""
@@ -198,3 +199,5 @@ class Manifest(Struct, frozen=True, kw_only=True):
     frames: tuple[FrameInfo, ...] = ()
     draft: DraftInfo | None = None
     """Copy of a model that is being edited, shown in place of the original."""
+    reference: ReferenceInfo | None = None
+    """Recording that the world is compared with."""

@@ -185,6 +185,7 @@ export const manifest: is.Check<page.Manifest> = is.struct(() => ({
   cameras: is.list(cameraInfo),
   frames: is.list(frameInfo),
   draft: is.nullable(draftInfo),
+  reference: is.nullable(referenceInfo),
 }));
 
 export const fileUrl: is.Check<page.FileUrl> = is.struct(() => ({ id: is.text, url: is.text }));
@@ -340,6 +341,17 @@ export const draftFinding: is.Check<page.DraftFinding> = is.struct(() => ({
   line: is.nullable(is.number),
 }));
 
+export const referenceInfo: is.Check<page.ReferenceInfo> = is.struct(() => ({
+  title: is.text,
+  url: is.text,
+  start: is.float,
+  offset: is.float,
+  duration: is.float,
+  samples: is.number,
+  links: is.list(is.text),
+  joints: is.list(is.text),
+}));
+
 export const clockState: is.Check<page.ClockState> = is.struct(() => ({
   time_ns: is.number,
   paused: is.flag,
@@ -368,6 +380,17 @@ export const profilePart: is.Check<page.ProfilePart> = is.struct(() => ({
   group: is.literal("cameras", "other", "page", "physics", "plugins", "ros", "sensors", "waiting"),
   name: is.text,
   wall_s: is.float,
+}));
+
+export const differences: is.Check<page.Differences> = is.struct(() => ({ time: is.float, rows: is.list(difference) }));
+
+export const difference: is.Check<page.Difference> = is.struct(() => ({
+  name: is.text,
+  quantity: is.literal("angle", "distance", "position"),
+  now: is.nullable(is.float),
+  maximum: is.nullable(is.float),
+  maximum_time: is.nullable(is.float),
+  rms: is.nullable(is.float),
 }));
 
 export const people: is.Check<page.People> = is.struct(() => ({ you: is.number, people: is.list(person) }));
@@ -420,6 +443,8 @@ export const seriesHead: is.Check<page.SeriesHead> = is.struct(() => ({
 }));
 
 export const uploadedModels: is.Check<page.UploadedModels> = is.struct(() => ({ models: is.list(is.text) }));
+
+export const uploadedRecording: is.Check<page.UploadedRecording> = is.struct(() => ({ title: is.text }));
 
 export const replayAbout: is.Check<page.ReplayAbout> = is.struct(() => ({
   title: is.text,
@@ -538,6 +563,8 @@ export const answers: { readonly [N in keyof page.Requests]: is.Check<page.Reque
   joystick: done,
   save_rviz: done,
   record: done,
+  reference_offset: done,
+  stop_comparing: done,
   definition: definitionText,
   plot: done,
   save_rviz_as: is.oneOf(savedFile, filesExist),
@@ -548,6 +575,7 @@ export const channels: { readonly [T in keyof page.Channels]: is.Check<page.Chan
   "trundle/world": manifest,
   "trundle/state": clockState,
   "trundle/performance": profile,
+  "trundle/differences": differences,
   "trundle/drops": is.record(is.number),
   "trundle/people": people,
   "trundle/lanes": lanes,

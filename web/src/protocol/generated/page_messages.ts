@@ -221,7 +221,7 @@ export interface NodeTerminal {
   readonly ended: string | null;
 }
 
-/** Simulated world; generation, file, files and draft are set later. */
+/** Simulated world; generation, file, files, draft and reference are set later. */
 export interface Manifest {
   /** Number that is also in the headers of this world's poses, joints and contacts. */
   readonly generation: number;
@@ -246,6 +246,8 @@ export interface Manifest {
   readonly frames: readonly FrameInfo[];
   /** Copy of a model that is being edited, shown in place of the original. */
   readonly draft: DraftInfo | null;
+  /** Recording that the world is compared with. */
+  readonly reference: ReferenceInfo | null;
 }
 
 /** GLB file. */
@@ -469,6 +471,27 @@ export interface DraftFinding {
   readonly line: number | null;
 }
 
+/** Recording that the world is compared with. */
+export interface ReferenceInfo {
+  readonly title: string;
+  /**
+   * URL of its samples, little-endian: times since its start (samples) f64 [s], positions of the joints
+   * (samples, joints) f64 [rad or m], poses of the links (samples, links, 7) f32: x y z [m], quaternion x y z w.
+   */
+  readonly url: string;
+  /** Time of the world at which it starts [s], with the offset. */
+  readonly start: number;
+  /** Time by which it starts after the run [s]. */
+  readonly offset: number;
+  /** [s] */
+  readonly duration: number;
+  readonly samples: number;
+  /** `model::link`, of the models that are compared. */
+  readonly links: readonly string[];
+  /** `model::joint` */
+  readonly joints: readonly string[];
+}
+
 /** Clock and its controls. */
 export interface ClockState {
   readonly time_ns: number;
@@ -516,6 +539,30 @@ export interface ProfilePart {
   readonly group: "cameras" | "other" | "page" | "physics" | "plugins" | "ros" | "sensors" | "waiting";
   readonly name: string;
   readonly wall_s: number;
+}
+
+/** Differences of the world from the recording that it is compared with. */
+export interface Differences {
+  /** [s] */
+  readonly time: number;
+  /** Models, the farthest first, each by distance and angle; then joints, the largest difference first. */
+  readonly rows: readonly Difference[];
+}
+
+/** Difference of one value between a run and its reference: now, and over the time that both have had so far. */
+export interface Difference {
+  /** Model, or `model::joint`. */
+  readonly name: string;
+  /** Distance [m] and angle [rad] between the poses of a model, difference in position [rad or m] of a joint. */
+  readonly quantity: "angle" | "distance" | "position";
+  /** Null: the reference has no such time, or the run no such model. */
+  readonly now: number | null;
+  /** Null: there was no time that both have. */
+  readonly maximum: number | null;
+  /** The run's time at the maximum [s]. */
+  readonly maximum_time: number | null;
+  /** Root mean square. */
+  readonly rms: number | null;
 }
 
 /** Users of the page. */
@@ -585,6 +632,11 @@ export interface SeriesHead {
 export interface UploadedModels {
   /** Names of the models that can now be inserted. */
   readonly models: readonly string[];
+}
+
+/** Answer to an upload of a recording: the world is compared with it. */
+export interface UploadedRecording {
+  readonly title: string;
 }
 
 /** Metadata of the recording in a replay's file. */
@@ -1028,6 +1080,15 @@ export interface Record {
   readonly on: boolean;
 }
 
+/** Set the time by which the recording that the world is compared with starts after the run. */
+export interface SetReferenceOffset {
+  /** [s] */
+  readonly offset: number;
+}
+
+/** Stop comparing the world with a recording. */
+export type StopComparing = { readonly [name: string]: never };
+
 /** Request the definition of a message type; the server answers this itself. */
 export interface Definition {
   readonly type: string;
@@ -1289,6 +1350,8 @@ export interface Requests {
   readonly joystick: { readonly fields: MoveJoystick; readonly answer: Done };
   readonly save_rviz: { readonly fields: SaveRviz; readonly answer: Done };
   readonly record: { readonly fields: Record; readonly answer: Done };
+  readonly reference_offset: { readonly fields: SetReferenceOffset; readonly answer: Done };
+  readonly stop_comparing: { readonly fields: StopComparing; readonly answer: Done };
   readonly definition: { readonly fields: Definition; readonly answer: DefinitionText };
   readonly plot: { readonly fields: PlotSeries; readonly answer: Done };
   readonly save_rviz_as: { readonly fields: SaveRvizAs; readonly answer: SavedFile | FilesExist };
@@ -1300,6 +1363,7 @@ export interface Channels {
   readonly "trundle/world": Manifest;
   readonly "trundle/state": ClockState;
   readonly "trundle/performance": Profile;
+  readonly "trundle/differences": Differences;
   readonly "trundle/drops": { readonly [name: string]: number };
   readonly "trundle/people": People;
   readonly "trundle/lanes": Lanes;
