@@ -13,7 +13,7 @@ import { UndoHistory } from "../src/app/undo";
 import type { FrameTree } from "../src/frames/frame_tree";
 import { NoTransform } from "../src/frames/transform";
 import type { SceneView } from "../src/scene/scene_view";
-import type { JointStates, SimulatedWorld } from "../src/scene/simulated_world";
+import type { JointStates, Reference, SimulatedWorld } from "../src/scene/simulated_world";
 import type { PaneLayout } from "../src/scene/panes/pane_layout";
 import type { ViewController, ViewPane, Views } from "../src/scene/view_controller";
 import type { Tool, ToolBox } from "../src/page/tool";
@@ -58,6 +58,7 @@ class FakeWorld implements SimulatedWorld {
   readonly progress = signal(1);
   readonly faults = signal<readonly string[]>([]);
   readonly joints = signal<JointStates>([]);
+  readonly reference = signal<Reference | null>(null);
   readonly shown = new ShownParts();
   readonly hidden = signal<ReadonlySet<string>>(new Set());
   onPoses(): () => void {

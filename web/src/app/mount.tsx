@@ -22,6 +22,7 @@ import { App } from "./app";
 import { modelCommands } from "./world/model_edits";
 import { cameraCommands } from "./views/first_person";
 import { insertionCommands } from "./insert/insertion_commands";
+import { compareCommands } from "./compare_recording";
 import { listenForKeys, type CommandList } from "./commands";
 import { acceptDroppedFiles } from "./dialogs/open_files";
 import type { Page } from "../page/page";
@@ -54,6 +55,7 @@ export function mount(root: HTMLElement, { page, panels, commands, sceneHost, fr
   commands.add(
     ...insertionCommands(shell),
     ...simulationCommands(shell),
+    ...compareCommands(shell),
     ...saveCommands(shell),
     ...pageCommands(shell),
     ...ofView,

@@ -1,6 +1,7 @@
 /** All panels of the dock, in the order in which they are offered. */
 
 import "./panels.css";
+import { comparePanel } from "./compare";
 import { graphPanel } from "./graph";
 import { imagesPanel } from "./images";
 import { jointsPanel } from "./joints";
@@ -26,6 +27,7 @@ export const panels: readonly Panel[] = [
   graphPanel,
   timelinePanel,
   performancePanel,
+  comparePanel,
   imagesPanel,
   nodesPanel,
   servicesPanel,

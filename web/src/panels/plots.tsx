@@ -10,6 +10,7 @@ import type { Panel, PanelProps } from "./panel";
 import { timeText } from "./messages/format";
 import { CurvePicker } from "./plots/curve_picker";
 import { Legend } from "./plots/legend";
+import { REFERENCE_MODES } from "./plots/line";
 import { parquetFile } from "./plots/parquet";
 import { PlotCanvas } from "./plots/plot_canvas";
 import { plotsState, WINDOWS, type PlotsState } from "./plots/plots_state";
@@ -71,6 +72,14 @@ function Actions({ page }: PanelProps): JSX.Element {
         <Button small onClick={() => void (state.zoom.value = null)}>
           To now
         </Button>
+      )}
+      {state.reference.value !== null && (
+        <Select
+          label="Recording to compare with"
+          value={state.mode.value}
+          choices={REFERENCE_MODES}
+          onChange={(mode) => void (state.mode.value = REFERENCE_MODES.find((one) => one === mode) ?? "With reference")}
+        />
       )}
       <Select
         label="Time window"

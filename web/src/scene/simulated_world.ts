@@ -3,9 +3,10 @@
 import type { ReadonlySignal, Signal } from "@preact/signals";
 import type { Box3, Object3D } from "three";
 
-import type { ClockState, Manifest } from "../protocol/generated/page_messages";
+import type { ClockState, Manifest, ReferenceInfo } from "../protocol/generated/page_messages";
 import type { Transform } from "../frames/transform";
 import type { ShownParts } from "./overlays/shown_parts";
+import type { ReferenceMotion } from "./world/reference_motion";
 
 export type SixNumbers = readonly [number, number, number, number, number, number];
 export type Triple = readonly [number, number, number];
@@ -22,6 +23,12 @@ export interface JointStates {
   at(index: number): JointState | undefined;
 }
 
+/** Recording that the world is compared with. */
+export interface Reference {
+  readonly info: ReferenceInfo;
+  readonly motion: ReferenceMotion;
+}
+
 export interface SimulatedWorld {
   /** Null where nothing is simulated or recorded. */
   readonly manifest: ReadonlySignal<Manifest | null>;
@@ -32,6 +39,8 @@ export interface SimulatedWorld {
   readonly faults: ReadonlySignal<readonly string[]>;
   /** Changes at 10 Hz while something listens. */
   readonly joints: ReadonlySignal<JointStates>;
+  /** Null: nothing is compared, or it is not loaded yet. */
+  readonly reference: ReadonlySignal<Reference | null>;
   /** Shown parts of the world. */
   readonly shown: ShownParts;
   /** Names (`model` or `model::link`) that are hidden. */

@@ -1,5 +1,6 @@
 /** Opens files of the person's machine: a chosen .rviz file, or files dropped onto the page. */
 
+import { compareWith, isRecording } from "../compare_recording";
 import { droppedModel } from "../insert/model_files";
 import type { Shell } from "../shell";
 import { canEdit } from "../world/edits";
@@ -13,7 +14,7 @@ export function chooseRviz(shell: Shell): void {
   input.click();
 }
 
-/** Open files dropped onto the page, and upload models if they can be inserted; returns a function that stops. */
+/** Open files dropped onto the page: recordings to compare with, models to insert; returns a function that stops. */
 export function acceptDroppedFiles(shell: Shell): () => void {
   const events = new AbortController();
   const hasFile = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") === true;
@@ -25,7 +26,8 @@ export function acceptDroppedFiles(shell: Shell): () => void {
     event.preventDefault();
     const { dataTransfer: carried } = event;
     const file = carried?.files[0];
-    if (carried !== null && file !== undefined && canEdit(shell) && !RVIZ.test(file.name)) {
+    if (file !== undefined && isRecording(shell.page, file)) void compareWith(shell, file);
+    else if (carried !== null && file !== undefined && canEdit(shell) && !RVIZ.test(file.name)) {
       const { upload } = shell.insertion;
       upload.open();
       void upload.send(droppedModel(carried));

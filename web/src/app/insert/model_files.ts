@@ -2,6 +2,7 @@
 
 import { read } from "../../protocol/check";
 import { uploadedModels } from "../../protocol/generated/page_checks";
+import { postForm, type Progress } from "../post_form";
 
 /** A file, and its path from the folder that was chosen. */
 export interface ModelFile {
@@ -64,9 +65,6 @@ export function titleOf(files: readonly ModelFile[]): string {
   return files[0]?.path.split("/")[0] ?? "";
 }
 
-/** Called with the bytes sent and the total [B]. */
-export type Progress = (sent: number, total: number) => void;
-
 /** Send a model to the server; returns the names of the models in it, or throws a sentence. */
 export async function sendModel(
   files: readonly ModelFile[],
@@ -79,21 +77,6 @@ export async function sendModel(
     throw new Error(`it is too large: a model has at most ${MAX_BYTES / 2 ** 20} MiB`);
   const form = new FormData();
   for (const { path, file } of files) form.append(path, file);
-  const answer = await post(`models${location.search}`, form, signal, progress);
+  const answer = await postForm(`models${location.search}`, form, signal, progress);
   return read(answer, "the answer to the upload", uploadedModels).models;
-}
-
-/** Post a form by XMLHttpRequest, which unlike fetch reports its progress in every browser. */
-function post(url: string, form: FormData, signal: AbortSignal, progress: Progress): Promise<string> {
-  const request = new XMLHttpRequest();
-  return new Promise((resolve, reject) => {
-    request.upload.onprogress = ({ loaded, total }) => progress(loaded, total);
-    request.onload = () =>
-      request.status === 200 ? resolve(request.responseText) : reject(new Error(request.responseText.trim()));
-    request.onerror = () => reject(new Error("the connection was lost"));
-    request.onabort = () => reject(new DOMException("cancelled", "AbortError"));
-    signal.addEventListener("abort", () => request.abort());
-    request.open("POST", url);
-    request.send(form);
-  });
 }

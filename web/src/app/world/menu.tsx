@@ -6,16 +6,16 @@ import { MenuButton } from "../../theme/menu";
 import type { MenuItem } from "../../theme/menu_list";
 import type { Shell } from "../shell";
 
-const COMMANDS = ["side.insert", "new_model", "save_world", "reload"];
-/** First command of a group below the first. */
-const STARTS = "save_world";
+const COMMANDS = ["side.insert", "new_model", "save_world", "reload", "compare", "compare.stop"];
+/** Commands that start a group below the first. */
+const STARTS = ["save_world", "compare"];
 
 export function WorldMenu({ shell }: { readonly shell: Shell }): JSX.Element {
   const items = (): readonly MenuItem[] =>
     COMMANDS.flatMap((id) => shell.commands.all.peek().filter((command) => command.id === id)).map(
       ({ id, title, keys, run, enabled }) => ({
         title,
-        starts: id === STARTS,
+        starts: STARTS.includes(id),
         keys,
         disabled: enabled?.() === false,
         run,

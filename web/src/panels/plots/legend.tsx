@@ -10,6 +10,7 @@ import { SteadyNumber } from "../../theme/steady_number";
 import { significant } from "../messages/format";
 import { useTick } from "../use";
 import type { Curve } from "./curve";
+import { valueAt, type Line } from "./line";
 import type { Plot } from "./plot";
 import type { PlotsState } from "./plots_state";
 import { COLORS, isDashed } from "./style";
@@ -23,42 +24,73 @@ const VALUE_LENGTH = 6;
 export function Legend({ state, plot }: { readonly state: PlotsState; readonly plot: Plot }): JSX.Element {
   useTick(PERIOD);
   const time = state.cursor.value ?? state.shownTime() ?? state.pausedAt;
+  const lines = state.lines(plot.curves);
   return (
     <ul class="legend" aria-label="Curves">
-      {plot.curves.map((curve, index) => {
-        const value = time === null ? curve.points.lastY : curve.points.at(time);
-        return (
-          <li
-            key={curve.path}
-            class={isDashed(index) ? "dash" : ""}
-            style={{ "--c": `var(${COLORS[index % COLORS.length] ?? ""})` }}
-          >
-            <span class="n" title={curve.path}>
-              <Name text={curve.name} />
-            </span>
-            <span class="num">
-              <b>
-                <SteadyNumber
-                  text={value === null ? "—" : legendText(value, largest(curve, state))}
-                  length={VALUE_LENGTH}
-                />
-              </b>{" "}
-              {curve.unit.value !== "" && <span class="unit">{curve.unit.value}</span>}
-            </span>
-            <MenuButton label={`Curve ${curve.path}`} icon="dots" class="sml" items={() => items(state, plot, curve)} />
-            <span class="t">
-              {curve.fault.value === "" ? curve.caption : <span class="warned">{curve.fault.value}</span>}
-            </span>
-          </li>
-        );
-      })}
+      {lines
+        .filter(({ isReference }) => !isReference)
+        .map((line) => (
+          <LegendRow
+            key={line.curve.path}
+            state={state}
+            plot={plot}
+            line={line}
+            reference={lines.find(({ curve, isReference }) => isReference && curve === line.curve)}
+            time={time ?? line.curve.points.lastX}
+          />
+        ))}
     </ul>
   );
 }
 
+interface LegendRowProps {
+  readonly state: PlotsState;
+  readonly plot: Plot;
+  readonly line: Line;
+  /** Line of the recording that the world is compared with. */
+  readonly reference: Line | undefined;
+  /** Time of the values [s]; null: there is none yet. */
+  readonly time: number | null;
+}
+
+function LegendRow({ state, plot, line, reference, time }: LegendRowProps): JSX.Element {
+  const { curve, index } = line;
+  const textOf = (of: Line): string => {
+    const value = time === null ? null : valueAt(of, time);
+    return value === null ? "—" : legendText(value, largest(of, state));
+  };
+  const color = { "--c": `var(${COLORS[index % COLORS.length] ?? ""})` };
+  return (
+    <li class={isDashed(index) ? "dash" : ""} style={color}>
+      <span class="n" title={line.name}>
+        <Name text={curve.name} />
+      </span>
+      <span class="num">
+        <b>
+          <SteadyNumber text={textOf(line)} length={VALUE_LENGTH} />
+        </b>{" "}
+        {curve.unit.value !== "" && <span class="unit">{curve.unit.value}</span>}
+      </span>
+      <MenuButton label={`Curve ${curve.path}`} icon="dots" class="sml" items={() => items(state, plot, curve)} />
+      <span class="t">
+        {curve.fault.value === "" ? curve.caption : <span class="warned">{curve.fault.value}</span>}
+      </span>
+      {line.name !== curve.path && <span class="t">difference from the reference</span>}
+      {reference !== undefined && (
+        <span class="t referenced">
+          reference{" "}
+          <span class="num">
+            <SteadyNumber text={textOf(reference)} length={VALUE_LENGTH} />
+          </span>
+        </span>
+      )}
+    </li>
+  );
+}
+
 /** Largest absolute value that is shown. */
-function largest({ points }: Curve, state: PlotsState): number {
-  return points.between(...state.range())[1].reduce((max, y) => Math.max(max, Math.abs(y)), 0);
+function largest({ between }: Line, state: PlotsState): number {
+  return between(...state.range())[1].reduce((max, y) => Math.max(max, Math.abs(y)), 0);
 }
 
 /** Value with decimals by the largest one, so that it keeps its width; 0 if negligible. */

@@ -7,9 +7,10 @@ import "uplot/dist/uPlot.min.css";
 
 import { significant, timeText } from "../messages/format";
 import type { Curve } from "./curve";
+import type { Line } from "./line";
 import { paddedRange, type Range } from "./plot";
 import type { PlotsState } from "./plots_state";
-import { COLORS, isDashed } from "./style";
+import { COLORS, isDashed, REFERENCE_DASH } from "./style";
 
 interface PlotCanvasProps {
   readonly state: PlotsState;
@@ -34,32 +35,32 @@ export function PlotCanvas({ state, curves, theme }: PlotCanvasProps): JSX.Eleme
   const axes = curves.map((curve) => curve.axis.value).join();
   const units = curves.map((curve) => curve.unit.value).join();
   const held = curves.map((curve) => curve.isHeld.value).join();
+  const lines = state.lines(curves);
+  const names = lines.map(({ name }) => name).join(", ");
   useEffect(() => {
     const element = box.current;
     if (element === null) return;
-    const plot = new uPlot(options(element, state, curves), emptyData(curves), element);
+    const plot = new uPlot(options(element, state, lines), emptyData(lines), element);
     const fit = new ResizeObserver(() => plot.setSize({ width: element.clientWidth, height: element.clientHeight }));
     fit.observe(element);
-    const stop = keepDrawing(plot, state, curves);
+    const stop = keepDrawing(plot, state, lines);
     return () => {
       stop();
       fit.disconnect();
       plot.destroy();
     };
-  }, [state, curves, theme, axes, units, held]);
-  return (
-    <div ref={box} class="canvas" role="img" aria-label={`Plot of ${curves.map((curve) => curve.path).join(", ")}`} />
-  );
+  }, [state, curves, theme, axes, units, held, names, state.mode.value, state.reference.value]);
+  return <div ref={box} class="canvas" role="img" aria-label={`Plot of ${names}`} />;
 }
 
 /** Draw when points came or the range changed; returns a function that stops. */
-function keepDrawing(plot: uPlot, state: PlotsState, curves: readonly Curve[]): () => void {
+function keepDrawing(plot: uPlot, state: PlotsState, lines: readonly Line[]): () => void {
   let drawn = "";
   const draw = (): void => {
     const range = state.range();
     const key = [
       ...range,
-      state.isPaused.peek() ? "" : curves.map((curve) => curve.revision).join(),
+      state.isPaused.peek() ? "" : lines.map(({ curve }) => curve.revision).join(),
       plot.width,
       plot.height,
       state.cursor.peek(),
@@ -67,7 +68,7 @@ function keepDrawing(plot: uPlot, state: PlotsState, curves: readonly Curve[]): 
     ].join(" ");
     if (key === drawn) return;
     drawn = key;
-    show(plot, curves, range);
+    show(plot, lines, range);
   };
   let frame = 0;
   let last = 0;
@@ -81,24 +82,24 @@ function keepDrawing(plot: uPlot, state: PlotsState, curves: readonly Curve[]): 
   return () => cancelAnimationFrame(frame);
 }
 
-function show(plot: uPlot, curves: readonly Curve[], [from, to]: Range): void {
-  const parts = curves.map((curve) => curve.points.between(from, to));
+function show(plot: uPlot, lines: readonly Line[], [from, to]: Range): void {
+  const parts = lines.map(({ between }) => between(from, to));
   plot.batch(() => {
     plot.setData([EMPTY, ...parts] as unknown as uPlot.AlignedData, false);
     plot.setScale("x", { min: from, max: to });
     for (const axis of ["left", "right"] as const) {
-      const values = parts.filter((_, index) => curves[index]?.axis.peek() === axis).map(([, ys]) => ys);
+      const values = parts.filter((_, index) => lines[index]?.curve.axis.peek() === axis).map(([, ys]) => ys);
       const [min, max] = paddedRange(values);
       plot.setScale(axis, { min, max });
     }
   });
 }
 
-function emptyData(curves: readonly Curve[]): uPlot.AlignedData {
-  return [EMPTY, ...curves.map(() => [EMPTY, EMPTY])] as unknown as uPlot.AlignedData;
+function emptyData(lines: readonly Line[]): uPlot.AlignedData {
+  return [EMPTY, ...lines.map(() => [EMPTY, EMPTY])] as unknown as uPlot.AlignedData;
 }
 
-function options(element: HTMLElement, state: PlotsState, curves: readonly Curve[]): uPlot.Options {
+function options(element: HTMLElement, state: PlotsState, lines: readonly Line[]): uPlot.Options {
   const style = getComputedStyle(element);
   const color = (name: string): string => style.getPropertyValue(name).trim();
   const axis = {
@@ -108,7 +109,7 @@ function options(element: HTMLElement, state: PlotsState, curves: readonly Curve
     ticks: { show: false },
     gap: GAP,
   };
-  const hasRight = curves.some((curve) => curve.axis.peek() === "right");
+  const hasRight = lines.some(({ curve }) => curve.axis.peek() === "right");
   const value = (side: uPlot.Axis.Side, scale: "left" | "right"): uPlot.Axis => ({
     ...axis,
     side,
@@ -135,7 +136,7 @@ function options(element: HTMLElement, state: PlotsState, curves: readonly Curve
       value(LEFT, "left"),
       value(RIGHT, "right"),
     ],
-    series: [{}, ...curves.map((curve, index) => series(curve, index, color))],
+    series: [{}, ...lines.map((line) => series(line, color))],
     cursor: {
       y: false,
       points: { show: false },
@@ -183,7 +184,7 @@ function axisWidth(texts: readonly string[] | null): number {
   return Math.max(AXIS_WIDTH, ...(texts ?? []).map((text) => Math.ceil(DIGIT * text.length + GAP)));
 }
 
-function series(curve: Curve, index: number, color: (name: string) => string): uPlot.Series {
+function series({ curve, index, isReference }: Line, color: (name: string) => string): uPlot.Series {
   const drawn: uPlot.Series = {
     stroke: color(COLORS[index % COLORS.length] ?? ""),
     width: 1.5,
@@ -196,7 +197,8 @@ function series(curve: Curve, index: number, color: (name: string) => string): u
   const { linear, stepped } = uPlot.paths;
   const paths = curve.isHeld.peek() ? stepped?.({ align: 1, extend: true }) : linear?.();
   if (paths !== undefined) drawn.paths = paths;
-  if (isDashed(index)) drawn.dash = DASH;
+  if (isReference) drawn.dash = REFERENCE_DASH;
+  else if (isDashed(index)) drawn.dash = DASH;
   return drawn;
 }
 

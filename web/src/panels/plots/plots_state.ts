@@ -1,12 +1,14 @@
 /** Plots with their curves, and their common window, zoom, pause and cursor. */
 
-import { effect, signal, untracked } from "@preact/signals";
+import { effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
 
 import type { Page } from "../../page/page";
 import { forEachNew } from "../../page/session";
+import type { Reference } from "../../scene/simulated_world";
 import { perPage } from "../per_page";
 import { Curve } from "./curve";
 import { csvText, type CsvColumn } from "./csv";
+import { linesOf, type Line, type ReferenceMode } from "./line";
 import type { Plot, Range } from "./plot";
 import { speedOf } from "./suggestions";
 import { svgText } from "./svg";
@@ -26,6 +28,8 @@ export class PlotsState {
   /** Time under the cursor [s]. */
   readonly cursor = signal<number | null>(null);
   readonly isAdding = signal(false);
+  /** What is drawn while the world is compared with a recording. */
+  readonly mode = signal<ReferenceMode>("With reference");
   /** Time at which the plots are paused; null: running. */
   pausedAt: number | null = null;
   private plotCount = 1;
@@ -36,6 +40,16 @@ export class PlotsState {
       (path) => this.add(path),
     );
     this.drawSpeed();
+  }
+
+  /** Recording that the world is compared with; null: none. */
+  get reference(): ReadonlySignal<Reference | null> {
+    return this.page.world.reference;
+  }
+
+  /** Lines of curves: those of the run, and of the recording that it is compared with. */
+  lines(curves: readonly Curve[]): readonly Line[] {
+    return linesOf(curves, this.mode.value, this.reference.value);
   }
 
   /** Draw the robot's commanded and measured speed once they are known, unless a person or a launch was first. */
@@ -122,14 +136,17 @@ export class PlotsState {
 
   /** The plots as they are shown, one below the other. */
   svg(): string {
-    return svgText(this.plots.peek(), this.range());
+    return svgText(
+      this.plots.peek().map(({ curves }) => this.lines(curves)),
+      this.range(),
+    );
   }
 
-  /** All curves, whole. */
+  /** All lines, whole. */
   columns(): readonly CsvColumn[] {
-    return this.curves.map((curve) => {
-      const [xs, ys] = curve.points.between(-Infinity, Infinity);
-      return { name: curve.path, xs, ys };
+    return this.lines(this.curves).map(({ name, between }) => {
+      const [xs, ys] = between(-Infinity, Infinity);
+      return { name, xs, ys };
     });
   }
 

@@ -29,7 +29,8 @@ export class BodyPoses {
   private readonly objects: (Object3D | undefined)[] = [];
   /** Newest poses and those before them, oldest first. */
   private past: Past[] = [];
-  private drawnAt = 0n;
+  /** Time at which the bodies are drawn [ns]. */
+  drawnAt = 0n;
 
   /** Attach the object that follows a body. */
   attach(body: number, object: Object3D): void {

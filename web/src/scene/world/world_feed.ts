@@ -8,7 +8,7 @@ import type { DrawnFrames } from "../../frames/frame_tree";
 import type { Transform } from "../../frames/transform";
 import type { Connection } from "../../protocol/connection";
 import { ShownParts } from "../overlays/shown_parts";
-import type { JointStates, SimulatedWorld } from "../simulated_world";
+import type { JointStates, Reference, SimulatedWorld } from "../simulated_world";
 import type { ThreeScene } from "../three_scene";
 import { BodyPoses } from "./body_poses";
 import { modelOf, type GlbModel } from "./glb_model";
@@ -19,6 +19,7 @@ import { Sky } from "./sky";
 import { WorldFiles } from "./world_files";
 import { readLines, WorldLines } from "./world_lines";
 import { WorldLighting } from "./world_lighting";
+import { WorldReference } from "./world_reference";
 
 export class WorldFeed implements SimulatedWorld {
   readonly manifest = signal<Manifest | null>(null);
@@ -34,6 +35,7 @@ export class WorldFeed implements SimulatedWorld {
   private readonly placement: WorldPlacement;
   private readonly sky = new Sky();
   private readonly lines = new WorldLines();
+  private readonly compared: WorldReference;
   private readonly poseListeners = new Set<(time: number) => void>();
   private readonly stops: (() => void)[] = [];
   private collisionRequest = new AbortController();
@@ -48,6 +50,11 @@ export class WorldFeed implements SimulatedWorld {
     this.files = new WorldFiles(scene.world, this.lighting, (added, removed) => this.onFiles(added, removed));
     this.placement = new WorldPlacement(scene.world, this.poses, frames);
     this.joints = this.listenToJoints();
+    this.compared = new WorldReference(
+      scene,
+      (body) => this.object(body),
+      (error) => this.files.fault("The recording to compare with", error),
+    );
     this.sky.visible = false;
     scene.world.add(this.sky, this.lines);
     this.listen();
@@ -59,6 +66,10 @@ export class WorldFeed implements SimulatedWorld {
 
   get faults(): ReadonlySignal<readonly string[]> {
     return this.files.faults;
+  }
+
+  get reference(): ReadonlySignal<Reference | null> {
+    return this.compared.current;
   }
 
   onPoses(call: (time: number) => void): () => void {
@@ -97,6 +108,7 @@ export class WorldFeed implements SimulatedWorld {
   dispose(): void {
     for (const stop of this.stops) stop();
     this.files.show([]);
+    this.compared.dispose();
     this.scene.world.remove(this.sky, this.lines);
   }
 
@@ -141,6 +153,9 @@ export class WorldFeed implements SimulatedWorld {
         if (manifest !== null) scene.grid.value = isGrid && this.hasLoaded.value;
       }),
       effect(() => {
+        if (this.compared.current.value !== null) untracked(() => this.buildGhost());
+      }),
+      effect(() => {
         if (connection.state.value.kind === "connected") return;
         this.poses.forgetPoses(); // the server sends all of them again
       }),
@@ -169,6 +184,7 @@ export class WorldFeed implements SimulatedWorld {
     const before = this.manifest.peek();
     if (before !== null && before.name !== manifest.name) this.poses.forgetPoses();
     this.manifest.value = manifest;
+    this.compared.setManifest(manifest);
     const { scene } = manifest;
     this.lighting.setScene(scene);
     const background = scene.background.map((part) => Math.round(255 * part));
@@ -197,6 +213,7 @@ export class WorldFeed implements SimulatedWorld {
     for (const object of removed?.bodies.values() ?? []) this.poses.detach(object);
     this.hide(this.hidden.peek());
     untracked(() => this.showParts());
+    this.buildGhost();
     this.lighting.setContents(this.scene.world, this.manifest.peek()?.scene.shadows ?? false);
     this.scene.invalidate();
   }
@@ -211,7 +228,15 @@ export class WorldFeed implements SimulatedWorld {
   }
 
   private synchronize(): boolean {
-    return this.placement.synchronize(this.fixedFrame.peek(), this.state.peek()?.paused ?? true);
+    const moved = this.placement.synchronize(this.fixedFrame.peek(), this.state.peek()?.paused ?? true);
+    this.compared.show(Number(this.poses.drawnAt) / 1e9);
+    return moved;
+  }
+
+  private buildGhost(): void {
+    this.compared.rebuild(this.manifest.peek());
+    this.compared.show(Number(this.poses.drawnAt) / 1e9);
+    this.compared.hide((link) => isHidden(link, this.hidden.peek()));
   }
 
   private hide(hidden: ReadonlySet<string>): void {
@@ -219,6 +244,7 @@ export class WorldFeed implements SimulatedWorld {
       if (typeof object.userData["body"] === "number")
         object.visible = !isHidden(String(object.userData["name"]), hidden);
     });
+    this.compared.hide((link) => isHidden(link, hidden));
     this.lighting.invalidate();
     this.scene.invalidate();
   }

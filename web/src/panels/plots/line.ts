@@ -1,0 +1,47 @@
+/** Lines of a plot: its curves, and beside or instead of them what a recording has. */
+
+import type { Reference } from "../../scene/simulated_world";
+import type { Curve } from "./curve";
+import { differenceOf, referenceBetween, referenceOf, type Points } from "./reference_curve";
+
+/** What is drawn while the world is compared with a recording. */
+export const REFERENCE_MODES = ["With reference", "Difference", "Run alone"] as const;
+export type ReferenceMode = (typeof REFERENCE_MODES)[number];
+
+export interface Line {
+  readonly curve: Curve;
+  /** Index of its curve, which gives its color. */
+  readonly index: number;
+  /** Name of its column in files. */
+  readonly name: string;
+  readonly isReference: boolean;
+  /** Points of a range of time [s]. */
+  readonly between: (from: number, to: number) => Points;
+}
+
+export function linesOf(curves: readonly Curve[], mode: ReferenceMode, reference: Reference | null): readonly Line[] {
+  const lines = curves.map((curve, index): Line => {
+    const series = referenceOf(curve, reference);
+    const run = (from: number, to: number): Points => curve.points.between(from, to);
+    const name = curve.path;
+    if (mode !== "Difference" || series === null || reference === null)
+      return { curve, index, name, isReference: false, between: run };
+    const { start } = reference.info;
+    const between = (from: number, to: number): Points => differenceOf(run(from, to), series, start);
+    return { curve, index, name: `${name} (difference)`, isReference: false, between };
+  });
+  if (mode !== "With reference" || reference === null) return lines;
+  return lines.flatMap((line) => {
+    const series = referenceOf(line.curve, reference);
+    if (series === null) return [line];
+    const between = (from: number, to: number): Points => referenceBetween(series, reference.info.start, from, to);
+    return [line, { ...line, name: `${line.name} (reference)`, isReference: true, between }];
+  });
+}
+
+/** Value of a line's newest point at or before a time; null before the first. */
+export function valueAt(line: Line, time: number): number | null {
+  const [xs, ys] = line.between(time, time);
+  for (let at = xs.length - 1; at >= 0; at -= 1) if ((xs[at] ?? Infinity) <= time) return ys[at] ?? null;
+  return null;
+}
