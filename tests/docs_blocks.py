@@ -1,6 +1,6 @@
 """Runs the code blocks of a documentation page in order in an empty folder.
 
-A fence is
+A fence of three or more backticks is
 
 - ```bash: commands; a following ```text fence is their output, with `...` for variable parts;
 - ```python: a program, likewise with its output; with `>>>` at its start, a doctest of the whole page;
@@ -9,8 +9,9 @@ A fence is
 
 An HTML comment before a fence is a mark: `<!-- not run: REASON -->`, `<!-- fails -->` (exit code 1), and
 `<!-- keeps running: TEXT -->`: the next block runs after TEXT is printed, and SIGINT is sent at the page's end or
-before a block with `<!-- after Ctrl-C -->`. `trundle core` gets the port of the page's ROS_MASTER_URI.
-`<!-- slow -->` at the start of a page: it runs only in `make test-all`.
+before a block with `<!-- after Ctrl-C -->` or `<!-- after Ctrl-C, keeps running: TEXT -->`. `trundle core` gets the
+port of the page's ROS_MASTER_URI.
+`<!-- slow -->` at the start of a page, or after its front matter: it runs only in `make test-all`.
 """
 
 import itertools
@@ -33,15 +34,17 @@ import yaml
 
 ROOT = Path(__file__).parents[1]
 _DOCS = sorted((ROOT / "docs").rglob("*.md"))
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "ARCHITECTURE.md", *_DOCS] if _DOCS else []
+_LESSONS = sorted((ROOT / "src/trundle/assets/lessons").glob("*.md"))
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "ARCHITECTURE.md", *_DOCS, *_LESSONS] if _DOCS else []
 """Pages of the documentation; empty in the sdist."""
 COMMANDS = Path(os.environ.get("TRUNDLE_COMMANDS", Path(sys.executable).parent))
 """Folder of `trundle` and `python` for blocks."""
 _TIMEOUT_S = 300.0
+_SLOW = re.compile(r"(---\n.*?\n---\n)?<!-- slow -->", re.DOTALL)
 _FENCE = re.compile(
     r"(?:^[ ]*<!-- (?P<mark>[^\n]+?) -->\n+)?"
-    r"^(?P<indent>[ ]*)```(?P<language>\w+)(?: title=\"(?P<title>[^\"]+)\")?[ ]*\n"
-    r"(?P<text>.*?)^(?P=indent)```[ ]*$",
+    r"^(?P<indent>[ ]*)(?P<ticks>```+)(?P<language>\w+)(?: title=\"(?P<title>[^\"]+)\")?[ ]*\n"
+    r"(?P<text>.*?)^(?P=indent)(?P=ticks)[ ]*$",
     re.MULTILINE | re.DOTALL,
 )
 
@@ -94,7 +97,7 @@ def _has_doctest(page: Path) -> bool:
 
 def is_slow(page: Path) -> bool:
     """Return whether a page runs only in `make test-all`."""
-    return page.read_text().startswith("<!-- slow -->")
+    return _SLOW.match(page.read_text()) is not None
 
 
 def run_page(page: Path, folder: Path, *, commands: Path = COMMANDS) -> None:
@@ -114,7 +117,7 @@ def run_page(page: Path, folder: Path, *, commands: Path = COMMANDS) -> None:
 def _run_block(block: Block, expected: str | None, page_folder: Folder, name: str, running: ExitStack) -> None:
     if block.mark.startswith("not run:"):
         return
-    if block.mark == "after Ctrl-C":
+    if block.mark.startswith("after Ctrl-C"):
         running.close()
     if block.title:
         file = page_folder.path / block.title.replace("~", str(page_folder.path))
@@ -124,7 +127,7 @@ def _run_block(block: Block, expected: str | None, page_folder: Folder, name: st
         ElementTree.fromstring(f"<part xmlns:xacro='xacro'>{block.text}</part>")
     elif block.language == "yaml":
         yaml.safe_load(block.text)
-    elif block.mark.startswith("keeps running:"):
+    elif "keeps running:" in block.mark:
         running.enter_context(_run_in_background(block, page_folder, name))
     elif block.language == "bash":
         script = ["bash", "-e", "-c", block.text]

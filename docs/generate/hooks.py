@@ -24,6 +24,9 @@ PAGES: dict[str, Callable[[], str]] = {
     "reference/urdf.md": lambda: elements.page("urdf"),
 }
 """Generated pages, without a file below docs/."""
+LESSONS = ROOT / "src/trundle/assets/lessons"
+"""Lessons of the page, which are also tutorials here."""
+_CHECKS = re.compile(r"^```(check|look)\n.*?^```\n\n?", re.MULTILINE | re.DOTALL)
 ROOT_PAGES = ("ARCHITECTURE.md", "CONTRIBUTING.md", "RELEASING.md", "SECURITY.md")
 """Files next to docs/ that are also pages."""
 
@@ -34,6 +37,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
         files.append(File.generated(config, path, content=text()))
     for name in ROOT_PAGES:
         files.append(File.generated(config, name.lower(), content=_root_page(name)))
+    for path in sorted(LESSONS.glob("*.md")):
+        files.append(File.generated(config, f"tutorials/{path.name}", content=_CHECKS.sub("", path.read_text())))
     for path in sorted((ROOT / "examples").rglob("*")):
         if path.is_file() and path.suffix != ".pyc":
             files.append(File.generated(config, path.relative_to(ROOT).as_posix(), abs_src_path=str(path)))

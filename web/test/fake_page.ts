@@ -38,6 +38,7 @@ export const SESSION: PageSession = {
   sliders: [],
   joystick: false,
   terminals: [],
+  lesson: null,
   foxglove: "ws://localhost:8080/",
   view_only: false,
   token: "control",

@@ -10,9 +10,9 @@ from pathlib import Path
 import msgspec
 from aiohttp import MultipartReader
 
-from trundle.base.diagnostics import UsageError
+from trundle.base.diagnostics import TrundleError, UsageError
 from trundle.base.output_folder import find_target, save_files
-from trundle.ros import GraphLoop, MessageError, WallClock, open_bag
+from trundle.ros import GraphLoop, WallClock, open_bag
 
 from .bag.source import BagSource
 from .clients.assets import Assets
@@ -36,10 +36,12 @@ from .clients.protocol import (
     operation_decoder,
 )  # fmt: skip
 from .graph.ros_graph import RosGraph
+from .lesson_answers import LessonAnswers
 from .mailbox import Mailbox
 from .owner import MAX_IN_FLIGHT, Owner, respond
 from .picture_slots import PictureError
-from .requests.answers import DefinitionText, FilesExist, SavedFile
+from .requests.answers import Answer, DefinitionText, FilesExist, SavedFile
+from .requests.lessons import CheckLessonFile, ListLessons, OpenLesson
 from .requests.request import REQUEST_NAMES, ClientAction, Definition, PlotSeries, RenderView, SaveRvizAs, SocketAction
 from .requests.world import RenderModel
 from .session import PageSession, RvizFile, Session
@@ -100,6 +102,7 @@ class Page:
         self._tasks: dict[bool, set[asyncio.Task[None]]] = {False: set(), True: set()}
         """Tasks of clients with full access (False) and of view-only clients (True)."""
         self._model_pictures = asyncio.Semaphore(1)
+        self._lessons = LessonAnswers()
         self._uploads = Uploads(
             lambda folder: send(Uploaded(str(folder))),
             os.environ,
@@ -330,13 +333,15 @@ class Page:
         if not allows_request(client, client_id, action):
             return
         match action:
-            case Definition(type_name):
-                self._start(client, client_id, self._define(client, client_id, type_name))
             case PlotSeries(series):
                 self._plot(client, frozenset(series))
                 respond(client, client_id)
+            case Definition(type_name):
+                self._answer(client, client_id, self._define(type_name))
             case SaveRvizAs():
-                self._start(client, client_id, self._save_rviz(client, client_id, action))
+                self._answer(client, client_id, self._save_rviz(action))
+            case ListLessons() | OpenLesson() | CheckLessonFile():
+                self._answer(client, client_id, self._lessons.answer(action, self._session.lesson))
             case _:
                 self._act(client, client_id, action)
 
@@ -347,38 +352,35 @@ class Page:
             self._plotted[client] = series
         self._owner.set_plotted(frozenset().union(*self._plotted.values()))
 
-    def _start(self, client: Connection, client_id: int | str, work: Coroutine[None, None, None]) -> None:
-        """Start a task that answers a client."""
+    def _answer(self, client: Connection, client_id: int | str, work: Coroutine[None, None, Answer]) -> None:
+        """Answer a client by work that may take time."""
         tasks = self._tasks[client.is_view_only]
         if len(tasks) >= MAX_IN_FLIGHT:
             work.close()
             respond(client, client_id, f"{MAX_IN_FLIGHT} requests are pending")
             return
-        task = asyncio.get_running_loop().create_task(work)
+
+        async def answer() -> None:
+            try:
+                respond(client, client_id, answer=encode_json(await work))
+            except TrundleError as error:
+                respond(client, client_id, str(error))
+
+        task = asyncio.get_running_loop().create_task(answer())
         tasks.add(task)
         task.add_done_callback(tasks.discard)
 
-    async def _define(self, client: Connection, client_id: int | str, type_name: str) -> None:
-        """Answer with the definition of a type; reading it may take time."""
-        try:
-            text = await asyncio.to_thread(self._messages.definition, type_name)
-        except MessageError as error:
-            respond(client, client_id, str(error))
-        else:
-            respond(client, client_id, answer=encode_json(DefinitionText(definition=text)))
+    async def _define(self, type_name: str) -> DefinitionText:
+        """Read the definition of a type."""
+        return DefinitionText(definition=await asyncio.to_thread(self._messages.definition, type_name))
 
-    async def _save_rviz(self, client: Connection, client_id: int | str, action: SaveRvizAs) -> None:
-        """Answer with `file`, or with `exists` if the file exists and must not be replaced."""
-        try:
-            exists = await asyncio.to_thread(_save_rviz, Path.cwd(), action)
-        except UsageError as error:
-            respond(client, client_id, str(error))
-            return
+    async def _save_rviz(self, action: SaveRvizAs) -> SavedFile | FilesExist:
+        """Write an .rviz file, unless it exists and must not be replaced."""
+        exists = await asyncio.to_thread(_save_rviz, Path.cwd(), action)
         if exists is not None:
-            respond(client, client_id, answer=encode_json(FilesExist(exists=exists)))
-            return
+            return FilesExist(exists=exists)
         self._saved_rviz = RvizFile(name=action.file, text=action.text, writable=True, saved=True)
-        respond(client, client_id, answer=encode_json(SavedFile(file=action.file)))
+        return SavedFile(file=action.file)
 
     def _act(self, client: Connection, client_id: int | str, action: ClientAction) -> None:
         """Pass a request to the bag or to the owner."""

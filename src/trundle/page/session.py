@@ -62,6 +62,8 @@ class Session(msgspec.Struct, frozen=True, kw_only=True):
     joystick: bool = False
     """True if a joystick is shown: the launch has started a joy node."""
     terminals: tuple[NodeTerminal, ...] = ()
+    lesson: str | None = None
+    """Lesson that is open at the start: the name of one that Trundle brings, or a path FILE.md."""
 
 
 class PageSession(Session, frozen=True, kw_only=True):

@@ -34,6 +34,7 @@ class SharedPage:
         source: Path | None = None,
         server: PageServer | None = None,
         opens_browser: bool = True,
+        lesson: str | None = None,
     ) -> None:
         """Create it; `acquire` serves the page.
 
@@ -44,6 +45,7 @@ class SharedPage:
             source: file of the page, from whose folder packages are searched; None: the working folder.
             server: running server; None: it is started on first use.
             opens_browser: False: print the URLs only.
+            lesson: lesson that is open at the start, as `Session.lesson`.
         """
         self._say = say
         self._at = at or PageAddress()
@@ -51,7 +53,8 @@ class SharedPage:
         self._source = source
         self._server = server
         self._opens_browser = opens_browser
-        self._session = Session(title="ROS", kind="graph", drive_topic=None if graph is None else CMD_VEL)
+        drive_topic = None if graph is None else CMD_VEL
+        self._session = Session(title="ROS", kind="graph", drive_topic=drive_topic, lesson=lesson)
         self._users = {False: 0, True: 0}
         """Numbers of windows that show the graph (False) and a simulated world (True)."""
         self._findings: tuple[Diagnostics, int] | None = None

@@ -22,6 +22,7 @@ from .clients.protocol import (
 )  # fmt: skip
 from .clients.server_messages import ServiceCallFailure
 from .owner import respond
+from .requests.lessons import LessonAction
 from .requests.request import Definition, PlotSeries
 
 REFUSAL = "this link is view-only"
@@ -46,7 +47,7 @@ def allows(client: Connection, operation: ClientOperation) -> bool:
 
 def allows_request(client: Connection, client_id: int | str, action: object) -> bool:
     """Return True if a client may make a request; otherwise answer with a refusal."""
-    if not client.is_view_only or isinstance(action, Definition | PlotSeries):
+    if not client.is_view_only or isinstance(action, Definition | PlotSeries | LessonAction):
         return True
     respond(client, client_id, REFUSAL)
     return False

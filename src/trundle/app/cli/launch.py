@@ -11,9 +11,11 @@ from trundle.ros import DISTROS
 from .options import (
     add_allow_outside,
     add_lenient,
+    add_lesson,
     add_page_access,
     add_renderer,
     add_timeline,
+    checked_lesson,
     field_option,
     page_access,
     read_options,
@@ -54,6 +56,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "reproducible byte by byte, without /rosout and topics of other programs",
     )
     add_timeline(parser)
+    add_lesson(parser)
     add("--distro", choices=DISTROS, help="ROS distribution to emulate (the master's, or noetic)")
     port = "the master's port (that of ROS_MASTER_URI, 11311)"
     add("-p", "--port", type=int, dest="master_port", metavar="N", help=port)
@@ -117,6 +120,7 @@ def main(args: argparse.Namespace) -> int:
         LaunchOptions,
         args,
         allowed=page_access(args),
+        lesson=checked_lesson(args),
         reads_keys=True,
         only="find-node" if args.find_node else "args" if args.args else args.only,
         node=args.find_node or args.args or "",

@@ -6,6 +6,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from trundle.base.diagnostics import UsageError
+
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
@@ -92,6 +94,28 @@ def page_access(args: argparse.Namespace) -> "AllowedNames":
     from trundle.base.http.page_address import AllowedNames
 
     return AllowedNames(hosts=tuple(args.allow_host), origins=tuple(args.allow_origin))
+
+
+def add_lesson(parser: argparse.ArgumentParser) -> None:
+    """Declare the option of commands whose page may open a lesson."""
+    lesson = "open a lesson in the page: one that Trundle brings, such as rp2w or smartcar, or a Markdown file"
+    parser.add_argument("--lesson", metavar="NAME|FILE.md", help=lesson)
+
+
+def checked_lesson(args: argparse.Namespace) -> str | None:
+    """Return the option that `add_lesson` declared.
+
+    Raises:
+        TrundleError: there is no such lesson, it cannot be read, or there is no page.
+    """
+    if args.lesson is None:
+        return None
+    from trundle.page.lessons.read import read_lesson
+
+    if "headless" in args:
+        raise UsageError("--lesson needs the page, which --headless leaves out")
+    read_lesson(args.lesson)
+    return args.lesson
 
 
 def add_renderer(parser: argparse.ArgumentParser) -> None:

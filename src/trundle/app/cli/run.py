@@ -11,9 +11,11 @@ from .options import (
     add_allow_outside,
     add_compare,
     add_lenient,
+    add_lesson,
     add_page_access,
     add_renderer,
     add_timeline,
+    checked_lesson,
     field_option,
     page_access,
     read_options,
@@ -52,6 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add("--record", type=Path, metavar="FILE", help="write a state log for `trundle play`")
     add_compare(parser)
     add_timeline(parser)
+    add_lesson(parser)
     add_page_access(parser)
     add_allow_outside(parser)
     add_lenient(parser)
@@ -63,7 +66,7 @@ def main(args: argparse.Namespace) -> int:
         from trundle.live.run.run_options import RunOptions
         from trundle.live.run.run_world import run
 
-    options = read_options(RunOptions, args, allowed=page_access(args))
+    options = read_options(RunOptions, args, allowed=page_access(args), lesson=checked_lesson(args))
     try:
         result = run(args.file, options)
     except TrundleError as error:

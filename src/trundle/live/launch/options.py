@@ -23,6 +23,8 @@ class LaunchOptions:
     """True: print a second link, which is view-only."""
     opens_browser: bool = True
     """True: open the page where there is a display; False: only print its URL."""
+    lesson: str | None = None
+    """Lesson that the page opens: a name, or a path FILE.md."""
     renderer: Literal["cpu", "egl"] = "cpu"
     """As `RunOptions.renderer`."""
     output: Literal["screen", "log"] | None = None

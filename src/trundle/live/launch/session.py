@@ -168,6 +168,7 @@ class LaunchSession:
             graph=GraphAddress(master_uri=graph.master_uri, host=graph.host),
             source=next(iter(loaded.plan.files), None),
             opens_browser=options.opens_browser,
+            lesson=options.lesson,
         )
         self._resources.callback(page.close)
         return page

@@ -24,6 +24,8 @@ class RunOptions:
     """True: print a second link, which is view-only."""
     opens_browser: bool = True
     """True: open the page where there is a display; False: only print its URL."""
+    lesson: str | None = None
+    """Lesson that the page opens: a name, or a path FILE.md."""
     duration_s: float | None = None
     """Simulation time [s]; None: until interrupted."""
     speed: float | None = 1.0

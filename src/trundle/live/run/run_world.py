@@ -96,6 +96,7 @@ def _open_page(world: RunningWorld, options: RunOptions, say: Callable[[str], No
             at=PageAddress(host=options.host, port=options.port, allowed=options.allowed, view_only=options.view_only),
             graph=None if ros is None else GraphAddress(master_uri=ros.graph.master_uri, host=ros.graph.host),
             opens_browser=options.opens_browser,
+            lesson=options.lesson,
         ),
         world.live,
         node=None if ros is None else ros.node,

@@ -11,6 +11,7 @@ import msgspec
 from .answers import DefinitionText, FilesExist, SavedFile
 from .draft import DraftAction
 from .edits import Action, EditAction
+from .lessons import LessonAction
 from .world import FileName, InsertAction, ModelAction, RenderModel, SaveReplay, SaveWorld
 
 MAX_STEPS = 1_000_000
@@ -183,7 +184,7 @@ ClientAction: TypeAlias = (
     | StopComparing
 )
 """Requests through the page's socket that its owner answers."""
-SocketAction: TypeAlias = ClientAction | Definition | PlotSeries | SaveRvizAs
+SocketAction: TypeAlias = ClientAction | Definition | PlotSeries | SaveRvizAs | LessonAction
 """All requests through the page's socket."""
 REQUEST_NAMES = frozenset(str(action.__struct_config__.tag) for action in get_args(SocketAction))
 GraphAction: TypeAlias = MoveSlider | MoveJoystick | SaveRviz

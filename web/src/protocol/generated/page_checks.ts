@@ -141,6 +141,7 @@ export const pageSession: is.Check<page.PageSession> = is.struct(() => ({
   sliders: is.list(jointSlider),
   joystick: is.flag,
   terminals: is.list(nodeTerminal),
+  lesson: is.nullable(is.text),
   version: is.text,
   foxglove: is.text,
   node: is.nullable(is.text),
@@ -497,6 +498,212 @@ export const savedFile: is.Check<page.SavedFile> = is.struct(() => ({ file: is.t
 
 export const definitionText: is.Check<page.DefinitionText> = is.struct(() => ({ definition: is.text }));
 
+export const lessonList: is.Check<page.LessonList> = is.struct(() => ({ lessons: is.list(lessonEntry) }));
+
+export const lessonEntry: is.Check<page.LessonEntry> = is.struct(() => ({ name: is.text, title: is.text }));
+
+export const openedLesson: is.Check<page.OpenedLesson> = is.struct(() => ({ lesson: lesson }));
+
+export const lesson: is.Check<page.Lesson> = is.struct(() => ({
+  title: is.text,
+  start: is.text,
+  needs: is.list(statedCheck),
+  steps: is.list(lessonStep),
+}));
+
+export const statedCheck: is.Check<page.StatedCheck> = is.struct(() => ({
+  sentence: is.text,
+  check: is.tagged("check", () => ({
+    file: fileCheck,
+    model: modelCheck,
+    robot: robotCheck,
+    selected: selectedCheck,
+    moved: movedCheck,
+    frame_moved: frameMovedCheck,
+    joint_moved: jointMovedCheck,
+    node: nodeCheck,
+    publishes: publishesCheck,
+    subscribes: subscribesCheck,
+    rate: rateCheck,
+    fixed_frame: fixedFrameCheck,
+  })),
+}));
+
+export const fileCheck: is.Check<page.FileCheck> = is.struct(() => ({ check: is.literal("file"), path: is.text }));
+
+export const modelCheck: is.Check<page.ModelCheck> = is.struct(() => ({ check: is.literal("model"), model: is.text }));
+
+export const robotCheck: is.Check<page.RobotCheck> = is.struct(() => ({ check: is.literal("robot"), name: is.text }));
+
+export const selectedCheck: is.Check<page.SelectedCheck> = is.struct(() => ({
+  check: is.literal("selected"),
+  model: is.text,
+}));
+
+export const movedCheck: is.Check<page.MovedCheck> = is.struct(() => ({
+  check: is.literal("moved"),
+  model: is.text,
+  distance: is.float,
+}));
+
+export const frameMovedCheck: is.Check<page.FrameMovedCheck> = is.struct(() => ({
+  check: is.literal("frame_moved"),
+  frame: is.text,
+  reference: is.text,
+  distance: is.float,
+}));
+
+export const jointMovedCheck: is.Check<page.JointMovedCheck> = is.struct(() => ({
+  check: is.literal("joint_moved"),
+  model: is.text,
+  joint: is.text,
+  by: is.float,
+}));
+
+export const nodeCheck: is.Check<page.NodeCheck> = is.struct(() => ({ check: is.literal("node"), node: is.text }));
+
+export const publishesCheck: is.Check<page.PublishesCheck> = is.struct(() => ({
+  check: is.literal("publishes"),
+  topic: is.text,
+}));
+
+export const subscribesCheck: is.Check<page.SubscribesCheck> = is.struct(() => ({
+  check: is.literal("subscribes"),
+  topic: is.text,
+}));
+
+export const rateCheck: is.Check<page.RateCheck> = is.struct(() => ({
+  check: is.literal("rate"),
+  topic: is.text,
+  hz: is.float,
+}));
+
+export const fixedFrameCheck: is.Check<page.FixedFrameCheck> = is.struct(() => ({
+  check: is.literal("fixed_frame"),
+  frame: is.text,
+}));
+
+export const lessonStep: is.Check<page.LessonStep> = is.struct(() => ({
+  title: is.text,
+  blocks: is.list(
+    is.tagged("kind", () => ({
+      paragraph: paragraph,
+      heading: heading,
+      list: itemList,
+      quotation: quotation,
+      code_block: codeBlock,
+    })),
+  ),
+  checks: is.list(statedCheck),
+  parts: is.list(
+    is.literal(
+      "cameras",
+      "clock",
+      "displays",
+      "drive",
+      "graph",
+      "images",
+      "insert",
+      "inspector",
+      "joints",
+      "joystick",
+      "log",
+      "nodes",
+      "parameters",
+      "performance",
+      "play",
+      "plots",
+      "reconfigure",
+      "reset",
+      "services",
+      "steering",
+      "terminal",
+      "tf_tree",
+      "timeline",
+      "tools",
+      "topics",
+      "views",
+      "world",
+    ),
+  ),
+  models: is.list(is.text),
+}));
+
+export const paragraph: is.Check<page.Paragraph> = is.struct(() => ({
+  kind: is.literal("paragraph"),
+  content: is.list(
+    is.tagged("kind", () => ({ text: plainText, code: codeSpan, break: lineBreak, emphasis: emphasis, link: webLink })),
+  ),
+}));
+
+export const plainText: is.Check<page.PlainText> = is.struct(() => ({ kind: is.literal("text"), text: is.text }));
+
+export const codeSpan: is.Check<page.CodeSpan> = is.struct(() => ({ kind: is.literal("code"), text: is.text }));
+
+export const lineBreak: is.Check<page.LineBreak> = is.struct(() => ({ kind: is.literal("break") }));
+
+export const emphasis: is.Check<page.Emphasis> = is.struct(() => ({
+  kind: is.literal("emphasis"),
+  strong: is.flag,
+  content: is.list(
+    is.tagged("kind", () => ({ text: plainText, code: codeSpan, break: lineBreak, emphasis: emphasis, link: webLink })),
+  ),
+}));
+
+export const webLink: is.Check<page.WebLink> = is.struct(() => ({
+  kind: is.literal("link"),
+  url: is.text,
+  content: is.list(
+    is.tagged("kind", () => ({ text: plainText, code: codeSpan, break: lineBreak, emphasis: emphasis, link: webLink })),
+  ),
+}));
+
+export const heading: is.Check<page.Heading> = is.struct(() => ({
+  kind: is.literal("heading"),
+  content: is.list(
+    is.tagged("kind", () => ({ text: plainText, code: codeSpan, break: lineBreak, emphasis: emphasis, link: webLink })),
+  ),
+}));
+
+export const itemList: is.Check<page.ItemList> = is.struct(() => ({
+  kind: is.literal("list"),
+  ordered: is.flag,
+  first: is.number,
+  items: is.list(
+    is.list(
+      is.tagged("kind", () => ({
+        paragraph: paragraph,
+        heading: heading,
+        list: itemList,
+        quotation: quotation,
+        code_block: codeBlock,
+      })),
+    ),
+  ),
+}));
+
+export const quotation: is.Check<page.Quotation> = is.struct(() => ({
+  kind: is.literal("quotation"),
+  blocks: is.list(
+    is.tagged("kind", () => ({
+      paragraph: paragraph,
+      heading: heading,
+      list: itemList,
+      quotation: quotation,
+      code_block: codeBlock,
+    })),
+  ),
+}));
+
+export const codeBlock: is.Check<page.CodeBlock> = is.struct(() => ({
+  kind: is.literal("code_block"),
+  language: is.text,
+  title: is.text,
+  text: is.text,
+}));
+
+export const fileState: is.Check<page.FileState> = is.struct(() => ({ fault: is.nullable(is.text) }));
+
 export const serverOperation: is.Check<page.ServerOperation> = is.tagged("op", () => ({
   serverInfo: serverInfo,
   status: status,
@@ -568,6 +775,9 @@ export const answers: { readonly [N in keyof page.Requests]: is.Check<page.Reque
   definition: definitionText,
   plot: done,
   save_rviz_as: is.oneOf(savedFile, filesExist),
+  lessons: lessonList,
+  lesson: openedLesson,
+  lesson_file: fileState,
 };
 
 export const channels: { readonly [T in keyof page.Channels]: is.Check<page.Channels[T]> } = {

@@ -176,6 +176,8 @@ export interface PageSession {
   /** true if a joystick is shown: the launch has started a joy node. */
   readonly joystick: boolean;
   readonly terminals: readonly NodeTerminal[];
+  /** Lesson that is open at the start: the name of one that Trundle brings, or a path FILE.md. */
+  readonly lesson: string | null;
   /** Version of the server. */
   readonly version: string;
   /** Address for Foxglove and Lichtblick. */
@@ -750,6 +752,249 @@ export interface DefinitionText {
   readonly definition: string;
 }
 
+/** Lessons that can be opened; the one that the page was started with is the first. */
+export interface LessonList {
+  readonly lessons: readonly LessonEntry[];
+}
+
+/** Lesson that can be opened. */
+export interface LessonEntry {
+  readonly name: string;
+  readonly title: string;
+}
+
+/** A lesson. */
+export interface OpenedLesson {
+  readonly lesson: Lesson;
+}
+
+/** Lesson. */
+export interface Lesson {
+  readonly title: string;
+  /** Command that starts what the lesson needs; empty: it needs nothing. */
+  readonly start: string;
+  /** Alternatives, one of which is fulfilled in what the lesson needs. */
+  readonly needs: readonly StatedCheck[];
+  readonly steps: readonly LessonStep[];
+}
+
+/** Check with its sentence. */
+export interface StatedCheck {
+  readonly sentence: string;
+  readonly check:
+    | FileCheck
+    | ModelCheck
+    | RobotCheck
+    | SelectedCheck
+    | MovedCheck
+    | FrameMovedCheck
+    | JointMovedCheck
+    | NodeCheck
+    | PublishesCheck
+    | SubscribesCheck
+    | RateCheck
+    | FixedFrameCheck;
+}
+
+/** A file exists, and can be read if it is a description, launch file, program or configuration. */
+export interface FileCheck {
+  readonly check: "file";
+  /** Path from the working folder; `~` is the home folder. */
+  readonly path: string;
+}
+
+/** A model is in the world. */
+export interface ModelCheck {
+  readonly check: "model";
+  readonly model: string;
+}
+
+/** The page shows a robot. */
+export interface RobotCheck {
+  readonly check: "robot";
+  readonly name: string;
+}
+
+/** A model, or a part of it, is selected. */
+export interface SelectedCheck {
+  readonly check: "selected";
+  readonly model: string;
+}
+
+/** A model has moved since the step began. */
+export interface MovedCheck {
+  readonly check: "moved";
+  readonly model: string;
+  /** [m] */
+  readonly distance: number;
+}
+
+/** A frame of tf has moved since the step began. */
+export interface FrameMovedCheck {
+  readonly check: "frame_moved";
+  readonly frame: string;
+  /** Frame in which its position is measured. */
+  readonly reference: string;
+  /** [m] */
+  readonly distance: number;
+}
+
+/** A joint has moved since the step began. */
+export interface JointMovedCheck {
+  readonly check: "joint_moved";
+  readonly model: string;
+  readonly joint: string;
+  /** [rad or m] */
+  readonly by: number;
+}
+
+/** A node is on the graph. */
+export interface NodeCheck {
+  readonly check: "node";
+  readonly node: string;
+}
+
+/** A node other than the page publishes on a topic. */
+export interface PublishesCheck {
+  readonly check: "publishes";
+  readonly topic: string;
+}
+
+/** A node other than the page subscribes to a topic. */
+export interface SubscribesCheck {
+  readonly check: "subscribes";
+  readonly topic: string;
+}
+
+/** Messages of a topic arrive at a rate. */
+export interface RateCheck {
+  readonly check: "rate";
+  readonly topic: string;
+  /** Minimum rate [Hz]. */
+  readonly hz: number;
+}
+
+/** The displays use a fixed frame. */
+export interface FixedFrameCheck {
+  readonly check: "fixed_frame";
+  readonly frame: string;
+}
+
+/** Step of a lesson. */
+export interface LessonStep {
+  readonly title: string;
+  readonly blocks: readonly (Paragraph | Heading | ItemList | Quotation | CodeBlock)[];
+  /** Checks that are all fulfilled when the step is done; empty: the step is only read. */
+  readonly checks: readonly StatedCheck[];
+  /** Parts of the page that are marked. */
+  readonly parts: readonly (
+    | "cameras"
+    | "clock"
+    | "displays"
+    | "drive"
+    | "graph"
+    | "images"
+    | "insert"
+    | "inspector"
+    | "joints"
+    | "joystick"
+    | "log"
+    | "nodes"
+    | "parameters"
+    | "performance"
+    | "play"
+    | "plots"
+    | "reconfigure"
+    | "reset"
+    | "services"
+    | "steering"
+    | "terminal"
+    | "tf_tree"
+    | "timeline"
+    | "tools"
+    | "topics"
+    | "views"
+    | "world"
+  )[];
+  /** Models that are outlined in the scene. */
+  readonly models: readonly string[];
+}
+
+/** Paragraph. */
+export interface Paragraph {
+  readonly kind: "paragraph";
+  readonly content: readonly (PlainText | CodeSpan | LineBreak | Emphasis | WebLink)[];
+}
+
+/** Text. */
+export interface PlainText {
+  readonly kind: "text";
+  readonly text: string;
+}
+
+/** Code within a sentence. */
+export interface CodeSpan {
+  readonly kind: "code";
+  readonly text: string;
+}
+
+/** Line break. */
+export interface LineBreak {
+  readonly kind: "break";
+}
+
+/** Emphasized text. */
+export interface Emphasis {
+  readonly kind: "emphasis";
+  readonly strong: boolean;
+  readonly content: readonly (PlainText | CodeSpan | LineBreak | Emphasis | WebLink)[];
+}
+
+/** Link to a page of the Web. */
+export interface WebLink {
+  readonly kind: "link";
+  /** Address with the scheme http or https. */
+  readonly url: string;
+  readonly content: readonly (PlainText | CodeSpan | LineBreak | Emphasis | WebLink)[];
+}
+
+/** Heading within a step. */
+export interface Heading {
+  readonly kind: "heading";
+  readonly content: readonly (PlainText | CodeSpan | LineBreak | Emphasis | WebLink)[];
+}
+
+/** List. */
+export interface ItemList {
+  readonly kind: "list";
+  readonly ordered: boolean;
+  /** Number of the first item of an ordered list. */
+  readonly first: number;
+  readonly items: readonly (readonly (Paragraph | Heading | ItemList | Quotation | CodeBlock)[])[];
+}
+
+/** Quoted blocks. */
+export interface Quotation {
+  readonly kind: "quotation";
+  readonly blocks: readonly (Paragraph | Heading | ItemList | Quotation | CodeBlock)[];
+}
+
+/** Lines of code, commands or output. */
+export interface CodeBlock {
+  readonly kind: "code_block";
+  /** Language, as `bash`; `text` is output. */
+  readonly language: string;
+  /** Name of the file with this content; empty: none. */
+  readonly title: string;
+  readonly text: string;
+}
+
+/** State of a file that a lesson names. */
+export interface FileState {
+  /** Reason why the file does not load; null: it exists and loads. */
+  readonly fault: string | null;
+}
+
 /** Run the simulation or recording. */
 export type Play = { readonly [name: string]: never };
 
@@ -1108,6 +1353,23 @@ export interface SaveRvizAs {
   readonly replace?: boolean;
 }
 
+/** List the lessons. */
+export type ListLessons = { readonly [name: string]: never };
+
+/** Read a lesson. */
+export interface OpenLesson {
+  readonly name: string;
+}
+
+/** Check a file that a lesson names. */
+export interface CheckLessonFile {
+  readonly lesson: string;
+  /** Index of the step. */
+  readonly step: number;
+  /** Index of the check in the step. */
+  readonly check: number;
+}
+
 /**
  * Draw the scene with Trundle's renderer, for browsers without WebGL; answered by `PageServer.respond_picture`.
  *
@@ -1355,6 +1617,9 @@ export interface Requests {
   readonly definition: { readonly fields: Definition; readonly answer: DefinitionText };
   readonly plot: { readonly fields: PlotSeries; readonly answer: Done };
   readonly save_rviz_as: { readonly fields: SaveRvizAs; readonly answer: SavedFile | FilesExist };
+  readonly lessons: { readonly fields: ListLessons; readonly answer: LessonList };
+  readonly lesson: { readonly fields: OpenLesson; readonly answer: OpenedLesson };
+  readonly lesson_file: { readonly fields: CheckLessonFile; readonly answer: FileState };
 }
 
 /** Content of channels whose encoding is JSON. */

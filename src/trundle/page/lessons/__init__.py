@@ -1,0 +1,1 @@
+"""Lessons: tutorials in Markdown whose steps the page checks."""
