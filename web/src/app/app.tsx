@@ -7,6 +7,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { Tooltips } from "../theme/tooltips";
 import { Bar } from "./bar";
 import { Dialogs } from "./dialogs/dialogs";
+import { Rings } from "./lessons/marks";
 import { ObjectMenu } from "./object_menu/object_menu";
 import { PaneFrames } from "./panes/pane_frames";
 import type { Shell } from "./shell";
@@ -25,6 +26,7 @@ export function App({ shell }: { readonly shell: Shell }): JSX.Element {
       {!phone && <SidePanel shell={shell} side="right" />}
       {!phone && <DockPanel shell={shell} />}
       {phone && <Sheet shell={shell} />}
+      <Rings shell={shell} />
       <Dialogs shell={shell} />
       <ObjectMenu shell={shell} />
       <Tooltips />

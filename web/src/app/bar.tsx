@@ -243,8 +243,12 @@ function recordingOf(shell: Shell): { text: string; isRunning: boolean; toggle: 
 
 function Corner({ shell }: { readonly shell: Shell }): JSX.Element {
   const theme = themeItem(shell);
+  const { lessons } = shell;
   return (
     <>
+      <FittingPart rank={5} part="lessons">
+        <Button icon="lesson" label="Lessons" on={lessons.isShown.value} onClick={() => lessons.toggle()} />
+      </FittingPart>
       <FittingPart rank={5} part="share">
         <Button icon="share" label="Share" onClick={() => (shell.dialog.value = "share")} />
       </FittingPart>
@@ -282,6 +286,7 @@ function givenItems(shell: Shell): readonly GivenItem[] {
     { part: "speed", title: "Speed", items: () => speedItems(shell, speed) },
     ...(recording === null ? [] : [{ part: "record", title: recording.text, run: recording.toggle }]),
     { part: "timeline", title: "Timeline", run: () => shell.dock.open("timeline") },
+    { part: "lessons", title: "Lessons", run: () => shell.lessons.toggle() },
     { part: "share", title: "Share", run: () => (dialog.value = "share") },
     { part: "theme", ...themeItem(shell) },
     { part: "find", title: "Search commands", keys: "Ctrl K", run: () => (dialog.value = "palette") },
@@ -312,6 +317,7 @@ function phoneItems(shell: Shell): readonly MenuItem[] {
       ),
     ],
     [
+      { title: "Lessons", run: () => shell.lessons.toggle() },
       { title: "Share", run: () => (dialog.value = "share") },
       themeItem(shell),
       { title: "Search commands", run: () => (dialog.value = "palette") },

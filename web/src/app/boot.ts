@@ -32,6 +32,7 @@ import { mount } from "./mount";
 import { openSceneMenu, openSelectedMenu } from "./object_menu/object_menu";
 import type { Page } from "../page/page";
 import { followPeople } from "../page/people";
+import { lessonOutlines } from "./lessons/marks";
 import { labelOthers, othersOutlines } from "./people_marks";
 import { liveSession } from "../page/session";
 import { startDisplays, startView } from "./start";
@@ -128,7 +129,6 @@ export function boot(root: HTMLElement, json: string): void {
   effect(() => {
     scene.element.style.cursor = tools.current.value.cursor;
   });
-  new SelectionOutline(scene, world, () => [...othersOutlines(page), { ...outlinedBodies(page), color: "--accent" }]);
   labelOthers(page);
   const modelsOf = ({ models }: Manifest): readonly ScopedModel[] => allModels(models);
   new BodyOverlays(scene, world, modelsOf);
@@ -142,6 +142,11 @@ export function boot(root: HTMLElement, json: string): void {
     sceneHost,
     frozen,
   });
+  new SelectionOutline(scene, world, () => [
+    ...othersOutlines(page),
+    ...lessonOutlines(shell),
+    { ...outlinedBodies(page), color: "--accent" },
+  ]);
   startDisplays(shell);
   startView(shell);
 }

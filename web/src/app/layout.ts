@@ -6,7 +6,7 @@ import type { Insets } from "../scene/free_area";
 import { isBoolean, isNumber, isOneOf, recall, remember } from "../page/storage";
 
 const LEFT = ["world", "displays", "insert"] as const;
-const RIGHT = ["inspector", "views", "tool_properties"] as const;
+const RIGHT = ["inspector", "views", "tool_properties", "lesson"] as const;
 export type SideName = "left" | "right";
 export type SidePage = (typeof LEFT | typeof RIGHT)[number];
 export type SheetHeight = "closed" | "half" | "full";
@@ -159,7 +159,7 @@ export class Layout {
     const [side, other] = isLeft ? [this.left, this.right] : [this.right, this.left];
     side.page.value = page;
     side.isOpen.value = true;
-    if (this.isPhone.peek()) this.openSheet(isLeft ? page : "inspector");
+    if (this.isPhone.peek()) this.openSheet(isLeft || page === "lesson" ? page : "inspector");
     if (this.width.peek() < ONE_SIDE) other.isOpen.value = false;
   }
 

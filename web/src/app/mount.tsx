@@ -14,6 +14,7 @@ import "../theme/editor.css";
 import "../theme/scene.css";
 import "../theme/dialogs.css";
 import "../theme/insert.css";
+import "../theme/lessons.css";
 import "../theme/phone.css";
 import "../theme/dockview.css";
 import { editorCommands } from "./editor/editor_commands";
@@ -81,5 +82,6 @@ export function mount(root: HTMLElement, { page, panels, commands, sceneHost, fr
     document.title = shell.robot.value ?? page.session.title;
   });
   render(<App shell={shell} />, root);
+  shell.lessons.start();
   return shell;
 }

@@ -51,6 +51,7 @@ export function pageCommands(shell: Shell): readonly Command[] {
   return [
     command("deselect", "View", "Clear the selection, close large pictures", () => leave(shell), "Escape"),
     command("cameras", "View", "Show or hide the cameras", toggle(shell.showsCameras)),
+    command("lessons", "Page", "Lessons", () => shell.lessons.toggle()),
     command("share", "Page", "Share", () => (dialog.value = "share")),
     ...[...sidePages(shell, "left"), ...sidePages(shell, "right")].map(({ id, title }) =>
       command(`side.${id}`, "Panels", `Open ${title}`, () => layout.open(id)),

@@ -1,4 +1,4 @@
-/** The phone's sheet: five pages; closed, half and full. */
+/** The phone's sheet: five pages, and an open lesson; closed, half and full. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
@@ -15,6 +15,7 @@ const PAGES: readonly { readonly id: string; readonly title: string; readonly ic
   { id: "plots", title: "Plots", icon: "plots" },
   { id: "log", title: "Log", icon: "log" },
 ];
+const LESSON = { id: "lesson", title: "Lesson", icon: "lesson" } as const;
 const ORDER: readonly SheetHeight[] = ["closed", "half", "full"];
 const SWIPE = 40; // px
 
@@ -53,10 +54,11 @@ export function Sheet({ shell }: { readonly shell: Shell }): JSX.Element {
         }}
       />
       <nav aria-label="Pages of the sheet">
-        {PAGES.map(({ id, title, icon }) => (
+        {[...PAGES, ...(shell.lessons.isShown.value ? [LESSON] : [])].map(({ id, title, icon }) => (
           <button
             key={id}
             type="button"
+            data-tab={id}
             class={page === id && height !== "closed" ? "b on" : "b"}
             aria-pressed={page === id}
             onClick={() => choose(id)}
@@ -76,7 +78,8 @@ export function Sheet({ shell }: { readonly shell: Shell }): JSX.Element {
 }
 
 function SheetPage({ shell, page }: { readonly shell: Shell; readonly page: string }): JSX.Element | null {
-  const pageId = page === "inspector" ? shell.layout.right.page.value : page;
+  const right = shell.layout.right.page.value;
+  const pageId = page !== "inspector" ? page : right === "lesson" ? "inspector" : right;
   const Side = [...sidePages(shell, "left"), ...sidePages(shell, "right")].find(({ id }) => id === pageId)?.component;
   if (Side !== undefined) return <Side shell={shell} />;
   const panel = shell.dock.panels.value.find(({ id }) => id === page);

@@ -12,6 +12,7 @@ import type { OpenDialog } from "./dialogs/open_dialog";
 import { DockSlot } from "./dock_slot";
 import { Insertion } from "./insert/insertion";
 import { Layout } from "./layout";
+import { Lessons } from "./lessons/lessons";
 import { Notices } from "./notices/notices";
 import type { OpenMenu } from "./object_menu/open_menu";
 import type { Page, Selection } from "../page/page";
@@ -71,6 +72,7 @@ export class Shell {
   readonly insertion: Insertion;
   readonly videos: Videos;
   readonly editor: ModelEditor;
+  readonly lessons: Lessons;
 
   constructor(
     readonly page: Page,
@@ -87,6 +89,7 @@ export class Shell {
     this.videos = new Videos(page, this.notices);
     this.editor = new ModelEditor(page, this.notices);
     this.dock = new DockSlot(page, this.layout);
+    this.lessons = new Lessons(this);
     effect(() => remember("cameras", this.showsCameras.value));
   }
 

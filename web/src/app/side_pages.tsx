@@ -6,6 +6,7 @@ import { DisplaysPage } from "./displays/displays_page";
 import { InsertPage } from "./insert/page";
 import { Inspector } from "./inspector/inspector";
 import type { SideName, SidePage } from "./layout";
+import { LessonPage } from "./lessons/lesson_page";
 import type { Shell } from "./shell";
 import { ToolsPage } from "./tools_page";
 import { ViewsPage } from "./views/views_page";
@@ -32,10 +33,13 @@ const SIDE_PAGES: Readonly<Record<SideName, readonly SidePageInfo[]>> = {
     { id: "inspector", title: "Inspector", component: Inspector },
     { id: "views", title: "Views", component: ViewsPage },
     { id: "tool_properties", title: "Tool properties", short: "Tools", component: ToolsPage },
+    { id: "lesson", title: "Lesson", component: LessonPage },
   ],
 };
 
 /** Pages of a side panel in this session. */
 export function sidePages(shell: Shell, side: SideName): readonly SidePageInfo[] {
-  return SIDE_PAGES[side].filter(({ edits }) => edits !== true || canEdit(shell));
+  return SIDE_PAGES[side].filter(
+    ({ id, edits }) => (edits !== true || canEdit(shell)) && (id !== "lesson" || shell.lessons.isShown.value),
+  );
 }

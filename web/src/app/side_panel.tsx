@@ -18,15 +18,19 @@ const LABELS: Readonly<Record<SideName, string>> = { left: "World and displays",
 export function SidePanel({ shell, side }: SidePanelProps): JSX.Element {
   const { layout } = shell;
   const pages = sidePages(shell, side);
-  const shown = layout[side].page.value;
-  const page = pages.find(({ id }) => id === shown) ?? pages[0];
+  const page = pages.find(({ id }) => id === layout[side].page.value) ?? pages[0];
   const Content = page?.component;
   if (layout.isRail(side)) return <Rail shell={shell} side={side} />;
   return (
     <>
       <aside class={`panel ${side}`} aria-label={LABELS[side]}>
         <div class="tabs">
-          <Tabs label={LABELS[side]} items={pages} selected={shown} onSelect={(id) => layout.open(id as SidePage)} />
+          <Tabs
+            label={LABELS[side]}
+            items={pages}
+            selected={page?.id ?? ""}
+            onSelect={(id) => layout.open(id as SidePage)}
+          />
           <span class="sp" />
           {side === "right" && <UndoButtons shell={shell} />}
           <Button
@@ -57,9 +61,9 @@ function Rail({ shell, side }: SidePanelProps): JSX.Element {
           onClick={() => layout.open(layout[side].page.peek())}
         />
         {sidePages(shell, side).map(({ id, title }) => (
-          <Button key={id} class="v" onClick={() => layout.open(id)}>
+          <button key={id} type="button" class="b v" data-tab={id} onClick={() => layout.open(id)}>
             {title}
-          </Button>
+          </button>
         ))}
       </div>
     </aside>
