@@ -150,6 +150,7 @@ NODELETS: dict[str, str] = {
         "trundle.gazebo.nodes.pointcloud_to_laserscan:PointCloudToLaserScan"
     ),
     "yocs_cmd_vel_mux/CmdVelMuxNodelet": "trundle.gazebo.nodes.cmd_vel_mux:CmdVelMux",
+    "yocs_velocity_smoother/VelocitySmootherNodelet": "trundle.gazebo.nodes.velocity_smoother:VelocitySmoother",
 }
 """Nodelet class as in launch files → "module:Class"."""
 
