@@ -19,9 +19,11 @@ from .motion import OdometryReader, angle_between, turning_speed
 from .oscillation import OscillationFlags
 from .path_message import path_message
 
-_TURN_FIRST, _TURN_ENOUGH = math.radians(60.0), math.radians(45.0)
+_TURN_FIRST, _TURN_ENOUGH = math.radians(60.0), math.radians(15.0)
 """Angle to the way from which on the robot turns on the spot, and that at which it sets out."""
 _TURN_LOOKAHEAD_M = 0.3
+_SLOW_TURN = 0.3
+"""Turning speed at which it sets out [rad/s]."""
 
 
 class Follower(ABC):
@@ -165,7 +167,10 @@ class Follower(ABC):
         angle = angle_between(pose.yaw, math.atan2(ahead.y - pose.y, ahead.x - pose.x))
         least, most = self.turn_limits
         now, acceleration = self.odom.velocity[2], self._limits.acc_lim_theta
-        self._is_turning = abs(angle) > (_TURN_ENOUGH if self._is_turning else _TURN_FIRST)
+        if self._is_turning and abs(angle) <= _TURN_ENOUGH:
+            self._is_turning = abs(now) > _SLOW_TURN
+            return (0.0, 0.0, 0.0) if self._is_turning else None
+        self._is_turning = self._is_turning or abs(angle) > _TURN_FIRST
         if not self._is_turning:
             return None
         speed = turning_speed(angle, now, least=least, most=most, acceleration=acceleration, period_s=self.period_s)
