@@ -60,7 +60,8 @@ def _pixels(user: PanelUser, path: str) -> tuple[Any, Any]:
     color = user.page.evaluate(f"getComputedStyle(document.documentElement).getPropertyValue('{token}')")
     png = user.page.get_by_role("img", name=f"Plot of {SMALL}").screenshot()
     picture = np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=int)
-    return np.nonzero((np.abs(picture - ImageColor.getrgb(color.strip())) < 16).all(axis=-1))
+    rows, columns = np.nonzero((np.abs(picture - ImageColor.getrgb(color.strip())) < 16).all(axis=-1))
+    return rows, columns
 
 
 def _height(user: PanelUser, path: str) -> int:

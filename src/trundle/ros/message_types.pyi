@@ -371,6 +371,19 @@ class nav_msgs:
         map: nav_msgs.OccupancyGrid
         initial_pose: geometry_msgs.PoseWithCovarianceStamped
 
+class people_msgs:
+    class People(TypedMessage, Protocol):
+        header: std_msgs.Header
+        people: list[people_msgs.Person]
+
+    class Person(TypedMessage, Protocol):
+        name: str
+        position: geometry_msgs.Point
+        velocity: geometry_msgs.Point
+        reliability: float
+        tagnames: list[str]
+        tags: list[str]
+
 class roscpp:
     class GetLoggersRequest(TypedMessage, Protocol): ...
 
@@ -479,6 +492,16 @@ class sensor_msgs:
         UINT32: int
         FLOAT32: int
         FLOAT64: int
+
+    class Range(TypedMessage, Protocol):
+        header: std_msgs.Header
+        radiation_type: int
+        field_of_view: float
+        min_range: float
+        max_range: float
+        range: float
+        ULTRASOUND: int
+        INFRARED: int
 
     class RegionOfInterest(TypedMessage, Protocol):
         x_offset: int

@@ -180,7 +180,7 @@ def test_an_odometry_that_is_wrong_by_a_few_percent_is_not_followed() -> None:
         true = true[0] + way * math.cos(true[2]), true[1] + way * math.sin(true[2]), true[2] + turn
         x, y, yaw = odometry
         measured = x + 1.03 * way * math.cos(yaw), y + 1.03 * way * math.sin(yaw), yaw + 0.97 * turn
-        particles.move(OdometryModel(DIFF, (0.1,) * 5), odometry, measured)
+        particles.move(OdometryModel(DIFF, (0.1, 0.1, 0.1, 0.1, 0.1)), odometry, measured)
         odometry = measured
         weigh(particles, model, ranges_at(world, true))
         (x, y, _), _ = particles.estimate()

@@ -223,7 +223,8 @@ def test_a_goal_without_orientation_is_refused(graph: Any) -> None:
 @pytest.mark.parametrize("planner", ["dwa_local_planner/DWAPlannerROS", "base_local_planner/TrajectoryPlannerROS"])
 def test_a_simple_goal_makes_the_robot_turn_toward_a_way_behind_it(graph: Any, planner: str) -> None:
     name = planner.rpartition("/")[2]
-    _start(graph, base_local_planner=planner, **{name: {"holonomic_robot": False, "max_vel_y": 0.0, "min_vel_y": 0.0}})
+    limits: dict[str, Any] = {name: {"holonomic_robot": False, "max_vel_y": 0.0, "min_vel_y": 0.0}}
+    _start(graph, base_local_planner=planner, **limits)
     commands = graph.listen("/cmd_vel", "geometry_msgs/Twist")
     goals = graph.advertise("/move_base_simple/goal", "geometry_msgs/PoseStamped")
     graph.until(lambda: graph.connected("/cmd_vel"))

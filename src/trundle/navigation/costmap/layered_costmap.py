@@ -17,8 +17,11 @@ class Layer(Protocol):
     """One layer of a costmap."""
 
     name: str
-    options: msgspec.Struct
-    """Settings that dynamic_reconfigure changes."""
+
+    @property
+    def options(self) -> msgspec.Struct:
+        """Settings that dynamic_reconfigure changes."""
+        ...
 
     def change(self) -> None:
         """Take changed options."""

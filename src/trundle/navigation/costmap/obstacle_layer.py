@@ -148,7 +148,7 @@ class ObstacleLayer:
     def _inside(self, points: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.bool_]]:
         """Return columns and rows of the points (n, 3) in the costmap, and which of the points they are."""
         cells = np.floor(self._grid.in_cells(points[:, :2])).astype(int)
-        is_inside = ((cells >= 0) & (cells < np.array([self._grid.width, self._grid.height]))).all(axis=1)
+        is_inside = np.all((cells >= 0) & (cells < np.array([self._grid.width, self._grid.height])), axis=1)
         columns, rows = cells[is_inside].T
         return columns, rows, is_inside
 

@@ -174,7 +174,7 @@ class RangeSensorLayer:
         x0, y0, x1, y1 = cone.window(self._odds)
         if x0 >= x1 or y0 >= y1:
             return
-        x, y = np.meshgrid(*(np.arange(low, high) + 0.5 for low, high in ((x0, x1), (y0, y1))))
+        x, y = np.meshgrid(*(np.arange(low, high, dtype=np.float64) + 0.5 for low, high in ((x0, x1), (y0, y1))))
         points = np.stack([x, y], axis=-1) * self._odds.resolution_m + np.array(self._odds.origin)
         seen = self._sensor_model(points - origin, direction, half_angle, range_m)
         prior = self._odds.cells[y0:y1, x0:x1] / LETHAL

@@ -146,7 +146,9 @@ class SocialLayer:
             left, low, right, high = max(left, x0), max(low, y0), min(right, x1), min(high, y1)
             if left >= right or low >= high:
                 continue
-            x, y = np.meshgrid(np.arange(left, right) + 0.5, np.arange(low, high) + 0.5)
+            x, y = np.meshgrid(
+                np.arange(left, right, dtype=np.float64) + 0.5, np.arange(low, high, dtype=np.float64) + 0.5
+            )
             costs = self._costs(
                 x * master.resolution_m + master.origin[0] - person.x,
                 y * master.resolution_m + master.origin[1] - person.y,

@@ -133,7 +133,8 @@ def write_map(file: Path, grid: OccupancyGrid, *, occupied: int, free: int) -> N
     shades = np.full(cells.shape, 205, dtype=np.uint8)
     shades[(cells >= 0) & (cells <= free)] = 254
     shades[cells >= occupied] = 0
-    picture, (height, width) = file.with_name(f"{file.name}.pgm"), shades.shape
+    picture = file.with_name(f"{file.name}.pgm")
+    height, width = grid.cells.shape
     header = f"P5\n# CREATOR: map_saver.cpp {grid.resolution_m:.3f} m/pix\n{width} {height}\n255\n"
     write_atomically(picture, header.encode() + shades.tobytes())
     x, y, yaw = grid.origin
