@@ -47,7 +47,7 @@ def _link(user: WorldUser, kind: str) -> str:
 
 
 def test_ten_users_see_all_selections_and_a_view_only_one_changes_nothing(user: WorldUser) -> None:
-    control, look = _link(user, "View and control"), _link(user, "Look only")
+    control, look = _link(user, "View and control"), _link(user, "View only")
     with ExitStack() as stack:
         others = [stack.enter_context(ProtocolClient(url)) for url in (*[control] * 8, look)]
         for other, model in zip(others, MODELS, strict=True):
@@ -63,7 +63,7 @@ def test_ten_users_see_all_selections_and_a_view_only_one_changes_nothing(user: 
         user.button("10 people").click()
         listed = user.page.get_by_role("menu").inner_text()
         assert listed.count("Person") == 10
-        assert listed.count("looks only") == 1
+        assert listed.count("view only") == 1
         user.page.keyboard.press("Escape")
 
         looker = others[-1]

@@ -59,7 +59,7 @@ def _in_dialog(user: WorldUser, field: str, value: str, button: str) -> None:
 
 def test_several_steps_run_to_a_time_and_seek_back(user: WorldUser) -> None:
     before = _now(user)
-    _in_dialog(user, "Steps", "25", "Take")
+    _in_dialog(user, "Steps", "25", "Step")
     user.until(lambda: _now(user) == pytest.approx(before + 0.25))
     _in_dialog(user, "Time [s]", "3.5", "Go")
     user.until(lambda: _now(user) == pytest.approx(3.5))
@@ -78,11 +78,11 @@ def test_a_velocity_is_typed_and_one_model_reset(user: WorldUser) -> None:
     user.until(lambda: user.position("crane")[0] == pytest.approx(-0.5))
     user.pick("raft")
     user.type("linear x [m/s]", "1")
-    _in_dialog(user, "Steps", "100", "Take")
+    _in_dialog(user, "Steps", "100", "Step")
     user.until(lambda: user.position("raft")[0] == pytest.approx(0.0, abs=0.02), what="for a metre")
     _choose(user, "Reset the selected model only")
     user.until(lambda: user.position("raft") == pytest.approx((-1, 0.8, 0.2), abs=1e-4))
-    _in_dialog(user, "Steps", "50", "Take")
+    _in_dialog(user, "Steps", "50", "Step")
     user.until_still(lambda: _now(user))
     assert user.position("raft") == pytest.approx((-1, 0.8, 0.2), abs=1e-4), "it is at rest"
     assert user.position("crane")[0] == pytest.approx(-0.5)
@@ -95,7 +95,7 @@ def test_a_reset_of_a_model_is_undone_and_redone(user: WorldUser) -> None:
     user.page.get_by_role("searchbox", name="Search the world").fill("slide")
     user.pick("slide")
     user.type("target velocity [m/s]", "0.4")
-    _in_dialog(user, "Steps", "50", "Take")
+    _in_dialog(user, "Steps", "50", "Step")
     user.until_still(lambda: _now(user))
     base, arm = user.position("crane"), user.position("crane", 1)
     user.page.get_by_role("searchbox", name="Search the world").fill("")
@@ -105,7 +105,7 @@ def test_a_reset_of_a_model_is_undone_and_redone(user: WorldUser) -> None:
     user.button("Undo: Reset of crane").click()
     user.until(lambda: user.position("crane") == pytest.approx(base, abs=1e-6))
     assert user.position("crane", 1) == pytest.approx(arm, abs=1e-6)
-    _in_dialog(user, "Steps", "10", "Take")
+    _in_dialog(user, "Steps", "10", "Step")
     user.until(lambda: user.position("crane")[1] == pytest.approx(base[1] + 0.05, abs=1e-3))
     assert user.position("crane", 1)[0] - arm[0] == pytest.approx(0.04, abs=2e-3)
     user.page.keyboard.press("Control+Shift+Z")
@@ -128,7 +128,7 @@ def test_a_typed_torque_turns_a_body_for_its_duration(user: WorldUser) -> None:
     user.type("torque z", "2")
     user.type("duration [s]", "0.5")
     user.button("Apply").click()
-    _in_dialog(user, "Steps", "100", "Take")
+    _in_dialog(user, "Steps", "100", "Step")
 
     def turned() -> float:
         pose = user.pose("raft")
@@ -170,7 +170,7 @@ def test_a_joints_target_is_typed(user: WorldUser, target: str, value: str) -> N
     user.page.get_by_role("searchbox", name="Search the world").fill("slide")
     user.pick("slide")
     user.type(f"target {target}", value)
-    _in_dialog(user, "Steps", "50", "Take")
+    _in_dialog(user, "Steps", "50", "Step")
     user.until(lambda: user.position("crane", 1)[0] > -0.1, what=f"{user.position('crane', 1)}")
     user.page.get_by_role("searchbox", name="Search the world").fill("")
 
@@ -230,7 +230,7 @@ def test_a_bookmark_keeps_its_note_and_seeks_back(user: WorldUser) -> None:
     note = user.page.locator(".mark-flag").get_by_role("textbox")
     note.fill("it turns here")
     note.press("Enter")
-    _in_dialog(user, "Steps", "30", "Take")
+    _in_dialog(user, "Steps", "30", "Step")
     user.until(lambda: _now(user) == pytest.approx(marked + 0.3))
     user.page.locator(".mark-flag").click()
     user.until(lambda: _now(user) == pytest.approx(marked, abs=0.011))

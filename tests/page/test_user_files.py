@@ -107,7 +107,7 @@ def test_the_details_of_the_notice_name_every_display_without_data(user: SceneUs
     user.drop_file("silent.rviz", rviz_text(*silent))
     line = user.page.get_by_role("status").filter(has_text="3 displays have no data")
     line.get_by_role("button", name="Details").click()
-    dialog = user.page.get_by_role("dialog", name="Faults")
+    dialog = user.page.get_by_role("dialog", name="Problems")
     rows = dialog.locator(".fault-row")
     user.until(lambda: rows.count() == 3)
     assert [rows.nth(i).locator("b").inner_text() for i in range(3)] == [display["Name"] for display in silent]

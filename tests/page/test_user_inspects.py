@@ -77,7 +77,7 @@ def test_a_link_shows_its_mass_and_inertia(user: SceneUser) -> None:
     shown = _rows(user)
 
     assert float(user.property("Mass [kg]").input_value()) == 2.5
-    assert shown["Centre of mass"] == "0 · 0.125 · 0m"
+    assert shown["Center of mass"] == "0 · 0.125 · 0m"
     assert shown["ixx · iyy · izz"] == "0.0100 · 0.0200 · 0.0300kg m²"
     assert shown["ixy · ixz · iyz"] == "0 · 0.0040 · 0kg m²"
 

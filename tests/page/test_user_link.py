@@ -62,13 +62,13 @@ def test_a_view_only_link_is_view_only_in_a_browser_with_full_access(page: PageS
     owner.goto(page.url)
     owner.get_by_label("Connected").first.wait_for()
     viewer.goto(page.view_url)
-    viewer.get_by_text("Looking only").first.wait_for()
+    viewer.get_by_text("View only").first.wait_for()
     assert viewer.url == f"{_bare(page)}?view_only"
     viewer.reload()
-    viewer.get_by_text("Looking only").first.wait_for()
+    viewer.get_by_text("View only").first.wait_for()
     owner.reload()
     owner.get_by_label("Connected").first.wait_for()
-    assert owner.get_by_text("Looking only").count() == 0
+    assert owner.get_by_text("View only").count() == 0
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

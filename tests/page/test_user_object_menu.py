@@ -144,7 +144,7 @@ def test_the_keyboard_opens_the_menu_of_the_selection_in_the_scene(user: MenuUse
     user.until(lambda: (user.model("crate") or {}).get("held"))
     user.page.locator(VIEW_CANVAS).focus()
     user.page.keyboard.press("Shift+F10")
-    user.entry("Let go").click()
+    user.entry("Release").click()
     user.until(lambda: not (user.model("crate") or {}).get("held"))
 
 
@@ -187,7 +187,7 @@ def test_a_view_only_menu_has_no_entries_that_change_the_world(chromium: Any, us
     user.button("Search commands, Ctrl K").click()
     user.page.get_by_role("combobox", name="Search commands").fill("link to this view")
     user.page.keyboard.press("Enter")
-    user.button("Look only").click()
+    user.button("View only").click()
     looker = MenuUser(chromium, user.field("Link").input_value())
     looker.row("crate").click(button="right")
     assert looker.entries == ["Move to", "Follow", "First person", "View", "Hide"]

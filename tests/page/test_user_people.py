@@ -41,7 +41,7 @@ def viewer(chromium: Any, owner: WorldUser) -> Iterator[WorldUser]:
     owner.button("Search commands, Ctrl K").click()
     owner.page.get_by_role("combobox", name="Search commands").fill("link to this view")
     owner.page.keyboard.press("Enter")
-    owner.button("Look only").click()
+    owner.button("View only").click()
     owner.page.get_by_text("cannot drive or change anything.").wait_for()
     link = owner.page.get_by_role("textbox", name="Link").input_value()
     owner.page.keyboard.press("Escape")
@@ -62,7 +62,7 @@ def test_users_see_each_others_selections(owner: WorldUser, viewer: WorldUser) -
     owner.until(lambda: _has(owner, PERSON_COLORS[1]), what="for the outline of Person 2")
     owner.button("2 people").click()
     menu = owner.page.get_by_role("menu")
-    assert re.fullmatch(r"Person 1, you\s*Person 2\s*looks only", menu.inner_text().strip())
+    assert re.fullmatch(r"Person 1, you\s*Person 2\s*view only", menu.inner_text().strip())
     menu.get_by_text("Person 2").click()
     viewer.page.keyboard.press("Escape")
     owner.until(lambda: not _has(owner, PERSON_COLORS[1]), what="for the outline to go")
@@ -70,8 +70,8 @@ def test_users_see_each_others_selections(owner: WorldUser, viewer: WorldUser) -
 
 def test_a_view_only_page_has_a_notice_and_no_other_tools(owner: WorldUser, viewer: WorldUser) -> None:
     bar = viewer.page.get_by_role("banner")
-    bar.get_by_text("Looking only").hover()
-    viewer.page.get_by_role("tooltip").get_by_text("This link only allows looking.").wait_for()
+    bar.get_by_text("View only").hover()
+    viewer.page.get_by_role("tooltip").get_by_text("This link is view-only.").wait_for()
     for name in ("Play", "Step 1", "Reset", "Record"):
         assert owner.page.get_by_role("banner").get_by_role("button", name=name, exact=True).count() == 1
         assert bar.get_by_role("button", name=name, exact=True).count() == 0

@@ -47,7 +47,7 @@ def test_a_phone_scans_a_link_that_drives_or_only_looks(user: PanelUser, chromiu
     if not addresses:
         pytest.skip("this machine is in no network")
     control = _scanned(user)
-    user.page.get_by_role("button", name="Look only").click()
+    user.page.get_by_role("button", name="View only").click()
     user.page.get_by_text("can neither drive nor change anything").wait_for()
     look = _scanned(user)
 
@@ -56,7 +56,7 @@ def test_a_phone_scans_a_link_that_drives_or_only_looks(user: PanelUser, chromiu
     for link, count in ((control, 0), (look, 1)):
         phone = PanelUser(chromium, link)
         phone.page.get_by_role("heading", name="t").wait_for()
-        assert phone.page.get_by_text("Looking only").count() == count
+        assert phone.page.get_by_text("View only").count() == count
         phone.close()
 
 

@@ -239,7 +239,7 @@ def test_a_recording_can_be_played(user: SceneUser, heights: Heights, folder: Pa
     _bar(user, "Pause").click()
     user.open("Timeline")
     lane = user.page.get_by_role("group", name="Recorded", exact=True)
-    kept_row = user.page.get_by_role("group", name="Kept", exact=True)
+    kept_row = user.page.get_by_role("group", name="History", exact=True)
     assert 0 < lane.locator(".band").bounding_box()["width"] < kept_row.locator(".band").bounding_box()["width"]
     _at_rest(user, heights)
 

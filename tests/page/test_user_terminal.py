@@ -203,7 +203,7 @@ def test_view_only_users_see_output_and_cannot_type(graph: Graph, chromium: Any,
     viewer = Typist(chromium, link)
     viewer.choose("/drive")
     viewer.reads("i: forward")
-    viewer.page.get_by_text("This link only allows looking.").wait_for()
+    viewer.page.get_by_text("This link is view-only.").wait_for()
     viewer.page.locator(".terminalhost").click()
     viewer.page.keyboard.type("iii")
     with ProtocolClient(link) as client:

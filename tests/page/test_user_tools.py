@@ -274,7 +274,7 @@ def test_the_camera_is_moved_although_a_marker_is_under_the_pointer(user: SceneU
 def test_a_point_is_focused_and_the_view_saved(user: SceneUser, server: PageServer) -> None:
     """Must be last, as it moves the ground."""
     user.side("Views")
-    user.page.get_by_role("button", name="Save this one").click()
+    user.page.get_by_role("button", name="Save current view").click()
     user.tool("Focus")
     user.click((1.0, -1.0))
     user.until(lambda: user.property("X [m]").input_value() == "1")

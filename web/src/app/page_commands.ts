@@ -76,7 +76,7 @@ export function pageCommands(shell: Shell): readonly Command[] {
     command("download_rviz", "Displays", "Download as .rviz", () => download(shell)),
     command("reset_displays", "Displays", "Reset all displays", () => page.displays.reset()),
     command("theme", "Page", "Light or dark theme", () => switchTheme(page.theme)),
-    command("notices", "Page", "List the faults", () => (dialog.value = "notices")),
+    command("notices", "Page", "Show the problems", () => (dialog.value = "notices")),
     command("palette", "Page", "Search commands", () => (dialog.value = "palette"), "Ctrl K"),
     command("help", "Page", "Keys", () => (dialog.value = "help"), "?"),
   ];

@@ -15,7 +15,7 @@ import { ViewMenu } from "./views/view_menu";
 export function SceneOverlay({ shell }: { readonly shell: Shell }): JSX.Element {
   const hasTools = !shell.layout.isPhone.value && shell.isDrawn.value; // tools of the drawn scene
   return (
-    <section class="scene-overlay" aria-label="On the scene">
+    <section class="scene-overlay" aria-label="Controls of the 3D view">
       <div class="top">
         {hasTools && (
           <div class="bars">

@@ -4,7 +4,7 @@ import type { ComponentChildren, JSX } from "preact";
 
 import type { Page } from "./page";
 
-export const LOOKS_ONLY = "This link only allows looking.";
+export const LOOKS_ONLY = "This link is view-only.";
 
 /** True if the page is not view-only. */
 export function canControl({ session }: Pick<Page, "session">): boolean {

@@ -76,7 +76,7 @@ function Timeline({ page }: PanelProps): JSX.Element {
             ))}
           </Lane>
           {kind !== "bag" && (
-            <Lane name={!span.isSeekable ? "Simulated" : kind === "simulation" ? "Kept" : "Recorded"}>
+            <Lane name={!span.isSeekable ? "Simulated" : kind === "simulation" ? "History" : "Recorded"}>
               <Bands bands={[[span.start, span.known]]} span={span} share={share} />
             </Lane>
           )}

@@ -24,7 +24,7 @@ export interface NumberFieldProps {
 export function numberFault(text: string, limits: Pick<NumberFieldProps, "min" | "max" | "integer">): string | null {
   const value = parseNumber(text);
   if (value === null) return `"${text}" is not a number.`;
-  if (limits.integer === true && !Number.isInteger(value)) return "A whole number, please.";
+  if (limits.integer === true && !Number.isInteger(value)) return "Enter a whole number.";
   if (limits.min !== undefined && value < limits.min) return `At least ${plain(limits.min)}.`;
   if (limits.max !== undefined && value > limits.max) return `At most ${plain(limits.max)}.`;
   return null;

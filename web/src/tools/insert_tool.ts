@@ -42,7 +42,7 @@ export class InsertTool extends BaseTool implements Inserter {
     this.hint.value =
       item === null
         ? "Choose what to insert."
-        : `Click where the ${item.title} is to be. Enter: in the middle. Esc: nowhere.`;
+        : `Click to place the ${item.title}. Enter: in the center of the view. Esc: cancel.`;
     if (item !== null) {
       const accent = getComputedStyle(scene.element).getPropertyValue("--accent").trim() || "#3fbed0";
       this.ghost = new InsertionGhost(item, new Color(accent), () => scene.invalidate());

@@ -10,7 +10,7 @@ export class MoveCamera extends BaseTool {
   override readonly cursor = "default";
 
   activate(): void {
-    this.hint.value = "Left: turn. Middle: shift. Right or wheel: zoom. Shift: more.";
+    this.hint.value = "Left: rotate. Middle: pan. Right or wheel: zoom. Shift: more options.";
   }
 
   deactivate(): void {

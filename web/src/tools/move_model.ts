@@ -26,7 +26,8 @@ export class MoveModel extends HandleTool {
     }),
   );
   protected readonly axes = this.add(new EnumProperty("Axes", "World", ["World", "Model"]));
-  protected readonly usage = "Drag an arrow, or the model over the ground. Ctrl: to the grid. Shift: onto surfaces.";
+  protected readonly usage =
+    "Drag an arrow, or the model over the ground. Ctrl: snap to the grid. Shift: snap to surfaces.";
   protected readonly body: Handle = { kind: "plane", axis: AXES[2] };
   private readonly all: readonly Handle[] = [
     ...LETTERS.map((letter): Handle => ({ kind: "axis", axis: AXES[letter], letter })),

@@ -19,7 +19,7 @@ export class RotateModel extends HandleTool {
   readonly snaps = this.add(new BoolProperty("Snap", false, { description: "Always, not only with Ctrl" }));
   readonly step = this.add(new NumberProperty("Step", 15, { min: 0.1, max: 180, unit: "°" }));
   protected readonly axes = this.add(new EnumProperty("Axes", "Model", ["World", "Model"]));
-  protected readonly usage = "Drag a ring. Ctrl: by steps.";
+  protected readonly usage = "Drag a ring. Ctrl: snap to steps.";
   protected readonly body = null;
   private readonly all: readonly Handle[] = [
     { kind: "ring", axis: new Vector3(1, 0, 0), letter: 0 },

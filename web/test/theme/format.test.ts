@@ -26,7 +26,7 @@ describe("numbers", () => {
   it("are refused with a sentence", () => {
     expect(numberFault("two", {})).toBe('"two" is not a number.');
     expect(numberFault("2", { max: 1 })).toBe("At most 1.");
-    expect(numberFault("1.5", { integer: true })).toBe("A whole number, please.");
+    expect(numberFault("1.5", { integer: true })).toBe("Enter a whole number.");
     expect(numberFault("1", { min: 0, max: 1 })).toBeNull();
   });
 });

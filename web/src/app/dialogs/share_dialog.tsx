@@ -43,12 +43,12 @@ export function ShareDialog({ shell }: { readonly shell: Shell }): JSX.Element {
     <Dialog title="Share" class="save share" onClose={() => (shell.dialog.value = null)}>
       <div class="form">
         {!session.view_only && (
-          <div role="group" aria-label="Rights of the link">
+          <div role="group" aria-label="Permissions of the link">
             <Button small on={!looks.value} onClick={() => (looks.value = false)}>
               View and control
             </Button>
             <Button small on={looks.value} onClick={() => (looks.value = true)}>
-              Look only
+              View only
             </Button>
           </div>
         )}

@@ -55,7 +55,7 @@ export function TimeDialog({ shell }: { readonly shell: Shell }): JSX.Element {
               onCommit={(value) => (steps.value = value)}
             />
             <Button tone="line" onClick={() => void ask("step", { count: steps.value })}>
-              Take
+              Step
             </Button>
           </label>
         )}

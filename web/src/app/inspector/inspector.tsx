@@ -31,7 +31,7 @@ export function Inspector({ shell }: { readonly shell: Shell }): JSX.Element {
       <PartForm shell={shell} draft={draft.value} path={selection.part} />
     );
   }
-  if (selection === null) return <p class="empty">Nothing is selected. Press something in the scene or in a tree.</p>;
+  if (selection === null) return <p class="empty">Nothing is selected. Click something in the 3D view or in a tree.</p>;
   return (
     <div class="scroll inspector">
       <Title shell={shell} selection={selection} />
@@ -145,7 +145,7 @@ function Title({ shell, selection }: SelectionProps): JSX.Element {
       {selection.kind !== "picked" && (
         <Button
           icon="focus"
-          label="Frame it in the view"
+          label="Frame in the view"
           keys="F"
           small
           onClick={() => frameSelection(shell.page, selection)}

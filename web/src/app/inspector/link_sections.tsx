@@ -141,7 +141,7 @@ function Inertia({ shell, model, link }: Omit<LinkProps, "isStatic">): JSX.Eleme
       ) : (
         <KeyValue name="Mass" value={fixed(link.mass, 3)} unit="kg" />
       )}
-      <KeyValue name="Centre of mass" value={row([x, y, z], 3)} unit="m" />
+      <KeyValue name="Center of mass" value={row([x, y, z], 3)} unit="m" />
       <KeyValue name="ixx · iyy · izz" value={row([ixx, iyy, izz], 4)} unit="kg m²" />
       {[ixy, ixz, iyz].some((product) => product !== 0) && (
         <KeyValue name="ixy · ixz · iyz" value={row([ixy, ixz, iyz], 4)} unit="kg m²" />

@@ -84,7 +84,7 @@ function handlingItems(shell: Shell, selection: InModel): MenuItem[] {
   return [
     edit,
     { title: "Apply force or torque…", run: () => openWrench(shell, selection) },
-    { title: info.held ? "Let go" : "Hold in the air", keys: "H", run: () => holdModel(shell, model, !info.held) },
+    { title: info.held ? "Release" : "Hold in the air", keys: "H", run: () => holdModel(shell, model, !info.held) },
     { title: "Reset this model", run: () => resetModel(shell, model) },
   ];
 }

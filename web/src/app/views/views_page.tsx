@@ -56,7 +56,7 @@ export function ViewsPage({ shell }: { readonly shell: Shell }): JSX.Element {
         </div>
       </section>
       <section class="sec">
-        <h2>Look as</h2>
+        <h2>Camera</h2>
         <div class="sides">
           <Button small tone="line" onClick={() => views.toggleProjection()}>
             {isOrthographic(current) ? "Perspective" : "Orthographic"}
@@ -81,7 +81,7 @@ export function ViewsPage({ shell }: { readonly shell: Shell }): JSX.Element {
           Saved views
           <span class="sp" />
           <Button icon="plus" small onClick={() => saveView(shell)}>
-            Save this one
+            Save current view
           </Button>
         </h2>
         {views.saved.value.length === 0 && <p class="t2 sm">None yet.</p>}
