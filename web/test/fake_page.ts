@@ -57,6 +57,7 @@ class FakeWorld implements SimulatedWorld {
     recording: null,
   });
   readonly progress = signal(1);
+  readonly isDrawn = signal(true);
   readonly faults = signal<readonly string[]>([]);
   readonly joints = signal<JointStates>([]);
   readonly reference = signal<Reference | null>(null);

@@ -1,6 +1,7 @@
 /** The first picture that a person waits for; everything else loads after it. */
 
-import { whenLoaded } from "../scene/world/first_sight";
+import { effect } from "@preact/signals";
+
 import type { Page } from "../page/page";
 
 /** Longest wait for it [ms]: a large world takes longer to load. */
@@ -9,17 +10,20 @@ const PATIENCE = 2000;
 /** Wait until the simulated world is drawn, or, where there is none, the scene. */
 export function firstPicture({ session, scene, world }: Page): Promise<void> {
   return new Promise((resolve) => {
-    const onDrawn = (): void => {
+    const isWorld = session.kind === "simulation" || session.kind === "log";
+    if (scene.status.peek().kind === "unsupported") resolve();
+    else if (isWorld)
+      effect(() => {
+        if (world.isDrawn.value) setTimeout(resolve);
+      });
+    else {
       const stop = scene.addStep({
         after: () => {
           stop();
           setTimeout(resolve);
         },
       });
-    };
-    if (scene.status.peek().kind === "unsupported") resolve();
-    else if (session.kind === "simulation" || session.kind === "log") whenLoaded(world, onDrawn);
-    else onDrawn();
+    }
     setTimeout(resolve, PATIENCE);
   });
 }

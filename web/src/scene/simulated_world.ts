@@ -35,6 +35,8 @@ export interface SimulatedWorld {
   readonly state: ReadonlySignal<ClockState | null>;
   /** Ratio of the files that has arrived, 0…1. */
   readonly progress: ReadonlySignal<number>;
+  /** True while a picture shows all files. */
+  readonly isDrawn: ReadonlySignal<boolean>;
   /** Sentences about files that could not be shown. */
   readonly faults: ReadonlySignal<readonly string[]>;
   /** Changes at 10 Hz while something listens. */

@@ -45,6 +45,21 @@ test("poses move only the objects of their bodies", () => {
   expect(poses.pose(200)?.position.z).toBe(3);
 });
 
+test("a body that physics hardly moves rests in the picture, and one that creeps does not", () => {
+  const poses = new BodyPoses();
+  const body = new Group();
+  poses.attach(0, body);
+  const apply = (time: number, x: number): boolean => {
+    poses.apply(poseMessage(BigInt(time), 1, [[0, x, 0, 0, 0, 0, 0, 1]]), 1);
+    return poses.takeMoved();
+  };
+  expect(apply(1, 1)).toBe(true);
+  for (let time = 2; time < 20; time += 1) expect(apply(time, 1 + 1e-6 * (time % 3))).toBe(false);
+  for (let time = 20; time < 40; time += 1) apply(time, 1 + 3e-5 * (time - 20));
+  expect(Math.abs(body.position.x - (1 + 3e-5 * 19))).toBeLessThan(1.1e-4);
+  expect(poses.pose(0)?.position.x).toBeCloseTo(1 + 3e-5 * 19, 6);
+});
+
 test("a body whose model is loaded after its pose is placed at once", () => {
   const poses = new BodyPoses();
   poses.apply(poseMessage(5n, 1, [[0, 7, 0, 0, 0, 0, 0, 1]]), 1);
@@ -200,13 +215,16 @@ describe("one time for bodies and frames", () => {
   }
 
   test("the world is drawn at tf's newest time if its poses are newer", () => {
-    const { placement, robot, frameX } = driving([40n, 80n]);
+    const { poses, placement, robot, frameX } = driving([40n, 80n]);
 
-    expect(placement.synchronize("odom", false)).toBe(true);
+    poses.takeMoved();
+    placement.synchronize("odom", false);
 
     expect(robot.position.x).toBeCloseTo(0.08);
     expect(frameX()).toBeCloseTo(0.08);
-    expect(placement.synchronize("odom", false)).toBe(false);
+    expect(poses.takeMoved()).toBe(true);
+    placement.synchronize("odom", false);
+    expect(poses.takeMoved()).toBe(false);
   });
 
   test("frames are drawn at the poses' time if tf is newer", () => {
@@ -219,10 +237,12 @@ describe("one time for bodies and frames", () => {
   });
 
   test("a world that stands still is drawn as it is", () => {
-    const { placement, robot, frameX } = driving([40n, 80n]);
+    const { poses, placement, robot, frameX } = driving([40n, 80n]);
     placement.synchronize("odom", false);
 
-    expect(placement.synchronize("odom", true)).toBe(true);
+    poses.takeMoved();
+    placement.synchronize("odom", true);
+    expect(poses.takeMoved()).toBe(true);
 
     expect(robot.position.x).toBeCloseTo(0.1);
     expect(frameX()).toBeCloseTo(0.08);

@@ -29,7 +29,7 @@ function Loading({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const progress = world.progress.value;
   if (session.kind === "graph" || session.kind === "bag" || connection.state.value.kind === "lost") return null;
   if (manifest?.models.length === 0) return <Note text="The world is empty." />;
-  if (manifest !== null && progress >= 1) return null;
+  if (manifest !== null && progress >= 1 && world.isDrawn.value) return null;
   const name = manifest === null || manifest.name === "default" ? session.title : manifest.name;
   return (
     <div class="scene-note float loading" role="status">

@@ -2,7 +2,7 @@
 
 import { Object3D, Vector3 } from "three";
 
-import type { Transform } from "../../frames/transform";
+import { looksSame, type Transform } from "../../frames/transform";
 import type { Label, SceneView } from "../../scene/scene_view";
 import { BoolProperty, GroupProperty, Property, type Yaml } from "../../rviz/properties";
 
@@ -100,12 +100,12 @@ export class FrameView {
     this.anchor.name = name;
   }
 
-  /** Set the pose in the fixed frame; true: it moved. */
-  place({ position, orientation }: Transform): boolean {
-    const { position: here, quaternion: turn } = this.anchor;
-    if (this.isPlaced && here.equals(position) && turn.equals(orientation)) return false;
-    here.copy(position);
-    turn.copy(orientation);
+  /** Set the pose in the fixed frame; true: it moved visibly. */
+  place(pose: Transform): boolean {
+    const { position, quaternion } = this.anchor;
+    if (this.isPlaced && looksSame(position, quaternion, pose)) return false;
+    position.copy(pose.position);
+    quaternion.copy(pose.orientation);
     this.isPlaced = true;
     return true;
   }

@@ -2,16 +2,16 @@
 
 import { Quaternion, Vector3, type Object3D } from "three";
 
-import type { Transform } from "../../frames/transform";
+import { looksSame, type Transform } from "../../frames/transform";
 
 const HEADER = 16;
 const NUMBERS = 7;
 /** Largest number of past poses that are kept, and their age [ns]. */
 const MAX_PAST = 16;
 const MAX_AGE = 500_000_000n;
-/** Numbers while interpolating. */
-const POSITION = new Vector3();
-const TURN = new Quaternion();
+/** Pose while it is read, and the one after it while interpolating. */
+const POSE = { position: new Vector3(), orientation: new Quaternion() };
+const AFTER = { position: new Vector3(), orientation: new Quaternion() };
 
 /** Poses of all bodies at a time, and the bodies that the message moved. */
 interface Past {
@@ -31,6 +31,7 @@ export class BodyPoses {
   private past: Past[] = [];
   /** Time at which the bodies are drawn [ns]. */
   drawnAt = 0n;
+  private hasMoved = false;
 
   /** Attach the object that follows a body. */
   attach(body: number, object: Object3D): void {
@@ -94,9 +95,16 @@ export class BodyPoses {
     return true;
   }
 
-  /** Place the objects as their bodies were at a time [ns], interpolated; true: some may have moved. */
-  draw(time: bigint): boolean {
-    if (time === this.drawnAt) return false;
+  /** True if an object has visibly moved since the last call. */
+  takeMoved(): boolean {
+    const { hasMoved } = this;
+    this.hasMoved = false;
+    return hasMoved;
+  }
+
+  /** Place the objects as their bodies were at a time [ns], interpolated. */
+  draw(time: bigint): void {
+    if (time === this.drawnAt) return;
     this.drawnAt = time;
     const after = Math.max(
       this.past.findIndex((past) => past.time > time),
@@ -105,13 +113,12 @@ export class BodyPoses {
     const [from, to] = [this.past[Math.max(after - 1, 0)], this.past[after]];
     if (from === undefined || to === undefined || time >= this.time) {
       for (const { moved } of this.past) for (const body of moved) this.place(body);
-      return true;
+      return;
     }
     const share = from === to ? 1 : Number(time - from.time) / Number(to.time - from.time);
     const moved = new Set<number>();
     for (const past of this.past) for (const body of past.moved) moved.add(body);
     for (const body of moved) this.interpolate(body, from.numbers, to.numbers, share);
-    return true;
   }
 
   private interpolate(body: number, from: Float32Array, to: Float32Array, share: number): void {
@@ -119,16 +126,25 @@ export class BodyPoses {
     const at = body * NUMBERS;
     if (object === undefined || at >= to.length) return;
     const start = at < from.length ? from : to;
-    object.position.fromArray(start, at);
-    object.position.lerp(POSITION.fromArray(to, at), share);
-    object.quaternion.fromArray(start, at + 3).slerp(TURN.fromArray(to, at + 3), share);
+    POSE.position.fromArray(start, at).lerp(AFTER.position.fromArray(to, at), share);
+    POSE.orientation.fromArray(start, at + 3).slerp(AFTER.orientation.fromArray(to, at + 3), share);
+    this.move(object);
   }
 
   private place(body: number): void {
     const object = this.objects[body];
     if (object === undefined) return;
-    object.position.fromArray(this.numbers, body * NUMBERS);
-    object.quaternion.fromArray(this.numbers, body * NUMBERS + 3);
+    POSE.position.fromArray(this.numbers, body * NUMBERS);
+    POSE.orientation.fromArray(this.numbers, body * NUMBERS + 3);
+    this.move(object);
+  }
+
+  /** Move an object to the pose that was read, if that can be seen: physics never stands quite still. */
+  private move({ position, quaternion }: Object3D): void {
+    if (looksSame(position, quaternion, POSE)) return;
+    position.copy(POSE.position);
+    quaternion.copy(POSE.orientation);
+    this.hasMoved = true;
   }
 
   private grow(bodies: number): void {

@@ -44,16 +44,16 @@ export class WorldPlacement {
   }
 
   /**
-   * Draw bodies and frames at one time, the newest that both poses and tf have; true if bodies moved.
+   * Draw bodies and frames at one time, the newest that both poses and tf have.
    * While time stands still, both are drawn as they are now.
    */
-  synchronize(fixedFrame: string, isPaused: boolean): boolean {
+  synchronize(fixedFrame: string, isPaused: boolean): void {
     const { poses, frames, anchor } = this;
     const newest = anchor === null || isPaused ? 0n : frames.newestTime(fixedFrame, anchor.frame);
     const isBehind = newest !== 0n && newest < poses.time && poses.time - newest < MAX_LAG;
     const time = isBehind ? newest : poses.time;
     frames.drawnAt = isPaused ? null : time;
-    return poses.draw(time);
+    poses.draw(time);
   }
 
   /** Move the world to its place; true if it moved. */

@@ -1,6 +1,6 @@
 /** The simulated world as the server's channels describe it, drawn in the scene. */
 
-import { batch, effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
+import { batch, computed, effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
 import { Box3, Matrix4, Vector3, type Mesh, type Object3D } from "three";
 
 import type { ClockState, Manifest } from "../../protocol/generated/page_messages";
@@ -12,7 +12,6 @@ import type { JointStates, Reference, SimulatedWorld } from "../simulated_world"
 import type { ThreeScene } from "../three_scene";
 import { BodyPoses } from "./body_poses";
 import { modelOf, type GlbModel } from "./glb_model";
-import { whenLoaded } from "./first_sight";
 import { readJoints } from "./joint_states";
 import { WorldPlacement } from "./placement";
 import { Sky } from "./sky";
@@ -27,7 +26,8 @@ export class WorldFeed implements SimulatedWorld {
   readonly joints: ReadonlySignal<JointStates>;
   readonly shown = new ShownParts();
   readonly hidden = signal<ReadonlySet<string>>(new Set());
-  /** True once the first world is drawn: before, a grid alone would look like an empty one. */
+  readonly isDrawn = signal(false);
+  /** True once the first world is loaded: before, a grid alone would look like an empty one. */
   private readonly hasLoaded = signal(false);
   private readonly lighting = new WorldLighting();
   private readonly files: WorldFiles;
@@ -128,7 +128,7 @@ export class WorldFeed implements SimulatedWorld {
     on("trundle/poses", (payload) => this.takePoses(payload));
     on("trundle/lines", (payload) => {
       const lines = readLines(payload);
-      if (lines === null) return;
+      if (lines === null || (lines.length === 0 && this.lines.children.length === 0)) return;
       this.lines.show(lines);
       scene.invalidate();
     });
@@ -138,9 +138,7 @@ export class WorldFeed implements SimulatedWorld {
       effect(() => {
         this.hide(this.hidden.value);
       }),
-      whenLoaded(this, () => {
-        this.hasLoaded.value = true;
-      }),
+      this.followLoading(),
       effect(() => {
         const url = this.manifest.value?.collisions ?? null;
         this.setCollisions(this.shown.any("collisions") ? url : null);
@@ -160,6 +158,28 @@ export class WorldFeed implements SimulatedWorld {
         this.poses.forgetPoses(); // the server sends all of them again
       }),
     );
+  }
+
+  /** Note when all files are loaded, and then that a picture shows them. */
+  private followLoading(): () => void {
+    const isLoaded = computed(() => this.manifest.value !== null && this.progress.value === 1);
+    return effect(() => {
+      this.isDrawn.value = false;
+      if (!isLoaded.value) return;
+      this.hasLoaded.value = true;
+      let isBegun = false; // the next picture to be shown may have been drawn before
+      const stop = this.scene.addStep({
+        before: () => {
+          isBegun = true;
+        },
+        after: () => {
+          if (!isBegun) return;
+          stop();
+          this.isDrawn.value = true;
+        },
+      });
+      return stop;
+    });
   }
 
   /** Joints are asked for only while something listens. */
@@ -202,10 +222,9 @@ export class WorldFeed implements SimulatedWorld {
     const manifest = this.manifest.peek();
     if (manifest === null || !this.poses.apply(payload, manifest.generation)) return;
     this.placement.remember(manifest);
-    this.synchronize();
+    const hasGhostMoved = this.synchronize();
     for (const call of this.poseListeners) call(Number(this.poses.time) / 1e9);
-    this.lighting.invalidate();
-    this.scene.invalidate();
+    if (this.poses.takeMoved() || hasGhostMoved) this.redraw();
   }
 
   private onFiles(added: GlbModel | null, removed: GlbModel | null): void {
@@ -221,22 +240,26 @@ export class WorldFeed implements SimulatedWorld {
   private place(): void {
     const manifest = this.manifest.peek();
     if (manifest === null) return;
-    const moved = this.synchronize();
-    if (!this.placement.update(manifest, this.fixedFrame.peek()) && !moved) return;
-    this.lighting.invalidate();
-    this.scene.invalidate();
+    const hasGhostMoved = this.synchronize();
+    const isPlaced = this.placement.update(manifest, this.fixedFrame.peek());
+    if (this.poses.takeMoved() || hasGhostMoved || isPlaced) this.redraw();
   }
 
+  /** Place all at one time; true: the recording that the world is compared with has moved. */
   private synchronize(): boolean {
-    const moved = this.placement.synchronize(this.fixedFrame.peek(), this.state.peek()?.paused ?? true);
-    this.compared.show(Number(this.poses.drawnAt) / 1e9);
-    return moved;
+    this.placement.synchronize(this.fixedFrame.peek(), this.state.peek()?.paused ?? true);
+    return this.compared.show(Number(this.poses.drawnAt) / 1e9);
   }
 
   private buildGhost(): void {
     this.compared.rebuild(this.manifest.peek());
     this.compared.show(Number(this.poses.drawnAt) / 1e9);
     this.compared.hide((link) => isHidden(link, this.hidden.peek()));
+  }
+
+  private redraw(): void {
+    this.lighting.invalidate();
+    this.scene.invalidate();
   }
 
   private hide(hidden: ReadonlySet<string>): void {

@@ -61,12 +61,13 @@ export class WorldReference {
   }
 
   /** Show the ghost at a time of the world [s]. */
-  show(time: number): void {
+  show(time: number): boolean {
     const loaded = this.current.peek();
     const since = time - (loaded?.info.start ?? 0);
-    if (loaded === null || since === this.shownAt) return;
+    if (loaded === null || since === this.shownAt) return false;
     this.shownAt = since;
     this.ghost.show(loaded.motion, since);
+    return true;
   }
 
   hide(isHidden: (link: string) => boolean): void {
