@@ -1,7 +1,8 @@
 // Faults of the page's layout, as sentences: overlapping areas, controls that are cut off, texts cut without an ellipsis.
 () => {
   const faults = [];
-  const AREAS = ".bar, aside.panel, section.dock, .sheet, .tools, .notice, .drive.float, .disc, .pv, .tiles > .tile";
+  const AREAS =
+    ".bar, aside.panel, section.dock, .sheet, .tools, .notice, .drive.float, .disc, .pv, .tiles > .tile, .scene svg, .panename, .scene-note";
   const name = (element) => {
     const label = element.getAttribute("aria-label") ?? element.textContent.trim();
     return `${element.tagName.toLowerCase()}.${element.getAttribute("class") ?? ""} "${label.slice(0, 40)}"`;
@@ -74,6 +75,8 @@
     if (visible.right > innerWidth + 1 || visible.left < -1) faults.push(`${name(control)} is outside the window`);
     shown.push([control, visible]);
   }
+  const isScale = ({ parentElement }) => parentElement.closest(".timeline .ruler") !== null;
+  const isTime = ({ parentElement }) => parentElement.closest(".playhead, .pointed") !== null;
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   const texts = [];
   for (let node = walker.nextNode(); node !== null; node = walker.nextNode()) {
@@ -91,7 +94,7 @@
   }
   for (const [i, [a, box, text]] of texts.entries()) {
     for (const [b, other, otherText] of texts.slice(i + 1)) {
-      if (a.parentElement.closest(".ruler") || b.parentElement.closest(".ruler")) continue; // the time now covers the scale
+      if ((isScale(a) && isTime(b)) || (isScale(b) && isTime(a))) continue; // the time now covers the scale
       if (a !== b && meet(box, { ...other, top: other.top + 3, bottom: other.bottom - 3 }))
         faults.push(`the text "${text.slice(0, 40)}" lies over "${otherText.slice(0, 40)}"`);
     }

@@ -1,5 +1,6 @@
 /** The dock below the scene: panels in tabs that can be split, moved and closed. */
 
+import { effect, signal } from "@preact/signals";
 import { render, type ComponentChildren, type JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import {
@@ -23,6 +24,9 @@ import { recall, remember } from "../page/storage";
 
 /** Panels that are open by default, in this order. */
 const FIRST = ["plots", "topics", "log", "graph", "timeline"] as const;
+
+/** Height of the row of tabs, with the dock's borders [px]. */
+const TABS = 34;
 
 /** Panel that is in front by default. */
 const FRONT: Readonly<Record<PageSession["kind"], string>> = {
@@ -61,23 +65,53 @@ export class Dock {
       (program) => this.showProgram(api, program),
     );
     const saved = api.onDidLayoutChange(() => remember(this.key, api.toJSON()));
+    const unfit = this.followContents(api);
+    const tabOf = ({ target }: Event): HTMLElement | null =>
+      target instanceof Element && target.closest(".tab .shut") === null
+        ? target.closest<HTMLElement>(".dv-tab")
+        : null;
     const keyDown = (event: KeyboardEvent): void => {
-      const tab = event.target instanceof Element ? event.target.closest<HTMLElement>(".dv-tab") : null;
+      const tab = tabOf(event);
       if (event.key === "Delete") api.getPanel(tab?.dataset["tabPanelId"] ?? "")?.api.close();
+      if (event.key === "Enter" && tab !== null) this.layout.openDock(true);
+    };
+    const click = (event: MouseEvent): void => {
+      if (tabOf(event) !== null && !this.layout.dockOpen.peek()) this.layout.openDock(true);
     };
     element.addEventListener("keydown", keyDown);
+    element.addEventListener("click", click);
     return () => {
       unfollow();
+      unfit();
       element.removeEventListener("keydown", keyDown);
+      element.removeEventListener("click", click);
       saved.dispose();
       api.dispose();
       this.api = null;
     };
   }
 
+  /** Tell the layout the height of what the dock shows; returns a function that ends it. */
+  private followContents(api: DockviewApi): () => void {
+    const changes = signal(0);
+    const count = (): void => void (changes.value += 1);
+    const changed = [api.onDidLayoutChange(count), api.onDidActivePanelChange(count)];
+    const stop = effect(() => {
+      changes.value; // eslint-disable-line @typescript-eslint/no-unused-expressions -- other panels are in front
+      const [group, other] = api.groups;
+      const front = other === undefined ? this.byId.get(group?.activePanel?.id ?? "") : undefined;
+      const height = front?.contentHeight?.(this.page).value ?? null;
+      this.layout.dockContents.value = height === null ? null : height + TABS;
+    });
+    return () => {
+      stop();
+      for (const subscription of changed) subscription.dispose();
+    };
+  }
+
   /** Bring a panel to the front; opens it if it is closed. */
   show(id: string): void {
-    this.layout.dockOpen.value = true;
+    this.layout.openDock(true);
     if (this.api !== null) this.add(this.api, id);
   }
 
@@ -234,10 +268,9 @@ function PanelActions({ children }: { readonly children: ComponentChildren }): J
 function Collapse({ layout }: { readonly layout: Layout }): JSX.Element {
   const open = layout.dockOpen.value;
   const label = open ? "Collapse the dock" : "Open the dock";
-  const toggle = (): void => {
-    layout.dockOpen.value = !open;
-  };
-  return <Button icon={open ? "collapse_down" : "expand_up"} label={label} small onClick={toggle} />;
+  return (
+    <Button icon={open ? "collapse_down" : "expand_up"} label={label} small onClick={() => layout.openDock(!open)} />
+  );
 }
 
 function isLayout(value: unknown): value is SerializedDockview | null {

@@ -38,7 +38,7 @@ export class DockSlot {
 
   /** Bring a panel to the front; opens it if it is closed. */
   open(id: string): void {
-    this.layout.dockOpen.value = true;
+    this.layout.openDock(true);
     if (this.layout.isPhone.peek()) this.layout.openSheet(id);
     const dock = this.dock.peek();
     if (dock === null) this.pendingPanel = id;

@@ -18,7 +18,11 @@ const RAIL = 32;
 const GAPS = 32; // left and right of each side panel
 /** Widths of a side panel [px]. */
 export const SIDE = { min: 240, max: 288 };
-const DOCK = { min: 120, rail: 32 };
+const DOCK = { min: 120, rail: 32, first: 200 };
+/** Height of a page below which the dock's first height shrinks, and by which share of what the page lacks [px]. */
+const DOCK_SHRINKS = { below: 900, share: 0.3 };
+/** Share of the page that a dock as high as its contents covers at most. */
+const CONTENTS_SHARE = 1 / 3;
 /** Shortest page on which the dock begins open, and height that an open dock leaves: bar, tools, notice and camera tiles [px]. */
 const DOCK_OPENS = 560;
 const ABOVE_DOCK = 304;
@@ -79,8 +83,14 @@ export class Layout {
   readonly height = signal(innerHeight);
   readonly left: Side;
   readonly right: Side;
-  readonly dockOpen = signal(innerHeight >= DOCK_OPENS && recall("dock.open", true, isBoolean));
-  readonly dockHeight = signal(recall("dock.height", 200, isNumber));
+  /** True where the dock begins open: there is a robot to drive, or something to show. */
+  readonly dockBegins = signal(false);
+  /** Height of the contents of the dock's panels with its tabs [px]; null: they take what they get. */
+  readonly dockContents = signal<number | null>(null);
+  /** Whether a person has left the dock open; null: nobody has opened or closed it. */
+  private readonly dockLeft = signal(innerHeight < DOCK_OPENS ? false : recall("dock.open", null, isBoolean));
+  /** Height that a person has chosen [px]; null: nobody has. */
+  private readonly dockHeight = signal(recall("dock.height", null, isNumber));
   /** Page of the phone's sheet: "world", "displays", "inspector" or a panel's id. */
   readonly sheetPage = signal("world");
   readonly sheetHeight = signal<SheetHeight>("closed");
@@ -94,8 +104,9 @@ export class Layout {
       this.right.isOpen.value ? this.right.width.value : null,
     ),
   );
+  readonly dockOpen = computed(() => this.dockLeft.value ?? this.dockBegins.value);
   readonly dock = computed(() =>
-    this.dockOpen.value ? Math.max(DOCK.min, Math.min(this.dockHeight.value, this.tallestDock)) : DOCK.rail,
+    this.dockOpen.value ? Math.max(DOCK.min, Math.min(this.wantedDock, this.tallestDock)) : DOCK.rail,
   );
 
   constructor(kind: "simulation" | "graph" | "log" | "bag") {
@@ -103,9 +114,6 @@ export class Layout {
     const open = (key: string, first: boolean, from: number) => ({ key, first, from, in: this.width });
     this.left = new Side("left", simulates ? "world" : "displays", LEFT, kind, open("left.open", true, RAILS), 272);
     this.right = new Side("right", "inspector", RIGHT, kind, open(`right.open.${kind}`, simulates, ONE_SIDE), 280);
-    effect(() => {
-      if (this.height.peek() >= DOCK_OPENS) remember("dock.open", this.dockOpen.value);
-    });
     effect(() => this.writeVariables());
   }
 
@@ -116,6 +124,13 @@ export class Layout {
     };
     addEventListener("resize", resize);
     return () => removeEventListener("resize", resize);
+  }
+
+  /** Height of the open dock as a person has chosen it, or as its panels and the window want it [px]. */
+  private get wantedDock(): number {
+    const [contents, chosen, height] = [this.dockContents.value, this.dockHeight.value, this.height.value];
+    if (contents !== null) return Math.min(contents, chosen ?? height * CONTENTS_SHARE);
+    return chosen ?? DOCK.first - DOCK_SHRINKS.share * Math.max(0, DOCK_SHRINKS.below - height);
   }
 
   private get tallestDock(): number {
@@ -168,8 +183,13 @@ export class Layout {
     if (this.sheetHeight.peek() === "closed") this.sheetHeight.value = "half";
   }
 
+  openDock(isOpen: boolean): void {
+    this.dockLeft.value = isOpen;
+    if (this.height.peek() >= DOCK_OPENS) remember("dock.open", isOpen);
+  }
+
   resizeDock(height: number): void {
-    this.dockOpen.value = height >= DOCK.min / 2;
+    this.openDock(height >= DOCK.min / 2);
     this.dockHeight.value = Math.max(DOCK.min, Math.min(height, this.tallestDock));
     remember("dock.height", this.dockHeight.peek());
   }

@@ -58,7 +58,7 @@ export function pageCommands(shell: Shell): readonly Command[] {
     ),
     command("left.toggle", "Panels", "Show or hide the left panel", () => layout.toggle("left"), "["),
     command("right.toggle", "Panels", "Show or hide the right panel", () => layout.toggle("right"), "]"),
-    command("dock.toggle", "Panels", "Show or hide the dock", toggle(layout.dockOpen), "\\"),
+    command("dock.toggle", "Panels", "Show or hide the dock", () => layout.openDock(!layout.dockOpen.peek()), "\\"),
     { ...command("undo", "Page", "Undo", () => undo.undo(), "Ctrl Z"), enabled: () => undo.undoTitle.peek() !== null },
     {
       ...command("redo", "Page", "Redo", () => undo.redo(), "Ctrl Shift Z"),

@@ -91,6 +91,16 @@ export class Shell {
     this.dock = new DockSlot(page, this.layout);
     this.lessons = new Lessons(this);
     effect(() => remember("cameras", this.showsCameras.value));
+    effect(() => {
+      if (this.fillsDock()) this.layout.dockBegins.value = true; // and stays, if the robot's driver ends
+    });
+  }
+
+  /** True if the dock has something to show at first: a robot's motion, plots, panels of programs, a recording. */
+  private fillsDock(): boolean {
+    const { session, drive } = this.page;
+    const isRecorded = session.kind === "log" || session.kind === "bag";
+    return isRecorded || drive.topic.value !== null || session.plots.length > 0 || session.panels.length > 0;
   }
 
   /** Select what was clicked in the scene, and show it in the tree of the left panel if that is open. */

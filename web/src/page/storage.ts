@@ -13,7 +13,7 @@ export function remember(key: string, value: unknown): void {
 }
 
 /** Stored value, or the fallback if none of its type is stored. */
-export function recall<T>(key: string, fallback: T, is: (value: unknown) => value is T): T {
+export function recall<T, F = T>(key: string, fallback: F, is: (value: unknown) => value is T): T | F {
   try {
     const value: unknown = parseJson(localStorage.getItem(PREFIX + key) ?? "null");
     return is(value) ? value : fallback;

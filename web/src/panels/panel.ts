@@ -1,5 +1,6 @@
 /** Panels of the dock. */
 
+import type { ReadonlySignal } from "@preact/signals";
 import type { ComponentType } from "preact";
 
 import type { Page } from "../page/page";
@@ -17,4 +18,6 @@ export interface Panel {
   readonly component: ComponentType<PanelProps>;
   /** Buttons at the right of the dock's row of tabs. */
   readonly actions?: ComponentType<PanelProps>;
+  /** Height of its contents [px], null before they are shown; absent: it fills the height that it gets. */
+  readonly contentHeight?: (page: Page) => ReadonlySignal<number | null>;
 }

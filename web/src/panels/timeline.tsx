@@ -1,7 +1,7 @@
 /** Timeline of a simulation, a recorded run or a bag, to scrub; with events and marks (rqt_bag). */
 
 import type { JSX } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
 
 import { canControl } from "../page/looking";
 import { Button } from "../theme/button";
@@ -15,10 +15,12 @@ import type { Panel, PanelProps } from "./panel";
 import { Head } from "./timeline/head";
 import { Bands, Lane, LaneGroup, type GroupedLane, type ShareProps } from "./timeline/lane";
 import { rulerTimes, timelineState, type Mark, type TimelineState } from "./timeline/timeline_state";
-import { useShown, useTick } from "./use";
+import { useShown, useTick, useWidth } from "./use";
 
 const PERIOD = 250; // ms
 const MAX_LABELS = 8;
+/** Room of a label on the ruler [px]. */
+const LABEL = 64;
 const SPEEDS: Readonly<Record<string, number | null>> = {
   "0.1×": 0.1,
   "0.25×": 0.25,
@@ -38,6 +40,12 @@ function Timeline({ page }: PanelProps): JSX.Element {
   useEffect(() => {
     if (isShown) state.followContacts();
   }, [state, isShown]);
+  useLayoutEffect(() => {
+    const lanes = root.current?.querySelector<HTMLElement>(".timeline");
+    const last = lanes?.lastElementChild;
+    if (!(last instanceof HTMLElement) || last.offsetHeight === 0) return; // a tab in the background has no height
+    state.height.value = (lanes?.offsetTop ?? 0) + last.offsetTop + last.offsetHeight;
+  });
   const span = state.span();
   if (span === null)
     return (
@@ -122,10 +130,11 @@ function topicLanes(state: TimelineState): readonly GroupedLane[] {
 }
 
 function Ruler({ span, share }: ShareProps): JSX.Element {
-  const times = rulerTimes(span, MAX_LABELS);
+  const ruler = useRef<HTMLDivElement>(null);
+  const times = rulerTimes(span, Math.max(1, Math.min(MAX_LABELS, Math.floor(useWidth(ruler) / LABEL))));
   const decimals = (times[1] ?? 1) - (times[0] ?? 0) < 1 ? 1 : 0;
   return (
-    <div class="ruler">
+    <div class="ruler" ref={ruler}>
       {times.map((time) => (
         <span key={time} style={{ left: share(time) }}>
           {timeText(time, decimals)}
@@ -230,6 +239,7 @@ export const timelinePanel: Panel = {
   id: "timeline",
   title: "Timeline",
   programs: ["rqt_bag"],
+  contentHeight: (page) => timelineState(page).height,
   component: Timeline,
   actions: Actions,
 };

@@ -26,6 +26,19 @@ export function saveFile(name: string, content: Blob): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }
 
+/** Width of an element [px]; 0 before it is laid out. */
+export function useWidth(element: { readonly current: Element | null }): number {
+  const [width, setWidth] = useState(0);
+  useEffect(() => {
+    const { current } = element;
+    if (current === null) return;
+    const observer = new ResizeObserver(() => setWidth(current.clientWidth));
+    observer.observe(current);
+    return () => observer.disconnect();
+  }, [element]);
+  return width;
+}
+
 /** True while an element can be seen: a tab in the background is not. */
 export function useShown(element: { readonly current: Element | null }): boolean {
   const [isShown, setShown] = useState(false);

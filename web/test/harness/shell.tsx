@@ -1,9 +1,17 @@
-/** The shell with a fake page; the address picks a state: `#view=rviz&theme=light&rtf=0.84&names=long&cameras=12`. */
+/**
+ * The shell with a fake page; the address picks a state: `#view=rviz&theme=light&rtf=0.84&names=long&cameras=12`.
+ * Nothing is drawn, but the scene's panes have their axes.
+ */
 
 import "../../src/theme/font.css";
 
+import { effect } from "@preact/signals";
+
 import { mount } from "../../src/app/mount";
 import { panels } from "../../src/panels";
+import { LabelSet } from "../../src/scene/label_layer";
+import type { PaneLayout } from "../../src/scene/panes/pane_layout";
+import { ScenePanes } from "../../src/scene/panes/scene_panes";
 import { fakePage, type FakePage } from "../fake_page";
 import { nameIn, showCrowd } from "./crowd";
 import { MANIFEST } from "./manifest";
@@ -51,13 +59,11 @@ function showGraph(page: FakePage): void {
     subscribers: new Map(),
     services: new Map(),
   };
-  page.connection.listen("/cmd_vel", "geometry_msgs/Twist");
   page.connection.time = 221_060_000_000n;
 }
 
 function showSimulation(page: FakePage): void {
   page.world.manifest.value = MANIFEST;
-  page.connection.listen("/cmd_vel", "geometry_msgs/Twist");
   page.world.joints.value = [0.42, -0.21, 5.17, 4.59, 4.07].map((value) => ({
     position: value,
     velocity: value,
@@ -72,6 +78,19 @@ function showSimulation(page: FakePage): void {
     page.connection.notices.value = [{ level: "warning", text: "38 meshes are missing" }];
 }
 
+/** Put the labels and axes of the scene's panes over a fake scene. */
+function showPanes({ scene, views }: FakePage, host: HTMLElement): void {
+  const panes = new ScenePanes(host, new LabelSet(() => undefined), scene.size, scene.freeArea);
+  effect(() => {
+    panes.layout.value = views.layout.value;
+    views.panes.value = panes.shown.value.map(({ place }) => ({ ...views.active.peek(), place }));
+  });
+  new ResizeObserver(() => {
+    scene.size.value = { width: host.clientWidth, height: host.clientHeight };
+    for (const pane of panes.shown.value) pane.showOver();
+  }).observe(host);
+}
+
 const graph = state.get("view") === "rviz";
 const script = state.get("names");
 const page = fakePage({
@@ -80,6 +99,7 @@ const page = fakePage({
 });
 if (graph) showGraph(page);
 else showSimulation(page);
+if (state.get("drive") !== "0") page.connection.listen("/cmd_vel", "geometry_msgs/Twist");
 if (script !== null) showCrowd(page, script, number("models", 4), number("cameras", 2), number("topics", 4));
 if (state.get("loading") !== null) page.world.progress.value = 0.4;
 if (state.get("connection") === "lost") page.connection.state.value = { kind: "lost", retryInSeconds: 3 };
@@ -92,6 +112,10 @@ Object.assign(page.scene.element.style, {
 });
 const host = document.createElement("div");
 host.append(page.scene.element);
+showPanes(page, host);
 const root = document.getElementById("app");
-if (root !== null) mount(root, { page, panels: Promise.resolve(panels), commands: page.commands, sceneHost: host });
+if (root !== null) {
+  const shell = mount(root, { page, panels: Promise.resolve(panels), commands: page.commands, sceneHost: host });
+  if (state.has("panes")) shell.split.value = state.get("panes") as PaneLayout;
+}
 Object.assign(window, { page });

@@ -41,6 +41,8 @@ export class TimelineState {
   private contactSubscription: Subscription | null = null;
   /** Kinds of lanes that a person has folded (true) or unfolded. */
   readonly folds = signal<ReadonlyMap<string, boolean>>(new Map());
+  /** Height of all lanes [px]; null: not shown yet. */
+  readonly height = signal<number | null>(null);
   private markCount = 0;
   private requestedTime: number | null = null;
   private isSeeking = false;
