@@ -60,7 +60,7 @@ export class WorldReference {
     this.scene.invalidate();
   }
 
-  /** Show the ghost at a time of the world [s]. */
+  /** Show the ghost at a time of the world [s]; true: it has moved. */
   show(time: number): boolean {
     const loaded = this.current.peek();
     const since = time - (loaded?.info.start ?? 0);
