@@ -2,7 +2,7 @@
 
 import asyncio
 
-from trundle.base.diagnostics import UsageError
+from trundle.base.diagnostics import TrundleError, UsageError
 
 from .lessons.checks import FileCheck
 from .lessons.file_state import FileStates
@@ -50,7 +50,13 @@ def _list(own: str | None) -> tuple[LessonEntry, ...]:
     from .lessons.read import lesson_names, read_lesson  # takes the parser of Markdown with it
 
     names = dict.fromkeys((*(() if own is None else (own,)), *lesson_names()))
-    return tuple(LessonEntry(name=name, title=read_lesson(name).title) for name in names)
+    entries: list[LessonEntry] = []
+    for name in names:
+        try:
+            entries.append(LessonEntry(name=name, title=read_lesson(name).title))
+        except TrundleError:  # the user's file has changed; opening it tells why
+            entries.append(LessonEntry(name=name, title=name))
+    return tuple(entries)
 
 
 def _read(name: str, own: str | None) -> Lesson:

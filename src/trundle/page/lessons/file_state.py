@@ -6,11 +6,8 @@ import os
 import sys
 from pathlib import Path
 
-import yaml
-
 from trundle.base.diagnostics import DescriptionError
 from trundle.base.files import read_text
-from trundle.base.yaml_loader import load_yaml, one_line
 
 _DESCRIPTIONS = {".sdf", ".world", ".urdf", ".xacro", ".launch"}
 _MAX_BYTES = 1_000_000
@@ -47,7 +44,7 @@ async def _find_fault(file: Path) -> str | None:
 
 
 async def _check(file: Path) -> str | None:
-    """Run `trundle check`, whose process a file cannot outlive."""
+    """Run `trundle check`, in a process that is killed if the file takes too long."""
     process = await asyncio.create_subprocess_exec(
         *(sys.executable, "-P", "-m", "trundle", "check", str(file)),
         stdin=asyncio.subprocess.DEVNULL,
@@ -70,6 +67,10 @@ async def _check(file: Path) -> str | None:
 
 def _parse(file: Path) -> str | None:
     """Parse a program or configuration; other files need only be readable."""
+    import yaml  # lazy, as each kind of file needs another parser
+
+    from trundle.base.yaml_loader import load_yaml, one_line
+
     try:
         text = read_text(file, max_bytes=_MAX_BYTES)
         if file.suffix == ".py":
@@ -77,7 +78,7 @@ def _parse(file: Path) -> str | None:
         elif file.suffix in (".yaml", ".yml"):
             load_yaml(text)
         elif file.suffix in (".xml", ".config"):
-            from trundle.base.xmlnode import parse_xml  # takes lxml with it
+            from trundle.base.xmlnode import parse_xml
 
             parse_xml(text, name=file.name)
     except OSError as error:

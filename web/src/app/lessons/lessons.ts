@@ -69,9 +69,10 @@ export class Lessons {
     });
   }
 
-  /** Show the page of lessons, or hide it. */
+  /** Show the page of lessons; close it if it is shown. */
   toggle(): void {
-    if (this.isShown.peek()) this.close();
+    const { layout } = this.shell;
+    if (this.isShown.peek() && layout.right.page.peek() === "lesson" && !layout.isRail("right")) this.close();
     else this.show();
   }
 
