@@ -2,7 +2,6 @@
 
 import os
 import re
-import socket
 import subprocess
 import sys
 from collections.abc import Mapping
@@ -12,13 +11,6 @@ from typing import Any
 from tests.page.panel_user import PanelUser
 
 TIMEOUT_S = 120.0
-
-
-def free_port() -> int:
-    """Return a port that nothing uses."""
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        return int(free.getsockname()[1])
 
 
 class LessonUser:

@@ -5,8 +5,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.graphs import free_port
 from tests.page.built_client import needs_client
-from tests.page.lesson_user import LessonUser, free_port
+from tests.page.lesson_user import LessonUser
 from tests.page.panel_user import PanelUser
 from tests.page.world_user import WorldUser
 from tests.system.browser import running_page
@@ -70,11 +71,11 @@ def reader(chromium: Any, server: PageServer, folder: Path) -> Iterator[LessonUs
 
 def test_a_hostile_lesson_is_shown_as_text_and_its_file_is_checked(reader: LessonUser, folder: Path) -> None:
     reader.at("A <b>hostile</b> lesson")
+    reader.step.get_by_text("This lesson is about another world").wait_for()
     text = reader.step.inner_text()
     assert "<script>document.body.dataset.hacked = 1</script>" in text
     assert '<img src=x onerror="document.body.dataset.hacked = 1">' in text
     assert "script" in text
-    assert "This lesson is about another world" in text
     assert "trundle run <b>x</b>" in text
     assert reader.step.locator("img, script, b, iframe").count() == 0
     links = reader.step.locator("a").evaluate_all("all => all.map(a => [a.href, a.target, a.rel])")

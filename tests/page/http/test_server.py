@@ -49,7 +49,7 @@ def test_session_json_holds_the_session(page: PageServer) -> None:
         "title": "test", "kind": "simulation", "version": trundle.__version__, "robot": "cart", "rviz": None,
         "fixed_frame": None, "panels": [], "plots": [], "images": [], "drive_topic": None, "sliders": [],
         "joystick": False, "foxglove": page.foxglove_url, "node": None, "namespace": "/", "remappings": {},
-        "terminals": [], "view_only": False, "token": page.url.partition("?token=")[2],
+        "terminals": [], "lesson": None, "view_only": False, "token": page.url.partition("?token=")[2],
         "view_token": page.view_url.partition("?token=")[2],
         "network_urls": [],
     }  # fmt: skip

@@ -69,6 +69,7 @@ async def _end(process: asyncio.subprocess.Process) -> None:
     except TimeoutError:
         with contextlib.suppress(ProcessLookupError):
             process.kill()
+        await process.wait()
 
 
 class Rostopic(CommandLineTool):
