@@ -599,6 +599,7 @@ export const lessonStep: is.Check<page.LessonStep> = is.struct(() => ({
     is.literal(
       "cameras",
       "clock",
+      "compare",
       "displays",
       "drive",
       "graph",

@@ -890,6 +890,7 @@ export interface LessonStep {
   readonly parts: readonly (
     | "cameras"
     | "clock"
+    | "compare"
     | "displays"
     | "drive"
     | "graph"
