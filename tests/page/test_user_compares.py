@@ -185,5 +185,5 @@ def test_a_recording_is_chosen_or_dropped(user: CompareUser, folder: Path) -> No
         user.button("Compare with a recording…").click()
     chooser.value.set_files(str(folder / "other.log"))
 
-    user.page.locator(".compared .n", has_text="other.log").wait_for()
+    user.page.locator(".compared [title='other.log']").wait_for()
     user.until_distance(math.hypot(1.5, 0.5))

@@ -131,7 +131,7 @@ def test_the_menu_has_groups(chromium: Any, page: PageServer) -> None:
             return groups;
         }, [[]])"""
     )
-    firsts = ["Step 1", "Record", "Frame the selection", "Share"]
+    firsts = ["Step 1", "Record", "Frame the selection", "Lessons"]
     assert [group[0] for group in groups] == firsts, groups
     menu.get_by_role("menuitem", name="Reset").click()
     user.page.get_by_role("menuitem", name="Reset poses only").wait_for()

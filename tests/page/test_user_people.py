@@ -39,7 +39,7 @@ def owner(chromium: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[W
 def viewer(chromium: Any, owner: WorldUser) -> Iterator[WorldUser]:
     """Open the view-only link in another browser profile."""
     owner.button("Search commands, Ctrl K").click()
-    owner.page.get_by_role("combobox", name="Search commands").fill("link to this view")
+    owner.page.get_by_role("combobox", name="Search commands").fill("share")
     owner.page.keyboard.press("Enter")
     owner.button("View only").click()
     owner.page.get_by_text("cannot drive or change anything.").wait_for()
