@@ -29,7 +29,20 @@ _PAIRS = {
 """Tokens of texts, and the grounds below them: a layer, and what lies over it."""
 _SHAPES = ("ok", "warn", "error", "none", "record", "edge", "accent", "accent-fill", "x", "y", "z", "focus")
 _SHAPE_GROUNDS = ("panel", "panel-glass", "bar-bg", "sunken", "raised")
-_DECORATION = ("line-soft", "line-hard", "c", "ax", "part", "scene", "edge", "record", "accent", "accent-fill")
+_DECORATION = (
+    "line-soft",
+    "line-hard",
+    "c",
+    "ax",
+    "part",
+    "scene",
+    "edge",
+    "record",
+    "accent",
+    "accent-fill",
+    "ok",
+    "reference",
+)
 """Backgrounds that carry no text."""
 
 
