@@ -60,7 +60,7 @@ _NODES = """
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tour:
-    """What became of the goals of one run."""
+    """Results of one run's goals."""
 
     goals: list[dict[str, Any]]
     """State, seconds, length and shortest [m], clearance [m], error_m and error_deg of each."""

@@ -15,7 +15,7 @@ PATIENCE_S = 60.0
 
 
 def free_port() -> int:
-    """Return a free port that the system gives to nobody who asks for any."""
+    """Return a free port below the range from which the system takes ephemeral ports."""
     while True:
         with socket.socket() as probe:
             try:

@@ -22,7 +22,7 @@ class RunDifferences(Struct, frozen=True, kw_only=True):
     duration: float
     """Time that both have [s]."""
     rows: tuple[Difference, ...]
-    """Of all that moves in a run or differs, models before joints, the largest first."""
+    """Models and joints that move or differ: models first, the largest differences first."""
     only: tuple[tuple[str, tuple[str, ...]], ...]
     """Name of a log, and the models that it alone has."""
 

@@ -87,9 +87,9 @@ export class Layout {
   readonly dockBegins = signal(false);
   /** Height of the contents of the dock's panels with its tabs [px]; null: they take what they get. */
   readonly dockContents = signal<number | null>(null);
-  /** Whether a person has left the dock open; null: nobody has opened or closed it. */
+  /** True if the user left the dock open; null: the user never opened or closed it. */
   private readonly dockLeft = signal(innerHeight < DOCK_OPENS ? false : recall("dock.open", null, isBoolean));
-  /** Height that a person has chosen [px]; null: nobody has. */
+  /** Height that the user chose [px]; null: the default. */
   private readonly dockHeight = signal(recall("dock.height", null, isNumber));
   /** Page of the phone's sheet: "world", "displays", "inspector" or a panel's id. */
   readonly sheetPage = signal("world");

@@ -32,7 +32,7 @@ NEWEST: Final[Keys] = _newest
 
 
 class Reduction(Enum):
-    """What is done with a stream whose messages are too long for the connection."""
+    """Reduction of a stream whose messages are too long for the connection."""
 
     THINNED = "thinned"
     HELD = "held"
