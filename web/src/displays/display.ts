@@ -71,6 +71,7 @@ export abstract class Display {
   stop(): void {
     this.onStop();
     this.context.scene.displays.remove(this.root);
+    this.context.scene.invalidate();
     this.statuses.value = new Map();
   }
 

@@ -81,6 +81,19 @@ describe("the list", () => {
     expect(names()).toEqual(["Probe"]);
   });
 
+  it("draws the scene again when a display is removed or disabled", () => {
+    const { store, scene } = makeStore();
+    store.load(file("    []\n"));
+    const probe = store.add("rviz/Probe");
+    const grid = store.add("rviz/Grid");
+    const before = scene.frames;
+    store.remove(probe);
+    expect(scene.frames).toBeGreaterThan(before);
+    const removed = scene.frames;
+    grid.enabled.decode(false);
+    expect(scene.frames).toBeGreaterThan(removed);
+  });
+
   it("starts enabled displays, in groups only while the group is enabled", () => {
     const { store } = makeStore();
     store.load(
