@@ -69,7 +69,7 @@ export function DisplaysPage({ shell }: { readonly shell: Shell }): JSX.Element 
       </div>
       {isAdding && <AddDrawer shell={shell} onClose={() => (adding.value = false)} />}
       <RvizFoot shell={shell} />
-      <div class="foot">
+      <div class="foot edits">
         <Button icon="plus" tone="primary" class="add" onClick={() => (adding.value = !isAdding)}>
           Add
         </Button>
