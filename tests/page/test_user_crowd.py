@@ -38,7 +38,7 @@ def _people(client: ProtocolClient) -> list[dict[str, Any]]:
 
 def _link(user: WorldUser, kind: str) -> str:
     user.button("Search commands, Ctrl K").click()
-    user.page.get_by_role("combobox", name="Search commands").fill("link to this view")
+    user.page.get_by_role("combobox", name="Search commands").fill("share")
     user.page.keyboard.press("Enter")
     user.button(kind).click()
     link = user.field("Link").input_value()

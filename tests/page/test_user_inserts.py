@@ -110,6 +110,7 @@ def test_a_box_is_chosen_and_placed_by_a_click(user: WorldUser) -> None:
 
 def test_a_model_is_found_and_dragged_onto_the_table(user: WorldUser) -> None:
     """Its picture is red like the model; a preview at the pointer is visible before it is placed."""
+    user.side("Insert")
     user.page.get_by_label("Search the models").fill("crate of")
     user.until(lambda: user.page.locator(".model").count() == 1)
     picture = user.page.locator(".model img")
@@ -136,6 +137,7 @@ def test_escape_cancels_an_insertion(user: WorldUser) -> None:
     user.page.mouse.move(*user.at((-1.0, -0.5)))
     user.page.keyboard.press("Escape")
     user.click((-1.0, -0.5))
+    user.side("Insert")  # the click has selected the floor in the tree
     user.page.mouse.move(*_center(user, "sphere"))
     user.page.mouse.down()
     user.page.mouse.move(*user.at((-1.0, -0.5)), steps=4)

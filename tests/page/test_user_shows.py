@@ -217,6 +217,7 @@ def test_axes_have_the_colors_of_the_theme(user: Viewer) -> None:
             user.show(part)
     user.button("Remove").click()
     user.side("Inspector")
+    user.until(lambda: user.picture()[100, 250].max() == 0, what="for no axes")  # the green one was there
 
 
 def test_a_cameras_frustum_is_drawn(user: Viewer) -> None:

@@ -182,7 +182,7 @@ def test_the_next_picture_is_requested_after_the_last_has_arrived(user: Onlooker
 def test_the_notice_is_closed_for_good(user: Onlooker) -> None:
     notice = user.page.get_by_text("This browser has no WebGL 2")
     notice.wait_for()
-    user.button("Dismiss").click()
+    user.page.get_by_role("status").filter(has=notice).get_by_label("Dismiss").click()
     notice.wait_for(state="detached")
     user.until(user.shows_trolley, what="for a picture of the trolley")
     user.page.reload()
