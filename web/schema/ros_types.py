@@ -11,6 +11,7 @@ HEAD = """/** ROS messages that displays, tools and panels know, made by web/sch
 import type { RosTime } from "../ros_types";
 """
 ROS_MESSAGES = (
+    "actionlib_msgs/GoalStatusArray",
     "geometry_msgs/AccelStamped",
     "geometry_msgs/PointStamped",
     "geometry_msgs/PolygonStamped",
@@ -21,6 +22,8 @@ ROS_MESSAGES = (
     "geometry_msgs/TwistStamped",
     "geometry_msgs/WrenchStamped",
     "map_msgs/OccupancyGridUpdate",
+    "move_base_msgs/MoveBaseActionFeedback",
+    "move_base_msgs/RecoveryStatus",
     "nav_msgs/GridCells",
     "nav_msgs/OccupancyGrid",
     "nav_msgs/Odometry",

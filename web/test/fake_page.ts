@@ -6,6 +6,7 @@ import { Box3, Group, Object3D, PerspectiveCamera, Quaternion, Ray, Vector3 } fr
 import type { ClockState, Manifest, PageSession } from "../src/protocol/generated/page_messages";
 import { CommandList } from "../src/app/commands";
 import { Drive } from "../src/page/drive";
+import { GoalQueue } from "../src/page/goal_queue";
 import { ShownParts } from "../src/scene/overlays/shown_parts";
 import type { Page } from "../src/page/page";
 import { liveSession } from "../src/page/session";
@@ -303,6 +304,7 @@ export function fakePage(session: Partial<PageSession> = {}): FakePage {
     hovered: signal(null),
     commands: new CommandList(),
     undo,
+    goals: new GoalQueue(),
     drive: new Drive({
       connection,
       get session() {

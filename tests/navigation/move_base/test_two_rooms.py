@@ -2,46 +2,25 @@
 
 import math
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
+from tests.navigation.move_base.two_rooms_package import WALLS, make_two_rooms
 
 from trundle.ros import Messages, open_bag
 
-_PACKAGE = Path(__file__).parent / "two_rooms"
 _GOAL = (2.4, 0.8)
-_WALLS = ((-0.05, 0.05, -1.5, 0.35), (-0.05, 0.05, 1.25, 1.5), (-9.0, -3.0, -9.0, 9.0), (3.0, 9.0, -9.0, 9.0))
-_WALLS += ((-9.0, 9.0, -9.0, -1.5), (-9.0, 9.0, 1.5, 9.0))
 _BOX = (1.25, 1.55, 0.55, 0.85)
 _RADIUS_M = 0.17
 _TOPICS = frozenset({"/base_pose_ground_truth", "/bumper", "/move_base/result", "/move_base/status"})
 
 
-def _write_map(folder: Path) -> None:
-    """Write the map of the walls, 0.05 m a cell, without the box."""
-    x, y = np.meshgrid((np.arange(140) + 0.5) * 0.05 - 3.5, (np.arange(80) + 0.5) * 0.05 - 2.0)
-    is_wall = np.zeros(x.shape, dtype=bool)
-    for x0, x1, y0, y1 in _WALLS:
-        is_wall |= (x > x0) & (x < x1) & (y > y0) & (y < y1)
-    pixels = np.where(np.flipud(is_wall), 0, 254).astype(np.uint8)
-    (folder / "map.pgm").write_bytes(b"P5\n140 80\n255\n" + pixels.tobytes())
-    (folder / "map.yaml").write_text(
-        "image: map.pgm\nresolution: 0.05\norigin: [-3.5, -2.0, 0.0]\nnegate: 0\n"
-        "occupied_thresh: 0.65\nfree_thresh: 0.196\n"
-    )
-
-
 def _drive(folder: Path, *arguments: str, name: str = "run", duration: int = 40) -> dict[str, list[Any]]:
     """Launch the package for some seconds of simulated time; return its recorded messages by topic."""
-    package = folder / "two_rooms"
-    if not package.exists():
-        shutil.copytree(_PACKAGE, package)
-        _write_map(package)
+    make_two_rooms(folder)
     bag = folder / f"{name}.bag"
     words = ["launch", "two_rooms", "two_rooms.launch", *arguments, "--headless", "--speed", "max"]
     command = [sys.executable, "-m", "trundle", *words, "--duration", str(duration), "--record", str(bag)]
@@ -68,7 +47,7 @@ def _recorded(bag: Path) -> dict[str, list[Any]]:
 def _clearance_m(x: float, y: float) -> float:
     """Return the distance between the robot's hull and the nearest wall or the box."""
     return min(
-        math.hypot(max(x0 - x, 0.0, x - x1), max(y0 - y, 0.0, y - y1)) - _RADIUS_M for x0, x1, y0, y1 in (*_WALLS, _BOX)
+        math.hypot(max(x0 - x, 0.0, x - x1), max(y0 - y, 0.0, y - y1)) - _RADIUS_M for x0, x1, y0, y1 in (*WALLS, _BOX)
     )
 
 

@@ -25,7 +25,9 @@ import { AXIS_RGB } from "../shapes/axes";
 import { followAxisColors } from "./axis_colors";
 import { CommandList } from "./commands";
 import { Drive } from "../page/drive";
+import { GoalQueue } from "../page/goal_queue";
 import { firstPicture } from "./first_picture";
+import { markGoals } from "./goal_marks";
 import { freezable } from "./freeze";
 import { outlinedBodies, targetPose } from "./views/framing";
 import { mount } from "./mount";
@@ -58,6 +60,7 @@ export function boot(root: HTMLElement, json: string): void {
   const fixedFrame = signal(first.fixed_frame ?? "map");
   const selection: Page["selection"] = signal(null);
   const hovered: Page["hovered"] = signal(null);
+  const goals = new GoalQueue();
   const axisColors = signal(AXIS_RGB);
 
   const sceneHost = document.createElement("div");
@@ -76,6 +79,7 @@ export function boot(root: HTMLElement, json: string): void {
     selection,
     select: (picked) => shell.select(picked),
     hovered,
+    goals,
     editor,
     looksOnly: first.view_only,
   });
@@ -112,6 +116,7 @@ export function boot(root: HTMLElement, json: string): void {
     commands,
     undo,
     drive,
+    goals,
     theme,
     people,
   };
@@ -129,7 +134,11 @@ export function boot(root: HTMLElement, json: string): void {
   effect(() => {
     scene.element.style.cursor = tools.current.value.cursor;
   });
+  effect(() => {
+    if (tools.current.value.className !== "rviz/SetGoal") goals.collects.value = false;
+  });
   labelOthers(page);
+  markGoals(page);
   const modelsOf = ({ models }: Manifest): readonly ScopedModel[] => allModels(models);
   new BodyOverlays(scene, world, modelsOf);
   new ContactMarks(scene, world, connection, modelsOf);

@@ -13,6 +13,7 @@ import type { SimulatedWorld } from "../scene/simulated_world";
 import type { Views } from "../scene/view_controller";
 import type { ToolBox } from "./tool";
 import type { Drive } from "./drive";
+import type { GoalQueue } from "./goal_queue";
 
 interface SelectedSensor {
   readonly kind: "sensor";
@@ -90,6 +91,7 @@ export interface Page {
   readonly commands: Commands;
   readonly undo: PageUndo;
   readonly drive: Drive;
+  readonly goals: GoalQueue;
   readonly theme: Signal<"light" | "dark">;
   /** People at this page. */
   readonly people: ReadonlySignal<People>;

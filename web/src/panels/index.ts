@@ -7,6 +7,7 @@ import { imagesPanel } from "./images";
 import { jointsPanel } from "./joints";
 import { joystickPanel } from "./joystick";
 import { logPanel } from "./log";
+import { navigationPanel } from "./navigation";
 import { nodesPanel } from "./nodes";
 import type { Panel } from "./panel";
 import { parametersPanel } from "./parameters";
@@ -37,5 +38,6 @@ export const panels: readonly Panel[] = [
   jointsPanel,
   steeringPanel,
   joystickPanel,
+  navigationPanel,
   terminalPanel,
 ];

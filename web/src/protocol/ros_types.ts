@@ -32,3 +32,8 @@ export function seconds(time: RosTime): number {
 export function nanoseconds(time: RosTime): bigint {
   return BigInt(time.sec) * 1_000_000_000n + BigInt(time.nsec);
 }
+
+/** ROS time of nanoseconds. */
+export function timeOf(nanoseconds: bigint): RosTime & RosMessage {
+  return { sec: Number(nanoseconds / 1_000_000_000n), nsec: Number(nanoseconds % 1_000_000_000n) };
+}

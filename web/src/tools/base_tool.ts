@@ -2,11 +2,12 @@
 
 import { signal, type ReadonlySignal, type Signal } from "@preact/signals";
 
+import type { GoalQueue } from "../page/goal_queue";
 import type { Selection } from "../page/page";
 import type { Property, Yaml, YamlMapping } from "../rviz/properties";
 import type { Connection } from "../protocol/connection";
 import type { GraphNames } from "../protocol/graph_names";
-import type { RosMessage, RosTime } from "../protocol/ros_types";
+import { timeOf, type RosMessage } from "../protocol/ros_types";
 import type { SceneView } from "../scene/scene_view";
 import type { Views } from "../scene/view_controller";
 import type { Tool } from "../page/tool";
@@ -24,6 +25,7 @@ export interface ToolContext {
   /** Select what was clicked in the scene. */
   readonly select: (selection: Selection | null) => void;
   readonly hovered: Signal<Selection | null>;
+  readonly goals: GoalQueue;
   /** Null where no world can be changed. */
   readonly editor: WorldEditor | null;
   /** True on a view-only page: nothing in the scene can be pressed. */
@@ -83,8 +85,4 @@ export abstract class BaseTool implements Tool {
     this.unknown = unknown;
     return faults;
   }
-}
-
-function timeOf(nanoseconds: bigint): RosTime & RosMessage {
-  return { sec: Number(nanoseconds / 1_000_000_000n), nsec: Number(nanoseconds % 1_000_000_000n) };
 }

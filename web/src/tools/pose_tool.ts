@@ -1,25 +1,29 @@
 /** Base of the tools that set a pose on the ground: press for the place, drag for the yaw. */
 
 import { computed } from "@preact/signals";
-import { Vector3 } from "three";
+import { MathUtils, OrthographicCamera, Vector3, type PerspectiveCamera } from "three";
 
 import { Arrow } from "../shapes/arrow";
 import type { Rgb, TopicProperty } from "../rviz/properties";
-import type { RosMessage } from "../protocol/ros_types";
+import type { Pose } from "../protocol/generated/ros_messages";
 import { NOT_PICKED } from "../scene/picking";
 import { BaseTool } from "./base_tool";
 import type { PointerInput } from "../scene/pointer_input";
 
 /** rviz's arrow [m]. */
 const PROPORTIONS = { shaftLength: 2, shaftDiameter: 0.2, headLength: 0.5, headDiameter: 0.35 };
-/** Length of the arrow as a ratio of the distance to the camera; rviz's has a fixed size. */
-const LENGTH = 0.12;
+/** Length of the arrow as a ratio of the height that the camera sees there; rviz's has a fixed size. */
+const LENGTH = 0.15;
 
 export abstract class PoseTool extends BaseTool {
   override readonly acts = true;
   protected abstract readonly color: Rgb;
   abstract readonly topic: TopicProperty;
   override readonly navigates = computed(() => this.context.names.resolve(this.topic.value.value));
+  /** True: another pose follows this one. */
+  protected get repeats(): boolean {
+    return false;
+  }
   private start: Vector3 | null = null;
   private yaw = 0;
   private readonly arrow = new Arrow(PROPORTIONS);
@@ -45,7 +49,7 @@ export abstract class PoseTool extends BaseTool {
     else {
       this.deactivate();
       this.publish(start, this.yaw);
-      this.finish();
+      if (!this.repeats) this.finish();
     }
     return true;
   }
@@ -53,7 +57,7 @@ export abstract class PoseTool extends BaseTool {
   /** Send the pose: a place on the ground of the fixed frame, and the yaw [rad]. */
   protected abstract publish(position: Vector3, yaw: number): void;
 
-  protected poseOf({ x, y }: Vector3, yaw: number): RosMessage {
+  protected poseOf({ x, y }: Vector3, yaw: number): Pose {
     return { position: { x, y, z: 0 }, orientation: { x: 0, y: 0, z: Math.sin(yaw / 2), w: Math.cos(yaw / 2) } };
   }
 
@@ -62,7 +66,7 @@ export abstract class PoseTool extends BaseTool {
     this.start = scene.pickGround(input.x, input.y);
     if (this.start === null) return false;
     this.yaw = 0;
-    const size = this.start.distanceTo(scene.ray(input.x, input.y).origin) * LENGTH;
+    const size = LENGTH * seenHeight(scene.camera.peek(), this.start);
     this.arrow.scale.setScalar(size / (PROPORTIONS.shaftLength + PROPORTIONS.headLength));
     this.arrow.position.copy(this.start);
     this.arrow.rotation.set(0, 0, 0);
@@ -80,4 +84,10 @@ export abstract class PoseTool extends BaseTool {
     this.hint.value = `x ${start.x.toFixed(2)} m, y ${start.y.toFixed(2)} m, yaw ${degrees}°`.replace(/-/g, "−");
     this.context.scene.invalidate();
   }
+}
+
+/** Height that a camera sees at a point [m]. */
+function seenHeight(camera: PerspectiveCamera | OrthographicCamera, point: Vector3): number {
+  if (camera instanceof OrthographicCamera) return (camera.top - camera.bottom) / camera.zoom;
+  return 2 * Math.tan(MathUtils.degToRad(camera.getEffectiveFOV() / 2)) * camera.position.distanceTo(point);
 }

@@ -1,4 +1,4 @@
-/** rviz's SetGoal, "2D Nav Goal": publishes a goal for navigation. */
+/** rviz's SetGoal, "2D Nav Goal": publishes a goal for navigation, or adds goals to the queue while that is asked for. */
 
 import type { Vector3 } from "three";
 
@@ -15,9 +15,14 @@ export class SetGoal extends PoseTool {
   protected override readonly color: Rgb = [255, 0, 255];
   readonly topic = this.add(new TopicProperty("Topic", "/move_base_simple/goal", [TYPE]));
 
+  protected override get repeats(): boolean {
+    return this.context.goals.collects.peek();
+  }
+
   protected override publish(position: Vector3, yaw: number): void {
-    const message = { header: this.header(), pose: this.poseOf(position, yaw) };
-    const { connection, names } = this.context;
-    connection.publish(names.resolve(this.topic.value.peek()), TYPE, message);
+    const { connection, names, goals, fixedFrame } = this.context;
+    const pose = this.poseOf(position, yaw);
+    if (this.repeats) goals.add({ frame: fixedFrame.peek(), pose });
+    else connection.publish(names.resolve(this.topic.value.peek()), TYPE, { header: this.header(), pose });
   }
 }

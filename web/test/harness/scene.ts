@@ -24,6 +24,7 @@ import { ThreeScene } from "../../src/scene/three_scene";
 import { ViewList } from "../../src/scene/views/view_list";
 import { ToolList } from "../../src/tools/tool_list";
 import { GraphNames } from "../../src/protocol/graph_names";
+import { GoalQueue } from "../../src/page/goal_queue";
 import { FakeConnection } from "../fake_connection";
 
 const host = document.getElementById("host");
@@ -41,6 +42,7 @@ const tools = new ToolList({
   selection,
   select: (picked) => (selection.value = picked),
   hovered: signal(null),
+  goals: new GoalQueue(),
   editor: null,
   looksOnly: false,
 });

@@ -3,6 +3,7 @@ import { signal } from "@preact/signals";
 import { Group, Object3D, Ray, Vector3 } from "three";
 import { expect, test } from "vitest";
 
+import { GoalQueue } from "../../src/page/goal_queue";
 import type { Selection } from "../../src/page/page";
 import type { Pick, PictureBox, PointerTarget, SceneView } from "../../src/scene/scene_view";
 import { ToolList } from "../../src/tools/tool_list";
@@ -44,6 +45,7 @@ function setUp(looksOnly = false) {
   connection.time = 12_000_000_034n;
   const selection = signal<Selection | null>(null);
   const hovered = signal<Selection | null>(null);
+  const goals = new GoalQueue();
   const views = { focus: (point: Vector3) => void focused.push(point) };
   const tools = new ToolList({
     connection,
@@ -54,6 +56,7 @@ function setUp(looksOnly = false) {
     selection,
     select: (picked) => (selection.value = picked),
     hovered,
+    goals,
     editor: null,
     looksOnly,
   });
@@ -64,7 +67,7 @@ function setUp(looksOnly = false) {
     const [x, y] = points[points.length - 1] ?? [0, 0];
     point("up", x, y);
   };
-  return { tools, point, drag, picks, boxes, labels, ticks, focused, connection, selection, hovered, scene };
+  return { tools, point, drag, picks, boxes, labels, ticks, focused, connection, selection, hovered, goals, scene };
 }
 
 function pickOf(object: Object3D, index: number | null = null): Pick {
@@ -117,6 +120,22 @@ test("2D Nav Goal goes to the topic of the file, and a cancelled drag publishes 
   expect(connection.published[0]?.type).toBe("geometry_msgs/PoseStamped");
   const { orientation } = connection.published[0]?.message["pose"] as unknown as { orientation: { z: number } };
   expect(Math.abs(orientation.z)).toBeCloseTo(1);
+});
+
+test("2D Nav Goal adds goals to the queue while that is asked for, and stays on", () => {
+  const { tools, drag, connection, goals } = setUp();
+  goals.collects.value = true;
+  tools.use("rviz/SetGoal");
+
+  drag([100, 200], [100, 300]);
+  drag([0, 0], [-100, 0]);
+
+  expect(connection.published).toHaveLength(0);
+  expect(goals.goals.value.map(({ number, frame, pose }) => [number, frame, pose.position])).toEqual([
+    [1, "map", { x: 1, y: 2, z: 0 }],
+    [2, "map", { x: 0, y: 0, z: 0 }],
+  ]);
+  expect(tools.current.value.className).toBe("rviz/SetGoal");
 });
 
 test("Publish Point publishes the point under the pointer, and returns to the previous tool", () => {

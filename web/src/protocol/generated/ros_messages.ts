@@ -57,6 +57,28 @@ export type FluidPressure = {
   readonly variance: number;
 };
 
+/** actionlib_msgs/GoalID */
+export type GoalID = {
+  readonly stamp: RosTime;
+  readonly id: string;
+};
+
+/**
+ * actionlib_msgs/GoalStatus: PENDING 0, ACTIVE 1, PREEMPTED 2, SUCCEEDED 3, ABORTED 4, REJECTED 5, PREEMPTING 6,
+ * RECALLING 7, RECALLED 8, LOST 9
+ */
+export type GoalStatus = {
+  readonly goal_id: GoalID;
+  readonly status: number;
+  readonly text: string;
+};
+
+/** actionlib_msgs/GoalStatusArray */
+export type GoalStatusArray = {
+  readonly header: Header;
+  readonly status_list: readonly GoalStatus[];
+};
+
 /** nav_msgs/GridCells */
 export type GridCells = {
   readonly header: Header;
@@ -236,6 +258,18 @@ export type MenuEntry = {
   readonly command_type: number;
 };
 
+/** move_base_msgs/MoveBaseActionFeedback */
+export type MoveBaseActionFeedback = {
+  readonly header: Header;
+  readonly status: GoalStatus;
+  readonly feedback: MoveBaseFeedback;
+};
+
+/** move_base_msgs/MoveBaseFeedback */
+export type MoveBaseFeedback = {
+  readonly base_position: PoseStamped;
+};
+
 /** nav_msgs/OccupancyGrid */
 export type OccupancyGrid = {
   readonly header: Header;
@@ -372,6 +406,14 @@ export type Range = {
   readonly min_range: number;
   readonly max_range: number;
   readonly range: number;
+};
+
+/** move_base_msgs/RecoveryStatus */
+export type RecoveryStatus = {
+  readonly pose_stamped: PoseStamped;
+  readonly current_recovery_number: number;
+  readonly total_number_of_recoveries: number;
+  readonly recovery_behavior_name: string;
 };
 
 /** sensor_msgs/RegionOfInterest */
