@@ -1,11 +1,11 @@
-"""Axe finds nothing serious on any page of the client, in any of its states."""
+"""Axe finds nothing on any page of a ROS graph, in any of its states."""
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
 from tests.graphs import Graph, running_graph
+from tests.page.axe import assert_accessible, load_axe, needs_axe
 from tests.page.built_client import needs_client
 from tests.page.panel_user import PanelUser
 from tests.page.scene_user import rviz_text
@@ -13,7 +13,6 @@ from tests.page.scene_user import rviz_text
 from trundle.base.http.page_address import PageAddress
 from trundle.page import TERMINAL, GraphAddress, JointSlider, NodeTerminal, PageServer, RvizFile, Session
 
-AXE = Path(__file__).parents[2] / "web/node_modules/axe-core/axe.min.js"
 PANELS = ("Plots", "Topics", "Log", "Graph", "Timeline", "Nodes", "Parameters", "Services", "TF tree", "Images")
 CONTROLS = ("Reconfigure", "Joints", "Steering", "Joystick", "Terminal")
 SIDES = ("World", "Displays", "Inspector", "Views", "Tool properties")
@@ -23,11 +22,7 @@ RVIZ = rviz_text(
     {"Class": "moveit_rviz_plugin/MotionPlanning", "Name": "Planning", "Enabled": True},
 )
 
-pytestmark = [
-    pytest.mark.slow,
-    needs_client,
-    pytest.mark.skipif(not AXE.is_file(), reason="axe-core is not installed in web/node_modules"),
-]
+pytestmark = [pytest.mark.slow, needs_client, needs_axe]
 
 
 @pytest.fixture(scope="module")
@@ -58,18 +53,12 @@ def server(graph: Graph) -> Iterator[PageServer]:
         yield server
 
 
-def _check(tab: Any, state: str) -> None:
-    violations = tab.evaluate("axe.run().then((result) => result.violations)")
-    serious = [violation for violation in violations if violation["impact"] in ("serious", "critical")]
-    assert [f"{state}: {one['help']}: {node['html']}" for one in serious for node in one["nodes"]] == []
-
-
 @pytest.fixture(params=["dark", "light"])
 def user(request: pytest.FixtureRequest, chromium: Any, server: PageServer) -> Iterator[PanelUser]:
     user = PanelUser(chromium, server.url)
     if user.page.evaluate("document.documentElement.dataset.theme") != request.param:
         user.page.get_by_role("button", name=f"{request.param.capitalize()} theme").click()
-    user.page.evaluate(AXE.read_text())  # through the debugger, as the policy forbids inline scripts
+    load_axe(user.page)
     yield user
     user.close()
 
@@ -77,7 +66,7 @@ def user(request: pytest.FixtureRequest, chromium: Any, server: PageServer) -> I
 def _dialog(user: PanelUser, keys: str, name: str) -> None:
     user.page.keyboard.press(keys)
     user.page.get_by_role("dialog", name=name).wait_for()
-    _check(user.page, name)
+    assert_accessible(user.page, name)
     user.page.keyboard.press("Escape")
 
 
@@ -86,32 +75,32 @@ def test_panels_sides_and_dialogs(user: PanelUser) -> None:
         user.open(panel)
         if panel == "Terminal":
             user.sees("forward")
-        _check(user.page, panel)
+        assert_accessible(user.page, panel)
     for side in SIDES:
         tab = user.page.get_by_role("tab", name=side)
         (tab if tab.count() else user.page.locator(".rail").get_by_role("button", name=side)).first.click()
-        _check(user.page, side)
+        assert_accessible(user.page, side)
     user.button("Lessons").click()
     user.page.get_by_role("button", name="A robot in SDF").click()
     for step in ("Step 2: Drive it", "Step 6: The model's files"):
         user.button(step).click()
         user.page.get_by_role("list", name="Checks").wait_for()
-        _check(user.page, step)
+        assert_accessible(user.page, step)
     user.button("Close the lesson").click()
     user.page.get_by_role("tab", name="Displays").click()
     user.button("Add").click()
     user.page.get_by_role("treeitem").filter(has_text="Scan").first.press("ArrowRight")
-    _check(user.page, "a display that is open, what can be added")
+    assert_accessible(user.page, "a display that is open, what can be added")
     user.page.get_by_label("Size (m)").fill("wide")
-    _check(user.page, "a field that is wrong")
+    assert_accessible(user.page, "a field that is wrong")
     user.page.keyboard.press("Escape")
     user.page.get_by_role("button", name="Enlarge image", exact=True).first.click()
-    _check(user.page, "an enlarged picture")
+    assert_accessible(user.page, "an enlarged picture")
     _dialog(user, "Control+k", "Search commands")
     user.page.locator("canvas[aria-label='3D view']").focus()
     _dialog(user, "?", "Keys")
     user.button("Details").click()
-    _check(user.page, "the list of what is missing")
+    assert_accessible(user.page, "the list of what is missing")
 
 
 def test_the_sheet_of_a_phone_and_a_lost_connection(chromium: Any, server: PageServer) -> None:
@@ -119,17 +108,17 @@ def test_the_sheet_of_a_phone_and_a_lost_connection(chromium: Any, server: PageS
     tab = chromium.new_page(viewport={"width": 390, "height": 844})
     tab.goto(server.url)
     tab.get_by_label("Connected").first.wait_for()
-    tab.evaluate(AXE.read_text())
+    load_axe(tab)
     for page in ("World", "Displays", "Inspector", "Plots", "Log"):
         tab.get_by_role("navigation").get_by_role("button", name=page, exact=True).click()
-        _check(tab, f"{page} on a phone")
+        assert_accessible(tab, f"{page} on a phone")
     tab.get_by_role("button", name="More", exact=True).click()
     tab.get_by_role("menuitem", name="Lessons").click()
     tab.get_by_role("button", name="A car with roslaunch").click()
     tab.get_by_role("button", name="Next", exact=True).click()
     tab.get_by_role("list", name="Checks").wait_for()
-    _check(tab, "a lesson on a phone")
+    assert_accessible(tab, "a lesson on a phone")
     server.close()
     tab.get_by_label("Connection lost").first.wait_for()
-    _check(tab, "a lost connection")
+    assert_accessible(tab, "a lost connection")
     tab.close()

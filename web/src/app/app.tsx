@@ -8,7 +8,6 @@ import { Tooltips } from "../theme/tooltips";
 import { Bar } from "./bar";
 import { Dialogs } from "./dialogs/dialogs";
 import { Rings } from "./lessons/marks";
-import { ObjectMenu } from "./object_menu/object_menu";
 import { PaneFrames } from "./panes/pane_frames";
 import type { Shell } from "./shell";
 import { Sheet } from "./sheet";
@@ -28,7 +27,6 @@ export function App({ shell }: { readonly shell: Shell }): JSX.Element {
       {phone && <Sheet shell={shell} />}
       <Rings shell={shell} />
       <Dialogs shell={shell} />
-      <ObjectMenu shell={shell} />
       <Tooltips />
     </>
   );
@@ -59,10 +57,8 @@ function DockPanel({ shell }: { readonly shell: Shell }): JSX.Element {
   const height = layout.dock.value;
   const open = layout.dockOpen.value;
   return (
-    <>
-      <section class={open ? "panel dock" : "panel dock shut"} aria-label="Dock">
-        <div ref={host} class="dockhost" />
-      </section>
+    <section class={open ? "panel dock" : "panel dock shut"} aria-label="Dock">
+      <div ref={host} class="dockhost" />
       <div
         class="edge y"
         role="separator"
@@ -83,6 +79,6 @@ function DockPanel({ shell }: { readonly shell: Shell }): JSX.Element {
           else if (event.key === "ArrowDown") layout.resizeDock(height - 16);
         }}
       />
-    </>
+    </section>
   );
 }

@@ -6,6 +6,7 @@ import { CameraTiles } from "./cameras/tiles";
 import { DriveView } from "./drive/view";
 import { NoticeLine } from "./notices/line";
 import { SceneNotes } from "./notices/scene_notes";
+import { ObjectMenu } from "./object_menu/object_menu";
 import type { Shell } from "./shell";
 import { ToolBar, ToolHint } from "./tool_bar";
 import { VideoNotes } from "./video/video_note";
@@ -31,6 +32,7 @@ export function SceneOverlay({ shell }: { readonly shell: Shell }): JSX.Element 
       <SceneNotes shell={shell} />
       <CameraTiles shell={shell} />
       <DriveView shell={shell} />
+      <ObjectMenu shell={shell} />
     </section>
   );
 }

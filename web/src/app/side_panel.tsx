@@ -22,30 +22,28 @@ export function SidePanel({ shell, side }: SidePanelProps): JSX.Element {
   const Content = page?.component;
   if (layout.isRail(side)) return <Rail shell={shell} side={side} />;
   return (
-    <>
-      <aside class={`panel ${side}`} aria-label={LABELS[side]}>
-        <div class="tabs">
-          <Tabs
-            label={LABELS[side]}
-            items={pages}
-            selected={page?.id ?? ""}
-            onSelect={(id) => layout.open(id as SidePage)}
-          />
-          <span class="sp" />
-          {side === "right" && <UndoButtons shell={shell} />}
-          <Button
-            icon={`collapse_${side}`}
-            label="Collapse to a rail"
-            small
-            onClick={() => (layout[side].isOpen.value = false)}
-          />
-        </div>
-        <section class="page" role="tabpanel" aria-label={page?.title}>
-          {Content !== undefined && <Content shell={shell} />}
-        </section>
-      </aside>
+    <aside class={`panel ${side}`} aria-label={LABELS[side]}>
+      <div class="tabs">
+        <Tabs
+          label={LABELS[side]}
+          items={pages}
+          selected={page?.id ?? ""}
+          onSelect={(id) => layout.open(id as SidePage)}
+        />
+        <span class="sp" />
+        {side === "right" && <UndoButtons shell={shell} />}
+        <Button
+          icon={`collapse_${side}`}
+          label="Collapse to a rail"
+          small
+          onClick={() => (layout[side].isOpen.value = false)}
+        />
+      </div>
+      <section class="page" role="tabpanel" aria-label={page?.title}>
+        {Content !== undefined && <Content shell={shell} />}
+      </section>
       <Edge shell={shell} side={side} />
-    </>
+    </aside>
   );
 }
 

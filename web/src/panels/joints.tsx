@@ -29,7 +29,7 @@ function Joints({ page }: PanelProps): JSX.Element {
       <Controls page={page}>
         {groups.map(({ title, sliders }) => (
           <section key={title} aria-label={`Joints of ${title}`}>
-            <h4 class="headline">{title}</h4>
+            <h2 class="headline">{title}</h2>
             <div class="sliders">
               {sliders.map((slider) => (
                 <JointRow key={slider.key} slider={slider} isDegrees={state.isDegrees.value} />

@@ -97,9 +97,9 @@ function Detail({ page, graph, node, onClose }: DetailProps): JSX.Element {
       <div class="scroll">
         {sections.map(({ title, names, type }) => (
           <section key={title} aria-label={title}>
-            <h4 class="headline">
+            <h2 class="headline">
               {title} <span class="dim">{names.length}</span>
-            </h4>
+            </h2>
             {names.map((name) => (
               <div key={name} class="row" style={{ "--d": 1 }}>
                 <Name text={name} />

@@ -72,7 +72,7 @@ function Server({ page, name }: PanelProps & { readonly name: string }): JSX.Ele
         <Controls page={page}>
           {groups.map((group) => (
             <section key={group.id} aria-label={group.name}>
-              {groups.length > 1 && <h4 class="headline">{group.name}</h4>}
+              {groups.length > 1 && <h2 class="headline">{group.name}</h2>}
               {group.options.map((option) => (
                 <div key={option.name} class="formrow" title={option.description}>
                   <span class="label">{option.name}</span>

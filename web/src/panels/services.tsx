@@ -158,7 +158,7 @@ function Detail({
         )}
         {answer.value !== null && (
           <div role="status">
-            <h4 class="headline">Answer</h4>
+            <h2 class="headline">Answer</h2>
             {Object.keys(answer.value).length === 0 ? (
               <div class="empty">Done; the answer has no fields.</div>
             ) : (

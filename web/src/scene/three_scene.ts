@@ -79,6 +79,7 @@ export class ThreeScene implements SceneView {
     this.offscreen = isSlow && context !== null ? new OffscreenPicture(context) : null;
     this.renderer = this.createRenderer(context);
     this.element.tabIndex = 0;
+    this.element.setAttribute("role", "application"); // it has keys of its own
     this.element.setAttribute("aria-label", "3D view");
     Object.assign(this.element.style, {
       position: "absolute",

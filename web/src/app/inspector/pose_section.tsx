@@ -37,7 +37,7 @@ export function PoseSection({ within, pose, menu, onCommit }: PoseProps): JSX.El
   };
   const set = now === null || onCommit === undefined ? null : { move, turn };
   return (
-    <section class="sec">
+    <section class="sec" role="group" aria-label={`Pose in ${within}`}>
       <h3>
         Pose <span class="dim">in {within}</span>
         {menu !== undefined && <span class="sp" />}
