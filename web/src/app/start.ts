@@ -4,11 +4,15 @@ import { computed, effect, untracked } from "@preact/signals";
 import { Box3, Sphere } from "three";
 
 import type { Rgb, Yaml } from "../rviz/properties";
+import type { Area } from "../scene/free_area";
 import { differs, firstBox, robotBox, simulatedRobot } from "./views/framing";
 import type { Shell } from "./shell";
 import { linkedView, showLinkedView } from "./views/view_link";
 import { bodiesOf } from "../page/world_nodes";
 
+/** Events by which a person moves the camera, and those of any act on the page. */
+const MOVES = ["pointerdown", "wheel", "keydown"] as const;
+const ACTS = ["pointerdown", "keydown", "hashchange"] as const;
 /** Wall seconds in which more of a robot may appear, and in which one may come into a world. */
 const SETTLING = 3;
 const COMING = 120;
@@ -120,7 +124,11 @@ function showLinked(shell: Shell): boolean {
   return show();
 }
 
-/** Frame the robot once it appears, unless a file has a view or a person has moved the camera. */
+/**
+ * Frame the robot once it appears, unless a file has a view or a person has moved the camera.
+ *
+ * Dock, tiles and disc come in any order: it is framed again for the part that they leave free, until a person acts.
+ */
 export function startView(shell: Shell): void {
   const { page } = shell;
   const { session, world, scene, views } = page;
@@ -130,29 +138,43 @@ export function startView(shell: Shell): void {
     if (first !== undefined) property.decode(first);
   }
   const framed = new Box3();
-  let settling = 0;
+  let room: Area | null = null; // for which it was framed
+  let [isSettled, isTouched] = [false, false];
+  let age = 0;
   const isLoading = (): boolean =>
     world.manifest.peek() === null
       ? session.kind === "simulation" || session.kind === "log"
       : world.progress.peek() < 1;
   const stop = scene.onTick((elapsed) => {
-    settling += elapsed;
+    age += elapsed;
+    if (!framed.isEmpty() && (age > COMING || (isSettled && isTouched))) leave();
+    if (isLoading()) return;
     const isWorld = world.manifest.peek() !== null;
     const hasRobot = simulatedRobot(page) !== undefined;
-    if (settling > (isWorld ? COMING : SETTLING) && !framed.isEmpty()) leave();
-    if (isLoading() || (isWorld && !hasRobot && !framed.isEmpty())) return;
-    const box = firstBox(page);
+    const mayGrow = framed.isEmpty() || (!isSettled && (hasRobot || !isWorld));
+    const box = mayGrow ? firstBox(page) : framed;
     if (box.isEmpty()) return;
-    if (differs(box, framed)) {
+    const free = scene.freePart.peek();
+    if (differs(box, framed) || (!isTouched && !isAsLarge(free, room))) {
+      room = free;
       views.frameInAll(framed.copy(box));
       const { radius } = robotBox(page).getBoundingSphere(new Sphere());
       loadTf(shell, "Marker Scale", Number((AXES_SHARE * radius).toPrecision(1)));
     }
-    if (hasRobot) leave();
+    isSettled ||= hasRobot || (!isWorld && age > SETTLING);
   });
+  const touch = (): void => {
+    isTouched = true;
+  };
   const leave = (): void => {
     stop();
-    for (const kind of ["pointerdown", "wheel", "keydown"]) scene.element.removeEventListener(kind, leave);
+    for (const kind of MOVES) scene.element.removeEventListener(kind, leave);
+    for (const kind of ACTS) removeEventListener(kind, touch, true);
   };
-  for (const kind of ["pointerdown", "wheel", "keydown"]) scene.element.addEventListener(kind, leave);
+  for (const kind of MOVES) scene.element.addEventListener(kind, leave);
+  for (const kind of ACTS) addEventListener(kind, touch, true);
+}
+
+function isAsLarge(area: Area, other: Area | null): boolean {
+  return area.width === other?.width && area.height === other.height;
 }

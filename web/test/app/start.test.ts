@@ -57,6 +57,31 @@ describe("the first view of a page", () => {
     expect(page.views.framed).toHaveLength(2);
   });
 
+  it("frames the robot again for the part that the dock leaves free, until a person acts", () => {
+    const page = fakePage();
+    const { freePart } = page.scene;
+    page.world.manifest.value = MANIFEST;
+    startView(shellOf(page));
+    page.scene.tick();
+    freePart.value = { left: 0, top: 0, width: 1, height: 0.5 };
+    page.scene.tick();
+    page.scene.tick();
+    expect(page.views.framed).toHaveLength(2);
+    document.body.dispatchEvent(new Event("keydown"));
+    freePart.value = { left: 0, top: 0, width: 1, height: 0.4 };
+    page.scene.tick();
+    expect(page.views.framed).toHaveLength(2);
+  });
+
+  it("frames a robot that comes after a person has acted", () => {
+    const page = fakePage();
+    startView(shellOf(page));
+    document.body.dispatchEvent(new Event("pointerdown"));
+    page.world.manifest.value = MANIFEST;
+    page.scene.tick();
+    expect(page.views.framed).toHaveLength(1);
+  });
+
   it("is unchanged if a person has moved the camera, or a file has a view", () => {
     const page = fakePage();
     startView(shellOf(page));
