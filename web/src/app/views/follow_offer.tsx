@@ -1,42 +1,59 @@
-/** Offers to follow the robot when it has left a view that nobody moves. */
+/** Offers to follow the robot when it has left a view that nobody moves, or drives behind the controls over it. */
 
 import { useSignal } from "@preact/signals";
 import type { JSX } from "preact";
 import { useEffect } from "preact/hooks";
-import { Matrix4 } from "three";
+import { Matrix4, Vector3 } from "three";
 
 import { toPicture } from "../../scene/picking";
 import { Button } from "../../theme/button";
 import type { Page } from "../../page/page";
 import type { Shell } from "../shell";
 import { isFollowing, robotTarget } from "./following";
-import { targetPose } from "./framing";
+import { robotBox, simulatedRobot, targetPose } from "./framing";
 
 /** Period of the look [s]. */
 const PERIOD = 0.25;
+/** What lies over the scene; menus and notices come and go. */
+const CONTROLS = ".panel, .scene-overlay :is(.float, .disc, .tile)";
+const PASSING = ".menu, .notice";
+
+type Place = "seen" | "covered" | "left";
+const TEXTS: Readonly<Record<Exclude<Place, "seen">, string>> = {
+  covered: "is behind the controls",
+  left: "has left the view",
+};
+
+/** Where the robot is that is not seen, and its frame or `model::link`. */
+interface Unseen {
+  readonly place: keyof typeof TEXTS;
+  readonly target: string;
+}
 
 export function FollowOffer({ shell }: { readonly shell: Shell }): JSX.Element | null {
   const { page } = shell;
-  const target = useSignal<string | null>(null);
+  const unseen = useSignal<Unseen | null>(null);
   useEffect(
     () =>
-      watchLeaving(page, (left) => {
-        target.value = left;
+      watchRobot(page, (now, isNew) => {
+        if (isNew || unseen.value !== null) unseen.value = now;
       }),
     [page],
   );
-  const left = target.value;
-  if (left === null || isFollowing(page)) return null;
+  if (unseen.value === null || isFollowing(page)) return null;
+  const { place, target } = unseen.value;
   const close = (): void => {
-    target.value = null;
+    unseen.value = null;
   };
   return (
     <div class="notice float" role="status">
-      <span class="said">{shell.robot.value ?? "The robot"} has left the view</span>
+      <span class="said">
+        {shell.robot.value ?? "The robot"} {TEXTS[place]}
+      </span>
       <Button
         class="lk"
         onClick={() => {
-          page.views.follow(left);
+          page.views.follow(target);
           close();
         }}
       >
@@ -47,31 +64,37 @@ export function FollowOffer({ shell }: { readonly shell: Shell }): JSX.Element |
   );
 }
 
-/** Tell when the robot leaves the view (its frame or `model::link`), and when it is back (null). */
-function watchLeaving(page: Page, tell: (target: string | null) => void): () => void {
+/** Tell where the robot is if it is not seen, at first and while it stays so, and when it is seen again (null). */
+function watchRobot(page: Page, tell: (unseen: Unseen | null, isNew: boolean) => void): () => void {
   const camera = new Matrix4();
   let since = 0;
-  let wasInside = false;
+  let wasSeen = false;
   return page.scene.onTick((elapsed) => {
     since += elapsed;
     if (since < PERIOD) return;
     since = 0;
     const target = robotTarget(page);
-    const isInside = target !== null && isInView(page, target);
+    const place = target === null ? null : placeOf(page, target);
     const { matrixWorld } = page.scene.camera.peek();
     const isStill = camera.equals(matrixWorld);
     camera.copy(matrixWorld);
-    if (isInside) tell(null);
-    else if (wasInside && isStill) tell(target);
-    wasInside = isInside;
+    if (target === null || place === null || place === "seen") tell(null, false);
+    else tell({ place, target }, wasSeen && isStill);
+    wasSeen = place === "seen";
   });
 }
 
-function isInView(page: Page, target: string): boolean {
-  const { scene } = page;
-  const position = targetPose(page, target)?.position;
-  if (position === undefined) return false;
-  const at = toPicture(position.clone(), scene.camera.peek(), scene.paneSize.peek());
-  const { left, top, width, height } = scene.freePart.peek();
-  return at !== null && at.x >= left && at.x <= left + width && at.y >= top && at.y <= top + height;
+/** Where the robot's middle, or else its frame's origin, is. */
+function placeOf(page: Page, target: string): Place {
+  const { element, camera, paneSize } = page.scene;
+  const middle =
+    simulatedRobot(page) === undefined
+      ? targetPose(page, target)?.position.clone()
+      : robotBox(page).getCenter(new Vector3());
+  const { width, height } = paneSize.peek();
+  const at = middle === undefined ? null : toPicture(middle, camera.peek(), { width, height });
+  if (at === null || at.x < 0 || at.x > width || at.y < 0 || at.y > height) return "left";
+  const { left, top } = element.getBoundingClientRect();
+  const over = document.elementFromPoint(left + at.x, top + at.y);
+  return over?.closest(CONTROLS) != null && over.closest(PASSING) === null ? "covered" : "seen";
 }
