@@ -16,10 +16,20 @@ export interface FrameInfo {
   readonly publisher: string | null;
 }
 
+/** Frames that were moved while time stands still: nothing publishes them again. */
+export interface MovedFrames {
+  /** Frame of the motions. */
+  readonly fixedFrame: string;
+  /** Motion of each frame that a body carries: its pose now times the inverse of the pose that tf has. */
+  readonly motions: ReadonlyMap<string, Transform>;
+}
+
 /** Frames that are drawn at one time with the simulated world. */
 export interface DrawnFrames extends FrameTree {
   /** Time at which a frame is looked up where its newest pose is asked for, if that is later [ns]; null: the newest. */
   drawnAt: bigint | null;
+  /** Motions that are added where a frame's newest pose is asked for, also to the frames below; null: none. */
+  moved: MovedFrames | null;
   /** Newest common time of two frames [ns]; 0n: nothing moves between them, or they are not connected. */
   newestTime(target: string, source: string): bigint;
 }

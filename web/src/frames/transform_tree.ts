@@ -5,7 +5,7 @@ import { Quaternion, Vector3 } from "three";
 
 import type { TransformStamped } from "../protocol/generated/ros_messages";
 import { nanoseconds } from "../protocol/ros_types";
-import type { DrawnFrames, FrameInfo } from "./frame_tree";
+import type { DrawnFrames, FrameInfo, MovedFrames } from "./frame_tree";
 import { NoTransform, type Transform } from "./transform";
 import { TransformHistory, type Sample } from "./transform_history";
 
@@ -23,6 +23,7 @@ const MAX_PAST = 1_000_000_000n;
 
 export class TransformTree implements DrawnFrames {
   drawnAt: bigint | null = null;
+  moved: MovedFrames | null = null;
   readonly frames = signal<readonly string[]>([]);
   readonly #moving = new Map<string, TransformHistory>();
   readonly #static = new Map<string, Sample>();
@@ -75,7 +76,8 @@ export class TransformTree implements DrawnFrames {
   lookup(target: string, source: string, time: bigint): Transform | NoTransform {
     const [to, from] = [bareName(target), bareName(source)];
     if (to === from) return { position: new Vector3(), orientation: new Quaternion() };
-    const result = this.#find(to, from, time);
+    const found = this.#find(to, from, time);
+    const result = typeof found === "string" || time !== 0n ? found : this.#asMoved(to, from, found);
     return typeof result === "string" ? new NoTransform(`No transform from [${from}] to [${to}]`, result) : result;
   }
 
@@ -121,6 +123,24 @@ export class TransformTree implements DrawnFrames {
       if (typeof pose === "string") return `${pose}, when looking up transform from frame [${from}] to frame [${to}]`;
     }
     return relative(toPose as Transform, fromPose as Transform);
+  }
+
+  /** Pose of `from` in `to` after the motions of what carries them. */
+  #asMoved(to: string, from: string, pose: Transform): Transform {
+    if (this.moved === null) return pose;
+    const { fixedFrame, motions } = this.moved;
+    const [ofTo, ofFrom] = [to, from].map((name) => this.#motionOf(name, motions));
+    const before = to === fixedFrame ? IDENTITY : this.#find(fixedFrame, to, 0n);
+    if (ofTo === ofFrom || typeof before === "string") return pose;
+    const at = (motion: Transform | undefined, within: Transform): Transform =>
+      motion === undefined ? within : compose(motion, within);
+    return relative(at(ofTo, before), at(ofFrom, compose(before, pose)));
+  }
+
+  /** Motion of the nearest frame, itself or above, that a body carries. */
+  #motionOf(name: string, motions: ReadonlyMap<string, Transform>): Transform | undefined {
+    const carried = this.#ancestors(name)?.find((one) => motions.has(one));
+    return carried === undefined ? undefined : motions.get(carried);
   }
 
   #unknown(name: string): string {
@@ -212,6 +232,16 @@ function sampleOf(
   if (length > 0) orientation.normalize();
   else orientation.identity();
   return { stamp, parent, position, orientation };
+}
+
+const IDENTITY: Transform = { position: new Vector3(), orientation: new Quaternion() };
+
+/** Pose of `inner`, which is in the frame of `outer`, in the frame that `outer` is in. */
+function compose(outer: Transform, inner: Transform): Transform {
+  return {
+    position: inner.position.clone().applyQuaternion(outer.orientation).add(outer.position),
+    orientation: outer.orientation.clone().multiply(inner.orientation),
+  };
 }
 
 /** Pose of b in a, of two poses in the same frame. */

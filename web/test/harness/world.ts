@@ -21,6 +21,7 @@ const frames = {
   describe: () => [],
   lookup: () => new NoTransform("", ""),
   drawnAt: null,
+  moved: null,
   newestTime: () => 0n,
 };
 const world = new WorldFeed(connection, scene, frames, signal("world"));

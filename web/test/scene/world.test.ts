@@ -211,7 +211,7 @@ describe("one time for bodies and frames", () => {
       frames.add([{ header, child_frame_id: "base_link", transform }], false);
     }
     const frameX = (): number => (frames.lookup("odom", "base_link", 0n) as Transform).position.x;
-    return { poses, placement, robot, frameX };
+    return { poses, frames, placement, robot, frameX };
   }
 
   test("the world is drawn at tf's newest time if its poses are newer", () => {
@@ -255,6 +255,47 @@ describe("one time for bodies and frames", () => {
     placement.synchronize("odom", false);
 
     expect(robot.position.x).toBeCloseTo(0.4);
+  });
+
+  /** Send the robot's pose at the time at which all stands still. */
+  function drag(poses: BodyPoses, x: number, y = 0): void {
+    poses.apply(poseMessage(100n * MS, 1, [[0, x, y, 0, 0, 0, 0, 1]]), 1);
+  }
+
+  test.each(["odom", "base_link"])("frames follow what is moved while time stands still, in %s", (fixedFrame) => {
+    const { poses, placement, frames } = driving([100n]);
+    const lens = { header: { seq: 0, stamp: { sec: 0, nsec: 0 }, frame_id: "base_link" }, child_frame_id: "lens" };
+    const rotation = { x: 0, y: 0, z: 0, w: 1 };
+    frames.add([{ ...lens, transform: { translation: { x: 0, y: 0, z: 1 }, rotation } }], true);
+    const show = (): void => {
+      placement.update(MANIFEST, fixedFrame);
+      placement.moveFrames(MANIFEST, fixedFrame, true);
+    };
+    const positionOf = (target: string, source: string): readonly number[] =>
+      (frames.lookup(target, source, 0n) as Transform).position.toArray().map((part) => Number(part.toFixed(4)) + 0);
+
+    show();
+    drag(poses, 0.1);
+    show();
+    expect(positionOf("odom", "base_link")).toEqual([0.1, 0, 0]);
+    drag(poses, 7, 2);
+    show();
+    expect(positionOf("odom", "base_link")).toEqual([7, 2, 0]);
+    expect(positionOf("odom", "lens")).toEqual([7, 2, 1]);
+    expect(positionOf("base_link", "odom")).toEqual([-7, -2, 0]);
+    expect(positionOf("base_link", "lens")).toEqual([0, 0, 1]);
+    drag(poses, 0.1);
+    show();
+    expect(positionOf("odom", "lens")).toEqual([0.1, 0, 1]);
+  });
+
+  test("frames are as tf has them once time goes on", () => {
+    const { poses, placement, frameX } = driving([100n]);
+    drag(poses, 7);
+    placement.moveFrames(MANIFEST, "odom", true);
+    poses.apply(poseMessage(150n * MS, 1, [[0, 7, 0, 0, 0, 0, 0, 1]]), 1);
+    placement.moveFrames(MANIFEST, "odom", false);
+    expect(frameX()).toBeCloseTo(0.1);
   });
 
   test("what is moved while time stands still is drawn at once", () => {

@@ -32,6 +32,8 @@ export class BodyPoses {
   /** Time at which the bodies are drawn [ns]. */
   drawnAt = 0n;
   private hasMoved = false;
+  /** Poses at the newest time as they came first; null: nothing came again at that time. */
+  private first: Float32Array | null = null;
 
   /** Attach the object that follows a body. */
   attach(body: number, object: Object3D): void {
@@ -52,6 +54,7 @@ export class BodyPoses {
   forgetPoses(): void {
     this.isKnown.fill(0);
     this.past = [];
+    this.first = null;
   }
 
   pose(body: number): Transform | null {
@@ -61,6 +64,21 @@ export class BodyPoses {
       position: new Vector3().fromArray(this.numbers, at),
       orientation: new Quaternion().fromArray(this.numbers, at + 3),
     };
+  }
+
+  /** Pose of a body when its newest time first came, before edits while time stands still; null: it is as it was. */
+  poseBefore(body: number): Transform | null {
+    const at = body * NUMBERS;
+    const { first, numbers } = this;
+    if (first === null || this.isKnown[body] !== 1 || at + NUMBERS > first.length) return null;
+    for (let i = at; i < at + NUMBERS; i += 1) {
+      if (first[i] === numbers[i]) continue;
+      return {
+        position: new Vector3().fromArray(first, at),
+        orientation: new Quaternion().fromArray(first, at + 3),
+      };
+    }
+    return null;
   }
 
   /** Pose in which a body is drawn; null before the first. */
@@ -78,6 +96,7 @@ export class BodyPoses {
     if (message.byteLength < at + 4 * NUMBERS * count) return false;
     const time = message.getBigUint64(0, true);
     if (time <= this.time) this.past = []; // time stands still or goes back: what was moved is shown at once
+    this.first = time === this.time ? (this.first ?? this.numbers.slice()) : null;
     this.time = time;
     const moved: number[] = [];
     for (let i = 0; i < count; i += 1) {

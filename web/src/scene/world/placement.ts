@@ -72,6 +72,27 @@ export class WorldPlacement {
     return true;
   }
 
+  /** Tell the frames what was moved while time stands still, since nothing publishes tf then. */
+  moveFrames({ frames }: Manifest, fixedFrame: string, isPaused: boolean): void {
+    const name = fixedFrame.replace(/^\//, "");
+    const moved = isPaused && frames.some(({ body }) => this.poses.poseBefore(body) !== null);
+    this.frames.moved = moved ? { fixedFrame: name, motions: this.motions(frames, name) } : null;
+  }
+
+  /** Motions in the fixed frame of the frames that bodies carry. */
+  private motions(frames: Manifest["frames"], fixedFrame: string): ReadonlyMap<string, Transform> {
+    const inWorld = frames.map(({ frame, body }): readonly [string, Matrix4] => {
+      const [before, now] = [this.poses.poseBefore(body), this.poses.pose(body)];
+      if (before === null || now === null) return [frame, new Matrix4()];
+      return [frame, this.set(new Matrix4(), now).multiply(this.set(this.other, before).invert())];
+    });
+    const fixed = this.matrix.copy(this.group.matrix);
+    const ofFixed = inWorld.find(([frame]) => frame === fixedFrame)?.[1];
+    if (ofFixed !== undefined) fixed.multiply(ofFixed); // the world's place in it before it was moved itself
+    const back = this.other.copy(fixed).invert();
+    return new Map(inWorld.map(([frame, motion]) => [frame, poseOf(motion.premultiply(fixed).multiply(back))]));
+  }
+
   private find(manifest: Manifest, fixedFrame: string): Matrix4 | null {
     const carried = manifest.frames.find(({ frame }) => frame === fixedFrame);
     const body = carried === undefined ? null : this.poses.drawn(carried.body);
@@ -94,4 +115,10 @@ export class WorldPlacement {
   ): Matrix4 {
     return matrix.compose(position, orientation, ONE);
   }
+}
+
+function poseOf(matrix: Matrix4): Transform {
+  const pose = { position: new Vector3(), orientation: new Quaternion() };
+  matrix.decompose(pose.position, pose.orientation, new Vector3());
+  return pose;
 }
