@@ -7,8 +7,8 @@ from typing import Any
 from tests.graphs import PATIENCE_S
 
 PATIENCE_MS = 60_000
-_STILL_MS = 300
-"""Time without a change after which a value is still [s]."""
+_STILL_MS = 700
+"""Time without a change after which a value is still: a scene at rest is drawn once more after 300 [ms]."""
 
 _DROP = """([name, text]) => {
     const carried = new DataTransfer();

@@ -122,7 +122,7 @@ class ClientPage:
             if last is not None and is_drawn(now) and np.abs(now - last).max() < 3:
                 return now
             last = now
-            time.sleep(0.3)
+            time.sleep(0.7)  # a scene at rest is drawn once more after 0.3 s
         pytest.fail(f"the page drew nothing that stood still within {PATIENCE_S:g} s")
 
     def _served_file(self) -> str | None:

@@ -49,7 +49,7 @@ def _count_once_still(page: Any) -> int:
     """Wait until no more pictures are drawn, as the start may take a few; return their number."""
     for _ in range(100):
         before = page.evaluate("count")
-        page.wait_for_timeout(300)
+        page.wait_for_timeout(700)  # the sharp picture comes after 300
         if page.evaluate("count") == before:
             return before
     raise AssertionError("a still scene is drawn again and again")
@@ -154,3 +154,55 @@ def test_without_webgl_the_page_shows_a_notice_and_works(chromium: Any, served: 
     page.wait_for_function("views.current.value.pitch.value.value > 1.5")
     page.close()
     assert faults == []
+
+
+_ONE_BOX = """() => {
+    for (const one of scene.displays.children) one.visible = one.name === "Marker";
+    scene.grid.value = false;
+    window.count = 0;
+    scene.addStep({ before: () => { count += 1 } });
+    window.keepOn = scene.onTick(() => scene.invalidate());
+}"""
+
+
+def _shares(page: Any, ratio: int) -> list[float]:
+    """Return the shares of the box' color in the pixels that are neither it nor the background, within the picture."""
+    from io import BytesIO
+
+    import numpy as np
+    from PIL import Image
+
+    picture = np.asarray(Image.open(BytesIO(page.screenshot())).convert("RGB")).astype(float)[:, : 700 * ratio]
+    box, background = np.array([0x40, 0x80, 0xC0]), picture[0, 0]
+    share = ((picture - background) @ (box - background)) / ((box - background) @ (box - background))
+    return [float(one) for one in share[(share > 0.03) & (share < 0.97)]]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ratio", [1, 2])
+def test_a_scene_at_rest_has_smooth_edges_in_one_more_picture(chromium: Any, served: str, ratio: int) -> None:
+    """The CPU draws: edges have steps while something changes, and four samples per pixel afterwards."""
+    context = chromium.new_context(viewport={"width": 800, "height": 600}, device_scale_factor=ratio)
+    page = context.new_page()
+    page.goto(f"{served}/scene.html")
+    _draw(page)
+    page.evaluate(_ONE_BOX)
+    page.wait_for_function("count > 2")
+    if ratio == 1:
+        assert _shares(page, ratio) == [], "edges are smooth while the picture changes"
+    assert page.evaluate("scene.element.width * scene.element.height") <= 1e6
+
+    count = page.evaluate("keepOn(); count")
+    page.wait_for_function(f"scene.element.width === {800 * ratio} && count > {count}")
+    rested = _count_once_still(page)
+    assert rested - count <= 2, "the picture that was due, and the sharp one"
+    shares = _shares(page, ratio)
+    assert len(shares) > 200 * ratio
+    levels = {round(4 * one) for one in shares}
+    assert levels >= {1, 2, 3}
+    page.wait_for_timeout(1000)
+    assert page.evaluate("count") == rested, "drawn while nothing changes"
+
+    page.evaluate("scene.invalidate()")
+    page.wait_for_function(f"count > {rested}")
+    context.close()

@@ -3,14 +3,14 @@
 /** Largest number of device pixels per pixel, and in the whole picture. */
 const MAX_PIXEL_RATIO = 2;
 const MAX_PIXELS = 5e6;
-/** Largest number of device pixels if the CPU draws. */
-const MAX_SLOW_PIXELS = 1e6;
+/** Largest number of device pixels if the CPU draws one picture after the other. */
+const MAX_QUICK_PIXELS = 1e6;
 
 export interface DrawingCanvas {
   readonly element: HTMLCanvasElement;
   /** Null: this browser has no WebGL 2. */
   readonly context: WebGL2RenderingContext | null;
-  /** True where the browser draws on the CPU: edges are not smoothed then. */
+  /** True where the browser draws on the CPU: its canvas does not smooth edges. */
   readonly isSlow: boolean;
 }
 
@@ -28,12 +28,12 @@ export function drawingCanvas(): DrawingCanvas {
   return canvas;
 }
 
-/** Device pixels per pixel of a canvas [px]. */
-export function pixelRatio(width: number, height: number, isSlow: boolean): number {
+/** Device pixels per pixel of a canvas [px]; few of them if the CPU draws one picture after the other. */
+export function pixelRatio(width: number, height: number, isQuick: boolean): number {
   return Math.min(
     window.devicePixelRatio,
     MAX_PIXEL_RATIO,
-    Math.sqrt((isSlow ? MAX_SLOW_PIXELS : MAX_PIXELS) / (width * height)),
+    Math.sqrt((isQuick ? MAX_QUICK_PIXELS : MAX_PIXELS) / (width * height)),
   );
 }
 

@@ -2,14 +2,18 @@
  * Picture that is drawn beside a context's canvas, and copied to it when it is done.
  *
  * A browser that draws on the CPU reads a changed canvas back, and its page stands still until all drawing is done.
+ * The canvas gets the size of the picture with it, so that it is never empty.
  */
 
 export class OffscreenPicture {
+  /** Has the size of the picture being drawn; the renderer sets it. */
+  readonly canvas: OffscreenCanvas;
   private readonly bind: WebGL2RenderingContext["bindFramebuffer"];
   private framebuffer: WebGLFramebuffer | null = null;
   private buffers: readonly (readonly [format: GLenum, buffer: WebGLRenderbuffer])[] = [];
   private width = 0;
   private height = 0;
+  private samples = 0;
   /** Fence of the picture that is being drawn. */
   private sync: WebGLSync | null = null;
 
@@ -20,7 +24,14 @@ export class OffscreenPicture {
     context.bindFramebuffer = (target, framebuffer) => this.bind(target, framebuffer ?? this.framebuffer);
     context.drawBuffers = (buffers: Iterable<GLenum>) =>
       choose([...buffers].map((buffer) => (buffer === context.BACK ? context.COLOR_ATTACHMENT0 : buffer)));
-    context.canvas.addEventListener("webglcontextrestored", () => this.create()); // before the renderer restarts
+    const { width, height } = context.canvas;
+    this.canvas = new OffscreenCanvas(width, height);
+    for (const name of ["webglcontextlost", "webglcontextrestored"]) {
+      context.canvas.addEventListener(name, () => {
+        if (name === "webglcontextrestored") this.create(); // before the renderer restarts
+        this.canvas.dispatchEvent(new Event(name));
+      });
+    }
     this.create();
   }
 
@@ -29,20 +40,22 @@ export class OffscreenPicture {
     return this.sync !== null;
   }
 
-  /** Set the size [px]; a change clears the picture. */
-  fit(width: number, height: number): void {
-    if (width === this.width && height === this.height) return;
-    [this.width, this.height] = [width, height];
+  /** Take the canvas' size, with a number of samples per pixel, 0: edges are not smoothed; a change clears the picture. */
+  fit(samples: number): void {
+    const { width, height } = this.canvas;
+    if (width === this.width && height === this.height && samples === this.samples) return;
+    [this.width, this.height, this.samples] = [width, height, samples];
     const { context } = this;
     for (const [format, buffer] of this.buffers) {
       context.bindRenderbuffer(context.RENDERBUFFER, buffer);
-      context.renderbufferStorage(context.RENDERBUFFER, format, width, height);
+      context.renderbufferStorageMultisample(context.RENDERBUFFER, samples, format, width, height);
     }
     context.bindRenderbuffer(context.RENDERBUFFER, null);
   }
 
-  /** Note that all drawing of a picture was issued. */
+  /** Note that all drawing of a picture was issued; one that was begun before is dropped. */
   begin(): void {
+    this.context.deleteSync(this.sync);
     this.sync = this.context.fenceSync(this.context.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.context.flush();
   }
@@ -58,6 +71,8 @@ export class OffscreenPicture {
   /** Copy the picture to the canvas; the page waits if it is not done. */
   show(): void {
     const { context, width, height } = this;
+    const { canvas } = context;
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
     this.bind(context.READ_FRAMEBUFFER, this.framebuffer);
     this.bind(context.DRAW_FRAMEBUFFER, null);
     context.blitFramebuffer(0, 0, width, height, 0, 0, width, height, context.COLOR_BUFFER_BIT, context.NEAREST);
@@ -81,8 +96,7 @@ export class OffscreenPicture {
       context.framebufferRenderbuffer(context.FRAMEBUFFER, attachment, context.RENDERBUFFER, buffer);
       return [format, buffer] as const;
     });
-    const { width, height } = this;
     this.width = this.height = 0;
-    this.fit(width, height);
+    this.fit(this.samples);
   }
 }

@@ -97,6 +97,7 @@ export class SceneInput {
     const isFirst = this.fingers.size === 0;
     this.longPress.end();
     this.fingers.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
+    this.pinch(); // begins, or ends, here and not at the next frame, which may be late
     if (isFirst) this.scene.panes.press(event.offsetX, event.offsetY);
     this.views.active.peek().interrupt(); // before the tool, which may move the camera itself
     if (isFirst) {
@@ -128,6 +129,7 @@ export class SceneInput {
 
   private up(event: PointerEvent, kind: "up" | "cancel"): void {
     this.longPress.end();
+    this.pinch();
     if (!this.fingers.delete(event.pointerId) || this.fingers.size > 0) return;
     this.leave(event, kind);
     this.scene.panes.release();

@@ -101,7 +101,7 @@ export interface DrawStep {
 
 export interface SceneView {
   readonly status: ReadonlySignal<SceneStatus>;
-  /** True where the browser draws on the CPU: edges are not smoothed then. */
+  /** True where the browser draws on the CPU: edges are smooth only while nothing changes. */
   readonly isSlow: boolean;
   /** Root of displays, in the fixed frame: x forward, z up [m]. */
   readonly displays: Group;
@@ -110,7 +110,7 @@ export interface SceneView {
   /** The camera of the pane that the pointer is in. */
   readonly camera: ReadonlySignal<PerspectiveCamera | OrthographicCamera>;
   /** Element that has the pointer's events. */
-  readonly element: HTMLElement;
+  readonly element: HTMLCanvasElement;
   /** Size of the element [px]. */
   readonly size: ReadonlySignal<{ readonly width: number; readonly height: number }>;
   /** Insets of the element under panels; the camera's target stays in the middle of the rest. */

@@ -15,7 +15,7 @@ import {
   type Vector3,
 } from "three";
 
-import { drawingCanvas, pixelRatio } from "./drawing_canvas";
+import { drawingCanvas } from "./drawing_canvas";
 import { NO_INSETS, type Area, type Insets } from "./free_area";
 import { GroundGrid } from "./ground_grid";
 import { LabelSet } from "./label_layer";
@@ -25,6 +25,7 @@ import type { Pane } from "./panes/pane";
 import { paneAreas, type PaneArea } from "./panes/pane_layout";
 import { ScenePanes } from "./panes/scene_panes";
 import { Picker, type PictureSize } from "./picking";
+import { PictureQuality } from "./picture_quality";
 import type { DrawStep, Label, Pick, PictureBox, SceneStatus, SceneView } from "./scene_view";
 
 const NO_WEBGL =
@@ -68,15 +69,20 @@ export class ThreeScene implements SceneView {
   /** Pixel ratio of the last picture; 0 before the first. */
   private pixelRatio = 0;
   readonly isSlow: boolean;
+  readonly quality: PictureQuality;
   /** Null where drawing holds nothing up. */
   private readonly offscreen: OffscreenPicture | null;
+  /** Canvas whose size the renderer sets. */
+  private readonly sized: HTMLCanvasElement | OffscreenCanvas;
 
   /** `host`: positioned element that it fills. */
   constructor(private readonly host: HTMLElement) {
     const { element, context, isSlow } = drawingCanvas();
     this.element = element;
     this.isSlow = isSlow;
+    this.quality = new PictureQuality(isSlow);
     this.offscreen = isSlow && context !== null ? new OffscreenPicture(context) : null;
+    this.sized = this.offscreen?.canvas ?? element;
     this.renderer = this.createRenderer(context);
     this.element.tabIndex = 0;
     this.element.setAttribute("role", "application"); // it has keys of its own
@@ -161,6 +167,7 @@ export class ThreeScene implements SceneView {
     const ratio = height / this.size.peek().height;
     const size = { width: width / ratio, height: height / ratio };
     const areas = paneAreas(this.panes.layout.peek(), size, NO_INSETS, 0);
+    this.quality.isSharp = true;
     this.draw(size, ratio, areas);
     this.show();
     const { drawingBufferWidth, drawingBufferHeight } = this.renderer.getContext();
@@ -190,7 +197,7 @@ export class ThreeScene implements SceneView {
       this.status.value = { kind: "unsupported", reason: NO_WEBGL };
       return null;
     }
-    const renderer = new WebGLRenderer({ canvas: this.element, context });
+    const renderer = new WebGLRenderer({ canvas: this.sized, context });
     renderer.debug.checkShaderErrors = import.meta.env.DEV; // reading them waits until each program is linked
     return renderer;
   }
@@ -254,41 +261,39 @@ export class ThreeScene implements SceneView {
     this.frame = requestAnimationFrame((next) => this.tick(next));
     const { offscreen } = this;
     if (offscreen?.isBegun === true) {
-      if (offscreen.isDone()) this.show();
-      return;
+      const isDone = offscreen.isDone();
+      if (isDone) this.show();
+      if (isDone || !this.quality.isSharp) return; // a change drops a sharp picture that is being drawn
     }
     const elapsed = Math.min(1, (now - this.last) / 1000); // no jump after a hidden tab
     this.last = now;
     for (const callback of this.ticks) callback(elapsed);
-    if (!this.isChanged || !this.isPlaced || this.status.peek().kind === "lost") return;
+    if (!this.isPlaced || this.status.peek().kind === "lost") return;
+    if (!this.quality.choose(this.isChanged, now)) return;
     this.isChanged = false;
-    if (this.draw(this.size.peek(), this.ratio, this.panes.areas.peek()) || offscreen === null) this.show();
+    const size = this.size.peek();
+    this.draw(size, this.quality.ratio(size), this.panes.areas.peek());
+    if (offscreen === null) this.show();
     else offscreen.begin();
   }
 
-  /** Device pixels per pixel of the element. */
-  private get ratio(): number {
-    const { width, height } = this.size.peek();
-    return pixelRatio(width, height, this.isSlow);
-  }
-
-  /** Fit the canvas to a size [px]; true: it had another one, and is empty. */
-  private fit({ width, height }: PictureSize, ratio: number): boolean {
+  /** Fit the canvas to a size [px]. */
+  private fit({ width, height }: PictureSize, ratio: number): void {
+    const { sized } = this;
     const isSame =
       ratio === this.pixelRatio &&
-      this.element.width === Math.floor(width * ratio) &&
-      this.element.height === Math.floor(height * ratio);
+      sized.width === Math.floor(width * ratio) &&
+      sized.height === Math.floor(height * ratio);
     if (!isSame && this.renderer !== null) {
       this.renderer.setDrawingBufferSize(width, height, ratio); // at once: each new size waits for the graphics processor
     }
-    this.offscreen?.fit(this.element.width, this.element.height);
+    this.offscreen?.fit(this.quality.samples);
     this.pixelRatio = ratio;
-    return !isSame;
   }
 
-  /** Draw a picture, which `show` displays; true: the canvas has a new size, and is empty. */
-  private draw(size: PictureSize, ratio: number, areas: readonly PaneArea[]): boolean {
-    const isResized = this.fit(size, ratio);
+  /** Draw a picture, which `show` displays. */
+  private draw(size: PictureSize, ratio: number, areas: readonly PaneArea[]): void {
+    this.fit(size, ratio);
     const { renderer } = this;
     const shown = this.panes.shown.peek();
     if (renderer !== null) for (const step of this.steps) step.before?.(renderer);
@@ -301,7 +306,6 @@ export class ThreeScene implements SceneView {
       renderer.setScissorTest(false);
       renderer.setViewport(0, 0, size.width, size.height);
     }
-    return isResized;
   }
 
   /** Show the drawn picture, with its labels and axes. */

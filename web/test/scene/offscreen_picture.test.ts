@@ -1,4 +1,4 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 
 import { OffscreenPicture } from "../../src/scene/offscreen_picture";
 
@@ -13,7 +13,7 @@ class FakeContext {
   readonly COLOR_ATTACHMENT0 = COLOR;
   readonly DEPTH_ATTACHMENT = DEPTH;
   readonly UNSIGNALED = UNSIGNALED;
-  readonly canvas = new EventTarget();
+  readonly canvas = Object.assign(new EventTarget(), { width: 10, height: 10 });
   /** Where it draws, and from where it reads; null: the canvas. */
   readonly bound: Record<number, unknown> = {};
   readonly copies: unknown[] = [];
@@ -35,8 +35,8 @@ class FakeContext {
   createRenderbuffer(): unknown {
     return {};
   }
-  renderbufferStorage(_target: number, _format: number, width: number, height: number): void {
-    this.sizes.push([width, height]);
+  renderbufferStorageMultisample(...[, samples, , width, height]: number[]): void {
+    this.sizes.push([width, height, samples]);
   }
   blitFramebuffer(...[left, top, right, bottom]: number[]): void {
     this.copies.push({ from: this.bound[READ], to: this.bound[DRAW], area: [left, top, right, bottom] });
@@ -53,11 +53,26 @@ class FakeContext {
   deleteSync(): void {}
 }
 
+class FakeCanvas extends EventTarget {
+  constructor(
+    public width: number,
+    public height: number,
+  ) {
+    super();
+  }
+}
+vi.stubGlobal("OffscreenCanvas", FakeCanvas);
+
 function begun(): { context: FakeContext; picture: OffscreenPicture } {
   const context = new FakeContext();
   const picture = new OffscreenPicture(context as unknown as WebGL2RenderingContext);
-  picture.fit(30, 20);
+  fit(picture, 30, 20);
   return { context, picture };
+}
+
+function fit(picture: OffscreenPicture, width: number, height: number, samples = 0): void {
+  Object.assign(picture.canvas, { width, height });
+  picture.fit(samples);
 }
 
 describe("an offscreen picture", () => {
@@ -78,22 +93,27 @@ describe("an offscreen picture", () => {
     expect([picture.isBegun, picture.isDone()]).toEqual([true, false]);
     context.status = SIGNALED;
     expect(picture.isDone()).toBe(true);
+    expect(context.canvas.width).toBe(10); // with the picture before
     picture.show();
+    expect([context.canvas.width, context.canvas.height]).toEqual([30, 20]);
     expect(picture.isBegun).toBe(false);
     expect(context.copies).toEqual([{ from: "framebuffer 1", to: null, area: [0, 0, 30, 20] }]);
     expect(context.bound[DRAW]).toBe("framebuffer 1");
   });
 
-  it("is resized only by a different size", () => {
+  it("has new buffers only for a different size or number of samples", () => {
     const { context, picture } = begun();
     const before = context.sizes.length;
 
-    picture.fit(30, 20);
+    fit(picture, 30, 20);
     expect(context.sizes.length).toBe(before);
-    picture.fit(60, 20);
+    fit(picture, 60, 20);
+    fit(picture, 60, 20, 4);
     expect(context.sizes.slice(before)).toEqual([
-      [60, 20],
-      [60, 20],
+      [60, 20, 0],
+      [60, 20, 0],
+      [60, 20, 4],
+      [60, 20, 4],
     ]);
   });
 
@@ -101,9 +121,15 @@ describe("an offscreen picture", () => {
     const { context, picture } = begun();
 
     picture.begin();
+    let created: unknown = null;
+    picture.canvas.addEventListener("webglcontextrestored", () => {
+      context.bindFramebuffer(BOTH, null);
+      created = context.bound[DRAW];
+    });
     context.canvas.dispatchEvent(new Event("webglcontextrestored"));
+    expect(created).toBe("framebuffer 2"); // before the renderer restarts
     context.bindFramebuffer(BOTH, null);
     expect([context.bound[DRAW], picture.isBegun]).toEqual(["framebuffer 2", false]);
-    expect(context.sizes.at(-1)).toEqual([30, 20]);
+    expect(context.sizes.at(-1)).toEqual([30, 20, 0]);
   });
 });

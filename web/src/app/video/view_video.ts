@@ -12,17 +12,18 @@ export function recordView(scene: SceneView, recording: Recording): () => void {
   let next = performance.now();
   let timer = setTimeout(draw, period);
   const removeStep = scene.addStep({
-    after: ({ domElement }) => {
+    after: () => {
       const now = performance.now();
       if (now < next) return;
       next = Math.max(next + period, now);
       clearTimeout(timer);
       timer = setTimeout(draw, period); // after this picture: a slow machine keeps time for the rest of the page
+      const { element } = scene;
       const { width, height } = scene.size.peek();
       const area = freeArea(width, height, scene.freeArea.peek());
-      const scale = domElement.width / width;
+      const scale = element.width / width;
       const [left, top] = [area.left * scale, area.top * scale];
-      recording.add(domElement, { left, top, width: area.width * scale, height: area.height * scale }, now / 1000);
+      recording.add(element, { left, top, width: area.width * scale, height: area.height * scale }, now / 1000);
     },
   });
   return () => {

@@ -112,7 +112,7 @@ export class SelectionOutline {
     outlined: () => readonly Outlined[],
   ) {
     this.style = getComputedStyle(scene.element);
-    this.target = new WebGLRenderTarget(1, 1, { samples: scene.isSlow ? 0 : 4 });
+    this.target = new WebGLRenderTarget(1, 1, { samples: scene.quality.samples });
     const uniforms = {
       mask: { value: this.target.texture },
       pixel: { value: new Vector2() },
@@ -182,6 +182,11 @@ export class SelectionOutline {
   private draw(renderer: WebGLRenderer, camera: Camera): void {
     if (this.marked.length === 0) return;
     const { z: width, w: height } = renderer.getCurrentViewport(this.viewport);
+    const { samples } = this.scene.quality;
+    if (this.target.samples !== samples) {
+      this.target.samples = samples;
+      this.target.dispose();
+    }
     if (this.target.width !== width || this.target.height !== height) this.target.setSize(width, height);
     renderer.getScissor(this.scissor);
     const isScissored = renderer.getScissorTest();
