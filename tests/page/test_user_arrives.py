@@ -85,7 +85,7 @@ def test_a_user_on_another_machine_drives_and_sees_the_browsers_restrictions(chr
         user.open("Joystick")
         user.sees("Browsers show gamepads only to pages that come by https or from localhost: drag the sticks.")
         user.page.keyboard.press("Control+k")
-        user.page.get_by_role("combobox", name="Search commands").fill("link to this view")
+        user.page.get_by_role("combobox", name="Search commands").fill("Share")
         user.page.keyboard.press("Enter")
         user.page.get_by_role("dialog").get_by_role("button", name="Select", exact=True).click()
         link = user.field("Link")
