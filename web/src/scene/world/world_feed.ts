@@ -242,18 +242,14 @@ export class WorldFeed implements SimulatedWorld {
     if (manifest === null) return;
     const hasGhostMoved = this.synchronize();
     const isPlaced = this.placement.update(manifest, this.fixedFrame.peek());
-    this.placement.moveFrames(manifest, this.fixedFrame.peek(), this.isPaused);
+    this.placement.moveFrames(manifest, this.fixedFrame.peek(), this.state.peek()?.paused ?? true);
     if (this.poses.takeMoved() || hasGhostMoved || isPlaced) this.redraw();
   }
 
   /** Place all at one time; true: the recording that the world is compared with has moved. */
   private synchronize(): boolean {
-    this.placement.synchronize(this.fixedFrame.peek(), this.isPaused);
+    this.placement.synchronize(this.fixedFrame.peek(), this.state.peek()?.paused ?? true);
     return this.compared.show(Number(this.poses.drawnAt) / 1e9);
-  }
-
-  private get isPaused(): boolean {
-    return this.state.peek()?.paused ?? true;
   }
 
   private buildGhost(): void {
