@@ -99,6 +99,19 @@ describe("a plotted recording", () => {
     const values = linesOf([curve], "With reference", reference).map((line) => valueAt(line, 11));
     expect(values.map((found) => Number(found?.toFixed(3)))).toEqual([5, 1]);
   });
+
+  test("has no value after the recording's end", () => {
+    const points = new RingBuffer(10);
+    points.push(11, 5);
+    points.push(14, 5);
+    const curve = { path: "cart.pose.x", points, axis: signal("left") } as unknown as Curve;
+    const reference = { info: INFO, motion: motion() };
+    const at = (mode: Parameters<typeof linesOf>[1], time: number): readonly (number | null)[] =>
+      linesOf([curve], mode, reference).map((line) => valueAt(line, time));
+    expect(at("With reference", 12)[1]).toBeCloseTo(2);
+    expect(at("With reference", 12.5)).toEqual([5, null]);
+    expect(at("Difference", 14)).toEqual([null]);
+  });
 });
 
 test.each([

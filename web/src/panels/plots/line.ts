@@ -6,6 +6,8 @@ import { differenceOf, referenceBetween, referenceOf, type Points } from "./refe
 
 /** What is drawn while the world is compared with a recording. */
 export const REFERENCE_MODES = ["With reference", "Difference", "Run alone"] as const;
+/** Largest difference between two times that count as one [s]. */
+const SAME_TIME = 1e-6;
 export type ReferenceMode = (typeof REFERENCE_MODES)[number];
 
 export interface Line {
@@ -15,6 +17,8 @@ export interface Line {
   /** Name of its column in files. */
   readonly name: string;
   readonly isReference: boolean;
+  /** Time after which it has no value [s]. */
+  readonly end: number;
   /** Points of a range of time [s]. */
   readonly between: (from: number, to: number) => Points;
 }
@@ -25,22 +29,26 @@ export function linesOf(curves: readonly Curve[], mode: ReferenceMode, reference
     const run = (from: number, to: number): Points => curve.points.between(from, to);
     const name = curve.path;
     if (mode !== "Difference" || series === null || reference === null)
-      return { curve, index, name, isReference: false, between: run };
+      return { curve, index, name, isReference: false, end: Infinity, between: run };
     const { start } = reference.info;
+    const end = start + (series.times.at(-1) ?? -Infinity);
     const between = (from: number, to: number): Points => differenceOf(run(from, to), series, start);
-    return { curve, index, name: `${name} (difference)`, isReference: false, between };
+    return { curve, index, name: `${name} (difference)`, isReference: false, end, between };
   });
   if (mode !== "With reference" || reference === null) return lines;
   return lines.flatMap((line) => {
     const series = referenceOf(line.curve, reference);
     if (series === null) return [line];
-    const between = (from: number, to: number): Points => referenceBetween(series, reference.info.start, from, to);
-    return [line, { ...line, name: `${line.name} (reference)`, isReference: true, between }];
+    const { start } = reference.info;
+    const between = (from: number, to: number): Points => referenceBetween(series, start, from, to);
+    const end = start + (series.times.at(-1) ?? -Infinity);
+    return [line, { ...line, name: `${line.name} (reference)`, isReference: true, end, between }];
   });
 }
 
-/** Value of a line's newest point at or before a time; null before the first. */
+/** Value of a line's newest point at or before a time; null before the first, and after a recording's end. */
 export function valueAt(line: Line, time: number): number | null {
+  if (time > line.end + SAME_TIME) return null;
   const [xs, ys] = line.between(time, time);
   for (let at = xs.length - 1; at >= 0; at -= 1) if ((xs[at] ?? Infinity) <= time) return ys[at] ?? null;
   return null;
