@@ -47,7 +47,7 @@ def test_the_exit_code_tells_if_the_tolerance_is_exceeded(tmp_path: Path, capsys
     printed = capsys.readouterr()
     assert printed.err == "1 of 3 differences exceed 0.24\n"
     assert "box         distance          0.250000" in printed.out
-    assert "2.00 s, which both logs have, are compared" in printed.out
+    assert "2.00 s, which both have, are compared" in printed.out
 
 
 def test_a_model_of_one_log_alone_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -57,7 +57,7 @@ def test_a_model_of_one_log_alone_is_named(tmp_path: Path, capsys: pytest.Captur
 
     printed = capsys.readouterr()
     assert printed.err == "only in a.log: crate\n"
-    assert "1.00 s, which both logs have, are compared" in printed.out
+    assert "1.00 s, which both have, are compared" in printed.out
 
 
 def test_logs_of_other_worlds_and_damaged_ones_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,34 +1,17 @@
-"""`trundle compare`: the differences of two recorded runs as a table."""
+"""`trundle compare`: differences of two state logs."""
 
-import csv
-import io
 from pathlib import Path
 
 import numpy as np
-from msgspec import Struct
 
-from trundle.base.diagnostics import DescriptionError, Source, UsageError, printable
-from trundle.sim.comparison import Comparison, Difference, Trajectory
+from trundle.base.diagnostics import DescriptionError, Source, UsageError
+from trundle.sim.comparison import Comparison, Trajectory
 from trundle.sim.simulation import read_state_log
 
-_HEADER = ("name", "quantity", "maximum [m, rad]", "at [s]", "RMS [m, rad]", "at the end [m, rad]")
+from .run_differences import RunDifferences, file_names
+
 _RESTING = 1e-12
 """Largest difference [m, rad] of what counts as one pose."""
-
-
-class RunDifferences(Struct, frozen=True, kw_only=True):
-    """Differences of a recorded run from another."""
-
-    duration: float
-    """Time that both have [s]."""
-    rows: tuple[Difference, ...]
-    """Models and joints that move or differ: models first, the largest differences first."""
-    only: tuple[tuple[str, tuple[str, ...]], ...]
-    """Name of a log, and the models that it alone has."""
-
-    def exceed(self, tolerance: float) -> tuple[Difference, ...]:
-        """Return the rows whose maximum is above a tolerance [m, rad]."""
-        return tuple(row for row in self.rows if (row.maximum or 0.0) > tolerance)
 
 
 def compare_logs(run: Path, reference: Path) -> RunDifferences:
@@ -44,7 +27,7 @@ def compare_logs(run: Path, reference: Path) -> RunDifferences:
     if not models:
         raise UsageError(f"{run} and {reference} have no model in common: {_names(one)} and {_names(other)}")
     joints = [joint for joint in one.joints if joint in other.joints]
-    names = [run.name, reference.name] if run.name != reference.name else [str(run), str(reference)]
+    names = file_names(run.name, reference.name, (str(run), str(reference)))
     alone = [
         tuple(model for model in some.models if model not in others.models)
         for some, others in ((one, other), (other, one))
@@ -62,31 +45,8 @@ def compare_logs(run: Path, reference: Path) -> RunDifferences:
     return RunDifferences(
         duration=duration,
         rows=tuple(sorted(found, key=lambda row: (row.quantity == "position", -(row.maximum or 0.0)))),
+        unit=" [m, rad]",
         only=tuple((name, some) for name, some in zip(names, alone, strict=True) if some),
-    )
-
-
-def table(found: RunDifferences) -> str:
-    """Return the rows as columns."""
-    cells = [_HEADER, *(_cells(row, "{:.6f}", "{:.2f}") for row in found.rows)]
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    form = "  ".join(f"{{:{'<' if at < 2 else '>'}{width}}}" for at, width in enumerate(widths))
-    return "\n".join(form.format(*row).rstrip() for row in cells)
-
-
-def csv_table(found: RunDifferences) -> str:
-    """Return the rows as comma-separated values."""
-    text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows((_HEADER, *(_cells(row, "{}", "{}") for row in found.rows)))
-    return text.getvalue()
-
-
-def _cells(row: Difference, value: str, time: str) -> tuple[str, ...]:
-    numbers = ((value, row.maximum), (time, row.maximum_time), (value, row.rms), (value, row.now))
-    return (
-        printable(row.name),
-        row.quantity,
-        *("" if number is None else form.format(number) for form, number in numbers),
     )
 
 

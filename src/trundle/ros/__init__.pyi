@@ -1,22 +1,31 @@
 from .bags import (
+    TF_TYPES as TF_TYPES,
     BagConnection as BagConnection,
     BagError as BagError,
     BagMessage as BagMessage,
     BagReader as BagReader,
     BagSummary as BagSummary,
     BagWriter as BagWriter,
+    FramePoses as FramePoses,
     Player as Player,
     PlayerOptions as PlayerOptions,
+    RecordedNumbers as RecordedNumbers,
+    RecordedTopic as RecordedTopic,
     Recorder as Recorder,
     RecorderOptions as RecorderOptions,
     StepRecorder as StepRecorder,
+    TopicNumbers as TopicNumbers,
     UnindexedBagError as UnindexedBagError,
     byte_text as byte_text,
     create_bag as create_bag,
+    is_bag as is_bag,
     median_rates as median_rates,
+    message_time as message_time,
     open_bag as open_bag,
+    read_numbers as read_numbers,
     recover_messages as recover_messages,
     replaced_bag as replaced_bag,
+    transform_poses as transform_poses,
 )
 from .clients.action_server import ActionResult as ActionResult, ActionServer as ActionServer
 from .clients.reconfigure_client import (
@@ -77,6 +86,7 @@ from .messages.field_paths import (
 )
 from .messages.genpy_view import MessageView as MessageView
 from .messages.message_library import Messages as Messages
+from .messages.numbers import Layout as Layout, NumberReader as NumberReader
 from .messages.printing import MessagePrinter as MessagePrinter, field_value as field_value
 from .messages.raw_message import Message as Message, RawMessage as RawMessage, ServiceType as ServiceType
 from .migration import (

@@ -1,4 +1,4 @@
-"""Compare two recorded runs: how far their models and joints are apart at the same time since the start."""
+"""Compare two recorded runs: how far they are apart at the same time since the start."""
 
 import argparse
 import sys
@@ -10,15 +10,18 @@ EXAMPLES = """
   trundle compare new.log old.log                     maximum, its time and RMS of each model's and joint's difference
   trundle compare new.log old.log --tolerance 0.01    exit code 1 if any is above 0.01 m or rad
   trundle compare new.log old.log --csv               the table for other programs
+  trundle compare new.bag old.bag                     of bags: topics, counts, rates, numbers and frames
   trundle play new.log --compare old.log              both in the browser
 """
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("run", metavar="LOG", type=Path, help="state log of `trundle run --record`")
-    parser.add_argument("reference", metavar="REFERENCE", type=Path, help="state log to compare it with")
-    tolerance = "exit with 1 if a difference is larger [m, rad], or a log has models that the other lacks"
+    parser.add_argument("run", metavar="RUN", type=Path, help="state log of `trundle run --record`, .bag or .mcap")
+    parser.add_argument(
+        "reference", metavar="REFERENCE", type=Path, help="recording of the same kind to compare it with"
+    )
+    tolerance = "exit with 1 if a difference is larger [m, rad], or one has models or topics that the other lacks"
     parser.add_argument("--tolerance", type=_tolerance, metavar="X", help=tolerance)
     parser.add_argument("--csv", action="store_true", help="print comma-separated values")
 
@@ -26,15 +29,29 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Print the table; return 1 if a difference is above the tolerance."""
     with quiet_imports():
-        from trundle.app.compare import compare_logs, csv_table, table
-        from trundle.base.diagnostics import printable
+        from trundle.base.diagnostics import UsageError, printable
+        from trundle.ros import is_bag
 
-    found = compare_logs(args.run, args.reference)
+    are_bags = is_bag(args.run)
+    if are_bags != is_bag(args.reference):
+        bag, log = (args.run, args.reference) if are_bags else (args.reference, args.run)
+        raise UsageError(f"{bag} is a bag and {log} is none: compare two bags, or two state logs")
+    with quiet_imports():
+        if are_bags:
+            from trundle.app.compare_bags import compare_bags
+
+            found = compare_bags(args.run, args.reference, args.tolerance)
+        else:
+            from trundle.app.compare import compare_logs
+
+            found = compare_logs(args.run, args.reference)
     if args.csv:
-        print(csv_table(found), end="")
+        print(found.csv(), end="")
     else:
-        print(table(found))
-        print(f"{found.duration:.2f} s, which both logs have, are compared")
+        print(found.table())
+        for note in found.notes:
+            print(note)
+        print(f"{found.duration:.2f} s, which both have, are compared")
     for name, models in found.only:
         print(printable(f"only in {name}: {', '.join(models)}"), file=sys.stderr)
     if args.tolerance is None:

@@ -16,6 +16,15 @@ _MAX_LINE_BYTES = 64
 """Maximum length of the version line [bytes]."""
 
 
+def is_bag(path: Path) -> bool:
+    """True if a file begins like a ROS bag or an MCAP file.
+
+    Raises:
+        BagError: the file cannot be read, or is a bag of an unsupported format.
+    """
+    return _format(path) != ""
+
+
 def open_bag(path: Path) -> BagReader:
     """Open a .bag or .mcap file for reading.
 

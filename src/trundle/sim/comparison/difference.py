@@ -1,22 +1,25 @@
 """Difference of one value between a run and its reference."""
 
+from collections.abc import Sequence
 from typing import Literal, TypeAlias
 
 import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
+from .run_samples import Sums
+
 _Array = NDArray[np.float64]
-Quantity: TypeAlias = Literal["distance", "angle", "position"]
+Quantity: TypeAlias = Literal["distance", "angle", "position", "value"]
 
 
 class Difference(Struct, frozen=True, kw_only=True):
     """Difference of one value between a run and its reference: now, and over the time that both have had so far."""
 
     name: str
-    """Model, or `model::joint`."""
+    """Model, `model::joint`, a frame in its parent, or the path of a message's number."""
     quantity: Quantity
-    """Distance [m] and angle [rad] between the poses of a model, difference in position [rad or m] of a joint."""
+    """Distance [m] and angle [rad] between poses, difference in a joint's position [rad or m], or in a number."""
     now: float | None
     """None: the reference has no such time, or the run no such model."""
     maximum: float | None
@@ -25,6 +28,21 @@ class Difference(Struct, frozen=True, kw_only=True):
     """The run's time at the maximum [s]."""
     rms: float | None
     """Root mean square."""
+
+
+def listed(names: Sequence[tuple[str, Quantity]], sums: Sums) -> list[Difference]:
+    """Return the differences by name and quantity."""
+    return [
+        Difference(
+            name=name,
+            quantity=quantity,
+            now=_number(sums.now[at]),
+            maximum=_number(sums.maximum[at]),
+            maximum_time=_number(sums.maximum_time[at]),
+            rms=_number(sums.rms[at]),
+        )
+        for at, (name, quantity) in enumerate(names)
+    ]
 
 
 def differences(poses: _Array, positions: _Array, other_poses: _Array, other_positions: _Array) -> _Array:
@@ -46,3 +64,7 @@ def _angles(some: _Array, others: _Array) -> _Array:
     w, v, w_other, v_other = some[..., :1], some[..., 1:], others[..., :1], others[..., 1:]
     sine = np.linalg.norm(w * v_other - w_other * v - np.cross(v, v_other), axis=-1)
     return 2.0 * np.arctan2(sine, np.abs(np.sum(some * others, axis=-1)))
+
+
+def _number(value: np.float64) -> float | None:
+    return float(value) if np.isfinite(value) else None

@@ -65,17 +65,28 @@ class Trajectory(Struct, frozen=True, eq=False, kw_only=True):
         Returns:
             (rows, models, 7) and (rows, joints), as `poses` and `positions`.
         """
-        last = len(self.times) - 1
-        before = np.clip(np.searchsorted(self.times, times, side="right") - 1, 0, last)
-        after = np.minimum(before + 1, last)
-        span = np.maximum(self.times[after] - self.times[before], _SHORTEST_S)
-        share = np.clip((times - self.times[before]) / span, 0.0, 1.0)[:, None]
+        before, after, ratio = interpolation(self.times, times)
+        share = ratio[:, None]
         positions = self.positions[before] + share * (self.positions[after] - self.positions[before])
         share = share[:, :, None]
         start, end = self.poses[before], self.poses[after]
         same_side = np.sum(start[..., 3:] * end[..., 3:], axis=-1, keepdims=True) >= 0
         end = np.concatenate([end[..., :3], np.where(same_side, end[..., 3:], -end[..., 3:])], axis=-1)
         return start + share * (end - start), positions
+
+
+def interpolation(samples: _Array, times: _Array) -> tuple[NDArray[np.intp], NDArray[np.intp], _Array]:
+    """Return, for each time (rows,), the samples before and after it, and the ratio between them in [0, 1].
+
+    Args:
+        samples: ascending times of the samples [s], at least one.
+        times: times to interpolate at [s].
+    """
+    last = len(samples) - 1
+    before = np.clip(np.searchsorted(samples, times, side="right") - 1, 0, last)
+    after = np.minimum(before + 1, last)
+    span = np.maximum(samples[after] - samples[before], _SHORTEST_S)
+    return before, after, np.clip((times - samples[before]) / span, 0.0, 1.0)
 
 
 def first_links(links: Sequence[str]) -> dict[str, int]:
