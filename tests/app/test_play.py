@@ -7,6 +7,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 from tests.page.simulated_world.fake_server import FakeServer
+from tests.recorded_drives import write_drive
 
 import trundle
 from trundle.app.compare import compare_logs
@@ -131,8 +132,7 @@ def test_two_logs_are_compared(recording: tuple[Simulation, Path], tmp_path: Pat
 
 
 def test_only_state_logs_of_this_world_are_compared(recording: tuple[Simulation, Path], tmp_path: Path) -> None:
-    bag, other = tmp_path / "run.bag", tmp_path / "other.log"
-    bag.write_bytes(b"#ROSBAG V2.0\n")
+    bag, other = write_drive(tmp_path / "run.bag", speed=0.5, seconds=0.5), tmp_path / "other.log"
     content = recording[1].read_bytes()
     other.write_bytes(content.replace(b'"m::arm"', b'"n::arm"', 1))
     page, server = open_page(recording)
@@ -141,9 +141,9 @@ def test_only_state_logs_of_this_world_are_compared(recording: tuple[Simulation,
     page.update(0.0)
 
     assert server.answers[number] == "other.log is a recording of another world: it has n, and here m can move"
-    with pytest.raises(UsageError, match="--compare needs two state logs"):
+    with pytest.raises(UsageError, match="is no bag, and a bag can only be compared with a bag"):
         play(bag, PlayOptions(compare=recording[1]))
-    with pytest.raises(DescriptionError, match="not a state log"):
+    with pytest.raises(UsageError, match="is a bag, and a state log can only be compared with a state log"):
         play(recording[1], PlayOptions(compare=bag))
 
 

@@ -18,7 +18,7 @@ from trundle.page.world import streams
 from trundle.page.world.manifest import Manifest
 from trundle.page.world.people import People
 from trundle.page.world.profile import Profile
-from trundle.page.world.reference import Differences
+from trundle.page.world.reference import Differences, ReferenceInfo
 
 REQUESTS: tuple[type[Struct], ...] = get_args(SocketAction)
 QUERIES = (RenderView, RenderModel)
@@ -29,6 +29,7 @@ CHANNELS: Mapping[str, Any] = {
     streams.STATE: streams.ClockState,
     streams.PERFORMANCE: Profile,
     streams.DIFFERENCES: Differences,
+    streams.REFERENCE: ReferenceInfo | None,
     streams.DROPS: dict[str, int],
     streams.PEOPLE: People,
     streams.LANES: Lanes,

@@ -3,7 +3,7 @@
 import { signal } from "@preact/signals";
 import { Box3, Group, Object3D, PerspectiveCamera, Quaternion, Ray, Vector3 } from "three";
 
-import type { ClockState, Manifest, PageSession } from "../src/protocol/generated/page_messages";
+import type { ClockState, Manifest, PageSession, ReferenceInfo } from "../src/protocol/generated/page_messages";
 import { CommandList } from "../src/app/commands";
 import { Drive } from "../src/page/drive";
 import { GoalQueue } from "../src/page/goal_queue";
@@ -22,6 +22,7 @@ import { AXIS_RGB } from "../src/shapes/axes";
 import { GraphNames } from "../src/protocol/graph_names";
 import { FakeConnection } from "./fake_connection";
 import { FakeDisplayList } from "./fake_displays";
+import { GhostShapes } from "../src/scene/world/ghost_shapes";
 
 export const SESSION: PageSession = {
   title: "rp2w_at_home",
@@ -61,6 +62,7 @@ class FakeWorld implements SimulatedWorld {
   readonly isDrawn = signal(true);
   readonly faults = signal<readonly string[]>([]);
   readonly joints = signal<JointStates>([]);
+  readonly referenceInfo = signal<ReferenceInfo | null>(null);
   readonly reference = signal<Reference | null>(null);
   readonly shown = new ShownParts();
   readonly hidden = signal<ReadonlySet<string>>(new Set());
@@ -296,6 +298,7 @@ export function fakePage(session: Partial<PageSession> = {}): FakePage {
         displays: signal([]),
         fixedFrame: signal("map"),
         axisColors: signal(AXIS_RGB),
+        ghostShapes: new GhostShapes(),
       },
       undo,
     ),

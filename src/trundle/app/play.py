@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from trundle.base.console import Console
 from trundle.base.diagnostics import DescriptionError, Diagnostics, Source, TrundleError, UsageError
-from trundle.base.files import open_file
 from trundle.base.http.page_address import AllowedNames, PageAddress
 from trundle.base.signals import StopFlag, stop_flag
 from trundle.page import (
@@ -29,6 +28,7 @@ from trundle.page import (
     StopComparing,
 )
 from trundle.page.actor_bones import ActorBones
+from trundle.page.bag.compared_bag import compared_bag
 from trundle.page.browser import announce_page
 from trundle.page.simulated_world.body_numbers import BodyNumbers
 from trundle.page.simulated_world.controls import reason_of
@@ -37,7 +37,7 @@ from trundle.page.simulated_world.pictures import WorldPictures
 from trundle.page.simulated_world.reference import Reference, read_recording
 from trundle.page.simulated_world.world_builder import BuiltWorld, WorldBuilder
 from trundle.robots.model import AnimationState
-from trundle.ros import open_bag
+from trundle.ros import is_bag, open_bag
 from trundle.ros.bridge import WORLD_FRAME
 from trundle.sim.comparison import Trajectory
 from trundle.sim.simulation import Simulation, StateLog
@@ -48,7 +48,6 @@ from .recorded_run import open_recording
 _FRAME_S = 1 / 30
 _FRAMES_PER_COMPARISON = 3
 _POLL_S = 0.5
-_BAG_MAGIC = (b"#ROSBAG", b"#ROSRECORD", b"\x89MCAP0\r\n")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,14 +80,14 @@ def play(file: Path, options: PlayOptions) -> int:
     Raises:
         TrundleError: the file is neither, or its world cannot be read.
     """
-    if _is_bag(file):
-        if options.compare is not None:
-            raise UsageError("--compare needs two state logs; a bag has no simulated world")
+    if is_bag(file):
         return play_bag(file, options)
     report = Diagnostics()
     log, simulation = open_recording(file, report)
     show = Console(sys.stderr, report)
     show.findings()
+    if options.compare is not None and is_bag(options.compare):
+        raise UsageError(f"{options.compare} is a bag, and a state log can only be compared with a state log")
     reference = None if options.compare is None else read_recording(options.compare, str(options.compare))
     robot = find_robot(simulation.world)
     session = Session(title=file.name, kind="log", robot=None if robot is None else robot.name, fixed_frame=WORLD_FRAME)
@@ -110,20 +109,17 @@ def play_bag(file: Path, options: PlayOptions) -> int:
     with open_bag(file) as bag:
         if not any(bag.counts):
             raise DescriptionError(Source(str(file)), "nothing was recorded")
+    reference = None if options.compare is None else compared_bag(options.compare)
+    if options.compare is not None and reference is None:
+        raise UsageError(f"{options.compare} is no bag, and a bag can only be compared with a bag")
     playing = BagFile(path=os.fsencode(file.absolute()), speed=options.speed, paused=options.paused)
     session = Session(title=file.name, kind="bag")
-    with stop_flag() as stop, PageServer.start(session, at=options.address, bag=playing) as server:
+    with stop_flag() as stop, PageServer.start(session, at=options.address, bag=playing, reference=reference) as server:
         say = Console(sys.stderr, Diagnostics()).line
         announce_page(server, options.address, say, opens_browser=options.opens_browser)
         while not stop.wait(_POLL_S) and server.alive:
             pass
     return 130
-
-
-def _is_bag(file: Path) -> bool:
-    """True if a file begins like a ROS bag or an MCAP file."""
-    with open_file(file) as stream:
-        return stream.read(max(map(len, _BAG_MAGIC))).startswith(_BAG_MAGIC)
 
 
 class LogPage:

@@ -76,7 +76,7 @@ from .requests.world import (
     UndoReset as UndoReset,
 )
 from .session import JointSlider as JointSlider, NodeTerminal as NodeTerminal, RvizFile as RvizFile, Session as Session
-from .wire import BagFile as BagFile, GraphAddress as GraphAddress
+from .wire import BagFile as BagFile, BagReferenceFile as BagReferenceFile, GraphAddress as GraphAddress
 from .world.streams import (
     CONTACTS as CONTACTS,
     DIFFERENCES as DIFFERENCES,

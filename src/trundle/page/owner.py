@@ -8,7 +8,7 @@ from msgspec import UNSET
 from .clients.connection import Connection
 from .clients.server_messages import Response
 from .picture_slots import PictureError, PictureSlots
-from .requests.request import ClientAction, Compare, PageAction, RenderView, Request
+from .requests.request import ClientAction, Compare, PageAction, RenderView, Request, StopComparing
 from .requests.world import RenderModel
 from .wire import Driven, FromServer, Plotted, Respond, Watched
 
@@ -60,8 +60,8 @@ class Owner:
             raise PictureError(answer.error or "the picture cannot be drawn")
         return answer.picture
 
-    async def compare(self, action: Compare) -> str | None:
-        """Compare the world with a state log; return the reason if it cannot be compared."""
+    async def compare(self, action: Compare | StopComparing) -> str | None:
+        """Compare the world with a state log, or stop it; return the reason if it cannot be compared."""
         try:
             return (await self._ask(action, _COMPARE_TIMEOUT_S)).error
         except TimeoutError:

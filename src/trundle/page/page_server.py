@@ -29,6 +29,7 @@ from .session import Session
 from .wire import (
     AddFile,
     BagFile,
+    BagReferenceFile,
     Driven,
     FromServer,
     GraphAddress,
@@ -108,6 +109,7 @@ class PageServer:
         graph: GraphAddress | None = None,
         node: "Node | None" = None,
         bag: BagFile | None = None,
+        reference: BagReferenceFile | None = None,
         source: Path | None = None,
         say: Callable[[str], None] = print_line,
     ) -> Self:
@@ -119,6 +121,7 @@ class PageServer:
             graph: ROS graph to join; None: the page shows only its owner's data.
             source: world, model or launch file of the page; clients may fetch meshes and textures around it and on the
                 package paths. None: the working directory.
+            reference: bag to compare the page's topics with.
             bag: bag to play; None: the page shows its owner's data or the graph.
             node: node of this process that publishes a zero velocity if the server dies while a robot is driven.
             say: prints a line when the server has ended.
@@ -139,6 +142,7 @@ class PageServer:
             session=session,
             graph=graph,
             bag=bag,
+            reference=reference,
             source=os.fsencode((source or Path.cwd()).absolute()),
         )
         server = cls(start, node, say)

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.base.http.page_address import PageAddress
-from trundle.page import GraphAddress, PageServer, Request, Session
+from trundle.page import BagReferenceFile, GraphAddress, PageServer, Request, Session
 from trundle.ros import Node
 
 from .browser import announce_page
@@ -34,6 +34,7 @@ class SharedPage:
         source: Path | None = None,
         server: PageServer | None = None,
         opens_browser: bool = True,
+        reference: BagReferenceFile | None = None,
         lesson: str | None = None,
     ) -> None:
         """Create it; `acquire` serves the page.
@@ -45,6 +46,7 @@ class SharedPage:
             source: file of the page, from whose folder packages are searched; None: the working folder.
             server: running server; None: it is started on first use.
             opens_browser: False: print the URLs only.
+            reference: bag to compare the graph's topics with.
             lesson: lesson that is open at the start, as `Session.lesson`.
         """
         self._say = say
@@ -53,6 +55,7 @@ class SharedPage:
         self._source = source
         self._server = server
         self._opens_browser = opens_browser
+        self._reference = reference
         drive_topic = None if graph is None else CMD_VEL
         self._session = Session(title="ROS", kind="graph", drive_topic=drive_topic, lesson=lesson)
         self._users = {False: 0, True: 0}
@@ -117,7 +120,9 @@ class SharedPage:
 
     def _start(self, node: Node | None, source: Path | None) -> PageServer:
         started = self._session
-        server = PageServer.start(started, at=self._at, graph=self._graph, node=node, source=source, say=self._say)
+        server = PageServer.start(
+            started, at=self._at, graph=self._graph, reference=self._reference, node=node, source=source, say=self._say
+        )
         with self._lock:
             if self._is_over:
                 server.close()

@@ -49,6 +49,25 @@ class BagFile(msgspec.Struct, frozen=True, kw_only=True):
         return Path(os.fsdecode(self.path))
 
 
+class BagReferenceFile(msgspec.Struct, frozen=True, kw_only=True):
+    """Bag that the server compares its topics with."""
+
+    path: bytes
+    """Path in the system's encoding."""
+    title: str
+    """Name for users."""
+
+    @property
+    def file(self) -> Path:
+        """Bag's path."""
+        return Path(os.fsdecode(self.path))
+
+    @classmethod
+    def of(cls, file: Path) -> Self:
+        """Return a user's file."""
+        return cls(path=os.fsencode(file.absolute()), title=os.fsencode(file).decode("utf-8", "replace"))
+
+
 class Start(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     """First message to the server."""
 
@@ -65,6 +84,8 @@ class Start(msgspec.Struct, frozen=True, kw_only=True, tag=True):
     """None: no graph."""
     bag: BagFile | None = None
     """None: the page shows the owner's data or the graph."""
+    reference: BagReferenceFile | None = None
+    """Bag that the page's topics are compared with."""
     source: bytes
     """File or folder, in the system's encoding; clients may fetch files around it."""
     last_request: int = 0

@@ -59,7 +59,7 @@ def test_a_name_is_only_a_title(page: PageServer, name: str, title: str) -> None
     _, _, request = compared(page, name, b"rows")
 
     assert request.title == title
-    assert Path(os.fsdecode(request.file)).name == "run.log"
+    assert Path(os.fsdecode(request.file)).name == "recording"
 
 
 def test_a_form_without_a_file_is_refused(page: PageServer) -> None:
@@ -72,8 +72,8 @@ def test_a_view_only_link_cannot_compare(page: PageServer) -> None:
     assert page.requests() == []
 
 
-def test_a_graphs_page_compares_nothing() -> None:
+def test_a_page_without_a_world_compares_no_state_log() -> None:
     with PageServer.start(Session(title="t", kind="graph"), at=PageAddress(port=0)) as page:
         status, text = post(page.url, {"run.log": b"rows"}, to="reference")
 
-    assert (status, text) == (400, "a recording can only be compared with a simulation or with another recording")
+    assert (status, text) == (400, "run.log: topics can only be compared with a bag")

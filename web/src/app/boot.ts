@@ -92,6 +92,7 @@ export function boot(root: HTMLElement, json: string): void {
     views,
     tools,
     axisColors,
+    ghostShapes: world.ghostShapes,
   });
   const drive = new Drive({
     connection,

@@ -1,4 +1,4 @@
-/** Compares the world with a recording on the person's machine: a state log, chosen or dropped. */
+/** Compares the page with a recording on the person's machine: a world with a state log, topics with a bag. */
 
 import { sentence } from "../panels/use";
 import { read } from "../protocol/check";
@@ -9,11 +9,12 @@ import { postForm } from "./post_form";
 import type { Shell } from "./shell";
 
 const TITLE = "Compare";
-const LOG = /\.log$/i;
+const LOG = ".log";
+const BAGS = [".bag", ".mcap"];
 
 export function compareCommands(shell: Shell): readonly Command[] {
   const { page } = shell;
-  if (!isComparable(page)) return [];
+  if (kinds(page).length === 0) return [];
   const isConnected = (): boolean => page.connection.state.peek().kind === "connected" && canControl(page);
   return [
     {
@@ -27,7 +28,7 @@ export function compareCommands(shell: Shell): readonly Command[] {
       id: "compare.stop",
       title: "Stop comparing",
       group: "Simulation",
-      enabled: () => isConnected() && (page.world.manifest.peek()?.reference ?? null) !== null,
+      enabled: () => isConnected() && page.world.referenceInfo.peek() !== null,
       run: () => shell.request(TITLE, "stop_comparing", {}),
     },
   ];
@@ -35,10 +36,10 @@ export function compareCommands(shell: Shell): readonly Command[] {
 
 /** True if a file that was dropped is a recording to compare with. */
 export function isRecording(page: Page, file: File): boolean {
-  return LOG.test(file.name) && isComparable(page) && canControl(page);
+  return kinds(page).some((kind) => file.name.toLowerCase().endsWith(kind)) && canControl(page);
 }
 
-/** Send a state log to the server, and show the differences from it. */
+/** Send a recording to the server, and show the differences from it. */
 export async function compareWith(shell: Shell, file: File): Promise<void> {
   const form = new FormData();
   form.append(file.name, file);
@@ -51,12 +52,14 @@ export async function compareWith(shell: Shell, file: File): Promise<void> {
   }
 }
 
-function isComparable({ session }: Page): boolean {
-  return session.kind === "simulation" || session.kind === "log";
+/** Endings of the names of recordings that the page can be compared with. */
+function kinds({ session }: Page): readonly string[] {
+  const hasTopics = session.kind === "bag" || session.node !== null;
+  return [...(session.kind === "simulation" || session.kind === "log" ? [LOG] : []), ...(hasTopics ? BAGS : [])];
 }
 
 function choose(shell: Shell): void {
-  const input = Object.assign(document.createElement("input"), { type: "file", accept: ".log" });
+  const input = Object.assign(document.createElement("input"), { type: "file", accept: kinds(shell.page).join(",") });
   input.addEventListener("change", () => {
     const file = input.files?.[0];
     if (file !== undefined) void compareWith(shell, file);

@@ -7,6 +7,7 @@ import type { Connection, ParameterValue } from "../protocol/connection";
 import type { GraphNames } from "../protocol/graph_names";
 import type { FrameTree } from "../frames/frame_tree";
 import { NoTransform, type Transform } from "../frames/transform";
+import type { GhostShapes } from "../scene/world/ghost_shapes";
 import type { SceneView } from "../scene/scene_view";
 import type { StatusLevel } from "../rviz/status_level";
 import type { AxisColors } from "../shapes/axes";
@@ -30,6 +31,8 @@ export interface DisplayContext {
   /** Displays of the list, groups with theirs. */
   readonly displays: ReadonlySignal<readonly Display[]>;
   readonly fixedFrame: ReadonlySignal<string>;
+  /** Shapes of robots for the ghost of a recording. */
+  readonly ghostShapes: GhostShapes;
   /** Colors of frames' axes. */
   readonly axisColors: ReadonlySignal<AxisColors>;
 }

@@ -54,13 +54,13 @@ export class DisplayStore implements DisplayList {
   private readonly savedLook = signal<string | null>(null);
 
   constructor(private readonly parts: DisplayStoreParts) {
-    const { connection, names, frames, scene, axisColors } = parts;
+    const { connection, names, frames, scene, axisColors, ghostShapes } = parts;
     const workedOut = computed(() => (frames.frames.value.length === 0 ? "map" : workOutFixedFrame(frames.describe())));
     this.fixedFrame = computed(() => plain(this.fixedFrameSetting.value) || workedOut.value);
     this.fixedFrameStatus = computed(() => frameStatus(this.fixedFrame.value, frames.frames.value));
     this.displays = computed(() => this.root.displays);
     const { displays, fixedFrame } = this;
-    this.context = { connection, names, frames, scene, axisColors, displays, fixedFrame };
+    this.context = { connection, names, frames, scene, axisColors, ghostShapes, displays, fixedFrame };
     this.root = new Group(this.context);
     this.unsupported = computed(() => unsupportedOf(this.root));
     this.offers = computed(() => {

@@ -27,6 +27,7 @@ export class RobotModel extends Display {
   private sinceUpdate = Infinity;
   private wereEnabled = true;
   private stops: (() => void)[] = [];
+  private removeShapes: (() => void) | null = null;
 
   protected onStart(): void {
     this.wereEnabled = this.allLinks.value.peek();
@@ -107,17 +108,24 @@ export class RobotModel extends Display {
     }
     const onMissing = (uri: string, reason: string): void =>
       this.setStatus(`Mesh ${uri}`, "error", `Could not load mesh resource '${uri}'`, reason);
-    const onChange = (): void => this.context.scene.invalidate();
+    const onChange = (): void => {
+      this.context.ghostShapes.change();
+      this.context.scene.invalidate();
+    };
     this.views = robot.links.map(
       (link) => new LinkView(this.context.connection, link, this.links, onMissing, onChange),
     );
     for (const view of this.views) this.root.add(view);
+    const shapes = new Map(this.views.map((view) => [view.name, view.visuals]));
+    this.removeShapes = this.context.ghostShapes.add((frame) => shapes.get(frame.replace(/^.*\//, "")) ?? null);
     this.setStatus("URDF", "ok", "URDF parsed OK");
     this.sinceUpdate = Infinity;
     this.paint();
   }
 
   private drop(): void {
+    this.removeShapes?.();
+    this.removeShapes = null;
     for (const view of this.views) {
       view.dispose();
       this.links.forget(view.name);

@@ -1,4 +1,4 @@
-/** Differences of a simulation or a recorded run from a recording, by model and joint. */
+/** Differences of a simulation, a graph or a recording from a recording: of models, joints, frames and numbers. */
 
 import type { JSX } from "preact";
 import { useEffect, useRef } from "preact/hooks";
@@ -11,7 +11,7 @@ import { fixed } from "../theme/format";
 import { Name } from "../theme/name";
 import { NumberField } from "../theme/number_field";
 import { compareState, progressText, type CompareRow } from "./compare/compare_state";
-import { timeText } from "./messages/format";
+import { significant, timeText } from "./messages/format";
 import type { Panel, PanelProps } from "./panel";
 import { timelineState } from "./timeline/timeline_state";
 import { saveFile, useShown } from "./use";
@@ -28,7 +28,7 @@ function Compare({ page }: PanelProps): JSX.Element {
     const subscription = state.follow();
     return () => subscription.close();
   }, [state, isShown]);
-  const info = page.world.manifest.value?.reference ?? null;
+  const info = page.world.referenceInfo.value;
   const rows = state.rows();
   return (
     <div class="stack" ref={root}>
@@ -58,7 +58,7 @@ function Compare({ page }: PanelProps): JSX.Element {
 function Empty({ page }: { readonly page: Page }): JSX.Element {
   const command = page.commands.all.value.find(({ id }) => id === COMMAND);
   if (command === undefined)
-    return <div class="empty">A simulation or a recorded run can be compared; this page has neither.</div>;
+    return <div class="empty">A simulation, a graph or a recording can be compared; this page has none.</div>;
   return (
     <div class="empty line">
       Nothing is compared.
@@ -123,12 +123,12 @@ function Table({ page, rows }: { readonly page: Page; readonly rows: readonly Co
               <Name text={row.name} />
             </td>
             <td class="t2">{row.quantity}</td>
-            <Value value={row.now} unit={row.unit} />
-            <Value value={row.maximum} unit={row.unit} />
+            <Value value={row.now} row={row} />
+            <Value value={row.maximum} row={row} />
             <td class="num">
               <MaximumTime page={page} row={row} />
             </td>
-            <Value value={row.rms} unit={row.unit} />
+            <Value value={row.rms} row={row} />
           </tr>
         ))}
       </tbody>
@@ -136,11 +136,13 @@ function Table({ page, rows }: { readonly page: Page; readonly rows: readonly Co
   );
 }
 
-function Value({ value, unit }: { readonly value: number | null; readonly unit: CompareRow["unit"] }): JSX.Element {
+function Value({ value, row }: { readonly value: number | null; readonly row: CompareRow }): JSX.Element {
+  const { quantity, unit } = row;
+  const isNumber = quantity === "value" && unit !== "m";
   return (
     <td class="num">
-      {fixed(value, unit === "m" ? 3 : 2)}
-      {value !== null && <i class="unit">{unit}</i>}
+      {isNumber && value !== null ? significant(value, 3) : fixed(value, unit === "m" ? 3 : 2)}
+      {value !== null && unit !== "" && <i class="unit">{unit}</i>}
     </td>
   );
 }
@@ -167,7 +169,7 @@ function MaximumTime({ page, row }: { readonly page: Page; readonly row: Compare
 
 function Actions({ page }: PanelProps): JSX.Element | null {
   const state = compareState(page);
-  if ((page.world.manifest.value?.reference ?? null) === null) return null;
+  if (page.world.referenceInfo.value === null) return null;
   const save = (): void => saveFile("differences.csv", new Blob([state.csv()], { type: "text/csv" }));
   return (
     <>

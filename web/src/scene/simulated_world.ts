@@ -23,7 +23,7 @@ export interface JointStates {
   at(index: number): JointState | undefined;
 }
 
-/** Recording that the world is compared with. */
+/** Recording that the world, or the graph, is compared with. */
 export interface Reference {
   readonly info: ReferenceInfo;
   readonly motion: ReferenceMotion;
@@ -41,6 +41,8 @@ export interface SimulatedWorld {
   readonly faults: ReadonlySignal<readonly string[]>;
   /** Changes at 10 Hz while something listens. */
   readonly joints: ReadonlySignal<JointStates>;
+  /** Description of the recording to compare with; null: nothing is compared. */
+  readonly referenceInfo: ReadonlySignal<ReferenceInfo | null>;
   /** Null: nothing is compared, or it is not loaded yet. */
   readonly reference: ReadonlySignal<Reference | null>;
   /** Shown parts of the world. */

@@ -10,6 +10,7 @@ import type { SceneView } from "../../src/scene/scene_view";
 import { AXIS_RGB } from "../../src/shapes/axes";
 import { GraphNames } from "../../src/protocol/graph_names";
 import { FakeConnection } from "../fake_connection";
+import { GhostShapes } from "../../src/scene/world/ghost_shapes";
 
 class FakeFrames implements Partial<FrameTree> {
   readonly frames = signal<readonly string[]>([]);
@@ -57,6 +58,7 @@ export function fakes(): Fakes {
       displays: signal([]),
       fixedFrame,
       axisColors: signal(AXIS_RGB),
+      ghostShapes: new GhostShapes(),
     },
     connection,
     frames,

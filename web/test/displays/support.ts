@@ -11,6 +11,7 @@ import type { Label, SceneView } from "../../src/scene/scene_view";
 import { AXIS_RGB } from "../../src/shapes/axes";
 import { GraphNames } from "../../src/protocol/graph_names";
 import { FakeConnection } from "../fake_connection";
+import { GhostShapes } from "../../src/scene/world/ghost_shapes";
 
 /** Frames at fixed poses in one root. */
 export class FakeFrames implements FrameTree {
@@ -137,6 +138,7 @@ export function setup(fixedFrame = "map"): Setup {
     displays: signal([]),
     fixedFrame: signal(fixedFrame),
     axisColors: signal(AXIS_RGB),
+    ghostShapes: new GhostShapes(),
   };
   return { connection, frames, scene, context };
 }

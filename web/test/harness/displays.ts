@@ -16,6 +16,7 @@ import { ThreeScene } from "../../src/scene/three_scene";
 import { GraphNames } from "../../src/protocol/graph_names";
 import { FakeConnection } from "../fake_connection";
 import { makeMessage } from "./messages";
+import { GhostShapes } from "../../src/scene/world/ghost_shapes";
 
 const host = document.getElementById("host");
 if (host === null) throw new Error("no host");
@@ -91,6 +92,7 @@ function show(
     displays: signal([]),
     fixedFrame: signal("map"),
     axisColors: signal(AXIS_RGB),
+    ghostShapes: new GhostShapes(),
   };
   display = displayClass(className)?.create(context) ?? null;
   if (display === null) throw new Error(`no ${className}`);

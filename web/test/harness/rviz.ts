@@ -12,6 +12,7 @@ import { AXIS_RGB } from "../../src/shapes/axes";
 import { GraphNames } from "../../src/protocol/graph_names";
 import { FakeFrames, FakeUndo } from "../displays/support";
 import { FakeConnection } from "../fake_connection";
+import { GhostShapes } from "../../src/scene/world/ghost_shapes";
 
 interface Sent {
   readonly topic: string;
@@ -49,6 +50,7 @@ async function open(
     frames: tree,
     scene,
     axisColors: signal(AXIS_RGB),
+    ghostShapes: new GhostShapes(),
     undo: new FakeUndo(),
     views,
     tools,

@@ -3,7 +3,7 @@ import { Quaternion, Vector3 } from "three";
 import { describe, expect, test } from "vitest";
 
 import { progressText } from "../../src/panels/compare/compare_state";
-import { differenceOf, referenceBetween } from "../../src/panels/plots/reference_curve";
+import { differenceOf, referenceBetween, referenceOf } from "../../src/panels/plots/reference_curve";
 import { linesOf, valueAt } from "../../src/panels/plots/line";
 import type { Curve } from "../../src/panels/plots/curve";
 import { RingBuffer } from "../../src/panels/plots/ring_buffer";
@@ -19,6 +19,8 @@ const INFO = {
   samples: SAMPLES,
   links: ["cart::base", "cart::mast"],
   joints: ["cart::wheel"],
+  topics: [],
+  root: "",
 };
 
 /** A cart that drives along x at 1 m/s and turns about z at 2 rad/s; its wheel turns at 3 rad/s. */
@@ -55,6 +57,20 @@ describe("the motion of a recording", () => {
     expect(value("cart::wheel.velocity", 50)).toBeCloseTo(3);
     for (const name of ["cart::wheel.effort", "cart.contact.count", "box.pose.x", "cart.pose.w", "cart", "a.b.c"])
       expect(motion().find(name)).toBeNull();
+  });
+
+  test("has the numbers of a bag's topics, by paths as people write them", () => {
+    const topics = [{ topic: "/joint_states", samples: 2, paths: [".position[left]", ".position[right]"] }];
+    const bag = { ...INFO, samples: 1, links: ["base_link"], joints: [], topics, root: "odom" };
+    const data = new ArrayBuffer(8 * 7 + 28);
+    new Float64Array(data, 0, 7).set([0, 0, 0.5, 1, 2, 3, 4]);
+    const reference = { info: bag, motion: new ReferenceMotion(bag, data) };
+    const values = (path: string): readonly number[] => [...(referenceOf({ path }, reference)?.values ?? [])];
+    expect(values("/joint_states.position[right]")).toEqual([2, 4]);
+    expect(values("/joint_states/position[left]")).toEqual([1, 3]);
+    expect(values("/joint_states/position[1]")).toEqual([2, 4]);
+    expect([...(referenceOf({ path: "/joint_states.position[0]" }, reference)?.times ?? [])]).toEqual([0, 0.5]);
+    expect(referenceOf({ path: "/odom.pose.pose.position.x" }, reference)).toBeNull();
   });
 
   test("is refused if it is truncated", () => {

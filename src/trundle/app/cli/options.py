@@ -56,8 +56,8 @@ def _megabytes(text: str) -> int:
 
 def add_compare(parser: argparse.ArgumentParser) -> None:
     """Declare the option of commands whose page compares what it shows with a recording."""
-    help_ = "state log to compare with: as a ghost, in plots and in numbers"
-    field_option(parser)("--compare", type=Path, metavar="LOG", help=help_)
+    help_ = "recording to compare with, a state log, .bag or .mcap: as a ghost, in plots and in numbers"
+    field_option(parser)("--compare", type=Path, metavar="FILE", help=help_)
 
 
 def add_allow_outside(parser: argparse.ArgumentParser) -> None:

@@ -28,6 +28,8 @@ from .running_world import RunningWorld
 if TYPE_CHECKING:  # a run without a page starts without its modules
     from trundle.page.simulated_world.page import SimulationPage
 
+    from .compared_recording import ComparedRecording
+
 _MAX_RESETS = 10
 """Resets after which --on-instability reset exits."""
 _PROGRESS_PERIOD_S = 5.0
@@ -54,17 +56,23 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
             show.line(f"{joined}: something else started it")
     if options.headless and options.compare is not None:
         raise UsageError("--compare needs the page: leave --headless out, or record and use trundle compare")
+    compared = None
+    if options.compare is not None:
+        from .compared_recording import ComparedRecording
+
+        compared = ComparedRecording.read(options.compare, has_graph=options.ros)
     warn_of_network(options.host, show.line)
     report_workspace(file, Packages(env, start=Path.cwd()), show.line)
     world = RunningWorld(file, options, env, report, show)  # Ctrl-C still ends the process at once
+    reference = None if compared is None else compared.reference(world.simulation)
     with stop_flag() as stop, ExitStack() as resources:
         resources.callback(world.close)
         world.start()
         page = None
         if not options.headless:
-            page = resources.enter_context(_open_page(world, options, show.line))
-            if options.compare is not None:
-                page.compare(options.compare, str(options.compare))
+            page = resources.enter_context(_open_page(world, options, compared, show.line))
+            if reference is not None:
+                page.compare(reference)
         wall_s = _simulate(world, page, options, stop, show.line)
         show.findings()
         simulation = world.simulation
@@ -81,7 +89,9 @@ def run(file: str, options: RunOptions, environment: Mapping[str, str] | None = 
         )
 
 
-def _open_page(world: RunningWorld, options: RunOptions, say: Callable[[str], None]) -> "SimulationPage":
+def _open_page(
+    world: RunningWorld, options: RunOptions, compared: "ComparedRecording | None", say: Callable[[str], None]
+) -> "SimulationPage":
     """Serve the page; with ROS it joins the graph, and can publish /cmd_vel."""
     from trundle.page import GraphAddress
     from trundle.page.shared_page import SharedPage
@@ -96,6 +106,7 @@ def _open_page(world: RunningWorld, options: RunOptions, say: Callable[[str], No
             at=PageAddress(host=options.host, port=options.port, allowed=options.allowed, view_only=options.view_only),
             graph=None if ros is None else GraphAddress(master_uri=ros.graph.master_uri, host=ros.graph.host),
             opens_browser=options.opens_browser,
+            reference=None if compared is None else compared.bag,
             lesson=options.lesson,
         ),
         world.live,

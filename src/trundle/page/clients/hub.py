@@ -69,6 +69,11 @@ class Hub:
 
     # -- channels
 
+    @property
+    def channels(self) -> Iterable[Channel]:
+        """All channels."""
+        return self._channels.values()
+
     def find(self, channel_id: int) -> Channel | None:
         """Return the channel with an id."""
         return self._channels.get(channel_id)

@@ -1,14 +1,12 @@
 """Comparison of a running simulation with a recording, for its page."""
 
-from pathlib import Path
-
 from trundle.base.diagnostics import UsageError
 from trundle.page import PageServer, SetReferenceOffset
 from trundle.sim.simulation import Simulation, Snapshot, StateRecorder
 from trundle.spatial import NS_PER_S
 
 from ..world.manifest import Manifest
-from .reference import Reference, RowReader, read_recording
+from .reference import Reference, RowReader
 
 
 class LiveComparison:
@@ -44,16 +42,8 @@ class LiveComparison:
         except UsageError:  # the other world has none of its models
             return
 
-    def open(self, file: Path, title: str) -> None:
-        """Start to compare with a state log, in place of another.
-
-        Raises:
-            DescriptionError: the file is not a state log, is empty, or is damaged.
-            UsageError: it was recorded in another world.
-            OSError: the file cannot be read.
-        """
-        assert self._simulation is not None
-        reference = Reference(read_recording(file, title), title, self._simulation, start=0.0)
+    def open(self, reference: Reference) -> None:
+        """Start to compare with a recording of the shown world, in place of another."""
         self.stop(self._simulation)
         self._start(reference)
 

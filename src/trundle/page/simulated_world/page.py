@@ -47,6 +47,7 @@ from .model_pictures import ModelPictures
 from .performance import PerformanceStream
 from .pictures import WorldPictures
 from .pose_history import ReplaySaver
+from .reference import Reference, read_recording
 from .world_saver import WorldSaver
 from .world_streams import WorldStreams
 
@@ -204,22 +205,19 @@ class SimulationPage:
         self._server.respond(request.id)
         return paused
 
-    def compare(self, file: Path, title: str) -> None:
-        """Compare the world with a state log.
-
-        Raises:
-            TrundleError: the file is not a state log of this world, or cannot be read.
-        """
-        try:
-            self._streams.comparison.open(file, title)
-        except OSError as error:
-            raise UsageError(f"{title} cannot be read: {error.strerror}") from None
+    def compare(self, reference: Reference) -> None:
+        """Compare the world with a recording of it."""
+        self._streams.comparison.open(reference)
         self._streams.show_comparison()
 
     def _compare(self, action: Compare | SetReferenceOffset | StopComparing) -> None:
         match action:
             case Compare(file, title):
-                self.compare(Path(os.fsdecode(file)), title)
+                try:
+                    log = read_recording(Path(os.fsdecode(file)), title)
+                except OSError as error:
+                    raise UsageError(f"{title} cannot be read: {error.strerror}") from None
+                self.compare(Reference(log, title, self._simulation, start=0.0))
                 return
             case SetReferenceOffset():
                 self._streams.comparison.set_offset(action)

@@ -20,20 +20,20 @@ _MAX_TITLE = 100
 
 
 class UploadedRecording(msgspec.Struct, frozen=True):
-    """Answer to an upload of a recording: the world is compared with it."""
+    """Answer to an upload of a recording: the page is compared with it."""
 
     title: str
 
 
 async def compare_upload(parts: MultipartReader, compare: Callable[[Compare], Awaitable[str | None]]) -> str:
-    """Receive a state log and compare the world with it; return its title, from the name of its field.
+    """Receive a recording and compare the page with it; return its title, from the name of its field.
 
     Args:
         parts: form with one file.
-        compare: asks the owner of the page; returns the reason if it cannot compare.
+        compare: compares the page with the file; returns the reason if it cannot compare.
 
     Raises:
-        UsageError: the form has no file or a too large one, or the owner cannot compare.
+        UsageError: the form has no file or a too large one, or it cannot be compared.
     """
     part = await parts.next()
     if not isinstance(part, BodyPartReader) or not part.name:
@@ -41,7 +41,7 @@ async def compare_upload(parts: MultipartReader, compare: Callable[[Compare], Aw
     name = part.name.rpartition("/")[2].encode("utf-8", "replace").decode()
     title = printable(name)[:_MAX_TITLE] or "recording"
     with tempfile.TemporaryDirectory(prefix="trundle-recording-") as folder:
-        file = Path(folder) / "run.log"
+        file = Path(folder) / "recording"
         try:
             async with asyncio.timeout(_TIMEOUT_S):
                 await _write(part, file)

@@ -117,6 +117,10 @@ class StreamChannel(Channel):
         client.count_drop(self)
         self._behind.add(client)
 
+    def put(self, message: bytes) -> None:
+        """Send a message of the server's own with the next poll."""
+        self._read = message
+
     def receive(self) -> bytes | None:
         """Read the mailbox; return a new message."""
         message = None if self._mailbox is None else self._mailbox.read()

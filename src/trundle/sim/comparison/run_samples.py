@@ -60,7 +60,7 @@ class RunSamples(ABC):
 
     def add(self, time: float, row: _Array) -> None:
         """Add a sample, unless the reference has no such time; time that passes again replaces its former samples."""
-        if not -SAME_S <= self.reference_time(time) <= self.duration + SAME_S:
+        if not self._has(time):
             return
         is_after = time > self._newest
         first = (bisect_right if is_after else bisect_left)(self._times, self._newest if is_after else time)
@@ -71,12 +71,16 @@ class RunSamples(ABC):
         self._times[first:last] = [time]
         self._rows[first:last] = [row]
 
+    def _has(self, time: float) -> bool:
+        """True if the reference has a time of the run [s]."""
+        return -SAME_S <= self.reference_time(time) <= self.duration + SAME_S
+
     def sums(self, time: float, row: _Array | None = None) -> Sums:
         """Return the differences at a time of the run [s], and over the samples up to it.
 
         Args:
             time: the run's time [s].
-            row: the run's row at that time; None: that of its newest sample.
+            row: the run's row at that time; None: its newest sample is compared at the sample's own time.
         """
         running = self._running
         count = bisect_right(self._times, time + SAME_S)
@@ -86,9 +90,10 @@ class RunSamples(ABC):
             last = min(first + _CHUNK_ROWS, count)
             times = np.array(self._times[first:last])
             running.add(times, self._compare(times, np.array(self._rows[first:last])))
-        if row is None and count:
-            row = self._rows[count - 1]
-        now = np.full(running.width, np.nan) if row is None else self._compare(np.array([time]), row[None])[0]
+        now = np.full(running.width, np.nan)
+        if self._has(time) and (row is not None or count):
+            at, newest = (time, row) if row is not None else (self._times[count - 1], self._rows[count - 1])
+            now = self._compare(np.array([at]), newest[None])[0]
         return Sums(now, running.maximum, running.maximum_time, running.rms)
 
     def first_above(self, tolerance: float, columns: Sequence[int]) -> float | None:

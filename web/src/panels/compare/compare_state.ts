@@ -1,21 +1,23 @@
-/** Differences of the world from the recording that it is compared with (`trundle/differences`). */
+/** Differences of the world or the graph from the recording that it is compared with (`trundle/differences`). */
 
 import { signal } from "@preact/signals";
 
 import type { Page } from "../../page/page";
-import type { Subscription } from "../../protocol/connection";
+import type { Subscription, TopicInfo } from "../../protocol/connection";
 import type { Difference, Differences, ReferenceInfo } from "../../protocol/generated/page_messages";
+import { parsePath } from "../messages/field_path";
+import { unitOf } from "../messages/units";
 import { perPage } from "../per_page";
 import { movingJoints } from "../plots/simulated_joints";
 import { sentence } from "../use";
 
 const DEGREES = 180 / Math.PI;
 
-/** A row of the table: numbers in its unit. */
+/** A row of the table: numbers in its unit, which is empty where it is not known. */
 export interface CompareRow {
   readonly name: string;
   readonly quantity: Difference["quantity"];
-  readonly unit: "m" | "°";
+  readonly unit: string;
   readonly now: number | null;
   readonly maximum: number | null;
   /** [s] */
@@ -42,7 +44,10 @@ class CompareState {
         .filter(({ joint }) => joint.type === "prismatic")
         .map(({ name }) => name),
     );
-    return (this.differences.value?.rows ?? []).map((row) => compareRow(row, linear));
+    const topics = this.page.connection.topics.value;
+    return (this.differences.value?.rows ?? []).map((row) =>
+      row.quantity === "value" ? numberRow(row, topics) : compareRow(row, linear),
+    );
   }
 
   /** The table in SI units. */
@@ -78,6 +83,15 @@ function compareRow(row: Difference, linear: ReadonlySet<string>): CompareRow {
   const unit = quantity === "distance" || linear.has(name) ? "m" : "°";
   const shown = (value: number | null): number | null => (value === null || unit === "m" ? value : value * DEGREES);
   return { name, quantity, unit, now: shown(row.now), maximum: shown(row.maximum), maximumTime, rms: shown(row.rms) };
+}
+
+/** A number of a topic's messages, in the unit that ROS fixes. */
+function numberRow(row: Difference, topics: ReadonlyMap<string, TopicInfo>): CompareRow {
+  const { name, quantity, now, maximum, maximum_time: maximumTime, rms } = row;
+  const path = parsePath(name, topics.keys());
+  const type = path === null ? undefined : topics.get(path.topic)?.type;
+  const fields = path?.steps.filter((step): step is string => typeof step === "string") ?? [];
+  return { name, quantity, unit: type === undefined ? "" : unitOf(type, fields), now, maximum, maximumTime, rms };
 }
 
 /** State of the recording at a time of the world [s]. */

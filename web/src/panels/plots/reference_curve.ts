@@ -2,6 +2,7 @@
 
 import type { Reference } from "../../scene/simulated_world";
 import { firstAfter, type ReferenceSeries } from "../../scene/world/reference_motion";
+import { parsePath, pathText } from "../messages/field_path";
 import type { Curve } from "./curve";
 
 export type Points = readonly [Float64Array, Float64Array];
@@ -10,7 +11,10 @@ const NONE: Points = [new Float64Array(0), new Float64Array(0)];
 
 /** Values of the recording under a curve's name; null: it has none. */
 export function referenceOf(curve: Pick<Curve, "path">, reference: Reference | null): ReferenceSeries | null {
-  return reference?.motion.find(curve.path) ?? null;
+  if (reference === null) return null;
+  const topics = reference.info.topics.map(({ topic }) => topic);
+  const path = curve.path.startsWith("/") ? parsePath(curve.path, topics) : null;
+  return reference.motion.find(path === null ? curve.path : pathText(path));
 }
 
 /** Points of the recording in a range of the run's time [s], with one more on either side. */

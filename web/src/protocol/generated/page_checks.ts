@@ -351,6 +351,14 @@ export const referenceInfo: is.Check<page.ReferenceInfo> = is.struct(() => ({
   samples: is.number,
   links: is.list(is.text),
   joints: is.list(is.text),
+  topics: is.list(referenceTopic),
+  root: is.text,
+}));
+
+export const referenceTopic: is.Check<page.ReferenceTopic> = is.struct(() => ({
+  topic: is.text,
+  samples: is.number,
+  paths: is.list(is.text),
 }));
 
 export const clockState: is.Check<page.ClockState> = is.struct(() => ({
@@ -387,7 +395,7 @@ export const differences: is.Check<page.Differences> = is.struct(() => ({ time: 
 
 export const difference: is.Check<page.Difference> = is.struct(() => ({
   name: is.text,
-  quantity: is.literal("angle", "distance", "position"),
+  quantity: is.literal("angle", "distance", "position", "value"),
   now: is.nullable(is.float),
   maximum: is.nullable(is.float),
   maximum_time: is.nullable(is.float),
@@ -787,6 +795,7 @@ export const channels: { readonly [T in keyof page.Channels]: is.Check<page.Chan
   "trundle/state": clockState,
   "trundle/performance": profile,
   "trundle/differences": differences,
+  "trundle/reference": is.nullable(referenceInfo),
   "trundle/drops": is.record(is.number),
   "trundle/people": people,
   "trundle/lanes": lanes,

@@ -473,12 +473,13 @@ export interface DraftFinding {
   readonly line: number | null;
 }
 
-/** Recording that the world is compared with. */
+/** Recording that the world or the topics are compared with. */
 export interface ReferenceInfo {
   readonly title: string;
   /**
    * URL of its samples, little-endian: times since its start (samples) f64 [s], positions of the joints
-   * (samples, joints) f64 [rad or m], poses of the links (samples, links, 7) f32: x y z [m], quaternion x y z w.
+   * (samples, joints) f64 [rad or m], of each topic times (its samples) f64 and numbers (its samples, paths) f64, poses
+   * of the links (samples, links, 7) f32: x y z [m], quaternion x y z w.
    */
   readonly url: string;
   /** Time of the world at which it starts [s], with the offset. */
@@ -488,10 +489,21 @@ export interface ReferenceInfo {
   /** [s] */
   readonly duration: number;
   readonly samples: number;
-  /** `model::link`, of the models that are compared. */
+  /** `model::link`, of the models that are compared; of a bag, names of frames. */
   readonly links: readonly string[];
   /** `model::joint` */
   readonly joints: readonly string[];
+  readonly topics: readonly ReferenceTopic[];
+  /** Frame of the poses of a bag; empty: the world. */
+  readonly root: string;
+}
+
+/** Numbers of a bag's topic, of messages with the same lengths and names of arrays. */
+export interface ReferenceTopic {
+  readonly topic: string;
+  readonly samples: number;
+  /** `.pose.pose.position.x`, `.position[left_wheel]` */
+  readonly paths: readonly string[];
 }
 
 /** Clock and its controls. */
@@ -547,16 +559,16 @@ export interface ProfilePart {
 export interface Differences {
   /** [s] */
   readonly time: number;
-  /** Models, the farthest first, each by distance and angle; then joints, the largest difference first. */
+  /** Models or frames, the farthest first, each by distance and angle; then joints or numbers, the largest first. */
   readonly rows: readonly Difference[];
 }
 
 /** Difference of one value between a run and its reference: now, and over the time that both have had so far. */
 export interface Difference {
-  /** Model, or `model::joint`. */
+  /** Model, `model::joint`, a frame in its parent, or the path of a message's number. */
   readonly name: string;
-  /** Distance [m] and angle [rad] between the poses of a model, difference in position [rad or m] of a joint. */
-  readonly quantity: "angle" | "distance" | "position";
+  /** Distance [m] and angle [rad] between poses, difference in a joint's position [rad or m], or in a number. */
+  readonly quantity: "angle" | "distance" | "position" | "value";
   /** Null: the reference has no such time, or the run no such model. */
   readonly now: number | null;
   /** Null: there was no time that both have. */
@@ -636,7 +648,7 @@ export interface UploadedModels {
   readonly models: readonly string[];
 }
 
-/** Answer to an upload of a recording: the world is compared with it. */
+/** Answer to an upload of a recording: the page is compared with it. */
 export interface UploadedRecording {
   readonly title: string;
 }
@@ -1630,6 +1642,7 @@ export interface Channels {
   readonly "trundle/state": ClockState;
   readonly "trundle/performance": Profile;
   readonly "trundle/differences": Differences;
+  readonly "trundle/reference": ReferenceInfo | null;
   readonly "trundle/drops": { readonly [name: string]: number };
   readonly "trundle/people": People;
   readonly "trundle/lanes": Lanes;

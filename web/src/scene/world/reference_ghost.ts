@@ -1,6 +1,16 @@
 /** The recording that the world is compared with, as a translucent copy of its models. */
 
-import { Color, Group, Mesh, NormalBlending, ShaderMaterial, type Object3D } from "three";
+import {
+  Color,
+  Group,
+  Mesh,
+  NormalBlending,
+  OctahedronGeometry,
+  ShaderMaterial,
+  type Object3D,
+  type Quaternion,
+  type Vector3,
+} from "three";
 
 import type { ReferenceInfo } from "../../protocol/generated/page_messages";
 import { NOT_PICKED } from "../picking";
@@ -9,6 +19,11 @@ import type { Label } from "../scene_view";
 import type { ReferenceMotion } from "./reference_motion";
 
 const TOKEN = "--reference";
+/** Shapes of a recorded link or frame. */
+export type ShapesOf = (link: string) => readonly Object3D[];
+
+/** What stands for a frame where no robot's shapes are known; its radius is 4 cm. */
+const MARK = new OctahedronGeometry(0.04);
 /** Models with more than this share one name. */
 const MAX_LABELS = 8;
 
@@ -52,22 +67,22 @@ export class ReferenceGhost {
   constructor(private readonly scene: ThreeScene) {
     this.root.userData[NOT_PICKED] = true;
     this.style = getComputedStyle(scene.element);
-    scene.world.add(this.root);
   }
 
-  /** Copy the visuals of the recorded links; `objectOf`: returns the loaded object of `model::link`. */
-  build({ links }: ReferenceInfo, objectOf: (link: string) => Object3D | null): void {
+  /** Copy the shapes of the recorded links, or mark the frames of a bag if none of them has a shape. */
+  build({ links, root }: ReferenceInfo, shapesOf: ShapesOf): void {
     this.clear();
+    (root === "" ? this.scene.world : this.scene.displays).add(this.root);
+    const isMarked = root !== "" && links.every((link) => shapesOf(link).length === 0);
     this.copies = links.map((link) => {
       const copy = new Group();
       copy.name = link;
-      for (const child of objectOf(link)?.children ?? []) {
-        if (child.userData["visual"] !== undefined) copy.add(this.copyOf(child));
-      }
+      for (const shape of shapesOf(link)) copy.add(this.copyOf(shape));
+      if (isMarked) copy.add(new Mesh(MARK, this.material));
       this.root.add(copy);
       return copy;
     });
-    const models = [...new Set(links.map(modelName))];
+    const models = root === "" ? [...new Set(links.map(modelName))] : links.slice(0, 1).map(modelName);
     const firsts = models.slice(0, MAX_LABELS).map((model) => links.findIndex((link) => modelName(link) === model));
     this.labels = firsts.flatMap((first, index) => {
       const anchor = this.copies[first];
@@ -80,6 +95,15 @@ export class ReferenceGhost {
   /** Show the poses at a time since the recording's start [s]. */
   show(motion: ReferenceMotion, time: number): void {
     this.copies.forEach((copy, link) => motion.pose(link, time, copy.position, copy.quaternion));
+  }
+
+  /** Place the root of all poses; true: it has moved. */
+  place(position: Vector3, orientation: Quaternion): boolean {
+    const { root } = this;
+    if (root.position.equals(position) && root.quaternion.equals(orientation)) return false;
+    root.position.copy(position);
+    root.quaternion.copy(orientation);
+    return true;
   }
 
   /** Show the models that are not hidden. */
@@ -98,6 +122,8 @@ export class ReferenceGhost {
     this.labels = [];
     this.copies = [];
     this.root.clear();
+    this.root.position.set(0, 0, 0);
+    this.root.quaternion.identity();
   }
 
   dispose(): void {
@@ -110,6 +136,7 @@ export class ReferenceGhost {
   private copyOf(object: Object3D): Object3D {
     const copy = object instanceof Mesh ? new Mesh((object as Mesh).geometry, this.material) : new Group();
     copy.matrixAutoUpdate = false;
+    object.updateMatrix();
     copy.matrix.copy(object.matrix);
     for (const child of object.children) copy.add(this.copyOf(child));
     return copy;

@@ -25,18 +25,26 @@ export class ReferenceMotion {
   private readonly positions: Float64Array;
   /** Poses by sample and link: x y z, quaternion x y z w. */
   private readonly poses: Float32Array;
+  /** Numbers of a bag's messages by path. */
+  private readonly numbers = new Map<string, ReferenceSeries>();
   private readonly series = new Map<string, ReferenceSeries | null>();
 
   /** Throws a sentence if the data are truncated. */
   constructor(
-    private readonly info: Pick<ReferenceInfo, "samples" | "links" | "joints">,
+    private readonly info: Pick<ReferenceInfo, "samples" | "links" | "joints" | "topics">,
     data: ArrayBuffer,
   ) {
-    const { samples, links, joints } = info;
-    const numbers = samples * (1 + joints.length);
-    if (data.byteLength !== 8 * numbers + 4 * POSE * samples * links.length) throw new Error("it is incomplete");
+    const { samples, links, joints, topics } = info;
+    let numbers = samples * (1 + joints.length);
+    const ofTopics = topics.reduce((sum, topic) => sum + topic.samples * (1 + topic.paths.length), 0);
+    if (data.byteLength !== 8 * (numbers + ofTopics) + 4 * POSE * samples * links.length)
+      throw new Error("it is incomplete");
     this.times = new Float64Array(data, 0, samples);
     this.positions = new Float64Array(data, 8 * samples, samples * joints.length);
+    for (const topic of topics) {
+      this.addTopic(topic, new Float64Array(data, 8 * numbers, topic.samples * (1 + topic.paths.length)));
+      numbers += topic.samples * (1 + topic.paths.length);
+    }
     this.poses = new Float32Array(data, 8 * numbers);
   }
 
@@ -53,13 +61,35 @@ export class ReferenceMotion {
     orientation.slerp(TURN, share);
   }
 
-  /** Values by their name in plots: `model::link.pose.x`, `model::joint.velocity`; null: it has none. */
+  /** Values by their name in plots: `model::link.pose.x`, `/odom.twist.twist.linear.x`; null: it has none. */
   find(name: string): ReferenceSeries | null {
+    if (name.startsWith("/")) return this.numbers.get(name) ?? this.element(name);
     const known = this.series.get(name);
     if (known !== undefined) return known;
     const found = this.compute(name);
     this.series.set(name, found);
     return found;
+  }
+
+  /** An element by its index of an array whose elements have names. */
+  private element(name: string): ReferenceSeries | null {
+    const [, array, index] = /^(.*\[)(\d+)\]$/.exec(name) ?? [];
+    if (array === undefined) return null;
+    const names = [...this.numbers.keys()].filter(
+      (path) => path.startsWith(array) && path.indexOf("]") === path.length - 1,
+    );
+    return this.numbers.get(names[Number(index)] ?? "") ?? null;
+  }
+
+  /** `data`: the times of a topic's messages, then their numbers. */
+  private addTopic({ topic, samples, paths }: ReferenceInfo["topics"][number], data: Float64Array): void {
+    const times = data.subarray(0, samples);
+    const width = paths.length;
+    paths.forEach((path, at) => {
+      if (this.numbers.has(topic + path)) return;
+      const values = Float64Array.from(times, (_, row) => data[samples + row * width + at] ?? NaN);
+      this.numbers.set(topic + path, { times, values, isAngle: false });
+    });
   }
 
   private compute(name: string): ReferenceSeries | null {

@@ -3,7 +3,7 @@
 import { batch, computed, effect, signal, untracked, type ReadonlySignal } from "@preact/signals";
 import { Box3, Matrix4, Vector3, type Mesh, type Object3D } from "three";
 
-import type { ClockState, Manifest } from "../../protocol/generated/page_messages";
+import type { ClockState, Manifest, ReferenceInfo } from "../../protocol/generated/page_messages";
 import type { DrawnFrames } from "../../frames/frame_tree";
 import type { Transform } from "../../frames/transform";
 import type { Connection } from "../../protocol/connection";
@@ -11,10 +11,12 @@ import { ShownParts } from "../overlays/shown_parts";
 import type { JointStates, Reference, SimulatedWorld } from "../simulated_world";
 import type { ThreeScene } from "../three_scene";
 import { BodyPoses } from "./body_poses";
-import { modelOf, type GlbModel } from "./glb_model";
+import { GhostShapes } from "./ghost_shapes";
+import type { GlbModel } from "./glb_model";
 import { readJoints } from "./joint_states";
 import { WorldPlacement } from "./placement";
 import { Sky } from "./sky";
+import { WorldCollisions } from "./world_collisions";
 import { WorldFiles } from "./world_files";
 import { readLines, WorldLines } from "./world_lines";
 import { WorldLighting } from "./world_lighting";
@@ -27,6 +29,10 @@ export class WorldFeed implements SimulatedWorld {
   readonly shown = new ShownParts();
   readonly hidden = signal<ReadonlySet<string>>(new Set());
   readonly isDrawn = signal(false);
+  readonly ghostShapes = new GhostShapes();
+  readonly referenceInfo = computed(() => this.manifest.value?.reference ?? this.bag.value);
+  /** Bag that the topics are compared with. */
+  private readonly bag = signal<ReferenceInfo | null>(null);
   /** True once the first world is loaded: before, a grid alone would look like an empty one. */
   private readonly hasLoaded = signal(false);
   private readonly lighting = new WorldLighting();
@@ -38,8 +44,7 @@ export class WorldFeed implements SimulatedWorld {
   private readonly compared: WorldReference;
   private readonly poseListeners = new Set<(time: number) => void>();
   private readonly stops: (() => void)[] = [];
-  private collisionRequest = new AbortController();
-  private collisions: { readonly url: string; readonly model: GlbModel } | null = null;
+  private readonly collisions: WorldCollisions;
 
   constructor(
     private readonly connection: Connection,
@@ -49,10 +54,13 @@ export class WorldFeed implements SimulatedWorld {
   ) {
     this.files = new WorldFiles(scene.world, this.lighting, (added, removed) => this.onFiles(added, removed));
     this.placement = new WorldPlacement(scene.world, this.poses, frames);
+    this.collisions = new WorldCollisions(this.files, () => this.showParts());
     this.joints = this.listenToJoints();
     this.compared = new WorldReference(
       scene,
+      frames,
       (body) => this.object(body),
+      this.ghostShapes,
       (error) => this.files.fault("The recording to compare with", error),
     );
     this.sky.visible = false;
@@ -123,6 +131,9 @@ export class WorldFeed implements SimulatedWorld {
       connection.subscribeJson("trundle/state", (state) => {
         this.state.value = state;
       }),
+      connection.subscribeJson("trundle/reference", (bag) => {
+        this.bag.value = bag;
+      }),
     ];
     this.stops.push(...subscriptions.map((subscription) => () => subscription.close()));
     on("trundle/poses", (payload) => this.takePoses(payload));
@@ -141,7 +152,7 @@ export class WorldFeed implements SimulatedWorld {
       this.followLoading(),
       effect(() => {
         const url = this.manifest.value?.collisions ?? null;
-        this.setCollisions(this.shown.any("collisions") ? url : null);
+        this.collisions.load(this.shown.any("collisions") ? url : null);
       }),
       this.shown.all.subscribe(() => this.showParts()),
       this.shown.models.subscribe(() => this.showParts()),
@@ -151,7 +162,12 @@ export class WorldFeed implements SimulatedWorld {
         if (manifest !== null) scene.grid.value = isGrid && this.hasLoaded.value;
       }),
       effect(() => {
-        if (this.compared.current.value !== null) untracked(() => this.buildGhost());
+        const info = this.referenceInfo.value;
+        untracked(() => this.compared.setInfo(info));
+      }),
+      effect(() => {
+        const { current } = this.compared;
+        if (this.ghostShapes.revision.value >= 0 && current.value !== null) untracked(() => this.buildGhost());
       }),
       effect(() => {
         if (connection.state.value.kind === "connected") return;
@@ -204,7 +220,6 @@ export class WorldFeed implements SimulatedWorld {
     const before = this.manifest.peek();
     if (before !== null && before.name !== manifest.name) this.poses.forgetPoses();
     this.manifest.value = manifest;
-    this.compared.setManifest(manifest);
     const { scene } = manifest;
     this.lighting.setScene(scene);
     const background = scene.background.map((part) => Math.round(255 * part));
@@ -239,7 +254,10 @@ export class WorldFeed implements SimulatedWorld {
 
   private place(): void {
     const manifest = this.manifest.peek();
-    if (manifest === null) return;
+    if (manifest === null) {
+      if (this.showGhost()) this.scene.invalidate();
+      return;
+    }
     const hasGhostMoved = this.synchronize();
     const isPlaced = this.placement.update(manifest, this.fixedFrame.peek());
     this.placement.moveFrames(manifest, this.fixedFrame.peek(), this.state.peek()?.paused ?? true);
@@ -249,12 +267,20 @@ export class WorldFeed implements SimulatedWorld {
   /** Place all at one time; true: the recording that the world is compared with has moved. */
   private synchronize(): boolean {
     this.placement.synchronize(this.fixedFrame.peek(), this.state.peek()?.paused ?? true);
-    return this.compared.show(Number(this.poses.drawnAt) / 1e9);
+    return this.showGhost();
+  }
+
+  /** Show the ghost at the time that is drawn; true: it has moved. */
+  private showGhost(): boolean {
+    const fixedFrame = this.fixedFrame.peek();
+    const isWorld = this.manifest.peek() !== null;
+    const time = isWorld ? Number(this.poses.drawnAt) / 1e9 : this.compared.graphTime(fixedFrame);
+    return time !== null && this.compared.show(time, fixedFrame);
   }
 
   private buildGhost(): void {
     this.compared.rebuild(this.manifest.peek());
-    this.compared.show(Number(this.poses.drawnAt) / 1e9);
+    this.showGhost();
     this.compared.hide((link) => isHidden(link, this.hidden.peek()));
   }
 
@@ -283,43 +309,12 @@ export class WorldFeed implements SimulatedWorld {
         wireframe: shown.of("wireframe", name),
       }));
     }
-    for (const [body, shapes] of this.collisions?.model.bodies ?? []) {
-      const object = this.object(body);
-      if (shapes.parent !== object) object?.add(shapes);
-      shapes.visible = shown.of("collisions", modelOf(shapes));
-    }
+    this.collisions.show(
+      (body) => this.object(body),
+      (model) => shown.of("collisions", model),
+    );
     this.lighting.invalidate();
     this.scene.invalidate();
-  }
-
-  /** Show the collisions of an address, each below its body; null: none. */
-  private setCollisions(url: string | null): void {
-    if ((this.collisions?.url ?? null) === url && url !== null) return;
-    if (this.collisions !== null) for (const shapes of this.collisions.model.bodies.values()) shapes.removeFromParent();
-    this.collisions?.model.dispose();
-    this.collisions = null;
-    this.scene.invalidate();
-    this.collisionRequest.abort();
-    if (url === null) return;
-    const abort = new AbortController();
-    this.collisionRequest = abort;
-    void this.files
-      .read(url, () => undefined, abort.signal)
-      .then(
-        (model) => {
-          if (abort.signal.aborted) return;
-          this.collisions = { url, model };
-          for (const shapes of model.bodies.values()) {
-            delete shapes.userData["body"]; // it belongs to the loaded body
-            shapes.position.set(0, 0, 0);
-            shapes.quaternion.identity();
-          }
-          this.showParts();
-        },
-        (error: unknown) => {
-          if (!abort.signal.aborted) this.files.fault("Collisions", error);
-        },
-      );
   }
 }
 
