@@ -16,6 +16,7 @@ import { LatestRequest } from "./handles/latest_request";
 import { SelectionHandles, type Handle } from "./handles/selection_handles";
 import { selectionOf } from "./picked";
 import type { PointerInput } from "../scene/pointer_input";
+import { findModel } from "../page/selection_lookup";
 import type { WorldEditor } from "../page/world_editor";
 
 /** Wall seconds after which a resting drag is sent again; after one second the server releases it. */
@@ -92,7 +93,7 @@ export abstract class HandleTool extends BaseTool {
               ? this.handlesOf(target)
               : [{ kind: target.axis.turns ? "ring" : "axis", axis: target.axis.direction }],
         );
-        this.hint.value = target === null ? "Click an object to move." : this.usage;
+        this.hint.value = target === null ? this.selectionUsage : this.usage;
         scene.invalidate();
       }),
     ];
@@ -121,13 +122,16 @@ export abstract class HandleTool extends BaseTool {
 
   private press(input: PointerInput): boolean {
     const { scene } = this.context;
-    const target = this.target.peek();
-    const from = target?.pose() ?? null;
-    if (target === null || from === null) return false;
-    this.placeForPointer();
     const ray = scene.ray(input.x, input.y);
-    const hit = this.handles.hit(ray) ?? this.hitBody(target, input);
-    if (hit === null) return false;
+    let target = this.target.peek();
+    this.placeForPointer();
+    let hit = target === null ? null : (this.handles.hit(ray) ?? this.hitBody(target, input));
+    if (hit === null) {
+      target = this.selectBody(input);
+      hit = target === null ? null : this.hitBody(target, input);
+    }
+    const from = target?.pose() ?? null;
+    if (target === null || from === null || hit === null) return false;
     const { handle } = hit;
     const back = new Vector3()
       .setFromMatrixColumn(scene.camera.peek().matrixWorld, 2)
@@ -162,6 +166,20 @@ export abstract class HandleTool extends BaseTool {
     this.handles.light(handle);
     this.ask(this.dragged);
     return true;
+  }
+
+  /** Hint while nothing is selected. */
+  private get selectionUsage(): string {
+    return this.body === null ? "Click an object to move." : "Drag a model, or click an object to move.";
+  }
+
+  /** Select the movable model under the pointer, which the press then drags; null: there is none. */
+  private selectBody({ x, y }: PointerInput): HandleTarget | null {
+    if (this.body === null) return null;
+    const selection = selectionOf(this.context.scene.pick(x, y));
+    if (selection?.kind !== "link" || findModel(this.editor, selection.model)?.static !== false) return null;
+    this.context.select(selection);
+    return this.target.peek();
   }
 
   private hitBody(
