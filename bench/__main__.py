@@ -39,6 +39,7 @@ BENCHES = {
     "page_start": "a page's start in Chromium",
     "page_slow": "a slow page beside another one",
     "page_pointer": "pointer events in large worlds",
+    "page_frames": "script time of a page with a large cloud, many topics, many models",
 }
 """Module name → measurement."""
 

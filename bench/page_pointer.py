@@ -37,13 +37,12 @@ def measure(browser: Any) -> dict[str, float]:
     """Return gesture → script time per event in percent of a frame of 1/60 s."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "many.sdf")
-        file.write_text(_world())
+        file.write_text(many_models())
         words = ("-m", "trundle", "run", str(file), "--no-ros", "--pause", "--port", "0")
         with subprocess.Popen(
             [sys.executable, *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
         ) as running:
-            assert running.stderr is not None
-            url = next(match[1] for line in running.stderr if (match := re.search(r"see it at (\S+)", line)))
+            url = page_address(running)
             page = browser.new_page(viewport={"width": 1440, "height": 900})
             page.set_default_timeout(_PATIENCE_MS)
             page.goto(url)
@@ -132,8 +131,14 @@ def _type(event: Any) -> str:
     return str(event.get("args", {}).get("data", {}).get("type", ""))
 
 
-def _world() -> str:
-    """Return a world of 200 models of three visuals each."""
+def page_address(running: subprocess.Popen[str]) -> str:
+    """Wait until a command has printed its page's address."""
+    assert running.stderr is not None
+    return next(match[1] for line in running.stderr if (match := re.search(r"see it at (\S+)", line)))
+
+
+def many_models(settings: str = "") -> str:
+    """Return a world of 200 models of three visuals each; `settings`: further elements of the world."""
     shapes = ("<box><size>0.4 0.4 0.2</size></box>", "<sphere><radius>0.15</radius></sphere>")
     shapes += ("<cylinder><radius>0.1</radius><length>0.6</length></cylinder>",)
     visuals = "".join(f'<visual name="v{i}"><geometry>{shape}</geometry></visual>' for i, shape in enumerate(shapes))
@@ -142,4 +147,4 @@ def _world() -> str:
         f'<link name="l">{visuals}</link></model>'
         for i in range(_ROWS * _COLUMNS)
     )
-    return f'<sdf version="1.6"><world name="many">{models}</world></sdf>'
+    return f'<sdf version="1.6"><world name="many">{settings}{models}</world></sdf>'

@@ -33,9 +33,10 @@ def compare_bags(run: Path, reference: Path, tolerance: float | None = None) -> 
     alone = [
         tuple(topic for topic in some.topics if topic not in others.topics) for some, others in ((one, two), (two, one))
     ]
+    rows = tuple(comparison.differences(one.start + duration, since_start=True))
     return RunDifferences(
         duration=duration,
-        rows=tuple(comparison.differences(one.start + duration, since_start=True)),
+        rows=rows,
         unit="",
         only=tuple((name, some) for name, some in zip(names, alone, strict=True) if some),
         topics=tuple(
@@ -47,7 +48,11 @@ def compare_bags(run: Path, reference: Path, tolerance: float | None = None) -> 
             )
             for topic in common
         ),
-        notes=(*_faults(names, one, two), *_apart(comparison, _TOLERANCE if tolerance is None else tolerance)),
+        notes=(
+            *_faults(names, one, two),
+            f"{comparison.equal} other numbers change and are equal",
+            *_apart(comparison, _TOLERANCE if tolerance is None else tolerance),
+        ),
     )
 
 

@@ -81,7 +81,7 @@ class BagComparison:
                 self.add_transform(frame.parent, frame.child, run.start if frame.is_static else time, pose)
 
     def differences(self, time: float, *, since_start: bool = False) -> list[Difference]:
-        """Return what moves or differs at a time of the run [s]: frames, then numbers, the largest differences first.
+        """Return frames that move or differ at a time of the run [s], then numbers that differ, the largest first.
 
         Numbers are sorted by the ratio of their difference to their range in the reference.
 
@@ -108,6 +108,11 @@ class BagComparison:
             row if row.maximum_time is None else replace(row, maximum_time=row.maximum_time - self.start)
             for row in rows
         ]
+
+    @property
+    def equal(self) -> int:
+        """Numbers that change in the reference and were equal when `differences` was called last."""
+        return sum(topic.equal for topic in self._all_topics)
 
     def first_apart(self, tolerance: float) -> tuple[float, str] | None:
         """Return the run's first time [s] at which a pose or a joint differs by more than a tolerance, and its name."""
@@ -140,6 +145,8 @@ class _TopicComparison(NumberComparison):
         with np.errstate(invalid="ignore"):
             self._ranges = np.ptp(compared.values, axis=0) if len(columns) else np.empty(0)
         self._columns: dict[Layout, list[int]] = {}
+        self.equal = 0
+        """Numbers that change and were equal when `rows` was called last."""
 
     def add_message(self, time: float, layout: Layout, values: Sequence[float]) -> None:
         """Add a message's numbers, NaN for those that it does not have; none if it has none of them."""
@@ -153,9 +160,11 @@ class _TopicComparison(NumberComparison):
     def rows(self, time: float) -> list[tuple[float, Difference]]:
         """Return the ratio of each difference to its range, and the difference; of long arrays only the largest."""
         arrays: dict[str, list[tuple[float, Difference]]] = {}
+        self.equal = 0
         for extent, row in zip(self._ranges.tolist(), self.differences(time), strict=True):
-            if row.maximum is not None and (extent > _RESTING or _differs(row)):
-                ratio = row.maximum / max(extent, _RESTING) if row.maximum > 0.0 else 0.0
+            self.equal += row.maximum is not None and not _differs(row) and extent > _RESTING
+            if row.maximum is not None and _differs(row):
+                ratio = row.maximum / max(extent, _RESTING)
                 arrays.setdefault(_ELEMENT.sub("", row.name), []).append((ratio, row))
         found: list[tuple[float, Difference]] = []
         for rows in arrays.values():
