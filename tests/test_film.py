@@ -34,6 +34,15 @@ def test_the_picture_is_small() -> None:
     assert file.stat().st_size < 300_000
 
 
+def test_a_film_paces_the_run_by_its_clock(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It replaces the pacer in the module that runs the simulation."""
+    monkeypatch.setattr(sys, "path", [str(ROOT / "docs"), *sys.path])
+    from generate import film
+
+    assert film.run_module.RealtimePacer is RealtimePacer
+    assert callable(film.run_module.run)
+
+
 def test_a_simulation_follows_the_steps_of_the_film_clock(monkeypatch: pytest.MonkeyPatch) -> None:
     """It advances with the clock, and is one stride ahead when a picture is taken."""
     monkeypatch.setattr(sys, "path", [str(ROOT / "docs"), *sys.path])

@@ -13,7 +13,7 @@ from unittest.mock import patch
 
 from PIL import Image
 
-from trundle.live.run import run as run_module
+from trundle.live.run import run_world as run_module
 from trundle.live.run.run_options import RunOptions
 from trundle.sim import realtime_pacer
 from trundle.spatial import NS_PER_S
