@@ -5,6 +5,7 @@ import signal
 import socket
 import tempfile
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import partial
@@ -15,6 +16,7 @@ from PIL import Image
 
 from trundle.live.run import run_world as run_module
 from trundle.live.run.run_options import RunOptions
+from trundle.page.link_file import read_link_files
 from trundle.sim import realtime_pacer
 from trundle.spatial import NS_PER_S
 
@@ -52,7 +54,7 @@ def main() -> None:
 
     def film() -> None:
         try:
-            save(list(frames(clock, f"http://127.0.0.1:{port}/"))[SKIPPED_FRAMES:])
+            save(list(frames(clock, page_link(port)))[SKIPPED_FRAMES:])
         except Exception as fault:
             faults.append(fault)
         clock.release()
@@ -68,6 +70,15 @@ def main() -> None:
         run_module.run("rp2w_at_home.world", RunOptions(port=port, opens_browser=False, paused=True))
     if faults:
         raise faults[0]
+
+
+def page_link(port: int) -> str:
+    """Wait for the page at a port; return its link with the token."""
+    while True:
+        for links in read_link_files(os.environ):
+            if links.port == port:
+                return links.url
+        time.sleep(0.5)
 
 
 def frames(clock: FilmClock, url: str) -> Iterator[Image.Image]:
