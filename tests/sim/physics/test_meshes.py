@@ -15,7 +15,7 @@ from trundle.robots.meshes import triangulate
 from trundle.sim.physics.convex import mesh_decomposition, pieces
 from trundle.sim.physics.convex.hulls import hull_of
 from trundle.sim.physics.convex.mesh_decomposition import convex_pieces
-from trundle.sim.physics.convex.pieces import MAX_PIECES
+from trundle.sim.physics.convex.splitting import MAX_PIECES
 from trundle.sim.simulation import Simulation
 from trundle.spatial import Pose, Twist
 

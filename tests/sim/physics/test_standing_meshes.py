@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 import trundle
 from trundle.base.diagnostics import Diagnostics
 from trundle.sim.physics import compile_mjcf
-from trundle.sim.physics.convex import mesh_decomposition, pieces
+from trundle.sim.physics.convex import mesh_decomposition, splitting
 from trundle.sim.physics.convex.hulls import hull_of
 from trundle.sim.physics.convex.mesh_decomposition import WorldDecomposition, convex_pieces
 from trundle.sim.physics.convex.patches import convex_patches
@@ -166,5 +166,5 @@ def test_static_meshes_share_the_limit_of_slabs(monkeypatch: pytest.MonkeyPatch)
 def test_a_fine_static_mesh_close_to_its_hull_becomes_the_hull(monkeypatch: pytest.MonkeyPatch) -> None:
     points, faces = strip(480, noise=0.0)
     points[:, 2] /= 100
-    monkeypatch.setattr(pieces, "MAX_PIECES", 50)
+    monkeypatch.setattr(splitting, "MAX_PIECES", 50)
     assert len(convex_pieces(points, faces, fixed=True).corners) == 1

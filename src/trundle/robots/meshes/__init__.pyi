@@ -1,3 +1,10 @@
+from ._meshes import (
+    SupportGraph as SupportGraph,
+    component_labels as component_labels,
+    double_areas as double_areas,
+    fold_height as fold_height,
+    unique_rows as unique_rows,
+)
 from .cache import cache_folder as cache_folder, load_parts as load_parts, save_parts as save_parts
 from .heightmap_image import read_heights as read_heights
 from .load import check_vertices as check_vertices, load_mesh as load_mesh
@@ -5,7 +12,6 @@ from .mesh import Mesh as Mesh, MeshError as MeshError, MeshPart as MeshPart, Te
 from .raw import RawPart as RawPart
 from .references import referenced_files as referenced_files
 from .road_strip import strip_mesh as strip_mesh
-from .rows import unique_rows as unique_rows
 from .skeleton import Motion as Motion, Skin as Skin, match_bones as match_bones, root_of as root_of
 from .skins import load_motion as load_motion, load_skin as load_skin
 from .solid_meshes import cone_mesh as cone_mesh, prism_mesh as prism_mesh, terrain_mesh as terrain_mesh

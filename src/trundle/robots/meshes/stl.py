@@ -4,9 +4,9 @@ import re
 
 import numpy as np
 
+from . import _meshes
 from .mesh import MeshError
 from .raw import RawPart
-from .rows import unique_rows
 
 _HEADER = 84
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
@@ -32,5 +32,5 @@ def read_stl(data: bytes) -> list[RawPart]:
         raise MeshError(f"declares {count} triangles and contains {available}")
     else:
         raise MeshError("no triangles")
-    first, number = unique_rows(corners)
+    first, number = _meshes.unique_rows(np.ascontiguousarray(corners))
     return [RawPart(names=("",), vertices=corners[first].astype(np.float64), faces=number.reshape(-1, 3))]

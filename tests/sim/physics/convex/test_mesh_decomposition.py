@@ -18,8 +18,9 @@ from trundle.gazebo.check.check_file import check
 from trundle.sim.physics.convex import decomposition, jobs, mesh_decomposition, pieces
 from trundle.sim.physics.convex.mesh_decomposition import WorldDecomposition, convex_pieces, load_pieces, save_pieces
 from trundle.sim.physics.convex.native_output import native_output_hidden
-from trundle.sim.physics.convex.pieces import ConcavePart, Detail, decompose_part, split_mesh
+from trundle.sim.physics.convex.pieces import ConcavePart, Detail, decompose_part
 from trundle.sim.physics.convex.progress import DecompositionProgress
+from trundle.sim.physics.convex.splitting import split_mesh
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.intp]]
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")

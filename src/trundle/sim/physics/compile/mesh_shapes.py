@@ -14,7 +14,7 @@ from trundle.robots.model import Collision, MeshFile
 
 from ..convex.hulls import hull_of
 from ..convex.mesh_decomposition import FULL, DecomposedMesh, MeshRequest, WorldDecomposition
-from ..convex.pieces import split_mesh
+from ..convex.splitting import split_mesh
 from .convex_geoms import add_hull, add_hulls, thick_pieces
 from .kinematic_tree import KinematicTree
 from .shape_entry import CollidesWith
@@ -96,7 +96,11 @@ def _add_pieces(
 
 
 def _report_cut(cut: DecomposedMesh, mesh: Mesh, collision: Collision, report: Diagnostics) -> None:
-    """Report the shape that replaces a concave mesh, and its deviation."""
+    """Report the shape that replaces a concave or a very fine mesh, and its deviation."""
+    if cut.simplified_by:
+        count = sum(map(len, cut.pieces.corners))
+        note = f"{count:,} corners of {len(mesh.vertices):,}, a surface up to {cut.simplified_by:.2g} m away"
+        report.info(collision.at, f"collision {collision.name!r}: a very fine mesh; physics uses {note}")
     errors = cut.pieces.errors
     if not errors or cut.is_stand_in:
         return

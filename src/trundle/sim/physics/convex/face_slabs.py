@@ -3,8 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from trundle.robots.meshes import component_labels
+
 from .hulls import convex_hull_area
-from .mesh_components import WELD, connected_components
+from .mesh_faces import WELD
 from .patches import convex_patches
 
 _Points = NDArray[np.float64]
@@ -72,7 +74,7 @@ def _polygons(faces: _Faces, normals: _Points, offsets: _Points) -> list[_Faces]
     # Corners are numbered per plane, so that faces of different planes are not connected over an edge.
     corners, numbered = np.unique(faces + planes[:, None] * (int(faces.max()) + 1), return_inverse=True)
     numbered = numbered.reshape(faces.shape)
-    labels = connected_components(len(corners), numbered)[numbered[:, 0]]
+    labels = component_labels(len(corners), numbered)[numbered[:, 0]]
     order = np.argsort(labels, kind="stable")
     starts = np.flatnonzero(np.diff(labels[order])) + 1
     return [members for members in np.split(order, starts) if len(members) > 1]

@@ -36,6 +36,8 @@ class Hull(Struct, frozen=True):
     """(F, 3) outward unit normals."""
     offsets: _Points
     """(F,) distances of the faces from the origin along their normals [m]."""
+    bases: _Numbers
+    """(F,) index of a corner of each face among the points."""
     volume: float
     """[m³]"""
 
@@ -69,9 +71,10 @@ def hull_of(points: _Points) -> Hull | None:
     normals /= np.maximum(lengths, np.finfo(float).tiny)[:, None]
     solid = lengths > 1e-6 * lengths.max()
     offsets = np.einsum("ij,ij->i", normals, triangles[:, 0])
+    bases = numbers[solid, 0].astype(np.intp)
     used, numbered = np.unique(numbers, return_inverse=True)
     volume = volume_of(triangles)
-    return Hull(points[used], numbered.reshape(faces, 3), triangles, normals[solid], offsets[solid], volume)
+    return Hull(points[used], numbered.reshape(faces, 3), triangles, normals[solid], offsets[solid], bases, volume)
 
 
 def is_flat(points: _Points) -> bool:

@@ -19,18 +19,8 @@ from numpy.typing import NDArray
 from trundle.robots.meshes import RawPart, load_parts, save_parts
 
 from .jobs import SHORT_S, decompose_parts
-from .pieces import (
-    MAX_PIECES,
-    MAX_SLABS,
-    ConcavePart,
-    ConvexPieces,
-    Detail,
-    HullError,
-    MeshSplit,
-    as_single_hull,
-    hull_of_part,
-    split_mesh,
-)
+from .pieces import ConcavePart, ConvexPieces, Detail, HullError, hull_of_part
+from .splitting import MAX_PIECES, MAX_SLABS, MeshSplit, as_single_hull, split_mesh
 
 if TYPE_CHECKING:
     from .background import BackgroundCutting
@@ -65,6 +55,8 @@ class DecomposedMesh(Struct, frozen=True):
     """True if a part failed and its hull replaces it."""
     is_stand_in: bool = False
     """True if a part's hull replaces it until it is cut."""
+    simplified_by: float = 0.0
+    """See `MeshSplit`."""
 
 
 class WorldDecomposition:
@@ -123,7 +115,8 @@ class WorldDecomposition:
             pieces.errors.extend(cut.errors)
         is_coarse = any(part.detail is Detail.COARSE for part in parts)
         is_failed = any(part.key in self._failed for part in parts)
-        return DecomposedMesh(pieces, is_coarse, is_failed, any(part.key in self._stand_ins for part in parts))
+        is_stand_in = any(part.key in self._stand_ins for part in parts)
+        return DecomposedMesh(pieces, is_coarse, is_failed, is_stand_in, whole.simplified_by)
 
     def _plan(self, vertices: _Points, faces: _Faces, *, fixed: bool) -> tuple[MeshSplit, list[ConcavePart]]:
         """Split a mesh, and choose the detail of its concave parts."""

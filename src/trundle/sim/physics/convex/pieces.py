@@ -1,9 +1,4 @@
-"""Convex pieces of concave meshes, because MuJoCo's contacts are convex.
-
-A convex component of a mesh is one piece. Each flat face of a fixed concave one becomes a thin slab, so that rooms can
-be entered and ramps driven up. A moving one is decomposed into a few nearly convex pieces if it is truly concave;
-otherwise, or if the pieces are no better, its hull replaces it.
-"""
+"""Convex pieces of concave parts of meshes, because MuJoCo's contacts are convex."""
 
 import hashlib
 from enum import Enum
@@ -13,29 +8,19 @@ from msgspec import Struct
 from msgspec.structs import replace
 from numpy.typing import NDArray
 
-from .convexity import is_convex
 from .decomposition import MAX_FACES, MAX_SHEETED, decompose, is_thin
-from .face_slabs import is_convex_layer, is_layer, slabs_of
 from .hulls import hausdorff_distance, hull_of, surface_error, volume_of
-from .mesh_components import WELD, connected_components, is_closed, renumbered, welded
+from .mesh_faces import is_closed
 from .shell_decomposition import shell_pieces
 
 _Points = NDArray[np.float64]
 _Faces = NDArray[np.intp]
-MAX_PIECES = 1000
-"""Most pieces of a moving mesh; beyond, it becomes one hull."""
-MAX_SLABS = 50_000
-"""Most slabs of all fixed meshes of a world; beyond, a mesh of more than 1000 becomes one hull."""
-_CLOSE = 0.02
-"""Distance of the hull [m] up to which it replaces a fixed mesh of over 1000 slabs."""
 _VERSION = 4
 """Version of the cache keys; raised when a mesh gets different pieces."""
 _HOLLOW = 0.05
 """Surface error of the hull, relative to the size, up to which it replaces a concave mesh."""
 _FULL = 1.1
 """Ratio of the hull's volume to the mesh's up to which it replaces a concave mesh."""
-_MAX_CUT = 8
-"""Most parts of a mesh that are decomposed, largest first."""
 _MAX_FLAT = 2000
 """Most faces of a flat mesh that is decomposed."""
 
@@ -96,71 +81,6 @@ class ConcavePart(Struct, frozen=True, eq=False):
         size = float(np.ptp(self.points, axis=0).max())
         is_shell = count <= MAX_SHEETED and (not is_closed(self.faces) or is_thin(self.points[self.faces], size))
         return 0.5 + (1e-3 if is_shell else 5e-5) * count
-
-
-class MeshSplit(Struct, frozen=True):
-    """Mesh split into convex pieces and concave parts."""
-
-    corners: list[_Points]
-    """(N, 3) corners of each convex piece [m]."""
-    concave: list[tuple[_Points, ConcavePart]]
-    """(3,) lowest corner [m] and part, largest first."""
-
-
-def split_mesh(vertices: _Points, faces: _Faces, *, fixed: bool) -> MeshSplit:
-    """Split a mesh into convex pieces and concave parts.
-
-    Args:
-        vertices: (N, 3) [m].
-        faces: (M, 3) indices into vertices, counter-clockwise from outside.
-        fixed: True if the mesh never moves.
-    """
-    points, faces = welded(vertices, faces)
-    if not len(faces):
-        return MeshSplit([vertices], [])
-    labels = connected_components(len(points), faces)[faces[:, 0]]
-    order = np.argsort(labels, kind="stable")
-    starts = np.flatnonzero(np.diff(labels[order])) + 1
-    corners: list[_Points] = []
-    concave: list[_Faces] = []
-    for component in np.split(faces[order], starts):
-        vertices_of_component = points[np.unique(component)]
-        if fixed and (is_layer(vertices_of_component) or not is_convex(points, component, vertices_of_component)):
-            corners += slabs_of(points, component, vertices_of_component)
-        elif (
-            fixed
-            or is_convex(points, component, vertices_of_component)
-            or is_convex_layer(points, component, vertices_of_component)
-        ):
-            corners.append(vertices_of_component)
-        else:
-            concave.append(component)
-        if len(corners) + len(concave) > (MAX_SLABS if fixed else MAX_PIECES):
-            return as_single_hull(points, faces)
-    if len(corners) > MAX_PIECES and _hull_is_close(points, faces):
-        return as_single_hull(points, faces)
-    concave.sort(key=lambda component: -float(np.prod(np.ptp(points[np.unique(component)], axis=0))))
-    details = [Detail.FULL if i < _MAX_CUT else Detail.HULL for i in range(len(concave))]
-    return MeshSplit(
-        corners, [_concave_part(points, component, detail) for component, detail in zip(concave, details, strict=True)]
-    )
-
-
-def as_single_hull(vertices: _Points, faces: _Faces) -> MeshSplit:
-    """Return a mesh as a single part, replaced by its hull."""
-    points, faces = welded(vertices, faces)
-    return MeshSplit([], [_concave_part(points, faces, Detail.HULL)])
-
-
-def _hull_is_close(points: _Points, faces: _Faces) -> bool:
-    hull = hull_of(points[np.unique(faces)])
-    return hull is not None and hausdorff_distance(hull.triangles, points[faces]) < _CLOSE
-
-
-def _concave_part(points: _Points, faces: _Faces, detail: Detail) -> tuple[_Points, ConcavePart]:
-    vertices = points[np.unique(faces)]
-    lowest = vertices.min(axis=0)
-    return lowest, ConcavePart(np.round((vertices - lowest) / WELD) * WELD, renumbered(faces), detail)
 
 
 def decompose_part(part: ConcavePart) -> ConvexPieces:
