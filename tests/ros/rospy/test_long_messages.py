@@ -82,3 +82,33 @@ def test_a_slow_callback_loses_no_messages(tmp_path: Path) -> None:
                 source.publish({"header": {"frame_id": name}, "data": bytes(_LENGTH)})
             printed, _ = program.communicate(timeout=PATIENCE_S)
     assert printed.decode().split() == names
+
+
+_FAST_NODE = """
+import sys, rospy
+from sensor_msgs.msg import Image
+
+rospy.init_node("fast")
+publisher = rospy.Publisher("out", Image, queue_size=3)
+while not publisher.get_num_connections() and not rospy.is_shutdown():
+    rospy.sleep(0.01)
+sys.setswitchinterval(1000.0)  # the thread that publishes never has to leave the interpreter to others
+image = Image(data=bytes(100_000))
+while not rospy.is_shutdown():
+    publisher.publish(image)
+"""
+
+
+def test_a_thread_that_publishes_without_pause_leaves_the_interpreter_to_the_sender(tmp_path: Path) -> None:
+    (tmp_path / "fast.py").write_text(_FAST_NODE)
+    received: list[int] = []
+    with running_graph() as graph:
+        env = environment(sys.executable, graph.core.uri, tmp_path)
+        with subprocess.Popen([sys.executable, str(tmp_path / "fast.py")], env=env) as program:
+            node = graph.node("tester")
+            node.subscribe("/out", "sensor_msgs/Image", lambda message: received.append(len(message.data)))
+            try:
+                graph.until(lambda: len(received) >= 300)
+            finally:
+                program.kill()
+    assert {*received} == {100_000}

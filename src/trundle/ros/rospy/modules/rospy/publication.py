@@ -126,8 +126,10 @@ class Publication:
                 return
             self.sender.is_active = False  # other threads' messages come after this one
             self.sender.sequence += 1
-            publisher.publish_frame(framed(self.sender.sequence, message))
+            is_ahead = publisher.publish_frame(framed(self.sender.sequence, message))
             self.sender.is_active = publisher.sends_directly
+        if is_ahead:  # else a thread that only replaces messages keeps the interpreter from the one that sends them
+            time.sleep(_CONGESTED_S)
         self._wait_for_slowest(publisher)
 
     def send_rest(self) -> None:
@@ -212,9 +214,14 @@ class FramePublisher(GraphPublisher):
         """True if a message that is published now may be written to the sockets of all subscribers."""
         return bool(self._direct) and not (self.latch or self._is_flush_scheduled or self._outbox)
 
-    def publish_frame(self, pieces: Pieces) -> None:
-        """Send a serialized message, where there are subscribers or messages are latched; thread-safe."""
+    def publish_frame(self, pieces: Pieces) -> bool:
+        """Send a serialized message, where there are subscribers or messages are latched; thread-safe.
+
+        True if it replaced a message that had not been sent yet.
+        """
+        lost = self._lost
         self._send(pieces)
+        return self._lost > lost
 
     def send_rest(self) -> None:
         """Queue the unsent rest of the last message; thread-safe."""
