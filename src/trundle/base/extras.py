@@ -1,7 +1,6 @@
 """Optional packages, which Trundle's extras install."""
 
 import importlib
-import importlib.metadata
 import json
 import shlex
 from pathlib import Path
@@ -30,9 +29,11 @@ def rospy_requirements() -> str:
     """Return the words for pip that bring ROS' packages to any Python: names, or paths into the checkout that this
     Trundle was installed from.
     """
+    from importlib import metadata  # a tenth of a launch's imports
+
     try:
-        record = importlib.metadata.distribution("trundle").read_text("direct_url.json")
-    except importlib.metadata.PackageNotFoundError:
+        record = metadata.distribution("trundle").read_text("direct_url.json")
+    except metadata.PackageNotFoundError:
         record = None
     url = str(json.loads(record).get("url", "")) if record else ""
     checkout = Path(unquote(urlsplit(url).path)) if url.startswith("file:") else Path(__file__).parents[3]

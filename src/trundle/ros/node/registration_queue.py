@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Awaitable, Callable
+from itertools import count
 from typing import TypeAlias
 
 from ..errors import MasterError, MasterUnreachableError, ParameterError
@@ -12,7 +13,8 @@ from .node_log import NodeLog
 from .pending_work import WorkItem
 
 Registration: TypeAlias = Callable[[], Awaitable[None]]
-_RETRY_S = 0.5
+_RETRY_S, _FIRST_RETRY_S, _FIRST_RETRIES = 0.5, 0.05, 40
+"""Intervals of retries: shorter for the first ones, as a master that starts together with the node answers soon."""
 
 
 class RegistrationQueue:
@@ -75,7 +77,7 @@ class RegistrationQueue:
 
     async def retry(self, registration: Registration) -> None:
         """Execute a call, retrying until a master answers; the wait for a missing master is no work in progress."""
-        while True:
+        for attempt in count():
             try:
                 await registration()
             except MasterUnreachableError as error:
@@ -84,7 +86,7 @@ class RegistrationQueue:
                     self._log.warn(f"{error}; {self._log.name} keeps trying")
                 if self._current is not None:
                     self._loop.work.finish(self._current)
-                await asyncio.sleep(_RETRY_S)
+                await asyncio.sleep(_FIRST_RETRY_S if attempt < _FIRST_RETRIES else _RETRY_S)
                 continue
             except (MasterError, ParameterError) as error:
                 self._log.error(str(error))
