@@ -9,6 +9,8 @@ import trimesh
 from numpy.typing import NDArray
 
 import trundle
+from trundle.base.diagnostics import Diagnostics
+from trundle.sim.physics import compile_world
 from trundle.sim.physics.convex.simplification import MAX_CORNERS, simplify
 from trundle.sim.physics.convex.splitting import split_mesh
 
@@ -69,4 +71,6 @@ def test_a_very_fine_mesh_is_reported(tmp_path: Path) -> None:
         note,
     )
     assert match is not None
-    assert sim.engine.compiled.model.mesh_vertnum.tolist() == [int(match[1].replace(",", ""))]
+    count = int(match[1].replace(",", ""))
+    assert sim.engine.compiled.model.mesh_vertnum.tolist() == [count]
+    assert compile_world(sim.world, Diagnostics(), cut_meshes=False).model.mesh_vertnum.tolist() == [count]

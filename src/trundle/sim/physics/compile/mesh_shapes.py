@@ -14,6 +14,7 @@ from trundle.robots.model import Collision, MeshFile
 
 from ..convex.hulls import hull_of
 from ..convex.mesh_decomposition import FULL, DecomposedMesh, MeshRequest, WorldDecomposition
+from ..convex.simplification import MAX_CORNERS
 from ..convex.splitting import split_mesh
 from .convex_geoms import add_hull, add_hulls, thick_pieces
 from .kinematic_tree import KinematicTree
@@ -63,10 +64,14 @@ def add_mesh(
     if mesh is None:
         return []
     if decomposition is None:
-        if not fixed and split_mesh(*_arrays(mesh), fixed=False).concave:
+        corners = mesh.vertices.astype(float)
+        split = split_mesh(*_arrays(mesh), fixed=False) if not fixed or len(corners) > MAX_CORNERS else None
+        if split is not None and len(split.corners) == 1 and not split.concave:
+            (corners,) = split.corners  # fewer for a very fine mesh
+        elif split is not None and split.concave and not fixed:
             mesh_text = f"a mesh of {len(mesh.faces)} triangles that is not convex; its pieces are"
             report.info(collision.at, f"collision {collision.name!r}: {mesh_text} not checked (check --collisions)")
-        (corners,) = thick_pieces([mesh.vertices.astype(float)], collision, report)
+        (corners,) = thick_pieces([corners], collision, report)
         return [(add_hull(spec, body, collision.link_from_collision, name, corners), CollidesWith.ALL)]
     cut = decomposition.pieces_of(*_arrays(mesh), fixed=fixed)
     _report_cut(cut, mesh, collision, report)
