@@ -41,9 +41,11 @@ def simplify(points: _Points, faces: _Faces) -> SimplifiedMesh | None:
         faces: (M, 3) indices into points.
     """
     corners, faces = points[used_points(faces)], renumbered(faces)
-    middle = corners.mean(axis=0)
-    axes = np.linalg.eigh(np.cov(corners.T))[1]
-    along = (corners - middle) @ axes
+    centred = corners - (corners.min(axis=0) + corners.max(axis=0)) / 2
+    covariance = np.cov(centred.T)
+    # Rounded, and without BLAS: its last bits differ between processors, and a ball's axes are any.
+    axes = np.linalg.eigh(np.round(covariance / np.abs(covariance).max(), 6))[1]
+    along = sum(centred[:, i, None] * np.round(axes[i], 6) for i in range(3))
     extents = np.ptp(along, axis=0)
     if not extents.all():
         return None
