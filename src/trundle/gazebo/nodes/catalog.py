@@ -33,6 +33,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("gscam", "gscam_node"): "trundle.gazebo.nodes.camera_drivers:GsCam",
     ("image_view", "image_view"): "trundle.gazebo.nodes.rqt_windows:ImageView",
     ("interactive_marker_twist_server", "marker_server"): "trundle.gazebo.nodes.twist_marker_server:TwistMarkerServer",
+    ("ira_laser_tools", "laserscan_multi_merger"): "trundle.navigation.scan_filters:LaserscanMultiMerger",
     (
         "joint_state_publisher",
         "joint_state_publisher",
@@ -42,6 +43,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
         "joint_state_publisher_gui",
     ): "trundle.gazebo.nodes.joint_state_publisher:JointStatePublisherGui",
     ("joy", "joy_node"): "trundle.gazebo.nodes.joy_node:JoyNode",
+    ("laser_filters", "scan_to_scan_filter_chain"): "trundle.navigation.scan_filters:ScanToScanFilterChain",
     ("map_server", "map_saver"): "trundle.gazebo.nodes.map_server:MapSaver",
     ("map_server", "map_server"): "trundle.gazebo.nodes.map_server:MapServer",
     ("move_base", "move_base"): "trundle.navigation.move_base:MoveBase",
@@ -143,6 +145,7 @@ NODELETS: dict[str, str] = {
     "depthimage_to_laserscan/DepthImageToLaserScanNodelet": (
         "trundle.gazebo.nodes.depthimage_to_laserscan:DepthImageToLaserScan"
     ),
+    "laser_filters/scan_to_scan_filter_chain": "trundle.navigation.scan_filters:ScanToScanFilterChain",
     "pointcloud_to_laserscan/PointCloudToLaserScanNodelet": (
         "trundle.gazebo.nodes.pointcloud_to_laserscan:PointCloudToLaserScan"
     ),

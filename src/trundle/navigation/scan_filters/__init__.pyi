@@ -1,0 +1,2 @@
+from .multi_merger import LaserscanMultiMerger as LaserscanMultiMerger
+from .scan_to_scan_filter_chain import ScanToScanFilterChain as ScanToScanFilterChain
