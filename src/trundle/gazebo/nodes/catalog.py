@@ -32,6 +32,11 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("gscam", "gscam"): "trundle.gazebo.nodes.camera_drivers:GsCam",
     ("gscam", "gscam_node"): "trundle.gazebo.nodes.camera_drivers:GsCam",
     ("image_view", "image_view"): "trundle.gazebo.nodes.rqt_windows:ImageView",
+    (
+        "imu_complementary_filter",
+        "complementary_filter_node",
+    ): "trundle.gazebo.nodes.imu_filters:ImuComplementaryFilter",
+    ("imu_filter_madgwick", "imu_filter_node"): "trundle.gazebo.nodes.imu_filters:ImuFilterMadgwick",
     ("interactive_marker_twist_server", "marker_server"): "trundle.gazebo.nodes.twist_marker_server:TwistMarkerServer",
     ("ira_laser_tools", "laserscan_multi_merger"): "trundle.navigation.scan_filters:LaserscanMultiMerger",
     (
@@ -145,6 +150,8 @@ NODELETS: dict[str, str] = {
     "depthimage_to_laserscan/DepthImageToLaserScanNodelet": (
         "trundle.gazebo.nodes.depthimage_to_laserscan:DepthImageToLaserScan"
     ),
+    "imu_complementary_filter/ComplementaryFilterNodelet": "trundle.gazebo.nodes.imu_filters:ImuComplementaryFilter",
+    "imu_filter_madgwick/ImuFilterNodelet": "trundle.gazebo.nodes.imu_filters:ImuFilterMadgwick",
     "laser_filters/scan_to_scan_filter_chain": "trundle.navigation.scan_filters:ScanToScanFilterChain",
     "pointcloud_to_laserscan/PointCloudToLaserScanNodelet": (
         "trundle.gazebo.nodes.pointcloud_to_laserscan:PointCloudToLaserScan"

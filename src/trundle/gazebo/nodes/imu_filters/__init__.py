@@ -1,0 +1,5 @@
+"""imu_tools: orientations from angular velocities, accelerations and the magnetic field."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

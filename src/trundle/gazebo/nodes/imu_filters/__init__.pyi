@@ -1,0 +1,2 @@
+from .complementary import ImuComplementaryFilter as ImuComplementaryFilter
+from .madgwick import ImuFilterMadgwick as ImuFilterMadgwick
