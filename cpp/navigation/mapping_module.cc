@@ -1,4 +1,4 @@
-// The Python module `_mapping`: gmapping's particle filter.
+// The Python module `_mapping`: gmapping's particle filter, hector_mapping's pyramid.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/tuple.h>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "grid_slam.h"
+#include "hector_bindings.h"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -118,6 +119,7 @@ NB_MODULE(_mapping, module) {
                    })
       .def_prop_ro("entropy", &GridSlam::entropy)
       .def_prop_ro("unmatched_share", &GridSlam::unmatched_share);
+  bind_hector(module);
 }
 
 }  // namespace trundle::navigation

@@ -16,10 +16,18 @@ from trundle.gazebo.nodes.map_server.occupancy_grid import read_map
 from trundle.ros import Message, Messages, open_bag, to_nsec
 
 pytestmark = pytest.mark.slow
+HECTOR = """
+  <node pkg="hector_mapping" type="hector_mapping" name="hector_mapping">
+    <param name="base_frame" value="base_footprint"/>
+    <param name="pub_map_odom_transform" value="false"/>
+    <param name="map_resolution" value="0.05"/>
+    <param name="map_size" value="512"/>
+  </node>
+"""
 LAUNCH = """
 <launch>
   <include file="$(find house_nav)/launch/sim.launch"/>
-  <include file="$(find house_nav)/launch/{nodes}.launch">{arguments}</include>
+  {nodes}
   <node if="{is_driven}" pkg="rostopic" type="rostopic" name="drive" args="pub /cmd_vel geometry_msgs/Twist
     '{{linear: {{x: 0.2}}, angular: {{z: -0.4}}}}'"/>
 </launch>
@@ -29,7 +37,8 @@ LAUNCH = """
 def drive(house: Path, folder: Path, nodes: str, *, name: str, arguments: str = "", is_driven: bool = True) -> Path:
     """Drive in circles for 30 s, or rest for 5 s, flat out; returns the bag."""
     file, bag = folder / f"{name}.launch", folder / f"{name}.bag"
-    file.write_text(LAUNCH.format(nodes=nodes, arguments=arguments, is_driven=is_driven))
+    included = f'<include file="$(find house_nav)/launch/{nodes}.launch">{arguments}</include>'
+    file.write_text(LAUNCH.format(nodes=HECTOR if nodes == "hector" else included, is_driven=is_driven))
     command = [sys.executable, "-m", "trundle", "launch", "--port", "0", str(file), "--headless"]
     options = ["--speed", "max", "--duration", "30" if is_driven else "5", "--record", str(bag)]
     env = {**os.environ, "ROS_PACKAGE_PATH": str(house)}
@@ -78,7 +87,7 @@ def test_amcl_finds_a_driving_robot_from_a_wrong_guess(house: Path, tmp_path: Pa
     assert np.median(errors) < 0.06
 
 
-@pytest.mark.parametrize("nodes", ["amcl", "gmapping"])
+@pytest.mark.parametrize("nodes", ["amcl", "gmapping", "hector"])
 def test_recordings_are_the_same_in_every_run(house: Path, tmp_path: Path, nodes: str) -> None:
     """Random numbers have a seed, and time waits for the nodes. The robot rests: rostopic pub has no simulated time."""
     bags = [drive(house, tmp_path, nodes, name=f"{nodes}{number}", is_driven=False) for number in (1, 2)]
@@ -99,6 +108,24 @@ def test_gmapping_maps_the_room_around_a_driving_robot(house: Path, tmp_path: Pa
     near = np.array([np.abs(plan - place).max(axis=1).min() < 0.051 for place in found])
     assert len(found) > 200
     assert near.mean() > 0.97
+
+
+def test_hector_mapping_follows_the_driving_robot_without_odometry(house: Path, tmp_path: Path) -> None:
+    """The map begins at the robot (-2.0, -0.8) with its heading."""
+    bag = drive(house, tmp_path, "hector", name="hector")
+
+    found, truth = planar(read(bag, "/poseupdate")), planar(read(bag, "/ground_truth"))
+    errors = [
+        np.hypot(
+            x - 2.0 - np.interp(stamp, truth[:, 0], truth[:, 1]), y - 0.8 - np.interp(stamp, truth[:, 0], truth[:, 2])
+        )
+        for stamp, x, y, _ in found
+    ]
+    assert len(errors) > 250
+    assert max(errors) < 0.1
+    assert np.median(errors) < 0.05
+    last = read(bag, "/map")[-1]
+    assert 100 in np.array(last.data)
 
 
 @pytest.mark.usefixtures("house")

@@ -31,6 +31,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ("gmapping", "slam_gmapping"): "trundle.navigation.mapping:SlamGmapping",
     ("gscam", "gscam"): "trundle.gazebo.nodes.camera_drivers:GsCam",
     ("gscam", "gscam_node"): "trundle.gazebo.nodes.camera_drivers:GsCam",
+    ("hector_mapping", "hector_mapping"): "trundle.navigation.mapping:HectorMapping",
     ("image_view", "image_view"): "trundle.gazebo.nodes.rqt_windows:ImageView",
     (
         "imu_complementary_filter",
@@ -49,6 +50,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
     ): "trundle.gazebo.nodes.joint_state_publisher:JointStatePublisherGui",
     ("joy", "joy_node"): "trundle.gazebo.nodes.joy_node:JoyNode",
     ("laser_filters", "scan_to_scan_filter_chain"): "trundle.navigation.scan_filters:ScanToScanFilterChain",
+    ("laser_scan_matcher", "laser_scan_matcher_node"): "trundle.navigation.scan_odometry:LaserScanMatcher",
     ("map_server", "map_saver"): "trundle.gazebo.nodes.map_server:MapSaver",
     ("map_server", "map_server"): "trundle.gazebo.nodes.map_server:MapServer",
     ("move_base", "move_base"): "trundle.navigation.move_base:MoveBase",
@@ -57,6 +59,7 @@ BUILTIN_NODES: dict[tuple[str, str], str] = {
         "pointcloud_to_laserscan",
         "pointcloud_to_laserscan_node",
     ): "trundle.gazebo.nodes.pointcloud_to_laserscan:PointCloudToLaserScan",
+    ("rf2o_laser_odometry", "rf2o_laser_odometry_node"): "trundle.navigation.scan_odometry:Rf2oLaserOdometry",
     ("robot_localization", "ekf_localization_node"): "trundle.gazebo.nodes.robot_localization:EkfLocalization",
     ("robot_localization", "ukf_localization_node"): "trundle.gazebo.nodes.robot_localization:EkfLocalization",
     ("robot_pose_publisher", "robot_pose_publisher"): "trundle.gazebo.nodes.robot_pose_publisher:RobotPosePublisher",
@@ -153,6 +156,7 @@ NODELETS: dict[str, str] = {
     "imu_complementary_filter/ComplementaryFilterNodelet": "trundle.gazebo.nodes.imu_filters:ImuComplementaryFilter",
     "imu_filter_madgwick/ImuFilterNodelet": "trundle.gazebo.nodes.imu_filters:ImuFilterMadgwick",
     "laser_filters/scan_to_scan_filter_chain": "trundle.navigation.scan_filters:ScanToScanFilterChain",
+    "laser_scan_matcher/LaserScanMatcherNodelet": "trundle.navigation.scan_odometry:LaserScanMatcher",
     "pointcloud_to_laserscan/PointCloudToLaserScanNodelet": (
         "trundle.gazebo.nodes.pointcloud_to_laserscan:PointCloudToLaserScan"
     ),

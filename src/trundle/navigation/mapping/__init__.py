@@ -1,4 +1,4 @@
-"""Maps from scans and odometry: gmapping."""
+"""Maps from scans: gmapping, which uses odometry, and hector_mapping, which does not."""
 
 import lazy_loader
 

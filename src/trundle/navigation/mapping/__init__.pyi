@@ -1,1 +1,2 @@
 from .gmapping import SlamGmapping as SlamGmapping
+from .hector import HectorMapping as HectorMapping

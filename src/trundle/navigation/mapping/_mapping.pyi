@@ -78,3 +78,55 @@ class GridSlam:
     @property
     def unmatched_share(self) -> float:
         """Share of particles whose match of the last scan was below the minimum score."""
+
+class HectorOptions:
+    """Parameters, with hector_mapping's meaning."""
+
+    resolution: float
+    """[m]"""
+    size: int
+    """[cells]"""
+    start_x: float
+    """Place of the world's origin, as a ratio of the size."""
+    start_y: float
+    levels: int
+    update_factor_free: float
+    update_factor_occupied: float
+    update_distance: float
+    """[m]"""
+    update_angle: float
+    """[rad]"""
+
+    def __init__(self) -> None: ...
+
+class HectorSlam:
+    """A map, as a pyramid of grids, and the robot's pose in it."""
+
+    def __init__(self, options: HectorOptions) -> None: ...
+    def reset(self) -> None:
+        """Forget the map, and put the robot at the origin."""
+
+    def update(
+        self, start: PlanarPose, sensor: tuple[float, float], ends: NDArray[np.float64], *, is_known: bool = False
+    ) -> bool:
+        """Match a scan, and enter it after enough motion; True if it was entered.
+
+        Args:
+            start: pose where the search begins.
+            sensor: origin of the beams on the robot [m].
+            ends: (n, 2) of the beams on the robot [m].
+            is_known: True: the start is the pose.
+        """
+
+    def cells(self) -> NDArray[np.int8]:
+        """Return the map: (size, size), row 0 at the bottom: −1 unknown, 0 free, 100 occupied."""
+
+    @property
+    def pose(self) -> PlanarPose:
+        """Pose of the robot in the map."""
+    @property
+    def covariance(self) -> list[float]:
+        """Of the last match: xx, xy, yy, xt, yt, tt; hector's measure, not one of metres."""
+    @property
+    def score(self) -> float:
+        """Mean probability of the cells at the ends of the last scan, 0 to 1."""

@@ -1,0 +1,10 @@
+// Part of the Python module `_mapping`.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace trundle::navigation {
+
+void bind_hector(nanobind::module_& module);
+
+}  // namespace trundle::navigation

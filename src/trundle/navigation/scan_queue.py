@@ -1,0 +1,56 @@
+"""Scans matched one after the other beside the graph's thread, which simulated time waits for."""
+
+import asyncio
+from collections import deque
+from collections.abc import Awaitable, Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trundle.ros import Node
+
+if TYPE_CHECKING:
+    from trundle.ros.message_types import sensor_msgs
+
+_MAX_BEAMS = 100_000
+
+
+class ScanQueue:
+    """Waiting scans; the oldest is dropped."""
+
+    def __init__(self, node: Node, process: "Callable[[sensor_msgs.LaserScan], Awaitable[None]]", *, size: int) -> None:
+        self._node = node
+        self._process = process
+        self._waiting: deque[sensor_msgs.LaserScan] = deque(maxlen=size)
+        self._is_waiting = asyncio.Event()
+
+    def add(self, scan: "sensor_msgs.LaserScan") -> None:
+        """Process a scan after those before it."""
+        self._waiting.append(scan)
+        self._is_waiting.set()
+
+    async def run(self) -> None:
+        """Process until cancelled."""
+        while True:
+            await self._is_waiting.wait()
+            with self._node.loop.work.pending("the scan matching"):
+                while self._waiting:
+                    await self._process(self._waiting.popleft())
+            self._is_waiting.clear()
+
+
+def beam_ends(scan: "sensor_msgs.LaserScan") -> NDArray[np.float64]:
+    """Return the ends (n, 2) of the measured beams in the laser's frame [m], in their order.
+
+    Raises:
+        ValueError: its angles or ranges are not finite, or there are too many.
+    """
+    ranges = np.array(scan.ranges, dtype=np.float64)
+    if not np.isfinite(scan.angle_min + scan.angle_increment + scan.range_min):
+        raise ValueError("its angles or the bounds of its ranges are not finite")
+    if ranges.size > _MAX_BEAMS:
+        raise ValueError(f"it has {ranges.size} beams, more than {_MAX_BEAMS}")
+    angles = scan.angle_min + scan.angle_increment * np.arange(ranges.size, dtype=np.float64)
+    is_measured = (ranges > scan.range_min) & (ranges < scan.range_max)
+    return np.stack([ranges * np.cos(angles), ranges * np.sin(angles)], axis=1)[is_measured]
