@@ -24,7 +24,6 @@ ALTERNATIVES: dict[str, str] = {
     "octomap_server": _NAVIGATION,
     "rtabmap_ros": _NAVIGATION,
     "robot_localization": _NAVIGATION,
-    "robot_pose_ekf": f"it fuses sensors; the simulator's odometry is exact already, or {OVER_THE_WIRE}",
     "uvc_camera": _DRIVER,
     "hokuyo_node": _DRIVER,
     "urg_node": _DRIVER,
