@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "costmap_cells.h"
+#include "frontiers.h"
 #include "inflation.h"
 #include "rollout.h"
 #include "voxel_rays.h"
@@ -109,6 +110,18 @@ nb::object wave_front(const Grid<const float>& costs, const std::vector<std::arr
   return array_of(std::move(potential), {costs.shape(0), costs.shape(1)});
 }
 
+nb::object frontiers_of(const Grid<const std::uint8_t>& costs, std::array<int, 2> start) {
+  const GridShape shape = shape_of(costs);
+  std::vector<std::int32_t> numbers;
+  {
+    const NoGil unlocked;
+    for (const FrontierCell& cell : find_frontiers(costs.data(), shape, start[0], start[1]))
+      numbers.insert(numbers.end(), {cell.frontier, cell.column, cell.row});
+  }
+  const std::size_t count = numbers.size() / 3;
+  return array_of(std::move(numbers), {count, 3});
+}
+
 nb::object descend_potential(const Grid<const float>& potential, std::array<int, 2> from, std::array<int, 2> to) {
   const GridShape shape = shape_of(potential);
   std::vector<double> numbers;
@@ -169,6 +182,7 @@ NB_MODULE(_grids, module) {
   module.def("clear_voxel_rays", clear_voxel_rays, nb::arg("voxels").noconvert(), nb::arg("cells").noconvert(),
              "sensor"_a, "ends"_a, nb::kw_only(), "levels"_a, "unknown_threshold"_a, "mark_threshold"_a);
   module.def("wave_front", wave_front, "costs"_a, "seeds"_a, nb::kw_only(), "stop"_a = std::array<int, 2>{-1, -1});
+  module.def("find_frontiers", frontiers_of, "costs"_a, "start"_a);
   module.def("descend", descend_potential, "potential"_a, "start"_a, "end"_a);
   nb::class_<RolloutSettings>(module, "RolloutSettings")
       .def(

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
-from numpy import float32, float64, uint8, uint32
+from numpy import float32, float64, int32, uint8, uint32
 from numpy.typing import NDArray
 
 UNREACHED: float
@@ -70,6 +70,13 @@ def wave_front(
 
 def descend(potential: NDArray[float32], start: tuple[int, int], end: tuple[int, int]) -> NDArray[float64]:
     """Return the steepest descent (n, 2) from a cell to a seed, in cells, where (0, 0) is a center; empty if none."""
+
+def find_frontiers(costs: NDArray[uint8], start: tuple[int, int]) -> NDArray[int32]:
+    """Return the cells (n, 3) of frontiers: number of the frontier, column, row.
+
+    A frontier's cells are unknown, touch each other, and lie beside free cells, some of which the start is connected
+    with. Frontiers are in the order of their distances along the way.
+    """
 
 class RolloutSettings:
     """How trajectories are simulated, and where they are measured."""

@@ -11,8 +11,6 @@ _ROSSERIAL = (
 ALTERNATIVES: dict[str, str] = {
     "cartographer_ros": _NAVIGATION,
     "costmap_2d": _NAVIGATION,
-    "explore_lite": _NAVIGATION,
-    "frontier_exploration": _NAVIGATION,
     "global_planner": _NAVIGATION,
     "karto_slam": _NAVIGATION,
     "slam_karto": _NAVIGATION,

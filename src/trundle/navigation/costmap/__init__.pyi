@@ -1,7 +1,9 @@
+from .bounded_explore_layer import BoundedExploreLayer as BoundedExploreLayer
 from .costmap import (
     FREE_SPACE as FREE_SPACE,
     INSCRIBED as INSCRIBED,
     LETHAL as LETHAL,
+    MAX_CELLS as MAX_CELLS,
     NO_INFORMATION as NO_INFORMATION,
     Bounds as Bounds,
     Costmap as Costmap,

@@ -1,6 +1,7 @@
 """costmap_2d::Costmap2DROS: a costmap that follows the robot, with its topics and parameters."""
 
 import math
+from collections.abc import Sequence
 from typing import Annotated
 
 import msgspec
@@ -112,6 +113,15 @@ class CostmapRos:
     def costmap(self) -> Costmap:
         """The costs."""
         return self._layered.costmap
+
+    @property
+    def layers(self) -> Sequence[Layer]:
+        """The layers, the first one at the bottom."""
+        return self._layered.layers
+
+    def match_size(self) -> None:
+        """Give the layers the costmap's size."""
+        self._layered.match_size()
 
     @property
     def is_current(self) -> bool:

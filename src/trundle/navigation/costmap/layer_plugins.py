@@ -8,6 +8,7 @@ from trundle.robots.parameters import RosParameters
 from trundle.ros import Node, TransformBuffer
 
 from ..settings import read_settings
+from .bounded_explore_layer import BoundedExploreLayer, BoundedExploreSettings
 from .costmap import Costmap
 from .inflation_layer import InflationLayer, InflationSettings
 from .observations import ObservationSource, SourceSettings
@@ -165,6 +166,11 @@ class LayerMaker:
         settings = read_settings(SocialSettings, self._settings.section(name))
         return SocialLayer(self._node, name, settings, frame=self._frame, buffer=self._buffer, passes=passes)
 
+    def make_bounded_explore(self, name: str, settings: RosParameters) -> BoundedExploreLayer:
+        del settings
+        own = read_settings(BoundedExploreSettings, self._settings.section(name))
+        return BoundedExploreLayer(name, self._master, own)
+
     def _tracks_unknown(self, own: RosParameters) -> bool:
         default = self._settings.flag("track_unknown_space", default=False)
         return own.flag("track_unknown_space", default=default)
@@ -199,6 +205,7 @@ _MAKERS: dict[str, Callable[[LayerMaker, str, RosParameters], "Layer"]] = {
     "ProxemicLayer": LayerMaker.make_proxemic,
     "PassingLayer": LayerMaker.make_passing,
     "InflationLayer": LayerMaker.make_inflation,
+    "BoundedExploreLayer": LayerMaker.make_bounded_explore,
 }
 
 

@@ -1,0 +1,76 @@
+"""actionlib client on plain topics: one goal at a time."""
+
+import itertools
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from ..node.graph_node import Node
+
+if TYPE_CHECKING:
+    from ..messages.raw_message import Message
+
+ABORTED = 4
+"""State of a goal that the server gave up, as in actionlib_msgs/GoalStatus."""
+
+
+class ActionClient:
+    """Sends goals to an action's server; a new goal replaces the last one."""
+
+    def __init__(self, node: Node, name: str, type_name: str) -> None:
+        """Advertise and subscribe the action's topics.
+
+        Args:
+            node: node that publishes and subscribes.
+            name: action's namespace, resolved like a topic.
+            type_name: action type, such as 'move_base_msgs/MoveBase'.
+        """
+        self._node = node
+        self._numbers = itertools.count(1)
+        self._goal_id = ""
+        self._on_done: Callable[[int], object] | None = None
+        self._on_feedback: Callable[[Message], object] | None = None
+        self._goals = node.advertise(f"{name}/goal", f"{type_name}ActionGoal", queue_size=10)
+        self._cancels = node.advertise(f"{name}/cancel", "actionlib_msgs/GoalID", queue_size=10)
+        node.subscribe(f"{name}/result", f"{type_name}ActionResult", self._receive_result, queue_size=10)
+        node.subscribe(f"{name}/feedback", f"{type_name}ActionFeedback", self._receive_feedback, queue_size=10)
+
+    @property
+    def has_server(self) -> bool:
+        """True if a server receives goals."""
+        return self._goals.has_subscribers
+
+    def send(
+        self,
+        goal: dict[str, Any],
+        on_done: Callable[[int], object],
+        on_feedback: "Callable[[Message], object] | None" = None,
+    ) -> None:
+        """Send a goal.
+
+        Args:
+            goal: fields of the goal.
+            on_done: called with the goal's last state, unless another goal replaced it.
+            on_feedback: called with each feedback.
+        """
+        now_ns = self._node.clock.now_ns()
+        self._goal_id = f"{self._node.name}-{next(self._numbers)}-{now_ns / 1e9:.9f}"
+        self._on_done, self._on_feedback = on_done, on_feedback
+        self._goals.publish(
+            {"header": {"stamp": now_ns}, "goal_id": {"stamp": now_ns, "id": self._goal_id}, "goal": goal}
+        )
+
+    def cancel(self) -> None:
+        """Cancel the goal, whose end is not reported any more."""
+        if self._goal_id:
+            self._cancels.publish({"id": self._goal_id})
+        self._goal_id, self._on_done, self._on_feedback = "", None, None
+
+    def _receive_result(self, message: Any) -> None:
+        if message.status.goal_id.id == self._goal_id and self._on_done is not None:
+            on_done = self._on_done
+            self._goal_id, self._on_done, self._on_feedback = "", None, None
+            on_done(int(message.status.status))
+
+    def _receive_feedback(self, message: Any) -> None:
+        if message.status.goal_id.id == self._goal_id and self._on_feedback is not None:
+            self._on_feedback(message.feedback)
