@@ -1,1 +1,1 @@
-from .ekf import EkfLocalization as EkfLocalization
+from .ekf import EkfLocalization as EkfLocalization, UkfLocalization as UkfLocalization

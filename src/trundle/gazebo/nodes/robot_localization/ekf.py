@@ -1,4 +1,4 @@
-"""robot_localization/ekf_localization_node, and ukf_localization_node by the same filter."""
+"""robot_localization/ekf_localization_node and ukf_localization_node."""
 
 import math
 from collections.abc import Sequence
@@ -15,6 +15,7 @@ from ..private_parameters import private_parameters
 from ..rate import LogThrottle, Rate
 from .kalman import ANGLES, SIZE, Array, KalmanFilter, Measurement
 from .sources import KINDS, MessageReader, Source, read_sources
+from .unscented import UnscentedKalmanFilter
 
 _NOISE = (0.05, 0.05, 0.06, 0.03, 0.03, 0.06, 0.025, 0.025, 0.04, 0.01, 0.01, 0.02, 0.01, 0.01, 0.015)
 """Default process noise: growth of the state's variances per second."""
@@ -104,8 +105,11 @@ class EkfLocalization:
         node.advertise_service("set_pose", "robot_localization/SetPose", self._on_set_pose)
         node.advertise_service("~toggle", "robot_localization/ToggleFilterProcessing", self._on_toggle)
 
+    def _make_filter(self) -> KalmanFilter:
+        return KalmanFilter(process_noise=self._noise, covariance=self._start, state=self._initial)
+
     def _reset(self) -> None:
-        self._filter = KalmanFilter(process_noise=self._noise, covariance=self._start, state=self._initial)
+        self._filter = self._make_filter()
         self._time_ns: int | None = None
         """Stamp of the estimate; None: no measurement yet."""
         self._now_ns = 0
@@ -244,6 +248,26 @@ class EkfLocalization:
         has_changed = bool(request.on) != self._is_on
         self._is_on = bool(request.on)
         return {"status": has_changed}
+
+
+class UkfLocalization(EkfLocalization):
+    """EkfLocalization with an unscented filter, of the parameters alpha 0.001, kappa 0 and beta 2."""
+
+    def _read(self, settings: RosParameters) -> None:
+        super()._read(settings)
+        self._alpha = settings.number("alpha", 0.001, above=0.0)
+        self._kappa = settings.number("kappa", 0.0, above=-SIZE)
+        self._beta = settings.number("beta", 2.0, minimum=0.0)
+
+    def _make_filter(self) -> KalmanFilter:
+        return UnscentedKalmanFilter(
+            process_noise=self._noise,
+            covariance=self._start,
+            state=self._initial,
+            alpha=self._alpha,
+            kappa=self._kappa,
+            beta=self._beta,
+        )
 
 
 def _xyz(values: Sequence[float]) -> dict[str, float]:

@@ -56,7 +56,7 @@ class KalmanFilter:
         """Predict over a time [s] at constant acceleration and angular velocity."""
         steps = _STEP * np.eye(SIZE)
         samples = np.concatenate((steps, -steps), axis=1) + self.state[:, None]
-        predicted = _motion(np.concatenate((samples, self.state[:, None]), axis=1), dt)
+        predicted = move(np.concatenate((samples, self.state[:, None]), axis=1), dt)
         jacobian = (predicted[:, :SIZE] - predicted[:, SIZE:-1]) / (2.0 * _STEP)
         self.state = predicted[:, -1]
         self.covariance = jacobian @ self.covariance @ jacobian.T + self._process_noise * dt
@@ -99,7 +99,7 @@ def wrap_angles(angles: Array) -> Array:
     return (angles + math.pi) % (2.0 * math.pi) - math.pi
 
 
-def _motion(states: Array, dt: float) -> Array:
+def move(states: Array, dt: float) -> Array:
     """Return states (15, n) after a time [s]."""
     predicted = states.copy()
     displacement = states[6:9] * dt + 0.5 * states[12:15] * dt * dt
