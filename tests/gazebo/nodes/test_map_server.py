@@ -48,6 +48,23 @@ def test_a_truncated_image_is_rejected(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("image", "reason"),
+    [
+        (b"P5\n100000 100000\n255\n", "exceeds limit"),
+        (b"P5\n12000 12000\n255\n", "exceed the limit of 100000000 for maps"),
+        (b"P5\n-1 5\n255\n", "it is not an image"),
+        (b"P5\n10 10\n255\nabc", "truncated"),
+        (b"P5\n" + 10_000 * b"9" + b" 1\n255\n", "Token too long"),
+    ],
+)
+def test_a_hostile_image_is_rejected(picture: Path, image: bytes, reason: str) -> None:
+    picture.with_name("map.pgm").write_bytes(image)
+    picture.write_text(f"image: map.pgm\n{_KEYS}")
+    with pytest.raises(UsageError, match=reason):
+        read_map(picture)
+
+
+@pytest.mark.parametrize(
     ("text", "reason"),
     [
         ("image: map.pgm\n", "the key 'origin' is missing"),
@@ -57,7 +74,15 @@ def test_a_truncated_image_is_rejected(tmp_path: Path) -> None:
         (f"image: map.yaml\n{_KEYS}", "map.yaml: it is not an image"),
         (f"image: map.pgm\n{_KEYS.replace('0.05', '0')}", "resolution must be > 0"),
         (f"image: map.pgm\nmode: other\n{_KEYS}", "no mode 'other'"),
-        (f"image: map.pgm\n{_KEYS.replace('[-1.0, -2.0, 0.5]', 'x')}", ""),
+        (f"image: map.pgm\n{_KEYS.replace('[-1.0, -2.0, 0.5]', 'x')}", "origin: 'x' is not 3 numbers"),
+        (f"image: map.pgm\n{_KEYS.replace('-1.0', '.nan')}", "origin: nan is not a finite number"),
+        (f"image: map.pgm\n{_KEYS.replace('-1.0', '.inf')}", "origin: inf is not a finite number"),
+        (f"image: map.pgm\n{_KEYS.replace('0.05', '1' + 400 * '0')}", r"resolution: 1000.*\.\.\. is not a number"),
+        (f"image: map.pgm\n{_KEYS.replace('0.65', '.nan')}", "occupied_thresh: nan is not a finite number"),
+        (f"image: map.pgm\nmode: scale\n{_KEYS.replace('0.65', '0.196')}", "free_thresh must be < occupied_thresh"),
+        ("[" * 100_000, "nested too deeply"),
+        (f"image: /dev/zero\n{_KEYS}", "it is a device"),
+        (f"image: [1]\n{_KEYS}", r"image: \[1\] is not a text"),
     ],
 )
 def test_an_invalid_map_is_rejected(picture: Path, text: str, reason: str) -> None:

@@ -18,7 +18,7 @@ def number(value: object) -> float:
     """Return a finite number."""
     try:
         result = float(value) if isinstance(value, str | SupportsFloat) else None
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         result = None
     if result is None or isinstance(value, bool):
         raise ValueError(f": {_shorten(value)} is not a number")

@@ -16,8 +16,10 @@ from trundle.base.diagnostics import UsageError
 from trundle.base.files import read_file
 from trundle.base.yaml_loader import load_yaml
 from trundle.robots.meshes import decoding_error, ignored_decoder_warnings
+from trundle.robots.parameters import ParamError, RosParameters
 
 _FREE, _OCCUPIED, _UNKNOWN = 0, 100, -1
+_KEYS = ("image", "origin", "resolution", "negate", "occupied_thresh", "free_thresh")
 _MAX_BYTES = 256 * 1024 * 1024
 _MAX_PIXELS = 100_000_000
 
@@ -45,19 +47,21 @@ def read_map(file: Path) -> OccupancyGrid:
         raise UsageError(f"map {file}: {error}") from None
     if not isinstance(metadata, dict):
         raise UsageError(f"map {file}: not a YAML mapping")
+    missing = [key for key in _KEYS if metadata.get(key) is None]
+    if missing:
+        raise UsageError(f"map {file}: the key {missing[0]!r} is missing")
+    values = RosParameters(metadata, f"{file}:")
     try:
-        image_path = file.parent / str(metadata["image"])
-        x, y, yaw = (float(v) for v in metadata["origin"])
-        resolution_m = float(metadata["resolution"])
-        negate = bool(int(metadata["negate"]))
-        occupied, free = float(metadata["occupied_thresh"]), float(metadata["free_thresh"])
-    except KeyError as error:
-        raise UsageError(f"map {file}: the key {error} is missing") from None
-    except (TypeError, ValueError) as error:
-        raise UsageError(f"map {file}: {error}") from None
-    mode = str(metadata.get("mode", "trinary"))
+        x, y, yaw = values.vector("origin")
+        resolution_m, negate = values.number("resolution"), values.flag("negate")
+        occupied, free = values.number("occupied_thresh"), values.number("free_thresh")
+        image_path, mode = file.parent / values.text("image"), values.text("mode", "trinary")
+    except ParamError as error:
+        raise UsageError(f"map {file}: {str(error).removeprefix(f'parameter {file}:/')}") from None
     if mode not in ("trinary", "scale", "raw"):
         raise UsageError(f"map {file}: no mode {mode!r}; modes: trinary, scale, raw")
+    if mode == "scale" and not free < occupied:
+        raise UsageError(f"map {file}: free_thresh must be < occupied_thresh to scale, got {free:g} and {occupied:g}")
     cells = read_cells(image_path, negate=negate, occupied=occupied, free=free, mode=mode)
     return OccupancyGrid(cells=cells, resolution_m=positive(resolution_m, file), origin=(x, y, yaw))
 
@@ -116,7 +120,7 @@ def _cells(pixels: NDArray[np.float64], *, negate: bool, occupied: float, free: 
     occupancy = (255.0 - brightness) / 255.0
     intermediate = np.full_like(occupancy, _UNKNOWN)
     if mode == "scale":
-        intermediate = np.floor(1.0 + 98.0 * (occupancy - free) / (occupied - free))
+        intermediate = np.floor(1.0 + 98.0 * np.clip((occupancy - free) / (occupied - free), 0.0, 1.0))
         if has_opacity:
             intermediate[pixels[:, :, -1] < 1.0] = _UNKNOWN
     cells = np.where(occupancy > occupied, _OCCUPIED, np.where(occupancy < free, _FREE, intermediate))
