@@ -9,6 +9,8 @@ from ..node.graph_node import Node
 if TYPE_CHECKING:
     from ..messages.raw_message import Message
 
+_PATIENCE_NS = 1_000_000_000
+"""Time after which a goal that is in no status is sent again."""
 ABORTED = 4
 """State of a goal that the server gave up, as in actionlib_msgs/GoalStatus."""
 
@@ -27,17 +29,22 @@ class ActionClient:
         self._node = node
         self._numbers = itertools.count(1)
         self._goal_id = ""
+        self._message: dict[str, Any] = {}
+        """The goal, as it is sent again if the server did not receive it."""
+        self._sent_ns = 0
+        self._has_status = False
         self._on_done: Callable[[int], object] | None = None
         self._on_feedback: Callable[[Message], object] | None = None
         self._goals = node.advertise(f"{name}/goal", f"{type_name}ActionGoal", queue_size=10)
         self._cancels = node.advertise(f"{name}/cancel", "actionlib_msgs/GoalID", queue_size=10)
+        node.subscribe(f"{name}/status", "actionlib_msgs/GoalStatusArray", self._receive_status, queue_size=10)
         node.subscribe(f"{name}/result", f"{type_name}ActionResult", self._receive_result, queue_size=10)
         node.subscribe(f"{name}/feedback", f"{type_name}ActionFeedback", self._receive_feedback, queue_size=10)
 
     @property
     def has_server(self) -> bool:
-        """True if a server receives goals."""
-        return self._goals.has_subscribers
+        """True if there is a server, and somebody receives goals."""
+        return self._has_status and self._goals.has_subscribers
 
     def send(
         self,
@@ -52,18 +59,27 @@ class ActionClient:
             on_done: called with the goal's last state, unless another goal replaced it.
             on_feedback: called with each feedback.
         """
-        now_ns = self._node.clock.now_ns()
+        now_ns = self._sent_ns = self._node.clock.now_ns()
         self._goal_id = f"{self._node.name}-{next(self._numbers)}-{now_ns / 1e9:.9f}"
         self._on_done, self._on_feedback = on_done, on_feedback
-        self._goals.publish(
-            {"header": {"stamp": now_ns}, "goal_id": {"stamp": now_ns, "id": self._goal_id}, "goal": goal}
-        )
+        goal_id = {"stamp": now_ns, "id": self._goal_id}
+        self._message = {"header": {"stamp": now_ns}, "goal_id": goal_id, "goal": goal}
+        self._goals.publish(self._message)
 
     def cancel(self) -> None:
         """Cancel the goal, whose end is not reported any more."""
         if self._goal_id:
             self._cancels.publish({"id": self._goal_id})
         self._goal_id, self._on_done, self._on_feedback = "", None, None
+
+    def _receive_status(self, message: Any) -> None:
+        """Send a goal again that the server does not know: it was not connected yet."""
+        self._has_status = True
+        now_ns = self._node.clock.now_ns()
+        is_known = any(status.goal_id.id == self._goal_id for status in message.status_list)
+        if self._goal_id and not is_known and not 0 <= now_ns - self._sent_ns < _PATIENCE_NS:
+            self._sent_ns = now_ns
+            self._goals.publish(self._message)
 
     def _receive_result(self, message: Any) -> None:
         if message.status.goal_id.id == self._goal_id and self._on_done is not None:

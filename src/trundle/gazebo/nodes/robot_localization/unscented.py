@@ -60,8 +60,8 @@ class UnscentedKalmanFilter(KalmanFilter):
 def _root(covariance: Array) -> Array:
     """Return a matrix whose product with its transpose is a covariance, which may be singular."""
     try:
-        root: Array = np.linalg.cholesky(covariance)
+        root = np.asarray(np.linalg.cholesky(covariance), dtype=np.float64)
     except np.linalg.LinAlgError:
         values, vectors = np.linalg.eigh(covariance)
-        root = (vectors * np.sqrt(np.maximum(values, 0.0))).astype(np.float64)
+        root = np.asarray(vectors * np.sqrt(np.maximum(values, 0.0)), dtype=np.float64)
     return root

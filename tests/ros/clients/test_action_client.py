@@ -1,0 +1,69 @@
+"""Goals of an action's client reach a server that comes late."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from tests.graphs import running_graph, until
+
+from trundle.ros import ABORTED, ActionClient, ActionResult, ActionServer
+
+TYPE = "move_base_msgs/MoveBase"
+
+
+@pytest.mark.parametrize("status", ["succeeded", "aborted"])
+def test_a_goal_is_sent_again_to_a_server_that_comes_late(status: Any) -> None:
+    """A recorder receives goals, too, and is no server."""
+    received: list[float] = []
+    states: list[int] = []
+    feedback: list[Any] = []
+
+    async def execute(goal: Any, accept: Callable[[], None]) -> ActionResult:
+        received.append(goal.target_pose.pose.position.x)
+        accept()
+        server.publish_feedback({"base_position": {"pose": {"position": {"x": 7.0}}}})
+        return ActionResult(status=status)
+
+    with running_graph() as graph:
+        recorder, node, late = graph.node("/recorder"), graph.node("/explorer"), graph.node("/driver")
+        heard: list[Any] = []
+        recorder.subscribe("/drive/goal", f"{TYPE}ActionGoal", heard.append)
+        client = ActionClient(node, "/drive", TYPE)
+        until(lambda: any(link[4] == "/drive/goal" for link in node.endpoints.connections()))
+        client.send({"target_pose": {"pose": {"position": {"x": 3.0}}}}, states.append, feedback.append)
+        until(lambda: heard)
+        assert not client.has_server
+
+        server = ActionServer(late, "/drive", TYPE, execute)
+        until(lambda: states)
+        assert received == [3.0]
+        assert states == [ABORTED if status == "aborted" else 3]
+        assert [message.base_position.pose.position.x for message in feedback] in ([], [7.0])
+        assert client.has_server
+        graph.ready(recorder, node, late)
+
+
+def test_the_end_of_a_cancelled_goal_is_not_reported() -> None:
+    states: list[int] = []
+    ends: list[str] = []
+
+    async def execute(_goal: Any, accept: Callable[[], None]) -> ActionResult:
+        accept()
+        try:
+            await never.wait()
+        finally:
+            ends.append("cancelled")
+        return ActionResult()
+
+    with running_graph() as graph:
+        node = graph.node("/explorer")
+        client = ActionClient(node, "/drive", TYPE)
+        never = node.closed
+        server = ActionServer(node, "/drive", TYPE, execute)
+        until(lambda: client.has_server)
+        client.send({}, states.append)
+        until(lambda: server.active)
+        client.cancel()
+        until(lambda: ends)
+        assert states == []
+        graph.ready(node)
