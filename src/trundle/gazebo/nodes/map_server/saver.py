@@ -61,11 +61,23 @@ class MapSaver:
 
 
 def _read_grid(message: "nav_msgs.OccupancyGrid") -> OccupancyGrid:
+    """Convert a message.
+
+    Raises:
+        UsageError: its cells do not fit its size, or a number is not finite.
+    """
     info, orientation = message.info, message.info.origin.orientation
-    cells = np.asarray(message.data, dtype=np.int8).reshape(info.height, info.width)
+    cells = np.asarray(message.data, dtype=np.int8)
+    if cells.size != info.height * info.width:
+        raise UsageError(f"the map announces {info.width} × {info.height} cells, and has {cells.size}")
     yaw = math.atan2(
         2.0 * (orientation.w * orientation.z + orientation.x * orientation.y),
         1.0 - 2.0 * (orientation.y**2 + orientation.z**2),
     )
     position = info.origin.position
-    return OccupancyGrid(cells=cells, resolution_m=float(info.resolution), origin=(position.x, position.y, yaw))
+    if not math.isfinite(info.resolution + position.x + position.y + yaw):
+        raise UsageError("the map's resolution or origin is not finite")
+    origin = (position.x, position.y, yaw)
+    return OccupancyGrid(
+        cells=cells.reshape(info.height, info.width), resolution_m=float(info.resolution), origin=origin
+    )
