@@ -7,11 +7,7 @@ does the rest: no code runs at a step.
 
 import math
 
-from trundle import ros
-from trundle.gazebo.plugins import Plugin
-from trundle.robots.model import PluginTag
-from trundle.robots.parameters import TagParameters
-from trundle.sim.simulation import ModelHandle, Simulation
+from trundle import ModelHandle, Plugin, PluginTag, Simulation, TagParameters, ros
 
 
 class Motors(Plugin):

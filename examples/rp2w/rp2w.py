@@ -15,13 +15,9 @@ Forward is the model's +y, the direction of both cameras. Parameters of <plugin>
 
 import math
 
-from trundle import ros
-from trundle.gazebo.plugins import Plugin
-from trundle.robots.model import PluginTag
-from trundle.robots.parameters import TagParameters
+from trundle import ModelHandle, Plugin, PluginTag, Simulation, Snapshot, TagParameters, ros
 from trundle.ros import bridge
 from trundle.sim.control import DifferentialDrive, WheelOdometry, step_towards
-from trundle.sim.simulation import ModelHandle, Simulation, Snapshot
 
 PERIOD_S = 0.02
 TURNING_ACCELERATION = 2.0

@@ -11,7 +11,7 @@ from trundle.base.diagnostics import UsageError
 from trundle.gym.ready_tasks import READY
 from trundle.gym.vector_env import SimulationVectorEnv
 from trundle.gym.worlds import Task, Worlds
-from trundle.live.loaded_simulation import load_simulation
+from trundle.live.loaded_simulation import load
 
 NAME = "Trundle/CartPole-v0"
 
@@ -42,7 +42,7 @@ def test_an_unknown_device_is_refused() -> None:
 def test_episodes_on_the_gpu_equal_those_on_the_cpu() -> None:
     file, task = READY[NAME]
     cpu, gpu = (
-        SimulationVectorEnv(Worlds(load_simulation(str(file)), Task(**task), rows=4, threads=1, gpu=device))
+        SimulationVectorEnv(Worlds(load(file), Task(**task), rows=4, threads=1, gpu=device))
         for device in (None, warp_device())
     )
     cpu.action_space.seed(1)

@@ -33,7 +33,7 @@ def trundle_sim(request: pytest.FixtureRequest) -> "Callable[..., LoadedSimulati
         from trundle import load
 
         path = request.path.parent / file
-        return load(str(path) if "://" not in file and os.path.exists(path) else file, seed=seed)
+        return load(str(path) if "://" not in file and os.path.exists(path) else file, seed=seed, warn=False)
 
     return make
 

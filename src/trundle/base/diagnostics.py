@@ -7,6 +7,8 @@ dataclasses: their module takes longer to load than light commands take to run.
     ├── DescriptionError           a file cannot be interpreted
     │   └── UnknownArgumentError   an argument that a file does not declare
     └── UsageError                an invalid request (a port in use, an unknown name)
+
+    TrundleWarning                 what `trundle.load` cannot simulate of a file
 """
 
 import os
@@ -49,6 +51,8 @@ def _colored_line(line: str) -> str:
 class Source(NamedTuple):
     """Source position: the file as named by the user, and the line, counted from 1."""
 
+    __module__ = "trundle"
+
     file: str
     line: int | None = None
 
@@ -60,12 +64,22 @@ class Source(NamedTuple):
 class TrundleError(Exception):
     """Base of all errors that a user can fix."""
 
+    __module__ = "trundle"
+
     missing_packages: tuple[str, ...] = ()
     """Names of missing ROS packages."""
 
 
+class TrundleWarning(UserWarning):
+    """Part of a file that is not simulated as written; Python prints it with file and line."""
+
+    __module__ = "trundle"
+
+
 class UsageError(TrundleError):
     """Request that cannot be fulfilled."""
+
+    __module__ = "trundle"
 
     def __init__(self, what: str, *, missing_packages: tuple[str, ...] = ()) -> None:
         """State the error."""
@@ -75,6 +89,8 @@ class UsageError(TrundleError):
 
 class DescriptionError(TrundleError):
     """File, or part of a file, that cannot be interpreted."""
+
+    __module__ = "trundle"
 
     def __init__(
         self, at: Source, what: str, *, more: "Iterable[DescriptionError]" = (), missing_packages: tuple[str, ...] = ()
@@ -109,6 +125,12 @@ def did_you_mean(name: str, names: Collection[str]) -> str:
     return "" if near is None else f" (did you mean {near!r}?)"
 
 
+def no_such(problem: str, name: object, names: Collection[str]) -> str:
+    """Return the sentence for a name that does not exist: `PROBLEM 'NAME' (did you mean …?); there are: …`."""
+    near = did_you_mean(name, {*names, *(full.rpartition("::")[2] for full in names)}) if isinstance(name, str) else ""
+    return f"{problem} {name!r}{near}; there are: {', '.join(map(repr, names)) or 'none'}"
+
+
 def similar_file(path: str) -> str:
     """Return ` (did you mean 'NAME'?)` for a missing file's neighbor; "" if none has a similar name."""
     try:
@@ -130,6 +152,8 @@ class DiagnosticJson(TypedDict):
 class Diagnostic(NamedTuple):
     """Finding with severity, source and message."""
 
+    __module__ = "trundle"
+
     severity: Severity
     at: Source
     what: str
@@ -143,6 +167,8 @@ class Diagnostic(NamedTuple):
 
 class Diagnostics:
     """Collection of findings in order, without duplicates."""
+
+    __module__ = "trundle"
 
     def __init__(self, *, strict: bool = False) -> None:
         """Start empty; `strict` turns every warning into an error, which ends reading."""

@@ -36,7 +36,7 @@ def _plugin_modules() -> set[str]:
         kind = kinds.pop()
         kinds += kind.__subclasses__()
         modules.add(kind.__module__)
-    return {name for name in modules if not name.startswith(_TRUNDLE_PACKAGE)}
+    return {name for name in modules if not f"{name}.".startswith(_TRUNDLE_PACKAGE)}
 
 
 def _module(frame: FrameType) -> str:

@@ -5,7 +5,7 @@ import warnings
 from typing import TYPE_CHECKING, Literal, Unpack
 
 from trundle.base.diagnostics import UsageError
-from trundle.live.loaded_simulation import LoadedSimulation, load_simulation
+from trundle.live.loaded_simulation import load
 from trundle.sim.physics import NoGpuError, find_gpu
 
 from .single_env import SimulationEnv
@@ -38,7 +38,7 @@ def make(
         TrundleError: the file cannot be read, or a name in it does not exist.
     """
     _check_render_mode(render_mode)
-    worlds = Worlds(_load(file), Task(**task), rows=1, threads=1)
+    worlds = Worlds(load(file), Task(**task), rows=1, threads=1)
     return SimulationEnv(worlds, render_mode=render_mode, camera=camera)
 
 
@@ -71,12 +71,8 @@ def make_vec(
     if num_envs < 1:
         raise UsageError(f"num_envs={num_envs}: at least one world is needed")
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    worlds = Worlds(_load(file), Task(**task), rows=num_envs, threads=threads or cores or 1, gpu=gpu)
+    worlds = Worlds(load(file), Task(**task), rows=num_envs, threads=threads or cores or 1, gpu=gpu)
     return SimulationVectorEnv(worlds, render_mode=render_mode, camera=camera)
-
-
-def _load(file: "str | os.PathLike[str] | Model | World") -> LoadedSimulation:
-    return load_simulation(os.fspath(file) if isinstance(file, str | os.PathLike) else file)
 
 
 def _find_gpu(device: str) -> str | None:

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from trundle.base.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError, no_such
 from trundle.live.loaded_simulation import LoadedSimulation
 from trundle.sim.physics import Batch
 from trundle.spatial import NS_PER_S, conjugate_rows, rotate_rows
@@ -144,4 +144,4 @@ def find_name(name: str, names: Sequence[str], kind: str) -> int:
         return matches[0]
     if matches:
         raise UsageError(f"several {kind}s are called {name!r}; write one of {', '.join(names[i] for i in matches)}")
-    raise UsageError(f"no {kind} {name!r}; there are: {', '.join(map(repr, names)) or 'none'}")
+    raise UsageError(no_such(f"no {kind}", name, names))

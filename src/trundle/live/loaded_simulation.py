@@ -1,12 +1,14 @@
 """Result of `trundle.load`: a simulation with its sensors by name, its plugins and its ROS graph."""
 
 import os
+import warnings
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.base.arguments import described
+from trundle.base.diagnostics import Diagnostic, Diagnostics, TrundleWarning, UsageError
 from trundle.robots.packages import Packages
 from trundle.sim.realtime_pacer import STRIDE_FLAT_OUT_NS
 from trundle.sim.simulation import Simulation
@@ -29,6 +31,8 @@ class LoadedSimulation(Simulation):
 
     If it is part of a ROS graph, `close` it, or use it in a `with` statement.
     """
+
+    __module__ = "trundle"
 
     def __init__(
         self,
@@ -185,19 +189,41 @@ class LoadedSimulation(Simulation):
         self.close()
 
 
-def load_simulation(
-    file: "str | Model | World", *, seed: int = 0, plugins: bool = False, ros: bool | str = False
+def load(
+    file: "str | os.PathLike[str] | Model | World",
+    *,
+    seed: int = 0,
+    plugins: bool = False,
+    ros: bool | str = False,
+    warn: bool = True,
 ) -> LoadedSimulation:
-    """Read and compile a file, with os.environ; see `trundle.load`."""
+    """Load a robot or world, ready to simulate; a robot alone gets a ground plane and a sun.
+
+    Args:
+        file: SDF, URDF or xacro; a folder with model.config; model://NAME; or a `Model` or `World`.
+        seed: seed of all random numbers.
+        plugins: run the file's plugins, with ROS if `ros` is set; loaded plugins are listed in `report`.
+        ros: join the ROS graph at ROS_MASTER_URI, or start a master if there is none; a master's URI joins its
+            graph. `close` the simulation, or use it in a `with` statement.
+        warn: print what is not simulated as written, as Python's warnings, each with file and line; False: only
+            collect it in the simulation's `report`.
+
+    Raises:
+        TrundleError: one sentence with file and line.
+    """
+    if not isinstance(seed, int):
+        raise UsageError(f"seed must be a whole number, got {described(seed)}")
     environment = dict(os.environ)
     if isinstance(ros, str):
         environment["ROS_MASTER_URI"] = ros
-    report = Diagnostics()
+    report = _PrintedDiagnostics() if warn else Diagnostics()
     packages = Packages(environment, start=Path.cwd())
-    if isinstance(file, str):
-        loaded = load_world(file, packages, report, seed=seed)
-    else:
+    if isinstance(file, str | os.PathLike):
+        loaded = load_world(os.fspath(file), packages, report, seed=seed)
+    elif hasattr(file, "to_sdf"):  # its classes are not imported for a file
         loaded = load_built(file, packages, report, seed=seed)
+    else:
+        raise UsageError(f"load needs a file's path, model://NAME, a Model or a World, got {described(file)}")
     simulation = LoadedSimulation(loaded, report, environment, seed=seed)
     try:
         if ros:
@@ -208,3 +234,14 @@ def load_simulation(
         simulation.close()
         raise
     return simulation
+
+
+class _PrintedDiagnostics(Diagnostics):
+    """Diagnostics whose warnings are also Python's, at the line of the file."""
+
+    def _add(self, finding: Diagnostic) -> None:
+        count = len(self.findings)
+        super()._add(finding)
+        if len(self.findings) > count and finding.severity == "warning":
+            text, (file, line) = self.findings[-1].what, finding.at
+            warnings.warn_explicit(text, TrundleWarning, file, line or 1, module="trundle")

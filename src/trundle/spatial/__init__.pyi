@@ -36,6 +36,7 @@ from .vectors import (
     dot as dot,
     multiply as multiply,
     normalized as normalized,
+    numbers_of as numbers_of,
     subtract as subtract,
 )
 from .wrench import Wrench as Wrench

@@ -3,6 +3,7 @@
 from typing import Self
 
 from msgspec import Struct
+from msgspec.structs import force_setattr
 
 from .quaternions import (
     IDENTITY_QUATERNION,
@@ -13,16 +14,31 @@ from .quaternions import (
     rotate,
     rpy_from_quaternion,
 )
-from .vectors import ZERO, Vector3
+from .vectors import ZERO, Vector3, numbers_of
 
 
 class Pose(Struct, frozen=True):
-    """Rigid transform `a_from_b`: origin and axes of frame b, expressed in frame a."""
+    """Rigid transform `a_from_b`: origin and axes of frame b, expressed in frame a.
+
+    Position and quaternion may be lists and arrays, too; they become tuples.
+
+    Raises:
+        ValueError: the position is not 3 numbers, or the quaternion not 4.
+    """
+
+    __module__ = "trundle"
 
     position: Vector3 = ZERO
     """[m]"""
     quaternion: Quaternion = IDENTITY_QUATERNION
     """(w, x, y, z), unit."""
+
+    def __post_init__(self) -> None:
+        p, q = self.position, self.quaternion
+        if p.__class__ is tuple and len(p) == 3 and q.__class__ is tuple and len(q) == 4:
+            return
+        force_setattr(self, "position", numbers_of(p, (3,), "a Pose's position must be 3 numbers (x, y, z) [m]"))
+        force_setattr(self, "quaternion", numbers_of(q, (4,), "a Pose's quaternion must be 4 numbers (w, x, y, z)"))
 
     @classmethod
     def from_rpy(cls, x: float, y: float, z: float, roll: float = 0.0, pitch: float = 0.0, yaw: float = 0.0) -> Self:

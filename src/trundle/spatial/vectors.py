@@ -1,7 +1,7 @@
 """Vectors of three numbers as tuples."""
 
 import math
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 Vector3: TypeAlias = tuple[float, float, float]
 
@@ -39,3 +39,18 @@ def normalized(v: Vector3) -> Vector3 | None:
     if not 0.0 < length < math.inf:
         return None
     return (v[0] / length, v[1] / length, v[2] / length)
+
+
+def numbers_of(values: Any, counts: tuple[int, ...], problem: str) -> tuple[float, ...]:
+    """Return the numbers of a sequence or array (N,), N being one of `counts`.
+
+    Raises:
+        ValueError: they are something else; the message is `problem`, and what they are.
+    """
+    try:
+        numbers = tuple(float(value + 0.0) for value in values)  # text plus a number is a TypeError
+    except (TypeError, ValueError):
+        numbers = ()
+    if len(numbers) not in counts:
+        raise ValueError(f"{problem}, got {values!r}") from None
+    return numbers

@@ -104,7 +104,7 @@ def test_impossible_attachments_and_detachments_are_refused(sim: Simulation) -> 
     ):
         with pytest.raises(UsageError, match=words):
             sim.attach(wrong)
-    with pytest.raises(UsageError, match="no joint 'rope' between models; there are: 'tie'"):
+    with pytest.raises(UsageError, match="no joint between models 'rope'; there are: 'tie'"):
         sim.detach("rope")
 
 

@@ -134,5 +134,5 @@ def test_state_and_commands_are_independent(tmp_path) -> None:
 def test_a_state_that_is_not_finite_is_refused(tmp_path, order: str) -> None:
     axle = _load(tmp_path, _LIGHT)["m"].joint("axle")
 
-    with pytest.raises(UsageError, match="finite numbers are needed, got nan"):
+    with pytest.raises(UsageError, match="must be a finite number, got nan"):
         getattr(axle, order)(math.nan)

@@ -80,7 +80,8 @@ def test_positions_and_velocities_are_read_and_written_in_the_order_of_the_names
     assert arm.joint_positions.tolist() == [0.3, -0.7]
     assert arm.joint_velocities.tolist() == [1.0, 2.0]
     assert (arm.joint("elbow").position, arm.joint("elbow").velocity) == (-0.7, 2.0)
-    arm.joint_positions[0] = 9.0  # a copy
+    with pytest.raises(ValueError, match="read-only"):  # a copy: nothing would move
+        arm.joint_positions[0] = 9.0
     assert arm.joint("shoulder").position == 0.3
 
 

@@ -56,9 +56,9 @@ def main(args: argparse.Namespace) -> int:
 
         at = PageAddress(port=args.port, allowed=page_access(args), view_only=args.view_only)
         return replay(plan, args.row, None if args.headless else at)
-    from trundle.studies.sweep.run_sweep import sweep
+    from trundle.studies.sweep.run_sweep import run_sweep
 
-    result = sweep(plan, output=args.output, workers=args.workers, address=args.address)
+    result = run_sweep(plan, output=args.output, workers=args.workers, address=args.address)
     print(f"{result.summary()}; {result.folder}")
     if result.interrupted:
         print(f"stopped; `trundle sweep {words[0]}` goes on", file=sys.stderr)

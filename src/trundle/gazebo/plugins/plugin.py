@@ -64,6 +64,8 @@ class Hooks:
 class Plugin(Hooks):
     """Plugin of a model: the Python counterpart of a Gazebo ModelPlugin."""
 
+    __module__ = "trundle"
+
     @classmethod
     def load(cls, sim: "Simulation", model: "ModelHandle", node: "Node | None", tag: PluginTag) -> Self:
         """Make the plugin for one model.
@@ -79,6 +81,8 @@ class Plugin(Hooks):
 
 class VisualPlugin(Hooks):
     """Plugin of a visual: the Python counterpart of a Gazebo VisualPlugin."""
+
+    __module__ = "trundle"
 
     @classmethod
     def load(
@@ -96,6 +100,8 @@ class VisualPlugin(Hooks):
 
 class WorldPlugin(Hooks):
     """Plugin of a world: the Python counterpart of a Gazebo WorldPlugin."""
+
+    __module__ = "trundle"
 
     @classmethod
     def load(cls, sim: "Simulation", node: "Node | None", tag: PluginTag) -> Self:

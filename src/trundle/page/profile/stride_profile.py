@@ -22,6 +22,8 @@ _PHYSICS = StridePart.PHYSICS
 class StrideProfile:
     """Profiler of one simulation, on its thread; as a context manager, it measures inside the `with` statement."""
 
+    __module__ = "trundle"
+
     def __init__(
         self,
         simulation: Simulation,

@@ -19,6 +19,8 @@ Texture: TypeAlias = Path | bytes
 class MeshError(TrundleError):
     """Unusable mesh file, with the reason."""
 
+    __module__ = "trundle"
+
 
 class MeshPart(Struct, frozen=True, kw_only=True):
     """Contiguous faces of a mesh with one material."""

@@ -63,6 +63,8 @@ class Lens(Struct, frozen=True, kw_only=True):
 class CameraOptics(Struct, frozen=True, kw_only=True):
     """Camera looking along +x of its frame, y to the left, z up."""
 
+    __module__ = "trundle"
+
     name: str = ""
     """Name of the camera within a multicamera."""
     sensor_from_camera: Pose = Pose()

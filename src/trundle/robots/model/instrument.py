@@ -10,6 +10,8 @@ from .noise import Noise
 class LogicalCamera(Struct, frozen=True, kw_only=True):
     """Sensor that lists the models inside a pyramid along +x."""
 
+    __module__ = "trundle"
+
     near_m: float = 0.0
     far_m: float = 1.0
     aspect_ratio: float = 1.0
@@ -19,6 +21,8 @@ class LogicalCamera(Struct, frozen=True, kw_only=True):
 
 class Sonar(Struct, frozen=True, kw_only=True):
     """Range sensor with a cone along −z, as in Gazebo, or a sphere."""
+
+    __module__ = "trundle"
 
     geometry: str = "cone"
     """cone or sphere."""
@@ -30,6 +34,8 @@ class Sonar(Struct, frozen=True, kw_only=True):
 
 class Transceiver(Struct, frozen=True, kw_only=True):
     """A wireless transmitter or receiver."""
+
+    __module__ = "trundle"
 
     essid: str = "wireless"
     frequency_mhz: float = 2442.0
@@ -46,6 +52,8 @@ class Transceiver(Struct, frozen=True, kw_only=True):
 class Altimeter(Struct, frozen=True, kw_only=True):
     """Sensor of the height above its starting point and of vertical velocity."""
 
+    __module__ = "trundle"
+
     position: Noise = Noise()
     """[m]"""
     velocity: Noise = Noise()
@@ -55,12 +63,16 @@ class Altimeter(Struct, frozen=True, kw_only=True):
 class Magnetometer(Struct, frozen=True, kw_only=True):
     """Sensor of the world's magnetic field in its own frame."""
 
+    __module__ = "trundle"
+
     field: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
     """[T]"""
 
 
 class AirPressure(Struct, frozen=True, kw_only=True):
     """Barometer: static air pressure."""
+
+    __module__ = "trundle"
 
     reference_altitude: float = 0.0
     """Height of the world's z = 0 above the ground of its atmosphere [m]."""
@@ -70,6 +82,8 @@ class AirPressure(Struct, frozen=True, kw_only=True):
 
 class AirSpeed(Struct, frozen=True, kw_only=True):
     """Pitot sensor: dynamic pressure of the air along +x."""
+
+    __module__ = "trundle"
 
     pressure: Noise = Noise()
     """[Pa]"""

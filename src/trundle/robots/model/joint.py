@@ -48,6 +48,8 @@ class Mimic(Struct, frozen=True, kw_only=True):
 class JointAxis(Struct, frozen=True, kw_only=True):
     """One degree of freedom: its direction, limits and passive forces."""
 
+    __module__ = "trundle"
+
     direction: Vector3
     """Unit, in the model frame with every joint at zero."""
     lower: float = -math.inf

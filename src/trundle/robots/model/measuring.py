@@ -11,6 +11,8 @@ from .visibility import EVERY_BIT
 class ScanAxis(Struct, frozen=True, kw_only=True):
     """Horizontal or vertical angles of a ray scan."""
 
+    __module__ = "trundle"
+
     samples: int = 1
     resolution: float = 1.0
     """Output values per sample; Gazebo interpolates between rays."""
@@ -27,6 +29,8 @@ class ScanAxis(Struct, frozen=True, kw_only=True):
 
 class RangeScan(Struct, frozen=True, kw_only=True):
     """Ray scan from the sensor's origin: horizontal angles about its z axis, vertical angles upwards; (0, 0) is +x."""
+
+    __module__ = "trundle"
 
     horizontal: ScanAxis = ScanAxis()
     vertical: ScanAxis = ScanAxis()
@@ -54,6 +58,8 @@ class OrientationReference(Struct, frozen=True, kw_only=True):
 class ImuNoise(Struct, frozen=True, kw_only=True):
     """Noise of an IMU about its x, y and z axes, and the reference frame of its orientation."""
 
+    __module__ = "trundle"
+
     angular_velocity: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
     """[rad/s]"""
     linear_acceleration: tuple[Noise, Noise, Noise] = (Noise(), Noise(), Noise())
@@ -65,12 +71,16 @@ class ImuNoise(Struct, frozen=True, kw_only=True):
 class GpsNoise(Struct, frozen=True, kw_only=True):
     """Noise of a position fix [m]."""
 
+    __module__ = "trundle"
+
     horizontal: Noise = Noise()
     vertical: Noise = Noise()
 
 
 class ForceTorque(Struct, frozen=True, kw_only=True):
     """Force-torque sensor on a joint: frame, direction and noise of its wrench."""
+
+    __module__ = "trundle"
 
     frame: str = "child"
     """Frame of the wrench: child, parent or sensor."""

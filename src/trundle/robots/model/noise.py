@@ -6,6 +6,8 @@ from msgspec import Struct
 class Noise(Struct, frozen=True, kw_only=True):
     """Noise added to every value: a Gaussian, and a bias drawn once, with random sign, that may wander."""
 
+    __module__ = "trundle"
+
     mean: float = 0.0
     stddev: float = 0.0
     bias_mean: float = 0.0

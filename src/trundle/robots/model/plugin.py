@@ -9,6 +9,8 @@ from trundle.base.xmlnode import XmlNode
 class PluginTag(Struct, frozen=True, kw_only=True):
     """Plugin of a model, world or sensor, found by `plugins` through its file name."""
 
+    __module__ = "trundle"
+
     name: str
     filename: str
     """As written: a bare `libx.so` or a path on the author's machine."""

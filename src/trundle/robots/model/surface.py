@@ -8,6 +8,8 @@ from trundle.spatial import ZERO, Vector3
 class Surface(Struct, frozen=True, kw_only=True):
     """Contact parameters of one collision, in SDF's terms, with the defaults of SDF 1.4 and later."""
 
+    __module__ = "trundle"
+
     mu: float = 1.0
     """Coulomb friction along the first friction direction; < 0 stands for infinite."""
     mu2: float = 1.0

@@ -15,6 +15,8 @@ _OFF = {"0", "0.0", "false"}
 class TagParameters(Parameters):
     """Parameters of one element; an invalid value gives a warning with its line, and the default is used."""
 
+    __module__ = "trundle"
+
     def __init__(self, node: XmlNode | None, report: Diagnostics) -> None:
         """Wrap an element; None: no parameters."""
         self.node = node

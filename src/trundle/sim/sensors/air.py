@@ -28,6 +28,8 @@ _COLDEST = 1.0
 class PressureReading(Struct, frozen=True, kw_only=True):
     """Pressure with its variance."""
 
+    __module__ = "trundle"
+
     time_ns: int
     pressure: float
     """[Pa]; for an air speed sensor the dynamic pressure, negative for flow from behind."""

@@ -12,6 +12,8 @@ from .noise import NoiseSource
 class AltimeterReading(Struct, frozen=True, kw_only=True):
     """Height and vertical velocity."""
 
+    __module__ = "trundle"
+
     time_ns: int
     height: float
     """Height above the sensor's initial position, as in Gazebo [m]."""

@@ -37,6 +37,8 @@ class ContactRecord(Struct, frozen=True, kw_only=True):
 class ContactReading(Struct, frozen=True, kw_only=True):
     """Contacts of the steps since the previous reading."""
 
+    __module__ = "trundle"
+
     time_ns: int
     contacts: tuple[ContactRecord, ...]
     world_from_link: Pose = Pose()

@@ -15,6 +15,8 @@ from .noise import NoiseSource, apply_noise
 class ForceTorqueReading(Struct, frozen=True, kw_only=True):
     """Wrench through a joint, at the joint."""
 
+    __module__ = "trundle"
+
     time_ns: int
     wrench: Wrench
     """Wrench in the frame set in the sensor."""

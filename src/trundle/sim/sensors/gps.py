@@ -25,6 +25,8 @@ _E2 = _FLATTENING * (2 - _FLATTENING)
 class GpsReading(Struct, frozen=True, kw_only=True):
     """WGS84 position fix."""
 
+    __module__ = "trundle"
+
     time_ns: int
     latitude_deg: float
     longitude_deg: float

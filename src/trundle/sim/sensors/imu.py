@@ -13,6 +13,8 @@ from .noise import NoiseSource, apply_noise
 class ImuReading(Struct, frozen=True, kw_only=True):
     """IMU reading."""
 
+    __module__ = "trundle"
+
     time_ns: int
     orientation: Quaternion
     """reference_from_sensor, wxyz; the reference is the sensor's initial frame unless the file sets another."""

@@ -39,6 +39,8 @@ class VisibleModel(Struct, frozen=True, kw_only=True):
 class LogicalCameraReading(Struct, frozen=True, kw_only=True):
     """Models in view."""
 
+    __module__ = "trundle"
+
     time_ns: int
     models: tuple[VisibleModel, ...]
 

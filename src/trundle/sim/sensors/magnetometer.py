@@ -13,6 +13,8 @@ from .noise import NoiseSource, apply_noise
 class MagnetometerReading(Struct, frozen=True, kw_only=True):
     """Magnetic field at the sensor."""
 
+    __module__ = "trundle"
+
     time_ns: int
     field: Vector3
     """Field in the sensor's frame [T]."""

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
-from trundle.base.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError, no_such
 from trundle.sim.simulation import ModelHandle, Simulation
 
 from .cameras.mount import mount_cameras
@@ -168,7 +168,6 @@ def _find(name: str, named: "Mapping[str, _Sensor]", kind: str) -> "tuple[str, _
     matches = [full for full in named if full == name] or [full for full in named if full.endswith(f"::{name}")]
     if len(matches) == 1:
         return matches[0], named[matches[0]]
-    names = ", ".join(map(repr, matches or named)) or "none"
     if matches:
-        raise UsageError(f"several {kind}s are called {name!r}; write one of {names}")
-    raise UsageError(f"no {kind} {name!r}; there are: {names}")
+        raise UsageError(f"several {kind}s are called {name!r}; write one of {', '.join(map(repr, matches))}")
+    raise UsageError(no_such(f"no {kind}", name, list(named)))

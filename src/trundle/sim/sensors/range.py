@@ -19,12 +19,24 @@ DEFAULT_RATE_HZ = 40.0
 class RangeReading(Struct, frozen=True, eq=False, kw_only=True):
     """Ranges and intensities of a scan."""
 
+    __module__ = "trundle"
+
     time_ns: int
     scan: RangeScan
     ranges: NDArray[np.float64]
     """(vertical values, horizontal values) [m]; inf beyond the maximum range, −inf below the minimum."""
     intensities: NDArray[np.float64]
     """laser_retro of the surface hit, shaped as `ranges`; 0 without a hit."""
+
+    @property
+    def horizontal_angles(self) -> NDArray[np.float64]:
+        """Angle of each column of `ranges` (horizontal values,) about the sensor's z axis [rad]; 0 is its x axis."""
+        return angles_of(self.scan.horizontal)
+
+    @property
+    def vertical_angles(self) -> NDArray[np.float64]:
+        """Angle of each row of `ranges` (vertical values,) above the sensor's x-y plane [rad]."""
+        return angles_of(self.scan.vertical)
 
 
 class RangeSensor(LiveSensor[RangeReading]):

@@ -39,6 +39,8 @@ if TYPE_CHECKING:  # worlds import the modules of their sensors only
 class SensorHandle:
     """Handle of a sensor of any type; it belongs to the thread that owns the simulation."""
 
+    __module__ = "trundle"
+
     def __init__(self, simulation: Simulation, sensor: "CameraSensor | InstrumentSensor", name: str) -> None:
         self._simulation = simulation
         self._sensor = sensor

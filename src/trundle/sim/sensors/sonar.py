@@ -22,6 +22,8 @@ _ALL_ROUND = math.pi
 class SonarReading(Struct, frozen=True, kw_only=True):
     """Range of the nearest surface."""
 
+    __module__ = "trundle"
+
     time_ns: int
     range_m: float
     """Range within the sensor's limits; the maximum also means no echo, as in Gazebo."""

@@ -53,6 +53,8 @@ class ReceivedSignal(Struct, frozen=True, kw_only=True):
 class WirelessReading(Struct, frozen=True, kw_only=True):
     """Signals received."""
 
+    __module__ = "trundle"
+
     time_ns: int
     signals: tuple[ReceivedSignal, ...]
 
@@ -110,6 +112,8 @@ class WirelessSensor(LiveSensor[WirelessReading]):
 
 class RfidReading(Struct, frozen=True, kw_only=True):
     """RFID tags in range."""
+
+    __module__ = "trundle"
 
     time_ns: int
     tags: tuple[str, ...]

@@ -1,6 +1,5 @@
 from .actors import ActorPlayer as ActorPlayer, with_actors as with_actors
 from .debug_line import DebugLine as DebugLine
-from .handle import expect_finite as expect_finite
 from .handles import LinkHandle as LinkHandle, ModelHandle as ModelHandle
 from .hooks import AfterStep as AfterStep, BeforeStep as BeforeStep
 from .joint_handle import JointHandle as JointHandle, TimedCommand as TimedCommand

@@ -1,6 +1,5 @@
 """Base of link and joint handles: an index that is valid while the model exists."""
 
-import math
 from typing import TYPE_CHECKING, ClassVar
 
 from trundle.base.diagnostics import UsageError
@@ -43,13 +42,3 @@ class Handle:
     def rebind(self, index: int | None) -> None:
         """Set the index, or None after deletion; for the simulation only."""
         self._index = index
-
-
-def expect_finite(*numbers: float) -> None:
-    """Check for NaN and infinity, which would destroy the state.
-
-    Raises:
-        UsageError: a number is not finite.
-    """
-    if not all(map(math.isfinite, numbers)):
-        raise UsageError(f"finite numbers are needed, got {', '.join(f'{number:g}' for number in numbers)}")

@@ -7,22 +7,24 @@
 A handle belongs to the thread that owns the simulation.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from trundle.base.diagnostics import UsageError
+from trundle.base.arguments import number_of, pose_of, twist_of, vector_of, wrench_of
+from trundle.base.diagnostics import UsageError, no_such
 from trundle.robots.model import Link, Model, World
-from trundle.spatial import ZERO, Pose, Twist, Vector3, Wrench, cross
+from trundle.spatial import ZERO, Pose, Twist, Wrench, cross, subtract
 
-from .handle import Handle, expect_finite
+from .handle import Handle
 from .joint_handle import JointHandle
 from .joint_space import JointSpace
 from .world_edits import with_model_at
 
 if TYPE_CHECKING:
+    from trundle.base.arguments import PoseLike, TwistLike, WrenchLike
     from trundle.sim.physics import LinkGrip
 
     from .runtime import Runtime
@@ -30,6 +32,8 @@ if TYPE_CHECKING:
 
 class LinkHandle(Handle):
     """Handle of a link."""
+
+    __module__ = "trundle"
 
     KIND = "link"
 
@@ -57,50 +61,63 @@ class LinkHandle(Handle):
         vx, vy, vz, wx, wy, wz = self._simulation.engine.reader.link_twists()[self.index].tolist()
         return Twist((vx, vy, vz), (wx, wy, wz))
 
-    def set_pose(self, pose: Pose) -> None:
+    def set_pose(self, pose: "PoseLike") -> None:
         """Teleport the link with its tree; velocities stay.
 
-        Raises:
-            UsageError: the link has a parent joint or is fixed, or the pose is not finite.
-        """
-        expect_finite(*pose.position, *pose.quaternion)
-        self._simulation.engine.writer.set_tree_pose(self.index, pose)
+        Args:
+            pose: pose of the link's frame in the world: `Pose`, or 3, 6 or 7 numbers (x, y, z [m]; roll, pitch, yaw
+                [rad] or qw, qx, qy, qz); 3 set it upright.
 
-    def set_twist(self, twist: Twist) -> None:
+        Raises:
+            UsageError: the link has a parent joint or is fixed, or the pose is none.
+        """
+        self._simulation.engine.writer.set_tree_pose(self.index, pose_of(pose))
+
+    def set_twist(self, twist: "TwistLike") -> None:
         """Set the velocity of the link's origin and its angular velocity once, world axes.
 
-        Raises:
-            UsageError: the link has a parent joint or is fixed, or the twist is not finite.
-        """
-        expect_finite(*twist.linear, *twist.angular)
-        self._simulation.engine.writer.set_tree_twist(self.index, twist)
+        Args:
+            twist: `Twist`, or 3 or 6 numbers: linear [m/s], angular [rad/s]; 3 set the angular velocity to zero.
 
-    def apply_wrench(self, wrench: Wrench, *, duration_s: float | None = None) -> None:
+        Raises:
+            UsageError: the link has a parent joint or is fixed, or the twist is none.
+        """
+        self._simulation.engine.writer.set_tree_twist(self.index, twist_of(twist))
+
+    def apply_wrench(self, wrench: "WrenchLike", *, duration_s: float | None = None) -> None:
         """Apply a wrench at the link's centre of mass, world axes.
 
         Args:
-            wrench: wrench in place of the previous one.
-            duration_s: simulation time; None: until the next call.
+            wrench: wrench in place of the previous one: `Wrench`, or 3 or 6 numbers: force [N], torque [N·m].
+            duration_s: simulation time [s], at least one step; None: until the next call.
+
+        Raises:
+            UsageError: the wrench is none, or the duration is negative.
         """
-        self._simulation.loads.set_wrench(self.index, wrench, duration_s=duration_s)
+        if duration_s is not None:
+            duration_s = number_of(duration_s, "duration_s [s]", minimum=0.0)
+        self._simulation.loads.set_wrench(self.index, wrench_of(wrench), duration_s=duration_s)
 
     @property
     def applied_wrench(self) -> tuple[Wrench, float | None]:
         """Wrench of `apply_wrench`, and its remaining duration [s]; None: until the next call."""
         return self._simulation.engine.wrench(self.index), self._simulation.loads.wrench_left_s(self.index)
 
-    def add_wrench(self, wrench: Wrench, *, at: Vector3 | None = None) -> None:
+    def add_wrench(self, wrench: "WrenchLike", *, at: "ArrayLike | None" = None) -> None:
         """Add a wrench until the next hook, for forces computed at every step, such as wind, buoyancy and drag.
 
         Args:
-            wrench: wrench in world axes.
-            at: point of application in the world [m]; None: the centre of mass.
+            wrench: wrench in world axes: `Wrench`, or 3 or 6 numbers: force [N], torque [N·m].
+            at: point of application in the world (3) [m]; None: the centre of mass.
+
+        Raises:
+            UsageError: the wrench or the point is none.
         """
+        wrench = wrench_of(wrench)
         if at is not None:
+            point = vector_of(at, "at [m]")
             com = self.pose @ self.link.inertial.link_from_com
-            arm = (at[0] - com.position[0], at[1] - com.position[1], at[2] - com.position[2])
-            turning = cross(arm, wrench.force)
-            wrench = wrench + Wrench(torque=turning)
+            wrench = wrench + Wrench(torque=cross(subtract(point, com.position), wrench.force))
         self._simulation.loads.add_wrench(self.index, wrench)
 
     def set_surface_motion(self, motion: "LinkGrip | None") -> None:
@@ -117,6 +134,8 @@ _Named = TypeVar("_Named", LinkHandle, JointHandle)
 
 class ModelHandle:
     """Handle of a model."""
+
+    __module__ = "trundle"
 
     def __init__(self, simulation: "Runtime", model: Model, *, first_link: int, first_joint: int) -> None:
         self._simulation = simulation
@@ -169,14 +188,17 @@ class ModelHandle:
         named = self.model.canonical_link
         return next((link for link in self.links if link.name == named), self.links[0])
 
-    def set_pose(self, pose: Pose) -> None:
+    def set_pose(self, pose: "PoseLike") -> None:
         """Teleport the model; velocities stay. A model fixed to the world is recompiled at the new pose.
 
+        Args:
+            pose: pose of the model's frame in the world: `Pose`, or 3, 6 or 7 numbers (x, y, z [m]; roll, pitch, yaw
+                [rad] or qw, qx, qy, qz); 3 set it upright.
+
         Raises:
-            UsageError: the pose is not finite.
+            UsageError: the pose is none.
         """
-        expect_finite(*pose.position, *pose.quaternion)
-        moved = pose @ self.pose.inverse()
+        moved = pose_of(pose) @ self.pose.inverse()
         free = [link for link in self.links if self._simulation.engine.writer.is_free(link.index)]
         if not free:
             simulation = self._simulation
@@ -197,8 +219,16 @@ class ModelHandle:
                 joint.command_effort(0.0, axis=axis)
         self._simulation.resets.finish(self)
 
-    def set_twist(self, twist: Twist) -> None:
-        """Set the model's twist on its free trees once, world axes."""
+    def set_twist(self, twist: "TwistLike") -> None:
+        """Set the model's twist on its free trees once, world axes.
+
+        Args:
+            twist: `Twist`, or 3 or 6 numbers: linear [m/s] at the origin of the model's frame, angular [rad/s].
+
+        Raises:
+            UsageError: the twist is none.
+        """
+        twist = twist_of(twist)
         (vx, vy, vz), (wx, wy, wz) = twist.linear, twist.angular
         x0, y0, z0 = self.pose.position
         for link in self.links:
@@ -207,7 +237,7 @@ class ModelHandle:
                 linear = (vx + wy * z - wz * y, vy + wz * x - wx * z, vz + wx * y - wy * x)
                 link.set_twist(Twist(linear, twist.angular))
 
-    def set_link_twists(self, twist: Twist) -> None:
+    def set_link_twists(self, twist: "TwistLike") -> None:
         """Set the velocity of each free link's origin and its angular velocity once, world axes.
 
         As Gazebo's SetLinearVel and SetAngularVel of a model: links away from the model's origin get no velocity from
@@ -267,7 +297,8 @@ class ModelHandle:
     def joint_positions(self) -> NDArray[np.float64]:
         """Positions (axes,) [rad or m] in the order of `joint_names`; a ball joint's three are its rotation vector.
 
-        Reading returns a copy; assigning sets the state at once, keeps velocities, and switches no motor.
+        Reading returns a read-only copy; assigning an array sets the state at once, keeps velocities, and switches no
+        motor.
 
         Raises:
             UsageError: the assigned array has another shape, or a number that is not finite.
@@ -283,7 +314,7 @@ class ModelHandle:
         """Velocities (axes,) [rad/s or m/s] in the order of `joint_names`; a ball joint's three are along its child's
         axes.
 
-        Reading returns a copy; assigning sets the state once.
+        Reading returns a read-only copy; assigning an array sets the state once.
 
         Raises:
             UsageError: the assigned array has another shape, or a number that is not finite.
@@ -299,22 +330,22 @@ class ModelHandle:
     # Generalized velocities have n entries: 6 for each free link of the model, usually its base: the velocity of the
     # link's origin [m/s] and its angular velocity [rad/s], world axes; then `joint_names`' axes.
 
-    def jacobian(self, link: str | LinkHandle, point: Vector3 = ZERO) -> NDArray[np.float64]:
+    def jacobian(self, link: str | LinkHandle, point: "ArrayLike" = ZERO) -> NDArray[np.float64]:
         """Return the Jacobian of a point of a link in the model's current state.
 
         Args:
             link: link of this model.
-            point: point in the link's frame [m].
+            point: point in the link's frame (3) [m].
 
         Returns:
             (6, n): velocity of the point [m/s] in rows 0 to 2, angular velocity of the link [rad/s] in rows 3 to 5,
             world axes. The n columns are 6 of each free link (linear, angular; world axes), then `joint_names`.
 
         Raises:
-            UsageError: there is no such link.
+            UsageError: there is no such link, or the point is none.
         """
-        handle = self.link(link) if isinstance(link, str) else link
-        return self._joint_space.jacobian(handle.index, point)
+        handle = link if isinstance(link, LinkHandle) else self.link(link)
+        return self._joint_space.jacobian(handle.index, vector_of(point, "point [m]"))
 
     def mass_matrix(self) -> NDArray[np.float64]:
         """Return the (n, n) mass matrix M(q) of the current state [kg, kg·m, kg·m²], ordered as
@@ -345,8 +376,8 @@ class ModelHandle:
         """
         return self._joint_space.inverse_dynamics(q, v, a)
 
-    def apply_wrench(self, wrench: Wrench, *, duration_s: float | None = None) -> None:
-        """Apply a wrench at the canonical link's centre of mass, world axes."""
+    def apply_wrench(self, wrench: "WrenchLike", *, duration_s: float | None = None) -> None:
+        """Apply a wrench at the canonical link's centre of mass, world axes; see `LinkHandle.apply_wrench`."""
         self.base.apply_wrench(wrench, duration_s=duration_s)
 
 
@@ -355,11 +386,11 @@ def _position(pose: Pose) -> str:
     return f" at ({x:.3f}, {y:.3f}, {z:.3f}) m"
 
 
-def _find_by_name(name: str, parts: Iterable[_Named], problem: str) -> _Named:
+def _find_by_name(name: str, parts: Sequence[_Named], problem: str) -> _Named:
     for part in parts:
         if part.name == name:
             return part
-    raise UsageError(f"{problem} {name!r}; there are: {', '.join(repr(part.name) for part in parts) or 'none'}")
+    raise UsageError(no_such(problem, name, [part.name for part in parts]))
 
 
 def handles_of(simulation: "Runtime", world: World, existing: Mapping[str, ModelHandle]) -> list[ModelHandle]:

@@ -4,11 +4,12 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, TypeAlias
 
+from trundle.base.arguments import count_of, number_of
 from trundle.base.diagnostics import UsageError
 from trundle.robots.model import Joint
 from trundle.spatial import Pose, Wrench, cross
 
-from .handle import Handle, expect_finite
+from .handle import Handle
 
 if TYPE_CHECKING:
     from trundle.sim.physics import MotorAxis, MotorCommand
@@ -23,6 +24,8 @@ class JointHandle(Handle):
     """Handle of a joint; axes are counted from 0 in file order. A ball joint has three: their positions are a rotation
     vector, and their only commands are efforts.
     """
+
+    __module__ = "trundle"
 
     KIND = "joint"
 
@@ -119,7 +122,7 @@ class JointHandle(Handle):
         Raises:
             UsageError: there is no such axis, or the joint is a ball, set by `ModelHandle.joint_positions`.
         """
-        expect_finite(position)
+        position = number_of(position, "position [rad or m]")
         driven = self._driven(axis)
         self._simulation.engine.writer.set_axis_positions(range(driven, driven + 1), (position,))
 
@@ -129,7 +132,7 @@ class JointHandle(Handle):
         Raises:
             UsageError: there is no such axis.
         """
-        expect_finite(velocity)
+        velocity = number_of(velocity, "velocity [rad/s or m/s]")
         index = self._axis(axis)
         self._simulation.engine.writer.set_axis_velocities(range(index, index + 1), (velocity,))
 
@@ -145,7 +148,11 @@ class JointHandle(Handle):
             position: target.
             max_effort: motor's effort limit [N·m or N]; the joint's effort limit applies, too.
             axis: axis index.
+
+        Raises:
+            UsageError: there is no such axis, or the joint is a ball.
         """
+        position, max_effort = number_of(position, "position [rad or m]"), _limit_of(max_effort)
         driven = self._driven(axis)
         self._simulation.loads.limit_effort(self, axis, None)
         self._simulation.engine.motors.command_position(driven, self._within_limits(position, driven), max_effort)
@@ -153,9 +160,18 @@ class JointHandle(Handle):
     def command_velocity(
         self, velocity: float, *, max_effort: float = math.inf, axis: int = 0, hardware: bool = False
     ) -> None:
-        """Drive an axis at a velocity [rad/s or m/s] with limited effort [N·m or N], as Gazebo's
-        SetVelocity with fmax.
+        """Drive an axis at a velocity, as Gazebo's SetVelocity with fmax.
+
+        Args:
+            velocity: target [rad/s or m/s].
+            max_effort: motor's effort limit [N·m or N]; the joint's effort limit applies, too.
+            axis: axis index.
+            hardware: True: command of a hardware interface, which lasts until its next one.
+
+        Raises:
+            UsageError: there is no such axis, or the joint is a ball.
         """
+        velocity, max_effort = number_of(velocity, "velocity [rad/s or m/s]"), _limit_of(max_effort)
         if not hardware:
             self._simulation.loads.limit_effort(self, axis, None)
         self._simulation.engine.motors.command_velocity(self._driven(axis), velocity, max_effort, hardware=hardware)
@@ -168,9 +184,15 @@ class JointHandle(Handle):
         Args:
             effort: effort in place of the previous command.
             axis: axis index.
-            duration_s: simulation time; None: until the next command.
+            duration_s: simulation time [s], at least one step; None: until the next command.
             hardware: True: command of a hardware interface, which lasts until its next one.
+
+        Raises:
+            UsageError: there is no such axis.
         """
+        effort = number_of(effort, "effort [N·m or N]")
+        if duration_s is not None:
+            duration_s = number_of(duration_s, "duration_s [s]", minimum=0.0)
         self._simulation.engine.motors.command_effort(self._axis(axis), effort, hardware=hardware)
         if not hardware:
             self._simulation.loads.limit_effort(self, axis, duration_s)
@@ -191,6 +213,7 @@ class JointHandle(Handle):
 
     def drive_kinematically(self, velocity: float, *, axis: int = 0, hardware: bool = False) -> None:
         """Drive an axis at a velocity [rad/s or m/s] at once; the reaction on the parent is the weight only."""
+        velocity = number_of(velocity, "velocity [rad/s or m/s]")
         if not hardware:
             self._simulation.loads.limit_effort(self, axis, None)
         engine = self._simulation.engine
@@ -199,7 +222,7 @@ class JointHandle(Handle):
 
     def _axis(self, axis: int) -> int:
         axes = self.axes
-        if not 0 <= axis < len(axes):
+        if not count_of(axis, "axis") < len(axes):
             axes_text = f"it has {len(axes)}" if axes else "it cannot move"
             raise UsageError(f"joint {self.name!r} has no axis {axis}: {axes_text}")
         return axes[axis]
@@ -213,6 +236,10 @@ class JointHandle(Handle):
     def _within_limits(self, position: float, axis: int) -> float:
         low, high = self._simulation.engine.compiled.axis_range[axis].tolist()
         return min(max(position, low), high)
+
+
+def _limit_of(max_effort: float) -> float:
+    return max_effort if max_effort == math.inf else number_of(max_effort, "max_effort [N·m or N]", minimum=0.0)
 
 
 def _rounded(values: tuple[float, ...]) -> tuple[float, ...]:

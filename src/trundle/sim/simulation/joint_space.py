@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from trundle.base.arguments import described
 from trundle.base.diagnostics import UsageError
 from trundle.sim.physics import Coordinates, Engine, JointState
 from trundle.spatial import Vector3
@@ -41,11 +42,11 @@ class JointSpace:
 
     def positions(self) -> _Array:
         """Return (axes,) positions [rad or m]; a ball joint's three are its rotation vector."""
-        return np.array(self._engine.reader.positions_of_all(self.axes))
+        return _read_only(self._engine.reader.positions_of_all(self.axes))
 
     def velocities(self) -> _Array:
         """Return (axes,) velocities [rad/s or m/s]."""
-        return np.array(self._engine.reader.velocities_of(self.axes))
+        return _read_only(self._engine.reader.velocities_of(self.axes))
 
     def set_positions(self, positions: ArrayLike) -> None:
         """Set every position at once; velocities stay.
@@ -94,14 +95,27 @@ class JointSpace:
         return 6 * len(self._coordinates.free_links) + len(self.axes)
 
     def _array(self, argument: str, values: ArrayLike, count: int) -> _Array:
-        array = np.asarray(values, dtype=np.float64)
-        if array.shape != (count,):
+        try:
+            array = np.asarray(values, dtype=np.float64)
+        except (TypeError, ValueError):
+            array = None
+        if array is None or array.shape != (count,):
             bases = (count - len(self.axes)) // 6
             names = ", ".join(map(repr, self.names)) or "none"
             free = f", after 6 for each of {bases} free links" if bases else ""
-            raise UsageError(
-                f"model {self._model!r}: {argument} has shape {array.shape}, not ({count},): joints: {names}{free}"
+            got = (
+                f"is no array of numbers: {described(values)}; its shape is"
+                if array is None
+                else f"has shape {array.shape}, not"
             )
+            raise UsageError(f"model {self._model!r}: {argument} {got} ({count},): joints: {names}{free}")
         if not np.isfinite(array).all():
             raise UsageError(f"model {self._model!r}: {argument} has numbers that are not finite: {array}")
         return array
+
+
+def _read_only(values: Sequence[float]) -> _Array:
+    """Return an array whose entries cannot be assigned, which would not change the simulation."""
+    array = np.array(values)
+    array.flags.writeable = False
+    return array

@@ -11,6 +11,8 @@ from .step_clock import StepClock
 class SavedSimulation(Struct, frozen=True):
     """State to restore."""
 
+    __module__ = "trundle"
+
     steps: int
     clock: StepClock
     engine: EngineState

@@ -16,6 +16,8 @@ class Snapshot:
     `joint_positions`, `joint_velocities` and `joint_efforts` hold each joint's first axis; `axes_of` returns all.
     """
 
+    __module__ = "trundle"
+
     def __init__(
         self, *, time_ns: int, instant: EngineSnapshot, first_axes: NDArray[np.intp], joint_axes: Sequence[range] = ()
     ) -> None:

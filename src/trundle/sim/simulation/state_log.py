@@ -92,6 +92,8 @@ class StateRecorder:
 class StateLog(Struct, frozen=True, eq=False, kw_only=True):
     """Contents of a state log."""
 
+    __module__ = "trundle"
+
     links: tuple[str, ...]
     joints: tuple[str, ...]
     sdf: str

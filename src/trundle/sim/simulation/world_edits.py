@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.base.diagnostics import Diagnostics, UsageError, no_such
 from trundle.robots.model import Joint, World
 from trundle.sim.physics import Engine, compile_world
 from trundle.spatial import Pose, Twist, pose_from_row
@@ -74,8 +74,7 @@ def without_joint(world: World, name: str) -> World:
     """
     names = [joint.name for joint in world.joints]
     if name not in names:
-        listing = ", ".join(map(repr, names)) or "none"
-        raise UsageError(f"no joint {name!r} between models; there are: {listing}")
+        raise UsageError(no_such("no joint between models", name, names))
     return replace(world, joints=tuple(joint for joint in world.joints if joint.name != name))
 
 

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from msgspec.structs import replace
 
-from trundle.base.diagnostics import Diagnostics, UsageError
+from trundle.base.arguments import count_of, number_of
+from trundle.base.diagnostics import Diagnostics, UsageError, no_such
 from trundle.robots.model import Joint, Model, World
 from trundle.sim.physics import CompiledWorld, ContactRecorder, Contacts, Engine, StepHooks, compile_world
 from trundle.spatial import NS_PER_S
@@ -50,6 +51,8 @@ Command: TypeAlias = Callable[["Simulation"], None]
 
 class Simulation:
     """World in motion."""
+
+    __module__ = "trundle"
 
     def __init__(
         self,
@@ -113,6 +116,11 @@ class Simulation:
         return self._clock.time_ns(self.steps)
 
     @property
+    def time_s(self) -> float:
+        """Simulation time [s]."""
+        return self.time_ns / NS_PER_S
+
+    @property
     def simulated_ns(self) -> int:
         """Total simulated time [ns], regardless of resets."""
         return self._before_resets[0] + self.time_ns
@@ -136,7 +144,7 @@ class Simulation:
         for model in self.models:
             if model.name == name:
                 return model
-        raise UsageError(f"no model {name!r}; there are: {', '.join(repr(m.name) for m in self.models) or 'none'}")
+        raise UsageError(no_such("no model", name, [model.name for model in self.models]))
 
     def __repr__(self) -> str:
         names = ", ".join(repr(model.name) for model in self.models) or "none"
@@ -152,12 +160,23 @@ class Simulation:
     # -- time
 
     def run(self, duration_s: float) -> None:
-        """Simulate for a duration [s], as fast as possible."""
+        """Simulate for a duration [s], as fast as possible.
+
+        Raises:
+            UsageError: the duration is negative or no number.
+            SimulationUnstableError: the physics became unstable; the world has its last good state.
+        """
+        duration_s = number_of(duration_s, "duration_s [s]", minimum=0.0)
         self.advance(self.time_ns + round(duration_s * NS_PER_S))
 
     def step(self, count: int = 1) -> None:
-        """Simulate a number of time steps."""
-        self.advance(self.time_ns + count * self.step_ns)
+        """Simulate a number of time steps.
+
+        Raises:
+            UsageError: the number is negative or not whole.
+            SimulationUnstableError: the physics became unstable; the world has its last good state.
+        """
+        self.advance(self.time_ns + count_of(count, "count") * self.step_ns)
 
     def advance(self, until_ns: int) -> None:
         """Simulate up to the first step at or after a time [ns].

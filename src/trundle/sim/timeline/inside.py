@@ -3,6 +3,10 @@
 import sys
 from types import BuiltinFunctionType, ModuleType, SimpleNamespace
 
+from msgspec import Struct
+
+from trundle.base.diagnostics import Diagnostic, Diagnostics, Source
+from trundle.sim.physics import Contacts
 from trundle.sim.simulation import Simulation
 
 _OUTSIDE = (
@@ -17,6 +21,8 @@ _OUTSIDE = (
     *("sim.gltf.", "sim.physics.", "sim.realtime_pacer.", "sim.render.", "sim.renderers.", "sim.timeline."),
 )
 """Trundle's rooms whose objects are contents of files or devices, or have checkpoints."""
+_OUTSIDE_OF_PUBLIC = (Diagnostics, Struct, Diagnostic, Source, Contacts)
+"""Classes of `trundle` itself, whose structs are immutable."""
 _CONTAINERS = ("builtins", "collections", "functools", "random", "types")
 _LIBRARIES = ("mujoco", "lxml", "msgspec", "rosbags", "PIL", "aiohttp")
 
@@ -32,7 +38,7 @@ def is_outside(obj: object) -> bool:
         return True
     room, _, rest = kind.__module__.partition(".")
     if room == "trundle":
-        return f"{rest}.".startswith(_OUTSIDE)
+        return f"{rest}.".startswith(_OUTSIDE) if rest else isinstance(obj, _OUTSIDE_OF_PUBLIC)
     if room in _CONTAINERS or kind is SimpleNamespace or _is_container_subclass(kind):
         return False
     return room in _LIBRARIES or room in sys.stdlib_module_names

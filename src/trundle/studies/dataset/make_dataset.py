@@ -27,6 +27,8 @@ from .dataset_world import picture_maker
 class DatasetResult:
     """Pictures of a dataset."""
 
+    __module__ = "trundle"
+
     folder: Path
     done: int
     total: int
@@ -121,15 +123,29 @@ def _picture_writer(plan: DatasetPlan, path: Path) -> Callable[[int], str]:
     return write
 
 
-def make_planned(
+def dataset(
     plan: "str | os.PathLike[str] | Mapping[str, object]",
     *,
-    output: Path | None,
-    workers: int | None,
-    address: str | None,
+    output: "str | os.PathLike[str] | None" = None,
+    workers: int | None = None,
+    address: str | None = None,
 ) -> DatasetResult:
-    """See `trundle.dataset`."""
-    result = make_dataset(load_dataset_plan(plan), output=output, workers=workers, address=address)
+    """Make annotated pictures of a varied world, to train computer vision.
+
+    A call with the same plan continues the interrupted one.
+
+    Args:
+        plan: plan file, or its content as a dictionary, with paths relative to the working directory.
+        output: folder of the dataset; None: next to the plan's file, or `plan.dataset` in the working directory.
+        workers: number of processes; None: one for each processor.
+        address: address of a Ray cluster whose nodes share the folder; None: only this machine.
+
+    Raises:
+        TrundleError: one sentence with file and line.
+        KeyboardInterrupt: Ctrl-C; finished pictures are kept.
+    """
+    folder = None if output is None else Path(output)
+    result = make_dataset(load_dataset_plan(plan), output=folder, workers=workers, address=address)
     if result.interrupted:
         raise KeyboardInterrupt
     return result

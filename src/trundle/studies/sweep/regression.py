@@ -7,7 +7,7 @@ from pathlib import Path
 from trundle.live.launch.test_results import CaseResult, SuiteResult, write_junit
 
 from .plan import Plan
-from .run_sweep import SweepResult, sweep
+from .run_sweep import SweepResult, run_sweep
 
 _SHOWN = 20
 """Maximum runs listed in a message."""
@@ -25,7 +25,7 @@ def run_plan_test(plan: Plan, *, junit: Path | None) -> int:
     """
     started_s = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
-        result = sweep(plan, output=Path(folder))
+        result = run_sweep(plan, output=Path(folder))
         cases = _cases(result)
     if junit is not None:
         suite = SuiteResult(
@@ -49,7 +49,7 @@ def plan_problems(plan: Plan, folder: Path) -> tuple[SweepResult, str | None]:
         TrundleError: the plan cannot be run.
         KeyboardInterrupt: Ctrl-C.
     """
-    result = sweep(plan, output=folder)
+    result = run_sweep(plan, output=folder)
     if result.interrupted:
         raise KeyboardInterrupt
     cases = _cases(result)

@@ -30,6 +30,8 @@ from .table import Table
 class SweepResult:
     """Results of a sweep."""
 
+    __module__ = "trundle"
+
     folder: Path
     counts: dict[str, int]
     """Status → number of rows: ok, failed (a criterion is not met), error, timeout, memory, lost."""
@@ -87,7 +89,7 @@ def _inputs(plan: Plan, rows: Rows, runner: RowRunner | LaunchRowRunner) -> Iter
             yield runner.inputs(row)
 
 
-def sweep(
+def run_sweep(
     plan: Plan,
     *,
     output: Path | None = None,
@@ -118,15 +120,30 @@ def sweep(
         return SweepResult(folder, results.counts, len(rows), progress.rate, stop.is_set(), results)
 
 
-def sweep_plan(
+def sweep(
     plan: "str | os.PathLike[str] | Mapping[str, object]",
     *,
-    output: Path | None,
-    workers: int | None,
-    address: str | None,
+    output: "str | os.PathLike[str] | None" = None,
+    workers: int | None = None,
+    address: str | None = None,
 ) -> SweepResult:
-    """See `trundle.sweep`."""
-    result = sweep(load_plan(plan), output=output, workers=workers, address=address)
+    """Run a world many times with different values; needs the extra `sweep`.
+
+    A call with the same plan continues the interrupted one.
+
+    Args:
+        plan: plan file, or its content as a dictionary, with paths relative to the working directory.
+        output: folder of the results; None: next to the plan's file, or `plan.sweep` in the working directory.
+        workers: number of processes; None: one for each processor.
+        address: address of a Ray cluster, "auto" for this machine's cluster, "local" for a new one; None: processes of
+            this machine, without Ray.
+
+    Raises:
+        TrundleError: one sentence with file and line.
+        KeyboardInterrupt: Ctrl-C; finished runs are kept.
+    """
+    folder = None if output is None else Path(output)
+    result = run_sweep(load_plan(plan), output=folder, workers=workers, address=address)
     if result.interrupted:
         raise KeyboardInterrupt
     return result

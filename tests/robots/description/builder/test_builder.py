@@ -212,18 +212,18 @@ def _full() -> Scene:
         (lambda s: s.world.add_light(), "world 'w' has 'sun' already; there are: 'sun'"),
         (
             lambda s: s.world.add_box("x::y", (1, 1, 1)),
-            "a model: 'x::y' is no name: it must not be empty or hold '::'",
+            "a model: 'x::y' is no name: it must be text, not empty, and without '::'",
         ),
         (lambda s: s.world.add_box("x", (1, 0, 1)), "size of box 'x' must be above zero, got 1, 0, 1"),
         (lambda s: s.world.add_sphere("x", 1, mass=-1.0), "mass or density of 'x' must be above zero, got -1"),
         (
             lambda s: s.world.add_sphere("x", 1, colour=(1, 0, 0, 1)),
-            "shape 'x': no option 'colour'; there are: pose, mass, density, color, surface, visual, collision",
+            "shape 'x': no option 'colour' (did you mean 'color'?); there are: 'pose', 'mass', 'density', 'color', ",
         ),
         (lambda s: s.model.add_link("a"), "model 'm' has 'a' already; there are: 'a', 'b'"),
         (lambda s: s.link.add_sphere("a", 1.0), "link 'a' has 'a' already; there are: 'a'"),
         (lambda s: s.link.add_sensor("s", "imu"), "link 'a' has 's' already; there are: 's'"),
-        (lambda s: s.link.add_sensor("t", "nose"), "sensor 't': no type 'nose'; there are: air_pressure, air_speed, "),
+        (lambda s: s.link.add_sensor("t", "nose"), "sensor 't': no type 'nose'; there are: 'air_pressure', "),
         (
             lambda s: s.link.add_sensor("t", "camera", ImuNoise()),
             "sensor 't': type 'camera' takes settings of CameraOptics, not ImuNoise",
@@ -242,14 +242,22 @@ def _full() -> Scene:
         ),
         (
             lambda s: s.model.add_joint("j", "hinge", s.link, "b"),
-            "joint 'j': no type 'hinge'; there are: revolute, prismatic, fixed, ball, universal, screw, revolute2",
+            "joint 'j': no type 'hinge'; there are: 'revolute', 'prismatic', 'fixed', 'ball', 'universal', ",
         ),
         (lambda s: s.model.add_joint("j", "universal", s.link, "b"), "joint 'j': type 'universal' needs axis2 as well"),
         (
             lambda s: s.model.add_joint("j", "revolute", s.link, "b", axis=(0, 0, 0)),
-            "joint 'j': (0, 0, 0) is no direction",
+            "joint 'j': (0.0, 0.0, 0.0) is no direction",
         ),
         (lambda _: trundle.World(max_step_size=0.0), "max_step_size must be above zero, got 0"),
+        (lambda _: trundle.World(gravity=9.8), "gravity [m/s²] must be 3 finite numbers (x, y, z), got 9.8"),
+        (lambda s: s.world.add_box("x", 1), "size of box 'x' [m] must be 3 finite numbers (x, y, z), got 1"),
+        (lambda s: s.world.add_sphere("x", "1"), "radius of sphere 'x' must be a finite number, got '1'"),
+        (lambda s: s.world.add_sphere("x", 1, pose=(0, 1)), "pose of 'x' must be a Pose, (x, y, z) [m], (x, y, z, "),
+        (
+            lambda s: s.world.add_sphere("x", 1, color=(255, 0, 0)),
+            "color of 'x' must be (red, green, blue) or (red, green, blue, opacity), each 0 to 1, got (255, 0, 0)",
+        ),
     ],
 )
 def test_unknown_names_are_refused_with_the_known_ones(act, says: str) -> None:

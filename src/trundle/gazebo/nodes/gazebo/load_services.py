@@ -4,12 +4,12 @@ from typing import TYPE_CHECKING, Any
 
 from trundle.base.diagnostics import UsageError
 from trundle.ros import Message, Node, to_nsec
-from trundle.sim.simulation import JointHandle, LinkHandle, expect_finite
+from trundle.sim.simulation import JointHandle, LinkHandle
 from trundle.spatial import Wrench, cross
 
 from ..host import Simulator
 from .entities import find_joint, find_link, is_world, world_from_entity
-from .messages import advertise_status_service, read_vector
+from .messages import advertise_status_service, expect_finite, read_vector
 from .timed_loads import TimedLoads
 
 if TYPE_CHECKING:

@@ -4,9 +4,8 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from trundle.base.diagnostics import TrundleError
+from trundle.base.diagnostics import TrundleError, UsageError
 from trundle.ros import Message, Node
-from trundle.sim.simulation import expect_finite
 from trundle.spatial import IDENTITY_QUATERNION, Pose, Twist, Vector3
 
 if TYPE_CHECKING:
@@ -85,3 +84,13 @@ def advertise_status_service(
             return {"success": False, "status_message": f"{kind}: {error}"}
 
     node.advertise_service(f"~{name}", f"gazebo_msgs/{kind}", handle)
+
+
+def expect_finite(*numbers: float) -> None:
+    """Check for NaN and infinity, which would destroy the state.
+
+    Raises:
+        UsageError: a number is not finite.
+    """
+    if not all(map(math.isfinite, numbers)):
+        raise UsageError(f"finite numbers are needed, got {', '.join(f'{number:g}' for number in numbers)}")

@@ -4,12 +4,12 @@ from typing import TYPE_CHECKING, Any
 
 from trundle.base.diagnostics import TrundleError, UsageError
 from trundle.ros import Message, Node
-from trundle.sim.simulation import LinkHandle, Simulation, expect_finite
+from trundle.sim.simulation import LinkHandle, Simulation
 from trundle.spatial import Pose, Twist
 
 from ..host import Simulator
 from .entities import find_link, find_model, is_world, world_from_entity
-from .messages import advertise_status_service, pose_fields, read_pose, read_twist, twist_fields
+from .messages import advertise_status_service, expect_finite, pose_fields, read_pose, read_twist, twist_fields
 
 if TYPE_CHECKING:
     from trundle.ros.message_types import gazebo_msgs

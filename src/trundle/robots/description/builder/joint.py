@@ -4,7 +4,7 @@ from typing import Self
 
 from msgspec.structs import replace
 
-from trundle.base.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError, no_such
 from trundle.robots import model
 from trundle.robots.model import ForceTorque, JointAxis, JointType, Sensor
 from trundle.spatial import Pose, Quaternion, normalized, rotate
@@ -20,6 +20,8 @@ _BUILT = [kind for kind in JointType if kind not in (JointType.PLANAR, JointType
 class Joint:
     """Joint between two links, or a link and the world; created by `Model.add_joint`."""
 
+    __module__ = "trundle"
+
     def __init__(
         self,
         name: str,
@@ -33,7 +35,7 @@ class Joint:
         """Validate the type and its axes; see `Model.add_joint`."""
         types = {kind.value: kind for kind in _BUILT}
         if type not in types:
-            raise UsageError(f"joint {name!r}: no type {type!r}; there are: {', '.join(types)}")
+            raise UsageError(no_such(f"joint {name!r}: no type", type, list(types)))
         self.name = name
         self._type = types[type]
         self.parent, self.child, self._pose = parent, child, pose

@@ -1,16 +1,22 @@
 """Builder of a link: shapes, sensors and mass."""
 
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
+from trundle.base.arguments import pose_of, vector_of
 from trundle.base.diagnostics import UsageError
 from trundle.robots import model
 from trundle.robots.model import Collision, Inertial, Sensor, Visual
-from trundle.spatial import Pose, Vector3
+from trundle.spatial import Pose
 
 from ..inertia_sum import rotate_inertia, sum_inertias
 from .names import BUILT, check_name, check_positive
 from .sensors import SensorSettings, make_sensor
 from .shapes import Shape, ShapeAdder
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from trundle.base.arguments import PoseLike
 
 _ORIGIN = Pose()
 
@@ -20,6 +26,8 @@ class Link(ShapeAdder["Link"]):
 
     Without either, SDF's defaults apply: 1 kg and 1 kg·m². Poses of shapes and sensors are in the link frame.
     """
+
+    __module__ = "trundle"
 
     def __init__(self, name: str, pose: Pose) -> None:
         """Create an empty link; called by `Model.add_link`."""
@@ -33,10 +41,10 @@ class Link(ShapeAdder["Link"]):
     def set_inertial(
         self,
         mass: float,
-        moments: Vector3,
+        moments: "ArrayLike",
         *,
-        products: Vector3 = (0.0, 0.0, 0.0),
-        center: Vector3 = (0.0, 0.0, 0.0),
+        products: "ArrayLike" = (0.0, 0.0, 0.0),
+        center: "ArrayLike" = (0.0, 0.0, 0.0),
     ) -> Self:
         """Set the mass properties, in place of those of the shapes.
 
@@ -49,8 +57,14 @@ class Link(ShapeAdder["Link"]):
         Raises:
             UsageError: the mass or a moment is not above zero.
         """
-        check_positive(f"mass and moments of link {self.name!r}", mass, *moments)
-        self._inertial = Inertial(mass=mass, link_from_com=Pose(center), moments=moments, products=products)
+        ixx, iyy, izz = vector_of(moments, "moments [kg·m²]")
+        check_positive(f"mass and moments of link {self.name!r}", mass, ixx, iyy, izz)
+        self._inertial = Inertial(
+            mass=mass,
+            link_from_com=Pose(vector_of(center, "center [m]")),
+            moments=(ixx, iyy, izz),
+            products=vector_of(products, "products [kg·m²]"),
+        )
         return self
 
     def add_sensor(
@@ -59,7 +73,7 @@ class Link(ShapeAdder["Link"]):
         type: str,
         settings: SensorSettings | None = None,
         *,
-        pose: Pose = _ORIGIN,
+        pose: "PoseLike" = _ORIGIN,
         update_rate: float = 0.0,
         always_on: bool = False,
         visualize: bool = False,
@@ -70,9 +84,8 @@ class Link(ShapeAdder["Link"]):
         Args:
             name: sensor's name.
             type: SDF's: camera, depth_camera, ray, imu, contact, gps, altimeter, …
-            settings: struct of that type from `trundle.robots.model`: `CameraOptics`, `RangeScan`, …; None: SDF's
-                defaults.
-            pose: pose in the link frame.
+            settings: struct of that type: `CameraOptics`, `RangeScan`, `ImuNoise`, …; None: SDF's defaults.
+            pose: pose in the link frame: `Pose`, or 3, 6 or 7 numbers.
             update_rate: [Hz]; 0: at every step.
             always_on: keep the update schedule without subscribers.
             visualize: show its rays.
@@ -89,7 +102,7 @@ class Link(ShapeAdder["Link"]):
                 name,
                 type,
                 settings,
-                pose=pose,
+                pose=pose_of(pose),
                 update_rate=update_rate,
                 always_on=always_on,
                 visualize=visualize,

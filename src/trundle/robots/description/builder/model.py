@@ -1,15 +1,17 @@
 """Builder of a model: links and joints."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape, quoteattr
 
 from msgspec.structs import replace
 
-from trundle.base.diagnostics import UsageError
+from trundle.base.arguments import pose_of, vector_of
+from trundle.base.diagnostics import UsageError, no_such
 from trundle.base.xmlnode import parse_xml
 from trundle.robots import model
 from trundle.robots.model import JointAxis, PluginTag
-from trundle.spatial import Pose, Vector3
+from trundle.spatial import Pose
 
 from .joint import Joint
 from .link import Link
@@ -17,13 +19,22 @@ from .names import BUILT, check_name
 from .shapes import Shape, ShapeAdder
 from .writing import save, sdf_of
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from trundle.base.arguments import PoseLike
+
 _ORIGIN = Pose()
 
 
 class Model(ShapeAdder[Link]):
     """Links joined by joints; a shape added to the model becomes a link at the shape's pose."""
 
-    def __init__(self, name: str, *, pose: Pose = _ORIGIN, static: bool = False, self_collide: bool = False) -> None:
+    __module__ = "trundle"
+
+    def __init__(
+        self, name: str, *, pose: "PoseLike" = _ORIGIN, static: bool = False, self_collide: bool = False
+    ) -> None:
         """Create an empty model.
 
         Args:
@@ -34,20 +45,20 @@ class Model(ShapeAdder[Link]):
         """
         check_name(name, (), "a model")
         self.name = name
-        self.pose = pose
+        self.pose = pose_of(pose)
         self._static, self._self_collide = static, self_collide
         self._links: list[Link] = []
         self._joints: list[Joint] = []
         self._plugins: list[PluginTag] = []
 
-    def add_link(self, name: str, *, pose: Pose = _ORIGIN) -> Link:
+    def add_link(self, name: str, *, pose: "PoseLike" = _ORIGIN) -> Link:
         """Add an empty link, at a pose in the model's frame.
 
         Raises:
             UsageError: duplicate name; the message lists the names in use.
         """
         check_name(name, [*self._links, *self._joints], f"model {self.name!r}")
-        self._links.append(Link(name, pose))
+        self._links.append(Link(name, pose_of(pose)))
         return self._links[-1]
 
     def add_shape(self, shape: Shape) -> Link:
@@ -61,9 +72,9 @@ class Model(ShapeAdder[Link]):
         parent: Link | str,
         child: Link | str,
         *,
-        pose: Pose = _ORIGIN,
-        axis: Vector3 | JointAxis = (0.0, 0.0, 1.0),
-        axis2: Vector3 | JointAxis | None = None,
+        pose: "PoseLike" = _ORIGIN,
+        axis: "ArrayLike | JointAxis" = (0.0, 0.0, 1.0),
+        axis2: "ArrayLike | JointAxis | None" = None,
     ) -> Joint:
         """Connect two links, or a link and the "world".
 
@@ -72,8 +83,8 @@ class Model(ShapeAdder[Link]):
             type: SDF's: revolute, prismatic, fixed, ball, universal, screw or revolute2.
             parent: link or its name, or "world".
             child: link or its name.
-            pose: joint frame in the child's frame.
-            axis: direction in the joint's frame, without limits, or a `trundle.robots.model.JointAxis`.
+            pose: joint frame in the child's frame: `Pose`, or 3, 6 or 7 numbers.
+            axis: direction in the joint's frame (3), without limits, or a `JointAxis`.
             axis2: second axis of universal and revolute2 joints.
 
         Raises:
@@ -85,8 +96,8 @@ class Model(ShapeAdder[Link]):
             type,
             self._link_name(parent, name, ("world",)),
             self._link_name(child, name, ()),
-            pose=pose,
-            axes=(_axis(axis), _axis(axis2)),
+            pose=pose_of(pose),
+            axes=(_axis(axis, "axis"), _axis(axis2, "axis2")),
         )
         self._joints.append(joint)
         return joint
@@ -108,8 +119,7 @@ class Model(ShapeAdder[Link]):
         name = link if isinstance(link, str) else link.name
         names = [*(existing.name for existing in self._links), *others]
         if name not in names:
-            available = ", ".join(map(repr, names)) or "none"
-            raise UsageError(f"model {self.name!r}, joint {joint!r}: no link {name!r}; there are: {available}")
+            raise UsageError(no_such(f"model {self.name!r}, joint {joint!r}: no link", name, names))
         return name
 
     def description(self) -> model.Model:
@@ -144,5 +154,5 @@ class Model(ShapeAdder[Link]):
         return f"<Model {self.name!r}; links: {links or 'none'}; joints: {joints or 'none'}>"
 
 
-def _axis(axis: Vector3 | JointAxis | None) -> JointAxis | None:
-    return axis if axis is None or isinstance(axis, JointAxis) else JointAxis(direction=axis)
+def _axis(axis: "ArrayLike | JointAxis | None", name: str) -> JointAxis | None:
+    return axis if axis is None or isinstance(axis, JointAxis) else JointAxis(direction=vector_of(axis, name))

@@ -1,10 +1,12 @@
 """Validation of names and lengths in the builders."""
 
-import math
 from collections.abc import Iterable
 from typing import Protocol
 
+from trundle.base.arguments import described, number_of
 from trundle.base.diagnostics import Source, UsageError
+from trundle.robots.model import Rgba
+from trundle.spatial import numbers_of
 
 BUILT = Source("<built in code>")
 
@@ -20,8 +22,8 @@ def check_name(name: str, existing: Iterable[_Named], owner: str) -> str:
     Raises:
         UsageError: the name is a duplicate, empty, or contains SDF's separator.
     """
-    if not name or "::" in name:
-        raise UsageError(f"{owner}: {name!r} is no name: it must not be empty or hold '::'")
+    if not isinstance(name, str) or not name or "::" in name:
+        raise UsageError(f"{owner}: {described(name)} is no name: it must be text, not empty, and without '::'")
     names = [part.name for part in existing]
     if name in names:
         raise UsageError(f"{owner} has {name!r} already; there are: {', '.join(map(repr, names))}")
@@ -34,5 +36,23 @@ def check_positive(quantity: str, *values: float) -> None:
     Raises:
         UsageError: a value is not above zero, or not finite.
     """
-    if not all(value > 0.0 and math.isfinite(value) for value in values):
-        raise UsageError(f"{quantity} must be above zero, got {', '.join(f'{value:g}' for value in values)}")
+    for value in values:
+        if number_of(value, quantity) <= 0.0:
+            raise UsageError(f"{quantity} must be above zero, got {', '.join(f'{value:g}' for value in values)}")
+
+
+def color_of(value: object, name: str) -> Rgba:
+    """Return red, green, blue and opacity, 1 if there are only three.
+
+    Raises:
+        UsageError: the argument is none; `name` begins the sentence.
+    """
+    problem = f"{name} must be (red, green, blue) or (red, green, blue, opacity), each 0 to 1"
+    try:
+        red, green, blue, *alpha = numbers_of(value, (3, 4), problem)
+    except ValueError as error:
+        raise UsageError(str(error)) from None
+    opacity = alpha[0] if alpha else 1.0
+    if not all(0.0 <= part <= 1.0 for part in (red, green, blue, opacity)):
+        raise UsageError(f"{problem}, got {described(value)}")
+    return (red, green, blue, opacity)

@@ -2,7 +2,7 @@
 
 from typing import TypeAlias
 
-from trundle.base.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError, no_such
 from trundle.robots.model import (
     MEASURING,
     AirPressure,
@@ -74,7 +74,7 @@ def make_sensor(
     """
     types = CAMERA_TYPES | MEASURING
     if type_ not in types:
-        raise UsageError(f"sensor {name!r}: no type {type_!r}; there are: {', '.join(sorted(types))}")
+        raise UsageError(no_such(f"sensor {name!r}: no type", type_, sorted(types)))
     settings_type = _SETTINGS.get(type_)
     if settings is None and settings_type is not None:
         settings = settings_type()

@@ -2,19 +2,25 @@
 
 from abc import abstractmethod
 from pathlib import Path
-from typing import Generic, TypedDict, TypeVar, Unpack
+from typing import TYPE_CHECKING, Generic, TypedDict, TypeVar, Unpack
 
 import numpy as np
 from msgspec import Struct
 
-from trundle.base.diagnostics import UsageError
+from trundle.base.arguments import pose_of, vector_of
+from trundle.base.diagnostics import UsageError, no_such
 from trundle.robots.meshes import Mesh, load_mesh
-from trundle.robots.model import GREY, Box, Capsule, Cylinder, Geometry, Material, MeshFile, Rgba, Sphere, Surface
+from trundle.robots.model import GREY, Box, Capsule, Cylinder, Geometry, Material, MeshFile, Sphere, Surface
 from trundle.spatial import ZERO, Pose, Vector3
 
 from ..inertia_sum import Tensor
 from ..sdf.auto_inertia import volume_and_moments
-from .names import check_positive
+from .names import check_positive, color_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from trundle.base.arguments import PoseLike
 
 WATER = 1000.0
 """[kg/m³] SDF's default density."""
@@ -42,14 +48,14 @@ class Shape(Struct, frozen=True, kw_only=True):
 class ShapeOptions(TypedDict, total=False):
     """Options of every shape."""
 
-    pose: Pose
-    """Pose in the parent's frame; default: identity."""
+    pose: "PoseLike"
+    """Pose in the parent's frame: `Pose`, or 3, 6 or 7 numbers; default: identity."""
     mass: float
     """Mass [kg]; default: from the density."""
     density: float
     """Density [kg/m³]; default: water's, which is SDF's."""
-    color: Rgba
-    """Red, green, blue and opacity, each 0 to 1; default: Gazebo's grey."""
+    color: "ArrayLike"
+    """Red, green, blue, each 0 to 1, and opacity if there are 4; default: Gazebo's grey."""
     surface: Surface
     """Friction and contact; default: SDF's."""
     visual: bool
@@ -68,13 +74,13 @@ class ShapeAdder(Generic[Added]):
     def add_shape(self, shape: Shape) -> Added:
         """Add a shape created by the other methods."""
 
-    def add_box(self, name: str, size: Vector3, **options: Unpack[ShapeOptions]) -> Added:
+    def add_box(self, name: str, size: "ArrayLike", **options: Unpack[ShapeOptions]) -> Added:
         """Add a box of full lengths `size` along x, y, z [m].
 
         Raises:
             UsageError: a length, mass or density is not above zero, or the name is a duplicate.
         """
-        x, y, z = size
+        x, y, z = vector_of(size, f"size of box {name!r} [m]")
         check_positive(f"size of box {name!r}", x, y, z)
         return self.add_shape(_solid(name, Box((x, y, z)), options))
 
@@ -106,7 +112,7 @@ class ShapeAdder(Generic[Added]):
         return self.add_shape(_solid(name, Capsule(radius, length), options))
 
     def add_mesh(
-        self, name: str, file: str | Path, *, scale: Vector3 = (1.0, 1.0, 1.0), **options: Unpack[ShapeOptions]
+        self, name: str, file: str | Path, *, scale: "ArrayLike" = (1.0, 1.0, 1.0), **options: Unpack[ShapeOptions]
     ) -> Added:
         """Add the closed mesh of a .dae, .stl, .obj or .glb file.
 
@@ -114,9 +120,9 @@ class ShapeAdder(Generic[Added]):
             UsageError: the mesh encloses no volume, a mass or density is not above zero, or the name is a duplicate.
             MeshError: the file cannot be used.
         """
-        path = Path(file).expanduser().resolve()
-        volume, center, per_mass = _enclosed(load_mesh(path), scale, file)
-        geometry = MeshFile(path=path, uri=path.as_uri(), scale=scale)
+        path, factors = Path(file).expanduser().resolve(), vector_of(scale, f"scale of mesh {name!r}")
+        volume, center, per_mass = _enclosed(load_mesh(path), factors, file)
+        geometry = MeshFile(path=path, uri=path.as_uri(), scale=factors)
         return self.add_shape(_shape(name, geometry, volume, per_mass, options, center=center))
 
 
@@ -133,16 +139,15 @@ def _shape(
     """Return a shape with the mass of its options or volume [m³]; `per_mass` is inertia per unit of mass [m²]."""
     unknown = options.keys() - ShapeOptions.__annotations__.keys()
     if unknown:
-        names = ", ".join(ShapeOptions.__annotations__)
-        raise UsageError(f"shape {name!r}: no option {unknown.pop()!r}; there are: {names}")
+        raise UsageError(no_such(f"shape {name!r}: no option", unknown.pop(), list(ShapeOptions.__annotations__)))
     mass = options.get("mass", options.get("density", WATER) * volume)
     check_positive(f"mass or density of {name!r}", mass)
-    color = options.get("color", GREY.diffuse)
+    color = color_of(options.get("color", GREY.diffuse), f"color of {name!r}")
     a, b, c, d, e, f = (entry * mass for entry in per_mass)
     return Shape(
         name=name,
         geometry=geometry,
-        pose=options.get("pose", Pose()),
+        pose=pose_of(options.get("pose", Pose()), f"pose of {name!r}"),
         mass=mass,
         center=center,
         inertia=(a, b, c, d, e, f),

@@ -1,18 +1,25 @@
 """Builder of a world: models and lights."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
+from trundle.base.arguments import pose_of, vector_of
 from trundle.base.diagnostics import UsageError
 from trundle.robots import model
 from trundle.robots.model import Collision, Light, LightType, PhysicsSettings, Plane, Rgba, Visual
 from trundle.spatial import Pose, Vector3, normalized
 
 from .model import Model
-from .names import BUILT, check_name, check_positive
+from .names import BUILT, check_name, check_positive, color_of
 from .shapes import Shape, ShapeAdder
 from .writing import save, sdf_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from trundle.base.arguments import PoseLike
 
 _OVERHEAD = Pose((0.0, 0.0, 10.0))
 _UP: Vector3 = (0.0, 0.0, 1.0)
@@ -24,14 +31,16 @@ class World(ShapeAdder[Model]):
     A shape added to the world becomes a model with one link, "link", at the shape's pose.
     """
 
+    __module__ = "trundle"
+
     def __init__(
-        self, name: str = "default", *, gravity: Vector3 = (0.0, 0.0, -9.8), max_step_size: float = 0.001
+        self, name: str = "default", *, gravity: "ArrayLike" = (0.0, 0.0, -9.8), max_step_size: float = 0.001
     ) -> None:
         """Create an empty world.
 
         Args:
             name: world's name.
-            gravity: [m/s²]
+            gravity: (3) [m/s²]
             max_step_size: time step [s].
 
         Raises:
@@ -39,17 +48,17 @@ class World(ShapeAdder[Model]):
         """
         check_positive("max_step_size", max_step_size)
         self.name = check_name(name, (), "a world")
-        self._physics = PhysicsSettings(gravity=gravity, max_step_size_s=max_step_size)
+        self._physics = PhysicsSettings(gravity=vector_of(gravity, "gravity [m/s²]"), max_step_size_s=max_step_size)
         self._models: list[Model] = []
         self._lights: list[Light] = []
         self._has_ground = False
 
-    def add_model(self, model: Model | str, *, pose: Pose | None = None) -> Model:
+    def add_model(self, model: Model | str, *, pose: "PoseLike | None" = None) -> Model:
         """Add a model, or an empty one of that name, and return it.
 
         Args:
             model: model or name.
-            pose: pose in the world; None: the model's own.
+            pose: pose in the world: `Pose`, or 3, 6 or 7 numbers; None: the model's own.
 
         Raises:
             UsageError: duplicate name; the message lists the names in use.
@@ -58,7 +67,7 @@ class World(ShapeAdder[Model]):
         existing = [*self._models, *([Model(_GROUND)] if self._has_ground else [])]
         check_name(new_model.name, existing, f"world {self.name!r}")
         if pose is not None:
-            new_model.pose = pose
+            new_model.pose = pose_of(pose)
         self._models.append(new_model)
         return new_model
 
@@ -76,8 +85,8 @@ class World(ShapeAdder[Model]):
         name: str = "sun",
         type: LightType = "directional",
         *,
-        pose: Pose = _OVERHEAD,
-        direction: Vector3 = (-0.5, 0.1, -0.9),
+        pose: "PoseLike" = _OVERHEAD,
+        direction: "ArrayLike" = (-0.5, 0.1, -0.9),
         diffuse: Rgba = (0.8, 0.8, 0.8, 1.0),
         specular: Rgba = (0.2, 0.2, 0.2, 1.0),
         cast_shadows: bool = True,
@@ -87,9 +96,9 @@ class World(ShapeAdder[Model]):
         Args:
             name: light's name.
             type: directional, point or spot.
-            pose: pose in the world.
-            direction: direction of the light rays in the light's frame.
-            diffuse: diffuse color.
+            pose: pose in the world: `Pose`, or 3, 6 or 7 numbers.
+            direction: direction of the light rays in the light's frame (3).
+            diffuse: diffuse color: red, green, blue, each 0 to 1, and opacity if there are 4.
             specular: color of highlights.
             cast_shadows: True if it casts shadows.
 
@@ -97,7 +106,7 @@ class World(ShapeAdder[Model]):
             UsageError: duplicate name, or a direction of zero length.
         """
         check_name(name, self._lights, f"world {self.name!r}")
-        unit = normalized(direction)
+        unit = normalized(vector_of(direction, "direction"))
         if unit is None:
             raise UsageError(f"light {name!r}: {direction} is no direction")
         self._lights.append(
@@ -105,10 +114,10 @@ class World(ShapeAdder[Model]):
                 name=name,
                 type=type,
                 at=BUILT,
-                world_from_light=pose,
+                world_from_light=pose_of(pose),
                 direction=unit,
-                diffuse=diffuse,
-                specular=specular,
+                diffuse=color_of(diffuse, "diffuse"),
+                specular=color_of(specular, "specular"),
                 cast_shadows=cast_shadows,
             )
         )

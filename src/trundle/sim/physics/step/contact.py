@@ -19,6 +19,8 @@ _Array = NDArray[np.float64]
 class Contact(Struct, frozen=True, kw_only=True):
     """Contact point of two collisions."""
 
+    __module__ = "trundle"
+
     collisions: tuple[str, str]
     """`model::link::collision` of both."""
     position: Vector3
@@ -33,6 +35,8 @@ class Contact(Struct, frozen=True, kw_only=True):
 
 class Contacts(Sequence[Contact]):
     """Contact points of the last step, N of them, one by one or as arrays."""
+
+    __module__ = "trundle"
 
     def __init__(self, geom_collisions: tuple[str, ...], rows: _Array) -> None:
         """Store contacts.

@@ -48,6 +48,8 @@ MAX_SPEED = 1e6
 class SimulationUnstableError(TrundleError):
     """Unstable physics; the engine holds the last good state."""
 
+    __module__ = "trundle"
+
     def __init__(self, divergence: Divergence) -> None:
         super().__init__(
             f"the physics became unstable {divergence}; "

@@ -36,6 +36,8 @@ class DetectedBox(Struct, frozen=True, kw_only=True):
 class CameraReading(Struct, frozen=True, eq=False, kw_only=True):
     """Camera reading; fields that the kind of camera does not measure are None."""
 
+    __module__ = "trundle"
+
     time_ns: int
     """Simulation time of the snapshot rendered."""
     rgb: NDArray[np.uint8]

@@ -11,6 +11,8 @@ from .camera_image import CameraImage
 class CameraHandle:
     """Handle of a camera; it belongs to the thread that owns the simulation."""
 
+    __module__ = "trundle"
+
     def __init__(self, simulation: Simulation, sensor: CameraSensor, name: str) -> None:
         self._simulation = simulation
         self._sensor = sensor

@@ -1,17 +1,18 @@
 """Camera image: colors, depths and segmentation of one instant."""
 
 import io
-from collections.abc import Sequence
 
 import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from trundle.base.diagnostics import UsageError
+from trundle.base.diagnostics import UsageError, no_such
 
 
 class CameraImage(Struct, frozen=True, eq=False, kw_only=True):
     """Image without noise. A notebook shows its colors."""
+
+    __module__ = "trundle"
 
     time_ns: int
     """Simulation time."""
@@ -35,7 +36,7 @@ class CameraImage(Struct, frozen=True, eq=False, kw_only=True):
         """
         chosen = np.array([full == name or full.startswith(f"{name}::") for full in self.names])
         if not name or not chosen.any():
-            raise UsageError(f"nothing is called {name!r}; there are: {_listed(self.names[:-1])}")
+            raise UsageError(no_such("no visual", name, self.names[:-1]))
         return chosen[self.segmentation]
 
     def _repr_png_(self) -> bytes:
@@ -50,7 +51,3 @@ class CameraImage(Struct, frozen=True, eq=False, kw_only=True):
         height, width, _ = self.rgb.shape
         visible = int(np.count_nonzero(np.unique(self.segmentation) >= 0))
         return f"<CameraImage {width}x{height} at {self.time_ns / 1e9:.3f} s: {visible} visuals seen>"
-
-
-def _listed(names: Sequence[str]) -> str:
-    return ", ".join(map(repr, names)) or "none"
