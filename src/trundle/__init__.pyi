@@ -9,7 +9,12 @@ from .base.diagnostics import (
     UsageError as UsageError,
 )
 from .gazebo.plugins import Plugin as Plugin, VisualPlugin as VisualPlugin, WorldPlugin as WorldPlugin
-from .live.loaded_simulation import LoadedSimulation as LoadedSimulation, load as load
+from .live.film import Film as Film
+from .live.loaded_simulation import LoadedSimulation as LoadedSimulation
+from .live.loading import load as load
+from .live.plot import Plot as Plot
+from .live.recording import Recording as Recording
+from .live.view import View as View
 from .page.profile.stride_profile import StrideProfile as StrideProfile
 from .robots.description import Joint as Joint, Link as Link, Model as Model, World as World
 from .robots.meshes import MeshError as MeshError

@@ -115,6 +115,6 @@ def test_a_run_does_not_overwrite_the_recording_of_another(tmp_path: Path, capsy
         process.send_signal(signal.SIGINT)
         process.communicate()
     assert re.search(rf"error: {log}: .* writes it: end that, or choose another name\n", capsys.readouterr().err)
-    assert read_state_log(log).times[0] == 0.0
+    assert read_state_log(log).times_s[0] == 0.0
     assert main([*words, "--duration", "0.1"]) == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == ["run.log", "w.sdf"]

@@ -11,7 +11,7 @@ from trundle.base.diagnostics import UsageError
 from trundle.gym.ready_tasks import READY
 from trundle.gym.vector_env import SimulationVectorEnv
 from trundle.gym.worlds import Task, Worlds
-from trundle.live.loaded_simulation import load
+from trundle.live.loading import load
 
 NAME = "Trundle/CartPole-v0"
 

@@ -36,7 +36,7 @@ def test_each_spawned_model_starts_a_new_state_log(bare_gazebo: Gazebo, tmp_path
     assert "ball::l" not in read_state_log(folder / "state.log").links
     log = read_state_log(folder / "state-2.log")
     ball = log.links.index("ball::l")
-    fallen, first_s, last_s = log.poses[:, ball, 2], log.times[0] - start_s, log.times[-1] - start_s
+    fallen, first_s, last_s = log.poses[:, ball, 2], log.times_s[0] - start_s, log.times_s[-1] - start_s
     assert last_s - first_s > 0.2
     # Both ends of the fall lie on one parabola from rest at 9 m, wherever on it the log begins.
     assert (9.0 - fallen[-1]) ** 0.5 - (9.0 - fallen[0]) ** 0.5 == pytest.approx(
@@ -72,7 +72,7 @@ def test_page_recording_holds_the_recorded_part_of_a_run(tmp_path: Path, monkeyp
     assert recording.since_ns is None
     (file,) = tmp_path.glob("recorded/*/state.log")
     log = read_state_log(file)
-    assert (log.times[0], log.times[-1]) == pytest.approx((0.5, 1.5))
+    assert (log.times_s[0], log.times_s[-1]) == pytest.approx((0.5, 1.5))
     assert [str(file.relative_to(tmp_path)) in line for line in lines] == [True]
 
 
@@ -86,7 +86,7 @@ def test_two_recordings_in_one_second_are_both_kept(tmp_path: Path, monkeypatch:
         recording.set(False)
 
     logs = map(read_state_log, tmp_path.glob("recorded/*/state.log"))
-    assert sorted(float(log.times[0]) for log in logs) == pytest.approx((0.0, 0.1))
+    assert sorted(float(log.times_s[0]) for log in logs) == pytest.approx((0.0, 0.1))
 
 
 def test_a_recording_that_cannot_be_written_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

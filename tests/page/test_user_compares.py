@@ -109,7 +109,7 @@ def test_a_run_is_compared_with_a_recording(user: CompareUser, folder: Path, tmp
     user.until(lambda: user.ghost_at((-0.5, 0.5)), what="for the ghost after a second")
     assert not user.ghost_at((-0.9, 0.5))
     log = read_state_log(folder / "other.log")
-    recorded = log.poses[np.searchsorted(log.times, 1.0 - 1e-6), 0, :3]
+    recorded = log.poses[np.searchsorted(log.times_s, 1.0 - 1e-6), 0, :3]
     user.until_distance(float(np.linalg.norm(recorded - user.position("puck"))))
     assert user.number("puck", "distance", 3) == pytest.approx(math.hypot(1.5, 0.5), abs=2e-3), "that of the start"
     assert user.number("puck", "angle", 2) == 0.0

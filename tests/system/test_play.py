@@ -42,7 +42,7 @@ def test_a_run_whose_recording_cannot_be_written_fails(env, tmp_path) -> None:
     assert done.returncode == 1, done.stderr
     assert f"recording failed: {log}: File too large; trundle play shows what was recorded" in done.stderr
     assert "s simulated in" in done.stdout
-    times = read_state_log(log).times
+    times = read_state_log(log).times_s
     assert 10 < len(times) < 9 * 50
     assert times == pytest.approx(np.arange(len(times)) * 0.02)
 
@@ -64,7 +64,8 @@ def test_a_run_whose_recording_is_removed_fails(start, until, tmp_path) -> None:
     running = start("run", str(file), "--headless", "--no-ros", "--record", str(folder / "run.log"))
     log = folder / "run.log"
     until(
-        "two states to be recorded", lambda: log.exists() and log.stat().st_size and len(read_state_log(log).times) > 1
+        "two states to be recorded",
+        lambda: log.exists() and log.stat().st_size and len(read_state_log(log).times_s) > 1,
     )
     shutil.rmtree(folder)
 

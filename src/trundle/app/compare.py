@@ -52,7 +52,7 @@ def compare_logs(run: Path, reference: Path) -> RunDifferences:
 
 def _read(file: Path) -> Trajectory:
     log = read_state_log(file)
-    if len(log.times) == 0:
+    if len(log.times_s) == 0:
         raise DescriptionError(Source(str(file)), "nothing was recorded")
     return Trajectory.of_log(log)
 

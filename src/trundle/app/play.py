@@ -138,7 +138,7 @@ class LogPage:
         self._log = log
         self._simulation = simulation
         self._pictures = WorldPictures(server.respond_picture)
-        times_ns = np.rint(log.times * NS_PER_S).astype(np.int64)
+        times_ns = np.rint(log.times_s * NS_PER_S).astype(np.int64)
         self._playback = Playback(times_ns, speed=options.speed, paused=options.paused)
         self._joints = _joint_columns(log, single_axes(simulation))
         self._bodies = BodyNumbers()
@@ -197,7 +197,7 @@ class LogPage:
         Raises:
             UsageError: it was recorded in another world.
         """
-        start = float(self._log.times[0])
+        start = float(self._log.times_s[0])
         reference = Reference(recording, title, self._simulation, start=start)
         compared = reference.comparison.reference
         reference.comparison.add_run(Trajectory.of_log(self._log).only(compared.models, compared.joints))
@@ -247,6 +247,6 @@ def _joint_columns(log: StateLog, joints: NDArray[np.intp]) -> NDArray[np.float6
     columns = np.full((*positions.shape, 3), np.nan)
     columns[..., 0] = positions
     columns[..., 1] = 0.0
-    if len(log.times) > 1:
-        columns[1:, :, 1] = np.diff(positions, axis=0) / np.maximum(np.diff(log.times), 1e-9)[:, None]
+    if len(log.times_s) > 1:
+        columns[1:, :, 1] = np.diff(positions, axis=0) / np.maximum(np.diff(log.times_s), 1e-9)[:, None]
     return columns

@@ -17,7 +17,7 @@ def open_recording(file: Path, report: Diagnostics) -> tuple[StateLog, Simulatio
         DescriptionError: the file is not a state log, is empty, or its world cannot be read.
     """
     log = read_state_log(file)
-    if len(log.times) == 0:
+    if len(log.times_s) == 0:
         raise DescriptionError(Source(str(file)), "nothing was recorded")
     packages = Packages(dict(os.environ), start=Path.cwd())
     loaded = load_text(log.sdf, name=str(file), folder=file.parent, packages=packages, report=report)

@@ -5,7 +5,7 @@ import warnings
 from typing import TYPE_CHECKING, Literal, Unpack
 
 from trundle.base.diagnostics import UsageError
-from trundle.live.loaded_simulation import load
+from trundle.live.loading import load
 from trundle.sim.physics import NoGpuError, find_gpu
 
 from .single_env import SimulationEnv

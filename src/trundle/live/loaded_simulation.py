@@ -1,29 +1,39 @@
 """Result of `trundle.load`: a simulation with its sensors by name, its plugins and its ROS graph."""
 
-import os
-import warnings
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from trundle.base.arguments import described
-from trundle.base.diagnostics import Diagnostic, Diagnostics, TrundleWarning, UsageError
+from trundle.base.arguments import number_of
+from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.robots.packages import Packages
 from trundle.sim.realtime_pacer import STRIDE_FLAT_OUT_NS
 from trundle.sim.simulation import Simulation
+from trundle.spatial import NS_PER_S
 
-from .world_setup import LoadedWorld, load_built, load_world
+from .world_setup import LoadedWorld
 
 if TYPE_CHECKING:  # a simulation without a graph, or without use of its sensors, does not import these
+    from numpy.typing import ArrayLike
+    from PIL import Image
+
     from trundle.page.profile.stride_profile import StrideProfile
-    from trundle.robots.description import Model, World
     from trundle.ros import GraphLoop, Node
     from trundle.sim.physics import CompiledWorld
-    from trundle.sim.sensors import CameraHandle, MountedSensors, RangeSensor, SensorHandle
+    from trundle.sim.sensors import CameraHandle, CameraImage, MountedSensors, RangeSensor, SensorHandle
+    from trundle.sim.simulation import Snapshot
 
+    from .film import Film
+    from .free_camera import FreeCamera
     from .live_world import LiveWorld
+    from .plot import Plot
+    from .recording import Recording
     from .run.ros_interface import RosInterface
+    from .view import View
+
+_BAG_PERIOD_NS = 10_000_000
+"""Resolution of the stamps in bags [ns]."""
 
 
 class LoadedSimulation(Simulation):
@@ -56,6 +66,8 @@ class LoadedSimulation(Simulation):
         self._loaded = loaded
         self._environment = environment
         self._ros: RosInterface | None = None
+        self._view: View | None = None
+        self._recordings: list[Recording] = []
 
     def camera(self, name: str) -> "CameraHandle":
         """Camera by name.
@@ -119,6 +131,135 @@ class LoadedSimulation(Simulation):
 
         return StrideProfile(self, None if self._ros is None else self._ros.graph.loop)
 
+    # -- shown, drawn and recorded
+
+    def view(self, *, speed: float | None = 1.0, host: str = "127.0.0.1", port: int | None = None) -> "View":
+        """Open the page of the simulation, in the browser where a terminal has one, or in a notebook.
+
+        It returns at once. `run` and `step` keep the page up to date, `View.sync` shows what was set since. A second
+        call returns the open view.
+
+        Args:
+            speed: largest speed [simulated s per s]; None: as fast as possible.
+            host: address to serve the page at; 0.0.0.0: any machine that reaches this one, with the link.
+            port: TCP port; None: 8080 or the next free one.
+
+        Raises:
+            UsageError: the port is in use, or the speed is no number above zero.
+        """
+        from .view import View
+
+        if self._view is None or not self._view.is_open:
+            self._view = View(self.live, self._ros, speed=speed, host=host, port=port)
+        return self._view
+
+    def picture(
+        self,
+        eye: "ArrayLike | None" = None,
+        target: "ArrayLike | None" = None,
+        *,
+        size: tuple[int, int] = (800, 600),
+        fov_rad: float | None = None,
+    ) -> "CameraImage":
+        """Draw the present state from anywhere, with colors, depths and segmentation.
+
+        Args:
+            eye: position of the camera in the world (3) [m]; None: a three-quarter view of everything.
+            target: point in the world in the middle of the picture (3) [m]; None: the origin.
+            size: width and height [px].
+            fov_rad: horizontal field of view [rad]; None: 0.9, or 0.6 for the three-quarter view.
+
+        Raises:
+            UsageError: an argument is none, or too large a picture.
+        """
+        return self._free_camera.draw(self.snapshot(), eye=eye, target=target, size=size, fov_rad=fov_rad)
+
+    @cached_property
+    def _free_camera(self) -> "FreeCamera":
+        from .free_camera import FreeCamera
+
+        return FreeCamera(self)
+
+    def film(
+        self,
+        file: str | Path,
+        *,
+        camera: str | None = None,
+        eye: "ArrayLike | None" = None,
+        target: "ArrayLike | None" = None,
+        size: tuple[int, int] = (800, 600),
+        fov_rad: float | None = None,
+    ) -> "Film":
+        """Film the simulation from now on, 25 frames per simulated second, until the film is closed.
+
+        Args:
+            file: path: .mp4 (with the extra `video`), .webp, .gif or .apng.
+            camera: name of a camera sensor, with its own size; None: a free camera, see `picture`.
+            eye: position of the free camera in the world (3) [m].
+            target: point in the world in the middle of the picture (3) [m].
+            size: width and height [px].
+            fov_rad: horizontal field of view [rad].
+
+        Raises:
+            UsageError: no such camera, or the file's name ends in something else.
+        """
+        from .film import Film
+
+        seen_by = None if camera is None else self.camera(camera)
+
+        def draw(snapshot: "Snapshot") -> "Image.Image":
+            from PIL import Image
+
+            if seen_by is not None:
+                return Image.fromarray(seen_by.render().rgb)
+            image = self._free_camera.draw(snapshot, eye=eye, target=target, size=size, fov_rad=fov_rad)
+            return Image.fromarray(image.rgb)
+
+        return Film(self, Path(file).expanduser(), draw)
+
+    def record(self, file: str | Path) -> "Recording":
+        """Record the simulation from now on, until the recording is closed.
+
+        Args:
+            file: path. .log: a state log, the poses of all links and positions of all joints fifty times a second, for
+                `read_state_log` and `trundle play`. .bag, .mcap: every message that this process publishes, for a
+                simulation with ROS.
+
+        Raises:
+            UsageError: the file's name ends in something else, it cannot be written, or there is no ROS graph.
+        """
+        from .recording import BagWriter, Recording, StateLogWriter
+
+        path = Path(file).expanduser()
+        match path.suffix.lower():
+            case ".log":
+                writer = StateLogWriter(self, path, self.world)
+            case ".bag" | ".mcap":
+                writer = BagWriter(self, path, self._graph.graph.loop)
+            case _:
+                raise UsageError(f"a recording's file ends in .log, .bag or .mcap, not in {path.suffix!r}")
+        recording = Recording(path, writer, self._recordings.remove)
+        self._recordings.append(recording)
+        return recording
+
+    def plot(self, *names: str, period_s: float = 0.02) -> "Plot":
+        """Sample values while the simulation runs, as curves over time and as arrays.
+
+        Args:
+            names: `model::link.pose.z`, `model::link.twist.linear.x`, `model::joint.velocity`,
+                `model::link.contact.force.z`, `model::link::sensor.…`, as in the page's plots; a model stands for its
+                first link.
+            period_s: time between two samples [s].
+
+        Raises:
+            UsageError: no such value; the message lists those of its link, joint or sensor.
+        """
+        from .plot import Plot
+
+        period_ns = round(number_of(period_s, "period_s [s]", minimum=0.0) * NS_PER_S)
+        self.live.start_sensors()
+        return Plot(self.live, names, period_ns)
+
     # -- the ROS graph
 
     def open_graph(self, *, on_open: "Callable[[GraphLoop], None]" = lambda _loop: None) -> None:
@@ -164,20 +305,37 @@ class LoadedSimulation(Simulation):
 
     def advance(self, until_ns: int) -> None:
         """See `Simulation.advance`; messages reach the nodes of this process within 50 ms of simulation time."""
-        if self._ros is None:
+        view = self._view if self._view is not None and self._view.is_open else None
+        if self._ros is None and view is None:
             super().advance(until_ns)
             return
-        self._ros.settle()
-        left_ns = until_ns - self.time_ns
+        if self._ros is not None:
+            self._ros.settle()
+        stride_ns = STRIDE_FLAT_OUT_NS if view is None else view.stride_ns
+        if self._ros is not None and self._recordings:
+            stride_ns = min(stride_ns, _BAG_PERIOD_NS)
+        strides, left_ns = 0, until_ns - self.time_ns
         while left_ns > 0:
             before_ns = self.simulated_ns
-            super().advance(self.time_ns + min(left_ns, STRIDE_FLAT_OUT_NS))
+            super().advance(self.time_ns + min(left_ns, stride_ns))
             left_ns -= self.simulated_ns - before_ns
-            self._ros.tick(wait=True)
+            strides += 1
+            if self._ros is not None:
+                self._ros.tick(wait=True)
+                for recording in self._recordings:
+                    recording.write()
             self._drain()
+            if view is not None:
+                view.follow()
+        if view is not None and strides > 1:
+            view.sync()
 
     def close(self) -> None:
-        """Leave the ROS graph; stop its master if it was started here."""
+        """Close its view, complete its recordings, and leave the ROS graph; stop its master if it was started here."""
+        if self._view is not None:
+            self._view.close()
+        for recording in list(self._recordings):
+            recording.close()
         ros, self._ros = self._ros, None
         if ros is not None:
             ros.close()
@@ -187,61 +345,3 @@ class LoadedSimulation(Simulation):
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-
-def load(
-    file: "str | os.PathLike[str] | Model | World",
-    *,
-    seed: int = 0,
-    plugins: bool = False,
-    ros: bool | str = False,
-    warn: bool = True,
-) -> LoadedSimulation:
-    """Load a robot or world, ready to simulate; a robot alone gets a ground plane and a sun.
-
-    Args:
-        file: SDF, URDF or xacro; a folder with model.config; model://NAME; or a `Model` or `World`.
-        seed: seed of all random numbers.
-        plugins: run the file's plugins, with ROS if `ros` is set; loaded plugins are listed in `report`.
-        ros: join the ROS graph at ROS_MASTER_URI, or start a master if there is none; a master's URI joins its
-            graph. `close` the simulation, or use it in a `with` statement.
-        warn: print what is not simulated as written, as Python's warnings, each with file and line; False: only
-            collect it in the simulation's `report`.
-
-    Raises:
-        TrundleError: one sentence with file and line.
-    """
-    if not isinstance(seed, int):
-        raise UsageError(f"seed must be a whole number, got {described(seed)}")
-    environment = dict(os.environ)
-    if isinstance(ros, str):
-        environment["ROS_MASTER_URI"] = ros
-    report = _PrintedDiagnostics() if warn else Diagnostics()
-    packages = Packages(environment, start=Path.cwd())
-    if isinstance(file, str | os.PathLike):
-        loaded = load_world(os.fspath(file), packages, report, seed=seed)
-    elif hasattr(file, "to_sdf"):  # its classes are not imported for a file
-        loaded = load_built(file, packages, report, seed=seed)
-    else:
-        raise UsageError(f"load needs a file's path, model://NAME, a Model or a World, got {described(file)}")
-    simulation = LoadedSimulation(loaded, report, environment, seed=seed)
-    try:
-        if ros:
-            simulation.open_graph()
-        if plugins:
-            simulation.load_plugins()
-    except BaseException:
-        simulation.close()
-        raise
-    return simulation
-
-
-class _PrintedDiagnostics(Diagnostics):
-    """Diagnostics whose warnings are also Python's, at the line of the file."""
-
-    def _add(self, finding: Diagnostic) -> None:
-        count = len(self.findings)
-        super()._add(finding)
-        if len(self.findings) > count and finding.severity == "warning":
-            text, (file, line) = self.findings[-1].what, finding.at
-            warnings.warn_explicit(text, TrundleWarning, file, line or 1, module="trundle")

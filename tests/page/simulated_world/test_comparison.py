@@ -81,7 +81,7 @@ def test_the_manifest_names_the_recording_and_its_samples(shown: Shown, referenc
     data = files[info["url"]]
     times = np.frombuffer(data, "<f8", 51)
     poses = np.frombuffer(data, "<f4", 51 * 3 * 7, 51 * 8 + 51 * 2 * 8).reshape(51, 3, 7)
-    assert times == pytest.approx(log.times)
+    assert times == pytest.approx(log.times_s)
     assert poses[:, 0, :3] == pytest.approx(log.poses[:, log.links.index("ball::l"), :3], rel=1e-6)
     assert poses[0, 0, 3:].tolist() == [0.0, 0.0, 0.0, 1.0]
 

@@ -431,7 +431,7 @@ def test_seeking_back_and_running_on_keeps_recording(tmp_path: Path, monkeypatch
     assert np.array_equal(sim.snapshot().poses, poses)
     shown.ask(Record(False))
 
-    times = read_state_log(next(tmp_path.rglob("state.log"))).times
+    times = read_state_log(next(tmp_path.rglob("state.log"))).times_s
     assert times[-1] == pytest.approx(0.15, abs=0.02)
     assert times.min() == pytest.approx(0.02, abs=0.02)  # recorded again from the time of the seek
     assert "not part of the timeline" in (shown.ask(Seek(10**12)) or "")

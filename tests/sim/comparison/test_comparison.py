@@ -23,7 +23,7 @@ def log(times: np.ndarray = TIMES, *, x: float = 0.0, yaw: float = 0.0, hinge: f
         links=("floor::link", "box::base", "box::mast"),
         joints=("box::hinge",),
         sdf="",
-        times=times,
+        times_s=times,
         poses=poses,
         positions=(hinge + times - times[0])[:, None],
     )

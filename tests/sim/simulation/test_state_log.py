@@ -32,7 +32,7 @@ def test_a_log_contains_every_pose_with_its_time(tmp_path: Path) -> None:
 
     log = read_state_log(str(path))
 
-    assert log.times == pytest.approx(np.arange(1, 26) * 0.02)
+    assert log.times_s == pytest.approx(np.arange(1, 26) * 0.02)
     assert log.links[:2] == ("m::a", "m::b")
     assert log.poses[-1] == pytest.approx(sim.snapshot().poses, abs=0)
     assert log.positions[-1, log.joints.index("m::j")] == sim["m"].joint("j").position != 0.0
@@ -43,7 +43,7 @@ def test_a_truncated_log_is_read_up_to_its_last_row(tmp_path: Path) -> None:
     whole = path.read_bytes()
     path.write_bytes(whole[:-13])
 
-    assert len(read_state_log(path).times) == 24
+    assert len(read_state_log(path).times_s) == 24
 
 
 @pytest.mark.parametrize("number", [np.nan, np.inf, 1e200, -1e39, 0.0])
@@ -59,7 +59,7 @@ def test_a_damaged_row_is_reported_by_number(tmp_path: Path, column: int, number
     path.write_bytes(header + newline + rows.tobytes())
 
     if number == 0.0 and column != 4:
-        assert len(read_state_log(path).times) == 25
+        assert len(read_state_log(path).times_s) == 25
     else:
         with pytest.raises(DescriptionError, match=r"run.log: error: row 3 of 25 is damaged"):
             read_state_log(path)

@@ -39,9 +39,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Render an image or a video."""
     from trundle.app.picture.render import PictureOptions, PictureRenderer
-    from trundle.app.picture.video import VIDEO_SUFFIXES, simulated_frames, turntable, write_video
+    from trundle.app.picture.video import simulated_frames, turntable
     from trundle.base.atomic_write import replaced_atomically
     from trundle.base.diagnostics import Diagnostics, UsageError
+    from trundle.base.video_file import VIDEO_SUFFIXES, write_video
 
     is_video = args.output.suffix.lower() in VIDEO_SUFFIXES
     if args.orbit and (args.camera or args.duration is not None):

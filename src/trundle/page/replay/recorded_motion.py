@@ -45,8 +45,8 @@ def motion_of_log(log: StateLog, simulation: Simulation, title: str) -> Recorded
         time_ns = round(time_s * NS_PER_S)
         return lambda actor: simulation.actors[actor].animation_state(time_ns)
 
-    rows = [bones.with_bones(row, states_at(time)) for time, row in zip(log.times.tolist(), log.poses, strict=True)]
-    return RecordedMotion(title=title, world=simulation.world, times=log.times, poses=np.stack(rows))
+    rows = [bones.with_bones(row, states_at(time)) for time, row in zip(log.times_s.tolist(), log.poses, strict=True)]
+    return RecordedMotion(title=title, world=simulation.world, times=log.times_s, poses=np.stack(rows))
 
 
 def animated_world(motion: RecordedMotion, report: Diagnostics) -> bytes:

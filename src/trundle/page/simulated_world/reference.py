@@ -144,7 +144,7 @@ def read_recording(file: Path, title: str) -> StateLog:
         log = read_state_log(file)
     except DescriptionError as error:
         raise DescriptionError(Source(title, error.at.line), error.what) from None
-    if len(log.times) == 0:
+    if len(log.times_s) == 0:
         raise DescriptionError(Source(title), "nothing was recorded")
     return log
 
@@ -160,13 +160,13 @@ def _taken(rows: _Array, indices: NDArray[np.intp]) -> _Array:
 
 def _packed(log: StateLog, links: Sequence[str], joints: Collection[str]) -> tuple[int, bytes]:
     """Return the number of samples and their bytes, as `ReferenceInfo.url` describes them."""
-    rows = ascending_rows(log.times)
+    rows = ascending_rows(log.times_s)
     row_bytes = 8 + 8 * len(joints) + 28 * len(links)
     rows = rows[:: math.ceil(len(rows) * row_bytes / _MAX_BYTES)]
     link_columns = [log.links.index(link) for link in links]
     joint_columns = [log.joints.index(joint) for joint in joints]
     poses = log.poses[rows][:, link_columns][:, :, _XYZ_XYZW]
-    times = log.times[rows] - log.times[rows[0]]
+    times = log.times_s[rows] - log.times_s[rows[0]]
     positions = log.positions[rows][:, joint_columns]
     return len(rows), times.astype("<f8").tobytes() + positions.astype("<f8").tobytes() + poses.astype("<f4").tobytes()
 

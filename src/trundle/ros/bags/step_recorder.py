@@ -35,7 +35,7 @@ class StepRecorder:
         Args:
             loop: loop whose publishers are recorded.
             path: bag to write.
-            complain: called with the reason if recording fails.
+            on_failure: called with the reason if recording fails.
             from_ns: time of the first step in the bag [ns]; earlier steps contribute only latched messages.
             without_types: message types to exclude; their publishers get no subscriber.
 
@@ -55,6 +55,8 @@ class StepRecorder:
         """(topic, caller) → last latched message before `from_ns`."""
         self._has_failed = False
         self._is_abandoned = False
+        self._local = loop.local
+        loop.call_soon(self._attach_all)
         loop.local.on_publisher.append(self._attach)
 
     def receive(self, message: Message, *, from_outside: bool) -> None:
@@ -106,6 +108,17 @@ class StepRecorder:
     def _fail(self, reason: str) -> None:
         self._has_failed = True
         self._on_failure(f"recording failed: {reason}")
+
+    def detach(self) -> None:
+        """Receive no more messages."""
+        self._local.on_publisher.remove(self._attach)
+        for publisher in list(self._local.publishers):
+            publisher.detach(self)
+
+    def _attach_all(self) -> None:
+        """Attach to the publishers that there are; on the loop."""
+        for publisher in list(self._local.publishers):
+            self._attach(publisher)
 
     def _attach(self, publisher: LocalPublisher) -> None:
         if publisher.topic not in _WALL_TIME_TOPICS and publisher.type not in self._without_types:

@@ -58,6 +58,7 @@ class NodeEndpoints:
             publisher = self._publishers[topic] = make()
             self.changes += 1
         self._recorder.add(publisher)
+        self._node.loop.call_soon(lambda: self._node.loop.local.publishers.add(publisher))
         for listener in self._node.loop.local.on_publisher:
             self._node.loop.call_soon(lambda listener=listener: listener(publisher))
         self._register_publisher(publisher)

@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import Callable
 from typing import NamedTuple, Protocol
+from weakref import WeakSet
 
 from ..messages.raw_message import Message
 
@@ -99,6 +100,8 @@ class LocalGraph:
         """XML-RPC address → node."""
         self.masters: set[str] = set()
         """URIs of the masters in this process, which end with it."""
+        self.publishers: WeakSet[LocalPublisher] = WeakSet()
+        """Publishers so far; those that are closed deliver nothing."""
         self.on_publisher: list[Callable[[LocalPublisher], None]] = []
         """Called on the loop with each new publisher."""
         self.service_changes = 0

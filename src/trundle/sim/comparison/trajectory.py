@@ -32,9 +32,9 @@ class Trajectory(Struct, frozen=True, eq=False, kw_only=True):
     @classmethod
     def of_log(cls, log: StateLog) -> Self:
         """Return the run in a log with at least one row; where its time goes back, the later rows count."""
-        rows = ascending_rows(log.times)
+        rows = ascending_rows(log.times_s)
         firsts = first_links(log.links)
-        times = log.times[rows]
+        times = log.times_s[rows]
         return cls(
             models=tuple(firsts),
             joints=log.joints,

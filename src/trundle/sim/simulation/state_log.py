@@ -97,7 +97,7 @@ class StateLog(Struct, frozen=True, eq=False, kw_only=True):
     links: tuple[str, ...]
     joints: tuple[str, ...]
     sdf: str
-    times: _Array
+    times_s: _Array
     """(rows,) [s]"""
     poses: _Array
     """(rows, links, 7) x y z [m], qw qx qy qz, in the world."""
@@ -136,7 +136,7 @@ def read_state_log(file: Path | str) -> StateLog:
         links=links,
         joints=joints,
         sdf=sdf,
-        times=rows[:, 0],
+        times_s=rows[:, 0],
         poses=poses,
         positions=rows[:, 1 + 7 * len(links) :],
     )

@@ -22,7 +22,7 @@ def check_name(name: str, existing: Iterable[_Named], owner: str) -> str:
     Raises:
         UsageError: the name is a duplicate, empty, or contains SDF's separator.
     """
-    if not isinstance(name, str) or not name or "::" in name:
+    if not isinstance(name, str) or not name or "::" in name:  # pyright: ignore[reportUnnecessaryIsInstance]
         raise UsageError(f"{owner}: {described(name)} is no name: it must be text, not empty, and without '::'")
     names = [part.name for part in existing]
     if name in names:
