@@ -12,17 +12,19 @@ from trundle.sim.realtime_pacer import STRIDE_FLAT_OUT_NS
 from trundle.sim.simulation import Simulation
 from trundle.spatial import NS_PER_S
 
-from .world_setup import LoadedWorld
+from .world_setup import LoadedWorld, described_model
 
 if TYPE_CHECKING:  # a simulation without a graph, or without use of its sensors, does not import these
     from numpy.typing import ArrayLike
     from PIL import Image
 
     from trundle.page.profile.stride_profile import StrideProfile
+    from trundle.robots.description import Model
+    from trundle.robots.model import Model as Description
     from trundle.ros import GraphLoop, Node
     from trundle.sim.physics import CompiledWorld
     from trundle.sim.sensors import CameraHandle, CameraImage, MountedSensors, RangeSensor, SensorHandle
-    from trundle.sim.simulation import Snapshot
+    from trundle.sim.simulation import ModelHandle, Snapshot
 
     from .film import Film
     from .free_camera import FreeCamera
@@ -130,6 +132,19 @@ class LoadedSimulation(Simulation):
         from trundle.page.profile.stride_profile import StrideProfile
 
         return StrideProfile(self, None if self._ros is None else self._ros.graph.loop)
+
+    def spawn(self, model: "Description | Model", *, allow_renaming: bool = False) -> "ModelHandle":
+        """Add a model; everything else keeps its exact state.
+
+        Args:
+            model: model built in code, or the description of one of a simulation, `ModelHandle.model`; at its pose.
+            allow_renaming: append _0, _1, … to a name that is taken, as Gazebo does.
+
+        Raises:
+            UsageError: the name is taken, or the argument is no model.
+            DescriptionError: MuJoCo cannot simulate the result; nothing has changed.
+        """
+        return super().spawn(described_model(model, self.live.packages, self.report), allow_renaming=allow_renaming)
 
     # -- shown, drawn and recorded
 

@@ -100,7 +100,7 @@ class View:
 
     @property
     def real_time_factor(self) -> float | None:
-        """Simulated over wall time of the last moments; None: not measured yet."""
+        """Ratio of simulated to wall time in the last moments; None: not measured yet."""
         return self._pacer.real_time_factor
 
     @property

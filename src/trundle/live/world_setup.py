@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from trundle.base.diagnostics import Diagnostics
+from trundle.base.arguments import described
+from trundle.base.diagnostics import Diagnostics, UsageError
 from trundle.robots import model
 from trundle.robots.description import LoadedDescription, load, load_text
 from trundle.robots.model import flattened
@@ -67,6 +68,22 @@ def load_built(built: "Model | World", packages: Packages, report: Diagnostics, 
     return _with_ground_and_sun(
         load_text(text, name=name, folder=Path.cwd(), packages=packages, report=report, seed=seed), packages, report
     )
+
+
+def described_model(built: "Model | model.Model", packages: Packages, report: Diagnostics) -> model.Model:
+    """Return the description of a model built in code, by its SDF, or the description itself.
+
+    Raises:
+        UsageError: the argument is neither.
+        DescriptionError: the SDF is invalid.
+    """
+    if isinstance(built, model.Model):
+        return built
+    if not hasattr(built, "add_joint"):  # its class is not imported for a description
+        raise UsageError(f"a model is needed, as trundle.Model or ModelHandle.model, got {described(built)}")
+    text, folder = built.to_sdf().encode(), Path.cwd()
+    loaded = load_text(text, name=f"<{built.name}>", folder=folder, packages=packages, report=report)
+    return flattened(loaded.world).models[0]
 
 
 def _with_ground_and_sun(loaded: LoadedDescription, packages: Packages, report: Diagnostics) -> LoadedWorld:

@@ -63,7 +63,7 @@ class Pose(Struct, frozen=True):
         return (self.position[0] + x, self.position[1] + y, self.position[2] + z)
 
     def transform_vector(self, v: Vector3) -> Vector3:
-        """Express a free vector given in frame b in frame a."""
+        """Express a free vector given in frame b in frame a, in the same unit."""
         return rotate(self.quaternion, v)
 
     @property

@@ -69,11 +69,14 @@ class CameraOptics(Struct, frozen=True, kw_only=True):
     """Name of the camera within a multicamera."""
     sensor_from_camera: Pose = Pose()
     horizontal_fov_rad: float = 1.047
+    """Horizontal field of view [rad]."""
     width_px: int = 320
     height_px: int = 240
     format: str = "R8G8B8"
     near_m: float = 0.1
+    """Near clip plane [m]."""
     far_m: float = 100.0
+    """Far clip plane [m]."""
     noise: Noise = Noise()
     """Noise per pixel, white = 1; [m] for a depth image."""
     distortion: Distortion = Distortion()
@@ -83,8 +86,9 @@ class CameraOptics(Struct, frozen=True, kw_only=True):
     lens: Lens | None = None
     """Set for wide-angle cameras."""
     depth_near_m: float | None = None
-    """Near limit of depths; None: the near clip plane."""
+    """Near limit of depths [m]; None: the near clip plane."""
     depth_far_m: float | None = None
+    """Far limit of depths [m]; None: the far clip plane."""
     save_path: str | None = None
     """Folder that images are saved to."""
     panoptic: bool = False

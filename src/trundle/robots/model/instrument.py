@@ -13,10 +13,13 @@ class LogicalCamera(Struct, frozen=True, kw_only=True):
     __module__ = "trundle"
 
     near_m: float = 0.0
+    """Nearest distance at which models are seen [m]."""
     far_m: float = 1.0
+    """Farthest distance at which models are seen [m]."""
     aspect_ratio: float = 1.0
-    """Width / height."""
+    """Ratio of width to height."""
     horizontal_fov_rad: float = 1.0
+    """Horizontal field of view [rad]."""
 
 
 class Sonar(Struct, frozen=True, kw_only=True):
@@ -27,7 +30,9 @@ class Sonar(Struct, frozen=True, kw_only=True):
     geometry: str = "cone"
     """cone or sphere."""
     min_m: float = 0.0
+    """Shortest range [m]."""
     max_m: float = 1.0
+    """Longest range [m]; it also stands for no echo."""
     radius: float = 0.5
     """Radius of the cone's far end, or of the sphere [m]."""
 
@@ -39,14 +44,17 @@ class Transceiver(Struct, frozen=True, kw_only=True):
 
     essid: str = "wireless"
     frequency_mhz: float = 2442.0
-    """Frequency of a transmitter."""
+    """Frequency of a transmitter [MHz]."""
     lowest_mhz: float = 2412.0
-    """Lower end of a receiver's band."""
+    """Lower end of a receiver's band [MHz]."""
     highest_mhz: float = 2484.0
+    """Upper end of a receiver's band [MHz]."""
     gain_dbi: float = 2.5
+    """Gain of the antenna [dBi]."""
     power_dbm: float = 14.5
+    """Power of a transmitter [dBm]."""
     sensitivity_dbm: float = -90.0
-    """Weakest signal that a receiver detects."""
+    """Weakest signal that a receiver detects [dBm]."""
 
 
 class Altimeter(Struct, frozen=True, kw_only=True):

@@ -51,10 +51,11 @@ class JointAxis(Struct, frozen=True, kw_only=True):
     __module__ = "trundle"
 
     direction: Vector3
-    """Unit, in the model frame with every joint at zero."""
+    """Unit vector, in the model frame with every joint at zero."""
     lower: float = -math.inf
     """[rad] or [m]; lower == upper leaves no freedom."""
     upper: float = math.inf
+    """[rad] or [m]"""
     effort: float = math.inf
     """Largest actuation [N·m] or [N]."""
     velocity: float = math.inf

@@ -15,7 +15,7 @@ class ScanAxis(Struct, frozen=True, kw_only=True):
 
     samples: int = 1
     resolution: float = 1.0
-    """Output values per sample; Gazebo interpolates between rays."""
+    """Ratio of output values to samples; Gazebo interpolates between rays."""
     min_angle: float = 0.0
     """[rad]"""
     max_angle: float = 0.0
@@ -35,7 +35,9 @@ class RangeScan(Struct, frozen=True, kw_only=True):
     horizontal: ScanAxis = ScanAxis()
     vertical: ScanAxis = ScanAxis()
     min_m: float = 0.0
+    """Shortest range [m]; what is nearer reads −inf."""
     max_m: float = 0.0
+    """Longest range [m]; what is farther reads inf."""
     noise: Noise = Noise()
     visibility_mask: int = EVERY_BIT
     """Mask of gpu_ray sensors: they see the visuals whose flags share a bit with it."""

@@ -25,13 +25,14 @@ def is_bag(path: Path) -> bool:
     return _format(path) != ""
 
 
-def open_bag(path: Path) -> BagReader:
+def open_bag(path: Path | str) -> BagReader:
     """Open a .bag or .mcap file for reading.
 
     Raises:
         UnindexedBagError: the bag has no index.
         BagError: the file is neither, or damaged.
     """
+    path = Path(path)
     match _format(path):
         case "mcap":
             from .mcap import McapReader
@@ -119,6 +120,7 @@ def recover_messages(path: Path) -> Iterator[BagMessage]:
     Raises:
         BagError: the file is not a bag.
     """
+    path = Path(path)
     match _format(path):
         case "mcap":
             from .mcap import scan_mcap

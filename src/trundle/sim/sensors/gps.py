@@ -29,7 +29,9 @@ class GpsReading(Struct, frozen=True, kw_only=True):
 
     time_ns: int
     latitude_deg: float
+    """North of the equator [degrees]."""
     longitude_deg: float
+    """East of Greenwich [degrees]."""
     altitude: float
     """Altitude above the ellipsoid [m]."""
 

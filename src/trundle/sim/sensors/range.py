@@ -26,7 +26,7 @@ class RangeReading(Struct, frozen=True, eq=False, kw_only=True):
     ranges: NDArray[np.float64]
     """(vertical values, horizontal values) [m]; inf beyond the maximum range, −inf below the minimum."""
     intensities: NDArray[np.float64]
-    """laser_retro of the surface hit, shaped as `ranges`; 0 without a hit."""
+    """(vertical values, horizontal values) laser_retro of the surface hit; 0 without a hit."""
 
     @property
     def horizontal_angles(self) -> NDArray[np.float64]:

@@ -58,7 +58,7 @@ class SensorHandle:
 
     @property
     def rate_hz(self) -> float:
-        """Update rate; 0: every step."""
+        """Update rate [Hz]; 0: every step."""
         return self._sensor.rate_hz
 
     def read(self) -> "SensorReading":

@@ -26,7 +26,7 @@ class SonarReading(Struct, frozen=True, kw_only=True):
 
     time_ns: int
     range_m: float
-    """Range within the sensor's limits; the maximum also means no echo, as in Gazebo."""
+    """Range [m] within the sensor's limits; the maximum also means no echo, as in Gazebo."""
 
 
 class SonarSensor(LiveSensor[SonarReading]):

@@ -377,7 +377,7 @@ class ModelHandle:
         return self._joint_space.inverse_dynamics(q, v, a)
 
     def apply_wrench(self, wrench: "WrenchLike", *, duration_s: float | None = None) -> None:
-        """Apply a wrench at the canonical link's centre of mass, world axes; see `LinkHandle.apply_wrench`."""
+        """Apply a wrench [N, N·m] at the canonical link's centre of mass, world axes; see `LinkHandle.apply_wrench`."""
         self.base.apply_wrench(wrench, duration_s=duration_s)
 
 

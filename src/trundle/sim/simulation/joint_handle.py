@@ -70,7 +70,7 @@ class JointHandle(Handle):
     @property
     def is_driven(self) -> bool:
         """True if the joint has an axis that can be driven or positioned."""
-        return bool(self.axes) and self._simulation.engine.compiled.axis_actuator[self.axes[0]] >= 0
+        return bool(self.axes) and bool(self._simulation.engine.compiled.axis_actuator[self.axes[0]] >= 0)
 
     @property
     def motor(self) -> "MotorAxis":

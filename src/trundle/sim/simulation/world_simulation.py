@@ -5,6 +5,7 @@ step the engine in C up to the next due time, call the due `after_step` hooks.
 """
 
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -254,7 +255,12 @@ class Simulation:
             period_ns: period [ns]; 0: every step, which costs Python at every step.
             enabled: checked before each stride; while False, the hook costs no stride.
             name: name in a profile; None: the hook's class.
+
+        Raises:
+            UsageError: the period is negative or not whole.
         """
+        if not isinstance(period_ns, Fraction):
+            period_ns = count_of(period_ns, "period_ns [ns]")
         self._schedule.add(hook, period_ns, now_ns=self.time_ns, enabled=enabled, name=name)
 
     def retime_hook(self, hook: object, period_ns: Period) -> None:

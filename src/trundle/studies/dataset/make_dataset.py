@@ -34,7 +34,7 @@ class DatasetResult:
     total: int
     """Pictures of the plan."""
     rate: float
-    """Pictures per second of wall time of this call."""
+    """Pictures per second of wall time of this call [1/s]."""
     failed: Mapping[int, str]
     """Number of a failed picture → reason; if any failed, files of the whole dataset are not written."""
     interrupted: bool

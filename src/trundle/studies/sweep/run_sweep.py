@@ -38,7 +38,7 @@ class SweepResult:
     total: int
     """Rows of the plan."""
     rate: float
-    """Rows per second of wall time of this call."""
+    """Rows per second of wall time of this call [1/s]."""
     interrupted: bool
     """True after Ctrl-C; the same sweep resumes the run."""
     _results: Results

@@ -97,6 +97,9 @@ class Joint:
             sensors=tuple(self._sensors),
         )
 
+    def __repr__(self) -> str:
+        return f"<Joint {self.name!r}: {self._type.value}, {self.parent!r} to {self.child!r}>"
+
 
 def _unit(axis: JointAxis | None, joint: str) -> JointAxis | None:
     if axis is None:

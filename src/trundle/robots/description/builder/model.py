@@ -52,10 +52,14 @@ class Model(ShapeAdder[Link]):
         self._plugins: list[PluginTag] = []
 
     def add_link(self, name: str, *, pose: "PoseLike" = _ORIGIN) -> Link:
-        """Add an empty link, at a pose in the model's frame.
+        """Add an empty link.
+
+        Args:
+            name: link's name.
+            pose: pose in the model's frame [m, rad]: `Pose`, or 3, 6 or 7 numbers.
 
         Raises:
-            UsageError: duplicate name; the message lists the names in use.
+            UsageError: duplicate name, or the pose is none; the message lists the names in use.
         """
         check_name(name, [*self._links, *self._joints], f"model {self.name!r}")
         self._links.append(Link(name, pose_of(pose)))
@@ -109,6 +113,9 @@ class Model(ShapeAdder[Link]):
             name: plugin's name.
             filename: Gazebo's library or a Python file.
             parameters: its SDF elements.
+
+        Raises:
+            DescriptionError: a parameter's name is no name of an XML element.
         """
         inner = "".join(f"<{key}>{escape(str(value))}</{key}>" for key, value in parameters.items())
         text = f"<plugin name={quoteattr(name)} filename={quoteattr(filename)}>{inner}</plugin>"

@@ -58,7 +58,7 @@ class World(ShapeAdder[Model]):
 
         Args:
             model: model or name.
-            pose: pose in the world: `Pose`, or 3, 6 or 7 numbers; None: the model's own.
+            pose: pose in the world [m, rad]: `Pose`, or 3, 6 or 7 numbers; None: the model's own.
 
         Raises:
             UsageError: duplicate name; the message lists the names in use.
