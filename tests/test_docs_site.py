@@ -58,7 +58,7 @@ def test_references_have_generated_content(site: Path) -> None:
     assert "trundle topic echo" in page("cli")
     assert re.search(r"mu2.*robots/description/sdf/surface\.py", page("sdf"))
     assert "leaves no freedom; rigid" in page("diagnostics")
-    assert 'id="trundle.sim.simulation.Simulation.run"' in page("python")
+    assert 'id="trundle.Simulation.run"' in page("python")
 
 
 @pytest.mark.browser

@@ -115,6 +115,8 @@ PUBLIC: dict[str, dict[str, str]] = {
     },
 }
 """Section → name in `trundle` → its public members; `*` for all fields."""
+_MADE = ("Poses, twists, wrenches", "Worlds and models built in code")
+"""Sections whose classes users make; those of the others come from calls, and their constructors are internal."""
 PACKAGES: dict[str, str] = {
     "trundle.ros": "Node Publisher Subscription Transform TransformBroadcaster open_bag",
     "trundle.gym": "make make_vec train score JointPositions JointVelocities LinkPose LinkPosition LinkTwist Computed "
@@ -140,26 +142,34 @@ def page() -> str:
     for title, names in PUBLIC.items():
         parts.append(f"## {title}\n")
         for name, members in names.items():
-            parts.append(_directive(f"trundle.{name}", 3, members="true" if members == "*" else "false"))
+            made = title in _MADE and name not in ("Link", "Joint")
+            parts.append(_directive(f"trundle.{name}", 3, members=members == "*", constructor=made))
             parts.append(_example_block(name))
             for member in () if members == "*" else members.split():
-                parts.append(_directive(f"trundle.{name}.{member}", 4, members="false"))
+                parts.append(_directive(f"trundle.{name}.{member}", 4))
                 parts.append(_example_block(member, is_member=True))
     for package, names in PACKAGES.items():
         parts.append(f"## {package} {{ #{package.replace('.', '-')} }}\n")
         for name in names.split():
-            parts.append(_directive(f"{package}.{name}", 3, members="true"))
+            parts.append(_directive(f"{package}.{name}", 3, members=True, constructor=True))
             parts.append(_example_block(name))
     return "\n".join(parts)
 
 
-def _directive(path: str, level: int, *, members: str) -> str:
-    return f"::: {path}\n    options:\n      heading_level: {level}\n      members: {members}\n"
+def _directive(path: str, level: int, *, members: bool = False, constructor: bool = False) -> str:
+    options = {
+        "heading_level": level,
+        "members": members,
+        "merge_init_into_class": constructor,
+        "show_bases": False,
+    }
+    lines = [f"      {option}: {str(value).lower()}" for option, value in options.items()]
+    return "\n".join([f"::: {path}", "    options:", *lines, ""])
 
 
 def _example_block(name: str, *, is_member: bool = False) -> str:
     line = example_of(name, is_member=is_member)
-    return f"```python\n{line}\n```\n" if line else ""
+    return f"**Example:**\n\n```python\n{line}\n```\n" if line else ""
 
 
 def example_of(name: str, *, is_member: bool = False) -> str | None:

@@ -73,7 +73,7 @@ def pose_of(value: "PoseLike", name: str = "pose") -> Pose:
     """Return a pose with finite numbers and a unit quaternion.
 
     Raises:
-        UsageError: the argument is none; `name` begins the sentence.
+        UsageError: the argument is no pose; `name` begins the sentence.
     """
     if isinstance(value, Pose):
         numbers = _numbers((*value.position, *value.quaternion), f"{name} must have finite numbers", (7,))
@@ -93,7 +93,7 @@ def twist_of(value: "TwistLike", name: str = "twist") -> Twist:
     """Return a twist of finite numbers.
 
     Raises:
-        UsageError: the argument is none; `name` begins the sentence.
+        UsageError: the argument is no twist; `name` begins the sentence.
     """
     if isinstance(value, Twist):
         _numbers((*value.linear, *value.angular), f"{name} must have finite numbers", (6,))
@@ -106,7 +106,7 @@ def wrench_of(value: "WrenchLike", name: str = "wrench") -> Wrench:
     """Return a wrench of finite numbers.
 
     Raises:
-        UsageError: the argument is none; `name` begins the sentence.
+        UsageError: the argument is no wrench; `name` begins the sentence.
     """
     if isinstance(value, Wrench):
         _numbers((*value.force, *value.torque), f"{name} must have finite numbers", (6,))

@@ -61,7 +61,7 @@ def looking_at(eye: "ArrayLike", target: "ArrayLike") -> Pose:
     """Return the pose in the world of a camera, whose x axis is the view and z axis is up in the picture.
 
     Raises:
-        UsageError: a point is none, or both are the same.
+        UsageError: a point is not 3 numbers, or both are the same.
     """
     position = vector_of(eye, "eye [m]")
     direction = normalized(subtract(vector_of(target, "target [m]"), position))

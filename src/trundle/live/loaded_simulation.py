@@ -185,7 +185,7 @@ class LoadedSimulation(Simulation):
             fov_rad: horizontal field of view [rad]; None: 0.9, or 0.6 for the three-quarter view.
 
         Raises:
-            UsageError: an argument is none, or too large a picture.
+            UsageError: a point is not 3 numbers, or the picture is too large.
         """
         return self._free_camera.draw(self.snapshot(), eye=eye, target=target, size=size, fov_rad=fov_rad)
 

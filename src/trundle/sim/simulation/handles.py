@@ -69,7 +69,7 @@ class LinkHandle(Handle):
                 [rad] or qw, qx, qy, qz); 3 set it upright.
 
         Raises:
-            UsageError: the link has a parent joint or is fixed, or the pose is none.
+            UsageError: the link has a parent joint or is fixed, or it is no pose.
         """
         self._simulation.engine.writer.set_tree_pose(self.index, pose_of(pose))
 
@@ -80,7 +80,7 @@ class LinkHandle(Handle):
             twist: `Twist`, or 3 or 6 numbers: linear [m/s], angular [rad/s]; 3 set the angular velocity to zero.
 
         Raises:
-            UsageError: the link has a parent joint or is fixed, or the twist is none.
+            UsageError: the link has a parent joint or is fixed, or it is no twist.
         """
         self._simulation.engine.writer.set_tree_twist(self.index, twist_of(twist))
 
@@ -92,7 +92,7 @@ class LinkHandle(Handle):
             duration_s: simulation time [s], at least one step; None: until the next call.
 
         Raises:
-            UsageError: the wrench is none, or the duration is negative.
+            UsageError: it is no wrench, or the duration is negative.
         """
         if duration_s is not None:
             duration_s = number_of(duration_s, "duration_s [s]", minimum=0.0)
@@ -111,7 +111,7 @@ class LinkHandle(Handle):
             at: point of application in the world (3) [m]; None: the centre of mass.
 
         Raises:
-            UsageError: the wrench or the point is none.
+            UsageError: it is no wrench, or the point is not 3 numbers.
         """
         wrench = wrench_of(wrench)
         if at is not None:
@@ -196,7 +196,7 @@ class ModelHandle:
                 [rad] or qw, qx, qy, qz); 3 set it upright.
 
         Raises:
-            UsageError: the pose is none.
+            UsageError: it is no pose.
         """
         moved = pose_of(pose) @ self.pose.inverse()
         free = [link for link in self.links if self._simulation.engine.writer.is_free(link.index)]
@@ -226,7 +226,7 @@ class ModelHandle:
             twist: `Twist`, or 3 or 6 numbers: linear [m/s] at the origin of the model's frame, angular [rad/s].
 
         Raises:
-            UsageError: the twist is none.
+            UsageError: it is no twist.
         """
         twist = twist_of(twist)
         (vx, vy, vz), (wx, wy, wz) = twist.linear, twist.angular
@@ -342,7 +342,7 @@ class ModelHandle:
             world axes. The n columns are 6 of each free link (linear, angular; world axes), then `joint_names`.
 
         Raises:
-            UsageError: there is no such link, or the point is none.
+            UsageError: there is no such link, or the point is not 3 numbers.
         """
         handle = link if isinstance(link, LinkHandle) else self.link(link)
         return self._joint_space.jacobian(handle.index, vector_of(point, "point [m]"))

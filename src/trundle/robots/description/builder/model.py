@@ -59,7 +59,7 @@ class Model(ShapeAdder[Link]):
             pose: pose in the model's frame [m, rad]: `Pose`, or 3, 6 or 7 numbers.
 
         Raises:
-            UsageError: duplicate name, or the pose is none; the message lists the names in use.
+            UsageError: duplicate name, or it is no pose; the message lists the names in use.
         """
         check_name(name, [*self._links, *self._joints], f"model {self.name!r}")
         self._links.append(Link(name, pose_of(pose)))

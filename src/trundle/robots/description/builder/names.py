@@ -45,7 +45,7 @@ def color_of(value: object, name: str) -> Rgba:
     """Return red, green, blue and opacity, 1 if there are only three.
 
     Raises:
-        UsageError: the argument is none; `name` begins the sentence.
+        UsageError: the argument is no color; `name` begins the sentence.
     """
     problem = f"{name} must be (red, green, blue) or (red, green, blue, opacity), each 0 to 1"
     try:
