@@ -139,7 +139,11 @@ def test_row_runs_one_again_without_a_page(plan: Path) -> None:
             "models.bx.speed",
             "plan.yaml:12: error: models.bx.speed: there is no 'bx'; there are: ",
         ),
-        ("box/link,", "box/lnk,", "plan.yaml:8: error: model 'box' has no link 'lnk'; there are: 'link'"),
+        (
+            "box/link,",
+            "box/lnk,",
+            "plan.yaml:8: error: model 'box' has no link 'lnk' (did you mean 'link'?); there are: 'link'",
+        ),
         ("box.py:mass", "box.py:weight", "box.py has no function 'weight'"),
         ("x < 0.8", "y < 0.8", "plan.yaml:15: error: y < 0.8: name 'y' is not defined"),
         ("world: box.sdf", "world: model://no_such", "plan.yaml:1: error: "),

@@ -36,7 +36,7 @@ class CameraImage(Struct, frozen=True, eq=False, kw_only=True):
         """
         chosen = np.array([full == name or full.startswith(f"{name}::") for full in self.names])
         if not name or not chosen.any():
-            raise UsageError(no_such("no visual", name, self.names[:-1]))
+            raise UsageError(no_such("nothing is called", name, self.names[:-1]))
         return chosen[self.segmentation]
 
     def _repr_png_(self) -> bytes:
