@@ -1,4 +1,7 @@
-"""catkin_make: the devel space, its environment in a shell, and the report of C++ targets."""
+"""catkin_make without a compiler: the devel space, its environment in a shell, and the report of C++ targets.
+
+tests/ros/sdk has it with a compiler.
+"""
 
 import os
 import re
@@ -38,6 +41,8 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (base / "src/zeta/msg").mkdir()
     (base / "src/zeta/msg/Speed.msg").write_text("float64 x\n")
     monkeypatch.setenv("PWD", str(base))
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.delenv("CXX", raising=False)
     monkeypatch.chdir(base)
     return base
 
@@ -59,45 +64,37 @@ def test_a_workspace_gets_its_devel_space(workspace: Path, capsys: pytest.Captur
     assert "--   needs no building: 1 messages" in lines
     assert "--   program drive (src/drive.cpp; src/alpha/CMakeLists.txt:32): C++, not built" in lines
     assert "--   library wheel_plugin (src/wheel.cc; src/alpha/CMakeLists.txt:33): C++, not built" in lines
-    assert "2 C++ targets are not built; all else runs as it is" in output.err
+    assert "2 C++ targets are not built; all else runs as it is; there is no C++ compiler; " in output.err
     assert (workspace / "devel/.catkin").read_text() == str(workspace / "src")
     assert (workspace / "src/CMakeLists.txt").exists()
     assert (workspace / ".catkin_workspace").exists()
     assert _make() == 0, "a second run succeeds, too"
 
 
-@pytest.mark.parametrize(
-    ("requirement", "available", "advice"),
-    [
-        (
-            "no_such_arm",
-            "catkin libno-such-arm-dev",
-            "apt install catkin libno-such-arm-dev, and then /usr/bin/catkin_make compiles them",
-        ),
-        ("no_such_arm", "libroscpp-dev", "there is neither a C++ compiler nor catkin here, which ROS 1 brings"),
-        ("zeta", "catkin", "apt install catkin, and then /usr/bin/catkin_make compiles them"),
-    ],
-    ids=["in Debian", "not in Debian", "in the workspace"],
-)
-def test_debian_packages_that_a_build_requires_are_listed(
+def test_a_sourced_ros_builds_by_its_own_tool(
     workspace: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    requirement: str,
-    available: str,
-    advice: str,
 ) -> None:
-    cmake = workspace / "src/alpha/CMakeLists.txt"
-    cmake.write_text(f"find_package({requirement} REQUIRED)\n{cmake.read_text()}")
-    programs = workspace / "programs"
-    programs.mkdir()
-    (programs / "apt-cache").write_text(f'#!/bin/sh\n[ "$1" = pkgnames ] && printf "%s\\n" {available}\n')
-    (programs / "apt-cache").chmod(0o755)
-    monkeypatch.setenv("PATH", str(programs))
+    """Its catkin_make, and not ours, runs with the same words."""
+    ros = workspace / "ros"
+    config = ros / "share/roscpp/cmake/roscppConfig.cmake"
+    tool = ros / "bin/catkin_make"
+    for path in (config, tool):
+        path.parent.mkdir(parents=True)
+        path.write_text('#!/bin/sh\necho "the real one: $*"\n')
+    tool.chmod(0o755)
+    environment = {**os.environ, "CMAKE_PREFIX_PATH": str(ros), "PATH": f"{tool.parent}:/usr/bin:/bin"}
 
-    assert _make() == 0
+    done = subprocess.run(
+        [sys.executable, "-m", "trundle", "--as", "catkin_make", "--pkg", "alpha"],
+        cwd=workspace,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
 
-    assert capsys.readouterr().err == f"-- 2 C++ targets are not built; all else runs as it is; {advice}\n"
+    assert done.stdout == f"-- a ROS is sourced: {tool} builds\nthe real one: --pkg alpha\n"
+    assert not (workspace / "devel").exists()
 
 
 @pytest.mark.slow
@@ -178,7 +175,11 @@ def test_env_sh_runs_a_command_in_the_environment(workspace: Path) -> None:
     assert _make() == 0
 
     done = subprocess.run(
-        [workspace / "devel/env.sh", "sh", "-c", "echo $ROS_PACKAGE_PATH"], capture_output=True, text=True, check=True
+        [workspace / "devel/env.sh", "sh", "-c", "echo $ROS_PACKAGE_PATH"],
+        env={"PATH": "/usr/bin:/bin"},
+        capture_output=True,
+        text=True,
+        check=True,
     )
 
     assert done.stdout == f"{workspace / 'src'}\n"

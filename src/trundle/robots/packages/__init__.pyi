@@ -3,7 +3,6 @@ from .cmake import (
     cmake_libraries as cmake_libraries,
     cmake_message_folders as cmake_message_folders,
     cmake_programs as cmake_programs,
-    cmake_requirements as cmake_requirements,
 )
 from .compiled_program import compiled_fault as compiled_fault
 from .configured_files import write_configured_files as write_configured_files

@@ -21,7 +21,6 @@ _ADD_EXECUTABLE = re.compile(r"(\w+_)?add_executable")
 """add_executable, and its variants in rosbuild, catkin_simple and CUDA."""
 _ADD_LIBRARY = re.compile(r"(\w+_)?add_library")
 _TARGET_OPTIONS = frozenset({"EXCLUDE_FROM_ALL", "MACOSX_BUNDLE", "WIN32", "STATIC", "SHARED", "MODULE", "OBJECT"})
-_PACKAGE_OPTIONS = frozenset({"REQUIRED", "QUIET", "EXACT", "CONFIG", "MODULE", "NO_MODULE", "OPTIONAL_COMPONENTS"})
 _MAX_FOLDERS = 20
 """Maximum files read, as a CMakeLists.txt may add itself."""
 _MAX_DEPTH = 20
@@ -74,11 +73,6 @@ def cmake_libraries(folder: Path) -> list[CMakeProgram]:
     ]
 
 
-def cmake_requirements(folder: Path) -> list[str]:
-    """Return the packages of `find_package`: catkin's components and others, such as Boost."""
-    return list(dict.fromkeys(_read(folder).requirements))
-
-
 def cmake_configured(folder: Path) -> list[ConfiguredFile]:
     """Return a package's `configure_file` commands whose output does not depend on the build folder."""
     return _read(folder).configured
@@ -101,7 +95,6 @@ class _Reader:
     def __init__(self, package: Path) -> None:
         self.programs: list[CMakeProgram] = []
         self.libraries: list[CMakeProgram] = []
-        self.requirements: list[str] = []
         self.configured: list[ConfiguredFile] = []
         self.message_folders: dict[str, list[Path]] = {}
         self.output_names: dict[str, str] = {}
@@ -232,13 +225,6 @@ class _Reader:
                 self.programs.append(self._target(target, rest, file, command.line))
             case name, [target, *rest] if _ADD_LIBRARY.fullmatch(name):
                 self.libraries.append(self._target(target, rest, file, command.line))
-            case "find_package", ["catkin", *rest]:
-                self.requirements += [
-                    "catkin",
-                    *(word for word in rest if word not in {*_PACKAGE_OPTIONS, "COMPONENTS"}),
-                ]
-            case "find_package", [package, *_]:
-                self.requirements.append(package)
             case _:
                 pass
 

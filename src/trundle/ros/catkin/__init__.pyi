@@ -1,6 +1,5 @@
-from .apt import debian_packages as debian_packages
 from .build_report import CppTarget as CppTarget, PackageBuild as PackageBuild, report_package as report_package
-from .devel_space import write_devel_space as write_devel_space
+from .devel_space import underlays as underlays, write_devel_space as write_devel_space
 from .new_package import (
     NewPackage as NewPackage,
     create_package as create_package,

@@ -10,7 +10,6 @@ from trundle.robots.packages import (
     CMakeProgram,
     cmake_libraries,
     cmake_programs,
-    cmake_requirements,
     compiled_fault,
     program_folders,
 )
@@ -49,8 +48,6 @@ class PackageBuild:
     ready: tuple[str, ...]
     """Parts that need no building, with their number: `2 messages`."""
     targets: tuple[CppTarget, ...]
-    missing: tuple[str, ...]
-    """Packages that its CMakeLists.txt requires and that are not installed."""
 
 
 def report_package(packages: Mapping[str, Path], name: str, environment: Mapping[str, str]) -> PackageBuild:
@@ -80,15 +77,9 @@ def report_package(packages: Mapping[str, Path], name: str, environment: Mapping
         for library in cmake_libraries(folder)
         if any(source.endswith(_SOURCES) or "*" in source for source in library.sources)
     ]
-    required = cmake_requirements(folder) if programs or libraries else []
     return PackageBuild(
         ready=tuple(f"{count} {kind}" for kind, count in sorted(counts.items())),
         targets=(*programs, *libraries),
-        missing=tuple(
-            package
-            for package in required
-            if package not in packages and not _is_installed(package, [*prefixes, "/usr"])
-        ),
     )
 
 
@@ -103,11 +94,3 @@ def _script(file: Path) -> str | None:
 
 def _existing(folders: list[Path], name: str) -> Path | None:
     return next((folder / name for folder in folders if os.path.isfile(folder / name)), None)
-
-
-def _is_installed(package: str, prefixes: list[str]) -> bool:
-    """True if CMake would find a package's configuration file."""
-    patterns = ("share/{0}/cmake/{0}Config.cmake", "share/{0}/cmake/{0}-config.cmake", "include/{0}")
-    names = (package, package.lower())
-    paths = (os.path.join(p, pattern.format(n)) for p in prefixes for pattern in patterns for n in names)
-    return any(map(os.path.exists, paths))

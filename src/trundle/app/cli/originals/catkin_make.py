@@ -1,8 +1,7 @@
-"""Create a workspace's devel space, as catkin_make does, and list the C++ targets, which are not built."""
+"""Build a workspace, as catkin_make does: its devel space, and its C++ by the development kit."""
 
 import argparse
 import os
-import shutil
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -10,19 +9,21 @@ from typing import TYPE_CHECKING
 
 from trundle.base.diagnostics import UsageError
 
-from .system_program import find_system_program
+from .system_program import find_system_program, run_system_program
 
 if TYPE_CHECKING:
     from trundle.ros.catkin import CppTarget, PackageBuild, Workspace
+    from trundle.ros.sdk import BuildResult
 
 EXAMPLES = """
   catkin_make                   in the workspace, whose packages are in src
   catkin_make -C ~/catkin_ws
   catkin_make --pkg my_robot
+  catkin_make -DCMAKE_BUILD_TYPE=Debug
 """
 _DEVEL, _INSTALL = "-DCATKIN_DEVEL_PREFIX=", "-DCMAKE_INSTALL_PREFIX="
 _LINE = "-- " + "~" * 49
-_COMPILERS = ("c++", "g++", "clang++")
+_CONFIG = "share/roscpp/cmake/roscppConfig.cmake"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -32,24 +33,27 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--build", help="build space (build)")
     parser.add_argument("--pkg", nargs="+", default=[], help="only these packages")
     parser.add_argument("--only-pkg-with-deps", nargs="+", default=[], metavar="PKG", help="only these packages")
-    # Options for CMake and make have no effect here.
+    # Options for the display and for other tools have no effect here.
     for flag in ("ninja", "nmake", "gmake"):
         parser.add_argument(f"--use-{flag}", action="store_true", help=argparse.SUPPRESS)
     for flag in ("--force-cmake", "--no-color", "--override-build-tool-check"):
         parser.add_argument(flag, action="store_true", help=argparse.SUPPRESS)
-    for option in ("-j", "--jobs", "-l", "--load-average"):
-        parser.add_argument(option, nargs="?", dest="unused_limit", help=argparse.SUPPRESS)
+    parser.add_argument("-j", "--jobs", nargs="?", help="number of compilers that run at the same time")
+    parser.add_argument("-l", "--load-average", nargs="?", help=argparse.SUPPRESS)
     parser.add_argument("-D", action="append", default=[], dest="definitions", metavar="NAME=VALUE", help="for CMake")
     for option in ("--cmake-args", "--make-args"):
         parser.add_argument(option, nargs=argparse.REMAINDER, default=[], help=argparse.SUPPRESS)
-    parser.add_argument("targets", nargs="*", help="targets for make: not run")
+    parser.add_argument("targets", nargs="*", help="targets, such as install (all)")
 
 
 def main(args: argparse.Namespace) -> int:
-    """Write the devel space, and list C++ targets, which are not built."""
+    """Write the devel space, and build the C++ targets; return 1 if one could not be built."""
     from trundle.robots.packages import write_configured_files
-    from trundle.ros.catkin import init_workspace, open_workspace, report_package, write_devel_space
+    from trundle.ros.catkin import init_workspace, open_workspace, report_package, underlays, write_devel_space
 
+    if (original := _sourced_original()) is not None:
+        print(f"-- a ROS is sourced: {original} builds", flush=True)
+        return run_system_program("catkin_make", sys.argv[sys.argv.index("catkin_make") + 1 :])
     definitions = [f"-D{definition}" for definition in args.definitions] + args.cmake_args
     base = Path(os.path.abspath(os.path.join(os.environ.get("PWD", "."), args.directory)))
     workspace = open_workspace(
@@ -72,23 +76,73 @@ def main(args: argparse.Namespace) -> int:
         print(f"-- {workspace.devel} was made by catkin itself; its setup files are kept")
     print(f"{_LINE}\n-- ~~  traversing {len(packages)} packages in topological order:")
     print("".join(f"-- ~~  - {name}\n" for name in packages) + _LINE)
-    unbuilt: list[CppTarget] = []
-    missing: list[str] = []
-    for name, folder in packages.items():
-        print(f"-- +++ processing catkin package: '{name}'")
+    for folder in packages.values():
         for path in write_configured_files(folder, replace=True):
-            print(f"--   configured: {os.path.relpath(path, workspace.base)}")
+            print(f"-- configured: {os.path.relpath(path, workspace.base)}")
+    compiled = {name: folder for name, folder in packages.items() if report_package(known, name, os.environ).targets}
+    fault, results = "", {}
+    if compiled:
+        try:
+            results = _build(workspace, known, compiled, args, definitions, underlays(workspace.devel, os.environ))
+        except UsageError as error:
+            fault = str(error)
+    unbuilt: list[CppTarget] = []
+    for name in packages:
+        print(f"-- +++ processing catkin package: '{name}'")
         build = report_package(known, name, os.environ)
-        print("\n".join(_lines(build, workspace)))
         remaining = [target for target in build.targets if target.built is None or target.fault is not None]
+        print("\n".join(_lines(build, workspace, results.get(name))))
         unbuilt += remaining
-        missing += build.missing if remaining else ()
-    for target in args.targets:
-        print(f"-- target {target!r} is not run: nothing is compiled here", file=sys.stderr)
     if unbuilt:
-        print(_build_advice(len(unbuilt), missing), file=sys.stderr)
+        them = f"{len(unbuilt)} C++ target{'s are' if len(unbuilt) > 1 else ' is'} not built"
+        print(f"-- {them}; all else runs as it is{f'; {fault}' if fault else ''}", file=sys.stderr)
     print(f"-- source {workspace.devel}/setup.bash makes the packages known to this shell")
-    return 0
+    return 1 if unbuilt and not fault else 0
+
+
+def _sourced_original() -> str | None:
+    """Return the machine's catkin_make if a ROS with roscpp is sourced, which then builds."""
+    prefixes = os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
+    is_sourced = any(os.path.isfile(os.path.join(prefix, _CONFIG)) for prefix in prefixes if prefix)
+    return find_system_program("catkin_make") if is_sourced else None
+
+
+def _build(
+    workspace: "Workspace",
+    known: Mapping[str, Path],
+    packages: Mapping[str, Path],
+    args: argparse.Namespace,
+    definitions: list[str],
+    underlays: list[str],
+) -> "dict[str, BuildResult]":
+    """Build packages; print what the tools print."""
+    from trundle.ros.sdk import Headers, PackageBuilder, compiled_kit, find_toolchain
+
+    toolchain = find_toolchain(os.environ)
+    kit = compiled_kit(toolchain, os.environ)
+    headers = Headers(known, workspace.devel / "include", kit.folder / "include", provided=kit.sources)
+    builder = PackageBuilder(
+        kit,
+        toolchain,
+        build=workspace.build,
+        devel=workspace.devel,
+        install=workspace.install,
+        underlays=underlays,
+        definitions=definitions,
+        environment=os.environ,
+    )
+    results: dict[str, BuildResult] = {}
+    for name in known:  # a package may include what any other of the workspace generates
+        headers.write_package(name)
+    headers.write_included(packages.values())
+    for name, folder in packages.items():
+        print(f"#### building package '{name}'", flush=True)
+        for line in builder.build(name, folder, jobs=args.jobs, targets=args.targets):
+            if isinstance(line, str):
+                print(line, flush=True)
+            else:
+                results[name] = line
+    return results
 
 
 def _last(words: list[str], prefix: str) -> str | None:
@@ -104,42 +158,20 @@ def _select(packages: Mapping[str, Path], names: list[str]) -> dict[str, Path]:
     return {name: folder for name, folder in packages.items() if not names or name in names}
 
 
-def _lines(build: "PackageBuild", workspace: "Workspace") -> list[str]:
+def _lines(build: "PackageBuild", workspace: "Workspace", result: "BuildResult | None") -> list[str]:
     ready = ", ".join(build.ready) or "nothing to run"
     lines = [f"--   needs no building: {ready}"]
+    failures = {} if result is None else result.failures
     for target in build.targets:
         kind = "library" if target.is_library else "program"
         location = f"{os.path.relpath(target.target.file, workspace.base)}:{target.target.line}"
         state = f"built: {target.built}" if target.built is not None else "C++, not built"
         state += f", but not for this machine: {target.fault}" if target.fault is not None else ""
+        if failure := failures.get(target.target.target) or failures.get(target.target.name):
+            state = f"not built: {failure}"
         lines.append(f"--   {kind} {target.target.name} ({', '.join(target.target.sources)}; {location}): {state}")
-    if build.missing and any(target.built is None for target in build.targets):
-        lines.append(f"--   to build it, CMake has to find {', '.join(build.missing)}, which this machine lacks")
+    if result is not None and "CMake" in failures:
+        lines.append(f"--   CMake stopped: {failures['CMake']}")
+    if result is not None and result.missing and failures:
+        lines.append(f"--   not found: {', '.join(result.missing)}")
     return lines
-
-
-def _build_advice(unbuilt: int, missing: list[str]) -> str:
-    """Return a line on how to build the remaining targets here.
-
-    Args:
-        unbuilt: number of programs and libraries that are not built.
-        missing: dependencies that CMake needs for them and this machine lacks.
-    """
-    from trundle.ros.catkin import debian_packages
-
-    them = "them" if unbuilt > 1 else "it"
-    count = f"{unbuilt} C++ target{'s are' if unbuilt > 1 else ' is'} not built; all else runs as it is"
-    original = find_system_program("catkin_make")
-    required = list(dict.fromkeys(missing if original else [*missing, "catkin"]))
-    packages = debian_packages(required) if required else {}
-    if original is not None and not required:
-        return f"-- {count}; {original} compiles {them}"
-    if len(packages) == len(required):
-        install = f"apt install {' '.join(sorted(packages.values()))}"
-        return f"-- {count}; {install}, and then {original or '/usr/bin/catkin_make'} compiles {them}"
-    if original is not None:
-        without = ", ".join(name for name in required if name not in packages)
-        return f"-- {count}; {original} compiles {them}, once there is {without}, which apt does not have"
-    compiler = next((path for name in _COMPILERS if (path := shutil.which(name))), None)
-    has = f"there is a compiler, {compiler}, but no" if compiler else "there is neither a C++ compiler nor"
-    return f"-- {count}; {has} catkin here, which ROS 1 brings"

@@ -1,0 +1,28 @@
+# catkin's commands for packages that are built with the development kit.
+#
+# Set by Trundle: TRUNDLE_SDK (this kit's folder), TRUNDLE_KIT (its compiled libraries, and generated headers of messages),
+# TRUNDLE_HEADER_PACKAGES (packages without C++ libraries, such as those of messages), TRUNDLE_UNDERLAYS (devel spaces of
+# other workspaces), TRUNDLE_BOOST_PREFIX (of a Boost outside the compiler's folders), CATKIN_DEVEL_PREFIX.
+cmake_policy(PUSH)
+cmake_policy(SET CMP0057 NEW)
+
+set(catkin_FOUND TRUE)
+set(CATKIN_DEVEL_PREFIX "${CATKIN_DEVEL_PREFIX}" CACHE PATH "devel space")
+set(CATKIN_ENABLE_TESTING OFF)
+if(NOT DEFINED BUILD_SHARED_LIBS)
+  set(BUILD_SHARED_LIBS ON)
+endif()
+
+if(NOT COMMAND catkin_package)
+  include("${CMAKE_CURRENT_LIST_DIR}/names.cmake")
+  include("${CMAKE_CURRENT_LIST_DIR}/components.cmake")
+  include("${CMAKE_CURRENT_LIST_DIR}/package.cmake")
+  include("${CMAKE_CURRENT_LIST_DIR}/messages.cmake")
+  include("${CMAKE_CURRENT_LIST_DIR}/ignored.cmake")
+endif()
+_trundle_name_folders()
+
+foreach(component IN LISTS catkin_FIND_COMPONENTS)
+  _trundle_use_component(${component})
+endforeach()
+cmake_policy(POP)

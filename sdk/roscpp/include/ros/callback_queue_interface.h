@@ -1,0 +1,35 @@
+#pragma once
+
+#include <stdint.h>
+
+#include <boost/shared_ptr.hpp>
+
+#include "ros/common.h"
+#include "ros/types.h"
+
+namespace ros {
+
+/** A call that waits in a queue. */
+class CallbackInterface {
+ public:
+  enum CallResult {
+    Success,
+    /** Not now: it stays in the queue. */
+    TryAgain,
+    Invalid,
+  };
+  virtual ~CallbackInterface() {}
+  virtual CallResult call() = 0;
+  virtual bool ready() { return true; }
+};
+typedef boost::shared_ptr<CallbackInterface> CallbackInterfacePtr;
+
+class CallbackQueueInterface {
+ public:
+  virtual ~CallbackQueueInterface() {}
+  virtual void addCallback(const CallbackInterfacePtr& callback, uint64_t owner_id = 0) = 0;
+  /** Remove an owner's calls, and wait for the one that is running in another thread. */
+  virtual void removeByID(uint64_t owner_id) = 0;
+};
+
+}  // namespace ros

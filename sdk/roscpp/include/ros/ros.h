@@ -1,0 +1,18 @@
+#pragma once
+
+#include "ros/common.h"
+#include "ros/console.h"
+#include "ros/init.h"
+#include "ros/master.h"
+#include "ros/names.h"
+#include "ros/node_handle.h"
+#include "ros/param.h"
+#include "ros/publisher.h"
+#include "ros/rate.h"
+#include "ros/service.h"
+#include "ros/single_subscriber_publisher.h"
+#include "ros/subscriber.h"
+#include "ros/this_node.h"
+#include "ros/time.h"
+#include "ros/timer.h"
+#include "ros/topic.h"

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <cstring>
+
+#include "ros/single_subscriber_publisher.h"
+#include "ros/this_node.h"
+#include "topics.h"
+
+namespace ros {
+namespace {
+
+/** Tells a publisher of a new subscriber, or of one that left. */
+class StatusCall : public CallbackInterface {
+ public:
+  StatusCall(const boost::shared_ptr<Publication::Callbacks>& callbacks, const boost::shared_ptr<SubscriberLink>& link,
+             bool is_new)
+      : callbacks_(callbacks), link_(link), is_new_(is_new) {}
+  CallResult call() override {
+    const VoidConstPtr tracked = callbacks_->tracked.lock();
+    if (callbacks_->is_tracked && !tracked) return Invalid;
+    const SingleSubscriberPublisher publisher(link_);
+    (is_new_ ? callbacks_->connect : callbacks_->disconnect)(publisher);
+    return Success;
+  }
+
+ private:
+  boost::shared_ptr<Publication::Callbacks> callbacks_;
+  boost::shared_ptr<SubscriberLink> link_;
+  bool is_new_;
+};
+
+}  // namespace
+
+void SubscriberLink::send(const SerializedMessage& message) {
+  if (connection) connection->send(message.buf, message.num_bytes, queue_size);
+  else if (const std::shared_ptr<Subscription> subscription = local.lock())
+    subscription->handleMessage(message, local_header);
+}
+
+std::string SingleSubscriberPublisher::getTopic() const { return link_->topic; }
+std::string SingleSubscriberPublisher::getSubscriberName() const { return link_->subscriber; }
+void SingleSubscriberPublisher::send(const SerializedMessage& message) const { link_->send(message); }
+
+Publication::Publication(const AdvertiseOptions& options)
+    : topic(options.topic),
+      md5sum(options.md5sum),
+      datatype(options.datatype),
+      definition(options.message_definition),
+      queue_size(options.queue_size),
+      is_latched(options.latch),
+      has_header(options.has_header) {}
+
+void Publication::publish(const std::function<SerializedMessage()>& serialize, SerializedMessage& message) {
+  std::vector<boost::shared_ptr<SubscriberLink>> links;
+  uint32_t sequence = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    sequence = ++sequence_;
+    links = links_;
+  }
+  const bool has_remote = std::any_of(links.begin(), links.end(), [](const auto& link) { return link->connection; });
+  const bool has_local = std::any_of(links.begin(), links.end(), [](const auto& link) { return !link->connection; });
+  if (has_remote || is_latched || (has_local && !message.message)) {
+    const SerializedMessage bytes = serialize();
+    message.buf = bytes.buf;
+    message.num_bytes = bytes.num_bytes;
+    message.message_start = bytes.message_start;
+    if (has_header && message.num_bytes >= 8) std::memcpy(message.message_start, &sequence, sizeof(sequence));
+  }
+  if (is_latched) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    last_ = message;
+    last_.message.reset();  // its owner may change it
+    last_.type_info = nullptr;
+  }
+  for (const auto& link : links) link->send(message);
+}
+
+void Publication::notify(const boost::shared_ptr<Callbacks>& callbacks, const boost::shared_ptr<SubscriberLink>& link,
+                         bool is_new) {
+  if (!(is_new ? callbacks->connect : callbacks->disconnect)) return;
+  callbacks->queue->addCallback(boost::make_shared<StatusCall>(callbacks, link, is_new),
+                                reinterpret_cast<uint64_t>(callbacks.get()));
+}
+
+void Publication::addCallbacks(const boost::shared_ptr<Callbacks>& callbacks) {
+  const std::vector<boost::shared_ptr<SubscriberLink>> present = links();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    callbacks_.push_back(callbacks);
+  }
+  for (const auto& link : present) notify(callbacks, link, true);
+}
+
+void Publication::removeCallbacks(const boost::shared_ptr<Callbacks>& callbacks) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    callbacks_.erase(std::remove(callbacks_.begin(), callbacks_.end(), callbacks), callbacks_.end());
+  }
+  callbacks->queue->removeByID(reinterpret_cast<uint64_t>(callbacks.get()));
+}
+
+void Publication::addLink(const boost::shared_ptr<SubscriberLink>& link) {
+  std::vector<boost::shared_ptr<Callbacks>> callbacks;
+  SerializedMessage last;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    links_.push_back(link);
+    callbacks = callbacks_;
+    last = last_;
+  }
+  if (is_latched && last.buf) link->send(last);
+  for (const auto& entry : callbacks) notify(entry, link, true);
+}
+
+void Publication::removeLink(const boost::shared_ptr<SubscriberLink>& link) {
+  std::vector<boost::shared_ptr<Callbacks>> callbacks;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = std::find(links_.begin(), links_.end(), link);
+    if (found == links_.end()) return;
+    links_.erase(found);
+    callbacks = callbacks_;
+  }
+  for (const auto& entry : callbacks) notify(entry, link, false);
+}
+
+void Publication::closeLinks() {
+  for (const auto& link : links())
+    if (link->connection) link->connection->close(true);
+    else removeLink(link);
+}
+
+size_t Publication::linkCount() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return links_.size();
+}
+
+std::vector<boost::shared_ptr<SubscriberLink>> Publication::links() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return links_;
+}
+
+}  // namespace ros

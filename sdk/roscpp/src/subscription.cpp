@@ -1,0 +1,356 @@
+#include <algorithm>
+#include <boost/enable_shared_from_this.hpp>
+
+#include "connection_header.h"
+#include "node.h"
+#include "ros/init.h"
+#include "ros/network.h"
+#include "ros/this_node.h"
+#include "topics.h"
+#include "xml_rpc.h"
+
+namespace ros {
+namespace {
+
+/** A message as it came, which is read at most once for all callbacks of a type. */
+class LazyMessage {
+ public:
+  LazyMessage(const SubscriptionCallbackHelperPtr& helper, const SerializedMessage& message,
+              const boost::shared_ptr<M_string>& header)
+      : helper_(helper), serialized_(message), header_(header) {}
+
+  VoidConstPtr get() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (message_ || is_broken_) return message_;
+    if (serialized_.message && *serialized_.type_info == helper_->getTypeInfo()) return message_ = serialized_.message;
+    if (!serialized_.buf) return VoidConstPtr();  // within the process, of another class of the same type
+    SubscriptionCallbackHelperDeserializeParams params;
+    params.buffer = serialized_.message_start;
+    params.length = static_cast<uint32_t>(serialized_.num_bytes -
+                                          static_cast<size_t>(serialized_.message_start - serialized_.buf.get()));
+    params.connection_header = header_;
+    try {
+      message_ = helper_->deserialize(params);
+    } catch (const std::exception& error) {
+      is_broken_ = true;
+      ROS_ERROR("Exception thrown when deserializing message of length [%u] from [%s]: %s", params.length,
+                net::field(*header_, "callerid").c_str(), error.what());
+    }
+    serialized_ = SerializedMessage();
+    return message_;
+  }
+
+ private:
+  std::mutex mutex_;
+  SubscriptionCallbackHelperPtr helper_;
+  SerializedMessage serialized_;
+  boost::shared_ptr<M_string> header_;
+  VoidConstPtr message_;
+  bool is_broken_ = false;
+};
+
+Time nowOrZero() { return Time::isValid() ? Time::now() : Time(); }
+
+}  // namespace
+
+class SubscriptionQueue : public CallbackInterface, public boost::enable_shared_from_this<SubscriptionQueue> {
+ public:
+  explicit SubscriptionQueue(const SubscribeOptions& options)
+      : helper(options.helper),
+        queue(options.callback_queue),
+        tracked_(options.tracked_object),
+        is_tracking_(options.tracked_object),
+        limit_(options.queue_size),
+        is_concurrent_(options.allow_concurrent_callbacks) {}
+
+  void push(const std::shared_ptr<LazyMessage>& message, const boost::shared_ptr<M_string>& header, bool copies) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (limit_ > 0 && items_.size() >= limit_) {
+        items_.pop_front();
+        items_.push_back({message, header, copies, nowOrZero()});
+        return;  // the call for the dropped message is this one's
+      }
+      items_.push_back({message, header, copies, nowOrZero()});
+    }
+    queue->addCallback(shared_from_this(), reinterpret_cast<uint64_t>(helper.get()));
+  }
+
+  bool ready() override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return is_concurrent_ || !is_called_;
+  }
+
+  CallResult call() override {
+    Item item;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (is_called_ && !is_concurrent_) return TryAgain;
+      if (items_.empty()) return Invalid;
+      item = items_.front();
+      items_.pop_front();
+      is_called_ = true;
+    }
+    const std::shared_ptr<void> finish(nullptr, [this](void*) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      is_called_ = false;
+    });
+    const VoidConstPtr tracked = tracked_.lock();
+    if (is_tracking_ && !tracked) return Invalid;
+    const VoidConstPtr message = item.message->get();
+    if (!message) return Invalid;
+    SubscriptionCallbackHelperCallParams params;
+    params.event = MessageEvent<void const>(message, item.header, item.received, item.copies,
+                                            MessageEvent<void const>::CreateFunction());
+    helper->call(params);
+    return Success;
+  }
+
+  const SubscriptionCallbackHelperPtr helper;
+  CallbackQueueInterface* const queue;
+
+ private:
+  struct Item {
+    std::shared_ptr<LazyMessage> message;
+    boost::shared_ptr<M_string> header;
+    bool copies = true;
+    Time received;
+  };
+  std::mutex mutex_;
+  std::deque<Item> items_;
+  boost::weak_ptr<void const> tracked_;
+  const bool is_tracking_;
+  const size_t limit_;
+  const bool is_concurrent_;
+  bool is_called_ = false;
+};
+
+void Subscription::addCallback(const SubscribeOptions& options) {
+  const auto queue = boost::make_shared<SubscriptionQueue>(options);
+  std::vector<std::shared_ptr<PublisherLink>> latched;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    queues_.push_back(queue);
+    has_no_delay_ |= TransportHints(options.transport_hints).getTCPNoDelay();
+    if (md5sum_ == "*") md5sum_ = options.md5sum;
+    for (const auto& entry : links_)
+      if (entry.second->is_latched && entry.second->last.buf) latched.push_back(entry.second);
+  }
+  for (const auto& link : latched)
+    queue->push(std::make_shared<LazyMessage>(options.helper, link->last, link->header), link->header, true);
+}
+
+bool Subscription::removeCallback(const SubscriptionCallbackHelperPtr& helper) {
+  boost::shared_ptr<SubscriptionQueue> removed;
+  bool is_last = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found =
+        std::find_if(queues_.begin(), queues_.end(), [&](const auto& queue) { return queue->helper == helper; });
+    if (found == queues_.end()) return false;
+    removed = *found;
+    queues_.erase(found);
+    is_last = queues_.empty();
+  }
+  removed->queue->removeByID(reinterpret_cast<uint64_t>(helper.get()));
+  return is_last;
+}
+
+void Subscription::handleMessage(const SerializedMessage& message, const boost::shared_ptr<M_string>& header) {
+  std::vector<boost::shared_ptr<SubscriptionQueue>> queues;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    queues = queues_;
+  }
+  // Callbacks that may change the message get copies, unless it is theirs alone.
+  const bool copies = queues.size() > 1 || message.message;
+  std::vector<std::pair<const std::type_info*, std::shared_ptr<LazyMessage>>> by_type;
+  for (const auto& queue : queues) {
+    const std::type_info& type = queue->helper->getTypeInfo();
+    auto found = std::find_if(by_type.begin(), by_type.end(), [&](const auto& entry) { return *entry.first == type; });
+    if (found == by_type.end())
+      found = by_type.insert(found, {&type, std::make_shared<LazyMessage>(queue->helper, message, header)});
+    queue->push(found->second, header, copies);
+  }
+}
+
+void Subscription::setPublishers(const std::vector<std::string>& uris) {
+  std::vector<std::shared_ptr<PublisherLink>> added;
+  std::vector<std::shared_ptr<net::FrameConnection>> dropped;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (is_closed_) return;
+    for (auto entry = links_.begin(); entry != links_.end();) {
+      if (std::find(uris.begin(), uris.end(), entry->first) != uris.end()) {
+        ++entry;
+        continue;
+      }
+      entry->second->is_wanted = false;
+      if (entry->second->connection) dropped.push_back(entry->second->connection);
+      entry = links_.erase(entry);
+    }
+    for (const std::string& uri : uris) {
+      if (uri == node::uri() || links_.count(uri)) continue;
+      auto link = std::make_shared<PublisherLink>();
+      link->uri = uri;
+      links_[uri] = link;
+      added.push_back(link);
+    }
+  }
+  for (const auto& connection : dropped) connection->close();
+  for (const auto& link : added) connectInThread(link);
+}
+
+void Subscription::connectInThread(const std::shared_ptr<PublisherLink>& link) {
+  const std::shared_ptr<Subscription> self = shared_from_this();
+  node::runInThread([self, link] {
+    for (int pause = 100;; pause = std::min(2 * pause, 20000)) {
+      {
+        const std::lock_guard<std::mutex> lock(self->mutex_);
+        if (!link->is_wanted || self->is_closed_) return;
+      }
+      try {
+        self->connect(link);
+        return;
+      } catch (const std::exception& error) {
+        if (isShuttingDown()) return;
+        ROS_DEBUG("Connecting to %s for [%s] failed: %s", link->uri.c_str(), self->topic.c_str(), error.what());
+      }
+      if (!node::waitMs(pause)) return;
+    }
+  });
+}
+
+void Subscription::connect(const std::shared_ptr<PublisherLink>& link) {
+  std::string host;
+  uint32_t port = 0;
+  if (!network::splitURI(link->uri, host, port)) throw net::NetError("'" + link->uri + "' is not an address");
+  XmlRpc::XmlRpcValue arguments;
+  arguments[0] = this_node::getName();
+  arguments[1] = topic;
+  arguments[2][0][0] = std::string("TCPROS");
+  const XmlRpc::XmlRpcValue answer = net::callXmlRpc(host, static_cast<uint16_t>(port), "requestTopic", arguments);
+  if (static_cast<int>(answer[0]) != 1) throw net::NetError("the publisher refuses");
+  const XmlRpc::XmlRpcValue& protocol = answer[2];
+  const int data_port = protocol[2];
+  if (data_port <= 0 || data_port > 65535) throw net::NetError("the publisher names no port");
+  net::Socket socket = net::Socket::connect(static_cast<std::string>(protocol[1]), static_cast<uint16_t>(data_port));
+  M_string fields;
+  try {
+    fields = net::exchangeHeaders(socket, header());
+    if (!accepts(net::field(fields, "md5sum")))
+      throw net::NetError("md5sum is " + net::field(fields, "md5sum") + ", not " + md5sum());
+  } catch (const net::NetError& error) {
+    if (!isShuttingDown())
+      ROS_ERROR("Connection to the publisher %s of topic [%s] is refused: %s", link->uri.c_str(), topic.c_str(),
+                error.what());
+    throw;
+  }
+  const auto connection = std::make_shared<net::FrameConnection>(std::move(socket));
+  connection->max_frame = net::kMaxMessage;
+  const auto header = boost::make_shared<M_string>(fields);
+  const bool is_latched = net::field(fields, "latching") == "1";
+  const std::weak_ptr<Subscription> weak = shared_from_this();
+  connection->on_frame = [weak, link, header, is_latched](const boost::shared_array<uint8_t>& bytes, uint32_t size) {
+    const std::shared_ptr<Subscription> self = weak.lock();
+    if (!self) return false;
+    const SerializedMessage message(bytes, size);
+    if (is_latched) {
+      const std::lock_guard<std::mutex> lock(self->mutex_);
+      link->last = message;
+    }
+    self->handleMessage(message, header);
+    return true;
+  };
+  connection->on_closed = [weak, link] {
+    const std::shared_ptr<Subscription> self = weak.lock();
+    if (!self) return;
+    {
+      const std::lock_guard<std::mutex> lock(self->mutex_);
+      link->connection.reset();
+      if (!link->is_wanted || self->is_closed_) return;
+    }
+    if (!isShuttingDown()) self->connectInThread(link);
+  };
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!link->is_wanted || is_closed_) return;
+    link->connection = connection;
+    link->header = header;
+    link->is_latched = is_latched;
+  }
+  net::Loop::instance().add(connection);
+}
+
+void Subscription::connectLocally(const std::shared_ptr<Publication>& publication) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (local_publication_.lock() == publication) return;
+    local_publication_ = publication;
+  }
+  const auto link = boost::make_shared<SubscriberLink>();
+  link->topic = topic;
+  link->subscriber = this_node::getName();
+  link->local = shared_from_this();
+  link->local_header = boost::make_shared<M_string>();
+  (*link->local_header)["callerid"] = this_node::getName();
+  (*link->local_header)["topic"] = topic;
+  (*link->local_header)["type"] = publication->datatype;
+  (*link->local_header)["md5sum"] = publication->md5sum;
+  (*link->local_header)["message_definition"] = publication->definition;
+  (*link->local_header)["latching"] = publication->is_latched ? "1" : "0";
+  publication->addLink(link);
+}
+
+void Subscription::close() {
+  std::vector<std::shared_ptr<net::FrameConnection>> connections;
+  std::shared_ptr<Publication> local;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_closed_ = true;
+    for (const auto& entry : links_) {
+      entry.second->is_wanted = false;
+      if (entry.second->connection) connections.push_back(entry.second->connection);
+    }
+    links_.clear();
+    local = local_publication_.lock();
+  }
+  for (const auto& connection : connections) connection->close();
+  if (!local) return;
+  for (const auto& link : local->links())
+    if (link->local.lock().get() == this) local->removeLink(link);
+}
+
+size_t Subscription::publisherCount() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto count = std::count_if(links_.begin(), links_.end(), [](const auto& e) { return e.second->connection; });
+  return static_cast<size_t>(count) + (local_publication_.expired() ? 0 : 1);
+}
+
+M_string Subscription::header() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return {{"callerid", this_node::getName()},
+          {"md5sum", md5sum_},
+          {"tcp_nodelay", has_no_delay_ ? "1" : "0"},
+          {"topic", topic},
+          {"type", datatype}};
+}
+
+std::string Subscription::md5sum() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return md5sum_;
+}
+
+bool Subscription::accepts(const std::string& md5sum) const {
+  const std::string own = this->md5sum();
+  return own == "*" || md5sum == "*" || own == md5sum;
+}
+
+std::vector<std::pair<std::string, bool>> Subscription::connections() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<std::pair<std::string, bool>> all;
+  for (const auto& entry : links_) all.emplace_back(entry.first, static_cast<bool>(entry.second->connection));
+  return all;
+}
+
+}  // namespace ros

@@ -1,0 +1,4 @@
+#pragma once
+
+#include "xmlrpcpp/XmlRpcException.h"
+#include "xmlrpcpp/XmlRpcValue.h"

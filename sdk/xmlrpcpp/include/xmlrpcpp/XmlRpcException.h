@@ -1,0 +1,21 @@
+#pragma once
+
+#include <exception>
+#include <string>
+
+namespace XmlRpc {
+
+/** A value is not of the type that is asked for, or XML is invalid. */
+class XmlRpcException : public std::exception {
+ public:
+  explicit XmlRpcException(const std::string& message, int code = -1) : message_(message), code_(code) {}
+  const std::string& getMessage() const { return message_; }
+  int getCode() const { return code_; }
+  const char* what() const noexcept override { return message_.c_str(); }
+
+ private:
+  std::string message_;
+  int code_;
+};
+
+}  // namespace XmlRpc

@@ -1,0 +1,137 @@
+"""The development kit: its sources, and its libraries, compiled once per compiler into the user's cache."""
+
+import hashlib
+import shutil
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+from trundle.assets import ASSETS
+from trundle.base.diagnostics import UsageError
+from trundle.base.file_lock import FileLock
+from trundle.base.ownership import home_folder, is_owned_by_user
+
+from . import message_header
+from .headers import Headers
+from .toolchain import Toolchain
+
+_ROOT = Path(message_header.__file__).parents[4]
+_INSTALLED = Path(message_header.__file__).parents[2] / "sdk"
+_LOG_LINES = 30
+
+
+class Kit(NamedTuple):
+    """Compiled kit."""
+
+    sources: Path
+    """Folder with a folder per package."""
+    folder: Path
+    """Folder of `lib`, the libraries, and `include`, generated headers of messages."""
+
+
+def kit_sources() -> Path:
+    """Return the folder of the kit's sources: the wheel's, or a checkout's."""
+    folder = next((path for path in (_INSTALLED, _ROOT / "sdk") if (path / "CMakeLists.txt").is_file()), None)
+    if folder is None:
+        raise UsageError(f"the C++ development kit is not installed: {_INSTALLED} is missing")
+    return folder
+
+
+def compiled_kit(toolchain: Toolchain, environment: Mapping[str, str], *, flags: str = "") -> Kit:
+    """Return the kit for a compiler; it is compiled on first use, which takes a minute.
+
+    Args:
+        toolchain: compiler and tools.
+        environment: variables; XDG_CACHE_HOME names the folder of caches.
+        flags: additional flags of the compiler, such as -fsanitize=address.
+
+    Raises:
+        UsageError: it cannot be compiled; the text ends with the compiler's.
+    """
+    sources = kit_sources()
+    root = Path(environment.get("XDG_CACHE_HOME") or home_folder(environment) / ".cache") / "trundle" / "sdk"
+    try:
+        root.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if not is_owned_by_user(root):
+            raise UsageError(f"{root} is writable by another user, whose libraries would be loaded; remove it")
+        folder = root / _digest(sources, toolchain, flags)
+        folder.mkdir(exist_ok=True)
+        lock = FileLock(folder)
+    except OSError as error:
+        raise UsageError(f"cannot write {error.filename}: {error.strerror}") from None
+    try:
+        if not (folder / "ready").exists():
+            _compile(sources, folder, toolchain, environment, flags)
+            (folder / "ready").touch()
+    finally:
+        lock.release()
+    return Kit(sources, folder)
+
+
+def _compile(sources: Path, folder: Path, toolchain: Toolchain, environment: Mapping[str, str], flags: str) -> None:
+    print("-- compiling the C++ development kit, once for this compiler", file=sys.stderr, flush=True)
+    headers = Headers({}, folder / "include", folder / "include", provided=sources)
+    headers.write_included([sources])
+    build = folder / "build"
+    configure = [
+        *(toolchain.cmake, "-S", sources, "-B", build, "-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={toolchain.ninja}"),
+        *(f"-DCMAKE_CXX_COMPILER={toolchain.compiler}", f"-DCMAKE_CXX_FLAGS={flags}"),
+        *(f"-DTRUNDLE_MESSAGES={folder / 'include'}", f"-DCMAKE_INSTALL_PREFIX={folder}"),
+        *([] if toolchain.boost is None else [f"-DTRUNDLE_BOOST={toolchain.boost / 'include'}"]),
+    ]
+    for command in (configure, [toolchain.ninja, "-C", build, "install"]):
+        done = subprocess.run(command, env=dict(environment), capture_output=True, text=True, check=False)
+        if done.returncode:
+            log = "\n".join((done.stdout + done.stderr).splitlines()[-_LOG_LINES:])
+            raise UsageError(f"the C++ development kit cannot be compiled by {toolchain.compiler}:\n{log}")
+    shutil.rmtree(build, ignore_errors=True)
+
+
+def _digest(sources: Path, toolchain: Toolchain, flags: str) -> str:
+    """Return a name for what the kit is made of; a Trundle of another release compiles its own."""
+    digest = hashlib.sha256(f"{toolchain.compiler}\n{toolchain.version}\n{toolchain.boost}\n{flags}".encode())
+    generator = Path(message_header.__file__)
+    for path in [generator, *sorted(path for path in sources.rglob("*") if path.is_file())]:
+        digest.update(path.name.encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def header_packages() -> list[str]:
+    """Return the packages that need no library of C++: of messages, Python and tools."""
+    folders = [*(ASSETS / "messages/definitions").iterdir(), *(ASSETS / "messages/standard").iterdir()]
+    folders += (ASSETS / "messages/published").iterdir()
+    return sorted({*(path.stem for path in folders), *_WITHOUT_LIBRARIES} - _WITH_LIBRARIES)
+
+
+_WITHOUT_LIBRARIES = frozenset(
+    {
+        *("catkin", "cmake_modules", "gencpp", "genlisp", "genmsg", "genpy", "message_generation", "message_runtime"),
+        *(
+            "python_qt_binding",
+            "rosbash",
+            "roscpp_serialization",
+            "roscpp_traits",
+            "rosgraph",
+            "roslaunch",
+            "rosmaster",
+        ),
+        *(
+            "rosmsg",
+            "rosnode",
+            "rosparam",
+            "rospy",
+            "rosservice",
+            "rostest",
+            "rostopic",
+            "rosunit",
+            "std_srvs",
+            "xacro",
+        ),
+        *("actionlib_msgs", "cpp_common", "geometry_msgs", "rqt_gui_py", "smach", "smach_ros", "tf_conversions"),
+        *("joint_state_publisher", "joint_state_publisher_gui", "roslint", "rosdoc_lite", "ros_environment"),
+    }
+)
+_WITH_LIBRARIES = frozenset({"actionlib", "bond", "costmap_2d", "dynamic_reconfigure", "navfn", "tf", "topic_tools"})
+"""Packages of messages that have libraries, too, which programs mean."""

@@ -1,0 +1,134 @@
+"""Builds a package by CMake and Ninja with the development kit, target by target."""
+
+import os
+import re
+import subprocess
+from collections.abc import Generator, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from .kit import Kit, header_packages
+from .toolchain import Toolchain
+
+_FAILED = re.compile(r"^FAILED: (?:\[code=\d+\] )?(?P<file>\S+)")
+_OBJECT = re.compile(r"(?:^|/)CMakeFiles/([^/]+)\.dir/")
+_ERROR = re.compile(r"(?:fatal )?error: (?P<text>.+)")
+_UNDEFINED = re.compile(r"undefined reference to (?P<text>.+)")
+_CMAKE_ERROR = re.compile(
+    r"^CMake Error(?: at (?P<where>[^\s:]+:\d+))?[^\n]*\n(?P<text>(?:[ \t]*\S[^\n]*\n|\n(?=  ))*)", re.MULTILINE
+)
+
+
+class BuildResult(NamedTuple):
+    """What became of a package's targets."""
+
+    is_configured: bool
+    """False: CMake stopped, and nothing is built."""
+    missing: tuple[str, ...]
+    """Packages and libraries that CMake did not find."""
+    failures: dict[str, str]
+    """Target, or file of it → first error."""
+
+
+class PackageBuilder:
+    """Builder of a workspace's packages, each in a folder of its own."""
+
+    def __init__(
+        self,
+        kit: Kit,
+        toolchain: Toolchain,
+        *,
+        build: Path,
+        devel: Path,
+        install: Path,
+        underlays: Sequence[str],
+        definitions: Sequence[str],
+        environment: Mapping[str, str],
+    ) -> None:
+        """Create a builder.
+
+        Args:
+            kit: compiled kit.
+            toolchain: compiler and tools.
+            build: folder of the packages' build folders.
+            devel: devel space.
+            install: install space.
+            underlays: devel spaces of workspaces below this one.
+            definitions: words for CMake, such as -DCMAKE_BUILD_TYPE=Debug.
+            environment: variables of the tools.
+        """
+        self._toolchain = toolchain
+        self._build = build
+        self._environment = dict(environment)
+        cmake = kit.sources / "catkin/cmake"
+        prefixes = [] if toolchain.boost is None else [str(toolchain.boost)]
+        self._settings = [
+            *("-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={toolchain.ninja}", f"-DCMAKE_CXX_COMPILER={toolchain.compiler}"),
+            *(f"-Dcatkin_DIR={cmake}", f"-DCMAKE_PROJECT_INCLUDE={cmake / 'find.cmake'}"),
+            *(f"-DTRUNDLE_SDK={kit.sources}", f"-DTRUNDLE_KIT={kit.folder}"),
+            *(f"-DTRUNDLE_HEADER_PACKAGES={';'.join(header_packages())}", f"-DTRUNDLE_UNDERLAYS={';'.join(underlays)}"),
+            *(f"-DTRUNDLE_BOOST_PREFIX={toolchain.boost or ''}", f"-DCMAKE_PREFIX_PATH={';'.join(prefixes)}"),
+            *(f"-DCATKIN_DEVEL_PREFIX={devel}", f"-DCMAKE_INSTALL_PREFIX={install}"),
+            *("-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_POLICY_VERSION_MINIMUM=3.5", "-DCMAKE_POLICY_DEFAULT_CMP0054=NEW"),
+            *("-Wno-dev", "-Wno-deprecated", "--no-warn-unused-cli", *definitions),
+        ]
+
+    def build(
+        self, name: str, folder: Path, *, jobs: str | None, targets: Sequence[str] = ()
+    ) -> Iterator[str | BuildResult]:
+        """Build a package; yield the tools' lines, and at the end the result.
+
+        Args:
+            name: name of the package.
+            folder: its folder.
+            jobs: number of compilers that run at the same time; None: one for each processor.
+            targets: targets of Ninja; empty: all.
+        """
+        build = self._build / name
+        missing = build / "trundle_missing.txt"
+        missing.unlink(missing_ok=True)
+        code, text = yield from self._run([self._toolchain.cmake, "-S", str(folder), "-B", str(build), *self._settings])
+        lacks = tuple(dict.fromkeys(missing.read_text().split())) if missing.exists() else ()
+        if code:
+            yield BuildResult(False, lacks, {"CMake": _cmake_error(text)})
+            return
+        parallel = [] if jobs is None else ["-j", jobs]
+        code, text = yield from self._run([self._toolchain.ninja, "-C", str(build), "-k", "0", *parallel, *targets])
+        yield BuildResult(True, lacks, _failures(text) or ({"ninja": text.splitlines()[-1]} if code and text else {}))
+
+    def _run(self, command: list[str]) -> Generator[str, None, tuple[int, str]]:
+        lines: list[str] = []
+        environment = {**self._environment, "NINJA_STATUS": "[%f/%t] "}
+        with subprocess.Popen(
+            command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace"
+        ) as process:
+            assert process.stdout is not None
+            for line in process.stdout:
+                lines.append(line)
+                yield line.rstrip("\n")
+        return process.returncode, "".join(lines)
+
+
+def _failures(text: str) -> dict[str, str]:
+    """Return the targets that Ninja could not build, or the files that they make, each with its first error."""
+    failures: dict[str, str] = {}
+    target = ""
+    for line in text.splitlines():
+        if (failed := _FAILED.match(line)) is not None:
+            compiled = _OBJECT.search(failed["file"])
+            name = os.path.basename(failed["file"])
+            target = (
+                compiled[1] if compiled else name.removeprefix("lib").removesuffix(".so") if ".so" in name else name
+            )
+            failures.setdefault(target, "")
+        elif target and not failures[target] and (error := _ERROR.search(line) or _UNDEFINED.search(line)) is not None:
+            failures[target] = error["text"] if error.re is _ERROR else f"undefined: {error['text']}"
+    return failures
+
+
+def _cmake_error(text: str) -> str:
+    match = _CMAKE_ERROR.search(text)
+    if match is None:
+        return (text.strip().splitlines() or ["CMake failed"])[-1]
+    where = f"{os.path.basename(match['where'])}: " if match["where"] else ""
+    return where + " ".join(match["text"].split())

@@ -1,0 +1,82 @@
+"""Compiler, CMake, Ninja and Boost of this machine, or of Python's packages."""
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+from trundle.base.diagnostics import UsageError
+
+_COMPILERS = ("c++", "g++", "clang++")
+_HEADER = "boost/shared_ptr.hpp"
+_HEADER_FOLDERS = ("/usr/include", "/usr/local/include", "/opt/homebrew/include", "/opt/local/include")
+
+
+class Toolchain(NamedTuple):
+    """Programs that compile C++, and where Boost is."""
+
+    compiler: str
+    version: str
+    """What the compiler says about itself."""
+    cmake: str
+    ninja: str
+    boost: Path | None
+    """Prefix of a Boost that the compiler does not find by itself."""
+
+
+def find_toolchain(environment: Mapping[str, str]) -> Toolchain:
+    """Find what compiles C++ here.
+
+    Raises:
+        UsageError: something is missing; the text says how to install it.
+    """
+    path = environment.get("PATH", os.defpath)
+    chosen = environment.get("CXX")
+    compiler = next(
+        (found for name in ([chosen] if chosen else _COMPILERS) if (found := shutil.which(name, path=path))), None
+    )
+    if compiler is None:
+        if chosen:
+            raise UsageError(f"CXX names {chosen!r}, which is not found; unset it, or name a C++ compiler")
+        raise UsageError(f"there is no C++ compiler; {_compiler_advice()}")
+    missing = [name for name in ("cmake", "ninja") if _program(name, path) is None]
+    boost = _boost(environment)
+    if boost is None:
+        missing.append("cmeel-boost")
+    if missing:
+        raise UsageError(
+            f"{' and '.join(missing)} {'are' if len(missing) > 1 else 'is'} missing; pip install {' '.join(missing)}"
+        )
+    version = subprocess.run([compiler, "--version"], capture_output=True, text=True, check=False).stdout
+    cmake, ninja = _program("cmake", path), _program("ninja", path)
+    assert cmake is not None
+    assert ninja is not None
+    prefix = None if str(boost) in ("/usr", "/usr/local") else boost
+    return Toolchain(compiler, version, cmake, ninja, prefix)
+
+
+def _compiler_advice() -> str:
+    if sys.platform == "darwin":
+        return "xcode-select --install brings one"
+    return "install one, such as with apt install g++ or dnf install gcc-c++"
+
+
+def _program(name: str, path: str) -> str | None:
+    """Return a program on PATH, or of Python's packages."""
+    return shutil.which(name, path=path) or shutil.which(name, path=sysconfig.get_path("scripts"))
+
+
+def _boost(environment: Mapping[str, str]) -> Path | None:
+    """Return the prefix of Boost's headers: the machine's, else of the Python package cmeel-boost."""
+    named = environment.get("BOOST_ROOT")
+    folders = [Path(named, "include")] if named else []
+    folders += [Path(folder) for folder in _HEADER_FOLDERS]
+    cmeel = importlib.util.find_spec("cmeel")
+    site = Path(cmeel.origin).parents[1] if cmeel and cmeel.origin else Path(sysconfig.get_path("purelib"))
+    folders.append(site / "cmeel.prefix/include")
+    return next((folder.parent for folder in folders if (folder / _HEADER).is_file()), None)

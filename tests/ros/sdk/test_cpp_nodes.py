@@ -1,0 +1,277 @@
+"""Programs of tests/data/sdk, compiled by catkin_make, on a graph with Trundle's master, tools and nodes."""
+
+import os
+import random
+import re
+import shutil
+import signal
+import socket
+import struct
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+from tests.graphs import Graph, until
+
+from trundle.base.diagnostics import UsageError
+from trundle.ros import Messages
+from trundle.ros.sdk import Headers, PackageBuilder, compiled_kit, find_toolchain
+
+pytestmark = pytest.mark.slow
+_SOURCE = Path(__file__).parents[2] / "data/sdk/src"
+_WAIT_S = 120
+
+
+def _require_compiler() -> None:
+    try:
+        find_toolchain(os.environ)
+    except UsageError as error:
+        pytest.skip(str(error))
+
+
+@pytest.fixture(scope="module")
+def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The compiled workspace, with one target more that cannot be compiled."""
+    _require_compiler()
+    base = tmp_path_factory.mktemp("ws")
+    shutil.copytree(_SOURCE, base / "src")
+    package = base / "src/cpp_nodes"
+    (package / "src/plan.cpp").write_text("#include <moveit/no_such_header.h>\nint main() {}\n")
+    cmake = package / "CMakeLists.txt"
+    text = cmake.read_text().replace("roscpp std_msgs geometry_msgs", "roscpp std_msgs geometry_msgs no_such_arm")
+    cmake.write_text(f"{text}\nfind_package(NoSuchLibrary REQUIRED)\nadd_executable(plan src/plan.cpp)\n")
+    environment = {name: value for name, value in os.environ.items() if name != "CMAKE_PREFIX_PATH"}
+    done = subprocess.run(
+        [sys.executable, "-m", "trundle", "--as", "catkin_make"],
+        cwd=base,
+        env={**environment, "PWD": str(base)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    (base / "log").write_text(done.stdout + done.stderr)
+    assert done.returncode == 1, done.stdout + done.stderr
+    return base
+
+
+class Running:
+    """Started programs of the workspace."""
+
+    def __init__(self, workspace: Path, uri: str) -> None:
+        self.folder = workspace / "devel/lib/cpp_nodes"
+        self.environment = {**os.environ, "ROS_MASTER_URI": uri}
+        self.processes: list[subprocess.Popen[str]] = []
+
+    def start(self, name: str, *arguments: str) -> "subprocess.Popen[str]":
+        process = subprocess.Popen(
+            [str(self.folder / name), *arguments],
+            env=self.environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        self.processes.append(process)
+        return process
+
+
+@pytest.fixture
+def running(workspace: Path, graph: Graph) -> Iterator[Running]:
+    programs = Running(workspace, graph.core.uri)
+    yield programs
+    for process in programs.processes:
+        process.kill()
+        process.communicate()
+
+
+def test_each_target_is_reported(workspace: Path) -> None:
+    log = (workspace / "log").read_text()
+
+    assert re.search(r"program talker \(src/talker.cpp; .*\): built: .*/devel/lib/cpp_nodes/talker\n", log)
+    assert re.search(r"program add_two_ints_server .*: built: ", log), "by its OUTPUT_NAME"
+    assert re.search(r"library sums .*: built: .*libsums.so\n", log)
+    assert re.search(r"program plan .*: not built: moveit/no_such_header.h: No such file or directory\n", log)
+    assert "--   not found: no_such_arm, NoSuchLibrary\n" in log
+    assert "1 C++ target is not built; all else runs as it is" in log
+
+
+def test_only_headers_of_the_kit_are_used(workspace: Path) -> None:
+    """A ROS of Debian in /usr/include would mix two libraries of one name."""
+    ninja = find_toolchain(os.environ).ninja
+    build = workspace / "build/cpp_nodes"
+    used = subprocess.run([ninja, "-C", build, "-t", "deps"], capture_output=True, text=True, check=True).stdout
+
+    assert "/ros/ros.h" in used
+    assert not re.search(r"/usr/include/(ros|std_msgs|geometry_msgs|xmlrpcpp|rosgraph_msgs)/", used)
+
+
+def test_the_checks_of_the_api_pass(running: Running) -> None:
+    process = running.start("checks", "--kept", "from:=to", "_from_command_line:=1.25", "_flag:=true")
+    output, _ = process.communicate(timeout=_WAIT_S)
+
+    assert re.search(r"^\d\d+ checks, 0 failed$", output, re.MULTILINE), output
+    assert process.returncode == 0
+    assert output.count("shown once") == 1
+    assert re.search(r"^\[ERROR\] \[\d+\.\d{9}\]: a stream, 3$", output, re.MULTILINE)
+    assert "not shown" not in output
+
+
+def test_a_talker_and_a_service_answer_python_nodes(running: Running, graph: Graph, messages: Messages) -> None:
+    node = graph.node("tester")
+    heard: list[str] = []
+    logged: list[str] = []
+    node.subscribe("/said", "std_msgs/String", lambda message: heard.append(message.data))
+    node.subscribe("/rosout", "rosgraph_msgs/Log", lambda message: logged.append(message.msg))
+    talker = running.start("talker", "chatter:=said", "__name:=speaker")
+    server = running.start("add_two_ints_server", "_greeting:=good day")
+    until(lambda: len(heard) > 3)
+    assert re.fullmatch(r"hello world \d+", heard[0])
+    until(lambda: any(text.startswith("hello world") for text in logged))
+
+    echoed: list[str] = []
+    node.subscribe("/echo", "std_msgs/String", lambda message: echoed.append(message.data))
+    words = node.advertise("/words", "std_msgs/String", latch=True)
+    words.publish(messages.new("std_msgs/String", {"data": "world"}))
+    until(lambda: echoed)
+    assert echoed == ["good day world"]
+
+    tool = [sys.executable, "-m", "trundle", "service", "call", "/add_two_ints", "4", "5"]
+    called = subprocess.run(tool, env=running.environment, capture_output=True, text=True, check=False)
+    assert (called.stdout, called.returncode) == ("sum: 9\n", 0), called.stderr
+
+    for process in (talker, server):
+        process.send_signal(signal.SIGINT)
+        output, _ = process.communicate(timeout=_WAIT_S)
+        assert process.returncode == 0
+    assert "bye" in output, "the program goes on after spin()"
+
+
+def test_hostile_peers_do_not_end_a_node(running: Running, graph: Graph) -> None:
+    """Headers and requests of random bytes, with lengths that lie."""
+    node = graph.node("tester")
+    ticks: list[float] = []
+    node.subscribe("/add_two_ints_server/ticks", "std_msgs/Float64", lambda message: ticks.append(message.data))
+    server = running.start("add_two_ints_server")
+    until(lambda: ticks)
+    listening = subprocess.run(
+        [sys.executable, "-c", _LISTENING, str(server.pid)], capture_output=True, text=True, check=True
+    )
+    ports = [int(word) for word in listening.stdout.split()]
+    assert len(ports) == 2, "XML-RPC and TCPROS"
+    rng = random.Random(3)
+    header = b"".join(
+        struct.pack("<I", len(field)) + field
+        for field in (b"service=/add_two_ints", b"md5sum=*", b"callerid=/x", b"persistent=1")
+    )
+    valid = struct.pack("<I", len(header)) + header
+    attacks = [
+        *(struct.pack("<I", size) + rng.randbytes(40) for size in (0, 1, 4, 36, 2**31, 2**32 - 1)),
+        struct.pack("<I", 8) + struct.pack("<I", 2**32 - 1) + b"abcd",
+        *(
+            valid + struct.pack("<I", size) + rng.randbytes(min(size, 64))
+            for size in (0, 3, 16, 999_999_999, 2**32 - 1)
+        ),
+        b"POST / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\n",
+        b"POST / HTTP/1.1\r\nContent-Length: -5\r\n\r\n",
+        *(_request(body) for body in (b"", b"<", b"<value>" * 5000, rng.randbytes(500))),
+        _request(b"<methodCall><methodName>publisherUpdate</methodName><params></params></methodCall>"),
+        _request(b"<methodCall><methodName>requestTopic</methodName><params><param><value><i4>9</i4></value></param>"),
+    ]
+    for port in ports:
+        for attack in attacks:
+            with socket.create_connection(("127.0.0.1", port)) as peer:
+                peer.sendall(attack)
+                peer.settimeout(0.05)
+                with suppress(OSError):
+                    while peer.recv(4096):
+                        pass
+    count = len(ticks)
+    until(lambda: len(ticks) > count + 3)
+    assert server.poll() is None
+
+
+_LISTENING = """
+import psutil, sys
+for connection in psutil.Process(int(sys.argv[1])).net_connections("tcp"):
+    if connection.status == "LISTEN":
+        print(connection.laddr.port)
+"""
+
+
+def _request(body: bytes) -> bytes:
+    return b"POST / HTTP/1.1\r\nContent-Type: text/xml\r\nContent-Length: %d\r\n\r\n%s" % (len(body), body)
+
+
+def test_a_web_page_is_refused(running: Running, graph: Graph) -> None:
+    node = graph.node("tester")
+    ticks: list[float] = []
+    node.subscribe("/add_two_ints_server/ticks", "std_msgs/Float64", lambda message: ticks.append(message.data))
+    server = running.start("add_two_ints_server")
+    until(lambda: ticks)
+    listening = subprocess.run(
+        [sys.executable, "-c", _LISTENING, str(server.pid)], capture_output=True, text=True, check=True
+    )
+    body = b"<?xml version='1.0'?><methodCall><methodName>getPid</methodName><params></params></methodCall>"
+    answers: list[bytes] = []
+    for port in map(int, listening.stdout.split()):
+        for request in (_request(body), _request(body).replace(b"\r\n", b"\r\nOrigin: http://page.example\r\n", 1)):
+            with socket.create_connection(("127.0.0.1", port)) as peer:
+                peer.sendall(request)
+                peer.settimeout(2)
+                with suppress(OSError):
+                    answers.append(peer.recv(4096))
+    assert any(b"200 OK" in answer and str(server.pid).encode() in answer for answer in answers)
+    assert any(answer.startswith(b"HTTP/1.1 403") for answer in answers)
+
+
+def test_simulated_time_drives_timers(running: Running, graph: Graph, messages: Messages) -> None:
+    node = graph.node("tester")
+    graph.loop.run(node.params.set("/use_sim_time", True))
+    ticks: list[float] = []
+    node.subscribe("/add_two_ints_server/ticks", "std_msgs/Float64", lambda message: ticks.append(message.data))
+    clock = node.advertise("/clock", "rosgraph_msgs/Clock")
+    server = running.start("add_two_ints_server")
+    second = 0
+
+    def advance() -> int:
+        nonlocal second
+        second += 1
+        clock.publish(messages.new("rosgraph_msgs/Clock", {"clock": {"sec": 100 + second, "nanosec": 0}}))
+        return len(ticks)
+
+    until(lambda: advance() > 3)
+    assert all(100 < tick < 101 + second for tick in ticks)
+    assert server.poll() is None
+
+
+@pytest.mark.parametrize("sanitizers", ["address,undefined"])
+def test_the_checks_pass_with_sanitizers(tmp_path: Path, graph: Graph, sanitizers: str) -> None:
+    _require_compiler()
+    toolchain = find_toolchain(os.environ)
+    flags = f"-fsanitize={sanitizers} -fno-sanitize-recover=all -O1 -g"
+    kit = compiled_kit(toolchain, os.environ, flags=flags)
+    package = tmp_path / "src/cpp_nodes"
+    shutil.copytree(_SOURCE / "cpp_nodes", package)
+    builder = PackageBuilder(
+        kit,
+        toolchain,
+        build=tmp_path / "build",
+        devel=tmp_path / "devel",
+        install=tmp_path / "install",
+        underlays=[],
+        definitions=[f"-DCMAKE_CXX_FLAGS={flags}"],
+        environment=os.environ,
+    )
+    headers = Headers({"cpp_nodes": package}, tmp_path / "devel/include", kit.folder / "include", provided=kit.sources)
+    headers.write_package("cpp_nodes")
+    headers.write_included([package])
+    *lines, result = builder.build("cpp_nodes", package, jobs=None, targets=["checks"])
+    assert not isinstance(result, str)
+    assert result.failures == {}, lines
+    arguments = ("--kept", "from:=to", "_from_command_line:=1.25", "_flag:=true")
+    process = Running(tmp_path, graph.core.uri).start("checks", *arguments)
+    output, _ = process.communicate(timeout=_WAIT_S)
+    assert process.returncode == 0, output
+    assert "0 failed" in output

@@ -1,0 +1,51 @@
+"""What a build says about a machine without compiler, and about targets that fail."""
+
+from pathlib import Path
+
+import pytest
+
+from trundle.base.diagnostics import UsageError
+from trundle.ros.sdk import find_toolchain
+from trundle.ros.sdk.package_build import _cmake_error, _failures
+
+
+def test_without_a_compiler_a_sentence_says_what_to_install(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="there is no C\\+\\+ compiler; "):
+        find_toolchain({"PATH": str(tmp_path)})
+    with pytest.raises(UsageError, match="CXX names 'cc-of-mine', which is not found"):
+        find_toolchain({"PATH": str(tmp_path), "CXX": "cc-of-mine"})
+
+
+def test_each_failed_target_has_its_first_error() -> None:
+    text = """\
+[1/4] Building CXX object CMakeFiles/good.dir/src/good.cpp.o
+FAILED: CMakeFiles/plan.dir/src/plan.cpp.o
+/usr/bin/c++ -DROS_PACKAGE_NAME -o CMakeFiles/plan.dir/src/plan.cpp.o
+/ws/src/plan.cpp:3:10: fatal error: moveit/move_group.h: No such file or directory
+/ws/src/plan.cpp:9:1: error: another
+FAILED: arm/CMakeFiles/drive.dir/a.cpp.o
+/ws/src/a.cpp:9:1: error: 'x' was not declared in this scope
+[4/4] Linking CXX executable /ws/devel/lib/p/lift
+FAILED: /ws/devel/lib/p/lift
+/usr/bin/ld: lift.cpp:(.text+0x5): undefined reference to `raise_arm()'
+ninja: build stopped: cannot make progress due to previous errors.
+"""
+    assert _failures(text) == {
+        "plan": "moveit/move_group.h: No such file or directory",
+        "drive": "'x' was not declared in this scope",
+        "lift": "undefined: `raise_arm()'",
+    }
+
+
+def test_an_error_of_cmake_is_one_line_with_its_place() -> None:
+    text = """\
+-- Detecting CXX compile features - done
+CMake Error at CMakeLists.txt:7 (add_executable):
+  Cannot find source file:
+
+    src/none.cpp
+
+
+CMake Generate step failed.
+"""
+    assert _cmake_error(text) == "CMakeLists.txt:7: Cannot find source file: src/none.cpp"
