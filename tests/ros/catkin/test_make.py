@@ -71,6 +71,24 @@ def test_a_workspace_gets_its_devel_space(workspace: Path, capsys: pytest.Captur
     assert _make() == 0, "a second run succeeds, too"
 
 
+def test_catkin_build_lists_builds_and_cleans_from_a_folder_below(
+    workspace: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("PWD", str(workspace / "src/alpha"))
+    monkeypatch.chdir(workspace / "src/alpha")
+
+    assert main(["--as", "catkin", "list"]) == 0
+    assert capsys.readouterr().out == "- alpha\n- zeta\n"
+    assert main(["--as", "catkin", "build", "zeta"]) == 0
+    assert (workspace / "devel/setup.bash").exists()
+    assert "alpha" not in capsys.readouterr().out
+    assert main(["--as", "catkin", "clean"]) == 1
+    assert "say so with catkin clean -y" in capsys.readouterr().err
+    assert main(["--as", "catkin", "clean", "-y"]) == 0
+    assert not (workspace / "devel").exists()
+    assert (workspace / "src/zeta/package.xml").exists()
+
+
 def test_a_sourced_ros_builds_by_its_own_tool(
     workspace: Path,
 ) -> None:

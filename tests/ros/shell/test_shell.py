@@ -15,7 +15,7 @@ TIMEOUT_S = 100.0
 COMMANDS = """
     gazebo gzserver gzclient gz roscore roslaunch rosrun rostopic rosnode rosparam rosservice rosmsg rossrv rosbag
     rospack roscd rosls rosversion rosclean roswtf rostest rviz rqt rqt_graph rqt_plot rqt_image_view rqt_console xacro
-    check_urdf urdf_to_graphiz tf_echo view_frames tf_monitor catkin_create_pkg catkin_init_workspace catkin_make
+    check_urdf urdf_to_graphiz tf_echo view_frames tf_monitor catkin catkin_create_pkg catkin_init_workspace catkin_make
     rosdep rosinstall wstool vcs apt apt-get sudo xterm x-terminal-emulator
 """.split()  # noqa: SIM905 - more readable
 

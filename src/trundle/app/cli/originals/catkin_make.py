@@ -47,13 +47,18 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
+    """Build by the original if a ROS is sourced, else by the kit."""
+    if (original := _sourced_original()) is not None:
+        print(f"-- a ROS is sourced: {original} builds", flush=True)
+        return run_system_program("catkin_make", sys.argv[sys.argv.index("catkin_make") + 1 :])
+    return build_workspace(args)
+
+
+def build_workspace(args: argparse.Namespace) -> int:
     """Write the devel space, and build the C++ targets; return 1 if one could not be built."""
     from trundle.robots.packages import write_configured_files
     from trundle.ros.catkin import init_workspace, open_workspace, report_package, underlays, write_devel_space
 
-    if (original := _sourced_original()) is not None:
-        print(f"-- a ROS is sourced: {original} builds", flush=True)
-        return run_system_program("catkin_make", sys.argv[sys.argv.index("catkin_make") + 1 :])
     definitions = [f"-D{definition}" for definition in args.definitions] + args.cmake_args
     base = Path(os.path.abspath(os.path.join(os.environ.get("PWD", "."), args.directory)))
     workspace = open_workspace(

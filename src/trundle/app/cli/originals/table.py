@@ -3,6 +3,7 @@
 ORIGINALS: dict[str, tuple[str, ...]] = {
     "apt": ("originals.apt", "apt"),
     "apt-get": ("originals.apt", "apt-get"),
+    "catkin": ("originals.catkin",),
     "catkin_create_pkg": ("originals.catkin_create_pkg",),
     "catkin_init_workspace": ("originals.catkin_init_workspace",),
     "catkin_make": ("originals.catkin_make",),
