@@ -1,6 +1,10 @@
 # Included by each project(): what is missing is noted, and the targets that do without it are built.
 if(NOT COMMAND _find_package)
+  # A macro runs by the policies of its definition: those of a project may be older than CMake's own modules need.
+  cmake_policy(PUSH)
+  cmake_policy(VERSION 3.16)
   macro(find_package name)
+    math(EXPR _trundle_depth "0${_trundle_depth} + 1")
     if("${name}" STREQUAL "catkin")
       _find_package(${name} ${ARGN})
     elseif(COMMAND _trundle_use_component
@@ -16,9 +20,11 @@ if(NOT COMMAND _find_package)
       endif()
       _find_package(${name} ${_trundle_words} QUIET)
       string(TOUPPER "${name}" _trundle_upper)
-      if(NOT ${name}_FOUND AND NOT ${_trundle_upper}_FOUND)
+      if(NOT ${name}_FOUND AND NOT ${_trundle_upper}_FOUND AND _trundle_depth EQUAL 1)
         file(APPEND "${CMAKE_BINARY_DIR}/trundle_missing.txt" "${name}\n")
       endif()
     endif()
+    math(EXPR _trundle_depth "${_trundle_depth} - 1")
   endmacro()
+  cmake_policy(POP)
 endif()

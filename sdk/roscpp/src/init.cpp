@@ -206,6 +206,7 @@ void shutdown() {
   s.changed.notify_all();
   const std::lock_guard<std::mutex> starting(s.starting);
   if (!s.is_started) {
+    Time::init();  // the program may still ask for the time
     Time::shutdown();
     return;
   }

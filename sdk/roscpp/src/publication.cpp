@@ -130,6 +130,11 @@ void Publication::closeLinks() {
     else removeLink(link);
 }
 
+SerializedMessage Publication::latched() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return last_;
+}
+
 size_t Publication::linkCount() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return links_.size();

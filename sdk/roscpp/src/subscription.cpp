@@ -128,6 +128,7 @@ class SubscriptionQueue : public CallbackInterface, public boost::enable_shared_
 void Subscription::addCallback(const SubscribeOptions& options) {
   const auto queue = boost::make_shared<SubscriptionQueue>(options);
   std::vector<std::shared_ptr<PublisherLink>> latched;
+  std::shared_ptr<Publication> local;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     queues_.push_back(queue);
@@ -135,9 +136,12 @@ void Subscription::addCallback(const SubscribeOptions& options) {
     if (md5sum_ == "*") md5sum_ = options.md5sum;
     for (const auto& entry : links_)
       if (entry.second->is_latched && entry.second->last.buf) latched.push_back(entry.second);
+    local = local_publication_.lock();
   }
   for (const auto& link : latched)
     queue->push(std::make_shared<LazyMessage>(options.helper, link->last, link->header), link->header, true);
+  const SerializedMessage last = local ? local->latched() : SerializedMessage();
+  if (last.buf) queue->push(std::make_shared<LazyMessage>(options.helper, last, local_header_), local_header_, true);
 }
 
 bool Subscription::removeCallback(const SubscriptionCallbackHelperPtr& helper) {
@@ -283,22 +287,22 @@ void Subscription::connect(const std::shared_ptr<PublisherLink>& link) {
 }
 
 void Subscription::connectLocally(const std::shared_ptr<Publication>& publication) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (local_publication_.lock() == publication) return;
-    local_publication_ = publication;
-  }
   const auto link = boost::make_shared<SubscriberLink>();
   link->topic = topic;
   link->subscriber = this_node::getName();
   link->local = shared_from_this();
-  link->local_header = boost::make_shared<M_string>();
-  (*link->local_header)["callerid"] = this_node::getName();
-  (*link->local_header)["topic"] = topic;
-  (*link->local_header)["type"] = publication->datatype;
-  (*link->local_header)["md5sum"] = publication->md5sum;
-  (*link->local_header)["message_definition"] = publication->definition;
-  (*link->local_header)["latching"] = publication->is_latched ? "1" : "0";
+  link->local_header = boost::make_shared<M_string>(M_string{{"callerid", this_node::getName()},
+                                                             {"latching", publication->is_latched ? "1" : "0"},
+                                                             {"md5sum", publication->md5sum},
+                                                             {"message_definition", publication->definition},
+                                                             {"topic", topic},
+                                                             {"type", publication->datatype}});
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (local_publication_.lock() == publication) return;
+    local_publication_ = publication;
+    local_header_ = link->local_header;
+  }
   publication->addLink(link);
 }
 

@@ -51,6 +51,8 @@ class Publication {
   void addLink(const boost::shared_ptr<SubscriberLink>& link);
   void removeLink(const boost::shared_ptr<SubscriberLink>& link);
   void closeLinks();
+  /** Last message of a latched topic; without bytes if there is none. */
+  SerializedMessage latched() const;
   size_t linkCount() const;
   std::vector<boost::shared_ptr<SubscriberLink>> links() const;
 
@@ -122,6 +124,7 @@ class Subscription : public std::enable_shared_from_this<Subscription> {
   std::vector<boost::shared_ptr<SubscriptionQueue>> queues_;
   bool is_closed_ = false, has_no_delay_ = false;
   std::weak_ptr<Publication> local_publication_;
+  boost::shared_ptr<M_string> local_header_;
 };
 
 /** Topics of this node. */

@@ -45,7 +45,7 @@ def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
     cmake.write_text(f"{text}\nfind_package(NoSuchLibrary REQUIRED)\nadd_executable(plan src/plan.cpp)\n")
     environment = {name: value for name, value in os.environ.items() if name != "CMAKE_PREFIX_PATH"}
     done = subprocess.run(
-        [sys.executable, "-m", "trundle", "--as", "catkin_make"],
+        [sys.executable, "-m", "trundle", "--as", "catkin_make", "-DCMAKE_BUILD_TYPE=None"],
         cwd=base,
         env={**environment, "PWD": str(base)},
         capture_output=True,
@@ -61,13 +61,13 @@ class Running:
     """Started programs of the workspace."""
 
     def __init__(self, workspace: Path, uri: str) -> None:
-        self.folder = workspace / "devel/lib/cpp_nodes"
-        self.environment = {**os.environ, "ROS_MASTER_URI": uri}
+        self.folder = workspace / "devel/lib"
+        self.environment = {**os.environ, "ROS_MASTER_URI": uri, "ROS_PACKAGE_PATH": str(workspace / "src")}
         self.processes: list[subprocess.Popen[str]] = []
 
-    def start(self, name: str, *arguments: str) -> "subprocess.Popen[str]":
+    def start(self, name: str, *arguments: str, package: str = "cpp_nodes") -> "subprocess.Popen[str]":
         process = subprocess.Popen(
-            [str(self.folder / name), *arguments],
+            [str(self.folder / package / name), *arguments],
             env=self.environment,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
@@ -244,6 +244,34 @@ def test_simulated_time_drives_timers(running: Running, graph: Graph, messages: 
     until(lambda: advance() > 3)
     assert all(100 < tick < 101 + second for tick in ticks)
     assert server.poll() is None
+
+
+def test_frames_are_those_of_the_graph(running: Running, graph: Graph, messages: Messages) -> None:
+    """Frames of the program, and one that a Python node broadcasts."""
+    node = graph.node("tester")
+    heard: set[str] = set()
+    node.subscribe(
+        "/tf", "tf2_msgs/TFMessage", lambda message: heard.update(t.child_frame_id for t in message.transforms)
+    )
+    static = node.advertise("/tf_static", "tf2_msgs/TFMessage", latch=True)
+    header = {"frame_id": "base"}
+    transform = {"translation": {"z": 7.0}, "rotation": {"w": 1.0}}
+    tree = [{"header": header, "child_frame_id": "mast", "transform": transform}]
+    static.publish(messages.new("tf2_msgs/TFMessage", {"transforms": tree}))
+    process = running.start("frames", "mast", package="cpp_frames")
+    output, _ = process.communicate(timeout=_WAIT_S)
+
+    assert re.search(r"^\d{3} checks, 0 failed$", output, re.MULTILINE), output
+    assert process.returncode == 0
+    assert heard == {"base"}
+
+
+def test_an_action_runs_is_canceled_and_replaced(running: Running) -> None:
+    process = running.start("count", "--check", package="cpp_actions")
+    output, _ = process.communicate(timeout=_WAIT_S)
+
+    assert re.search(r"^14 checks, 0 failed$", output, re.MULTILINE), output
+    assert process.returncode == 0
 
 
 @pytest.mark.parametrize("sanitizers", ["address,undefined"])

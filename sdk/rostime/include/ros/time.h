@@ -2,7 +2,8 @@
 
 #include <stdint.h>
 
-#include <iosfwd>
+#include <cmath>
+#include <iostream>  // programs print without including it, as the original's header does
 #include <string>
 
 #include "ros/duration.h"

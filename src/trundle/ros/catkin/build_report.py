@@ -73,7 +73,9 @@ def report_package(packages: Mapping[str, Path], name: str, environment: Mapping
         for program in cmake_programs(folder)
     ]
     libraries = [
-        _target(library, _existing(shared, f"lib{library.name}.so"), environment, is_library=True)
+        _target(
+            library, _existing(shared, f"lib{library.name}.so", f"lib{library.name}.a"), environment, is_library=True
+        )
         for library in cmake_libraries(folder)
         if any(source.endswith(_SOURCES) or "*" in source for source in library.sources)
     ]
@@ -92,5 +94,5 @@ def _script(file: Path) -> str | None:
     return "Python programs" if file.suffix == ".py" and os.access(file, os.X_OK) else None
 
 
-def _existing(folders: list[Path], name: str) -> Path | None:
-    return next((folder / name for folder in folders if os.path.isfile(folder / name)), None)
+def _existing(folders: list[Path], *names: str) -> Path | None:
+    return next((folder / name for folder in folders for name in names if os.path.isfile(folder / name)), None)

@@ -131,7 +131,7 @@ void checkTopics(ros::NodeHandle& n) {
   CHECK(pub.getNumSubscribers() == 1 && pub.isLatched());
   pub.publish(number);
   CHECK(waitFor([] { return changed == 6; }));
-  CHECK(waitFor([&] { return by_value == 10 && by_pointer >= 5 && by_event >= 5 && by_boost >= 15 && by_lambda >= 5; }));
+  CHECK(waitFor([&] { return by_value == 10 && by_pointer == 10 && by_event == 10 && by_boost == 30 && by_lambda == 10; }));
   CHECK(number.data == 5 && publisher_name == ros::this_node::getName());
 
   // Within a process, subscribers get the object itself.

@@ -1,0 +1,9 @@
+#pragma once
+
+#include <tf2/LinearMath/Quaternion.h>
+
+namespace tf {
+using tf2::Quaternion;
+using tf2::quatRotate;
+using tf2::slerp;
+}

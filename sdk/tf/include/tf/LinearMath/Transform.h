@@ -1,0 +1,7 @@
+#pragma once
+
+#include <tf2/LinearMath/Transform.h>
+
+namespace tf {
+using tf2::Transform;
+}

@@ -1,0 +1,147 @@
+#include "tf/tf.h"
+
+#include "tf/transform_broadcaster.h"
+#include "tf/transform_listener.h"
+
+namespace tf {
+namespace {
+
+StampedTransform fromMessage(const geometry_msgs::TransformStamped& m) {
+  StampedTransform t;
+  transformStampedMsgToTF(m, t);
+  return t;
+}
+
+}  // namespace
+
+std::string resolve(const std::string& prefix, const std::string& frame_name) {
+  if (!frame_name.empty() && frame_name[0] == '/') return frame_name.substr(1);
+  const std::string stripped = !prefix.empty() && prefix[0] == '/' ? prefix.substr(1) : prefix;
+  return stripped.empty() ? frame_name : stripped + "/" + frame_name;
+}
+
+void TransformBroadcaster::sendTransform(const StampedTransform& transform) {
+  sendTransform(std::vector<StampedTransform>{transform});
+}
+
+void TransformBroadcaster::sendTransform(const std::vector<StampedTransform>& transforms) {
+  std::vector<geometry_msgs::TransformStamped> messages(transforms.size());
+  for (size_t i = 0; i < transforms.size(); ++i) transformStampedTFToMsg(transforms[i], messages[i]);
+  broadcaster_.sendTransform(messages);
+}
+
+Transformer::Transformer(bool, ros::Duration cache_time) : buffer_(boost::make_shared<tf2_ros::Buffer>(cache_time)) {}
+
+bool Transformer::setTransform(const StampedTransform& transform, const std::string& authority) {
+  geometry_msgs::TransformStamped message;
+  transformStampedTFToMsg(transform, message);
+  return buffer_->setTransform(message, authority);
+}
+
+void Transformer::lookupTransform(const std::string& target_frame, const std::string& source_frame,
+                                  const ros::Time& time, StampedTransform& transform) const {
+  transform = fromMessage(buffer_->lookupTransform(target_frame, source_frame, time));
+}
+
+void Transformer::lookupTransform(const std::string& target_frame, const ros::Time& target_time,
+                                  const std::string& source_frame, const ros::Time& source_time,
+                                  const std::string& fixed_frame, StampedTransform& transform) const {
+  transform = fromMessage(buffer_->lookupTransform(target_frame, target_time, source_frame, source_time, fixed_frame));
+}
+
+bool Transformer::waitForTransform(const std::string& target_frame, const std::string& source_frame,
+                                   const ros::Time& time, const ros::Duration& timeout, const ros::Duration&,
+                                   std::string* error_msg) const {
+  return buffer_->canTransform(target_frame, source_frame, time, timeout, error_msg);
+}
+
+bool Transformer::canTransform(const std::string& target_frame, const std::string& source_frame, const ros::Time& time,
+                               std::string* error_msg) const {
+  return buffer_->canTransform(target_frame, source_frame, time, error_msg);
+}
+
+bool Transformer::waitForTransform(const std::string& target_frame, const ros::Time& target_time,
+                                   const std::string& source_frame, const ros::Time& source_time,
+                                   const std::string& fixed_frame, const ros::Duration& timeout, const ros::Duration&,
+                                   std::string* error_msg) const {
+  try {
+    buffer_->lookupTransform(target_frame, target_time, source_frame, source_time, fixed_frame, timeout);
+    return true;
+  } catch (const tf2::TransformException& error) {
+    if (error_msg) *error_msg = error.what();
+    return false;
+  }
+}
+
+int Transformer::getLatestCommonTime(const std::string& source_frame, const std::string& target_frame, ros::Time& time,
+                                     std::string* error_string) const {
+  try {
+    time = buffer_->getLatestCommonTime(target_frame, source_frame);
+    return 0;
+  } catch (const tf2::LookupException& error) {
+    if (error_string) *error_string = error.what();
+    return 1;
+  } catch (const tf2::TransformException& error) {
+    if (error_string) *error_string = error.what();
+    return 2;
+  }
+}
+
+void Transformer::transformQuaternion(const std::string& target_frame, const Stamped<Quaternion>& in,
+                                      Stamped<Quaternion>& out) const {
+  StampedTransform transform;
+  lookupTransform(target_frame, in.frame_id_, in.stamp_, transform);
+  out = Stamped<Quaternion>(transform * static_cast<const Quaternion&>(in), transform.stamp_, target_frame);
+}
+
+void Transformer::transformVector(const std::string& target_frame, const Stamped<Vector3>& in,
+                                  Stamped<Vector3>& out) const {
+  StampedTransform transform;
+  lookupTransform(target_frame, in.frame_id_, in.stamp_, transform);
+  out = Stamped<Vector3>(transform.getBasis() * in, transform.stamp_, target_frame);
+}
+
+void Transformer::transformPoint(const std::string& target_frame, const Stamped<Point>& in, Stamped<Point>& out,
+                                 int) const {
+  StampedTransform transform;
+  lookupTransform(target_frame, in.frame_id_, in.stamp_, transform);
+  out = Stamped<Point>(transform * static_cast<const Point&>(in), transform.stamp_, target_frame);
+}
+
+void Transformer::transformPose(const std::string& target_frame, const Stamped<Pose>& in, Stamped<Pose>& out) const {
+  StampedTransform transform;
+  lookupTransform(target_frame, in.frame_id_, in.stamp_, transform);
+  out = Stamped<Pose>(transform * static_cast<const Pose&>(in), transform.stamp_, target_frame);
+}
+
+TransformListener::TransformListener(ros::Duration max_cache_time, bool spin_thread)
+    : Transformer(true, max_cache_time), listener_(*buffer_, spin_thread) {
+  readPrefix();
+}
+
+TransformListener::TransformListener(const ros::NodeHandle& nh, ros::Duration max_cache_time, bool spin_thread)
+    : Transformer(true, max_cache_time), listener_(*buffer_, nh, spin_thread) {
+  readPrefix();
+}
+
+void TransformListener::readPrefix() {
+  std::string key;
+  if (ros::NodeHandle("~").searchParam("tf_prefix", key)) ros::param::get(key, prefix_);
+}
+
+// A message of another frame, by way of its class.
+#define TF_TRANSFORM(Name, Message, name, Value)                                                             \
+  void TransformListener::transform##Name(const std::string& target_frame, const geometry_msgs::Message& in, \
+                                          geometry_msgs::Message& out) const {                               \
+    Stamped<Value> value, result;                                                                            \
+    name##StampedMsgToTF(in, value);                                                                         \
+    Transformer::transform##Name(target_frame, value, result);                                               \
+    name##StampedTFToMsg(result, out);                                                                       \
+  }
+TF_TRANSFORM(Quaternion, QuaternionStamped, quaternion, Quaternion)
+TF_TRANSFORM(Vector, Vector3Stamped, vector3, Vector3)
+TF_TRANSFORM(Point, PointStamped, point, Point)
+TF_TRANSFORM(Pose, PoseStamped, pose, Pose)
+#undef TF_TRANSFORM
+
+}  // namespace tf

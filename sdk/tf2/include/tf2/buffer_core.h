@@ -1,0 +1,82 @@
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/duration.h>
+#include <ros/time.h>
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "tf2/LinearMath/Transform.h"
+#include "tf2/exceptions.h"
+#include "tf2/transform_datatypes.h"
+
+namespace tf2 {
+
+/** Tree of frames over the last seconds; thread-safe. */
+class BufferCore {
+ public:
+  static const int DEFAULT_CACHE_TIME = 10;
+
+  explicit BufferCore(ros::Duration cache_time = ros::Duration(DEFAULT_CACHE_TIME)) : cache_time_(cache_time) {}
+  virtual ~BufferCore() {}
+
+  void clear();
+  /** Add a transform; false if it is invalid or too old. */
+  bool setTransform(const geometry_msgs::TransformStamped& transform, const std::string& authority,
+                    bool is_static = false);
+  /** Transform that takes coordinates in the source frame to the target frame; time 0 is the latest common one. */
+  geometry_msgs::TransformStamped lookupTransform(const std::string& target_frame, const std::string& source_frame,
+                                                  const ros::Time& time) const;
+  /** As above, of two times, by way of a frame that is fixed meanwhile. */
+  geometry_msgs::TransformStamped lookupTransform(const std::string& target_frame, const ros::Time& target_time,
+                                                  const std::string& source_frame, const ros::Time& source_time,
+                                                  const std::string& fixed_frame) const;
+  bool canTransform(const std::string& target_frame, const std::string& source_frame, const ros::Time& time,
+                    std::string* error_msg = nullptr) const;
+  bool canTransform(const std::string& target_frame, const ros::Time& target_time, const std::string& source_frame,
+                    const ros::Time& source_time, const std::string& fixed_frame,
+                    std::string* error_msg = nullptr) const;
+  ros::Duration getCacheLength() const { return cache_time_; }
+  void getFrameStrings(std::vector<std::string>& frames) const;
+  bool frameExists(const std::string& frame) const;
+  /** Parent of a frame at a time; false if there is none. */
+  bool getParent(const std::string& frame, ros::Time time, std::string& parent) const;
+  ros::Time getLatestCommonTime(const std::string& target_frame, const std::string& source_frame) const;
+  std::string allFramesAsString() const;
+  std::string allFramesAsYAML() const;
+
+ private:
+  struct Sample {
+    ros::Time stamp;
+    std::string parent;
+    Vector3 origin;
+    Quaternion rotation;
+  };
+  struct Frame {
+    bool is_static = false;
+    std::string authority;
+    std::map<ros::Time, Sample> samples;
+  };
+  /** A frame's way to the root: each frame with the transform from the first one. */
+  struct Way {
+    std::vector<std::pair<std::string, Transform> > frames;
+    std::string fault;
+  };
+  bool find(const Frame& frame, const std::string& name, const ros::Time& time, Sample& sample,
+            std::string& fault) const;
+  Way wayUp(const std::string& from, const ros::Time& time, const std::string& until) const;
+  Transform lookUp(const std::string& target, const std::string& source, ros::Time& time) const;
+  ros::Time latestCommon(const std::string& target, const std::string& source) const;
+  std::string checked(const std::string& frame, const char* what) const;
+  std::vector<std::string> ancestors(const std::string& frame) const;
+
+  mutable std::recursive_mutex mutex_;
+  ros::Duration cache_time_;
+  std::map<std::string, Frame> frames_;
+  std::map<std::string, bool> names_;
+};
+
+}  // namespace tf2

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <tf2/buffer_core.h>
+
+#include "tf2_ros/buffer_interface.h"
+
+namespace tf2_ros {
+
+/** Frames of the graph, filled by a TransformListener. */
+class Buffer : public BufferInterface, public tf2::BufferCore {
+ public:
+  using tf2::BufferCore::canTransform;
+  using tf2::BufferCore::lookupTransform;
+
+  explicit Buffer(ros::Duration cache_time = ros::Duration(BufferCore::DEFAULT_CACHE_TIME), bool debug = false)
+      : BufferCore(cache_time) {
+    (void)debug;
+  }
+  geometry_msgs::TransformStamped lookupTransform(const std::string& target_frame, const std::string& source_frame,
+                                                  const ros::Time& time, const ros::Duration timeout) const override;
+  geometry_msgs::TransformStamped lookupTransform(const std::string& target_frame, const ros::Time& target_time,
+                                                  const std::string& source_frame, const ros::Time& source_time,
+                                                  const std::string& fixed_frame,
+                                                  const ros::Duration timeout) const override;
+  bool canTransform(const std::string& target_frame, const std::string& source_frame, const ros::Time& time,
+                    const ros::Duration timeout, std::string* errstr = nullptr) const override;
+  void setUsingDedicatedThread(bool) {}
+};
+
+}  // namespace tf2_ros

@@ -1,0 +1,141 @@
+// Broadcasts frames, looks them up by tf and tf2, and prints a line for each check that fails.
+#include <ros/ros.h>
+#include <tf/transform_broadcaster.h>
+#include <tf/transform_listener.h>
+#include <tf2/LinearMath/Quaternion.h>
+#include <tf2/utils.h>
+#include <tf2_geometry_msgs/tf2_geometry_msgs.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <iostream>
+
+namespace {
+
+int made = 0, failed = 0;
+#define CHECK(cond)                                                    \
+  do {                                                                 \
+    ++made;                                                            \
+    if (!(cond)) {                                                     \
+      ++failed;                                                        \
+      std::cout << "failed, line " << __LINE__ << ": " #cond << std::endl; \
+    }                                                                  \
+  } while (false)
+
+bool near(double a, double b) { return std::fabs(a - b) < 1e-9; }
+
+void checkMath() {
+  for (double yaw : {-3.0, -0.5, 0.0, 1.2, 3.1})
+    for (double pitch : {-1.5, 0.0, 0.7})
+      for (double roll : {-2.9, 0.0, 0.4, 2.0}) {
+        tf2::Quaternion q;
+        q.setRPY(roll, pitch, yaw);
+        double r, p, y;
+        tf2::Matrix3x3(q).getRPY(r, p, y);
+        CHECK(near(r, roll) && near(p, pitch) && near(y, yaw));
+        tf2::Quaternion back;
+        tf2::Matrix3x3(q).getRotation(back);
+        CHECK(near(std::fabs(back.dot(q)), 1.0) && near(q.length(), 1.0));
+        const tf2::Transform t(q, tf2::Vector3(1, 2, 3));
+        const tf2::Vector3 v(0.3, -4, 5);
+        CHECK((t.inverse() * (t * v)).distance(v) < 1e-9);
+        CHECK(tf2::quatRotate(q, v).distance(t.getBasis() * v) < 1e-9);
+        CHECK((tf2::Matrix3x3(q) * tf2::Matrix3x3(q).inverse() * v).distance(v) < 1e-9);
+      }
+  const tf2::Quaternion none, half(tf2::Vector3(0, 0, 1), 1.0);
+  CHECK(near(tf2::getYaw(none.slerp(half, 0.25)), 0.25) && near(half.getAngle(), 1.0) && near(half.getAxis().z(), 1.0));
+  CHECK(near(tf::getYaw(tf::createQuaternionMsgFromYaw(-2.0)), -2.0));
+}
+
+void checkBuffer() {
+  tf::Transformer frames;
+  for (int i = 0; i <= 4; ++i)
+    frames.setTransform(tf::StampedTransform(tf::Transform(tf::createQuaternionFromYaw(0.1 * i), tf::Vector3(i, 0, 0)),
+                                             ros::Time(100 + i), "odom", "base"));
+  frames.setTransform(tf::StampedTransform(tf::Transform(tf::Quaternion(0, 0, 0, 1), tf::Vector3(0, 0, 2)),
+                                           ros::Time(103), "base", "laser"));
+  tf::StampedTransform t;
+  frames.lookupTransform("odom", "base", ros::Time(102.5), t);
+  CHECK(near(t.getOrigin().x(), 2.5) && near(tf::getYaw(t.getRotation()), 0.25));
+  frames.lookupTransform("/odom", "laser", ros::Time(0), t);
+  CHECK(t.stamp_ == ros::Time(103) && near(t.getOrigin().x(), 3.0) && near(t.getOrigin().z(), 2.0));
+  frames.lookupTransform("base", ros::Time(104), "base", ros::Time(100), "odom", t);
+  CHECK(t.getOrigin().distance(tf::Transform(tf::createQuaternionFromYaw(-0.4)) * tf::Vector3(-4, 0, 0)) < 1e-9);
+  std::string why;
+  CHECK(!frames.canTransform("odom", "base", ros::Time(200), &why) && why.find("into the future") != std::string::npos);
+  CHECK(!frames.canTransform("odom", "nowhere", ros::Time(0)));
+  frames.setTransform(tf::StampedTransform(tf::Transform::getIdentity(), ros::Time(100), "moon", "crater"));
+  int thrown = 0;
+  try {
+    frames.lookupTransform("odom", "crater", ros::Time(0), t);
+  } catch (const tf::ConnectivityException&) {
+    ++thrown;
+  }
+  try {
+    frames.lookupTransform("odom", "base", ros::Time(50), t);
+  } catch (const tf::ExtrapolationException&) {
+    ++thrown;
+  }
+  try {
+    frames.lookupTransform("odom", "nowhere", ros::Time(50), t);
+  } catch (tf::TransformException& error) {
+    ++thrown;
+  }
+  CHECK(thrown == 3);
+  CHECK(!frames.setTransform(tf::StampedTransform(tf::Transform::getIdentity(), ros::Time(1), "a", "a")));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "frames");
+  ros::NodeHandle n;
+  checkMath();
+  checkBuffer();
+
+  tf::TransformListener listener;
+  tf2_ros::Buffer buffer;
+  tf2_ros::TransformListener listener2(buffer);
+  tf2_ros::StaticTransformBroadcaster fixed;
+  geometry_msgs::TransformStamped mount;
+  mount.header.frame_id = "base";
+  mount.child_frame_id = "camera";
+  mount.transform.translation.z = 0.5;
+  mount.transform.rotation = tf::createQuaternionMsgFromYaw(M_PI / 2);
+  fixed.sendTransform(mount);
+  tf::TransformBroadcaster broadcaster;
+  ros::Timer timer = n.createTimer(ros::Duration(0.02), [&](const ros::TimerEvent&) {
+    tf::Transform pose;
+    pose.setOrigin(tf::Vector3(1.0, 2.0, 0.0));
+    pose.setRotation(tf::createQuaternionFromYaw(0.0));
+    broadcaster.sendTransform(tf::StampedTransform(pose, ros::Time::now(), "map", "base"));
+  });
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  CHECK(listener.waitForTransform("map", "camera", ros::Time(0), ros::Duration(20.0)));
+  geometry_msgs::PoseStamped ahead, in_map;
+  ahead.header.frame_id = "camera";
+  ahead.pose.position.x = 1.0;
+  ahead.pose.orientation.w = 1.0;
+  listener.transformPose("map", ahead, in_map);
+  CHECK(near(in_map.pose.position.x, 1.0) && near(in_map.pose.position.y, 3.0) && near(in_map.pose.position.z, 0.5));
+  CHECK(in_map.header.frame_id == "map" && near(tf::getYaw(in_map.pose.orientation), M_PI / 2));
+  const geometry_msgs::TransformStamped found =
+      buffer.lookupTransform("map", "camera", ros::Time(0), ros::Duration(20.0));
+  tf2::Transform transform;
+  tf2::convert(found.transform, transform);
+  CHECK(near(transform.getOrigin().y(), 2.0) && found.child_frame_id == "camera");
+  const geometry_msgs::PoseStamped again = buffer.transform(ahead, "map", ros::Duration(1.0));
+  CHECK(near(again.pose.position.y, 3.0));
+  // A transform of the future is waited for.
+  CHECK(listener.waitForTransform("map", "base", ros::Time::now() + ros::Duration(0.1), ros::Duration(20.0)));
+  tf::StampedTransform foreign;
+  if (argc == 2) {
+    CHECK(listener.waitForTransform("map", argv[1], ros::Time(0), ros::Duration(60.0)));
+    listener.lookupTransform("map", argv[1], ros::Time(0), foreign);
+    CHECK(near(foreign.getOrigin().z(), 7.0));
+  }
+  std::cout << made << " checks, " << failed << " failed" << std::endl;
+  ros::Duration(n.param("linger", 0.0)).sleep();
+  return failed == 0 ? 0 : 1;
+}
