@@ -28,12 +28,16 @@ FAILED: arm/CMakeFiles/drive.dir/a.cpp.o
 [4/4] Linking CXX executable /ws/devel/lib/p/lift
 FAILED: /ws/devel/lib/p/lift
 /usr/bin/ld: lift.cpp:(.text+0x5): undefined reference to `raise_arm()'
+FAILED: /ws/devel/lib/p/speak
+/usr/bin/ld: cannot find -lmsc: No such file or directory
+collect2: error: ld returned 1 exit status
 ninja: build stopped: cannot make progress due to previous errors.
 """
     assert _failures(text) == {
         "plan": "moveit/move_group.h: No such file or directory",
         "drive": "'x' was not declared in this scope",
         "lift": "undefined: `raise_arm()'",
+        "speak": "no library -lmsc",
     }
 
 

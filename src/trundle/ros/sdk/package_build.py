@@ -14,6 +14,7 @@ _FAILED = re.compile(r"^FAILED: (?:\[code=\d+\] )?(?P<file>\S+)")
 _OBJECT = re.compile(r"(?:^|/)CMakeFiles/([^/]+)\.dir/")
 _ERROR = re.compile(r"(?:fatal )?error: (?P<text>.+)")
 _UNDEFINED = re.compile(r"undefined reference to (?P<text>.+)")
+_NO_LIBRARY = re.compile(r"cannot find (?P<text>-l[^\s:]+)")
 _CMAKE_ERROR = re.compile(
     r"^CMake Error(?: at (?P<where>[^\s:]+:\d+))?[^\n]*\n(?P<text>(?:[ \t]*\S[^\n]*\n|\n(?=  ))*)", re.MULTILINE
 )
@@ -121,9 +122,19 @@ def _failures(text: str) -> dict[str, str]:
                 compiled[1] if compiled else name.removeprefix("lib").removesuffix(".so") if ".so" in name else name
             )
             failures.setdefault(target, "")
-        elif target and not failures[target] and (error := _ERROR.search(line) or _UNDEFINED.search(line)) is not None:
-            failures[target] = error["text"] if error.re is _ERROR else f"undefined: {error['text']}"
+        elif target and not failures[target]:
+            failures[target] = _error(line)
     return failures
+
+
+def _error(line: str) -> str:
+    """Return the error of a compiler's or linker's line; "" if it has none."""
+    if (undefined := _UNDEFINED.search(line)) is not None:
+        return f"undefined: {undefined['text']}"
+    if (library := _NO_LIBRARY.search(line)) is not None:
+        return f"no library {library['text']}"
+    error = _ERROR.search(line)
+    return "" if error is None else error["text"]
 
 
 def _cmake_error(text: str) -> str:
