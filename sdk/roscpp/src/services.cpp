@@ -149,7 +149,7 @@ bool acceptClient(const std::shared_ptr<net::FrameConnection>& connection, const
     error = "client wants service " + service + " to have md5sum " + md5sum + ", but it has " + offer->options.md5sum +
             ". Dropping connection.";
   if (!error.empty()) {
-    ROS_ERROR("%s", error.c_str());
+    if (!isShuttingDown()) ROS_ERROR("%s", error.c_str());
     connection->send(net::encodeHeader({{"error", error}}));
     connection->close(true);
     return true;

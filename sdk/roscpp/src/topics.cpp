@@ -159,7 +159,7 @@ bool acceptSubscriber(const std::shared_ptr<net::FrameConnection>& connection, c
             net::field(header, "type") + "/" + md5sum + "], but our version has [" + publication->datatype + "/" +
             publication->md5sum + "]. Dropping connection.";
   if (!error.empty()) {
-    ROS_ERROR("%s", error.c_str());
+    if (!isShuttingDown()) ROS_ERROR("%s", error.c_str());
     connection->send(net::encodeHeader({{"error", error}}));
     connection->close(true);
     return true;
