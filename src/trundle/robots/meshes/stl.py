@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 
-from . import _meshes
+from ._meshes import unique_rows
 from .mesh import MeshError
 from .raw import RawPart
 
@@ -32,5 +32,5 @@ def read_stl(data: bytes) -> list[RawPart]:
         raise MeshError(f"declares {count} triangles and contains {available}")
     else:
         raise MeshError("no triangles")
-    first, number = _meshes.unique_rows(np.ascontiguousarray(corners))
+    first, number = unique_rows(np.ascontiguousarray(corners))
     return [RawPart(names=("",), vertices=corners[first].astype(np.float64), faces=number.reshape(-1, 3))]
