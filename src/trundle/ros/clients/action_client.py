@@ -68,9 +68,10 @@ class ActionClient:
 
     def cancel(self) -> None:
         """Cancel the goal, whose end is not reported any more."""
-        if self._goal_id:
-            self._cancels.publish({"id": self._goal_id})
-        self._goal_id, self._on_done, self._on_feedback = "", None, None
+        goal_id = self._goal_id
+        self._goal_id, self._on_done, self._on_feedback = "", None, None  # before the result, which another thread gets
+        if goal_id:
+            self._cancels.publish({"id": goal_id})
 
     def _receive_status(self, message: Any) -> None:
         """Send a goal again that the server does not know: it was not connected yet."""
