@@ -1,5 +1,7 @@
 """All cases of the comparison with rviz, and their view."""
 
+from dataclasses import replace
+
 from tests.page.picture_case import Case
 from tests.page.picture_cases_clouds import CLOUDS
 from tests.page.picture_cases_markers import MARKERS
@@ -18,7 +20,12 @@ VIEW = {
 }
 REMAPPINGS = {"/renamed": "/scan"}
 """Remappings of the rviz node, for names in all files."""
-ALONE = [*SCENE, *MARKERS, *POSES, *CLOUDS]
+_LINES = ("Grid", "PoseArray", "Path", "Polygon")
+"""Cases of lines a pixel wide, which the page smooths at rest and rviz does not."""
+_LINE_GRAIN = 3
+ALONE = [
+    replace(case, grain=_LINE_GRAIN) if case.name in _LINES else case for case in (*SCENE, *MARKERS, *POSES, *CLOUDS)
+]
 
 
 def _scene(name: str, *names: str) -> Case:
