@@ -912,6 +912,7 @@ export interface LessonStep {
     | "joints"
     | "joystick"
     | "log"
+    | "navigation"
     | "nodes"
     | "parameters"
     | "performance"
