@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from trundle.base.diagnostics import Diagnostics, Source
+from trundle.base.diagnostics import Diagnostics, Source, UsageError
 from trundle.robots.model import (
     Collision,
     Inertial,
@@ -248,12 +248,14 @@ def yard() -> Simulation:
     return Simulation(World(name="w", at=AT, models=(*balls, ground)), Diagnostics(strict=True))
 
 
-@pytest.mark.parametrize("force", [1e300, math.nan, math.inf])
-def test_unstable_physics_names_the_body_and_keeps_the_last_good_state(force: float) -> None:
+def test_unstable_physics_names_the_body_and_keeps_the_last_good_state() -> None:
     sim = yard()
     sim.run(0.1)
     good = sim.snapshot()
-    sim["wild"].apply_wrench(Wrench(force=(force, 0.0, 0.0)))
+    for force in (math.nan, math.inf):
+        with pytest.raises(UsageError, match="finite"):
+            sim["wild"].apply_wrench(Wrench(force=(force, 0.0, 0.0)))
+    sim["wild"].apply_wrench(Wrench(force=(1e300, 0.0, 0.0)))
     with pytest.raises(SimulationUnstableError, match="'wild::l' diverged") as caught:
         sim.run(0.5)
     assert "after 0.100 s" in str(caught.value)
@@ -293,7 +295,7 @@ def test_a_divergence_writes_no_log_file(tmp_path: Path, monkeypatch: pytest.Mon
 
 def test_a_diverged_world_continues_once_the_cause_is_removed() -> None:
     sim = yard()
-    sim["wild"].apply_wrench(Wrench(force=(math.nan, 0.0, 0.0)))
+    sim["wild"].apply_wrench(Wrench(force=(1e300, 0.0, 0.0)))
     with pytest.raises(SimulationUnstableError):
         sim.run(0.5)
     sim["wild"].apply_wrench(Wrench())
