@@ -14,6 +14,7 @@ REASONS = Counter(
     {
         "a GPU": 1,  # tests/gym/test_gpu.py has it
         "a terminal": 1,
+        "a workspace": 2,  # tests/ros/sdk compiles others
         "docker": 2,
         "minutes, to set everything up": 1,
         "stable-baselines3": 1,  # tests/gym has it

@@ -15,7 +15,7 @@ from trundle.base.extras import rospy_requirements
 
 ROOT = Path(__file__).parents[1]
 CITATION = ROOT / "CITATION.cff"
-THIRD_PARTY = ("mujoco-warp",)
+THIRD_PARTY = ("mujoco-warp", "cmake", "ninja", "cmeel-boost")
 """Other projects' packages in the documentation."""
 
 

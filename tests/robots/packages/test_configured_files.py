@@ -94,7 +94,7 @@ def test_catkin_make_writes_what_changed_and_a_launch_keeps_what_is_there(
 
     assert (package / "config/gains.yaml").read_text() == "name: copter\np: \n"
     lines = capsys.readouterr().out.splitlines()
-    assert [line for line in lines if "configured" in line] == ["--   configured: src/copter/config/gains.yaml"]
+    assert [line for line in lines if "configured" in line] == ["-- configured: src/copter/config/gains.yaml"]
 
 
 @pytest.mark.parametrize(
