@@ -26,7 +26,7 @@ class RunDifferences(Struct, frozen=True, kw_only=True):
     duration: float
     """Time that both have [s]."""
     rows: tuple[Difference, ...]
-    """What moves or differs: poses first, the largest differences first."""
+    """Differences: of poses first, the largest first."""
     unit: str
     """Unit of all differences, " [m, rad]"; empty: it depends on the row."""
     only: tuple[tuple[str, tuple[str, ...]], ...]

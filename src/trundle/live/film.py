@@ -50,7 +50,7 @@ class Film:
             write_video(self._queued(), self.file, report_progress=lambda _: None)
         except Exception as error:  # `close` raises it on the program's thread
             self._error = error
-            while self._frames.get() is not None:  # nobody waits for a full queue
+            while self._frames.get() is not None:  # empties the queue, so that no call blocks in put
                 pass
 
     def _queued(self) -> Iterator[Image.Image]:

@@ -56,7 +56,7 @@ class ComplementaryFilter:
         """Forget the orientation and the bias."""
         self.orientation: Quaternion | None = None
         self.bias: Vector3 = (0.0, 0.0, 0.0)
-        """Of the angular velocity [rad/s]."""
+        """Bias of the angular velocity [rad/s]."""
         self.is_steady = False
         self._last_turn: Vector3 = (0.0, 0.0, 0.0)
 

@@ -1,4 +1,4 @@
-"""What both filters of imu_tools have in common as nodes."""
+"""Base of the nodes of imu_tools' two filters: topics, frames, publication."""
 
 import math
 from collections import deque

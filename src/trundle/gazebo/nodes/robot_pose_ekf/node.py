@@ -18,7 +18,7 @@ from .sensors import MAX_VARIANCE, SENSORS, Sensor, read_covariance, read_pose
 
 _Array = NDArray[np.float64]
 _IMU_VARIANCE = 0.00017**2
-"""Of an imu that states none."""
+"""Variance of each angle if a message has no covariance [rad²]."""
 _MAX_DIFFERENCE_NS = NS_PER_S
 
 
