@@ -21,10 +21,10 @@ class Action(Protocol):
     """Part of an action."""
 
     def bind(self, states: WorldStates) -> tuple[spaces.Box, Apply]:
-        """Return its bounds, from the limits in the description, and the function that applies it.
+        """Return the action's bounds, from the limits in the description, and the function that applies it.
 
         Raises:
-            UsageError: a name that does not exist, or no bound.
+            UsageError: a name that does not exist, or a joint without a bound.
         """
         ...
 

@@ -54,7 +54,7 @@ def initial_parameters(sizes: Sequence[int], random: np.random.Generator, *, las
     Args:
         sizes: numbers of inputs, of units in each hidden layer, and of outputs.
         random: random number generator.
-        last_scale: scale of the last layer's weights; the other layers have √2.
+        last_scale: scale of the last layer's weights; the scale of the other layers is √2.
     """
     parameters: list[_Array] = []
     for layer, (inputs, outputs) in enumerate(pairwise(sizes)):

@@ -48,7 +48,7 @@ class Observation(Protocol):
 
 
 class StateReader:
-    """Reader of a function of the states, without memory."""
+    """Reader that computes an observation from the present states alone."""
 
     def __init__(self, call: _Function, states: WorldStates, low: ArrayLike, high: ArrayLike) -> None:
         self._call = call

@@ -17,7 +17,7 @@ _SAMPLES = 2
 
 
 class Overview:
-    """Three-quarter view of the loaded world, or the view of one of its cameras."""
+    """Pictures from a three-quarter view of the loaded world, or from one of its cameras."""
 
     def __init__(self, states: WorldStates, camera: str | None) -> None:
         """Select the view.

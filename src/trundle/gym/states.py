@@ -120,7 +120,7 @@ class WorldStates:
         return self._set_time_of(row)
 
     def show_links(self, row: int) -> LoadedSimulation:
-        """Return the simulation with the links of a row, for ray sensors; invalidate its reader
+        """Return the simulation with the link poses of a row, for ray sensors; the caller must invalidate its reader
         afterwards.
         """
         self.simulation.engine.reader.show_link_poses(self.batch.poses[row])

@@ -16,7 +16,7 @@ from .states import WorldStates
 
 class _Wheels(Struct, frozen=True):
     joints: tuple[str, str]
-    """Left and right."""
+    """Left and right joint."""
     drive: DifferentialDrive
     max_effort: float
     """[N·m]"""

@@ -26,14 +26,14 @@ class Task(Struct, frozen=True, kw_only=True):
     """Observations, actions and rewards; functions take the states of all worlds and return a value for each."""
 
     observations: Observations
-    """One observation, several concatenated to one array, or several by name."""
+    """One observation; a list, which is concatenated to one array; or a dict, whose observations keep their names."""
     actions: Action | Sequence[Action]
     reward: Callable[[WorldStates], _Array]
     """(rows,) reward of the step."""
     terminated: Callable[[WorldStates], NDArray[np.bool_]] | None = None
     """(rows,) mask of the episodes that end."""
     reset: Callable[[LoadedSimulation, np.random.Generator], None] | None = None
-    """Changes one loaded world through its handles at the beginning of an episode."""
+    """Function that changes one world through its handles at the beginning of an episode."""
     max_steps: int | None = None
     """Steps after which an episode is truncated."""
     period_s: float = 0.02
