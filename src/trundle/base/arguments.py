@@ -8,7 +8,7 @@ from trundle.spatial import ZERO, Pose, Twist, Vector3, Wrench, numbers_of
 
 from .diagnostics import UsageError
 
-if TYPE_CHECKING:  # light commands do not import NumPy
+if TYPE_CHECKING:  # commands that need no numbers do not import NumPy
     from numpy.typing import ArrayLike
 
     PoseLike: TypeAlias = Pose | ArrayLike
@@ -32,7 +32,7 @@ def number_of(value: object, name: str, *, minimum: float = -math.inf) -> float:
     Args:
         value: argument.
         name: its name and unit, for the message.
-        minimum: least value.
+        minimum: smallest allowed value.
 
     Raises:
         UsageError: the argument is no finite number, or too small.
@@ -48,7 +48,7 @@ def count_of(value: object, name: str) -> int:
     """Return a whole number of zero or more.
 
     Raises:
-        UsageError: the argument is another one.
+        UsageError: the argument is anything else.
     """
     try:
         count = operator.index(value)  # pyright: ignore[reportArgumentType]
@@ -116,7 +116,7 @@ def wrench_of(value: "WrenchLike", name: str = "wrench") -> Wrench:
 
 
 def described(value: object) -> str:
-    """Return a short text of a wrong argument: its shape, or what it is."""
+    """Return a short text about a wrong argument: an array's shape, or the value."""
     shape = getattr(value, "shape", ())
     if shape and shape != (3,):
         return f"an array of shape {shape}"

@@ -49,7 +49,7 @@ def replaced_atomically(path: Path) -> Generator[Path]:
     partial = path.with_name(f".{path.stem}.part{path.suffix}")
     with FileLock(path):
         partial.unlink(missing_ok=True)
-        partial.open("xb").close()  # never another user's link
+        partial.open("xb").close()  # never follow another user's link
         try:
             yield partial
             if path.exists():
@@ -63,7 +63,7 @@ def replaced_atomically(path: Path) -> Generator[Path]:
 def _write(path: Path, content: str | bytes | Path, *, replace: bool) -> None:
     partial = path.with_name(f".{path.name}.part")
     try:
-        partial.unlink(missing_ok=True)  # left by a killed program, or another user's link
+        partial.unlink(missing_ok=True)  # the name is left by a killed program, or is another user's link
         with partial.open("xb") as file:
             if path.exists():
                 shutil.copymode(path, partial)
@@ -92,6 +92,6 @@ def _move_new(partial: Path, path: Path) -> None:
         partial.unlink()
     except FileExistsError:
         raise
-    except OSError:  # a disk without hard links
+    except OSError:  # the disk has no hard links
         path.touch(exist_ok=False)
         os.replace(partial, path)

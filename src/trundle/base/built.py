@@ -18,7 +18,7 @@ def refuse_stale(module: ModuleType) -> None:
     """
     digest = _digest(_SOURCES)
     package = Path(str(module.__file__)).parents[module.__name__.count(".") - 1]
-    record = package / "sources.sha256"  # CMake's, installed with the modules
+    record = package / "sources.sha256"  # CMake installs the digest with the modules
     if digest is None or (record.is_file() and record.read_text() == digest):
         return
     problem = f"the compiled part of Trundle does not match the sources in {_SOURCES}"

@@ -26,10 +26,10 @@ def import_extra(module: str, *, extra: str = "sweep") -> Any:
 
 
 def rospy_requirements() -> str:
-    """Return the words for pip that bring ROS' packages to any Python: names, or paths into the checkout that this
-    Trundle was installed from.
+    """Return the arguments of `pip install` that bring ROS' packages to any Python: names, or paths into the checkout
+    from which this Trundle was installed.
     """
-    from importlib import metadata  # a tenth of a launch's imports
+    from importlib import metadata  # its import takes a tenth of the time of a launch's imports
 
     try:
         record = metadata.distribution("trundle").read_text("direct_url.json")

@@ -72,7 +72,7 @@ class FileLock:
         """Return the open, locked file; None if its last holder has just removed it."""
         try:
             file = os.open(self._path, os.O_RDWR | _FLAGS, 0o666)
-        except PermissionError:  # another user's
+        except PermissionError:  # another user's file
             file = os.open(self._path, os.O_RDONLY | _FLAGS, 0o666)
         try:
             _lock(file)
@@ -91,7 +91,7 @@ class FileLock:
 def _holder(file: int) -> str:
     """Name the process that holds the lock, if /proc/locks lists it."""
     end = f":{os.fstat(file).st_ino}"
-    with contextlib.suppress(OSError, IndexError), open("/proc/locks", encoding="ascii") as table:  # Linux has it
+    with contextlib.suppress(OSError, IndexError), open("/proc/locks", encoding="ascii") as table:  # Linux alone has it
         for fields in map(str.split, table):
             if fields[1] == "FLOCK" and fields[5].endswith(end):
                 name = Path(f"/proc/{fields[4]}/comm").read_bytes().decode(errors="replace").strip()

@@ -21,7 +21,7 @@ class _Press:
 
     def __init__(self) -> None:
         self._start_s = -ONE_PRESS_S
-        """Monotonic time of its first signal."""
+        """Monotonic time of the press's first signal."""
 
     def is_new(self) -> bool:
         """True if a received signal begins a new press."""
@@ -52,7 +52,7 @@ def interrupt(_number: int, _frame: FrameType | None) -> None:
 def ending_signals() -> list[signal.Signals]:
     """Signals that end a program cleanly; without SIGHUP if it is ignored, as under `nohup`."""
     ends = [signal.SIGINT, signal.SIGTERM]
-    if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # Windows has none
+    if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # Windows has no SIGHUP
         ends.append(signal.SIGHUP)
     return ends
 
@@ -87,7 +87,7 @@ def _interrupt_after(code: CodeType) -> None:
     time.sleep(_AGAIN_S)
     while _is_running(code):
         time.sleep(_AGAIN_S)
-    PRESS.reset()  # it has had no effect
+    PRESS.reset()  # the interrupt had no effect
     interrupt_main_thread()
 
 

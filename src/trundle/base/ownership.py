@@ -53,7 +53,7 @@ def runtime_folders(environment: Mapping[str, str]) -> list[Path]:
 
     They are below XDG_RUNTIME_DIR and below the folder of temporary files, and are created if missing.
     """
-    import tempfile  # which takes random and bz2 with it
+    import tempfile  # lazy: tempfile imports random and bz2
 
     user = str(os.geteuid()) if hasattr(os, "geteuid") else "user"
     folders = [Path(tempfile.gettempdir()) / f"trundle-{user}"]

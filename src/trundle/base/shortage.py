@@ -4,8 +4,8 @@ import errno
 import os
 
 try:
-    import resource  # not later: importing needs a file descriptor
-except ImportError:  # Windows has no such limits
+    import resource  # imported here, not when needed: importing needs a file descriptor
+except ImportError:  # Windows has no `resource`
     resource = None
 
 _NO_MEMORY = ("failed to map segment", "annot allocate memory")

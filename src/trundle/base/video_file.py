@@ -1,6 +1,6 @@
 """Files of videos: frames in order, at a constant rate."""
 
-# PyAV's types are partial.
+# For pyright: PyAV's types are incomplete.
 # pyright: reportUnknownMemberType=false
 
 from collections.abc import Callable, Iterable

@@ -18,7 +18,7 @@ def print_line(line: str) -> None:
 
 
 class WaitNotice:
-    """Prints every few seconds what a wait is for, and its duration; to be polled while waiting."""
+    """Prints every few seconds the awaited event and the duration of the wait; to be polled while waiting."""
 
     def __init__(self, what: str, say: Callable[[str], object] = print_line) -> None:
         """Start the wait.

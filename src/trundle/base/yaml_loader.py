@@ -25,7 +25,7 @@ class BoundedLoader(yaml.SafeLoader):
         """Load a text; `count` is called with the number of further values, as written and as aliases."""
         if len(stream) > _MAX_CHARACTERS:
             raise yaml.YAMLError(f"{len(stream)} characters of YAML; the most read is {_MAX_CHARACTERS}")
-        super().__init__(stream)  # checks every character
+        super().__init__(stream)  # PyYAML checks every character
         self._nodes = 0
         self._count = count
 
@@ -77,7 +77,7 @@ class BoundedLoader(yaml.SafeLoader):
             raise yaml.YAMLError("nested too deeply") from None
         except KeyError as error:  # `!!bool maybe`
             raise yaml.YAMLError(f"line {node.start_mark.line + 1}: {error} is not a value of its type") from None
-        except (TypeError, AttributeError, ValueError) as error:  # an unhashable key, a month 13
+        except (TypeError, AttributeError, ValueError) as error:  # such as an unhashable key, or a month 13
             raise yaml.YAMLError(str(error)) from None
 
 

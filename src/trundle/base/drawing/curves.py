@@ -8,10 +8,10 @@ from html import escape
 _COLORS = ("#2563a8", "#c2501b", "#2f8f4e", "#8a3fa0", "#b8860b", "#157f8c", "#b02a4c", "#5c6470")
 _MARKS = "*+ox#%@&"
 _WIDTH, _HEIGHT, _LEFT, _BOTTOM, _TOP, _LINE, _CHARACTER = 900, 420, 80, 40, 16, 18, 7.2
-"""Width and height without legend, margins, height of a legend line, width of a character [px]."""
+"""Width, height without the legend, margins, height of a line of the legend, width of a character [px]."""
 _TICKS = 6
 _NOISE = 1e-9
-"""Span relative to the value, below which a curve is drawn flat."""
+"""Ratio of a curve's span to its value below which the curve is drawn flat."""
 _MAX_VALUE = 1e300
 """Largest value drawn; the span of larger values overflows a double."""
 

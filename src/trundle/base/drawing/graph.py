@@ -10,7 +10,7 @@ from .layered_layout import Vertex, layered_layout
 
 Item: TypeAlias = tuple[Literal["node", "topic"], str]
 _ROW, _SLOT, _GAP, _HEIGHT, _CHARACTER, _MARGIN = 40, 12, 80, 26, 7.2, 16
-"""Row height of a box and of a passing arrow, column gap, box height, character width, margin [px]."""
+"""Height of a row with a box, of a row with a passing arrow; column gap, box height, character width, margin [px]."""
 _LEVEL, _LOWER = 10, 7
 """Length of an arrow's horizontal ends, and vertical offset of the ends of a loop-closing arrow [px]."""
 _QUIET = ("/rosout", "/rosout_agg", "/clock", "/diagnostics", "/statistics")

@@ -22,7 +22,7 @@ _MAX_CPU_S = 1.5
 """Processor time of all expressions of one document; the PR2's take some 10 ms."""
 _STEPS_BETWEEN_CHECKS = 2000
 _STEPS_PER_CHARGE = 20
-"""Steps that one call of `spend` counts in addition, toward the next check of the clock only."""
+"""Steps that each call of `spend` adds until the clock is next read; they do not count toward the budget."""
 _MAX_DEPTH = 100
 """Nesting depth of iterators."""
 
@@ -237,7 +237,7 @@ def _parts(key: object) -> Iterable[object]:
 
 def _weight(key: object) -> int:
     match key:
-        case frozenset():  # its keys may collide too
+        case frozenset():  # the hashes of its keys may collide, too
             return 1 + len(cast("frozenset[object]", key)) * sum(map(_weight, _parts(key)))
         case tuple() | slice():
             return 1 + sum(map(_weight, _parts(key)))

@@ -38,7 +38,7 @@ def percent_text(budget: Budget, text: str, values: object) -> str:
         raise _unsupported(text)
     count = text.count("%") if isinstance(values, dict) else 1
     bound_length(len(text) + _sum_of_widths(text) + count * budget.spend_traversal(values))
-    values = dict(cast("dict[str, object]", values)) if isinstance(values, dict) else values  # a plain dictionary
+    values = dict(cast("dict[str, object]", values)) if isinstance(values, dict) else values  # a plain copy
     return budget.allocate_text(text % values)
 
 

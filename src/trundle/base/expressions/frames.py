@@ -110,7 +110,7 @@ class Lambda(Callee):
         positional = [argument.arg for argument in (*arguments.posonlyargs, *arguments.args)]
         count = len(positional) + len(arguments.kwonlyargs) + len(named)
         self._running.budget.spend(_STEPS_PER_CALL + self._cost + len(values) + count)
-        self._running.budget.allocate(100 * count + 8 * len(values))  # a value may keep the frame
+        self._running.budget.allocate(100 * count + 8 * len(values))  # a value that outlives the call may use the frame
         frame: dict[Any, Any] = {None: self._enclosing, **self._defaults}
         frame.update(zip(positional, values, strict=False))
         surplus = tuple(values[len(positional) :])

@@ -251,7 +251,7 @@ def _truth(function: Callable[[Iterable[Any]], bool]) -> Guarded:
 
 
 def _of_small_integers(function: Callable[..., int]) -> Guarded:
-    """Guard a function whose result has some sixteen bits per unit of its arguments."""
+    """Guard a function whose result has about sixteen bits for each unit of its arguments."""
 
     def call(caller: Caller, values: Sequence[Any], named: Mapping[str, Any]) -> int:
         bits = max((abs(item) * 16 for item in values if isinstance(item, int)), default=0)

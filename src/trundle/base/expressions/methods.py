@@ -214,7 +214,7 @@ def _named(names: str, make: Callable[[str], _Guarded]) -> dict[str, _Guarded]:
 
 
 _LENGTH = _named("__len__", _linear_size)
-"""xacro before 1.13.13 allowed such names: xArm's description has robot_sn.__len__()."""
+"""Methods that xacro before 1.13.13 allowed: xArm's description has robot_sn.__len__()."""
 _SET = {
     **_LENGTH,
     **_named("difference intersection isdisjoint issubset issuperset symmetric_difference union", _combined),
@@ -229,7 +229,7 @@ METHODS_OF: dict[type, dict[str, _Guarded]] = {
         **_named("isidentifier islower isnumeric isprintable isspace istitle isupper lower partition", _linear_size),
         **_named("removeprefix removesuffix split splitlines startswith swapcase title upper", _linear_size),
         **_named(
-            "lstrip rfind rindex rpartition rsplit rstrip strip",  # Python searches from the end without a table
+            "lstrip rfind rindex rpartition rsplit rstrip strip",  # quadratic: searches from the end use no table
             lambda name: _linear_size(name, product=True),
         ),
         **_named("center expandtabs ljust rjust zfill", _padded),

@@ -39,7 +39,7 @@ class Refusal(NamedTuple):
     asks_token: bool = False
     """True if a token is missing."""
     is_guess: bool = False
-    """True if its token is wrong."""
+    """True if the request's token is wrong."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -22,9 +22,9 @@ _FIELDS = {
 
 
 _DECIDING = ("Host", "Origin")
-"""Fields that a request has once: proxies and browsers may read different ones."""
+"""Fields that a request may have only once: of several, proxies and browsers may read different ones."""
 _OTHER_SITES = ("cross-site", "same-site")
-"""The latter: another port of this host."""
+"""Values of Sec-Fetch-Site for requests of other pages; same-site: of another port of this host."""
 
 
 class Guard:

@@ -11,7 +11,7 @@ from ..diagnostics import UsageError
 _ORIGIN = re.compile(r"https?://[^][:/@;,'\s]+(?::\d{1,5})?/?")
 _ALL_ADDRESSES = ("", "0.0.0.0", "::")
 _DOCUMENTATION_ADDRESS = ("192.0.2.1", 9)
-"""Address that no machine has (RFC 5737)."""
+"""Address that belongs to no machine (RFC 5737)."""
 AUTHORITY = re.compile(r"(\[[0-9a-f:.%]+\]|[^][:/@\s]+)(?::\d{1,5})?")
 """Host and optional port of a URL in lower case; the host is the first group."""
 
@@ -50,7 +50,7 @@ class PageAddress:
     port: int | None = None
     """None: 8080 or the next free one."""
     reserved_ports: tuple[int, ...] = ()
-    """Ports that the page does not use, unless `port` is one."""
+    """Ports that the page does not choose by itself."""
     allowed: AllowedNames = NONE_ALLOWED
     view_only: bool = False
     """True: print the view-only link too."""
@@ -72,7 +72,7 @@ def network_addresses(host: str) -> tuple[str, ...]:
         return () if is_loopback(host) else (host,)
     addresses: list[str] = []
     with contextlib.suppress(OSError), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.connect(_DOCUMENTATION_ADDRESS)  # sends nothing, and chooses the address of this machine
+        probe.connect(_DOCUMENTATION_ADDRESS)  # sends nothing, but selects this machine's address
         addresses.append(str(probe.getsockname()[0]))
     with contextlib.suppress(OSError):
         entries = socket.getaddrinfo(socket.gethostname(), None, socket.AF_INET, socket.SOCK_STREAM)

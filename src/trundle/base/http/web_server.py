@@ -102,7 +102,7 @@ class WebServer:
 
     async def start(self, listening: socket.socket, certificate: ssl.SSLContext | None = None) -> None:
         """Serve connections of a listening socket."""
-        logging.getLogger("aiohttp").setLevel(logging.CRITICAL)  # it logs tracebacks for malformed requests
+        logging.getLogger("aiohttp").setLevel(logging.CRITICAL)  # aiohttp logs tracebacks for malformed requests
         app = web.Application()
         app.router.add_get("/{path:.*}", self._answer)
         self._runner = web.AppRunner(

@@ -19,7 +19,7 @@ class RespawnPolicy:
     respawn: bool = False
     respawn_delay_s: float = 0.0
     required: bool = False
-    """True: its end, even with exit code 0, ends the launch."""
+    """True: the job's end, even with exit code 0, ends the launch."""
 
 
 class Job(Protocol):

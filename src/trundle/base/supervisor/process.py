@@ -43,7 +43,7 @@ class ProcessCommand:
     log_file: Path | None = None
     """Log file for `output` 'log'; None drops the output."""
     reads_input: bool = False
-    """True: it reads this process's standard input, like all programs of roslaunch."""
+    """True: the program reads this process's standard input, like all programs of roslaunch."""
 
 
 class ProcessJob:

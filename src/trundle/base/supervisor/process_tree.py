@@ -1,4 +1,4 @@
-"""Descendants of the supervisor's programs: none outlives the supervisor, even a killed one."""
+"""Descendants of the supervisor's programs: none outlives the supervisor, even if it is killed."""
 
 import contextlib
 import os

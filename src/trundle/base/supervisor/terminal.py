@@ -9,7 +9,7 @@ from pathlib import Path
 from .job import JobError
 
 HAS_PSEUDO_TERMINALS = hasattr(os, "openpty")
-"""False on Windows."""
+"""True if this system has pseudo-terminals; Windows has none."""
 LEADER = Path(__file__).with_name("session_leader.py")
 """Program that makes standard input its session's terminal, then becomes the program of its arguments."""
 MAX_SIZE = 500
@@ -18,18 +18,18 @@ MAX_SIZE = 500
 _SCROLLBACK_BYTES = 256 * 1024
 _CHUNK_BYTES = 64 * 1024
 _PERIOD_S = 1 / 30
-"""Time between two chunks [s]: a program that prints without end blocks, as at every terminal."""
+"""Time between two chunks of output [s], so that a program that prints without end blocks, as at every terminal."""
 _KEY_BYTES = 64 * 1024
 """Maximum of queued keys for a program that reads none; further ones are lost."""
 _MIN_SIZE = 2
 _CUT_BYTES = 4096
-"""The oldest output is cut at a line end within this distance, so as not to cut an escape sequence."""
+"""Distance [bytes] within which the oldest output is cut at a line end, so that no escape sequence is cut."""
 _LEAVE_MODES = "\x18\x1b[?1049l\x1b[?1000l\x1b[?1002l\x1b[?1003l\x1b[?1006l\x1b[?2004l\x1b[!p"
-"""Resets the modes that a program may have left: alternate screen, reports of mouse and paste, attributes."""
+"""Escape sequences that reset modes that a program may have left: alternate screen, mouse, paste, attributes."""
 _CONTROLS = re.compile(
     r"\x1b\[[0-?]*[ -/]*[@-~]|\x1b[\]P^_X][^\x07\x1b]*(?:\x07|\x1b\\)?|\x1b[ -/]*[0-~]|[\x00-\x08\x0b-\x1f\x7f-\x9f]"
 )
-"""Escape sequences (ECMA-48, 5.4 and 5.6) and control characters but tab and newline."""
+"""Pattern of escape sequences (ECMA-48, 5.4 and 5.6), and of control characters other than tab and newline."""
 
 
 class Terminal:
@@ -41,7 +41,7 @@ class Terminal:
     def __init__(self) -> None:
         self.columns, self.rows = 80, 24
         self.ended: str | None = None
-        """End of the program; None: it runs."""
+        """Message about the program's end; None: it runs."""
         self.changes = 0
         """Number of changes of the displayed state."""
         self._output = bytearray()
@@ -51,7 +51,7 @@ class Terminal:
         self._keys = bytearray()
         self._listener: Callable[[str], None] | None = None
 
-    # -- what is shown
+    # -- output
 
     @property
     def first(self) -> int:
@@ -186,7 +186,7 @@ class Terminal:
 
     def _set_size(self) -> None:
         if self._descriptor is not None:
-            import termios  # Windows has none
+            import termios  # Windows has no pseudo-terminals
 
             termios.tcsetwinsize(self._descriptor, (self.rows, self.columns))
 

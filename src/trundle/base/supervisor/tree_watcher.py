@@ -41,7 +41,7 @@ def _members(mark: str, groups: Collection[int]) -> list[int]:
                 state, _, group = file.read().rpartition(b")")[2].split()[:3]
             with open(f"{_PROC}/{name}/environ", "rb") as file:
                 is_marked = entry in b"\0" + file.read() + b"\0"
-        except OSError:  # it ended, or belongs to another user
+        except OSError:  # the process has ended, or belongs to another user
             continue
         if state not in b"ZX" and (is_marked or int(group) in groups):
             ids.append(int(name))

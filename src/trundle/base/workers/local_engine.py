@@ -68,7 +68,7 @@ class _LocalRun(Generic[T]):
                 result = process.run(row)
                 if not self._is_over:
                     self._results.put(result)
-        except Exception as error:  # `results` raises it
+        except Exception as error:  # `results` raises the error
             self._results.put(error)
         self._results.put(None)
 

@@ -1,4 +1,4 @@
-"""Progress of a job: one line on a terminal, one now and then in a log."""
+"""Progress of a job: one line that changes on a terminal, a line now and then in a log."""
 
 import sys
 import time

@@ -19,7 +19,9 @@ _POLL_S = 0.2
 """Maximum time between two checks of `is_ending`."""
 _CONNECT_S = 10.0
 _MAX_NODES = 5
-"""Nodes that may end with one row before it counts as lost; also, consecutive actors that may fail to start."""
+"""Number of nodes that may end while running a row before the row counts as lost, and of consecutive actors that may
+fail to start.
+"""
 
 
 class WorkerActor(Generic[T]):
@@ -84,7 +86,7 @@ class _RayRun(Generic[T]):
         self._retries: deque[int] = deque()
         """Rows whose node has ended."""
         self._ends: dict[int, int] = {}
-        """Row → number of nodes that ended while running it."""
+        """Row → number of nodes that ended while running the row."""
         self._failed_starts = 0
         """Consecutive actors that ended before running a row."""
 

@@ -15,9 +15,9 @@ from .job import Job
 
 def main() -> None:
     """Run rows until stdin ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the owner ends it
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the owner's: it ends this process
     output = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # output of a row must not mix with the values
+    os.dup2(2, 1)  # so that output of a row does not mix with the values
     requests: SimpleQueue[Any] = SimpleQueue()
     threading.Thread(target=_read, args=(sys.stdin.buffer, requests), daemon=True).start()
     job: Job[object] = requests.get()
@@ -33,7 +33,7 @@ def _read(file: BinaryIO, requests: SimpleQueue[Any]) -> None:
     try:
         while True:
             requests.put(pickle.load(file))
-    except EOFError:  # the owner has ended, so the running row is not needed
+    except EOFError:  # the owner has ended, and needs no result of the running row
         os._exit(0)
 
 
@@ -50,4 +50,4 @@ if __name__ == "__main__":
         main()
     except BaseException:
         traceback.print_exc()
-        os._exit(1)  # not while another thread reads stdin, as `sys.exit` would
+        os._exit(1)  # `sys.exit` would wait for the thread that reads stdin

@@ -18,7 +18,7 @@ from .job import Job, JobResult, T
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 """Environment of a single-threaded worker: there is one per processor."""
 _ATTEMPTS = 2
-"""Processes that may end with one row before it counts as lost."""
+"""Number of processes that may end while running a row before the row counts as lost."""
 _MEMORY_POLL_S = 0.05
 
 
@@ -68,7 +68,7 @@ class WorkerProcess(Generic[T]):
 
     def _send(self, request: object) -> None:
         assert self._process.stdin is not None
-        with suppress(OSError, ValueError):  # it has ended, as its reader reports
+        with suppress(OSError, ValueError):  # the process has ended, which the reader's thread reports
             pickle.dump(request, self._process.stdin, protocol=5)
             self._process.stdin.flush()
 

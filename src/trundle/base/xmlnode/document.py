@@ -175,7 +175,7 @@ class XmlElement:
         """Remove the element; comments around it stay."""
         parent, before, tail = self.raw.getparent(), self.raw.getprevious(), self.raw.tail
         assert parent is not None, "the root element stays"
-        if self.raw.getnext() is None:  # it is the last child
+        if self.raw.getnext() is None:  # the element is the last child
             if before is None:
                 parent.text = tail
             else:

@@ -56,7 +56,7 @@ class XmlNode:
         self._read_attributes: set[str] = set()
         self._children: list[XmlNode] | None = None
         self.is_declared_late = False
-        """True if blank lines precede its document's <?xml …?>, which TinyXML skips and expat refuses."""
+        """True if blank lines precede <?xml …?> in the document, which TinyXML skips and expat refuses."""
 
     @property
     def at(self) -> Source:

@@ -37,7 +37,7 @@ def parse_xml(
     Raises:
         DescriptionError: not XML, empty, or beyond the size or depth limit.
     """
-    data = text.encode(errors="surrogatepass") if isinstance(text, str) else text  # JSON can hold halves of characters
+    data = text.encode(errors="surrogatepass") if isinstance(text, str) else text  # JSON can hold lone surrogates
     if len(data) > _MAX_BYTES:
         raise DescriptionError(Source(name), f"{len(data)} bytes; the largest file read is {_MAX_BYTES}")
     if not data.strip():

@@ -16,7 +16,7 @@ _MAX_OCTETS = 64 * 1024 * 1024
 _MAX_NODES = 500_000
 _CPU_S = 4.0
 _CPU_S_PER_OCTET = 10e-6
-"""Additional processor time per octet of a file, counted once per file."""
+"""Processor time that each octet of a file adds to the limit [s], once per file."""
 _NODES_BETWEEN_CHECKS = 256
 _MAX_LISTED = 8
 

@@ -28,7 +28,7 @@ def rewrite_as_xml(data: bytes) -> bytes | None:
         data: the whole document.
 
     Returns:
-        None if TinyXML refuses it too, or if it defines entities, which TinyXML never expands.
+        None if TinyXML refuses the document, too, or if it defines entities, which TinyXML never expands.
     """
     text = _decoded(data)
     if "\0" in text or "<!ENTITY" in text:
