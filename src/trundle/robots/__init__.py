@@ -1,1 +1,1 @@
-"""Robot and world files, and what they name: read into structures."""
+"""Robot and world files, and the files that they name, read into structs."""

@@ -15,7 +15,7 @@ from trundle.base.diagnostics import UsageError
 _OPTIONS = ("core.hooksPath=/dev/null", "core.fsmonitor=false", "advice.detachedHead=false", "init.defaultBranch=main")
 _ENVIRONMENT = {
     "GIT_ALLOW_PROTOCOL": "https:http:git",
-    "GIT_TERMINAL_PROMPT": "0",  # a private repository is an error, not a question
+    "GIT_TERMINAL_PROMPT": "0",  # git fails for a private repository, instead of asking for a password
     "GIT_LFS_SKIP_SMUDGE": "1",
     "LC_ALL": "C",
 }
@@ -113,9 +113,9 @@ def _read_messages(process: "subprocess.Popen[str]", *, shows: bool) -> str:
     """Read git's stderr to its end, and return the last line."""
     assert process.stderr is not None
     last = ""
-    for line in process.stderr:  # progress ends with a carriage return, a line end in text mode
+    for line in process.stderr:  # progress lines end with a carriage return, which is a line end in text mode
         last = line.strip() or last
-        if shows and _PROGRESS.match(line):  # other lines are the server's, with any characters
+        if shows and _PROGRESS.match(line):  # other lines come from the server, and may have any characters
             sys.stderr.write(f"\r  {line.strip():<70}")
             sys.stderr.flush()
     if shows:

@@ -25,11 +25,11 @@ from .sdf import DEEPEST
 
 # Each reader is imported on first use.
 _XACRO = "<xacro:"
-"""Marker of an unexpanded file; the namespace alone remains in many expanded ones."""
+"""Marker of an unexpanded file; many expanded files keep the namespace, but not this."""
 _INDIGO = re.compile(
     r"<(?:include\b[^<>]*\bfilename|(?:property|macro|insert_block)\b[^<>]*\bname|if\b[^<>]*\bvalue)\s*="
 )
-"""Tags of Indigo's xacro, without prefix."""
+"""Tags of Indigo's xacro, which had no prefix."""
 
 
 def load(
@@ -118,7 +118,7 @@ def load_text(
         return load_sdf(root, folder / name, packages, report, seed=seed)
     text = text if isinstance(text, str) else text.decode(errors="replace")
     if _XACRO in text or ("xmlns:xacro" in text and _INDIGO.search(text)):
-        path = Path(os.path.relpath(folder / name))  # named as in messages, relative to the working folder
+        path = Path(os.path.relpath(folder / name))  # the name in messages is relative to the working folder
         text, name = _expanded(path, packages, report, text.encode()), f"{name} (expanded)"
     return load_urdf(text, name, folder / name, packages, report)
 

@@ -17,5 +17,5 @@ def shape_name(lump: str, source: str, kind: str, number: int) -> str:
 
 
 def is_lumped_name(name: str) -> bool:
-    """True if a shape was lumped from another link; False if its name begins like the lump's, as Gazebo decides."""
+    """True if a shape was lumped from another link, which Gazebo tells by the name."""
     return _LUMPED in name

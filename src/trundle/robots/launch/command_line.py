@@ -10,7 +10,7 @@ _USE = re.compile(r"""\$\(\s*arg\s+([^\s)]+)\s*\)|\barg\(\s*['"]([^'"]+)['"]\s*\
 
 
 class CommandLine:
-    """`name:=value` arguments, and the files to which they apply: launched ones, and includes with pass_all_args."""
+    """`name:=value` arguments, and the files to which they apply: launched files, and includes with pass_all_args."""
 
     def __init__(self, arguments: Mapping[str, str]) -> None:
         self.arguments = arguments

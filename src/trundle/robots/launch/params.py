@@ -40,7 +40,7 @@ def read_param(attributes: Attributes) -> tuple[str, ParamValue | ParamCommand]:
         listed = "none" if not sources else " and ".join(map(repr, sources))
         raise DescriptionError(at, f"param {name!r} needs one of {', '.join(map(repr, _SOURCES))}; it has {listed}")
     ((source, text),) = sources.items()
-    # roslaunch does not substitute this attribute either.
+    # This attribute is not substituted, as in roslaunch.
     type_name = (attributes.node.attribute("type") or "auto").lower().strip()
     if type_name not in _TYPES:
         raise DescriptionError(at, f"param {name!r}: no type {type_name!r}; types are {', '.join(_TYPES)}")
@@ -72,7 +72,7 @@ def read_rosparam(
     attributes = Attributes(node, scope, substitution, report, ("command", "ns", "file", "param", "subst_value"))
     if not attributes.is_active:
         return
-    # `ns` is an old alias, joined before `param`.
+    # `ns` is an old attribute; it comes before `param` in the name.
     suffix = join_names(attributes.text("ns") or "", attributes.text("param") or "")
     name = scope.join(suffix) if suffix else scope.namespace
     command = attributes.text("command") or "load"

@@ -43,7 +43,7 @@ def run_command(argv: Sequence[str], /, *, env: Mapping[str, str]) -> str:
                 readers[1].join(_POLL_S if not readers[0].is_alive() else 0.0)
                 notice.poll()
             process.wait()
-        except BaseException:  # Ctrl-C, which does not reach a process in its own session
+        except BaseException:  # such as Ctrl-C, which does not reach a process in its own session
             _kill(process)
             raise
     output, errors = (bytes(reader.data) for reader in readers)
@@ -73,7 +73,7 @@ class _Reader(threading.Thread):
         self.start()
 
     def run(self) -> None:
-        with contextlib.suppress(ValueError):  # abandoned and closed
+        with contextlib.suppress(ValueError):  # the stream was closed
             while chunk := os.read(self._stream.fileno(), _CHUNK_BYTES):
                 self.data += chunk
                 if len(self.data) > _MAX_BYTES:
@@ -87,6 +87,6 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
         try:
             os.killpg(process.pid, signal.SIGKILL)
         except ProcessLookupError:
-            return  # already exited
+            return  # the process has already exited
     else:
         process.kill()

@@ -182,7 +182,7 @@ class Substitution:
             return str(self.interpreter.evaluate(text, _Names(scope.arguments, functions)))
         except DescriptionError:
             raise
-        except Exception as error:  # user code may raise anything
+        except Exception as error:  # an expression may raise anything
             message = f"not a Python expression: {error.msg}" if isinstance(error, SyntaxError) else str(error)
             raise DescriptionError(
                 at, f"$(eval {text[:_MAX_LENGTH]}): {message[:_MAX_LENGTH] or type(error).__name__}"

@@ -83,7 +83,7 @@ def _radians(loader: _Loader, node: yaml.ScalarNode) -> float:
     inner = text[4:-1] if text.startswith("rad(") else text
     try:
         return loader.interpreter.evaluate_number(inner, MATH_NAMES)
-    except Exception:  # user code may raise anything
+    except Exception:  # an expression may raise anything
         raise ValueError(f"{text!r} is not an angle in radians") from None
 
 
@@ -127,7 +127,7 @@ def _plain(value: Any) -> ParamValue:
             return {str(key): _plain(item) for key, item in value.items()}
         case list() | tuple() | set():
             return [_plain(item) for item in value]
-        case datetime.date():  # covers datetime; neither can be a parameter
+        case datetime.date():  # `date` covers `datetime`; neither can be a parameter
             return value.isoformat()
         case _:
             return value

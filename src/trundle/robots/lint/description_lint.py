@@ -25,7 +25,7 @@ from .overlaps import report_overlaps
 _MAX_MOMENT_RATIO = 2.0
 """Maximum moment of inertia, relative to the largest that the mass could have within the link's shapes."""
 _MIN_MOMENT_RATIO = 1e-4
-"""Minimum of the same ratio."""
+"""Minimum of this ratio."""
 _PASSIVE = frozenset({JointType.FIXED, JointType.BALL})
 _TRANSMISSION = re.compile(r"<transmission\b.*?</transmission>", re.DOTALL)
 

@@ -8,7 +8,7 @@ from trundle.robots.model import Box, Capsule, Collision, Cylinder, Ellipsoid, M
 from trundle.spatial import Pose, Vector3
 
 _MAX_BODIES = 1000
-"""Maximum static models compared; in a larger world only the first ones are."""
+"""Maximum number of static models that are compared; in a larger world, only the first ones are."""
 
 
 def report_overlaps(models: tuple[Model, ...], report: Diagnostics) -> None:

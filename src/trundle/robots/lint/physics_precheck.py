@@ -113,7 +113,7 @@ def _is_plain_joint(joint: Joint) -> bool:
     axis = joint.axis
     if joint.type not in _TYPES or axis is None or joint.axis2 is not None:
         return False
-    has_hard_stops = axis.stop_stiffness >= 1e8  # physics reports a softer one
+    has_hard_stops = axis.stop_stiffness >= 1e8  # physics reports a softer limit
     return (
         axis.lower < axis.upper
         and axis.effort > 0.0

@@ -1,6 +1,6 @@
 """Loops over the faces of meshes, in C++; none holds the GIL.
 
-Points are (N, 3) [m], and faces (M, 3) indices into them; `IndexError` if there is no such point.
+Points are (N, 3) [m], and faces (M, 3) indices into them; an index without a point raises IndexError.
 """
 
 from numpy import float32, float64, intp
@@ -33,5 +33,5 @@ class SupportGraph:
 
         Args:
             directions: of any length.
-            starts: (D,) indices of points; near the highest ones, the climb is short.
+            starts: (D,) indices of points where the climbs start; near the highest points, they are short.
         """

@@ -77,7 +77,7 @@ def _hierarchy(words: Iterator[str]) -> tuple[tuple[Bone, ...], list[list[str]]]
                 if enclosing and enclosing[-1] >= 0:
                     channels[enclosing[-1]] += names
             case _:
-                pass  # braces
+                pass  # a line with a brace
     return tuple(bones), channels
 
 

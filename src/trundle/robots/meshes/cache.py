@@ -34,15 +34,15 @@ def cache_folder() -> Path:
 def load_parts(key: str) -> list[RawPart] | None:
     """Load the parts of a key; None if missing or damaged."""
     path = cache_folder() / f"{key}.npz"
-    if not is_owned_by_user(path.parent):  # another user's file could be any mesh
+    if not is_owned_by_user(path.parent):  # a file of another user could be any mesh
         return None
     try:
         data = path.read_bytes()
         parts = _unpacked(data)
-        os.utime(path)  # marks it as recently used
+        os.utime(path)  # marks the file as recently used
     except FileNotFoundError:
         return None
-    except Exception:  # damage takes any form
+    except Exception:  # a damaged file may raise anything
         with contextlib.suppress(OSError):
             path.unlink()
         return None
@@ -72,7 +72,7 @@ def _write(path: Path, data: bytes) -> None:
             file.close()
             os.replace(file.name, path)
         except BaseException:
-            Path(file.name).unlink(missing_ok=True)  # missing if Ctrl-C came just after the move
+            Path(file.name).unlink(missing_ok=True)  # the file is missing if Ctrl-C came just after the move
             raise
 
 

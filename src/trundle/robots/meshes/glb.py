@@ -14,7 +14,7 @@ from .texture import as_png
 
 _JSON = b"JSON"
 
-logging.getLogger("trimesh").addHandler(logging.NullHandler())  # otherwise it prints a traceback for a missing texture
+logging.getLogger("trimesh").addHandler(logging.NullHandler())  # else trimesh prints tracebacks for missing textures
 
 
 def read_glb(data: bytes) -> list[RawPart]:
@@ -42,7 +42,7 @@ def read_glb(data: bytes) -> list[RawPart]:
             raise MeshError(f"more than {MAX_TRIANGLES} triangles")
         faces = faces[:, ::-1] if np.linalg.det(transform[:3, :3]) < 0 else faces
         normals = None
-        if "vertex_normals" in geometry._cache:  # otherwise trimesh computes some, but glTF prescribes flat faces
+        if "vertex_normals" in geometry._cache:  # without normals, glTF prescribes flat faces
             turned = np.asarray(geometry.vertex_normals, dtype=np.float64) @ np.linalg.pinv(transform[:3, :3])
             normals = at_corners(turned[:, [0, 2, 1]] * (1.0, -1.0, 1.0), faces, 3)
         part = RawPart(

@@ -11,7 +11,7 @@ from .texture import decoding_error, ignored_decoder_warnings, image_file
 _MAX_PIXELS = 4096
 """Maximum side of an image [px]."""
 MAX_SAMPLES = 1025
-"""Maximum samples per side of the terrain; larger ones are reduced."""
+"""Maximum number of samples per side of the terrain; larger images are reduced."""
 
 
 def read_heights(path: Path, *, sampling: int = 1, max_samples: int = MAX_SAMPLES) -> NDArray[np.float32]:

@@ -54,7 +54,7 @@ def load_mesh(path: Path, *, submesh: str | None = None, center: bool = False) -
 def mesh_errors(path: Path) -> Generator[None]:
     """Convert every exception of a reader to a MeshError that starts with the file's name."""
     try:
-        with np.errstate(all="ignore"):  # damaged numbers are refused after reading
+        with np.errstate(all="ignore"):  # no warnings about damaged numbers, which are refused after reading
             yield
     except MeshError as error:
         raise MeshError(f"{path}: {error}") from None
@@ -177,7 +177,7 @@ def check_vertices(vertices: NDArray[np.floating]) -> None:
     Raises:
         MeshError: a vertex is; the message has its index.
     """
-    are_near = (np.abs(vertices) <= MAX_LENGTH).all(axis=1)  # false for nan
+    are_near = (np.abs(vertices) <= MAX_LENGTH).all(axis=1)  # False for NaN
     if not are_near.all():
         number = int(np.argmin(are_near))
         coordinates = " ".join(f"{value:g}" for value in vertices[number])

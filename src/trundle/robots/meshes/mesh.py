@@ -89,12 +89,12 @@ def _axes(corners: NDArray[np.float32]) -> NDArray[np.float32]:
     return axes / np.maximum(np.linalg.norm(axes, axis=2, keepdims=True), np.float32(1e-30))
 
 
-@lru_cache(maxsize=256)  # a robot's four wheels stay instances of one mesh
+@lru_cache(maxsize=256)  # the original, so that a robot's four wheels stay instances of one mesh
 def _scaled(mesh: Mesh, scale: tuple[float, float, float]) -> Mesh:
     mirrored = scale[0] * scale[1] * scale[2] < 0
     step = -1 if mirrored else 1
     factors = np.asarray(scale, dtype=np.float32)
-    upright = factors[[1, 2, 0]] * factors[[2, 0, 1]] * np.float32(step)  # along 1 / factors, but finite for zeros
+    upright = factors[[1, 2, 0]] * factors[[2, 0, 1]] * np.float32(step)  # parallel to 1 / factors, finite for zeros
     return replace(
         mesh,
         vertices=mesh.vertices * factors,

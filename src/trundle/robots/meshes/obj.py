@@ -131,7 +131,7 @@ def read_mtl(data: bytes) -> dict[str, _Material]:
         elif keyword == "tr":
             look.opacity = 1.0 - _fraction(words[-1])
         elif keyword == "map_kd":
-            look.texture = words[-1]  # after options such as -s 1 1 1
+            look.texture = words[-1]  # the name comes after options such as -s 1 1 1
     return looks
 
 

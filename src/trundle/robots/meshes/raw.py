@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from .mesh import Rgba
 
 MAX_TRIANGLES = 20_000_000
-"""Maximum triangles of a mesh; a small file can instantiate one part repeatedly."""
+"""Maximum number of triangles of a mesh; a small file can instantiate a part repeatedly."""
 
 
 class RawSkin(Struct, frozen=True, eq=False, kw_only=True):

@@ -9,7 +9,9 @@ from trundle.spatial import Vector3
 from .mesh import Mesh
 
 _BEND = 0.97
-"""Cosine between segments above which a corner is nearly straight, or turns back if negative, and is not mitred."""
+"""Cosine of the angle between segments above which a corner counts as straight; below its negative, the road turns
+back. Such corners are not mitred.
+"""
 
 
 def strip_mesh(points: Sequence[Vector3], width: float) -> Mesh:

@@ -32,7 +32,7 @@ def prism_mesh(outlines: Sequence[Sequence[Point]], height: float) -> Mesh:
     plan = triangulate(outlines)
     for a, b, c in plan:
         corners += [(*a, height), (*b, height), (*c, height), (*c, 0.0), (*b, 0.0), (*a, 0.0)]
-    # Walls are at edges of one triangle only, whose reverse does not occur.
+    # Walls are at the edges of only one triangle: those whose reverse does not occur.
     edges = {(p, q) for a, b, c in plan for p, q in ((a, b), (b, c), (c, a))}
     for p, q in sorted(edges):
         if (q, p) not in edges:

@@ -1,4 +1,5 @@
-"""World, Model, Link, Joint, …: frozen structs with SDF's meaning, the narrow waist of Trundle.
+"""World, Model, Link, Joint, …: frozen structs with SDF's meaning; all readers make them, and all consumers start from
+them.
 
 Names are imported on first use: a robot of boxes loads no cameras.
 """

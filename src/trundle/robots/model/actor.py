@@ -62,7 +62,7 @@ class AnimationState(Struct, frozen=True, kw_only=True):
     time_s: float = 0.0
     """Time since the animation began."""
     distance_m: float | None = None
-    """Distance covered along the trajectory; None: standing still, so the animation itself moves the root bone."""
+    """Distance covered along the trajectory; None: the actor does not move, but the animation moves the root bone."""
     placed: bool = True
     """True if the animation also places the root bone; False: the actor's pose does."""
 

@@ -16,7 +16,7 @@ class PhysicsSettings(Struct, frozen=True, kw_only=True):
     real_time_update_rate_hz: float = 1000.0
     """Steps per second of wall time that Gazebo aims at; 0: as fast as possible."""
     gravity: Vector3 = (0.0, 0.0, -9.8)
-    """[m/s²] SDF's default, not 9.81."""
+    """[m/s²] SDF's default, which is not 9.81."""
 
 
 class SphericalCoordinates(Struct, frozen=True, kw_only=True):

@@ -32,7 +32,7 @@ class Sonar(Struct, frozen=True, kw_only=True):
     min_m: float = 0.0
     """Shortest range [m]."""
     max_m: float = 1.0
-    """Longest range [m]; it also stands for no echo."""
+    """Longest range [m], which a reading without an echo has, too."""
     radius: float = 0.5
     """Radius of the cone's far end, or of the sphere [m]."""
 

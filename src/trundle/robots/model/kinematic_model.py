@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Frame(Struct, frozen=True, kw_only=True):
-    """Named frame, fixed to what it is attached to."""
+    """Named frame, fixed to the element to which it is attached."""
 
     name: str
     at: Source

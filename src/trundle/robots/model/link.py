@@ -71,12 +71,12 @@ class Link(Struct, frozen=True, kw_only=True):
     sensors: tuple["Sensor", ...] = ()
     gravity: bool = True
     self_collide: bool | None = None
-    """None: the model's setting."""
+    """None: as the model."""
     kinematic: bool = False
     linear_decay: float = 0.0
     angular_decay: float = 0.0
     enable_wind: bool | None = None
-    """None: the model's setting."""
+    """None: as the model."""
     lights: tuple["Light", ...] = ()
     fixed: bool = False
     """True if fixed to the world: a link of a static model nested in a dynamic one."""

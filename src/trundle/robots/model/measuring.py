@@ -35,9 +35,9 @@ class RangeScan(Struct, frozen=True, kw_only=True):
     horizontal: ScanAxis = ScanAxis()
     vertical: ScanAxis = ScanAxis()
     min_m: float = 0.0
-    """Shortest range [m]; what is nearer reads −inf."""
+    """Shortest range [m]; nearer surfaces read −inf."""
     max_m: float = 0.0
-    """Longest range [m]; what is farther reads inf."""
+    """Longest range [m]; farther surfaces read inf."""
     noise: Noise = Noise()
     visibility_mask: int = EVERY_BIT
     """Mask of gpu_ray sensors: they see the visuals whose flags share a bit with it."""

@@ -7,7 +7,7 @@ from trundle.base.xmlnode import XmlNode
 
 
 class PluginTag(Struct, frozen=True, kw_only=True):
-    """Plugin of a model, world or sensor, found by `plugins` through its file name."""
+    """Plugin of a model, world or sensor; `plugins` finds it by its file name."""
 
     __module__ = "trundle"
 

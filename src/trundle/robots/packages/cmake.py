@@ -22,11 +22,11 @@ _ADD_EXECUTABLE = re.compile(r"(\w+_)?add_executable")
 _ADD_LIBRARY = re.compile(r"(\w+_)?add_library")
 _TARGET_OPTIONS = frozenset({"EXCLUDE_FROM_ALL", "MACOSX_BUNDLE", "WIN32", "STATIC", "SHARED", "MODULE", "OBJECT"})
 _MAX_FOLDERS = 20
-"""Maximum files read, as a CMakeLists.txt may add itself."""
+"""Maximum number of files read, as a CMakeLists.txt may add itself."""
 _MAX_DEPTH = 20
 """Maximum depth of nested blocks."""
 _MAX_COMMANDS = 20_000
-"""Maximum commands run; those in a loop count in each round."""
+"""Maximum number of commands run; those in a loop count in each round."""
 _MAX_GLOBBED = 200
 _MAX_CONFIGURED = 200
 _MAX_CHARACTERS, _MAX_LENGTH = 1_000_000, 1000
@@ -41,7 +41,7 @@ class CMakeProgram:
     """File name of the built program; for a library, without `lib` and suffix."""
     target: str
     sources: tuple[str, ...]
-    """As written, with known variables replaced."""
+    """Sources as written, with known variables replaced."""
     file: Path
     line: int
 
@@ -194,7 +194,7 @@ class _Reader:
                 self._variables[f"{name}_SOURCE_DIR"] = [self._package]
             case "set", [name, *values]:
                 values = values[: values.index("CACHE")] if "CACHE" in values else values
-                self._variables[name] = [value.replace(f"${{{name}}}", "") for value in values]  # not set before
+                self._variables[name] = [value.replace(f"${{{name}}}", "") for value in values]  # unset before
             case "option", [name, *rest]:
                 self._variables.setdefault(name, rest[1:2] or ["OFF"])
             case "list", ["APPEND", name, *values]:
@@ -235,9 +235,9 @@ class _Reader:
     def _configure(self, template: Path, output: str, options: Sequence[str]) -> None:
         shared = f"{self._devel}/{self._variables['CATKIN_PACKAGE_SHARE_DESTINATION'][0]}/"
         if output.startswith(shared):
-            output = os.path.join(self._package, output.removeprefix(shared))  # roslaunch looks in both
+            output = os.path.join(self._package, output.removeprefix(shared))  # roslaunch searches both folders
         if not os.path.isabs(output) or len(self.configured) == _MAX_CONFIGURED:
-            return  # in the build folder, or with an unknown variable
+            return  # the output is in the build folder, or has an unknown variable
         path = Path(output, template.name) if os.path.isdir(output) else Path(output)
         self.configured.append(
             ConfiguredFile(

@@ -76,7 +76,7 @@ def is_true(words: Sequence[str], variables: Mapping[str, Sequence[str]]) -> boo
             value = is_true(rest, variables)
             return None if value is None else not value
         case ["TARGET", _]:
-            return True  # of this package or of one that it needs
+            return True  # a target of this package, or of a package that it needs
         case ["EXISTS", path] if os.path.isabs(path):
             return os.path.exists(path)
         case ["DEFINED", name]:

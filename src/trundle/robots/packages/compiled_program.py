@@ -31,7 +31,7 @@ class _Segment(NamedTuple):
 
 
 def compiled_fault(path: Path, env: Mapping[str, str]) -> str | None:
-    """Return why this machine cannot load an ELF file; None if it can, or the file is not ELF."""
+    """Return the reason why this machine cannot load an ELF file; None if it can, or if the file is not ELF."""
     try:
         with open_file(path) as file:
             if file.read(4) != b"\x7fELF":
@@ -40,7 +40,7 @@ def compiled_fault(path: Path, env: Mapping[str, str]) -> str | None:
                 return "it is compiled for Linux"
             with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
                 return _fault(path, data, env)
-    except (OSError, ValueError, struct.error):  # damaged: starting it gives the system's message
+    except (OSError, ValueError, struct.error):  # the file is damaged: starting it gives the system's message
         return None
 
 
@@ -48,7 +48,7 @@ def _fault(path: Path, data: mmap.mmap, env: Mapping[str, str]) -> str | None:
     (machine,) = struct.unpack_from("<H", data, 18)
     if machine not in _RUN_BY.get(platform.machine(), {machine}):
         return f"it is compiled for {_MACHINES.get(machine, 'another processor')}, not {platform.machine()}"
-    if data[4:6] != b"\x02\x01" or not _CACHE.exists():  # only 64 bits, little-endian, and glibc's loader
+    if data[4:6] != b"\x02\x01" or not _CACHE.exists():  # checked only for 64 bits, little-endian, and glibc's loader
         return None
     segments = list(_segments(data))
     for segment in segments:
@@ -92,5 +92,5 @@ def _dynamic(data: mmap.mmap, segments: list[_Segment]) -> Iterator[tuple[int, s
 def _is_library_found(library: str, folders: list[str], cache: bytes) -> bool:
     in_cache = any(
         os.fsencode(f"{separator}{library}\0") in cache for separator in ("/", "\0")
-    )  # names are ends of paths
+    )  # the cache holds names, some as the ends of paths
     return in_cache or any(os.path.exists(os.path.join(folder, library)) for folder in folders if folder)

@@ -35,7 +35,7 @@ def write_configured_files(folder: Path, *, replace: bool) -> list[Path]:
         try:
             if _write(configured, output, replace=replace):
                 written.append(configured.output)
-        except (OSError, UsageError):  # a read-only package
+        except (OSError, UsageError):  # the package is read-only
             continue
     return written
 

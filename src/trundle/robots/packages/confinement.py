@@ -6,7 +6,7 @@ from pathlib import Path
 
 
 class WideFolders:
-    """Folders too wide to belong to one robot: homes, their parents, roots of disks."""
+    """Folders that hold more than one robot's files: homes, their parents, roots of disks."""
 
     def __init__(self, environment: Mapping[str, str]) -> None:
         """Collect the homes of an environment and of the current user."""
@@ -22,7 +22,7 @@ class WideFolders:
         """Return a folder's path without links; None if it is wide."""
         try:
             real = os.path.realpath(folder)
-        except OSError:  # a link removed in the meantime, as below /proc
+        except OSError:  # the link was removed in the meantime, as below /proc
             return None
         return None if real in self._folders or os.path.dirname(real) == real else real
 

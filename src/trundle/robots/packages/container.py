@@ -23,7 +23,7 @@ def source_in_container(folder: Path, command: str, env: Mapping[str, str], *, n
         folder: package folder.
         command: command to run in the built workspace.
         env: environment with the master's address.
-        needs: released package that the command needs; empty: none.
+        needs: released package that the command needs, too; empty: none.
     """
     install = f" && apt-get install -y {_debian(needs)}" if needs else ""
     script = (

@@ -39,7 +39,7 @@ class GazeboPaths:
     """Gazebo paths of one environment and start file."""
 
     def __init__(self, environment: Mapping[str, str], start: Path, ros: RosPackages, cache: PackageCache) -> None:
-        self._home = Path(environment.get("HOME") or os.devnull)  # not /tmp, which any user can write
+        self._home = Path(environment.get("HOME") or os.devnull)  # rather none than /tmp, where any user can write
         self._start = start
         self._ros = ros
         self._cache = cache
@@ -112,12 +112,12 @@ class GazeboPaths:
         """Return the folder in which `gz fuel download` or `ign fuel download` saved a URL."""
         try:
             parts = urlsplit(url)
-        except ValueError:  # a bracket that is not closed
+        except ValueError:  # the URL has a bracket that is not closed
             return None
         words = [unquote(word) for word in parts.path.split("/") if word]
         if len(words) < 4 or ".." in words:
             return None
-        owner, kind, name, *rest = words[1:]  # the first word is the API version, such as 1.0
+        owner, kind, name, *rest = words[1:]  # the path begins with the API version, such as 1.0
         for cache in _FUEL_CACHES:
             folder = self._home / cache / parts.netloc / owner.lower() / kind / name.lower()
             versions = sorted((int(sub.name), sub) for sub in _folders(folder) if sub.name.isdecimal())

@@ -24,7 +24,7 @@ class PackageCache:
         self.added_models: list[Path] = []
         """Folders added to the model path."""
         self.shadowed: dict[str, str] = {}
-        """Package → warning of another package of the same name; "": none, or reported."""
+        """Package → warning of another package of the same name; empty if there is none, or it has been reported."""
         self.configured: dict[Path, list[Path]] = {}
         """Package folder → files written in place of CMake's `configure_file`."""
         self.exports: dict[Path, list[dict[str, str]]] = {}

@@ -223,7 +223,7 @@ class Packages:
             path = decoded
         if not os.path.exists(path) and is_stand_in(path) and os.path.exists(path.with_suffix(".obj")):
             path = path.with_suffix(".obj")
-        label = "" if root is None else f"{_shown(uri)}: "  # a path is already in the message
+        label = "" if root is None else f"{_shown(uri)}: "  # the message already has the path
         if not os.path.exists(path):
             raise DescriptionError(at, f"{label}no such file {_shown(str(path))}")
         if is_stream(path):
@@ -298,7 +298,9 @@ class Packages:
                 raise DescriptionError(at, f"{_shown(uri)}: {_shown(scheme)}:// is not supported; use {fallback}")
 
     def _in_package_or_model(self, scheme: str, rest: str, uri: str, at: Source) -> tuple[Path, Path]:
-        """Find a package, else a model, or vice versa: conversion of URDF to SDF turns package:// into model://."""
+        """Find a package, else a model; for model://, a model, else a package: the conversion of URDF to SDF turns
+        package:// into model://.
+        """
         name, _, inside = rest.lstrip("/").partition("/")
         package = self.find_package(name) if scheme == "package" else None
         folder = package or self._gazebo.find_model(name) or self.find_package(name)
@@ -339,6 +341,6 @@ def _write_configured_files(package: Path) -> list[Path]:
         return []
     if not _MAY_CONFIGURE.search(text):
         return []
-    from .configured_files import write_configured_files  # and a reader of CMake's language, for few packages
+    from .configured_files import write_configured_files  # lazy: only few packages need a reader of CMake's language
 
     return write_configured_files(package, replace=False)

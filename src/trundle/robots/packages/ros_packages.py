@@ -15,7 +15,7 @@ from .package_cache import Folder, PackageCache
 from .workspace import PARTS, distinct_folders, enclosing_package, workspaces
 
 _MAX_GUESSED = 5000
-"""Maximum folders visited around `start` without a workspace, such as in a home folder."""
+"""Maximum number of folders visited around `start` outside of workspaces, such as in a home folder."""
 _MAX_DIRECT = 500
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _NAME = re.compile(r"<name>\s*([\w.-]+)\s*</name>")
@@ -154,7 +154,7 @@ class RosPackages:
             has_manifest = not names.isdisjoint(MANIFESTS)
             if (has_manifest or not names.isdisjoint(PARTS)) and folder not in self._cache.wide:
                 yield folder, _package_name(folder) if has_manifest else None
-        if walk.max_folders is None:  # a folder named by the user
+        if walk.max_folders is None:  # the user has named this folder
             self._cache.skipped.update(walk.skipped)
 
 

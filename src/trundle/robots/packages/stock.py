@@ -1,8 +1,8 @@
 """Stock ROS packages whose programs, plugins or controllers are built in.
 
-Launch files `$(find)` them for a default, a command or a file. A package that is not installed is an empty folder, so
-that only a file in use is missing. Some sensor description packages have stand-ins with the same macros, which create
-the same links and sensors from boxes and cylinders.
+Launch files `$(find)` them for a default, a command or a file. A package that is not installed resolves to a folder
+that does not exist, so that only files in use are missing. Some sensor description packages have stand-ins with the
+same macros, which create the same links and sensors from boxes and cylinders.
 """
 
 import os
@@ -38,7 +38,7 @@ _CONTROLLERS = """
 """
 _DESCRIPTIONS = ASSETS / "descriptions"
 STOCK_WITH_FILES = frozenset(_NODES_WITH_FILES.split())
-"""Packages with launch files, parameters or modules in use; fetched when named explicitly."""
+"""Packages whose launch files, parameters or modules are used by others; they are fetched when a user names them."""
 STOCK = STOCK_WITH_FILES.union(f"{_TOOLS} {_NODES} {_PLUGINS} {_CONTROLLERS}".split())
 DESCRIPTIONS = {name: _DESCRIPTIONS / name for name in sorted(os.listdir(_DESCRIPTIONS))}
 """Stand-ins for sensor description packages: name → folder."""

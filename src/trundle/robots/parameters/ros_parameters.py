@@ -15,7 +15,7 @@ class RosParameters(Parameters):
 
         Args:
             tree: parameters, empty if it is not a mapping.
-            namespace: its global name.
+            namespace: global name of the namespace.
             warn: called with a sentence for each invalid value that has a default; None: ParamError.
         """
         self._tree: Mapping[str, Any] = tree if isinstance(tree, Mapping) else {}
@@ -35,7 +35,7 @@ class RosParameters(Parameters):
         return type(self)(self._tree.get(name), f"{self.namespace}/{name}", warn=self._warn)
 
     def renamed(self, names: Mapping[str, str]) -> Self:
-        """Return the namespace with parameters by new names as well, unless those are set; `names` are old → new."""
+        """Return the namespace with parameters under their new names, too, unless these are set; `names`: old → new."""
         tree = self._tree
         found = {new: tree[old] for old, new in names.items() if old in tree}
         return type(self)({**found, **tree}, self.namespace, warn=self._warn)

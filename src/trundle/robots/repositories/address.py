@@ -3,7 +3,7 @@
 import re
 
 _SCHEMES = ("https", "http", "git")
-"""Protocols of git that run no program; file:// would copy local folders, ssh and ext run programs."""
+"""Protocols of git that run no program; file:// would copy local folders, and ssh and ext run programs."""
 _SCP = re.compile(r"(?:ssh://)?git@([\w.-]+)[:/](?![/-])(.+)")
 _ADDRESS = re.compile(r"(\w+)://(?:[\w.-]+@)?([\w][\w.-]*)(:\d+)?/[\w.~/+%-]+")
 _BRANCH = re.compile(r"\w[\w./+#-]*")

@@ -20,7 +20,7 @@ from .values import read_number, read_origin, read_vector
 
 
 def read_link(node: XmlNode, materials: Materials, report: Diagnostics) -> RobotLink:
-    """Read one link as urdfdom does: after a fault the rest of the link is not read, but the link stays."""
+    """Read one link as urdfdom does: after a fault the rest of the link is left out, but the link stays."""
     name = node.required_attribute("name")
     inertial, is_sound = _read_inertial(node, name, report)
     shapes: dict[str, list[RobotShape]] = {"visual": [], "collision": []}

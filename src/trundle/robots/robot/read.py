@@ -132,8 +132,8 @@ def _read_joint(node: XmlNode, report: Diagnostics) -> RobotJoint:
         friction=read_optional(dynamics, "friction", 0.0, report),
         mimic=_read_mimic(node, name, report),
     )
-    node.find("calibration")  # for real hardware
-    safety = node.find("safety_controller")  # for ros_control
+    node.find("calibration")  # only real hardware uses it
+    safety = node.find("safety_controller")  # only ros_control uses it
     if safety is not None and safety.attribute("k_velocity") is None:
         fault = f"joint {name!r}: <safety_controller> without k_velocity, for which urdfdom refuses the robot"
         report.warn(safety.at, f"{fault}; it is ignored")

@@ -66,7 +66,7 @@ class Model(ShapeAdder[Link]):
         return self._links[-1]
 
     def add_shape(self, shape: Shape) -> Link:
-        """Add a shape as a link of its own."""
+        """Add a shape as the only shape of a new link."""
         return self.add_link(shape.name, pose=shape.pose).add_shape(replace(shape, pose=_ORIGIN))
 
     def add_joint(

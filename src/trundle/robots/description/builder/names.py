@@ -42,7 +42,7 @@ def check_positive(quantity: str, *values: float) -> None:
 
 
 def color_of(value: object, name: str) -> Rgba:
-    """Return red, green, blue and opacity, 1 if there are only three.
+    """Return red, green, blue and opacity; opacity is 1 if there are only three numbers.
 
     Raises:
         UsageError: the argument is no color; `name` begins the sentence.

@@ -65,7 +65,7 @@ def _resolved(uri: XmlNode, folder: Path, packages: Packages, report: Diagnostic
 
 
 def _is_in_stand_in(uri: str, packages: Packages) -> bool:
-    """True if a model:// URI is in a stand-in, which has no scripts; a warning of the unknown material follows."""
+    """True if a model:// URI is in a stand-in, which has no scripts; the caller warns of the unknown material."""
     scheme, _, rest = uri.partition("://")
     try:
         return scheme == "model" and is_stand_in(packages.find_model(rest.partition("/")[0]))

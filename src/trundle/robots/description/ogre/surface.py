@@ -88,7 +88,7 @@ def _halves(material: Block) -> tuple[list[str], list[str]]:
 def _color(words: tuple[str, ...] | None, *, with_shininess: bool) -> Rgba | None:
     try:
         values = [float(word) for word in words or ()]
-    except ValueError:  # "vertexcolour"
+    except ValueError:  # the word "vertexcolour"
         return None
     if with_shininess and len(values) in (4, 5):
         values.pop()

@@ -13,7 +13,7 @@ from trundle.spatial import Pose
 TOLERANCE = 1e-7
 """Relative difference of numbers that count as equal."""
 _IGNORED = frozenset({"at", "uri", "node", "added", "sdf_version", "plugins", "canonical_link", "frames"})
-"""Fields not compared: no part of the state, or copied unchanged from the original XML."""
+"""Fields that are not compared: they are no part of the state, or are copied unchanged from the original XML."""
 
 
 def poses_differ(one: Pose, other: Pose) -> bool:
@@ -51,7 +51,7 @@ def different_fields(current: Struct, target: Struct) -> list[str]:
 
 
 def has_joint(model: Model, link: str) -> bool:
-    """True if a link of a model is an end of a joint."""
+    """True if a joint connects a link of a model."""
     return any(link in (joint.parent, joint.child) for joint in model.joints)
 
 

@@ -51,7 +51,7 @@ def set_friction(collision: XmlElement, surface: Surface) -> None:
 
 
 def set_frictions(link: XmlElement, current: Iterable[Collision], target: Iterable[Collision]) -> None:
-    """Set the friction of the collisions of a <link> that differ in it."""
+    """Set the friction of those collisions of a <link> whose friction differs."""
     elements = {collision.get("name"): collision for collision in link.all("collision")}
     for before, after in zip(current, target, strict=False):
         same = (before.surface.mu, before.surface.mu2) == (after.surface.mu, after.surface.mu2)

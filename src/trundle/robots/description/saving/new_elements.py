@@ -50,7 +50,7 @@ class Elements:
         return None
 
     def copied(self, part: Model | Light) -> XmlElement | None:
-        """Return a copy of a part's original element; None if it has none, or comes from a URDF."""
+        """Return a copy of a part's original element; None if the part has no element, or comes from a URDF."""
         file = Path(part.at.file)
         try:
             document = XmlDocument.read(file)

@@ -16,11 +16,11 @@ from .new_elements import Elements
 from .world_document import WorldDocument, is_editable, new_document
 
 _ROUNDS = 5
-"""Most rounds of edits; an edit may move other elements that are posed relative to it."""
+"""Maximum number of rounds of edits; an edit may move other elements whose poses are relative to the edited one."""
 _PATCHED_ROUNDS = 3
-"""Rounds of edits before remaining differences are written from the model."""
+"""Number of rounds after which elements that still differ are written anew from the model."""
 _NEWEST = "1.12"
-"""Version of a file without a version."""
+"""Version assumed for a file that states none."""
 
 
 class SavedWorld(Struct, frozen=True, kw_only=True):

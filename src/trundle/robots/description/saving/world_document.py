@@ -36,7 +36,7 @@ class WorldDocument:
         self._parts: dict[tuple[str, str], XmlElement] = {}
         """(tag, name) → element, which may be an <include>."""
         self._multiple: list[XmlElement] = []
-        """Elements that create several models, or merge one into the world."""
+        """Elements that create several models, or merge a model into the world."""
         self._displaced: dict[str, Model] = {}
         """Models with links away from their pose at zero joint positions."""
         self._dissolve_states()

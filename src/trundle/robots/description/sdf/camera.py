@@ -29,7 +29,7 @@ CAMERA_TYPES = WIDE | {
 """Sensor types with a <camera>."""
 _MAX_SIDE_PX = 16384
 _MAX_PX = 1 << 25
-"""Maximum pixels of an image."""
+"""Maximum number of pixels of an image."""
 _MIN_PINHOLE_RAD, _MAX_PINHOLE_RAD = 1e-6, 3.1
 """Limits of a pinhole's field of view."""
 _MAX_CLIP_M = 1e30
@@ -44,7 +44,7 @@ _LENSES: Mapping[str, tuple[float, float, str]] = {
     "equisolid_angle": (2.0, 2.0, "sin"),
     "orthographic": (1.0, 1.0, "sin"),
 }
-"""Type → c1, c2, fun."""
+"""Type of a lens → c1, c2, fun."""
 
 
 def read_cameras(sensor: XmlNode, type_: str, context: Context) -> tuple[CameraOptics, ...]:

@@ -58,7 +58,7 @@ def read_bits(node: XmlNode, tag: str, *, default: int = EVERY_BIT) -> int:
 
 
 class RawPose(Struct, frozen=True):
-    """<pose> as written, with the frame it is relative to."""
+    """<pose> as written, with the frame to which it is relative."""
 
     pose: Pose = Pose()
     relative_to: str | None = None

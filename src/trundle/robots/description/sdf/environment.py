@@ -14,9 +14,9 @@ _MIN_TEMPERATURE, _MAX_TEMPERATURE = 1.0, 1e6
 """Bounds of the air temperature at the ground [K]."""
 _MAX_ELEVATION_M = 1e9
 _MAX_PRESSURE = 1e15
-"""[Pa]"""
+"""Bounds of the air pressure at the ground [Pa]."""
 _AMBIENT: Mapping[tuple[int, int], Rgba] = {(1, 3): (0.0, 0.0, 0.0, 1.0), (1, 4): (0.2, 0.2, 0.2, 1.0)}
-"""Version → ambient light of the versions before it; 0.4 from 1.4 on."""
+"""Version → default of the ambient light in the versions before it; from 1.4 on, it is 0.4."""
 
 
 def read_physics(world: XmlNode, context: Context) -> PhysicsSettings:

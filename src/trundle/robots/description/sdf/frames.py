@@ -17,7 +17,7 @@ class Scope(Struct, frozen=True):
     poses: dict[str, Pose]
     """model_from_frame"""
     links: dict[str, str]
-    """Frame → link it is attached to."""
+    """Frame → link to which it is attached."""
 
     def inside(self, model: str) -> "Scope":
         """Return the scope of a nested model."""
@@ -50,7 +50,7 @@ class FrameGraph(Struct):
     """`__model__` or `world`."""
     report: Diagnostics
     canonical_link: str | None = None
-    """Link that frames attached to the model itself move with, if known."""
+    """Link with which frames attached to the model itself move, if it is known."""
     _entries: dict[str, _Entry] = field(default_factory=dict[str, _Entry])
     _scopes: dict[str, Scope] = field(default_factory=dict[str, Scope])
     _resolved: dict[str, Pose] = field(default_factory=dict[str, Pose])
@@ -65,7 +65,7 @@ class FrameGraph(Struct):
             raw: pose as written.
             at: source position.
             default: frame of a pose without relative_to; None: the root.
-            attached_to: frame it is fixed to; None: itself, for a link.
+            attached_to: frame to which it is fixed; None for a link.
         """
         self._entries[name] = _Entry(raw, at, default or self.root, name if attached_to is None else attached_to)
 
@@ -121,7 +121,7 @@ class FrameGraph(Struct):
         return self.pose(name).inverse() @ self.pose(raw.relative_to) @ raw.pose
 
     def link(self, name: str) -> str | None:
-        """Return the link that a frame is attached to; the world and the root for themselves; None if there is none."""
+        """Return the link to which a frame is attached; the world and the root map to themselves; None: no link."""
         visited: set[str] = set()
         while name not in (self.root, WORLD):
             if name in visited:

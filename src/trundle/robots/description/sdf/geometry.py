@@ -95,7 +95,7 @@ def _plane(shape: XmlNode, context: Context) -> Plane:
 
 
 def _mesh(shape: XmlNode, context: Context) -> Geometry:
-    uri = shape.string("uri") or shape.string("filename") or shape.attribute("filename")  # SDF 1.0's
+    uri = shape.string("uri") or shape.string("filename") or shape.attribute("filename")  # the attribute of SDF 1.0
     if not uri:
         context.report.warn(shape.at, "<mesh> without <uri>; it has no shape")
         return Empty()

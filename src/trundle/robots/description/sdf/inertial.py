@@ -14,9 +14,9 @@ def read_inertial(link: XmlNode, name: str, context: Context) -> Inertial:
     report = context.report
     mass = node.number("mass", default=1.0, limit=MAX_MASS)
     inertia = node.find("inertia")
-    pose = read_pose(node, context).pose  # always in the link frame: relative_to is ignored
+    pose = read_pose(node, context).pose  # the pose is always in the link frame; relative_to is ignored
     warn_ignored(node, ("auto_inertia_params",), "is for custom inertia calculators", context)
-    node.find("density")  # read by automatic inertias
+    node.find("density")  # `auto_inertia` reads it
     node.attribute("auto")
     if inertia is None:
         report.info(

@@ -17,7 +17,7 @@ _TWO_AXES = frozenset({JointType.UNIVERSAL, JointType.REVOLUTE2, JointType.GEARB
 TYPES = {"continuous": JointType.REVOLUTE} | {kind.value: kind for kind in JointType if kind is not JointType.PLANAR}
 """Name in the file → type."""
 FrameOf: TypeAlias = Callable[[str], Pose | None]
-"""Returns model_from_frame by name; "" is the joint frame."""
+"""Function that returns model_from_frame of a frame's name; "" is the joint frame."""
 
 
 def read_joint(

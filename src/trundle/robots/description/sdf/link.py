@@ -88,7 +88,7 @@ def _read_collision(node: XmlNode, link: str, graph: FrameGraph, context: Contex
         surface=default_surface(context),
     )
     warn_ignored(node, ("auto_inertia_params",), "is for custom inertia calculators", context)
-    node.find("density")  # read by automatic inertias
+    node.find("density")  # `auto_inertia` reads it
     return with_contact(collision, node, context)
 
 

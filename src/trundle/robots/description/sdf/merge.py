@@ -16,7 +16,7 @@ class MergedModel(Struct, frozen=True):
 
     part: UnplacedModel
     frame: str
-    """Name of the frame that replaces the merged model's."""
+    """Name of the frame that replaces the frame of the merged model."""
 
     def merge_into(self, outer: Model, graph: FrameGraph) -> Model:
         """Return the outer model with the inner one's parts added."""

@@ -19,7 +19,7 @@ from .kmeans import kmeans_centers
 from .unplaced_model import UnplacedModel
 
 _MAX_MODELS = 1_000
-"""Maximum models of a population."""
+"""Maximum number of models of a population."""
 _NODES_OF_A_MODEL = 20
 """Elements that count for a model in the reading budget."""
 _SAMPLES = 10_000

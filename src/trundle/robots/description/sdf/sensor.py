@@ -30,7 +30,7 @@ def read_sensor(node: XmlNode, owner: str, graph: FrameGraph, context: Context) 
         plugins=tuple(read_plugin(tag) for tag in node.all("plugin")),
     )
     if type_ in MEASURING:
-        from .sensor_elements import with_settings  # loaded only for worlds with such sensors
+        from .sensor_elements import with_settings  # imported only for worlds with such sensors
 
         sensor = with_settings(sensor, node, context)
     if type_ in MEASURING | CAMERA_TYPES:

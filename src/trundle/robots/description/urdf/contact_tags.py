@@ -15,11 +15,11 @@ CONTACT_TAGS = ("collision", "fdir1", "laserRetro", "maxContacts", *_NUMBERS)
 def with_contact_tags(collision: Collision, block: XmlNode, context: Context) -> Collision:
     """Return a collision with the values of its link's block, which apply to every collision of the link.
 
-    <collision> is applied first, whatever the order: its <surface> replaces the whole surface, of which the other tags
-    change single values (sdformat's InsertSDFExtensionCollision).
+    <collision> is applied first, wherever it is: its <surface> replaces the whole surface; the other tags then change
+    single values (sdformat's InsertSDFExtensionCollision).
     """
     for node in block.all("collision"):
-        from ..sdf.link import with_contact  # lazy: few robots have it
+        from ..sdf.link import with_contact  # lazy: few robots have such a block
 
         collision = with_contact(collision, node, context)
     surface = collision.surface

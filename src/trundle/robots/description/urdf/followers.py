@@ -1,4 +1,4 @@
-"""Joints that mimic plugins drive; Gazebo's conversion leaves them free."""
+"""Joints that plugins of mimic joints drive; Gazebo's conversion leaves them free."""
 
 from collections.abc import Iterable
 

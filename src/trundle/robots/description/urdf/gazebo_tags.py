@@ -97,7 +97,7 @@ class GazeboTags:
         return visual
 
     def with_contact(self, collision: "Collision", link: str) -> "Collision":
-        """Return a collision with the contact parameters of its link's blocks, each over those before it."""
+        """Return a collision with the contact parameters of its link's blocks; later blocks override earlier ones."""
         for tag in CONTACT_TAGS:
             self._all(link, tag)
         for block in self._blocks.get(link, []):

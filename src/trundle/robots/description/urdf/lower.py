@@ -264,7 +264,7 @@ class _Lowering:
     def _material(self, shape: RobotShape) -> Material:
         texture = self._path(shape.texture, shape, "texture") if shape.texture else None
         if shape.rgba is None and texture is None:
-            return GREY  # a mesh then keeps its own colors
+            return GREY  # without a material, a mesh keeps its own colors
         r, g, b, _ = shape.rgba or (1.0, 1.0, 1.0, 1.0)
         return Material(ambient=(r, g, b, 1.0), diffuse=(r, g, b, 1.0), texture=texture)
 

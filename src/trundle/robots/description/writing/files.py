@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 UriOf: TypeAlias = Callable[[Path | None, str], str]
-"""Returns the URI to write for a mesh, terrain or texture, from its path and original URI."""
+"""Function that returns the URI to write for a mesh, terrain or texture, from its path and original URI."""
 
 
 def written_uri(path: Path | None, uri: str) -> str:

@@ -241,10 +241,10 @@ def _patched(
     package.safe_eval = interpreter.evaluate
     package.eval_text = _eval_text_for(originals["eval_text"], interpreter.budget)
     package.warning = warn
-    package.open = open_readable  # shadows the builtin, with which its load_yaml would open any file
-    package.print_location = lambda: None  # it prints to stderr at a warning; the cursor has the position
+    package.open = open_readable  # shadows the builtin `open`, with which the package's load_yaml would open any file
+    package.print_location = lambda: None  # this function prints to stderr at a warning; the cursor has the position
     _set_commands(replaced)
-    arguments.eval = substitution_eval  # shadows the builtin in its module
+    arguments.eval = substitution_eval  # shadows the builtin `open` in the package's module
     package.all_includes.clear()
     try:
         yield
@@ -263,7 +263,7 @@ def _eval_text_for(original: Callable[..., object], budget: Budget) -> Callable[
     def eval_text(text: str, symbols: object) -> object:
         result = original(text, symbols) if "$" in text else text
         if isinstance(result, str) and len(result) > _LONG_TEXT:
-            budget.allocate(len(result))  # a thousand elements may contain it, and the output repeats it
+            budget.allocate(len(result))  # a thousand elements may contain the text, and the output repeats it
         return result
 
     return eval_text
@@ -306,7 +306,7 @@ def _parsed(data: bytes, filename: str, report: Diagnostics, budget: ReadBudget)
     except ExpatError as error:
         from trundle.base.xmlnode import parse_xml  # slow to load, and most files are well-formed
 
-        parse_xml(data, name=filename)  # raises with a sentence
+        parse_xml(data, name=filename)  # raises an error with a sentence
         message = f"not well-formed XML: {ErrorString(error.code)}"
         raise DescriptionError(Source(filename, error.lineno), message) from None
 

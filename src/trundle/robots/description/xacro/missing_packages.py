@@ -114,7 +114,7 @@ def _end(joint: Any, role: str) -> str:
 
 
 def missing_package(error: BaseException | None) -> MissingPackageError | None:
-    """Return the missing package that caused an error; None if another cause."""
+    """Return the missing package that caused an error; None if the error has another cause."""
     while error is not None and not isinstance(error, MissingPackageError):
         error = getattr(error, "exc", None) or error.__context__
     return error

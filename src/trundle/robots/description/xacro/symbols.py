@@ -20,8 +20,8 @@ def install_symbols(package: Any) -> None:
 
     symbols = package._global_symbols
     functions, python = symbols["xacro"], symbols["python"]
-    dict.pop(python, "vars")  # gives access to hidden names
-    dict.pop(python, "hash")  # reveals which texts collide in a dictionary
+    dict.pop(python, "vars")  # would give access to hidden names
+    dict.pop(python, "hash")  # would reveal which texts collide in a dictionary
     dict.update(
         functions,
         load_yaml=Function("load_yaml", _yaml_reader(package)),

@@ -23,7 +23,7 @@ _Change: TypeAlias = tuple[_Array, _Array, int | None]
 
 
 class _Step(Struct, frozen=True, eq=False):
-    """Elementary transform of a node."""
+    """Elementary transform of a node: a translation, rotation, scale or matrix."""
 
     kind: str
     sid: str

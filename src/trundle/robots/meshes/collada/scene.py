@@ -18,7 +18,7 @@ from .skin import read_skin
 
 _MAX_DEPTH = 64
 _MAX_NODES = 100_000
-"""Maximum nodes visited; a small file can instantiate nodes repeatedly and expand without bound."""
+"""Maximum number of visited nodes; a small file can instantiate nodes repeatedly and expand without bound."""
 _Material = tuple[Rgba | None, str | None]
 _Corners = NDArray[np.float32] | None
 _Triangles = list[tuple[str, NDArray[np.float64], NDArray[np.int64], _Corners, _Corners, NDArray[np.int64]]]
@@ -106,7 +106,7 @@ class _SceneWalk(Struct):
         targets = {str(binding.symbol): binding.target for binding in materials or ()}
         if id(geometry) not in self.geometries:
             self.geometries[id(geometry)] = _triangles(geometry)
-        normals_from_node = np.linalg.pinv(world_from_node[:3, :3]).astype(np.float32)  # transposed
+        normals_from_node = np.linalg.pinv(world_from_node[:3, :3]).astype(np.float32)  # normals are rows
         for symbol, vertices, faces, uv, normals, used in self.geometries[id(geometry)]:
             self.triangles += len(faces)
             if self.triangles > MAX_TRIANGLES:
@@ -137,7 +137,7 @@ def _triangles(geometry: Any) -> _Triangles:
             triangles = triangle_fans(corners.ravel(), np.asarray(primitive.vcounts, dtype=np.int64))
             corners = corners.ravel()[triangles]
         if corners.ndim != 2 or corners.shape[1] != 3:
-            continue  # lines
+            continue  # lines have no faces
         uv = normals = None
         if len(primitive.texcoordset):
             uv = _corners(primitive.texcoordset[0], primitive.texcoord_indexset[0], corners, triangles, 2)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ..raw import RawSkin
 
 _MAX_INFLUENCES = 8
-"""Maximum influences of a vertex; the largest are kept."""
+"""Maximum number of bones that influence a vertex; the largest weights are kept."""
 
 
 def read_skin(skin: Any, vertices: NDArray[np.float64], used: NDArray[np.int64]) -> RawSkin | None:
