@@ -34,7 +34,7 @@ double approach_speed(const mjModel* m, const mjData* d, const mjContact& contac
   double speeds[2];
   for (int side = 0; side < 2; ++side) {
     const int body = m->geom_bodyid[contact.geom[side]];
-    const double* velocity = d->cvel + 6 * body;  // of the tree's centre of mass: angular, linear
+    const double* velocity = d->cvel + 6 * body;  // velocity of the tree's centre of mass: angular, linear
     const double* centre = d->subtree_com + 3 * m->body_rootid[body];
     const double arm[3] = {contact.pos[0] - centre[0], contact.pos[1] - centre[1], contact.pos[2] - centre[2]};
     double turning[3];

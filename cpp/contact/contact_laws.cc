@@ -74,7 +74,7 @@ void apply_laws(const LawTables& laws, const mjModel* m, mjData* d) {
   approach_stops(m, d);
 }
 
-// For a state that is evaluated, not stepped: no law that acts over a step.
+// Apply the laws to a state that is evaluated, not stepped; laws that act over a step are left out.
 void apply_static_laws(const LawTables& laws, const mjModel* m, mjData* d) {
   if (turn_friction(laws, m, d)) {
     rebuild_constraints(m, d);
@@ -116,7 +116,7 @@ void on_sensor(const mjModel* m, mjData* d, int stage) {
 
 // Install the callbacks; those installed before are called first.
 void install() {
-  busy = false;  // an exception may have left it set
+  busy = false;  // an exception may have left the flag set
   if (*mujoco.control != on_control) {
     previous = *mujoco.control;
     *mujoco.control = on_control;
@@ -136,7 +136,7 @@ std::vector<std::string> names() {
 }
 
 void bind(const std::vector<std::uintptr_t>& addresses) {
-  if (addresses.size() != names().size()) throw std::invalid_argument("one address for each of names()");
+  if (addresses.size() != names().size()) throw std::invalid_argument("one address for each name of names()");
   const std::uintptr_t* next = addresses.data();
   install_plane_cylinder(reinterpret_cast<mjfCollision(*)[mjNGEOMTYPES]>(*next++));
   mujoco.control = reinterpret_cast<mjfGeneric*>(*next++);

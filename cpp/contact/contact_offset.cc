@@ -20,7 +20,7 @@ constexpr double kMinRowJump = 0.02;
 constexpr double kMinSpeed = 1e-6;
 
 struct Spring {
-  double stiffness, damping;  // of a row [1/s², 1/s], by MuJoCo's rules for solref
+  double stiffness, damping;  // stiffness and damping of a row [1/s², 1/s], by MuJoCo's rules for solref
 };
 
 Spring spring(const mjtNum* solref, double impedance) {
@@ -47,7 +47,7 @@ double lift(const mjContact& contact, const mjData* d, double h, const double* a
     const int row = contact.efc_address + j;
     residuals[j] = contact.friction[j - 1] * std::abs(accelerations[row] + decay * d->efc_vel[row]);
   }
-  if (has_pyramid(contact)) {  // the dual norm of a pyramid is the sum of both
+  if (has_pyramid(contact)) {  // the dual norm of a pyramid is the sum of the two
     residuals[1] += residuals[2];
     residuals[2] = 0;
   }
@@ -76,7 +76,8 @@ std::pair<int, int> trees(const mjModel* m, const mjContact& contact) {
 }
 
 // Effort by which friction holds a degree of freedom [N·m or N], with a safety factor of 2. Each contact of two trees
-// is assumed to carry an equal share of the lighter tree. column: the degree of freedom's, of the constraint Jacobian.
+// is assumed to carry an equal share of the lighter tree. column: column of the degree of freedom in the constraint
+// Jacobian.
 double holding_effort(const mjModel* m, const mjData* d, const double* column) {
   double sum = 0;
   for (int i = 0; i < d->ncon; ++i) {

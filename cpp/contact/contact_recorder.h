@@ -17,13 +17,13 @@ namespace trundle {
 struct ContactRow {
   double geom[2];
   double position[3], normal[3];  // [m]; from the first geom into the second
-  double force[3], torque[3];     // [N, N·m] of the first on the second at the position
+  double force[3], torque[3];     // [N, N·m] acting from the first on the second at the position
   double depth;                   // [m]
 };
 
 ContactRow read_contact(const mjModel* m, const mjData* d, int contact);
 
-// Sleeping bodies and their poses; empty: none.
+// Sleeping bodies and their poses; empty if no body sleeps.
 using SleepKey = std::vector<double>;
 
 SleepKey sleep_key(const mjModel* m, const mjData* d);

@@ -13,7 +13,7 @@ namespace trundle {
 namespace {
 
 constexpr double kFrictionless = 1e-5;  // friction that MuJoCo treats as zero
-constexpr double kMinSlipRatio = 0.1;   // of slip to admittance; less slip is treated as none
+constexpr double kMinSlipRatio = 0.1;   // ratio of slip to admittance; less slip is treated as none
 constexpr int kRows = 4;                // normal, two tangents, torsion
 
 // Slipping contact: along two tangents and about the normal.
@@ -23,8 +23,8 @@ struct SlippingContact {
   double slip[3];        // [m/s/N], [rad/s/(N·m)]; 0: MuJoCo's friction holds
   double admittance[3];  // velocity that a unit force adds in one step, in the same units
   double friction[3];    // [-], [-], [m]
-  double speed[3];       // of the surface [m/s]
-  double force[3];       // applied [N], [N], [N·m]
+  double speed[3];       // speed of the surface [m/s]
+  double force[3];       // applied force [N], [N], [N·m]
 };
 
 // Contacts that slip together: normal load, force and torsional torque of the previous step.

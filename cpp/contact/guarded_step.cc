@@ -13,7 +13,7 @@ thread_local std::jmp_buf escape;
 thread_local char failure[sizeof(mjLogMessage::subject)];
 
 void on_message(const mjLogMessage* message) {
-  if (message->level < mjLOG_ERROR) return;  // warnings are counted in mjData
+  if (message->level < mjLOG_ERROR) return;  // mjData counts warnings
   std::memcpy(failure, message->subject, sizeof(failure));
   std::longjmp(escape, 1);
 }

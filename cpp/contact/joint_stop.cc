@@ -5,7 +5,7 @@ namespace trundle {
 namespace {
 
 constexpr double kBeyond =
-    1e-9;  // [rad or m] by which a limit is passed, so that its own constraint holds from then on
+    1e-9;  // [rad or m] distance past the limit, so that MuJoCo's constraint of the limit holds from then on
 
 }  // namespace
 

@@ -24,10 +24,10 @@ struct RestitutionRow {
 
 struct FrictionRow {
   double pair;
-  double geom, along[3];  // first friction direction in that geom's frame; -1: ODE's default
-  double slip[3];         // [m/s/N] along it and across it, [rad/s/(N·m)] about the normal
+  double geom, along[3];  // first friction direction in the frame of `geom`; geom -1: ODE's default
+  double slip[3];         // [m/s/N] along and across that direction, [rad/s/(N·m)] about the normal
   double patch;           // [m²/N] (largest torque / load)² per newton of load; 0: constant
-  double group;           // index of its pair of collisions; -1: no slip, constant torsional friction
+  double group;           // index of the pair of collisions; -1: no slip, constant torsional friction
 };
 
 struct DampingRow {
@@ -36,15 +36,15 @@ struct DampingRow {
 
 struct ComplianceRow {
   double pair;
-  double depth;    // [m] up to which a contact stops bodies without pushing them out
-  double factor;   // from the stiffness in the model to the contact's
-  double rate;     // [1/s] at which ODE corrects a depth, by at most max_vel; 0: not capped
+  double depth;    // [m] depth up to which a contact stops bodies without pushing them out
+  double factor;   // ratio of the contact's stiffness to that in the model
+  double rate;     // [1/s] rate at which ODE corrects a depth, by at most max_vel; 0: not capped
   double max_vel;  // [m/s]
 };
 
 struct GeomRow {
-  double body;         // its link's; a static link's geoms belong to the world body
-  double friction[2];  // along the first direction and across it, of a geom without pairs; 0: it has pairs
+  double body;         // body of the geom's link; a static link's geoms belong to the world body
+  double friction[2];  // along and across the first direction, if the geom has no pairs; 0: it has pairs
 };
 
 struct MotionRow {    // indexed by body
@@ -52,22 +52,22 @@ struct MotionRow {    // indexed by body
   double axis[3];     // first friction direction or a track's axis in the world; a wheel's axis in the body
   double speed;       // [m/s] of the surface relative to its link
   double slip[2];     // [m/s/N] along and across the first direction; a wheel's: per rad/s of its spin
-  double has_centre;  // 1: the track's robot turns
+  double has_centre;  // 1: the robot of the track turns
   double centre[3];   // turning centre in the world [m]
 };
 
 struct MotorRow {    // indexed by tendon
-  double actuator;   // its ctrl is the target speed or position
+  double actuator;   // actuator whose ctrl is the target speed or position
   double rate;       // position gain [1/s]; 0: speed motor; < 0: kinematic
-  double qpos, dof;  // of its joint
+  double qpos, dof;  // addresses of the joint
 
-  // Moves its joint regardless of load; its effort does not include gravity and inertia.
+  // True if the motor moves its joint regardless of load; its effort then does not include gravity and inertia.
   bool is_kinematic() const { return rate < 0.0; }
 };
 
 struct ChainRow {  // chain of links
   double tree;
-  double hangs;  // 1: its root is no free body
+  double hangs;  // 1: the root of the tree is no free body
 };
 
 struct SpringRow {  // soft spring and damper of a joint
@@ -95,11 +95,11 @@ struct LawTables {
   std::span<const GeomRow> geoms;
   // mjData.userdata: each motor's target speed [rad/s or m/s]; each degree of freedom's VelocityTime; contact groups:
   // of bodies with a surface motion, of pairs of collisions
-  int pair_groups;         // number of the latter
+  int pair_groups;         // number of groups of pairs of collisions
   int motor_equality;      // equality whose solref motors use
   std::uintptr_t stepped;  // address of the mjData that the engine steps; others are evaluated
   bool crowd;              // geoms without pairs have two frictions
-  double thin_speed;       // [m/s] above which tunnelling is possible; 0: never
+  double thin_speed;       // [m/s] speed above which tunnelling is possible; 0: never
   bool on;                 // all laws apply
   bool evaluates;          // friction laws apply
   bool moves;              // a row of `motions` is not kNone

@@ -102,7 +102,7 @@ const std::vector<char>& find_held(const LawTables& laws, const mjModel* m, cons
   return held;
 }
 
-// Trees with moving chains; of trees in contact, only swinging ones.
+// Trees with moving chains; among trees in contact, only those that swing.
 void find_chains(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<int>& chains) {
   chains.clear();
   if (laws.chains.empty()) return;

@@ -3,7 +3,8 @@
 // MuJoCo's step is q += h v with the new v, which is therefore the mean velocity between two positions: the midpoint's.
 // Velocities that were written belong to a position instead. For a tree without contacts and commands they are moved to
 // the midpoint before it, and moved back when they are read; Coriolis forces, springs and dampers act at the time of
-// the position. With a velocity half a step earlier or later each would lose or gain energy in every step.
+// the position. With a velocity half a step earlier or later, each of these forces would lose or gain energy in every
+// step.
 #pragma once
 
 #include "law_tables.h"
@@ -12,10 +13,10 @@ namespace trundle {
 
 // Time of a degree of freedom's velocity; in mjData.userdata, after the motors.
 enum class VelocityTime {
-  kWritten = 0,   // the position's: it was written
-  kMidpoint = 1,  // the midpoint before the position
-  kPosition = 2,  // the position's, half a step later, as in ODE
-  kStepped = 3,   // the position's, after its first step
+  kWritten = 0,   // time of the position: the velocity was written
+  kMidpoint = 1,  // time midway to the position, half a step before it
+  kPosition = 2,  // time of the position, after the velocity was moved half a step on, as in ODE
+  kStepped = 3,   // time of the position, after the first step
 };
 
 // Move the velocities of trees that hang from fixed bodies to the midpoint before this step, after a first step, whose

@@ -76,7 +76,7 @@ MotorCommand MotorBank::command_of(int axis) const {
 
 MotorCommand MotorBank::effort_command(const MotorAxis& axis, double effort) const {
   if (std::isinf(axis.max_velocity) || effort == 0.0 || !std::isfinite(effort)) return {0.0, 0.0, 0.0, effort};
-  // Half of the effort is constant, half a motor's: together from zero to the full effort.
+  // Half of the effort is constant, a motor exerts the other half: together from zero to the full effort.
   return {std::copysign(axis.max_velocity, effort), std::abs(effort) / 2.0, 0.0, effort / 2.0};
 }
 

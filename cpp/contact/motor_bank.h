@@ -13,14 +13,14 @@ namespace trundle {
 // Command of one axis.
 struct MotorCommand {
   double target;      // [rad/s or m/s]; with a rate [rad or m]
-  double max_effort;  // of the motor [N·m or N]; 0: it is off
-  double rate;        // of the approach [1/s]; 0: the target is a speed; < 0: kinematic
+  double max_effort;  // limit of the motor [N·m or N]; 0: the motor is off
+  double rate;        // rate of the approach [1/s]; 0: the target is a speed; < 0: kinematic
   double effort;      // constant effort in addition to the motor [N·m or N]
 
   // True if the motor keeps a speed or position; else the command is an effort.
   bool is_drive() const { return max_effort > 0.0 && effort == 0.0; }
 
-  // Commanded effort, half of it possibly by a motor; 0 for a drive.
+  // Commanded effort, of which a motor may exert half; 0 for a drive.
   double whole_effort() const;
 };
 

@@ -1,5 +1,5 @@
-// MuJoCo's discrete integrator solves in the metric M + h D + h² K, also without dampers and springs, when the
-// metric is M.
+// MuJoCo's discrete integrator solves in the metric M + h D + h² K, even without dampers and springs, where the
+// metric is just M.
 #pragma once
 
 #include "law_tables.h"

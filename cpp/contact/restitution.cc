@@ -57,7 +57,7 @@ void Impacts::find(const LawTables& laws, const mjModel* m, const mjData* d) {
   rows_.clear();
   for (int i = 0; i < d->ncon; ++i) {
     const mjContact& contact = d->contact[i];
-    if (contact.efc_address < 0) continue;  // not in the solver
+    if (contact.efc_address < 0) continue;  // a contact that is not in the solver
     const RestitutionRow* row = find_pair(laws.restitution, pair_key(m, contact.geom));
     if (!row || !(approach_speed(m, d, contact) > row->min_speed * (1 - 1e-6))) continue;
     const std::size_t size = rows_.size();

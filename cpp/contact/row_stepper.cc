@@ -23,7 +23,7 @@ void set_motors(mjModel* m, const LawTables& laws, const WorldRows& rows, std::s
   for (std::size_t i = 0; i < motors; ++i) const_cast<MotorRow&>(laws.motors[i]).rate = rows.rates[row * motors + i];
   const bool on = always || std::any_of(efforts, efforts + motors, [](double effort) { return effort != 0.0; });
   m->opt.disableflags = on ? m->opt.disableflags & ~mjDSBL_ACTUATION : m->opt.disableflags | mjDSBL_ACTUATION;
-  if (laws.thin_speed > 0.0) m->opt.enableflags |= mjENBL_SPECULATIVE;  // until a step finds all bodies slow
+  if (laws.thin_speed > 0.0) m->opt.enableflags |= mjENBL_SPECULATIVE;  // on, until a step finds all bodies slow
 }
 
 }  // namespace

@@ -14,11 +14,11 @@ struct WorldRows {
   std::size_t count;
   const bool* chosen;         // rows to step; the others stay
   double* states;             // mjSTATE_INTEGRATION
-  const double* max_efforts;  // of each motor, as tendon_frictionloss
-  const double* rates;        // of each motor; see MotorRow
+  const double* max_efforts;  // effort limit of each motor, as tendon_frictionloss
+  const double* rates;        // rate of each motor; see MotorRow
   bool* unstable;             // set to 1 for a row that diverged and kept its state
-  double* poses;              // of each link: x y z qw qx qy qz in the world
-  double* twists;             // of each link: velocity of its origin, angular velocity; world axes
+  double* poses;              // pose of each link: x y z qw qx qy qz in the world
+  double* twists;             // twist of each link: velocity of its origin, angular velocity; world axes
 };
 
 class RowStepper {

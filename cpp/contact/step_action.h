@@ -16,7 +16,7 @@ class StepAction {
   // Act on the engine's state at a time; return false if Python has to be called after the coming step.
   virtual bool act(std::int64_t time_ns, std::int64_t step_ns) = 0;
 
-  // Return a function that restores the state of `act`, without the engine's.
+  // Return a function that restores the state of `act`, but not the engine's.
   virtual std::function<void()> checkpoint() = 0;
 };
 

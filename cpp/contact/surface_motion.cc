@@ -74,7 +74,8 @@ double spin_of(const mjData* d, int body, const MotionRow& motion) {
 
 namespace {
 
-// Friction of a contact of MuJoCo's collision search: the smaller of its geoms' in each direction; false: of a pair.
+// Friction of a contact that MuJoCo's collision search found: in each direction the smaller one of its geoms; false
+// for a contact of a pair.
 bool combine_friction(const LawTables& laws, mjContact& contact) {
   const double* frictions[2];
   for (int side = 0; side < 2; ++side)

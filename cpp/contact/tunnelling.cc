@@ -14,7 +14,7 @@ double length(const double v[3]) { return std::sqrt(dot(v, v)); }
 
 // Upper bound of the speed of any point of a body's shapes [m/s].
 double fastest_point(const mjModel* m, const mjData* d, int body) {
-  const double* spin = d->cvel + 6 * body;  // of the tree's centre of mass: angular, linear
+  const double* spin = d->cvel + 6 * body;  // velocity of the tree's centre of mass: angular, linear
   const double* centre = d->subtree_com + 3 * m->body_rootid[body];
   const double* at = d->xipos + 3 * body;
   const double arm[3] = {at[0] - centre[0], at[1] - centre[1], at[2] - centre[2]};

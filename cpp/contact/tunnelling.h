@@ -6,8 +6,8 @@
 
 namespace trundle {
 
-// Switch it for the next step, if this is the mjData that the engine steps. It stays on for other users of the
-// model.
+// Switch collision detection for the next step, if this is the mjData that the engine steps. It stays continuous for
+// other users of the model.
 void update_ccd(const LawTables& laws, const mjModel* m, const mjData* d);
 
 }  // namespace trundle

@@ -16,8 +16,8 @@ void apply_damping(const LawTables& laws, const mjModel* m, mjData* d) {
   const double h = m->opt.timestep;
   for (const DampingRow& row : laws.damping) {
     const int body = static_cast<int>(row.body);
-    if (body == 0) continue;  // the world: a static link
-    double velocity[6];       // of the centre of mass, in world axes: angular first
+    if (body == 0) continue;  // the world body has the geoms of static links
+    double velocity[6];       // velocity of the centre of mass, in world axes: angular first
     mujoco.mj_objectVelocity(m, d, mjOBJ_BODY, body, velocity, 0);
     const double *spin = velocity, *speed = velocity + 3, *axes = d->ximat + 9 * body;
     double force[3] = {0, 0, 0}, torque[3] = {0, 0, 0};

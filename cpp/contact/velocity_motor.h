@@ -14,8 +14,8 @@ namespace trundle {
 // Motor whose command stepped since the previous step.
 struct Jump {
   int dof;
-  double acceleration;  // that reaches the target within this step [rad/s² or m/s²]
-  double effort;        // limit [N·m or N]
+  double acceleration;  // acceleration that reaches the target within this step [rad/s² or m/s²]
+  double effort;        // effort limit [N·m or N]
 };
 
 void find_jumps(const LawTables& laws, const mjModel* m, const mjData* d, std::vector<Jump>& jumps);

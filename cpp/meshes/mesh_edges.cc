@@ -11,7 +11,7 @@ namespace trundle {
 namespace {
 
 constexpr double kNear =
-    1e-6;  // distance of a face's plane from the origin, by the largest, up to which there is no bound
+    1e-6;  // smallest distance of a face's plane from the origin, relative to the largest, with which there is a bound
 
 std::int64_t start_of(const MeshView& mesh, std::int64_t side) { return mesh.faces[side]; }
 std::int64_t end_of(const MeshView& mesh, std::int64_t side) { return mesh.faces[side % 3 == 2 ? side - 2 : side + 1]; }
@@ -73,7 +73,7 @@ std::vector<std::int64_t> component_labels(const MeshView& mesh) {
 std::vector<std::int64_t> sides_by_edge(const MeshView& mesh) {
   const std::size_t count = 3 * mesh.face_count;
   if (count % 2) return {};
-  std::vector<std::size_t> ends(mesh.point_count + 1, 0);  // of the sides of each smaller point
+  std::vector<std::size_t> ends(mesh.point_count + 1, 0);  // start of the sides of each smaller point
   for (std::size_t side = 0; side < count; ++side) {
     const auto number = static_cast<std::int64_t>(side);
     ++ends[std::min(start_of(mesh, number), end_of(mesh, number)) + 1];

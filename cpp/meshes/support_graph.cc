@@ -11,7 +11,7 @@ SupportGraph::SupportGraph(const MeshView& mesh) : points_(mesh.point_count), fi
   for (std::size_t face = 0; face < mesh.face_count; ++face) {
     const std::int64_t* corners = mesh.faces + 3 * face;
     for (int i = 0; i < 3; ++i) {
-      neighbours_[ends[corners[i]]++] = corners[(i + 1) % 3];  // both, as faces may be flipped
+      neighbours_[ends[corners[i]]++] = corners[(i + 1) % 3];  // both directions, as faces may be flipped
       neighbours_[ends[corners[i]]++] = corners[(i + 2) % 3];
     }
   }

@@ -15,12 +15,12 @@ class SupportGraph {
 
   std::size_t size() const { return points_.size(); }
 
-  // Index of the point that a climb from `start` along a direction ends at.
+  // Index of the point at which a climb from `start` along a direction ends.
   std::int64_t climb(const Vector3& direction, std::int64_t start) const;
 
  private:
   std::vector<Vector3> points_;
-  std::vector<std::size_t> firsts_;  // of each point in neighbours_, and the end
+  std::vector<std::size_t> firsts_;  // start of each point's neighbours in neighbours_, and the end
   std::vector<std::int64_t> neighbours_;
 };
 

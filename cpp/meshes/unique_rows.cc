@@ -20,7 +20,7 @@ template <typename Number>
 std::uint64_t hash_of(const Number* row, std::size_t index) {
   std::uint64_t hash = 0;
   for (int i = 0; i < 3; ++i) {
-    if (row[i] != row[i]) return mixed(index);  // never found again, so spread over the table
+    if (row[i] != row[i]) return mixed(index);  // rows with NaN equal no other, so they are spread over the table
     hash = mixed(hash ^ std::bit_cast<std::uint64_t>(static_cast<double>(row[i]) + 0.0));
   }
   return hash;

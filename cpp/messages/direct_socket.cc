@@ -15,7 +15,7 @@ void DirectSocket::write(std::string_view frame) {
 #else
   const ptrdiff_t sent = ::write(fd_, frame.data(), frame.size());
 #endif
-  const size_t sent_size = sent > 0 ? static_cast<size_t>(sent) : 0;  // the queue meets an error again
+  const size_t sent_size = sent > 0 ? static_cast<size_t>(sent) : 0;  // the queue meets and handles the error
   bytes_sent += sent_size;
   if (sent_size == frame.size()) return;
   rest = frame.substr(sent_size);
@@ -50,7 +50,7 @@ DirectSender::Sent DirectSender::send(PyObject* arguments, PyObject* keywords) {
       sent = is_open() ? Sent::kWhole : Sent::kInPart;
     });
   } catch (const PythonError&) {
-    PyErr_Clear();  // the caller serializes the message again and raises it
+    PyErr_Clear();  // the caller serializes the message again, and raises the error
   }
   return sent;
 }

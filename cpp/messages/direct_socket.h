@@ -52,7 +52,7 @@ class DirectSender {
   const Object type_;
   const std::shared_ptr<const MessageCodec> codec_;
   const bool has_header_;
-  bool is_long_ = false;  // last messages were long: serializing the next one may be wasted
+  bool is_long_ = false;  // the last messages were long, so serializing the next one here may be wasted
 };
 
 }  // namespace trundle::messages

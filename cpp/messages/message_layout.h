@@ -63,8 +63,8 @@ struct Layout {
   uint64_t empty_messages = 1;  // messages without bytes in one message, itself included
 };
 
-// Limit of messages without bytes in an array, and of those in a message beyond one per byte: the data's size does not
-// limit their number.
+// Limit of messages without bytes in an array, and in a message beyond one for each byte: the size of the data does
+// not limit their number.
 constexpr uint64_t kMaxEmpty = 1024;
 
 // Python type of arrays of numbers.
@@ -87,7 +87,8 @@ class MessageCodec {
   explicit MessageCodec(Arrays arrays = Arrays::kNumpy) : arrays_(arrays) {}
   MessageCodec(MessageCodec&&) = default;
 
-  // A type comes after those that it refers to, so none contains itself; the last one is the message's own.
+  // A type comes after the types to which it refers, so that none contains itself; the last one is the type of the
+  // message.
   void add(Object type, std::vector<FieldSpec> fields);
 
   // Returns `bytes`.
@@ -95,7 +96,7 @@ class MessageCodec {
   // Returns a tuple of `bytes`, the frame's length first; the first long array is a memoryview between them, not
   // copied.
   Object frame(PyObject* message) const;
-  // Call with the whole frame of a message; with nothing if the frame is long.
+  // Called with the whole frame of a message; with nothing if the frame is long.
   void write_short(PyObject* message, const std::function<void(std::string_view)>& use) const;
   Object read(PyObject* data) const;
   // Like the function `receive`, with decoded messages in place of their bytes; stops before an invalid one.

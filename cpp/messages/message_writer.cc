@@ -224,7 +224,7 @@ class Writer {
     }
   }
 
-  // Plain numbers only: reading them runs no Python code that could change the list. The caller converts others.
+  // Plain numbers only: reading them runs no Python code that could change the list. The caller converts other values.
   void write_plain(const Field& field, PyObject* list) {
     const Py_ssize_t count = PySequence_Fast_GET_SIZE(list);
     put_count(field, count);

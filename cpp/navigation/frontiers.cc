@@ -46,7 +46,7 @@ class Search {
  private:
   std::uint8_t cost(const Cell& cell) const { return costs_[shape_.index(cell.first, cell.second)]; }
 
-  // True the first time.
+  // True for the first visit of a cell.
   bool mark(std::vector<bool>& marks, const Cell& cell) {
     const std::size_t index = shape_.index(cell.first, cell.second);
     if (marks[index]) return false;

@@ -12,8 +12,8 @@ struct FrontierCell {
   std::int32_t frontier, column, row;  // number of the frontier, in the order of their distances
 };
 
-// Frontiers that are connected with a cell by free cells, nearest first along the way; a frontier's cells touch at
-// sides or corners. Without a free cell near the start there are none.
+// Frontiers that free cells connect with a cell, in the order of the path lengths to them; a frontier's cells touch
+// at sides or corners. Without a free cell near the start there are none.
 std::vector<FrontierCell> find_frontiers(const std::uint8_t* costs, const GridShape& shape, int column, int row);
 
 }  // namespace trundle

@@ -10,8 +10,8 @@ namespace trundle::navigation {
 namespace {
 
 constexpr int kFineSteps = 6, kCoarseSteps = 4;
-constexpr double kMaxTurn = 0.2;           // of one step [rad]
-constexpr double kRelativeDamping = 1e-6;  // of the Hessian's diagonal: what no beam sees stays as it was
+constexpr double kMaxTurn = 0.2;           // largest rotation of one step [rad]
+constexpr double kRelativeDamping = 1e-6;  // minimum of the Hessian's diagonal: coordinates that no beam measures stay
 
 double log_odds(double probability) { return std::log(probability / (1.0 - probability)); }
 

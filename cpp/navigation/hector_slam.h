@@ -12,8 +12,8 @@
 namespace trundle::navigation {
 
 struct HectorOptions {
-  double resolution = 0.025;            // of the finest level [m]
-  int size = 1024;                      // of the finest level, on both sides [cells]
+  double resolution = 0.025;            // size of the finest level's cells [m]
+  int size = 1024;                      // width and height of the finest level [cells]
   double start_x = 0.5, start_y = 0.5;  // place of the world's origin, as a ratio of the size
   int levels = 3;
   double update_factor_free = 0.4, update_factor_occupied = 0.9;  // probabilities
@@ -29,12 +29,12 @@ class HectorSlam {
 
   // Matches a scan and enters it after enough motion; true if it was entered.
   //
-  // start: where the robot may be; sensor: the beams' origin on the robot [m]; ends: on the robot [m];
-  // is_known: the start is the pose.
+  // start: first guess of the pose; sensor: origin of the beams in the robot's frame [m]; ends: ends of the beams
+  // there [m]; is_known: `start` is the pose, and nothing is matched.
   bool update(const PlanarPose& start, const Point& sensor, const std::vector<Point>& ends, bool is_known);
 
   PlanarPose pose() const { return pose_; }
-  // Of the last match: xx, xy, yy, xt, yt, tt [m], [rad].
+  // Covariance of the last match: xx, xy, yy, xt, yt, tt [m], [rad].
   std::array<double, 6> covariance() const { return covariance_; }
   // Mean probability of the cells at the ends of the last scan.
   double score() const { return score_; }

@@ -11,7 +11,8 @@ namespace {
 constexpr std::uint8_t kInscribed = 253;
 constexpr std::uint32_t kFar = std::numeric_limits<std::uint32_t>::max() / 2;
 
-// Squared distance, along a row, from each column of the window to the nearest lethal cell; false if none is near.
+// Squared distance along a row from each column of the window to the nearest lethal cell; false if no lethal cell is
+// near.
 bool measure_row(const std::uint8_t* row, int width, Window window, int radius, std::uint32_t* squares) {
   const int first = std::max(window.x0 - radius, 0);
   const int last = std::min(window.x1 + radius, width) - 1;

@@ -12,8 +12,8 @@ struct Window {
 
 // Raises the costs in a window by the distance to the nearest lethal cell.
 //
-// Exact Euclidean distances by rows, then columns; obstacles beyond the window count, too. `costs` holds the cost for
-// each squared distance in cells, up to the squared radius.
+// Distances are exact and Euclidean, by rows, then columns; obstacles outside the window count, too. `costs` holds the
+// cost for each squared distance in cells, up to the squared radius.
 void inflate(std::uint8_t* cells, GridShape shape, Window window, const std::vector<std::uint8_t>& costs,
              bool inflate_unknown);
 

@@ -37,7 +37,7 @@ LaserModel::Beams LaserModel::used_beams(const LaserScan& scan) const {
   return beams;
 }
 
-// Terms of a beam's end by the cell in which it lies; outside the map, as far from obstacles as possible.
+// Term of a beam's end for each cell in which the end may lie; outside the map, that of the largest distance.
 void LaserModel::fill_table(double range_max) {
   if (range_max == table_range_max_) return;
   table_range_max_ = range_max;
@@ -67,7 +67,7 @@ double LaserModel::weigh(std::vector<Particle>& particles, const LaserScan& scan
 
 namespace {
 
-// Place of a particle in the table, whose cells' centers have whole coordinates.
+// Position of a particle in the table, where the cells' centers have whole coordinates.
 struct Placement {
   float x, y, c, s;
 
@@ -78,7 +78,7 @@ struct Placement {
         s(static_cast<float>(std::sin(pose.yaw))) {}
 };
 
-// Table with the bounds of its cells' centers, read at the ends of beams.
+// Table, read at the ends of beams, and the bounds of its cells' centers.
 class Table {
  public:
   Table(const std::vector<float>& values, const OccupancyMap& map, std::size_t beams)
@@ -142,7 +142,7 @@ double LaserModel::weigh_by_table(std::vector<Particle>& particles, const Beams&
   return best;
 }
 
-// Leaves out the beams that few particles explain; all are used if that were nearly all.
+// Leaves out the beams that few particles explain; if these are nearly all beams, all are used.
 std::vector<char> LaserModel::agreed_beams(const std::vector<Particle>& particles, const Beams& beams) const {
   const std::size_t count = beams.x.size();
   // Terms fall with the distance, so that a distance is compared by its term.

@@ -25,16 +25,16 @@ struct LaserOptions {
 };
 
 struct LaserScan {
-  double x = 0.0, y = 0.0;               // of the laser on the robot [m]
+  double x = 0.0, y = 0.0;               // position of the laser in the robot's frame [m]
   double range_max = 0.0;                // [m]; longer ranges hit nothing
-  std::vector<double> ranges, bearings;  // [m], [rad] on the robot
+  std::vector<double> ranges, bearings;  // [m], [rad] in the robot's frame
 };
 
 class LaserModel {
  public:
   LaserModel(const LaserOptions& options, std::shared_ptr<const OccupancyMap> map);
 
-  // Multiplies the weights by the likelihoods, and returns the logarithm of the factor that they all still lack.
+  // Multiplies the weights by the likelihoods up to a common factor, and returns the logarithm of this factor.
   //
   // has_converged: the particles are close together, so that beams which most of them do not explain may be skipped.
   double weigh(std::vector<Particle>& particles, const LaserScan& scan, bool has_converged);
@@ -54,7 +54,7 @@ class LaserModel {
   LaserOptions options_;
   std::shared_ptr<const OccupancyMap> map_;
   std::vector<float> distances_;  // [m]
-  std::vector<float> table_;      // of each cell, within a border of one: the beam's term
+  std::vector<float> table_;      // a beam's term for each cell, and a border of one cell
   double table_range_max_ = -1.0;
 };
 

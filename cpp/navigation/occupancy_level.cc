@@ -8,7 +8,7 @@ namespace trundle::navigation {
 
 namespace {
 
-constexpr float kMaxLogOdds = 50.0f;  // above it a cell gets no more occupied; hector's
+constexpr float kMaxLogOdds = 50.0f;  // log odds above which a cell does not become more occupied, as in hector
 
 double probability_of(float log_odds) { return 1.0 / (1.0 + std::exp(-static_cast<double>(log_odds))); }
 

@@ -27,13 +27,13 @@ class OccupancyLevel {
 
   void clear();
 
-  // Enters a scan: cells that a beam crosses get freer by `free`, those with an end more occupied by `occupied`; each
-  // once a scan, and an end outweighs crossings.
+  // Adds a scan: `free` is added to cells that a beam crosses, `occupied` to cells with an end; each cell changes
+  // once in a scan, and an end counts more than crossings.
   //
-  // origin: of the beams [m]; ends: in the map [m]; free, occupied: logarithms of odds.
+  // origin: origin of the beams [m]; ends: ends of the beams in the map [m]; free, occupied: logarithms of odds.
   void enter(const Point& origin, const std::vector<Point>& ends, double free, double occupied);
 
-  // Sums how far the ends, from the robot at a pose, are from occupied cells.
+  // Normal equations of the distances between occupied cells and the ends, which are relative to the robot at a pose.
   NormalEquations normal_equations(const PlanarPose& pose, const std::vector<Point>& ends) const;
 
   // Mean probability of the cells at the ends, 0 to 1.
@@ -45,7 +45,7 @@ class OccupancyLevel {
 
  private:
   struct Sample {
-    double probability, by_x, by_y;  // and its derivatives [1 / m]
+    double probability, by_x, by_y;  // probability and its derivatives [1 / m]
   };
 
   Sample sample(double x, double y) const;
@@ -59,7 +59,7 @@ class OccupancyLevel {
   double resolution_;  // [m]
   Point origin_;
   std::vector<float> log_odds_;
-  std::vector<std::uint32_t> freed_, occupied_;  // number of the scan that changed a cell
+  std::vector<std::uint32_t> freed_, occupied_;  // number of the last scan that changed each cell
   std::uint32_t scan_ = 0;
 };
 

@@ -18,11 +18,11 @@ struct OccupancyMap {
   }
 };
 
-// Distance of each cell's center to that of the nearest occupied cell [m], at most `limit`: exact, in linear time, by
-// Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions" (2012).
+// Distance of each cell's center to the center of the nearest occupied cell [m], at most `limit`; exact, in linear
+// time, by Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions" (2012).
 std::vector<float> distances_to_occupied(const OccupancyMap& map, double limit);
 
-// Length of a ray to the first cell that is not free [m], at most `limit`; the map's edge counts as such.
+// Length of a ray to the first cell that is not free [m], at most `limit`; the map's edge counts as such a cell.
 double cast_ray(const OccupancyMap& map, double x, double y, double angle, double limit);
 
 }  // namespace trundle::navigation

@@ -8,7 +8,7 @@ namespace trundle::navigation {
 
 namespace {
 
-constexpr double kLeastShare = 0.2;  // of the standard deviation; its square alone is nearly zero for short motions
+constexpr double kLeastShare = 0.2;  // share of the standard deviation; its square is nearly zero for short motions
 constexpr double kMinTranslation = 0.01;  // [m]; below, the direction of the motion is noise
 
 double square(double value) { return value * value; }

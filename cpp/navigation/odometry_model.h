@@ -10,8 +10,8 @@
 
 namespace trundle::navigation {
 
-// The plain models use the variances as standard deviations, as amcl always did, but at least a share of the roots; the
-// corrected ones use the roots.
+// The plain models use the variances as standard deviations, as amcl always did, but at least a share of their square
+// roots; the corrected models use the square roots.
 enum class OdometryKind { kDiff, kOmni, kDiffCorrected, kOmniCorrected };
 
 struct OdometryModel {

@@ -6,7 +6,7 @@
 namespace trundle::navigation {
 
 struct Particle {
-  PlanarPose pose;  // of the robot in the map
+  PlanarPose pose;  // pose of the robot in the map
   double weight = 0.0;
 };
 

@@ -12,7 +12,7 @@ namespace trundle::navigation {
 namespace {
 
 constexpr double kConvergedDistance = 0.5;  // [m]; amcl's
-// A set of max_particles would miss the pose in a large map: so many more are drawn, and reduced by the first scan.
+// A set of max_particles would miss the pose in a large map: this many more are drawn, and the first scan reduces them.
 constexpr int kCandidatesPerParticle = 10, kMaxCandidates = 200'000;
 constexpr double kScanExponent = 6.0;
 constexpr double kGoldenRatio = 0.6180339887498949;
@@ -31,7 +31,7 @@ std::array<double, 9> cholesky(const std::array<double, 9>& covariance) {
   return root;
 }
 
-// Number of particles so that, with probability kld_z, the divergence is below kld_err. amcl takes kld_z itself for
+// Number of particles with which, with probability kld_z, the divergence is below kld_err. amcl takes kld_z itself for
 // the quantile of the normal distribution.
 int needed_particles(const FilterOptions& options, int bins) {
   if (bins <= 1) return options.max_particles;
@@ -146,8 +146,8 @@ void ParticleFilter::weigh(LaserModel& model, const LaserScan& scan) {
   if (particles_.size() > static_cast<std::size_t>(options_.max_particles)) draw();
 }
 
-// Counts the last scan several times. amcl's sum over a scan's beams tells little: a pose 0.1 m off is taken for three
-// quarters as likely, so that particles follow an odometry that is wrong by a few percent.
+// Counts the last scan several times. amcl's sum over a scan's beams distinguishes poses little: a pose 0.1 m off
+// gets three quarters of the likelihood, so that particles follow an odometry that is wrong by a few percent.
 void ParticleFilter::sharpen(const std::vector<double>& before) {
   double total = 0.0;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -171,7 +171,7 @@ void ParticleFilter::draw() {
   const double random_share = slow_average_ > 0.0 ? std::max(0.0, 1.0 - fast_average_ / slow_average_) : 0.0;
   std::vector<Particle> drawn;
   PoseBins bins;
-  // Every beginning of this sequence is evenly distributed over [0, 1), however many particles are drawn.
+  // The first numbers of this sequence are evenly distributed over [0, 1), however many particles are drawn.
   double place = random_.uniform();
   while (static_cast<int>(drawn.size()) < options_.max_particles) {
     PlanarPose pose;
@@ -189,7 +189,7 @@ void ParticleFilter::draw() {
   }
   for (auto& particle : drawn) particle.weight = 1.0 / static_cast<double>(drawn.size());
   particles_ = std::move(drawn);
-  if (random_share > 0.0) slow_average_ = fast_average_ = 0.0;  // else ever more random ones would follow
+  if (random_share > 0.0) slow_average_ = fast_average_ = 0.0;  // otherwise more and more random particles would follow
 }
 
 Estimate ParticleFilter::estimate() const {

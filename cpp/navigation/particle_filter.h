@@ -24,7 +24,7 @@ struct FilterOptions {
 
 struct Estimate {
   PlanarPose pose;                     // mean of the heaviest cluster
-  std::array<double, 9> covariance{};  // of all particles: x, y, yaw, row by row
+  std::array<double, 9> covariance{};  // covariance of all particles: x, y, yaw, row by row
 };
 
 class ParticleFilter {
@@ -33,7 +33,7 @@ class ParticleFilter {
 
   void set_options(const FilterOptions& options) { options_ = options; }
 
-  // Draws max_particles from a normal distribution; covariance: row by row, of x, y, yaw.
+  // Draws max_particles from a normal distribution; covariance: matrix of x, y, yaw, row by row.
   void spread(const PlanarPose& mean, const std::array<double, 9>& covariance);
   // Draws more than max_particles over all free cells; the first scan reduces them.
   void spread_over_map();
@@ -42,7 +42,7 @@ class ParticleFilter {
     model.move(particles_, from, to, random_);
   }
   void weigh(LaserModel& model, const LaserScan& scan);
-  // Draws as many particles as the spread of the new ones needs, some anywhere if the scans have become less likely.
+  // Draws as many particles as their spread requires; some of them anywhere, if the scans have become less likely.
   void resample();
 
   Estimate estimate() const;

@@ -15,15 +15,15 @@ class PatchMap {
  public:
   explicit PatchMap(double resolution) : resolution_(resolution) {}
 
-  // Places beyond are farther than any laser reaches: 1.6 km at 5 cm.
+  // True for positions in the grid; others are farther than any laser reaches: 1.6 km at 5 cm.
   bool reaches(double position) const { return std::abs(position / resolution_) < kMaxCell; }
-  // Number of the cell along an axis; places beyond are in the last one.
+  // Number of the cell along an axis; positions outside the grid are in the last one.
   int cell_of(double position) const {
     return static_cast<int>(std::floor(std::min(std::max(-kMaxCell, position / resolution_), kMaxCell)));
   }
   double corner(int cell) const { return cell * resolution_; }
 
-  // Null where nothing was written nearby.
+  // A cell to read; null if no cell of its patch was written.
   const Cell* find(int column, int row) const {
     const Patch* patch = patch_at(column >> kShift, row >> kShift);
     return patch == nullptr ? nullptr : &(*patch)[index_in_patch(column, row)];
@@ -76,7 +76,7 @@ class PatchMap {
   }
 
   double resolution_;                                              // [m]
-  int first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0;  // of the patches
+  int first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0;  // numbers of the patches
   std::vector<std::shared_ptr<Patch>> patches_;
 };
 

@@ -11,11 +11,11 @@ namespace trundle::navigation {
 
 namespace {
 
-constexpr double kMinRatio = 0.05;  // of a scan's points with a correspondence
-constexpr double kDamping = 1e-6;   // of the normal equations, by the number of points
+constexpr double kMinRatio = 0.05;  // minimum share of a scan's points with a correspondence
+constexpr double kDamping = 1e-6;   // damping of the normal equations per point
 constexpr std::size_t kMinPoints = 4;
 
-// Points in buckets of the size of the search.
+// Points in buckets whose size is that of the search.
 class Buckets {
  public:
   Buckets(const std::vector<ScanPoint>& points, double size) : points_(points), size_(size) {
@@ -23,7 +23,7 @@ class Buckets {
       buckets_[key(cell(points[i].x), cell(points[i].y))].push_back(static_cast<int>(i));
   }
 
-  // Nearest point within the size, the first of equals; -1 without.
+  // Nearest point within the size, of equally near ones the first; -1 if there is none.
   int nearest(double x, double y) const {
     double best = size_ * size_;
     int found = -1;
@@ -53,15 +53,15 @@ class Buckets {
   std::unordered_map<std::int64_t, std::vector<int>> buckets_;
 };
 
-// A point of the scan, and the line or point of the reference that it belongs to.
+// A point of the scan, and the corresponding line or point of the reference.
 struct Pair {
-  double px, py;        // point, turned as the pose
-  double ex, ey;        // from the reference to the point [m]
+  double px, py;        // point, rotated by the pose
+  double ex, ey;        // offset from the reference to the point [m]
   double nx, ny;        // unit normal of the line
-  double square = 0.0;  // of the distance [m²]
+  double square = 0.0;  // square of the distance [m²]
 };
 
-// Normal of the line through a point of the reference and the nearer of its neighbors; false without.
+// Normal of the line through a point of the reference and the nearer of its neighbors; false if there is no such line.
 bool line_at(const std::vector<ScanPoint>& reference, int number, double x, double y, double limit, Pair& pair) {
   const auto distance = [&](int other) {
     if (other < 0 || other >= static_cast<int>(reference.size())) return HUGE_VAL;

@@ -1,4 +1,4 @@
-// Bins of poses, 0.5 m by 0.5 m by 10 degrees as amcl's: they count for KLD sampling, and adjacent ones are a cluster.
+// Bins of poses, 0.5 m by 0.5 m by 10 degrees as in amcl: KLD sampling counts them, and adjacent bins form a cluster.
 #pragma once
 
 #include <cstdint>

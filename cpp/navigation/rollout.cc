@@ -16,7 +16,7 @@ constexpr double kUnknown = -2;
 constexpr std::uint8_t kInscribed = 253;
 constexpr int kMaxSteps = 10000;
 constexpr std::size_t kRoundCorners = 12;
-constexpr double kRoundShare = 0.1;  // of the radius, which padding along the axes changes
+constexpr double kRoundShare = 0.1;  // tolerance of the radius, which padding along the axes changes
 
 std::array<int, 2> cell_of(const RolloutMaps& maps, double x, double y) {
   const auto number = [&](double value, double origin, int count) {

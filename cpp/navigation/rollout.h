@@ -13,10 +13,10 @@ struct RolloutSettings {
   double sim_time;             // [s]
   double granularity;          // [m] between two points
   double angular_granularity;  // [rad] between two points
-  double forward_point;        // [m] ahead of the center, where the alignment is measured
+  double forward_point;        // [m] distance ahead of the center at which the alignment is measured
   Triple acceleration;         // [m/s²], [rad/s²]; not used unless `accelerates`
-  bool accelerates;            // true: the velocity changes all the way from the present one to the sample
-  bool sums_costs;             // true: costs of obstacles add up along the way; false: the highest counts
+  bool accelerates;            // true: the velocity changes from the present one to the sample; false: it is the sample
+  bool sums_costs;             // true: costs of obstacles add up along the trajectory; false: the highest counts
 };
 
 struct RolloutMaps {
@@ -26,7 +26,7 @@ struct RolloutMaps {
   const std::uint8_t* costs;
   const float* path;   // distance to the path, in cells
   const float* goal;   // distance to the end of the path
-  const float* front;  // distance to a point beyond that end
+  const float* front;  // distance to a point beyond the end of the path
 };
 
 // Terms of a trajectory's score.
@@ -46,7 +46,7 @@ double footprint_cost(const RolloutMaps& maps, const Polygon& footprint, const T
 
 // Costs of one footprint, a polygon [m] around the robot's origin, or empty for its center alone.
 //
-// Those of a round footprint do not depend on the yaw: each half cell is computed once, at its center.
+// The costs of a round footprint do not depend on the yaw: the cost of each half cell is computed once, at its center.
 class FootprintCosts {
  public:
   FootprintCosts(const RolloutMaps& maps, Polygon footprint);

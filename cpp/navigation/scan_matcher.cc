@@ -9,7 +9,7 @@ namespace trundle::navigation {
 
 namespace {
 
-constexpr double kNoHit = -0.5;  // log-likelihood of a beam without a hit nearby, times 1 / lsigma; gmapping's
+constexpr double kNoHit = -0.5;  // log-likelihood of a beam without a hit nearby, times 1 / lsigma, as in gmapping
 
 struct Rotation {
   double x, y, c, s;
@@ -45,7 +45,7 @@ double nearest_square(const HitMap& map, const Rotation& rotation, const BeamEnd
 
 double ScanMatcher::score(const HitMap& map, const PlanarPose& pose, const std::vector<BeamEnd>& beams) const {
   const Rotation rotation(pose);
-  const double factor = -1.0 / options_.sigma;  // as gmapping's, which does not square it
+  const double factor = -1.0 / options_.sigma;  // as in gmapping, which does not square it
   double sum = 0.0;
   for (const BeamEnd& beam : beams) {
     const double square = nearest_square(map, rotation, beam, options_.kernel_size);

@@ -12,24 +12,24 @@ namespace trundle::navigation {
 
 // Ends of the beams in one cell.
 struct Hits {
-  float x = 0.0f, y = 0.0f;  // sum of their places from the cell's corner [m]
+  float x = 0.0f, y = 0.0f;  // sum of their offsets from the cell's corner [m]
   std::int32_t count = 0;
 };
 
 using HitMap = PatchMap<Hits>;
 
-// A beam's end in the laser's frame [m], and a place shortly before it, which must be free.
+// A beam's end in the laser's frame [m], and a point shortly before the end, which must be free.
 struct BeamEnd {
   double x, y, before_x, before_y;
 };
 
 struct MatchOptions {
-  double sigma = 0.05;  // of the score: a beam's end that is d [m] from a hit adds exp(-d² / sigma)
+  double sigma = 0.05;  // width of the score: a beam's end that is d [m] from a hit adds exp(-d² / sigma)
   int kernel_size = 1;  // neighbors searched for the nearest hit [cells]
   double linear_step = 0.05, angular_step = 0.05;  // lstep [m], astep [rad]
   int iterations = 5;                              // halvings of the steps
   double likelihood_sigma = 0.075;                 // lsigma: the same for the likelihood
-  int skipped_beams = 0;                           // lskip: of the likelihood
+  int skipped_beams = 0;                           // lskip: beams that the likelihood skips
 };
 
 struct Match {

@@ -8,7 +8,7 @@ namespace trundle {
 
 namespace {
 
-constexpr float kShare = 0.7F;  // of the least cost: within it, the order of cells hardly matters
+constexpr float kShare = 0.7F;  // ratio to the least cost: within it, the order of cells hardly matters
 constexpr std::size_t kMaxBuckets = 4096;
 
 bool is_passable(float cost) { return cost > 0 && cost < kUnreached; }
@@ -55,7 +55,7 @@ void WaveFront::push(std::size_t cell) {
 }
 
 void WaveFront::spread(std::size_t cell) {
-  if (static_cast<std::size_t>(potential_[cell] / width_) < first_) return;  // it was spread from an earlier bucket
+  if (static_cast<std::size_t>(potential_[cell] / width_) < first_) return;  // spread from an earlier bucket
   const auto width = static_cast<std::size_t>(shape_.width);
   const int x = static_cast<int>(cell % width);
   const int y = static_cast<int>(cell / width);
@@ -120,7 +120,7 @@ class Descent {
   }
 
  private:
-  // Potential at a point, between cells; unreached beside cells that are.
+  // Potential at a point, interpolated between cells; unreached beside unreached cells.
   [[nodiscard]] double lowest(std::array<double, 2> point) const {
     const int x = static_cast<int>(std::floor(point[0]));
     const int y = static_cast<int>(std::floor(point[1]));

@@ -9,7 +9,7 @@ namespace trundle {
 
 constexpr float kUnreached = 1e10F;
 
-// Least cost of the ways from any seed to each cell: the eikonal equation |∇u| = cost, solved outward in buckets.
+// Cost of the cheapest path from any seed to each cell: the eikonal equation |∇u| = cost, solved outward in buckets.
 //
 // A cell whose cost is not finite or not positive blocks the front. The front ends once `stop` is reached.
 class WaveFront {
@@ -30,13 +30,13 @@ class WaveFront {
   GridShape shape_;
   std::vector<float> potential_;
   std::vector<std::vector<std::size_t>> buckets_;
-  float width_ = 1;        // of a bucket
-  std::size_t first_ = 0;  // bucket that is spread now, counted without wrapping
+  float width_ = 1;        // width of a bucket
+  std::size_t first_ = 0;  // number of the bucket that is being spread, without wrapping
   std::size_t queued_ = 0;
 };
 
 // Steepest descent of a potential, in steps of half a cell, from one cell center to another: points in cells, where the
-// center of the first cell is 0, 0. Empty without a way.
+// center of the first cell is 0, 0. Empty if there is no path.
 std::vector<std::array<double, 2>> descend(const float* potential, GridShape shape, std::array<int, 2> from,
                                            std::array<int, 2> to);
 

@@ -153,7 +153,7 @@ struct Collapser {
   std::vector<BvhLeaf> leaves;
 
   void collapse(int32_t from) {
-    int32_t max_leaves = 1;  // leaves below one child
+    int32_t max_leaves = 1;  // maximum number of leaves below a child
     while (max_leaves * kMaxLanes < binary[from].leaves) max_leaves *= kMaxLanes;
     std::vector<int32_t> children = {from};
     while (children.size() < static_cast<size_t>(kMaxLanes)) {

@@ -13,7 +13,7 @@ struct RayPacket {
   Floats3 d[kPacketGroups];             // directions in the mesh frame
   Ints active[kPacketGroups];           // mask
   Floats inverse_range[kPacketGroups];  // 1 / range of the nearest hit so far
-  Ints hit[kPacketGroups];              // triangle: kLeafSize * leaf + its index there, or -1
+  Ints hit[kPacketGroups];              // triangle: kLeafSize * leaf + index in the leaf, or -1
 };
 
 // Frustum around rays from one point: all have the same sign along one axis, and slopes against it between `low` and

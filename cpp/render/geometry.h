@@ -27,7 +27,7 @@ Mesh make_mesh(const std::vector<float>& vertices, const std::vector<int32_t>& f
 
 struct Image {
   std::vector<int32_t> texels;
-  Texture texture{};  // `texels` points here once the Image has its final address
+  Texture texture{};  // storage of `texels`, which points here once the Image has its final address
 };
 
 // rgb: (height, width, 3), top row first.

@@ -123,7 +123,7 @@ template <ShapeKind kind>
 inline Floats3 normal_at(const Renderable& renderable, const Floats3& p) {
   const float* size = renderable.size;
   if constexpr (kind == ShapeKind::kPlane) return {Floats{}, Floats{}, splat(1.0f)};
-  if constexpr (kind == ShapeKind::kBox) {  // of the closest face, in half lengths
+  if constexpr (kind == ShapeKind::kBox) {  // distance to the closest face, in half lengths
     const Floats x = abs(p.x) / size[0], y = abs(p.y) / size[1], z = abs(p.z) / size[2];
     const Ints is_x = (x >= y) & (x >= z), is_y = ~is_x & (y >= z), is_z = ~is_x & ~is_y;
     const Floats one = splat(1.0f), sx = select(p.x < 0.0f, -one, one), sy = select(p.y < 0.0f, -one, one);

@@ -5,7 +5,7 @@
 
 namespace trundle {
 
-constexpr int kMaxLanes = 16;  // of the widest instruction set; buffer rows are padded to it
+constexpr int kMaxLanes = 16;  // lanes of the widest instruction set; buffer rows are padded to this number
 constexpr int kMaxMipLevels = 15;
 constexpr int kTileWidth = kMaxLanes, kTileHeight = 8;  // [px] of a hierarchical-z tile
 
@@ -81,7 +81,7 @@ struct Renderable {
   float eye[3];                      // the camera in the shape's frame [m]
   float centre[3];                   // the shape's origin in the camera frame [m]
   int32_t left, top, right, bottom;  // screen bounds, right and bottom excluded
-  float max_inverse_depth;           // of its nearest point
+  float max_inverse_depth;           // inverse depth of the nearest point
   int32_t first_id;                  // visible pixels hold first_id + face
   int32_t id_count;
   int32_t index;  // in the scene
@@ -99,7 +99,7 @@ struct RayTarget {
   float axes_f32[9], eye_f32[3];
   float centre[3];                // of the bounding sphere, in the rays' frame [m]
   float radius;                   // of the bounding sphere [m]; < 0: infinite
-  float tangent_squared;          // squared length of a tangent from the origin to that sphere [m²]
+  float tangent_squared;          // squared length of a tangent from the origin to the bounding sphere [m²]
   float moment[3];                // Plücker moment of the bounding cylinder's axis [m]
   float moment_length;            // [m]
   float cylinder_radius_squared;  // [m²]
@@ -118,7 +118,7 @@ struct ShadowMap {
   const float* tile_max_inverse_depth;  // of each tile: the largest of its texels and their right and lower neighbours
   View view;
   float rotation[9], translation[3];  // view_from_camera
-  float texel;                        // width of a texel [m]; of a perspective view at 1 m
+  float texel;                        // width of a texel [m]; in a perspective view, at 1 m
 };
 
 struct Light {
@@ -127,7 +127,7 @@ struct Light {
   float position[3];  // in the camera frame; unused by directional lights
   float diffuse[3], specular[3];
   float constant, linear, quadratic, range;  // attenuation of point and spot lights
-  float cos_inner, cos_outer, falloff;       // of spot lights; half angles
+  float cos_inner, cos_outer, falloff;       // cone of spot lights, by half angles
   const ShadowMap* shadow;                   // may be null
 };
 
@@ -154,10 +154,10 @@ struct Sky {
 // Rows of `stride` numbers.
 struct Buffers {
   float* inverse_depth;   // 1 / depth [1/m]; orthographic: -depth [m]; infinite in the padding
-  int32_t* id;            // of the visible face, -1 for none; null: not needed
+  int32_t* id;            // id of the visible face, -1 for none; null: not needed
   int32_t* color;         // red | green << 8 | blue << 16
   int32_t* segmentation;  // index of the shape, or -1; may be null
-  float* hi_z;            // of each tile: a fragment with less inverse depth is hidden
+  float* hi_z;            // inverse depth of each tile, below which a fragment is hidden
   float* projected;       // scratch: 6 rows of the largest mesh's vertices
   int32_t* large_faces;   // scratch: face indices of the largest mesh
 };
@@ -201,6 +201,6 @@ extern const Kernel kernel;
 }
 #endif
 
-const Kernel& best_kernel();  // supported by this machine's processor
+const Kernel& best_kernel();  // True if this machine's processor supports the instruction set
 
 }  // namespace trundle

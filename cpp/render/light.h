@@ -11,7 +11,7 @@ namespace trundle {
 
 struct LightSpec {
   LightKind kind = LightKind::kDirectional;
-  int32_t body = -1;                     // carrying body; -1: the world
+  int32_t body = -1;                     // body to which the light is fixed; -1: the world
   Vec3 position{}, direction{0, 0, -1};  // in the body frame
   std::array<float, 3> diffuse{}, specular{};
   float constant = 1, linear = 0, quadratic = 0, range = 1e9f;
@@ -31,7 +31,7 @@ struct ShadowMapImage {
   float texel;
   std::vector<float> inverse_depth, tile_max_inverse_depth;  // as in ShadowMap
 
-  // Extend tile_max_inverse_depth by a caster that is rasterized next.
+  // Extend tile_max_inverse_depth by a caster, before the caster is rasterized.
   void add_caster(const Renderable& caster);
 };
 

@@ -10,7 +10,7 @@ namespace trundle {
 namespace {
 
 constexpr int kMaxLevels = 6;
-constexpr size_t kMinFaces = 500;  // faces of a level that is not simplified further
+constexpr size_t kMinFaces = 500;  // number of faces up to which a level is not simplified further
 
 struct CellTriangle {
   std::array<int32_t, 3> cells;  // rotated so that the lowest comes first
@@ -19,7 +19,7 @@ struct CellTriangle {
 
 // Cells in order of first use, and the mean of the vertices in each.
 struct Grid {
-  std::vector<int32_t> cells;  // of each vertex
+  std::vector<int32_t> cells;  // cell of each vertex
   std::vector<Vec3> centres;
   double error = 0.0;
 

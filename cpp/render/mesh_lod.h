@@ -7,12 +7,12 @@
 
 namespace trundle {
 
-constexpr int32_t kMinLodFaces = 20'000;  // faces; smaller meshes have no levels
+constexpr int32_t kMinLodFaces = 20'000;  // number of faces up to which a mesh has no levels
 constexpr double kFinestGrid = 256.0;     // cells along the longest side of the finest grid
 
 struct MeshLod {
   Mesh mesh;
-  Triangles triangles;  // of `mesh`
+  Triangles triangles;  // view of `mesh`
   double error;         // largest distance by which a vertex was moved [m]
 };
 

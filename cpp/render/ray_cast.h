@@ -9,7 +9,7 @@
 namespace trundle::TRUNDLE_ISA {
 
 constexpr int kBlockRays = 64;  // rays culled together
-constexpr int kBatch = 4;       // shapes whose culling does not wait for each other's hits
+constexpr int kBatch = 4;       // number of shapes that are culled together, without waiting for each other's hits
 
 struct RayBlock {
   int count;  // a multiple of kLanes; the last ray is repeated
@@ -76,7 +76,7 @@ struct Cone {
                                (moment * moment > load(volumes.cylinder_radius_squared + at)));
   }
 
-  // Writes the indices of the others; returns their number.
+  // Writes the indices of the lanes that are not outside; returns their number.
   int32_t find(const BoundingVolumes* volumes, int32_t count, int32_t* near) const {
     int32_t count_near = 0;
     for (int32_t first = 0; first < count; first += kLanes) {

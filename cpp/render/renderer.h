@@ -108,7 +108,7 @@ class Renderer {
   std::optional<Transform> make_renderable(const Transform& world_from_camera, size_t index,
                                            Renderable& renderable) const;
   bool make_target(const Transform& world_from_origin, size_t index, double max_range, RayTarget& target) const;
-  enum class Detail { kFull, kLod };  // of meshes: all triangles, or fewer with no visible difference
+  enum class Detail { kFull, kLod };  // detail of meshes: all triangles, or fewer without a visible difference
   bool project_shape(const View& view, const Transform& world_from_camera, size_t index, Detail detail,
                      Renderable& renderable);
   const Triangles& select_lod(int32_t mesh, double tolerance);
@@ -131,9 +131,9 @@ class Renderer {
   std::vector<Material> materials_;
   std::vector<int32_t> first_ids_;
   std::vector<Bounds> bounds_;
-  std::vector<std::optional<Transform>> body_poses_;        // nothing: not drawn
+  std::vector<std::optional<Transform>> body_poses_;        // empty: not drawn
   std::vector<std::optional<Transform>> shape_poses_;       // in the world
-  std::vector<RayTarget> targets_;                          // of the last ray cast
+  std::vector<RayTarget> targets_;                          // targets of the last ray cast
   std::vector<BoundingVolumes> volumes_;                    // of targets_
   std::vector<int32_t> candidates_;                         // scratch
   std::vector<std::optional<ShadowMapImage>> shadow_maps_;  // per light

@@ -39,7 +39,7 @@ class Servo : public StepAction {
  private:
   std::vector<std::shared_ptr<ServoJoint>> joints_;
   std::vector<std::shared_ptr<ServoLaw>> laws_;
-  std::int64_t time_ns_ = 0;  // of the last read
+  std::int64_t time_ns_ = 0;  // time of the last read
 };
 
 // Holds a joint at a multiple of another's position, by a motor of limited effort.

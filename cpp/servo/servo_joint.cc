@@ -76,7 +76,7 @@ void ServoJoint::write_velocity(double dt) {
 }
 
 void ServoJoint::write_position(double dt) {
-  // Its position was set while no controller ran.
+  // The position was set while no controller ran.
   if (is_at_rest_ && velocity == 0.0 && error(command) != 0.0) command = position;
   const double off = error(std::min(std::max(command, traits_.lower), traits_.upper));
   if (pid_) {

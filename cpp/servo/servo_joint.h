@@ -20,7 +20,7 @@ struct JointTraits {
   bool is_prismatic;
 };
 
-// Axis of an engine, with the addresses of its position and velocity; `sign` is of both.
+// Axis of an engine, with the addresses of its position and velocity; `sign` is the sign of both.
 struct ServoAxis {
   std::shared_ptr<MotorBank> bank;
   int axis, qpos, dof;
@@ -40,13 +40,14 @@ class ServoJoint {
   // Read position, velocity and effort.
   void read();
 
-  // Difference of a position to the joint's; the shorter way round if continuous.
+  // A position minus the joint's; the shorter way round if the joint is continuous.
   double error(double position) const;
 
-  // The same; the shorter way round unless prismatic, as in joint_trajectory_controller.
+  // A position minus the joint's; the shorter way round unless the joint is prismatic, as in
+  // joint_trajectory_controller.
   double shortest_error(double position) const;
 
-  // Time for a driven position to settle: gazebo_ros_control sets it at once.
+  // Time for a driven position to settle; gazebo_ros_control sets the position at once.
   std::int64_t settling_ns() const;
 
   // Command that holds the position read last, or zero effort or velocity.
@@ -61,7 +62,7 @@ class ServoJoint {
   // Apply the command for a control period [s].
   void write(double dt);
 
-  // Return a function that restores the joint, without the engine.
+  // Return a function that restores the joint, but not the engine.
   std::function<void()> checkpoint();
 
   const JointTraits& traits() const { return traits_; }

@@ -25,7 +25,7 @@ class ServoLaw {
   // Return a function that restores the law.
   virtual std::function<void()> checkpoint() = 0;
 
-  std::int64_t time_ns = 0, period_ns = 0;  // of the last update
+  std::int64_t time_ns = 0, period_ns = 0;  // time of the last update
 
  protected:
   void mark_update(std::int64_t time, double dt);
@@ -65,7 +65,7 @@ struct StateTolerance {
 // Segment of a joint's path: a polynomial from a start to an end time, at rest outside.
 struct PathSegment {
   std::int64_t start_ns, end_ns;
-  std::array<double, 6> coefficients;  // of the powers of the time since the start [s]
+  std::array<double, 6> coefficients;  // coefficients of the powers of the time since the start [s]
   std::int64_t goal;                   // number of the action's goal; 0: none
   StateTolerance along, at_end;
   std::int64_t tolerance_ns;  // time after the end in which the goal has to be reached
@@ -86,7 +86,7 @@ class TrajectoryLaw : public ServoLaw {
   struct Event {
     Outcome outcome;
     std::size_t joint;
-    double error;  // of its position
+    double error;  // row of its position
   };
 
   // pids: of each joint; none: positions are commanded. forward: gains of the desired velocities.

@@ -15,8 +15,8 @@ struct ToolboxPid {
 
   void reset() { integral = last = 0.0; }
 
-  // Command for error = desired - actual, dt [s] after the last; slope: derivative of the error [1/s], else from the
-  // last error, which is 0 before the first.
+  // Command for error = desired - actual, dt [s] after the last; slope: derivative of the error [1/s]; without it,
+  // the difference from the last error, which is 0 at first.
   double command(double error, double dt, std::optional<double> slope = {}) {
     if (dt <= 0.0) return 0.0;
     const double rate = slope.value_or((error - last) / dt);
