@@ -18,7 +18,7 @@ namespace ros {
 namespace console {
 namespace {
 
-/** Logger by its dotted name; without a level of its own it has that of the next name above. */
+/** Logger by its dotted name; a logger without a level has that of its nearest ancestor. */
 struct Logger {
   std::string name;
   Level level = levels::Count;
@@ -35,7 +35,7 @@ struct State {
 };
 
 State& state() {
-  static State* const instance = new State;  // threads may log while the process exits
+  static State* const instance = new State;  // never destroyed, as threads may log while the process exits
   return *instance;
 }
 

@@ -18,7 +18,7 @@ struct CallbackQueue::Implementation {
   std::mutex mutex;
   std::condition_variable changed;
   std::deque<Entry> entries;
-  /** Owner → threads that run one of its calls now. */
+  /** Owner → threads that are running one of the owner's calls. */
   std::multimap<uint64_t, std::thread::id> running;
   bool is_enabled = true;
 
@@ -77,7 +77,7 @@ void CallbackQueue::addCallback(const CallbackInterfacePtr& callback, uint64_t r
 }
 
 void CallbackQueue::removeByID(uint64_t removal_id) {
-  std::deque<Implementation::Entry> removed;  // destroyed without the lock
+  std::deque<Implementation::Entry> removed;  // destroyed after the lock is released
   std::unique_lock<std::mutex> lock(impl_->mutex);
   auto& entries = impl_->entries;
   for (auto entry = entries.begin(); entry != entries.end();) {
@@ -108,7 +108,7 @@ void CallbackQueue::callAvailable(WallDuration timeout) {
   const boost::shared_ptr<Implementation> impl = impl_;  // a call may destroy the queue
   std::unique_lock<std::mutex> lock(impl->mutex);
   if (!impl->waitForReady(lock, timeout)) return;
-  // Calls that are added meanwhile are left for the next time.
+  // Calls added from now on wait for the next callAvailable().
   for (size_t count = impl->entries.size(); count > 0 && impl->is_enabled; --count)
     if (impl->run(lock) != Called) break;
 }

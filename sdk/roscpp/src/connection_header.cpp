@@ -54,7 +54,7 @@ M_string exchangeHeaders(Socket& socket, const M_string& fields) {
   const uint32_t size = number(length);
   if (size > kMaxHeader) throw NetError("the peer's connection header is longer than 10 MB");
   std::vector<uint8_t> bytes;
-  for (size_t at = 0; at < size; at = bytes.size()) {  // as it arrives: a length alone reserves no memory
+  for (size_t at = 0; at < size; at = bytes.size()) {  // memory grows with what arrives, not with `size`
     bytes.resize(at + std::min<size_t>(size - at, 65536));
     socket.read(bytes.data() + at, bytes.size() - at);
   }

@@ -54,7 +54,7 @@ void requestByPipe() {
 
 void onInterrupt(int) { requestByPipe(); }
 
-/** A thread that shuts the node down when it is asked to, as signal handlers cannot. */
+/** Thread that shuts the node down on request, which a signal handler cannot do itself. */
 void watchRequests() {
   State& s = state();
   if (s.shutdown_pipe[0] >= 0 || pipe(s.shutdown_pipe) != 0) return;
@@ -197,7 +197,7 @@ void requestShutdown() { requestByPipe(); }
 void shutdown() {
   State& s = state();
   {
-    // A start that waits for the master ends with this.
+    // Ends a start() that waits for the master.
     const std::lock_guard<std::mutex> lock(s.mutex);
     if (!s.is_started && !s.is_initialized) return;
     s.is_shutting_down = true;
@@ -206,11 +206,11 @@ void shutdown() {
   s.changed.notify_all();
   const std::lock_guard<std::mutex> starting(s.starting);
   if (!s.is_started) {
-    Time::init();  // the program may still ask for the time
+    Time::init();  // the program may still call Time::now()
     Time::shutdown();
     return;
   }
-  net::abortWaiting(1000);  // a master that is silent does not keep the node
+  net::abortWaiting(1000);  // the node does not wait longer for a silent master
   s.queue.disable();
   s.queue.clear();
   Time::shutdown();

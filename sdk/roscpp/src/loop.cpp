@@ -15,8 +15,8 @@ namespace ros {
 namespace net {
 namespace {
 
-constexpr size_t kFirstCapacity = 1 << 20;  // a longer packet grows as its bytes arrive
-constexpr int kReadsAtOnce = 16;            // of one connection, before the others have their turn
+constexpr size_t kFirstCapacity = 1 << 20;  // the buffer of a longer packet grows as its bytes arrive
+constexpr int kReadsAtOnce = 16;            // reads of one connection before the others' turn
 constexpr size_t kMaxConnections = 900;     // below the usual limit of open files
 #ifdef MSG_NOSIGNAL
 constexpr int kFlags = MSG_NOSIGNAL | MSG_DONTWAIT;
@@ -76,7 +76,7 @@ void Connection::send(const boost::shared_array<uint8_t>& bytes, size_t size, si
     if (is_closed_) return;
     const bool was_empty = packets_.empty();
     if (limit > 0 && packets_.size() >= limit) {
-      // The first packet may be sent in part, and has to be completed.
+      // The first packet stays: a part of it may have been sent.
       const size_t first = sent_ > 0 ? 1 : 0;
       if (packets_.size() > first) packets_.erase(packets_.begin() + static_cast<ptrdiff_t>(first));
     }
@@ -192,7 +192,7 @@ void Loop::stop() {
 void Loop::add(const std::shared_ptr<Connection>& connection) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (connections_.size() >= kMaxConnections) return;  // the socket closes with its last owner
+    if (connections_.size() >= kMaxConnections) return;  // the last owner closes the socket
     connections_.push_back(connection);
   }
   wake();
@@ -204,7 +204,7 @@ void Loop::accept(Socket listening, std::function<void(Socket)> accepted) {
 
 void Loop::wake() {
   const char byte = 0;
-  if (wake_[1] >= 0) (void)!::write(wake_[1], &byte, 1);  // a full pipe wakes, too
+  if (wake_[1] >= 0) (void)!::write(wake_[1], &byte, 1);  // if the pipe is full, the loop wakes anyway
 }
 
 void Loop::run() {

@@ -20,11 +20,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
   explicit Connection(Socket socket);
   virtual ~Connection();
 
-  /** Send bytes: at once where the socket takes them, else later. At most `limit` packets wait (0: no limit); the
+  /** Send bytes: at once if the socket accepts them, else later. At most `limit` packets wait (0: no limit); the
    * oldest are dropped. */
   void send(const boost::shared_array<uint8_t>& bytes, size_t size, size_t limit = 0);
   void send(const std::vector<uint8_t>& bytes);
-  /** Close; with `after_sending`, once all is sent. */
+  /** Close; with `after_sending`, once all packets are sent. */
   void close(bool after_sending = false);
   bool isClosed() const;
 
@@ -32,9 +32,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::function<void()> on_closed;
 
  protected:
-  /** Read what is there; false at the end. */
+  /** Read the available bytes; false at the end of the stream. */
   virtual bool onReadable() = 0;
-  /** Read at most `size` bytes without waiting: their number, 0 if there are none now, -1 at the end. */
+  /** Read at most `size` bytes without waiting. Returns their number, 0 if none are available, -1 at the end. */
   ptrdiff_t receive(void* bytes, size_t size);
   int fd() const { return socket_.fd(); }
 
@@ -44,7 +44,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     boost::shared_array<uint8_t> bytes;
     size_t size;
   };
-  /** Send what waits; false if the connection is broken. Needs the mutex. */
+  /** Send the waiting packets; false if the connection is broken. Needs the mutex. */
   bool flush();
   bool wantsToWrite() const;
   bool onWritable();
@@ -56,7 +56,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool is_closed_ = false, closes_after_sending_ = false;
 };
 
-/** Packets with their length before them: headers, messages, requests. */
+/** Connection of packets, each after its length: headers, messages, requests. */
 class FrameConnection : public Connection {
  public:
   using Connection::Connection;

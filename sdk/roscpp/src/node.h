@@ -9,7 +9,7 @@
 
 namespace ros {
 
-/** What the parts of a node tell each other; an internal interface of the kit. */
+/** Functions that the parts of a node call of each other; an internal interface of the kit. */
 namespace node {
 
 /** Address of this node's XML-RPC server. */
@@ -18,7 +18,7 @@ const std::string& uri();
 void runInThread(std::function<void()> function);
 /** Wait [ms] in a thread of runInThread(); false once the node shuts down. */
 bool waitMs(int duration);
-/** Call the master in this node's name; false if it cannot or does not. */
+/** Call the master with this node's name; false if the call fails, or the master reports an error. */
 bool callMaster(const std::string& method, const XmlRpc::XmlRpcValue& arguments, XmlRpc::XmlRpcValue& payload,
                 bool waits = true);
 

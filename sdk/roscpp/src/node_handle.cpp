@@ -19,7 +19,7 @@ bool is_started_by_handle = false;
 
 }  // namespace
 
-/** Publisher, subscriber or server: ended by its last copy, or by its NodeHandle. It keeps the node alive. */
+/** Publisher, subscriber or server. Its last copy or its NodeHandle ends it; until then the node runs. */
 struct Publisher::Impl {
   std::shared_ptr<Publication> publication;
   boost::shared_ptr<Publication::Callbacks> callbacks;
@@ -60,7 +60,7 @@ struct ServiceServer::Impl {
 
 struct NodeHandle::Made {
   std::mutex mutex;
-  std::vector<std::function<bool(bool)>> parts;  // ends a part, if asked to; false once it is gone
+  std::vector<std::function<bool(bool)>> parts;  // called with true, ends a part; false: it is gone
 
   template <class Impl>
   void add(const boost::shared_ptr<Impl>& impl) {
@@ -189,7 +189,7 @@ Subscriber NodeHandle::subscribe(SubscribeOptions& options) {
   const auto impl = boost::make_shared<Subscriber::Impl>();
   impl->helper = options.helper;
   impl->topic = options.topic;
-  impl->is_ended = true;  // until it has begun: subscribe may throw
+  impl->is_ended = true;  // nothing to end until subscribe returns: it may throw
   impl->subscription = topics::subscribe(options);
   impl->is_ended = false;
   made_->add(impl);

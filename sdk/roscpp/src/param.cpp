@@ -41,7 +41,7 @@ double number(const XmlRpcValue& v) {
 
 bool isInInt(double value) { return value >= -2147483648.0 && value <= 2147483647.0; }
 
-// A parameter as a type; `in_list`: as an element, where numbers of all kinds are the same.
+// Convert a parameter to a type; `in_list`: it is an element of a list, where numbers of all types are accepted.
 bool convert(const XmlRpcValue& v, XmlRpcValue& out, bool) {
   out = v;
   return true;
@@ -116,7 +116,7 @@ bool read(const std::string& key, XmlRpcValue& value, bool cached) {
       subscription[1] = name;
       if (node::callMaster("subscribeParam", subscription, now)) {
         lock.lock();
-        // An empty struct is the master's word for a parameter that is not set.
+        // The master answers with an empty struct if the parameter is not set.
         const bool is_set = !(now.getType() == XmlRpcValue::TypeStruct && now.size() == 0);
         c.values.emplace(name, is_set ? now : XmlRpcValue());
         value = c.values[name];
@@ -240,7 +240,7 @@ bool del(const std::string& key) {
 bool search(const std::string& key, std::string& result) { return search(this_node::getName(), key, result); }
 
 bool search(const std::string& ns, const std::string& key, std::string& result) {
-  // The master searches for a relative name, so that remappings of unresolved names apply.
+  // The master searches for a relative name, which only remappings of unresolved names can match.
   const auto remapped = names::getUnresolvedRemappings().find(key);
   XmlRpcValue request, response, payload;
   request[0] = ns;
@@ -275,7 +275,7 @@ void update(const std::string& key, const XmlRpcValue& value) {
   Cache& c = cache();
   const std::lock_guard<std::mutex> lock(c.mutex);
   for (auto entry = c.values.begin(); entry != c.values.end();) {
-    // Of a struct above or a member below it, the value is asked for again.
+    // Copies of a struct that contains the key, and of members of the key, are dropped and requested again.
     const bool is_above = name.compare(0, entry->first.size() + 1, entry->first + "/") == 0;
     const bool is_below = entry->first.compare(0, name.size() + 1, name + "/") == 0;
     if (is_above || is_below) {

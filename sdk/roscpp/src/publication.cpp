@@ -8,7 +8,7 @@
 namespace ros {
 namespace {
 
-/** Tells a publisher of a new subscriber, or of one that left. */
+/** Calls a publisher's callback for a new subscriber, or for one that has left. */
 class StatusCall : public CallbackInterface {
  public:
   StatusCall(const boost::shared_ptr<Publication::Callbacks>& callbacks, const boost::shared_ptr<SubscriberLink>& link,
@@ -69,7 +69,7 @@ void Publication::publish(const std::function<SerializedMessage()>& serialize, S
   if (is_latched) {
     const std::lock_guard<std::mutex> lock(mutex_);
     last_ = message;
-    last_.message.reset();  // its owner may change it
+    last_.message.reset();  // the program may change the object
     last_.type_info = nullptr;
   }
   for (const auto& link : links) link->send(message);

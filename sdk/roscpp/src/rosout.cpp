@@ -28,7 +28,7 @@ ImmediateQueue& immediate() {
   return *queue;
 }
 
-thread_local bool is_publishing = false;  // what publishing logs is not published
+thread_local bool is_publishing = false;  // messages logged while publishing are not published
 
 class Appender : public console::LogAppender {
  public:

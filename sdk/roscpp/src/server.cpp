@@ -25,7 +25,7 @@ std::string own_uri;
 std::shared_ptr<Subscription> clock_subscription;
 SubscriptionCallbackHelperPtr clock_helper;
 
-/** Runs calls where they arrive: on the loop's thread. */
+/** Runs each call at once, on the loop's thread. */
 class ImmediateQueue : public CallbackQueueInterface {
  public:
   void addCallback(const CallbackInterfacePtr& callback, uint64_t) override { callback->call(); }
@@ -96,7 +96,7 @@ const net::XmlRpcMethods& methods() {
   return *all;
 }
 
-/** A peer has connected for a topic or a service: its header says for which. */
+/** Read the header of a peer that has connected, which names a topic or a service, and pass the peer on. */
 void acceptPeer(net::Socket socket) {
   const auto connection = std::make_shared<net::FrameConnection>(std::move(socket));
   const std::weak_ptr<net::FrameConnection> weak = connection;

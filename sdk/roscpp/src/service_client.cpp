@@ -68,7 +68,7 @@ bool ServiceClient::call(const SerializedMessage& request, SerializedMessage& re
                           static_cast<uint32_t>(head[4]) << 24;
     if (size > net::kMaxMessage) throw net::NetError("the response is longer than 1 GB");
     std::vector<uint8_t> body;
-    for (size_t at = 0; at < size; at = body.size()) {  // as it arrives: a length alone reserves no memory
+    for (size_t at = 0; at < size; at = body.size()) {  // memory grows with what arrives, not with `size`
       body.resize(at + std::min<size_t>(size - at, std::max<size_t>(at, 1 << 20)));
       socket.read(body.data() + at, body.size() - at);
     }

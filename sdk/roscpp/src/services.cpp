@@ -53,7 +53,7 @@ SerializedMessage failure(const std::string& text) {
   return m;
 }
 
-/** One call by a client. */
+/** Call of a service by a client. */
 class ServiceCall : public CallbackInterface {
  public:
   ServiceCall(const std::shared_ptr<Offer>& offer, const std::shared_ptr<net::FrameConnection>& client,

@@ -13,7 +13,7 @@ class Offer;
 
 std::shared_ptr<Offer> advertise(const AdvertiseServiceOptions& options);
 void unadvertise(const std::shared_ptr<Offer>& offer);
-/** A client has connected: answer its header. */
+/** Answer the header of a client that has connected. */
 bool acceptClient(const std::shared_ptr<net::FrameConnection>& connection, const M_string& header);
 void shutdown();
 

@@ -20,8 +20,8 @@ namespace ros {
 namespace net {
 namespace {
 
-std::atomic<int64_t> abort_time{INT64_MAX};  // of the steady clock [ms]
-constexpr int kSliceMs = 50;                 // how often those who wait look whether the node shuts down
+std::atomic<int64_t> abort_time{INT64_MAX};  // time of the steady clock at which waits end [ms]
+constexpr int kSliceMs = 50;                 // interval at which waits check whether the node shuts down
 #ifdef MSG_NOSIGNAL
 constexpr int kFlags = MSG_NOSIGNAL;
 #else
@@ -183,7 +183,7 @@ std::string bindAddress(const std::string& host) {
           ntohl(reinterpret_cast<sockaddr_in*>(address->ai_addr)->sin_addr.s_addr) >> 24 == 127)
         return "127.0.0.1";
     }
-  } catch (const NetError&) {  // a name that only other machines know
+  } catch (const NetError&) {  // only other machines know the name
   }
   return "0.0.0.0";
 }

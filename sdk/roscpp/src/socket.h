@@ -37,7 +37,7 @@ class Socket {
   void read(void* bytes, size_t size);
   /** Read at most `size` bytes; 0 at the end of the stream. */
   size_t readSome(void* bytes, size_t size);
-  /** True if the peer has closed the connection, or sent bytes unasked. */
+  /** True if the peer has closed the connection, or has sent unexpected bytes. */
   bool isStale() const;
 
  private:
@@ -45,11 +45,11 @@ class Socket {
   int fd_ = -1;
 };
 
-/** Ends all calls that wait, and those to come, in a time [ms]. */
+/** End all waiting calls, and later ones, after a time [ms]. */
 void abortWaiting(int ms);
 void allowWaiting();
 
-/** Address to listen on for a host that this node's addresses name: loopback for a name of loopback. */
+/** Address to listen on, for the host in this node's URIs: loopback if the host is loopback, else all addresses. */
 std::string bindAddress(const std::string& host);
 
 }  // namespace net

@@ -12,7 +12,7 @@
 namespace ros {
 namespace {
 
-/** A message as it came, which is read at most once for all callbacks of a type. */
+/** A received message, which is deserialized at most once for all callbacks of a type. */
 class LazyMessage {
  public:
   LazyMessage(const SubscriptionCallbackHelperPtr& helper, const SerializedMessage& message,
@@ -23,7 +23,7 @@ class LazyMessage {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (message_ || is_broken_) return message_;
     if (serialized_.message && *serialized_.type_info == helper_->getTypeInfo()) return message_ = serialized_.message;
-    if (!serialized_.buf) return VoidConstPtr();  // within the process, of another class of the same type
+    if (!serialized_.buf) return VoidConstPtr();  // sent within the process as another class of this type
     SubscriptionCallbackHelperDeserializeParams params;
     params.buffer = serialized_.message_start;
     params.length = static_cast<uint32_t>(serialized_.num_bytes -
@@ -69,7 +69,7 @@ class SubscriptionQueue : public CallbackInterface, public boost::enable_shared_
       if (limit_ > 0 && items_.size() >= limit_) {
         items_.pop_front();
         items_.push_back({message, header, copies, nowOrZero()});
-        return;  // the call for the dropped message is this one's
+        return;  // the queued call for the dropped message is now for this one
       }
       items_.push_back({message, header, copies, nowOrZero()});
     }
@@ -166,7 +166,7 @@ void Subscription::handleMessage(const SerializedMessage& message, const boost::
     const std::lock_guard<std::mutex> lock(mutex_);
     queues = queues_;
   }
-  // Callbacks that may change the message get copies, unless it is theirs alone.
+  // Callbacks that may change the message get copies, unless nothing else uses it.
   const bool copies = queues.size() > 1 || message.message;
   std::vector<std::pair<const std::type_info*, std::shared_ptr<LazyMessage>>> by_type;
   for (const auto& queue : queues) {

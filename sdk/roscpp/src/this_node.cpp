@@ -46,14 +46,14 @@ void init(const std::string& wanted, const M_string& remappings, uint32_t option
   if (!names::validate(own_space, error))
     throw InvalidNameException("Namespace [" + own_space + "] is invalid: " + error);
   space() = own_space;
-  name() = own;  // remappings of other names are resolved with it
+  name() = own;  // remappings are resolved with the name so far
   names::init(remappings);
   if (own.find('/') != std::string::npos) throw InvalidNodeNameException("[" + own + "]: node names cannot contain /");
   if (own.find('~') != std::string::npos) throw InvalidNodeNameException("[" + own + "]: node names cannot contain ~");
   own = names::resolve(own_space, own);
   if (is_anonymous) own += "_" + std::to_string(getpid()) + "_" + std::to_string(WallTime::now().toNSec());
   name() = own;
-  names::init(remappings);  // private names, such as ~scan, need the whole name
+  names::init(remappings);  // again, as private names such as ~scan need the full name
   console::setFixedFilterToken("node", own);
 }
 
@@ -95,7 +95,7 @@ void init(const M_string& remappings) {
     if (found != remappings.end()) host = found->second;
   }
   if (!host.empty()) return;
-  // A master on this machine needs no other address; one elsewhere has to find this machine by its name.
+  // With a master on this machine, its address suffices; with one elsewhere, other machines find this one by its name.
   char machine[256] = "localhost";
   gethostname(machine, sizeof(machine) - 1);
   const std::string master_address = net::bindAddress(master::getHost());

@@ -19,7 +19,7 @@
 namespace ros {
 namespace {
 
-/** Clock as numbers [ns]; ROS time has to be read again when it changes. */
+/** Functions of a clock, in [ns]; waits in ROS time end whenever it changes. */
 struct ClockKind {
   int64_t (*now)();
   bool (*is_simulated)();
@@ -58,7 +58,7 @@ class TimerLoop {
   std::mutex mutex_;
   std::condition_variable changed_;
   struct Due {
-    const TimerImpl* key;  // compared only: the last owner may be the one who removes it
+    const TimerImpl* key;  // only compared, as the timer may be destroyed already
     boost::weak_ptr<TimerImpl> timer;
   };
   std::multimap<int64_t, Due> due_;
@@ -89,7 +89,7 @@ class TimerImpl : public boost::enable_shared_from_this<TimerImpl> {
     return is_started_ && (is_waiting_ || loop_.clock.now() >= next_);
   }
   void setPeriod(int64_t period, bool reset);
-  /** Put the call into its queue, as its time has come. */
+  /** Queue the call that is due. */
   void fire();
   void call(uint64_t generation);
 
@@ -267,7 +267,7 @@ void TimerImpl::call(uint64_t generation) {
     is_waiting_ = false;
     const int64_t now = loop_.clock.now();
     next_ += period_;
-    // Calls that were missed are not made up for; and a time that jumped back starts anew.
+    // Missed calls are dropped; after a jump back in time, the next call is one period away at most.
     if (next_ < now) next_ = now;
     if (next_ > now + period_) next_ = now + period_;
     if (is_oneshot_) next_ = INT64_MAX;

@@ -15,7 +15,7 @@ struct State {
   std::mutex mutex;
   std::map<std::string, std::shared_ptr<Publication>> publications;
   std::map<std::string, std::shared_ptr<Subscription>> subscriptions;
-  /** Held while a topic is registered, so that the master hears of changes in their order. */
+  /** Held while a topic is registered, so that calls reach the master in the order of the changes. */
   std::mutex registering;
 };
 
@@ -176,7 +176,7 @@ bool acceptSubscriber(const std::shared_ptr<net::FrameConnection>& connection, c
   link->connection = connection;
   link->queue_size = publication->queue_size;
   const std::weak_ptr<Publication> weak = publication;
-  connection->max_frame = 0;  // a subscriber sends nothing more
+  connection->max_frame = 0;  // after its header, a subscriber sends nothing
   connection->on_frame = nullptr;
   connection->on_closed = [weak, link] {
     if (const std::shared_ptr<Publication> owner = weak.lock()) owner->removeLink(link);

@@ -23,7 +23,7 @@ class Subscription;
 class SubscriberLink {
  public:
   std::string topic, subscriber;
-  /** Connection to another process; null: `local` is set. */
+  /** Connection to another process; null if `local` is set. */
   std::shared_ptr<net::FrameConnection> connection;
   std::weak_ptr<Subscription> local;
   boost::shared_ptr<M_string> local_header;
@@ -51,7 +51,7 @@ class Publication {
   void addLink(const boost::shared_ptr<SubscriberLink>& link);
   void removeLink(const boost::shared_ptr<SubscriberLink>& link);
   void closeLinks();
-  /** Last message of a latched topic; without bytes if there is none. */
+  /** Last message of a latched topic; it has no bytes before the first message. */
   SerializedMessage latched() const;
   size_t linkCount() const;
   std::vector<boost::shared_ptr<SubscriberLink>> links() const;
@@ -136,9 +136,9 @@ void unadvertise(const std::shared_ptr<Publication>& publication,
                  const boost::shared_ptr<Publication::Callbacks>& callbacks);
 std::shared_ptr<Subscription> subscribe(const SubscribeOptions& options);
 void unsubscribe(const std::shared_ptr<Subscription>& subscription, const SubscriptionCallbackHelperPtr& helper);
-/** A subscriber of another process has connected: answer its header. False closes the connection. */
+/** Answer the header of a subscriber of another process; false closes the connection. */
 bool acceptSubscriber(const std::shared_ptr<net::FrameConnection>& connection, const M_string& header);
-/** The master names the publishers of a topic. */
+/** Handle the master's list of a topic's publishers. */
 void publisherUpdate(const std::string& topic, const std::vector<std::string>& uris);
 bool isAdvertised(const std::string& topic);
 V_string advertised();

@@ -54,7 +54,7 @@ std::string tagged(const std::string& xml, const std::string& tag, size_t from, 
   return xml.substr(start + tag.size() + 2, stop - start - tag.size() - 2);
 }
 
-/** Parameters of a call, or the one of an answer. */
+/** Parameters of a call, or the only parameter of an answer. */
 XmlRpcValue readParameters(const std::string& xml, size_t from) {
   XmlRpcValue values;
   values.setSize(0);
@@ -91,7 +91,8 @@ class HttpConnection : public Connection {
       const Head head(text_.substr(0, end));
       size_t length = 0;
       if (!head.length(length)) return answer(head, "411 Length Required", "");
-      // A web page that someone visits may reach this port: browsers name themselves by these fields.
+      // True if a browser sent the request, which these fields show: any web page that a user visits can reach this
+      // port.
       if (head.has("origin") || head.has("sec-fetch-site") || head.has("sec-fetch-mode"))
         return answer(head, "403 Forbidden", "");
       if (text_.size() < end + 4 + length) return true;
@@ -159,7 +160,7 @@ XmlRpcValue callXmlRpc(const std::string& host, uint16_t port, const std::string
     if (end != std::string::npos) continue;
     end = text.find("\r\n\r\n");
     if (end == std::string::npos && text.size() > kMaxHead) throw NetError("the server's answer is no HTTP");
-    if (end != std::string::npos && !Head(text.substr(0, end)).length(length)) length = kMaxBody;  // up to its end
+    if (end != std::string::npos && !Head(text.substr(0, end)).length(length)) length = kMaxBody;  // up to the end
     if (text.size() > kMaxHead + kMaxBody) throw NetError("the server's answer is too long");
   }
   if (end == std::string::npos) throw NetError("the server closed the connection");

@@ -21,7 +21,7 @@ std::string readFile(const fs::path& path) {
   return text.str();
 }
 
-/** Text between two words, without spaces around it; "" if there is none. */
+/** Text between two words, stripped; "" if there is none. */
 std::string between(const std::string& text, const std::string& before, const std::string& after) {
   const size_t start = text.find(before);
   const size_t end = start == std::string::npos ? start : text.find(after, start + before.size());
@@ -37,7 +37,7 @@ void crawl(const fs::path& folder, int depth, M_string& found) {
   std::error_code error;
   if (fs::exists(folder / "CATKIN_IGNORE", error)) return;
   if (fs::exists(folder / "package.xml", error)) {
-    found.emplace(nameOf(folder / "package.xml"), folder.string());  // the first on the path wins
+    found.emplace(nameOf(folder / "package.xml"), folder.string());  // the first package of a name on the path wins
     return;
   }
   if (depth == kMaxDepth) return;
@@ -51,7 +51,7 @@ const M_string& packages(bool again = false) {
   static M_string* found = nullptr;
   const std::lock_guard<std::mutex> lock(mutex);
   if (found && !again) return *found;
-  found = new M_string;  // others may still read the old ones
+  found = new M_string;  // not freed, as other threads may still read the old map
   const char* const variable = std::getenv("ROS_PACKAGE_PATH");
   std::stringstream path(variable ? variable : "");
   for (std::string folder; std::getline(path, folder, ':');)

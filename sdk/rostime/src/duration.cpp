@@ -83,7 +83,7 @@ std::ostream& operator<<(std::ostream& out, const WallDuration& value) {
   return out;
 }
 
-// Constants: one macro for the classes of both clocks.
+// Constants, by one macro for the classes of both clocks.
 #define ROS_DURATION_CONSTANTS(Class)         \
   const Class Class::MAX(kMaxSec, kMaxNSec);  \
   const Class Class::MIN(kMinSec, 0);         \

@@ -3,7 +3,7 @@
 namespace ros {
 namespace {
 
-/** Sleep until the cycle's end; a cycle that took longer than two starts anew. */
+/** Sleep until the end of the cycle; after one that took longer than two, the cycles start again from now. */
 template <class TimeType, class DurationType>
 bool finishCycle(TimeType& start, const DurationType& expected, DurationType& actual) {
   const TimeType now = TimeType::now();

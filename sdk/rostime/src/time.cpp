@@ -16,7 +16,7 @@ namespace {
 constexpr int64_t kSecond = 1000000000LL;
 constexpr uint32_t kMaxSec = std::numeric_limits<uint32_t>::max();
 
-/** Clock of this process; never destroyed, as threads may sleep while it exits. */
+/** Clock of this process; never destroyed, as threads may sleep while the process exits. */
 struct Clock {
   std::mutex mutex;
   std::condition_variable changed;

@@ -129,7 +129,7 @@ void TransformListener::readPrefix() {
   if (ros::NodeHandle("~").searchParam("tf_prefix", key)) ros::param::get(key, prefix_);
 }
 
-// A message of another frame, by way of its class.
+// Transform a message into another frame, through its tf class.
 #define TF_TRANSFORM(Name, Message, name, Value)                                                             \
   void TransformListener::transform##Name(const std::string& target_frame, const geometry_msgs::Message& in, \
                                           geometry_msgs::Message& out) const {                               \

@@ -8,7 +8,7 @@
 namespace tf2 {
 namespace {
 
-constexpr int kMaxDepth = 1000;  // a loop of frames ends there
+constexpr int kMaxDepth = 1000;  // limit of ancestors, which ends a loop of frames
 
 std::string stripped(const std::string& frame) { return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame; }
 

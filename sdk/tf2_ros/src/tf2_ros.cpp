@@ -8,7 +8,7 @@
 namespace tf2_ros {
 namespace {
 
-/** Ask until it is true, or a time [s] of the node's clock is over. */
+/** Poll a condition until it is true; false after a timeout of ROS time, or if the node shuts down. */
 template <class Condition>
 bool waitFor(const ros::Duration& timeout, const Condition& condition) {
   const ros::Time end = ros::Time::now() + timeout;
@@ -41,7 +41,7 @@ void StaticTransformBroadcaster::sendTransform(const geometry_msgs::TransformSta
 }
 
 void StaticTransformBroadcaster::sendTransform(const std::vector<geometry_msgs::TransformStamped>& transforms) {
-  // The topic is latched: who comes later gets the last message, which has to hold all.
+  // The topic is latched: later subscribers get only the last message, so each message holds all transforms.
   for (const geometry_msgs::TransformStamped& transform : transforms) sent_[transform.child_frame_id] = transform;
   tf2_msgs::TFMessage message;
   for (const auto& entry : sent_) message.transforms.push_back(entry.second);

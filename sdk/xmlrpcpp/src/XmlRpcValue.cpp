@@ -7,7 +7,7 @@
 namespace XmlRpc {
 namespace {
 
-constexpr int kMaxElements = 10000000;  // a program's mistake, not a wish
+constexpr int kMaxElements = 10000000;  // larger indices are a program's mistake
 
 const char* nameOf(XmlRpcValue::Type type) {
   static const char* const kNames[] = {"invalid", "boolean", "int",   "double", "string",
@@ -93,7 +93,7 @@ void XmlRpcValue::require(Type type) const {
     throw XmlRpcException(std::string("type error: expected ") + nameOf(type) + ", got " + nameOf(_type));
 }
 
-/** An invalid value becomes an empty one of a type; others must be of it. */
+/** An invalid value becomes an empty one of the type; any other value must have the type already. */
 void XmlRpcValue::become(Type type) {
   if (_type == TypeInvalid) switch (type) {
       case TypeBoolean: *this = false; break;

@@ -187,7 +187,7 @@ class XmlReader {
       out.become(XmlRpcValue::TypeStruct);
       return is_empty || members(out, depth);
     }
-    out = XmlRpcValue(unescaped(text()));  // a string needs no element of its own
+    out = XmlRpcValue(unescaped(text()));  // text without an element is a string
     return true;
   }
 
@@ -215,7 +215,7 @@ class XmlReader {
     if (type == "double") {
       char* end = nullptr;
       double value = 0.0;
-      if (!(in >> value)) {  // inf and nan, which streams do not read
+      if (!(in >> value)) {  // for inf and nan, which streams do not read
         value = std::strtod(content.c_str(), &end);
         if (end == content.c_str()) return false;
       }

@@ -46,7 +46,7 @@ struct FilterParams {
   std::string out_message;
 };
 
-/** Decides about single messages of the macros with _FILTER. */
+/** Filter that decides which messages of the macros with _FILTER are logged. */
 class FilterBase {
  public:
   virtual ~FilterBase() {}
@@ -67,7 +67,8 @@ void shutdown();
 void register_appender(LogAppender* appender);
 void deregister_appender(LogAppender* appender);
 bool get_loggers(std::map<std::string, levels::Level>& loggers);
-/** Set the level of a logger, such as "ros.my_package"; false if the level is none. Then notifyLoggerLevelsChanged().
+/** Set the level of a logger, such as "ros.my_package"; false if the level is invalid. Call notifyLoggerLevelsChanged()
+ * afterwards.
  */
 bool set_logger_level(const std::string& name, levels::Level level);
 void notifyLoggerLevelsChanged();
@@ -79,9 +80,9 @@ void print(FilterBase* filter, void* logger, Level level, const char* file, int 
            const char* format, ...) ROSCONSOLE_PRINTF_ATTRIBUTE(7, 8);
 void print(FilterBase* filter, void* logger, Level level, const std::stringstream& text, const char* file, int line,
            const char* function);
-/** Fixed words of each line, such as the node's name. */
+/** Set a fixed token of the format, such as the node's name. */
 void setFixedFilterToken(const std::string& key, const std::string& value);
-/** True at most once in a period [s] of ROS time; `delayed`: not at the first call. */
+/** True at most once in a period [s] of ROS time; with `delayed`, not at the first call. */
 bool isDue(double& last, double period, bool delayed);
 
 extern bool g_initialized;
@@ -95,7 +96,7 @@ extern bool g_initialized;
   } while (false)
 
 #define ROSCONSOLE_ROOT_LOGGER_NAME "ros"
-#ifdef ROS_PACKAGE_NAME  // a definition of catkin's CMake, with its quotes
+#ifdef ROS_PACKAGE_NAME  // catkin's CMake defines it, with quotes
 #define ROSCONSOLE_NAME_PREFIX ROSCONSOLE_ROOT_LOGGER_NAME "." ROS_PACKAGE_NAME
 #else
 #define ROSCONSOLE_NAME_PREFIX ROSCONSOLE_ROOT_LOGGER_NAME ".unknown_package"
@@ -183,7 +184,7 @@ extern bool g_initialized;
     if (rosconsole_enabled && (filter)->isEnabled()) ROSCONSOLE_PRINT_STREAM(filter, level, args); \
   } while (false)
 
-// Macros of each level; those below ROSCONSOLE_MIN_SEVERITY are compiled to nothing.
+// Macros of each level; those below ROSCONSOLE_MIN_SEVERITY compile to nothing.
 
 #if ROSCONSOLE_MIN_SEVERITY > ROSCONSOLE_SEVERITY_DEBUG
 #define ROS_DEBUG(...) static_cast<void>(0)

@@ -45,7 +45,7 @@ struct AdvertiseOptions {
   }
 
   std::string topic;
-  /** Messages that wait for each subscriber; the oldest are dropped. 0: no limit. */
+  /** Maximum number of messages that wait for each subscriber; the oldest are dropped. 0: no limit. */
   uint32_t queue_size = 0;
   std::string md5sum, datatype, message_definition;
   SubscriberStatusCallback connect_cb, disconnect_cb;

@@ -4,7 +4,7 @@
 
 namespace ros {
 
-/** Calls in the order of their arrival, which any thread may run. */
+/** Queue of calls in the order of their arrival; any thread may run them. */
 class CallbackQueue : public CallbackQueueInterface {
  public:
   explicit CallbackQueue(bool enabled = true);
@@ -14,17 +14,17 @@ class CallbackQueue : public CallbackQueueInterface {
   virtual void removeByID(uint64_t removal_id);
 
   enum CallOneResult { Called, TryAgain, Disabled, Empty };
-  /** Run the oldest call that is ready, waiting for it up to a time. */
+  /** Run the oldest call that is ready; if there is none, wait for it up to a timeout. */
   CallOneResult callOne() { return callOne(ros::WallDuration()); }
   CallOneResult callOne(ros::WallDuration timeout);
-  /** Run all calls that wait now, waiting for the first up to a time. */
+  /** Run all calls that are in the queue now; if it is empty, wait for the first call up to a timeout. */
   void callAvailable() { callAvailable(ros::WallDuration()); }
   void callAvailable(ros::WallDuration timeout);
   bool empty() { return isEmpty(); }
   bool isEmpty();
   void clear();
   void enable();
-  /** Wake up those who wait, and run nothing until enable(). */
+  /** Wake up all waiting threads, and run nothing until enable(). */
   void disable();
   bool isEnabled();
 

@@ -14,7 +14,7 @@ class CallbackInterface {
  public:
   enum CallResult {
     Success,
-    /** Not now: it stays in the queue. */
+    /** The call cannot run now, and stays in the queue. */
     TryAgain,
     Invalid,
   };
@@ -28,7 +28,7 @@ class CallbackQueueInterface {
  public:
   virtual ~CallbackQueueInterface() {}
   virtual void addCallback(const CallbackInterfacePtr& callback, uint64_t owner_id = 0) = 0;
-  /** Remove an owner's calls, and wait for the one that is running in another thread. */
+  /** Remove an owner's calls, and wait for a call that is running in another thread. */
   virtual void removeByID(uint64_t owner_id) = 0;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #ifndef BOOST_BIND_GLOBAL_PLACEHOLDERS
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS  // programs write boost::bind(&f, _1)
+#define BOOST_BIND_GLOBAL_PLACEHOLDERS  // for programs that write boost::bind(&f, _1)
 #endif
 #include <boost/bind.hpp>
 #include <boost/function.hpp>

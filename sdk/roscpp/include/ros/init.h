@@ -18,14 +18,14 @@ enum InitOption {
 }
 typedef init_options::InitOption InitOption;
 
-/** Name the node, and read its command line: remappings are removed from it. */
+/** Set the node's name and remappings; the remappings are removed from the command line. */
 void init(int& argc, char** argv, const std::string& name, uint32_t options = 0);
 void init(const M_string& remappings, const std::string& name, uint32_t options = 0);
 void init(const VP_string& remapping_args, const std::string& name, uint32_t options = 0);
 bool isInitialized();
 bool isStarted();
 bool isShuttingDown();
-/** Register the node; the first NodeHandle does it. */
+/** Register the node; the first NodeHandle calls this. */
 void start();
 void shutdown();
 /** Shut down soon, from any thread or signal handler. */
@@ -39,7 +39,7 @@ void spin();
 void spin(Spinner& spinner);
 /** Call the callbacks that are waiting. */
 void spinOnce();
-/** Queue of callbacks that have none of their own. */
+/** Queue of callbacks for which no other queue is set. */
 CallbackQueue* getGlobalCallbackQueue();
 void removeROSArgs(int argc, const char* const* argv, V_string& args_out);
 std::string getROSArg(int argc, const char* const* argv, const std::string& arg);

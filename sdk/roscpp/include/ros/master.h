@@ -6,7 +6,7 @@
 namespace ros {
 namespace master {
 
-/** Call the master; waits until it can be reached, if `wait_for_master`. False if it reports an error. */
+/** Call the master; with `wait_for_master`, wait until it can be reached. False if it reports an error. */
 bool execute(const std::string& method, const XmlRpc::XmlRpcValue& request, XmlRpc::XmlRpcValue& response,
              XmlRpc::XmlRpcValue& payload, bool wait_for_master);
 const std::string& getHost();

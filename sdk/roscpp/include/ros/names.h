@@ -9,7 +9,7 @@ namespace names {
 
 /** Name without double and final slashes. */
 std::string clean(const std::string& name);
-/** Absolute name, remapped; throws InvalidNameException. Private names (`~`) are the NodeHandle's concern. */
+/** Absolute name, remapped; throws InvalidNameException. NodeHandle resolves private names (`~`). */
 std::string resolve(const std::string& name, bool remap = true);
 std::string resolve(const std::string& ns, const std::string& name, bool remap = true);
 std::string append(const std::string& left, const std::string& right);

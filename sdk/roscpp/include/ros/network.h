@@ -6,7 +6,7 @@ namespace ros {
 namespace network {
 
 bool splitURI(const std::string& uri, std::string& host, uint32_t& port);
-/** Host that this node's addresses name. */
+/** Host name or address in this node's URIs. */
 const std::string& getHost();
 uint16_t getTCPROSPort();
 

@@ -457,7 +457,7 @@ class NodeHandle {
   bool hasParam(const std::string& key) const { return param::has(resolveName(key)); }
   bool deleteParam(const std::string& key) const { return param::del(resolveName(key)); }
   bool searchParam(const std::string& key, std::string& result) const {
-    // A search needs the name of a namespace; it is a name of the graph, and so remapped by hand.
+    // A search begins in a namespace; the key is not resolved, so it is remapped here.
     return param::search(resolveName(""), names::remap(key), result);
   }
   bool getParamNames(std::vector<std::string>& keys) const { return param::getParamNames(keys); }
@@ -485,7 +485,7 @@ class NodeHandle {
   std::string namespace_, unresolved_namespace_;
   M_string remappings_, unresolved_remappings_;
   CallbackQueueInterface* queue_ = nullptr;
-  /** What was made by this handle, which shutdown() ends. */
+  /** Publishers, subscribers, servers and timers of this handle, which shutdown() ends. */
   struct Made;
   boost::shared_ptr<Made> made_;
 };

@@ -8,7 +8,7 @@
 #include "xmlrpcpp/XmlRpcValue.h"
 
 namespace ros {
-/** Parameters of the master; names are resolved, and `get` is false if there is none or it has another type. */
+/** Parameters of the master. Names are resolved; `get` is false if the parameter is not set or has another type. */
 namespace param {
 
 void set(const std::string& key, const XmlRpc::XmlRpcValue& value);
@@ -43,7 +43,7 @@ bool get(const std::string& key, std::map<std::string, double>& value);
 bool get(const std::string& key, std::map<std::string, float>& value);
 bool get(const std::string& key, std::map<std::string, int>& value);
 bool get(const std::string& key, std::map<std::string, bool>& value);
-/** As get(), from a copy that the master keeps up to date. */
+/** As get(), but from a local copy, which the master keeps up to date. */
 bool getCached(const std::string& key, std::string& value);
 bool getCached(const std::string& key, double& value);
 bool getCached(const std::string& key, float& value);
@@ -62,7 +62,7 @@ bool getCached(const std::string& key, std::map<std::string, int>& value);
 bool getCached(const std::string& key, std::map<std::string, bool>& value);
 bool has(const std::string& key);
 bool del(const std::string& key);
-/** Find a parameter in a namespace or the ones above it. */
+/** Find a parameter in a namespace or its ancestors. */
 bool search(const std::string& ns, const std::string& key, std::string& result);
 bool search(const std::string& key, std::string& result);
 bool getParamNames(std::vector<std::string>& keys);

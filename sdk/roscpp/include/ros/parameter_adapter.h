@@ -9,7 +9,7 @@
 
 namespace ros {
 
-/** From a callback's parameter to its message: which type it is, and whether the callback may change it. */
+/** Type of the message for a callback's parameter, and whether the callback may change the message. */
 template <typename M>
 struct ParameterAdapter {
   typedef typename boost::remove_reference<typename boost::remove_const<M>::type>::type Message;

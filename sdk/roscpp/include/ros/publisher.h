@@ -10,7 +10,7 @@
 
 namespace ros {
 
-/** Handle of an advertised topic; the last copy unadvertises it. */
+/** Handle of an advertised topic; destroying the last copy unadvertises it. */
 class Publisher {
  public:
   Publisher() {}

@@ -9,7 +9,7 @@
 
 namespace ros {
 
-/** Calls of services without a client. */
+/** Calls of services without a ServiceClient. */
 namespace service {
 
 template <class MReq, class MRes>
@@ -24,7 +24,7 @@ bool call(const std::string& name, Service& service) {
   ServiceClientOptions options(names::resolve(name), service_traits::md5sum(service), false, M_string());
   return handle.serviceClient(options).call(service.request, service.response);
 }
-/** Wait for a service; a timeout of -1 ms is none. */
+/** Wait for a service; a timeout of -1 ms means no limit. */
 bool waitForService(const std::string& name, int32_t timeout_ms);
 bool waitForService(const std::string& name, ros::Duration timeout = ros::Duration(-1));
 bool exists(const std::string& name, bool print_failure_reason);

@@ -12,7 +12,7 @@ class ServiceClient {
  public:
   ServiceClient() {}
 
-  /** Call the service and wait; false if it is not there or fails. */
+  /** Call the service and wait for the response; false if the service is not available or fails. */
   template <class MReq, class MRes>
   bool call(MReq& req, MRes& res) {
     return call(req, res, service_traits::md5sum(req));

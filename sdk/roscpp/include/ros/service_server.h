@@ -4,7 +4,7 @@
 
 namespace ros {
 
-/** Handle of an advertised service; the last copy unadvertises it. */
+/** Handle of an advertised service; destroying the last copy unadvertises it. */
 class ServiceServer {
  public:
   ServiceServer() {}

@@ -11,7 +11,7 @@ namespace ros {
 class SubscriberLink;
 typedef boost::shared_ptr<SubscriberLink> SubscriberLinkPtr;
 
-/** Publishes to one subscriber, in the callback that tells of its connection. */
+/** Publisher to one subscriber, for the callback about this subscriber's connection. */
 class SingleSubscriberPublisher : public boost::noncopyable {
  public:
   explicit SingleSubscriberPublisher(const SubscriberLinkPtr& link) : link_(link) {}

@@ -23,7 +23,7 @@ class SingleThreadedSpinner : public Spinner {
 
 class MultiThreadedSpinner : public Spinner {
  public:
-  /** With a number of threads; 0: one for each processor. */
+  /** Create with a number of threads; 0: one for each processor. */
   explicit MultiThreadedSpinner(uint32_t thread_count = 0);
   virtual void spin(CallbackQueue* queue = nullptr);
 
@@ -34,7 +34,7 @@ class MultiThreadedSpinner : public Spinner {
 class AsyncSpinnerImpl;
 typedef boost::shared_ptr<AsyncSpinnerImpl> AsyncSpinnerImplPtr;
 
-/** Runs the calls of a queue in threads of its own. */
+/** Runs the calls of a queue in background threads. */
 class AsyncSpinner {
  public:
   explicit AsyncSpinner(uint32_t thread_count);

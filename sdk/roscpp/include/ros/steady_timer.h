@@ -6,12 +6,12 @@
 
 namespace ros {
 
-/** Handle of a timer; the last copy stops it. */
+/** Handle of a timer; destroying the last copy stops the timer. */
 class SteadyTimer {
  public:
   SteadyTimer() {}
   void start();
-  /** Stop; a call that waits is dropped. */
+  /** Stop; a call that is still queued is dropped. */
   void stop();
   bool hasPending();
   void setPeriod(const WallDuration& period, bool reset = true);

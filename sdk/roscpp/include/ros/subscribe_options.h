@@ -45,7 +45,7 @@ struct SubscribeOptions {
   }
 
   std::string topic;
-  /** Messages that wait for the callback; the oldest are dropped. 0: no limit. */
+  /** Maximum number of messages that wait for the callback; the oldest are dropped. 0: no limit. */
   uint32_t queue_size = 1;
   std::string md5sum, datatype;
   SubscriptionCallbackHelperPtr helper;

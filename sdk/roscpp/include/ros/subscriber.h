@@ -6,7 +6,7 @@
 
 namespace ros {
 
-/** Handle of a subscription; the last copy unsubscribes. */
+/** Handle of a subscription; destroying the last copy unsubscribes. */
 class Subscriber {
  public:
   Subscriber() {}

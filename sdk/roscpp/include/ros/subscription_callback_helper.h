@@ -19,7 +19,7 @@ struct SubscriptionCallbackHelperCallParams {
   MessageEvent<void const> event;
 };
 
-/** A callback, and how to read its message's type. */
+/** A callback, and the deserializer of its message's type. */
 class SubscriptionCallbackHelper {
  public:
   virtual ~SubscriptionCallbackHelper() {}

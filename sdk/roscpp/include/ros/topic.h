@@ -8,7 +8,7 @@
 namespace ros {
 namespace topic {
 
-/** Wait for a message of an options' topic, with a queue of its own; `received` tells whether it came. */
+/** Subscribe with the options and a separate queue, and wait until `received` is true. */
 void waitForMessageImpl(SubscribeOptions& options, const boost::function<bool()>& received, NodeHandle& handle,
                         ros::Duration timeout);
 
@@ -24,7 +24,7 @@ class SubscribeHelper {
   MConstPtr message_;
 };
 
-/** Wait for one message of a topic; null at the timeout, or if the node shuts down. A timeout of 0 s is none. */
+/** Wait for one message of a topic; null at the timeout, or if the node shuts down. A timeout of 0 s means no limit. */
 template <class M>
 boost::shared_ptr<M const> waitForMessage(const std::string& topic, NodeHandle& handle, ros::Duration timeout) {
   SubscribeHelper<M> helper;

@@ -4,7 +4,7 @@
 
 namespace ros {
 
-/** Wishes of a subscriber; TCPROS is what is spoken. */
+/** Preferred transports of a subscriber; only TCPROS is used. */
 class TransportHints {
  public:
   TransportHints& reliable() { return add("TCP"); }

@@ -48,7 +48,7 @@ class StreamOverrunException : public ros::Exception {
 
 inline void throwStreamOverrun() { throw StreamOverrunException("Buffer Overrun"); }
 
-/** Reads, writes and measures a type; specialized for each. */
+/** Reads and writes a type, and computes its length; specialized for each type. */
 template <typename T>
 struct Serializer {
   template <typename Stream>
@@ -244,7 +244,7 @@ struct Elements {
   inline static void read(Stream& stream, T* first, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) stream.next(first[i]);
   }
-  /** Reads a counted array. It grows as its elements arrive: a count alone reserves no memory. */
+  /** Reads an array after its count. Memory grows with the elements, not with the announced count. */
   template <typename Stream, class Vector>
   inline static void readInto(Stream& stream, Vector& v, uint32_t count) {
     if (count > stream.getLength() && !mt::IsFixedSize<T>::value) throwStreamOverrun();
@@ -310,7 +310,7 @@ struct Serializer<std::vector<T, Allocator> > {
   }
 };
 
-/** Programs that serialize types of their own may use std::vector<bool>, which has no elements in memory. */
+/** For programs that serialize their own types with std::vector<bool>, which does not store elements as bools. */
 template <class Allocator>
 struct Serializer<std::vector<bool, Allocator> > {
   typedef std::vector<bool, Allocator> Vector;
@@ -350,7 +350,7 @@ struct Serializer<boost::array<T, N> > {
   }
 };
 
-/** Message with its length before it. */
+/** Serialize a message after its length. */
 template <typename M>
 inline SerializedMessage serializeMessage(const M& message) {
   SerializedMessage result;
@@ -364,7 +364,7 @@ inline SerializedMessage serializeMessage(const M& message) {
   return result;
 }
 
-/** Response of a service with its first byte, which tells whether the call succeeded. */
+/** Serialize a response of a service after a byte that tells whether the call succeeded. */
 template <typename M>
 inline SerializedMessage serializeServiceResponse(bool ok, const M& message) {
   SerializedMessage result;

@@ -8,7 +8,7 @@
 
 namespace ros {
 
-/** Bytes of a message on the wire, its length before it; and the message itself, within a process. */
+/** Serialized message after its length, or, within a process, the message object. */
 class SerializedMessage {
  public:
   boost::shared_array<uint8_t> buf;

@@ -27,7 +27,7 @@ ROS_SIMPLE_TYPE(Time);
 ROS_SIMPLE_TYPE(Duration);
 #undef ROS_SIMPLE_TYPE
 
-/** bool is one byte on the wire, and not everywhere in memory. */
+/** bool is one byte on the wire, so its size is fixed; in memory it may be larger, so it is not simple. */
 template <>
 struct IsFixedSize<bool> : TrueType {};
 

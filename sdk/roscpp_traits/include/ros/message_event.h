@@ -16,13 +16,13 @@
 
 namespace ros {
 
-/** Creates messages of a type that has a constructor without arguments. */
+/** Creates messages by the type's constructor without arguments. */
 template <typename M>
 struct DefaultMessageCreator {
   boost::shared_ptr<M> operator()() { return boost::make_shared<M>(); }
 };
 
-/** Message as received: with its time of arrival and the header of its connection. */
+/** Received message, its time of arrival and the header of its connection. */
 template <typename M>
 class MessageEvent {
  public:
@@ -38,7 +38,7 @@ class MessageEvent {
     init(boost::const_pointer_cast<Message>(o.getConstMessage()), o.getConnectionHeaderPtr(), o.getReceiptTime(),
          o.nonConstWillCopy(), CreateFunction());
   }
-  /** Event of a type-erased one, with or without copying for those who change the message. */
+  /** Typed event of a type-erased one; `nonconst_need_copy`: callbacks that may change the message get a copy. */
   MessageEvent(const MessageEvent<void const>& o, const CreateFunction& create) {
     init(boost::const_pointer_cast<Message>(boost::static_pointer_cast<ConstMessage>(o.getConstMessage())),
          o.getConnectionHeaderPtr(), o.getReceiptTime(), o.nonConstWillCopy(), create);

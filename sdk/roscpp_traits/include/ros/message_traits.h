@@ -34,23 +34,23 @@ ROS_DECLARE_MESSAGE(Header)
   }
 
 namespace ros {
-/** Facts about message types, which generated headers specialize and programs may specialize for their own types. */
+/** Traits of message types; generated headers specialize them, and programs may do so for their own types. */
 namespace message_traits {
 
 typedef boost::true_type TrueType;
 typedef boost::false_type FalseType;
 
-/** Same bytes in memory and on the wire. */
+/** True for types that have the same bytes in memory and on the wire. */
 template <typename M>
 struct IsSimple : FalseType {};
 template <typename M>
 struct IsSimple<const M> : IsSimple<M> {};
-/** Serialized length is the same for all values. */
+/** True for types whose serialized length is the same for all values. */
 template <typename M>
 struct IsFixedSize : FalseType {};
 template <typename M>
 struct IsFixedSize<const M> : IsFixedSize<M> {};
-/** First field is `header`. */
+/** True for types whose first field is `header`. */
 template <typename M>
 struct HasHeader : FalseType {};
 template <typename M>

@@ -4,7 +4,7 @@
 #include <boost/type_traits/remove_reference.hpp>
 
 namespace ros {
-/** Facts about service types, and about their requests and responses. */
+/** Traits of service types, and of their requests and responses. */
 namespace service_traits {
 
 template <typename M>

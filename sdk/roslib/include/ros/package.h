@@ -16,7 +16,7 @@ typedef std::map<std::string, std::string> M_string;
 std::string getPath(const std::string& package_name);
 /** Names of all packages. */
 bool getAll(V_string& packages);
-/** Values of an attribute of <NAME> in the <export> of each package, `${prefix}` being the package's folder. */
+/** Values of an attribute of <NAME> in the <export> of each package; `${prefix}` becomes the package's folder. */
 void getPlugins(const std::string& name, const std::string& attribute, V_string& plugins, bool force_recrawl = false);
 void getPlugins(const std::string& name, const std::string& attribute, M_string& plugins, bool force_recrawl = false);
 void getPlugins(const std::string& name, const std::string& attribute,

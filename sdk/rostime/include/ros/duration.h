@@ -19,9 +19,9 @@ void normalizeSecNSecSigned(int32_t& sec, int32_t& nsec);
 void normalizeSecNSecSigned(int64_t& sec, int64_t& nsec);
 
 namespace impl {
-/** Nanoseconds of a number of seconds; throws std::runtime_error if it is NaN or outside of a duration's range. */
+/** Convert seconds to nanoseconds; throws std::runtime_error if the number is NaN or outside of a duration's range. */
 int64_t durationFromSec(double seconds);
-/** Seconds and nanoseconds from a total [ns], checked. */
+/** Seconds and nanoseconds of a total [ns]; throws std::runtime_error outside of 32 bits. */
 void splitDuration(int64_t total, int32_t& sec, int32_t& nsec);
 int64_t scaled(int64_t total, double factor);
 }  // namespace impl
@@ -77,7 +77,7 @@ class Duration : public DurationBase<Duration> {
   Duration(int32_t s, int32_t n) : DurationBase<Duration>(s, n) {}
   explicit Duration(double t) { fromSec(t); }
   explicit Duration(const class Rate& rate);
-  /** Wait, in ROS time; false if the time ended or jumped back meanwhile. */
+  /** Sleep in ROS time; false if the node shut down or the time jumped back meanwhile. */
   bool sleep() const;
 
   static const Duration MAX, MIN, ZERO, DAY, HOUR, MINUTE, SECOND, MILLISECOND, MICROSECOND, NANOSECOND;

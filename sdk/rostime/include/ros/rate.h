@@ -5,7 +5,7 @@
 
 namespace ros {
 
-/** Sleeps the rest of each cycle of a loop, in ROS time. */
+/** Sleeps for the rest of each cycle of a loop, in ROS time. */
 class Rate {
  public:
   explicit Rate(double frequency);
@@ -20,7 +20,7 @@ class Rate {
   Duration expected_cycle_time_, actual_cycle_time_;
 };
 
-/** Sleeps the rest of each cycle of a loop, in wall time. */
+/** Sleeps for the rest of each cycle of a loop, in wall time. */
 class WallRate {
  public:
   explicit WallRate(double frequency);

@@ -3,7 +3,7 @@
 #include <stdint.h>
 
 #include <cmath>
-#include <iostream>  // programs print without including it, as the original's header does
+#include <iostream>  // included by the original, too: programs print without including it
 #include <string>
 
 #include "ros/duration.h"
@@ -18,7 +18,7 @@ class ptime;
 
 namespace ros {
 
-/** The time is asked for before ros::start() or ros::Time::init(). */
+/** Thrown if the time is read before ros::start() or ros::Time::init(). */
 class TimeNotInitializedException : public Exception {
  public:
   TimeNotInitializedException();
@@ -83,7 +83,7 @@ class TimeBase {
   }
 };
 
-/** ROS time: simulated if /use_sim_time is true, else of the wall's clock. */
+/** ROS time: simulated time if /use_sim_time is true, else wall time. */
 class Time : public TimeBase<Time, Duration> {
  public:
   Time() {}
@@ -94,7 +94,7 @@ class Time : public TimeBase<Time, Duration> {
   static bool sleepUntil(const Time& end);
   static void init();
   static void shutdown();
-  /** Set the simulated time, which wakes up those who sleep. */
+  /** Set the simulated time, and wake up sleeping threads. */
   static void setNow(const Time& now);
   static bool useSystemTime();
   static bool isSimTime();
@@ -108,7 +108,7 @@ class Time : public TimeBase<Time, Duration> {
   static const Time MAX, MIN, ZERO, UNINITIALIZED;
 };
 
-/** Time of the wall's clock, also in a simulation. */
+/** Wall time, also in a simulation. */
 class WallTime : public TimeBase<WallTime, WallDuration> {
  public:
   WallTime() {}
@@ -121,7 +121,7 @@ class WallTime : public TimeBase<WallTime, WallDuration> {
   static const WallTime MAX, MIN, ZERO, UNINITIALIZED;
 };
 
-/** Time of a clock that is never set. */
+/** Time of the steady clock, which is never set. */
 class SteadyTime : public TimeBase<SteadyTime, WallDuration> {
  public:
   SteadyTime() {}

@@ -7,7 +7,7 @@
 
 namespace tf {
 
-/** Name of a frame with its prefix, which a leading slash keeps away. */
+/** Name of a frame with the prefix; a name with a leading slash gets no prefix. */
 std::string resolve(const std::string& prefix, const std::string& frame_name);
 
 }  // namespace tf

@@ -22,7 +22,7 @@ namespace tf {
 typedef tf::Vector3 Point;
 typedef tf::Transform Pose;
 
-/** Value with its time and frame. */
+/** Value with a time and a frame. */
 template <typename T>
 class Stamped : public T {
  public:

@@ -11,7 +11,7 @@
 
 namespace tf {
 
-/** Frames of the graph over the last seconds; a time of 0 is the latest one. */
+/** Transforms of the last seconds; time 0 is the latest time. */
 class Transformer {
  public:
   explicit Transformer(bool interpolating = true, ros::Duration cache_time = ros::Duration(10.0));
@@ -54,7 +54,7 @@ class Transformer {
   boost::shared_ptr<tf2_ros::Buffer> buffer_;
 };
 
-/** Frames of the graph, from /tf and /tf_static. */
+/** Transformer that receives /tf and /tf_static. */
 class TransformListener : public Transformer {
  public:
   explicit TransformListener(ros::Duration max_cache_time = ros::Duration(10.0), bool spin_thread = true);

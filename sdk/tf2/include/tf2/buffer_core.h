@@ -27,10 +27,10 @@ class BufferCore {
   /** Add a transform; false if it is invalid or too old. */
   bool setTransform(const geometry_msgs::TransformStamped& transform, const std::string& authority,
                     bool is_static = false);
-  /** Transform that takes coordinates in the source frame to the target frame; time 0 is the latest common one. */
+  /** Transform of coordinates in the source frame to the target frame; time 0 is the latest common time. */
   geometry_msgs::TransformStamped lookupTransform(const std::string& target_frame, const std::string& source_frame,
                                                   const ros::Time& time) const;
-  /** As above, of two times, by way of a frame that is fixed meanwhile. */
+  /** As above, between two times, which a fixed frame relates. */
   geometry_msgs::TransformStamped lookupTransform(const std::string& target_frame, const ros::Time& target_time,
                                                   const std::string& source_frame, const ros::Time& source_time,
                                                   const std::string& fixed_frame) const;
@@ -60,7 +60,7 @@ class BufferCore {
     std::string authority;
     std::map<ros::Time, Sample> samples;
   };
-  /** A frame's way to the root: each frame with the transform from the first one. */
+  /** Chain from a frame up to the root: each frame, and the transform to it from the first one. */
   struct Way {
     std::vector<std::pair<std::string, Transform> > frames;
     std::string fault;

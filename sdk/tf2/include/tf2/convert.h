@@ -50,7 +50,7 @@ struct Converter<false, true> {
 
 }  // namespace impl
 
-/** From one representation to another, by way of toMsg() and fromMsg(). */
+/** Convert one representation to another, through toMsg() and fromMsg(). */
 template <class A, class B>
 void convert(const A& a, B& b) {
   impl::Converter<ros::message_traits::IsMessage<A>::value, ros::message_traits::IsMessage<B>::value>::convert(a, b);

@@ -16,11 +16,11 @@ class TransformException : public std::runtime_error {
    public:                                                               \
     explicit Name(const std::string& what) : TransformException(what) {} \
   }
-/** No frame of this name. */
+/** There is no frame of this name. */
 TF2_EXCEPTION(LookupException);
-/** Frames of separate trees. */
+/** The frames are in separate trees. */
 TF2_EXCEPTION(ConnectivityException);
-/** A time before or after what is known. */
+/** The time is before or after all known transforms. */
 TF2_EXCEPTION(ExtrapolationException);
 TF2_EXCEPTION(InvalidArgumentException);
 TF2_EXCEPTION(TimeoutException);

@@ -6,7 +6,7 @@
 
 namespace tf2 {
 
-/** Value with its time and frame. */
+/** Value with a time and a frame. */
 template <typename T>
 class Stamped : public T {
  public:

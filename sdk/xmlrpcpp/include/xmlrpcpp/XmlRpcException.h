@@ -5,7 +5,7 @@
 
 namespace XmlRpc {
 
-/** A value is not of the type that is asked for, or XML is invalid. */
+/** Thrown if a value is of another type than requested, or XML is invalid. */
 class XmlRpcException : public std::exception {
  public:
   explicit XmlRpcException(const std::string& message, int code = -1) : message_(message), code_(code) {}

@@ -10,7 +10,7 @@
 
 namespace XmlRpc {
 
-/** Value of a parameter or of a call: scalar, array or struct. An invalid one becomes what is assigned to it. */
+/** Value of a parameter or of a call: scalar, array or struct. An invalid one takes the type of what is assigned. */
 class XmlRpcValue {
  public:
   enum Type {
@@ -38,7 +38,7 @@ class XmlRpcValue {
   XmlRpcValue(const char* value) : _type(TypeString) { _value.asString = new std::string(value); }
   XmlRpcValue(struct tm* value) : _type(TypeDateTime) { _value.asTime = new struct tm(*value); }
   XmlRpcValue(void* value, int size);
-  /** Value of the XML at an offset, which moves behind it; invalid if there is none. */
+  /** Read the value in XML at an offset, and move the offset behind it; invalid if there is no value. */
   XmlRpcValue(const std::string& xml, int* offset) : _type(TypeInvalid) {
     _value.asBinary = nullptr;
     fromXml(xml, offset);

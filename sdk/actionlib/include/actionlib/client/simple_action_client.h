@@ -24,7 +24,7 @@ class SimpleActionClient {
   typedef boost::function<void()> SimpleActiveCallback;
   typedef boost::function<void(const FeedbackConstPtr& feedback)> SimpleFeedbackCallback;
 
-  /** With `spin_thread`, callbacks run in a thread of the client, else where the node spins. */
+  /** With `spin_thread`, callbacks run in a thread of the client; otherwise in the threads that spin the node. */
   explicit SimpleActionClient(const std::string& name, bool spin_thread = true) : nh_(name) { start(spin_thread); }
   SimpleActionClient(ros::NodeHandle& n, const std::string& name, bool spin_thread = true) : nh_(n, name) {
     start(spin_thread);
@@ -36,7 +36,7 @@ class SimpleActionClient {
     result_.shutdown();
   }
 
-  /** Wait for the server; a timeout of 0 s is none. */
+  /** Wait for the server; a timeout of 0 s means no limit. */
   bool waitForServer(const ros::Duration& timeout = ros::Duration(0, 0)) {
     return waitUntil(timeout, [this] { return isServerConnected(); });
   }
@@ -67,7 +67,8 @@ class SimpleActionClient {
     }
     goal_.publish(message);
   }
-  /** Send a goal and wait; cancel it after a time, and wait again. Times of 0 s are none. */
+  /** Send a goal and wait for its end; cancel it after the first timeout, and wait again for the second. 0 s means no
+   * limit. */
   SimpleClientGoalState sendGoalAndWait(const Goal& goal, const ros::Duration& execute_timeout = ros::Duration(0, 0),
                                         const ros::Duration& preempt_timeout = ros::Duration(0, 0)) {
     sendGoal(goal);
@@ -151,7 +152,7 @@ class SimpleActionClient {
         if (goal.status != actionlib_msgs::GoalStatus::PENDING && goal.status != actionlib_msgs::GoalStatus::RECALLING)
           active = setActive();
       }
-      if (!is_listed && is_known_) {  // the server was started again
+      if (!is_listed && is_known_) {  // a new server does not know the goal
         state_ = SimpleClientGoalState(SimpleClientGoalState::LOST);
         lost = done_cb_;
       }
@@ -160,7 +161,7 @@ class SimpleActionClient {
     if (lost) lost(getState(), getResult());
   }
 
-  /** The callback for a goal that becomes active; none if it was. Needs the mutex. */
+  /** Make the goal active, and return the callback to call; an empty one if it was active. Needs the mutex. */
   SimpleActiveCallback setActive() {
     if (state_ != SimpleClientGoalState::PENDING) return SimpleActiveCallback();
     state_ = SimpleClientGoalState(SimpleClientGoalState::ACTIVE);

@@ -21,7 +21,7 @@ class SimpleClientGoalState {
   std::string toString() const;
 };
 
-/** State of a terminal status of actionlib_msgs/GoalStatus; false if the status is none. */
+/** State for a terminal status of actionlib_msgs/GoalStatus; false for any other status. */
 bool terminalState(int status, SimpleClientGoalState::StateEnum& state);
 
 }  // namespace actionlib

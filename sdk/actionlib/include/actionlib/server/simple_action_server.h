@@ -22,7 +22,7 @@ class SimpleActionServer {
   ACTION_DEFINITION(ActionSpec)
   typedef boost::function<void(const GoalConstPtr&)> ExecuteCallback;
 
-  /** With a callback, it runs in a thread of the server for each goal; else the program accepts goals itself. */
+  /** With a callback, a thread of the server runs it for each goal; without, the program accepts the goals. */
   SimpleActionServer(std::string name, ExecuteCallback execute_callback, bool auto_start)
       : nh_(name), execute_(execute_callback) {
     if (auto_start) start();
@@ -64,7 +64,7 @@ class SimpleActionServer {
     if (thread_.joinable() && thread_.get_id() != std::this_thread::get_id()) thread_.join();
   }
 
-  /** Work on the newest goal; an older one that is active is preempted. Null if there is none. */
+  /** Make the newest goal the current one, and preempt an older one that is active. Null if there is no new goal. */
   GoalConstPtr acceptNewGoal() {
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
     if (!next_) {
@@ -126,7 +126,7 @@ class SimpleActionServer {
   void registerPreemptCallback(boost::function<void()> callback) { preempt_callback_ = callback; }
 
  private:
-  /** A goal and its status; finished ones stay listed for some seconds. */
+  /** A goal and its status; a finished goal stays in the status list for some seconds. */
   struct Tracked {
     ActionGoalConstPtr message;
     actionlib_msgs::GoalStatus status;

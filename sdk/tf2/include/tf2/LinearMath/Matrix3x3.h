@@ -35,7 +35,7 @@ class Matrix3x3 {
              1.0 - s * (x * x + y * y));
   }
   void getRotation(Quaternion& q) const {
-    // The largest of the four components is computed first (Shepperd's method).
+    // By the largest of the four components (Shepperd's method).
     const tf2Scalar xx = rows_[0].x(), yy = rows_[1].y(), zz = rows_[2].z(), trace = xx + yy + zz;
     const tf2Scalar a = rows_[2].y() - rows_[1].z(), b = rows_[0].z() - rows_[2].x(), c = rows_[1].x() - rows_[0].y();
     const tf2Scalar d = rows_[0].y() + rows_[1].x(), e = rows_[0].z() + rows_[2].x(), f = rows_[1].z() + rows_[2].y();
@@ -56,7 +56,7 @@ class Matrix3x3 {
   }
   void setEulerYPR(tf2Scalar yaw, tf2Scalar pitch, tf2Scalar roll) { setRPY(roll, pitch, yaw); }
   void setEulerZYX(tf2Scalar roll, tf2Scalar pitch, tf2Scalar yaw) { setRPY(roll, pitch, yaw); }
-  /** Angles about fixed axes [rad]; the second solution has the pitch on the other side. */
+  /** Angles about fixed axes [rad]; the second solution has the pitch beyond ±π/2. */
   void getRPY(tf2Scalar& roll, tf2Scalar& pitch, tf2Scalar& yaw, unsigned int solution = 1) const {
     getEulerYPR(yaw, pitch, roll, solution);
   }
